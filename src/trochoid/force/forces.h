@@ -1,0 +1,48 @@
+#pragma once
+
+#include <trochoid/force/setup.h>
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace trochoid::force {
+
+using Vector3 = std::array<double, 3>;
+
+/// @brief How a law's coefficients enter the force linearly: F = C K.
+///
+/// LinearEdge: K = (K_tc, K_rc, K_ac, K_te, K_re, K_ae), 6 columns. Power: for given
+/// exponents K = (K_t1, K_r1, K_a1), 3 columns.
+int coefficient_count(const Law& law);
+std::vector<double> coefficients(const Law& law);
+/// The same law with other coefficients; exponents stay.
+Law with_coefficients(const Law& law, std::span<const double> K);
+
+/// @brief The matrix [C] of eq. 19, prepared once for a setup and evaluated anywhere.
+///
+/// Only the exponents of a Power law are used here, never the coefficients.
+class ForceMatrix {
+ public:
+  /// @param tolerance  error allowed, relative to the largest entry of a column
+  ForceMatrix(const Setup& setup, const Law& law, double tolerance);
+
+  [[nodiscard]] int columns() const noexcept;
+
+  /// @param[in]  phi  angles of the tip of tooth 1 [rad], shape (n)
+  /// @param[out] C    row-major, shape (n, 3, columns)
+  void evaluate(std::span<const double> phi, std::span<double> C) const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
+
+/// @brief Force on the tool [N] at the angles phi of the tip of tooth 1 [rad].
+/// @param tolerance  relative to the peak force
+/// @return shape (n, 3), workpiece frame
+std::vector<Vector3> forces(const Setup& setup, const Law& law,
+                            std::span<const double> phi, double tolerance);
+
+}  // namespace trochoid::force

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+namespace trochoid::geometry {
+
+/// How an eccentricity changes radius and angle of an edge point.
+enum class EccentricityOrder {
+  exact,  ///< R = |r + rho|, and the angle turns by epsilon
+  first,  ///< R = r + rho cos(c), the angle stays
+};
+
+/// @brief Runout: radial offset of each tooth and eccentricity of the cutter; they add up.
+struct Runout {
+  std::vector<double> radial_offsets;  ///< [m], shape (teeth), or empty: all zero
+  double eccentricity = 0.0;  ///< rho [m]: rotation centre to geometric centre
+  double angle = 0.0;         ///< lambda [rad], from the tip of tooth 1 towards tooth 2
+  EccentricityOrder order = EccentricityOrder::exact;
+};
+
+/// Where the runout puts an edge point, seen from the axis of rotation.
+struct EdgePosition {
+  double R = 0.0;        ///< radius [m]; not positive: this point does not cut
+  double epsilon = 0.0;  ///< angle by which it comes later than its nominal theta [rad]
+};
+
+}  // namespace trochoid::geometry

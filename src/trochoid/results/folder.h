@@ -1,0 +1,28 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+
+#include <filesystem>
+#include <string>
+
+namespace trochoid::results {
+
+/// @brief Text of summary.json (DESIGN section 4): provenance, status, warnings, result.
+std::string summary_json(const base::Answer& answer);
+
+/// @brief CSV text of a table; every number is the shortest that reads back the same.
+std::string csv(const base::Table& table);
+
+/// @brief Write the folder of an answer whole or not at all (a sibling, then a rename).
+///
+/// Holds case.toml, summary.json, the tables and, if not empty, report.html. An older
+/// folder of the same name is replaced only if we wrote it (it holds our summary.json).
+/// @throws std::runtime_error when the place cannot be written, or holds foreign files
+void write_folder(const std::filesystem::path& folder, const base::Answer& answer,
+                  const std::string& report_html);
+
+/// @brief Read a folder back, for `report`.
+/// @throws base::InputError when it is not a folder of ours
+base::Answer read_folder(const std::filesystem::path& folder);
+
+}  // namespace trochoid::results

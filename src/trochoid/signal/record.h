@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace trochoid::signal {
+
+/// @brief A measured force record as it stands in its file, in SI.
+struct Record {
+  std::string file;                            ///< for messages
+  std::array<std::vector<double>, 3> channel;  ///< [N], shape (n) each
+  std::vector<double> angle;  ///< spindle angle phi [rad], shape (n); empty: unknown
+  std::vector<double> time;   ///< [s], shape (n); rebuilt from the rate; empty: unknown
+  double sample_rate = 0.0;   ///< [Hz]; 0: unknown
+
+  [[nodiscard]] std::size_t size() const noexcept { return channel[0].size(); }
+};
+
+}  // namespace trochoid::signal
