@@ -28,6 +28,7 @@ struct Cut {
 };
 
 /// @brief Stock of an engagement as a band in y.
+/// @eq G-11 up: y >= D/2 - a_e; down: y <= -(D/2 - a_e); band: y_lo <= y <= y_hi
 /// @param D  nominal diameter [m], to which radial depths refer
 Band stock_band(const Engagement& engagement, double D);
 

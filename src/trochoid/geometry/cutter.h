@@ -28,7 +28,8 @@ Profile taper(double D, double beta, double R = 0.0);
 /// How far the edge lags behind its tip.
 enum class LagLaw {
   constant_lead,   ///< lag = 2 z tan(helix) / lag_diameter everywhere
-  constant_helix,  ///< the same up to the flank, there d lag = tan(helix) dz/(r cos(beta))
+  constant_helix,  ///< the same up to the flank, there d lag = tan(helix) dz/(r
+                   ///< cos(beta))
 };
 
 /// @brief A cutter: profile, teeth and edges. Teeth are numbered in order of passage.

@@ -10,15 +10,18 @@ enum class EccentricityOrder {
   first,  ///< R = r + rho cos(c), the angle stays
 };
 
-/// @brief Runout: radial offset of each tooth and eccentricity of the cutter; they add up.
+/// @brief Runout: radial offset of each tooth and eccentricity of the cutter; they add
+/// up.
 struct Runout {
   std::vector<double> radial_offsets;  ///< [m], shape (teeth), or empty: all zero
-  double eccentricity = 0.0;  ///< rho [m]: rotation centre to geometric centre
-  double angle = 0.0;         ///< lambda [rad], from the tip of tooth 1 towards tooth 2
+  double eccentricity = 0.0;           ///< rho [m]: rotation centre to geometric centre
+  double angle = 0.0;  ///< lambda [rad], from the tip of tooth 1 towards tooth 2
   EccentricityOrder order = EccentricityOrder::exact;
 };
 
-/// Where the runout puts an edge point, seen from the axis of rotation.
+/// @brief Where the runout puts an edge point, seen from the axis of rotation.
+/// @eq G-1 x = R sin(theta + epsilon), y = R cos(theta + epsilon),
+///         theta_j = phi - psi_j - lag
 struct EdgePosition {
   double R = 0.0;        ///< radius [m]; not positive: this point does not cut
   double epsilon = 0.0;  ///< angle by which it comes later than its nominal theta [rad]
