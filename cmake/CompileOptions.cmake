@@ -5,7 +5,7 @@ target_compile_options(trochoid_compile_options INTERFACE -ffp-contract=off)
 if(TROCHOID_DEVELOPER)
   target_compile_options(trochoid_compile_options INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wsign-conversion
-    -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+    -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 endif()
 if(TROCHOID_SANITIZE)
   add_compile_options(-fsanitize=${TROCHOID_SANITIZE} -fno-omit-frame-pointer

@@ -1,0 +1,250 @@
+#include <trochoid/chip/chip.h>
+#include <trochoid/chip/mark.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trochoid::chip {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double full_turn = 2 * std::numbers::pi;
+
+/// Bounds of the material on a ray. Marks are numbered by how many teeth before.
+struct Bounds {
+  enum Outer { edge, low_outside, high_outside, window };
+  enum Inner { axis = 0, first_mark = 1, low_inside = 100, high_inside = 101 };
+  int outer = edge;
+  int inner = axis;
+
+  [[nodiscard]] int code() const noexcept { return outer * 1000 + inner; }
+  static Bounds of(int code) noexcept { return {code / 1000, code % 1000}; }
+};
+
+/// One tooth on its ray.
+struct Ray {
+  const Passage& p;
+  const Slice& slice;
+  int j;
+  double sine;  ///< of theta, effective for the trochoidal model
+  double cosine;
+};
+
+Ray ray_at(const Passage& p, const Slice& slice, int j, double theta) noexcept {
+  const bool exact = p.model.model == Model::trochoidal;
+  const auto index = static_cast<std::size_t>(j);
+  const double angle = theta + (exact ? slice.teeth[index].epsilon : 0.0);
+  return {p, slice, j, std::sin(angle), std::cos(angle)};
+}
+
+const geometry::EdgePosition& position(const Ray& ray, int m) noexcept {
+  const int k = (ray.j - m + ray.p.teeth) % ray.p.teeth;
+  return ray.slice.teeth[static_cast<std::size_t>(k)];
+}
+
+double back_angle(const Ray& ray, int m) noexcept {
+  return ray.p.back[static_cast<std::size_t>(ray.j * ray.p.teeth + m - 1)];
+}
+
+/// R_j - L for the mark of the m-th tooth before; infinite where it left none.
+double above_mark(const Ray& ray, int m) noexcept {
+  const geometry::EdgePosition& own = position(ray, 0);
+  const geometry::EdgePosition& other = position(ray, m);
+  const double back = back_angle(ray, m);
+  if (ray.p.model.model == Model::none) {
+    return ray.p.feed * back * ray.sine;  // C-2
+  }
+  if (other.R <= 0) {
+    return infinity;
+  }
+  switch (ray.p.model.model) {
+    case Model::feed:
+      return (ray.p.feed * back + own.R - other.R) * ray.sine;  // C-3
+    case Model::radial:
+      return ray.p.feed * back * ray.sine + own.R - other.R;  // C-4
+    default: {
+      double theta_p = back + other.epsilon - own.epsilon;
+      theta_p += theta_p <= 0 ? full_turn : (theta_p > full_turn ? -full_turn : 0.0);
+      return own.R - surface_left(other.R, theta_p, ray.p.feed, ray.sine, ray.cosine);
+    }
+  }
+}
+
+double inner_radius(const Ray& ray, int inner) noexcept {
+  switch (inner) {
+    case Bounds::axis:
+      return 0.0;
+    case Bounds::low_inside:
+      return ray.p.stock.y_lo / ray.cosine;
+    case Bounds::high_inside:
+      return ray.p.stock.y_hi / ray.cosine;
+    default:
+      return position(ray, 0).R - above_mark(ray, inner);
+  }
+}
+
+double outer_radius(const Ray& ray, int outer) noexcept {
+  switch (outer) {
+    case Bounds::low_outside:
+      return ray.p.stock.y_lo / ray.cosine;
+    case Bounds::high_outside:
+      return ray.p.stock.y_hi / ray.cosine;
+    default:
+      return position(ray, 0).R;
+  }
+}
+
+/// How far the nominal edge point lies inside the window of the simple models.
+double inside_window(const Ray& ray) noexcept {
+  const double y = ray.slice.r * ray.cosine;
+  return std::min(ray.slice.r * ray.sine,
+                  std::min(y - ray.p.stock.y_lo, ray.p.stock.y_hi - y));
+}
+
+struct Closest {
+  double above = infinity;
+  int mark = Bounds::axis;
+};
+
+Closest closest_mark(const Ray& ray) noexcept {
+  Closest best;
+  for (int m = 1; m <= ray.p.marks; ++m) {
+    const double above = above_mark(ray, m);
+    if (above < best.above) {
+      best = {above, m};
+    }
+  }
+  return best;
+}
+
+Chip simple_chip(const Ray& ray) noexcept {
+  const double inside = inside_window(ray);
+  if (inside <= 0) {
+    return {0.0, inside, Bounds{Bounds::window, Bounds::axis}.code(), false};
+  }
+  const Closest best = closest_mark(ray);
+  const bool in_cut = best.above > h_threshold;
+  return {in_cut ? best.above : 0.0, best.above, Bounds{Bounds::edge, best.mark}.code(),
+          in_cut};
+}
+
+Chip exact_chip(const Ray& ray) noexcept {
+  const double own = position(ray, 0).R;
+  const Closest best = closest_mark(ray);
+  Bounds bounds{Bounds::edge, best.mark};
+  double above = best.above;  // own minus the inner bound
+  if (!(above < own)) {
+    bounds.inner = Bounds::axis;
+    above = own;
+  }
+  double below = 0.0;  // own minus the outer bound
+  const double c = ray.cosine;
+  const auto clip_inner = [&](double y, int which) {
+    if (y * c > 0 && own - y / c < above) {
+      above = own - y / c;
+      bounds.inner = which;
+    }
+  };
+  const auto clip_outer = [&](double y, int which) {
+    const double outer = y * c > 0 ? y / c : 0.0;
+    if (own - outer > below) {
+      below = own - outer;
+      bounds.outer = which;
+    }
+  };
+  const geometry::Band& stock = ray.p.stock;
+  if (std::isfinite(stock.y_lo)) {
+    if (c > 0) {
+      clip_inner(stock.y_lo, Bounds::low_inside);
+    } else {
+      clip_outer(stock.y_lo, Bounds::low_outside);
+    }
+  }
+  if (std::isfinite(stock.y_hi)) {
+    if (c < 0) {
+      clip_inner(stock.y_hi, Bounds::high_inside);
+    } else {
+      clip_outer(stock.y_hi, Bounds::high_outside);
+    }
+  }
+  const double margin = above - below;  // C-7
+  const bool in_cut = margin > h_threshold;
+  return {in_cut ? margin : 0.0, margin, bounds.code(), in_cut};
+}
+
+/// Sign of "there is material between these bounds", smooth through cos(theta) = 0.
+double opening(const Ray& ray, const Bounds& bounds) noexcept {
+  const double own = position(ray, 0).R;
+  const geometry::Band& stock = ray.p.stock;
+  if (bounds.outer == Bounds::window) {
+    return inside_window(ray);
+  }
+  if (bounds.outer == Bounds::low_outside && stock.y_lo >= 0) {
+    return ray.cosine * own - stock.y_lo;
+  }
+  if (bounds.outer == Bounds::high_outside && stock.y_hi <= 0) {
+    return stock.y_hi - ray.cosine * own;
+  }
+  if (bounds.outer == Bounds::edge && bounds.inner == Bounds::low_inside) {
+    return ray.cosine * own - stock.y_lo;
+  }
+  if (bounds.outer == Bounds::edge && bounds.inner == Bounds::high_inside) {
+    return stock.y_hi - ray.cosine * own;
+  }
+  if (bounds.outer == Bounds::edge && bounds.inner != Bounds::axis) {
+    return above_mark(ray, bounds.inner) - h_threshold;
+  }
+  return outer_radius(ray, bounds.outer) - inner_radius(ray, bounds.inner) -
+         h_threshold;
+}
+
+}  // namespace
+
+Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
+                const ChipModel& model) {
+  const int n = cutter.teeth();
+  Passage p{.model = model,
+            .stock = geometry::stock_band(cut.engagement, cutter.profile.D),
+            .feed = n * cut.f_z / full_turn,
+            .teeth = n,
+            .marks = model.model == Model::none || model.lookback == Lookback::previous
+                         ? 1
+                         : n};
+  p.back.reserve(static_cast<std::size_t>(n * n));
+  for (int j = 0; j < n; ++j) {
+    double sum = 0.0;
+    for (int m = 1; m <= n; ++m) {
+      sum += cutter.pitch[static_cast<std::size_t>((j - m + n) % n)];
+      p.back.push_back(m == n ? full_turn : sum);  // C-1
+    }
+  }
+  return p;
+}
+
+Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
+             double theta) noexcept {
+  const Ray ray = ray_at(passage, slice, tooth, theta);
+  if (position(ray, 0).R <= 0 && passage.model.model != Model::none) {
+    return {0.0, position(ray, 0).R, 0, false};
+  }
+  return passage.model.model == Model::trochoidal ? exact_chip(ray) : simple_chip(ray);
+}
+
+double boundary(const Passage& passage, const Slice& slice, int tooth, double theta,
+                const Chip& a, const Chip& b) noexcept {
+  const Ray ray = ray_at(passage, slice, tooth, theta);
+  if (!a.in_cut) {
+    return opening(ray, Bounds::of(a.bounds));
+  }
+  if (!b.in_cut) {
+    return opening(ray, Bounds::of(b.bounds));
+  }
+  const Bounds p = Bounds::of(a.bounds);
+  const Bounds q = Bounds::of(b.bounds);
+  return (outer_radius(ray, p.outer) - inner_radius(ray, p.inner)) -
+         (outer_radius(ray, q.outer) - inner_radius(ray, q.inner));
+}
+
+}  // namespace trochoid::chip

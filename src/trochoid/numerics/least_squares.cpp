@@ -1,0 +1,132 @@
+#include <trochoid/numerics/least_squares.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace trochoid::numerics {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Vector = Eigen::VectorXd;
+
+/// Added to the unit diagonal of normal equations, so that a dependent column ends in
+/// zero and not in a division by rounding.
+constexpr double ridge = 1e-14;
+
+void check_shape(std::size_t entries, int n, std::size_t rows) {
+  if (n < 1 || entries != static_cast<std::size_t>(n) * rows) {
+    throw std::invalid_argument("least squares: a matrix of " +
+                                std::to_string(entries) + " entries has not " +
+                                std::to_string(rows) + " rows of " + std::to_string(n));
+  }
+}
+
+Vector inverse_or_zero(const Vector& norms) {
+  return norms.unaryExpr([](double v) { return v > 0.0 ? 1.0 / v : 0.0; });
+}
+
+Vector solve_scaled(const Matrix& gram, const Vector& right) {
+  const Vector scale = inverse_or_zero(gram.diagonal().cwiseSqrt());
+  Matrix unit = scale.asDiagonal() * gram * scale.asDiagonal();
+  unit.diagonal().array() += ridge;
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    if (scale[i] == 0.0) unit(i, i) = 1.0;
+  }
+  return scale.cwiseProduct(
+      Eigen::LDLT<Matrix>(unit).solve(scale.cwiseProduct(right)).eval());
+}
+
+void fill_singular(const Matrix& R, double rank_tolerance, LeastSquares& out) {
+  const Eigen::JacobiSVD<Matrix> svd(R, Eigen::ComputeFullV);
+  const Vector& s = svd.singularValues();
+  out.singular_values.assign(s.data(), s.data() + s.size());
+  const double limit = rank_tolerance * s[0];
+  while (out.rank < s.size() && s[out.rank] > limit) ++out.rank;
+  const double smallest = s[s.size() - 1];
+  out.condition =
+      smallest > 0.0 ? s[0] / smallest : std::numeric_limits<double>::infinity();
+  for (Eigen::Index j = out.rank; j < R.cols(); ++j) {
+    const Vector v = svd.matrixV().col(j);
+    out.null_space.insert(out.null_space.end(), v.data(), v.data() + v.size());
+  }
+}
+
+}  // namespace
+
+LeastSquares least_squares(std::span<const double> A, int n, std::span<const double> b,
+                           double rank_tolerance) {
+  check_shape(A.size(), n, b.size());
+  const auto m = static_cast<Eigen::Index>(b.size());
+  const Eigen::Map<const RowMajor> a(A.data(), m, n);
+  const Eigen::Map<const Vector> right(b.data(), m);
+
+  LeastSquares out;
+  const Vector norms = a.colwise().norm();
+  out.norms.assign(norms.data(), norms.data() + n);
+  const Vector scale = inverse_or_zero(norms);
+  Matrix scaled = Matrix::Zero(std::max<Eigen::Index>(m, n), n);
+  scaled.topRows(m) = a * scale.asDiagonal();
+  Vector padded = Vector::Zero(scaled.rows());
+  padded.head(m) = right;
+
+  Eigen::ColPivHouseholderQR<Matrix> qr(scaled);  // I-1
+  const Matrix R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  fill_singular(R * qr.colsPermutation().transpose(), rank_tolerance, out);  // I-6
+  qr.setThreshold(rank_tolerance);
+
+  const Vector x = scale.cwiseProduct(qr.solve(padded).eval());
+  const Vector residual = right - a * x;
+  out.x.assign(x.data(), x.data() + n);
+  out.residual.assign(residual.data(), residual.data() + m);
+  out.rss = residual.squaredNorm();
+  if (out.rank == n) {
+    Matrix inverse = Matrix::Identity(n, n);
+    R.triangularView<Eigen::Upper>().solveInPlace(inverse);
+    const Matrix half = scale.asDiagonal() * (qr.colsPermutation() * inverse);
+    out.inverse_gram.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+    Eigen::Map<RowMajor>(out.inverse_gram.data(), n, n) = half * half.transpose();
+  }
+  return out;
+}
+
+std::vector<double> project_out(std::span<const double> A, int n, std::span<double> B,
+                                int k) {
+  if (k == 0) return {};
+  check_shape(B.size(), k, B.size() / static_cast<std::size_t>(k));
+  check_shape(A.size(), n, B.size() / static_cast<std::size_t>(k));
+  const auto m = static_cast<Eigen::Index>(B.size()) / k;
+  const Eigen::Map<const RowMajor> a(A.data(), m, n);
+  Eigen::Map<RowMajor> b(B.data(), m, k);
+  const Matrix gram = a.transpose() * a;
+  const Matrix right = a.transpose() * b;
+  RowMajor x(n, k);
+  for (int j = 0; j < k; ++j) x.col(j) = solve_scaled(gram, right.col(j));
+  b.noalias() -= a * x;
+  return {x.data(), x.data() + x.size()};
+}
+
+double solve_normal(std::span<const double> G, std::span<const double> g,
+                    std::span<double> x) {
+  const auto n = static_cast<Eigen::Index>(g.size());
+  const Eigen::Map<const RowMajor> gram(G.data(), n, n);
+  const Eigen::Map<const Vector> right(g.data(), n);
+  Eigen::Map<Vector> solution(x.data(), n);
+  solution = solve_scaled(gram, right);
+  return right.dot(solution);
+}
+
+std::vector<double> orthonormal(std::span<const double> A, int n) {
+  const auto m = static_cast<Eigen::Index>(A.size()) / n;
+  const Eigen::Map<const RowMajor> a(A.data(), m, n);
+  const Eigen::HouseholderQR<Matrix> qr{Matrix(a)};
+  const RowMajor q = qr.householderQ() * Matrix::Identity(m, n);
+  return {q.data(), q.data() + q.size()};
+}
+
+}  // namespace trochoid::numerics

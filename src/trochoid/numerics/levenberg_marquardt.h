@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace trochoid::numerics {
+
+/// @brief Residuals r(p), and their derivatives when `jacobian` is not empty.
+///
+/// jacobian: column-major, shape (residuals, parameters). Scale r and p to about one:
+/// the tolerances refer to that. Returns false where r cannot be evaluated; a step that
+/// leads there is taken back.
+using Residuals = std::function<bool(std::span<const double> p, std::span<double> r,
+                                     std::span<double> jacobian)>;
+
+struct LevenbergMarquardtOptions {
+  int max_iterations = 60;
+  double gradient_tolerance = 1e-14;   ///< largest |J^T r|
+  double parameter_tolerance = 1e-10;  ///< |step| relative to |p|
+  double function_tolerance = 1e-22;   ///< change of |r|^2
+};
+
+struct LevenbergMarquardtSummary {
+  std::vector<double> p;
+  double initial_cost = 0.0;  ///< |r|^2/2
+  double final_cost = 0.0;    ///< |r|^2/2
+  int iterations = 0;
+  bool converged = false;
+  std::string reason = "not started";
+};
+
+/// @brief Local minimum of |r(p)|^2 near the start.
+/// @src ceres/tiny_solver.h (Ceres 2.1), after Madsen, Nielsen and Tingleff, Methods
+/// for
+///      Non-Linear Least Squares Problems
+LevenbergMarquardtSummary levenberg_marquardt(const Residuals& residuals,
+                                              int residual_count,
+                                              std::vector<double> start,
+                                              const LevenbergMarquardtOptions& options);
+
+}  // namespace trochoid::numerics
