@@ -21,6 +21,12 @@ struct Table {
   std::vector<Column> columns;
 };
 
+/// A further text file of an answer.
+struct TextFile {
+  std::string file;  ///< for example `material.toml`
+  std::string text;
+};
+
 /// @brief What a command answers, in the units of its files: the whole content of its
 /// result folder, and all that the report may show.
 struct Answer {
@@ -33,6 +39,7 @@ struct Answer {
   std::string short_table;         ///< what the program prints for a person
   std::string case_toml;           ///< the case as understood, every default filled in
   std::vector<Table> tables;
+  std::vector<TextFile> texts;     ///< beside case.toml, for example what others include
 };
 
 }  // namespace trochoid::base

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace trochoid::results {
+
+/// @brief Is this the name of a file that some command writes into its folder?
+///
+/// The one list of them. An old answer that holds any other file is never replaced, so
+/// that nothing of the user's disappears with it.
+bool is_ours(std::string_view name);
+
+/// Does the folder hold a summary.json that a command of ours wrote?
+bool holds_our_summary(const std::filesystem::path& folder);
+
+}  // namespace trochoid::results
