@@ -1,0 +1,140 @@
+"""From force to coefficients: docs/theory/identification.md, from the formulas."""
+from dataclasses import replace
+
+import numpy as np
+from scipy import optimize, stats
+
+import force
+
+
+def stacked(case, angle, phase=0.0, count=32):
+    """[D] of one run, three rows a sample (eq. 20 of the paper)"""
+    C = force.matrix(case, angle + phase, count)[:, :3]
+    return C.reshape(-1, C.shape[-1])
+
+
+def linear(D, F):
+    """K by scaled SVD, and rank and condition of the scaled matrix [I-1] [I-6]"""
+    size = np.linalg.norm(D, axis=0)
+    if not np.all(size > 0):
+        return None, int(np.linalg.matrix_rank(D)), np.inf
+    U, sv, Vt = np.linalg.svd(D / size, full_matrices=False)
+    rank = int(np.sum(sv > 1e-10 * sv[0]))
+    K = (Vt.T @ ((U.T @ F) / sv)) / size if rank == D.shape[1] else None
+    return K, rank, sv[0] / sv[-1]
+
+
+def standard_errors(J, residual):
+    """[I-2] for J = [D], [I-4] for the full Jacobian"""
+    size = np.linalg.norm(J, axis=0)
+    inverse = np.linalg.inv((J / size).T @ (J / size))
+    variance = residual @ residual / (len(residual) - J.shape[1])
+    return np.sqrt(variance * np.diag(inverse)) / size
+
+
+def rms(residual):
+    """Vector RMS and that of each axis [I-5]"""
+    r = residual.reshape(-1, 3)
+    axis = np.sqrt(np.mean(r**2, axis=0))
+    return np.sqrt(np.mean(np.sum(r**2, axis=1))), axis
+
+
+def interval(value, se, nu):
+    """95 % interval [I-8]"""
+    half = stats.t.ppf(0.975, nu) * se
+    return value - half, value + half
+
+
+def neighbour_correlation(residual):
+    """Correlation of neighbouring residuals, all axes together (remark of I-8)"""
+    r = residual.reshape(-1, 3)
+    return np.sum(r[1:] * r[:-1]) / np.sum(r * r)
+
+
+def fixed(case, angle, F, phase=0.0, extra=None):
+    """Fit at fixed runout; `extra` columns: channel constants and slopes [I-7]"""
+    D, y = stacked(case, angle, phase), np.asarray(F).ravel()
+    if extra is not None:
+        D = np.hstack([D, extra])
+    K, rank, cond = linear(D, y)
+    if K is None:
+        return dict(K=None, rank=rank, cond=cond)
+    res = y - D @ K
+    total, axis = rms(res)
+    return dict(K=K, se=standard_errors(D, res), rank=rank, cond=cond, rms=total,
+                rms_axis=axis, residual=res, correlation=neighbour_correlation(res))
+
+
+def channel_columns(t):
+    """Constant and slope of each channel [I-7]"""
+    x = (t - np.mean(t)) / (t[-1] - t[0])
+    out = np.zeros((len(t), 3, 6))
+    for c in range(3):
+        out[:, c, c], out[:, c, 3 + c] = 1.0, x
+    return out.reshape(-1, 6)
+
+
+def with_parameters(case, names, p):
+    """Case and phase with the unknowns put in: shift:k (0-based), ex, ey, phase (deg)"""
+    offsets, phase = list(case.rad), 0.0
+    ex, ey = case.rho * np.cos(case.lam), case.rho * np.sin(case.lam)
+    for name, value in zip(names, p):
+        if name.startswith("shift:"):
+            offsets[int(name[6:])] = value
+        elif name == "ex":
+            ex = value
+        elif name == "ey":
+            ey = value
+        else:
+            phase = np.radians(value)
+    new = replace(case, offsets=offsets, rho=np.hypot(ex, ey), lam=np.arctan2(ey, ex))
+    return new, phase
+
+
+def joint(case, angle, F, names, start, step=None):
+    """Variable projection over the named unknowns [I-3] [I-4]"""
+    y = np.asarray(F).ravel()
+    scale = np.array([1.0 if n == "phase" else 0.01 for n in names])
+    step = 1e-4 if step is None else step
+
+    def residual(q):
+        new, phase = with_parameters(case, names, q * scale)
+        D = stacked(new, angle, phase)
+        K, _, _ = linear(D, y)
+        return y - D @ K
+
+    def jacobian(q):
+        J = [(residual(q + step * e) - residual(q - step * e)) / (2 * step)
+             for e in np.eye(len(q))]
+        return np.array(J).T
+
+    fit = optimize.least_squares(residual, np.asarray(start, float) / scale, jac=jacobian,
+                                 method="lm", xtol=1e-13, ftol=1e-13, gtol=1e-13)
+    p = fit.x * scale
+    new, phase = with_parameters(case, names, p)
+    D = stacked(new, angle, phase)
+    K, rank, cond = linear(D, y)
+    columns = []
+    for e in np.eye(len(p)):
+        hi = stacked(*_moved(case, names, p + step * scale * e, angle)) @ K
+        lo = stacked(*_moved(case, names, p - step * scale * e, angle)) @ K
+        columns.append((hi - lo) / (2 * step * scale[np.argmax(e)]))
+    res = y - D @ K
+    se = standard_errors(np.hstack([D, np.array(columns).T]), res)
+    total, axis = rms(res)
+    return dict(p=p, se_p=se[len(K):], K=K, se_K=se[:len(K)], rms=total, rms_axis=axis,
+                cond=cond, rank=rank)
+
+
+def _moved(case, names, p, angle):
+    new, phase = with_parameters(case, names, p)
+    return new, angle, phase
+
+
+def sweep(case, angle, F, offsets):
+    """RMS over the offset of tooth 2, coefficients refitted (Fig. 9 of the paper)"""
+    out = []
+    for value in offsets:
+        new, _ = with_parameters(case, ["shift:1"], [value])
+        out.append(fixed(new, angle, F)["rms"])
+    return np.array(out)
