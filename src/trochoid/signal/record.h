@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/base/answer.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@ struct Record {
   std::vector<double> angle;  ///< spindle angle phi [rad], shape (n); empty: unknown
   std::vector<double> time;   ///< [s], shape (n); rebuilt from the rate; empty: unknown
   double sample_rate = 0.0;   ///< [Hz]; 0: unknown
+  std::vector<base::Warning> notes;  ///< what the reader had to assume
 
   [[nodiscard]] std::size_t size() const noexcept { return channel[0].size(); }
 };

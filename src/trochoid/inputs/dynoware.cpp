@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+#include <trochoid/inputs/dynoware.h>
+
+#include <cmath>
+
+namespace trochoid::inputs {
+
+namespace {
+
+constexpr std::size_t header_lines_at_most = 200;
+
+/// A key `Key:` and the value beside it, as number.
+void take(DynoWareHeader& header, const std::vector<Field>& fields, std::size_t line,
+          Problems& problems) {
+  const auto key = fields[0].text;
+  const bool rate = key == "Sampling rate [Hz]:";
+  const bool samples = key == "Samples per channel:";
+  const bool delay = key == "Delay time [s]:";
+  if (!rate && !samples && !delay) return;
+  const auto value = fields.size() > 1 ? parse_number(fields[1].text) : Number{};
+  const bool number = fields.size() > 1 && value.fault == NumberFault::none;
+  if (!number || (rate && value.value <= 0.0) || (samples && value.value < 1.0)) {
+    const auto text = fields.size() > 1 ? fields[1].text : std::string_view{};
+    problems.add(line, fields.size() > 1 ? fields[1].column : 1,
+                 fmt::format("{} {}: a {}number is needed here", key, excerpt(text),
+                             delay ? "" : "positive "));
+    return;
+  }
+  if (rate) {
+    header.sample_rate = value.value;
+    header.rate_line = line;
+  } else if (samples) {
+    header.samples = value.value;
+    header.samples_line = line;
+  } else {
+    header.delay = value.value;
+  }
+}
+
+}  // namespace
+
+bool is_dynoware(std::string_view first_line) {
+  return first_line.substr(0, 8) == "DynoWare" &&
+         (first_line.size() == 8 || first_line[8] == ',' || first_line[8] == ';' ||
+          first_line[8] == '\t');
+}
+
+DynoWareHeader read_dynoware_header(std::string_view first_line, LineReader& lines,
+                                    Problems& problems) {
+  DynoWareHeader header;
+  if (first_line.size() > 8) header.separator = first_line[8];
+  std::vector<Field> fields;
+  while (const auto line = lines.next()) {
+    if (lines.number() > header_lines_at_most) break;
+    split(*line, header.separator, fields);
+    if (fields[0].text.empty() && fields.size() == 1) continue;
+    if (fields[0].text.empty() || fields[0].text.back() != ':') {
+      header.names = std::string(*line);
+      return header;
+    }
+    take(header, fields, lines.number(), problems);
+  }
+  if (!lines.too_long()) {
+    problems.add(lines.number(), 1,
+                 "the header of this DynoWare export has no end: a row of names, for "
+                 "example Time,Fx,Fy,Fz, must follow its lines `Key:,value`");
+  }
+  return header;
+}
+
+std::string check_sample_count(const DynoWareHeader& header,
+                               const DynoWareExport& found, Problems& problems) {
+  if (!header.samples) return {};
+  const double promised = *header.samples;
+  const auto rows = static_cast<double>(found.rows);
+  if (rows > promised) {
+    problems.add(
+        header.samples_line, 1,
+        fmt::format("the header says {:.0f} samples, but {} rows follow: export "
+                    "the record again",
+                    promised, found.rows));
+    return {};
+  }
+  if (rows == promised) return {};
+  const double step = header.sample_rate > 0.0 ? 1.0 / header.sample_rate : 0.0;
+  const bool from_the_start = found.first_time <= header.delay + 0.5 * step;
+  if (from_the_start || !found.terminated) {
+    problems.add(
+        found.last_line, 1,
+        fmt::format("the file ends here after {} rows, but line {} promises {:.0f} "
+                    "samples: it was cut off; export it again (a part of a record "
+                    "must begin later than the record and end with a whole line)",
+                    found.rows, header.samples_line, promised));
+    return {};
+  }
+  return fmt::format("The export is a part of its record: {} of {:.0f} samples.",
+                     found.rows, promised);
+}
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <trochoid/inputs/csv.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// The text export of Kistler's DynoWare: lines `Key:,value`, names, units, rows.
+namespace trochoid::inputs {
+
+struct DynoWareHeader {
+  char separator = ',';
+  double sample_rate = 0.0;  ///< [Hz]; 0: not stated
+  std::size_t rate_line = 0;
+  std::optional<double>
+      samples;  ///< of the whole record; an export may be a part of it
+  std::size_t samples_line = 0;
+  double delay = 0.0;  ///< time of the first sample of the whole record [s]
+  std::string names;   ///< the first line that is no `Key:,value`; empty: none
+};
+
+bool is_dynoware(std::string_view first_line);
+
+/// @brief Read the header up to and with the row of names.
+/// @param first_line  already taken from `lines`
+DynoWareHeader read_dynoware_header(std::string_view first_line, LineReader& lines,
+                                    Problems& problems);
+
+/// What is known of an export once its rows have been read.
+struct DynoWareExport {
+  std::size_t rows = 0;
+  double first_time = 0.0;    ///< [s]
+  std::size_t last_line = 0;  ///< of the file
+  bool terminated = true;     ///< whether the last line has an end
+};
+
+/// @brief Compare the number of rows with the header.
+///
+/// DynoWare states the samples of the whole record even when a part of it is exported.
+/// Fewer rows are therefore in order if the part begins later than the record; from the
+/// beginning of the record they are a file that was cut off. More rows never are.
+/// @return what to note about a part of a record; empty: nothing
+std::string check_sample_count(const DynoWareHeader& header,
+                               const DynoWareExport& found, Problems& problems);
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,72 @@
+#include <fmt/core.h>
+#include <trochoid/inputs/record_file_time.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::inputs {
+
+namespace {
+
+double resolution(const PrintedTime& printed, double time) {
+  if (printed.six_digits && time != 0.0) {
+    return std::pow(10.0, std::floor(std::log10(std::abs(time))) - 5.0);
+  }
+  return printed.step;
+}
+
+}  // namespace
+
+void check_increasing(const TimeColumn& time, Problems& problems) {
+  for (std::size_t i = 1; i < time.values.size() && !problems.full(); ++i) {
+    if (time.values[i] > time.values[i - 1]) continue;
+    problems.add(
+        time.lines[i], time.column,
+        fmt::format("time {} s does not come after {} s of the row before: times must "
+                    "increase{}",
+                    time.values[i], time.values[i - 1],
+                    time.values[i] == time.values[i - 1]
+                        ? " (if they are printed too coarsely, give sample_rate_Hz in "
+                          "the case file)"
+                        : ""));
+  }
+}
+
+void check_rate(const TimeColumn& time, double rate, Problems& problems) {
+  for (std::size_t i = 1; i < time.values.size(); ++i) {
+    const double t = time.values[i];
+    const double expected = time.values[0] + static_cast<double>(i) / rate;
+    const double allowed =
+        0.5 / rate + resolution(time.printed, t) + 1e-9 * std::abs(t);
+    if (std::abs(t - expected) <= allowed) continue;
+    problems.add(time.lines[i], time.column,
+                 fmt::format("time {} s where {:.9g} s should stand at {} Hz: rows are "
+                             "missing or doubled, or the sampling rate is wrong",
+                             t, expected, rate));
+    return;  // every later time would be off as well
+  }
+}
+
+double even_rate(std::span<const double> time) {
+  const auto steps = static_cast<double>(time.size() - 1);
+  const double step = (time.back() - time.front()) / steps;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (std::abs(time[i] - time[i - 1] - step) > 0.5 * step) return 0.0;
+  }
+  return 1.0 / step;
+}
+
+double last_decimal(std::string_view text) {
+  const auto exponent_at = text.find_first_of("eE");
+  int exponent = 0;
+  if (exponent_at != std::string_view::npos) {
+    exponent = static_cast<int>(parse_number(text.substr(exponent_at + 1)).value);
+    text = text.substr(0, exponent_at);
+  }
+  const auto mark = text.find_first_of(".,");
+  const auto decimals =
+      mark == std::string_view::npos ? 0 : static_cast<int>(text.size() - mark - 1);
+  return std::pow(10.0, std::clamp(exponent, -400, 400) - decimals);
+}
+
+}  // namespace trochoid::inputs

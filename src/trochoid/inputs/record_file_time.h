@@ -1,0 +1,39 @@
+#pragma once
+
+#include <trochoid/inputs/csv.h>
+
+#include <span>
+
+/// The time column of a record.
+namespace trochoid::inputs {
+
+/// How exactly times are printed.
+struct PrintedTime {
+  bool six_digits = false;  ///< by DynoWare
+  double step = 0.0;        ///< of the last decimal that occurs [s]; 0: unknown
+};
+
+/// Times as printed [s], and the line of each.
+struct TimeColumn {
+  std::span<const double> values;
+  std::span<const std::size_t> lines;
+  std::size_t column = 1;
+  PrintedTime printed;
+};
+
+/// @brief Refuse times that do not increase, where no sampling rate replaces them.
+void check_increasing(const TimeColumn& time, Problems& problems);
+
+/// @brief Refuse times that contradict a sampling rate: rows are missing or doubled, or
+/// the rate is wrong. Coarse printing is allowed for.
+/// @param rate  [Hz]
+void check_rate(const TimeColumn& time, double rate, Problems& problems);
+
+/// @brief Sampling rate of evenly spaced times; 0: they are not even.
+/// @return [Hz]
+double even_rate(std::span<const double> time);
+
+/// @brief The last decimal place of a printed number; 1 without decimals.
+double last_decimal(std::string_view text);
+
+}  // namespace trochoid::inputs
