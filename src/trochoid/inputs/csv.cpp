@@ -78,11 +78,12 @@ std::optional<std::string_view> LineReader::next() {
   const char* end = find_end();
   while (end == nullptr && end_ - begin_ <= longest && fill()) end = find_end();
   const char* start = buffer_.data() + begin_;
-  terminated_ = end != nullptr;
-  auto length = terminated_ ? static_cast<std::size_t>(end - start) : end_ - begin_;
-  if (!terminated_ && length == 0) return std::nullopt;
+  const bool found = end != nullptr;
+  auto length = found ? static_cast<std::size_t>(end - start) : end_ - begin_;
+  if (!found && length == 0) return std::nullopt;
+  terminated_ = found;
   ++number_;
-  begin_ += length + (terminated_ ? 1 : 0);
+  begin_ += length + (found ? 1 : 0);
   if (length > longest) {
     too_long_ = true;
     return std::nullopt;
