@@ -1,0 +1,173 @@
+# Shared by ./run and ./test: what they need, and how it gets here. Sourced, not run.
+#
+# Everything may be interrupted anywhere: a stamp is written last, after what it vouches
+# for, and every step repairs or repeats what an earlier attempt left half done.
+
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/release
+log=$root/build/setup.log
+export PATH=$PATH:/usr/sbin:/sbin
+
+# Libraries by Debian package; the comment says what for.
+libraries=(
+  libeigen3-dev        # linear algebra
+  libceres-dev         # its header ceres/tiny_solver.h: Levenberg-Marquardt
+  libboost-dev         # Boost.Math: Student's t, quadrature, roots
+  libfmt-dev           # number formatting
+  libtomlplusplus-dev  # case files
+  nlohmann-json3-dev   # summary.json
+  libcli11-dev         # command line
+)
+# Programs as command=package, so that one from another source is kept.
+programs=(g++=g++ cmake=cmake ninja=ninja-build git=git)
+report_programs=(node=nodejs npm=npm)
+test_libraries=(libgtest-dev librapidcheck-dev libbenchmark-dev python3-numpy)
+test_programs=(clang-format=clang-format chromium=chromium)
+
+say() { printf '%s\n' "$*" >&2; }
+stop() { say "$@"; exit 3; }
+
+# The packages of "$@" (names, or command=package) that this machine lacks.
+missing_packages() {
+  local item names=()
+  for item in "$@"; do
+    case $item in
+      *=*) command -v "${item%%=*}" >/dev/null || printf '%s\n' "${item#*=}" ;;
+      *) names+=("$item") ;;
+    esac
+  done
+  local installed
+  installed=" $(dpkg-query -W -f '${db:Status-Status}=${Package} ' "${names[@]}" 2>/dev/null)"
+  for item in "${names[@]}"; do
+    [[ $installed == *" installed=$item "* ]] || printf '%s\n' "$item"
+  done
+}
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  else
+    sudo -- "$@"
+  fi
+}
+
+apt_get() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get -y -q \
+    -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3 \
+    -o Dpkg::Options::=--force-confdef -o Dpkg::Options::=--force-confold "$@" \
+    </dev/null >>"$log" 2>&1
+}
+
+install_packages() {
+  local wanted try
+  mapfile -t wanted < <(missing_packages "$@")
+  if [ ${#wanted[@]} = 0 ] && [ -z "$(dpkg --audit 2>/dev/null)" ]; then
+    return
+  fi
+  if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
+    stop "Some Debian packages are missing, and only root can install them. As root, please run:" \
+      $'\n'"  apt-get update && apt-get install --no-install-recommends ${wanted[*]}"
+  fi
+  say "Installing what is missing (once, a few minutes): ${wanted[*]}"
+  for try in 1 2 3; do
+    # An earlier attempt may have been interrupted between unpacking and configuring.
+    as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a </dev/null >>"$log" 2>&1
+    apt_get --fix-broken install
+    if compgen -G '/var/lib/apt/lists/*Packages*' >/dev/null || [ $try -gt 1 ]; then
+      apt_get install --no-install-recommends "${wanted[@]}" && return
+    fi
+    # No package lists yet, or old ones.
+    apt_get update
+  done
+  tail -n 15 "$log" >&2
+  stop "Installing the packages did not work; above is the end of $log." \
+    $'\n'"If the network was the reason, simply start the same command again."
+}
+
+# What node_modules must hold for "$1" (run or test): the lock file's packages.
+have_node_modules() {
+  local stamp=$root/node_modules/.complete
+  [ ! -f "$root/package-lock.json" ] && return
+  [ "$stamp" -nt "$root/package-lock.json" ] && { [ "$1" = run ] || [ "$(<"$stamp")" = test ]; }
+}
+
+install_node_modules() {
+  have_node_modules "$1" && return
+  local options=(--no-audit --no-fund --no-progress --ignore-scripts)
+  [ "$1" = run ] && options+=(--omit=dev)
+  say "Fetching the plot libraries of the report (npm)"
+  if ! (cd "$root" && rm -rf node_modules && npm ci "${options[@]}") </dev/null >>"$log" 2>&1; then
+    tail -n 15 "$log" >&2
+    stop "npm did not get the plot libraries; above is the end of $log." \
+      $'\n'"If the network was the reason, simply start the same command again."
+  fi
+  printf '%s' "$1" >"$root/node_modules/.complete"
+}
+
+# setup run|test: install what it needs, unless its stamp says that this was done.
+setup() {
+  local stamp=$root/build/.setup-$1
+  if [ "$stamp" -nt "$root/tools/setup.sh" ] && have_node_modules "$1"; then
+    return
+  fi
+  local needs=("${libraries[@]}" "${programs[@]}")
+  [ -f "$root/package-lock.json" ] && needs+=("${report_programs[@]}")
+  [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
+  if ! command -v dpkg-query >/dev/null; then
+    stop "This is not a Debian system: please install by hand what tools/setup.sh lists," \
+      "then use cmake --preset release."
+  fi
+  install_packages "${needs[@]}"
+  install_node_modules "$1"
+  : >"$stamp"
+}
+
+# configure [CMAKE OPTION...]: once; afterwards ninja sees by itself what changed. Without
+# options any earlier choice stands.
+configure() {
+  local stamp=$build/.configured wanted="$root $*"
+  if [ -f "$stamp" ]; then
+    local had
+    had=$(<"$stamp")
+    [ "$had" = "$wanted" ] && return
+    [ $# = 0 ] && [[ $had == "$root "* ]] && return
+  fi
+  say "Configuring the build"
+  rm -f "$stamp"
+  if ! (cd "$root" && cmake --fresh --preset release "$@") </dev/null >>"$log" 2>&1; then
+    tail -n 25 "$log" >&2
+    stop "CMake did not succeed; above is the end of $log." \
+      $'\n'"A fresh start may help: rm -rf '$root/build'"
+  fi
+  printf '%s' "$wanted" >"$stamp"
+}
+
+# compile TARGET...: says nothing when there is nothing to do.
+compile() {
+  local line announced=no
+  ninja -C "$build" "$@" </dev/null 2>&1 | while IFS= read -r line; do
+    case $line in
+      \[*\]' '*Building* | \[*\]' '*Linking* | \[*\]' '*Re-running*)
+        [ $announced = yes ] || say "Building (a few minutes the first time)"
+        announced=yes
+        [ -t 2 ] && printf '\r\033[K%s' "${line:0:79}" >&2
+        ;;
+      \[*\]' '* | 'ninja: no work'* | 'ninja: Entering'*) ;;
+      *) say "$line" ;;
+    esac
+  done
+  local status=${PIPESTATUS[0]}
+  [ -t 2 ] && printf '\r\033[K' >&2
+  [ "$status" = 0 ] || stop "The build did not succeed; the reason is above."
+}
+
+# One at a time in one clone; the lock goes when the program ends, however it ends.
+take_lock() {
+  mkdir -p "$root/build" 2>/dev/null
+  if ! { exec 9>"$root/build/.lock"; } 2>/dev/null; then
+    stop "$root/build cannot be written (made by another user?)." \
+      $'\n'"This helps: sudo chown -R \"\$USER\" '$root/build' '$root/node_modules'"
+  fi
+  flock -n 9 || { say "Waiting for another ./run or ./test in this folder"; flock 9; }
+}
+release_lock() { exec 9>&-; }
