@@ -1,0 +1,199 @@
+#include <trochoid/force/axial.h>
+
+#include <trochoid/force/columns.h>
+#include <trochoid/force/forces.h>
+#include <trochoid/numerics/gauss_kronrod.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trochoid::force {
+
+namespace {
+
+/// Break points are found to this part of the edge.
+constexpr double relative_resolution = 1e-12;
+
+/// A direction and its three components.
+using Frame = std::array<std::array<double, 3>, 3>;
+
+/// Rows x, y, z; columns t, r, a.
+Frame frame(double theta, const geometry::MeridianPoint& p) noexcept {
+  const double s = std::sin(theta);
+  const double c = std::cos(theta);
+  return {{{-c, -s * p.sin_kappa, -s * p.cos_kappa},  // F-3
+           {s, -c * p.sin_kappa, -c * p.cos_kappa},
+           {0.0, p.cos_kappa, -p.sin_kappa}}};
+}
+
+/// No chip can be thicker than one turn's feed of the widest gap and the runout.
+double thickest_chip(const Edges& edges) {
+  const geometry::Runout& runout = edges.setup.runout;
+  double spread = 2 * runout.eccentricity;
+  if (!runout.radial_offsets.empty()) {
+    const auto [lo, hi] =
+        std::minmax_element(runout.radial_offsets.begin(), runout.radial_offsets.end());
+    spread += *hi - *lo;
+  }
+  const double gap = *std::max_element(edges.setup.cutter.pitch.begin(),
+                                       edges.setup.cutter.pitch.end());
+  return std::min(edges.passage.feed * gap + spread,
+                  edges.passage.feed * 2 * std::numbers::pi);
+}
+
+/// Seeds near which a short cut along the edge can hide: the front of the tool and the
+/// edges of the stock, where the edge passes them.
+void add_seeds(const Edges& edges, double theta_tip, std::vector<double>& grid) {
+  constexpr double turn = 2 * std::numbers::pi;
+  std::array<double, 3> targets{std::numbers::pi / 2};
+  std::size_t count = 1;
+  for (const double y : {edges.passage.stock.y_lo, edges.passage.stock.y_hi}) {
+    const double x = 2 * y / edges.setup.cutter.profile.D;
+    if (std::abs(x) < 1) {
+      targets[count++] = std::acos(x);
+    }
+  }
+  const double last = edges.point(edges.ends.back()).lag;
+  if (last == 0) {
+    return;
+  }
+  const std::size_t panels = edges.ends.size() - 1;
+  for (std::size_t t = 0; t < count; ++t) {
+    // theta_tip - lag = target + k turn, lag in (0, last)
+    double lag = theta_tip - targets[t];
+    lag -= turn * std::floor(lag / turn);
+    for (; lag < last; lag += turn) {
+      for (std::size_t i = 0; i < panels; ++i) {
+        const double a = edges.point(edges.ends[i]).lag;
+        const double b = edges.point(edges.ends[i + 1]).lag;
+        if (lag > a && lag < b) {
+          grid.push_back(edges.ends[i] +
+                         (edges.ends[i + 1] - edges.ends[i]) * (lag - a) / (b - a));
+        }
+      }
+    }
+  }
+  std::sort(grid.begin(), grid.end());
+}
+
+}  // namespace
+
+AxialForce::AxialForce(const Setup& setup, const Law& law, double tolerance)
+    : edges_(setup), law_(law) {
+  const double h = thickest_chip(edges_);
+  const double length = edges_.ends.back();
+  if (h > 0) {
+    const ColumnWeights w = column_weights(law, h, 1.0, 1.0);
+    allowed_cutting_ = 0.02 * tolerance * length *
+                       std::max({w.cutting[0], w.cutting[1], w.cutting[2]});
+  }
+  allowed_edge_ = 0.02 * tolerance * length;
+}
+
+template <std::size_t M, class Element>
+void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
+                           const Element& element, std::array<double, M>& sum) const {
+  EdgeCurve curve(edges_);
+  numerics::PieceFinder<EdgeCurve> finder(curve,
+                                          relative_resolution * edges_.ends.back());
+  std::vector<numerics::Piece<EdgeState>> pieces;
+  std::vector<double> grid;
+  const auto add = [&](double s, double weight, std::array<double, M>& out) {
+    const EdgePoint point = edges_.point(s);
+    const EdgeState state = curve.state(point);
+    if (state.active()) {
+      element(point, state, weight, out);
+    }
+  };
+  for (std::size_t j = 0; j < edges_.psi.size(); ++j) {
+    curve.stand_at(phi, j);
+    grid = edges_.grid;
+    add_seeds(edges_, curve.theta_tip(), grid);
+    finder.find(grid, pieces);
+    for (const auto& piece : pieces) {
+      double from = piece.from;
+      for (const double end : edges_.ends) {
+        const double to = std::min(end, piece.to);
+        if (to > from) {
+          numerics::add_integral(from, to, add, allowed, sum);
+          from = to;
+        }
+      }
+    }
+  }
+}
+
+void AxialForce::matrix(double phi, std::span<double> C) const {
+  const auto columns = static_cast<std::size_t>(coefficient_count(law_));
+  std::array<double, 18> allowed{};
+  for (std::size_t q = 0; q < allowed.size(); ++q) {
+    allowed[q] = q % 6 < 3 ? allowed_cutting_ : allowed_edge_;
+  }
+  std::array<double, 18> sum{};
+  const auto element = [&](const EdgePoint& point, const EdgeState& state,
+                           double weight, std::array<double, 18>& out) {
+    const Frame B = frame(state.theta, point.meridian);
+    const ColumnWeights w =
+        column_weights(law_, state.chip.h, point.meridian.sin_kappa, point.dS);
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t q = 0; q < 3; ++q) {
+        out[6 * row + q] += weight * B[row][q] * w.cutting[q];  // F-4
+        out[6 * row + 3 + q] += weight * B[row][q] * w.edge;
+      }
+    }
+  };
+  integrate(phi, allowed, element, sum);
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t q = 0; q < columns; ++q) {
+      C[row * columns + q] = sum[6 * row + q];
+    }
+  }
+}
+
+std::array<double, 6> AxialForce::loads(double phi, double gauge_length) const {
+  std::array<double, 3> K_c{};
+  std::array<double, 3> K_e{};
+  const std::vector<double> K = coefficients(law_);
+  std::copy_n(K.begin(), 3, K_c.begin());
+  if (K.size() == 6) {
+    std::copy_n(K.begin() + 3, 3, K_e.begin());
+  }
+  const auto largest = [](const std::array<double, 3>& v) {
+    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  };
+  const double force = allowed_cutting_ * largest(K_c) + allowed_edge_ * largest(K_e);
+  const double arm = edges_.setup.cutter.profile.D / 2;
+  const double reach = std::max({arm, edges_.setup.cut.a_p, gauge_length});
+  const std::array<double, 6> allowed{force,       force,         force,
+                                      force * arm, force * reach, force * reach};
+  std::array<double, 6> sum{};
+  const auto element = [&](const EdgePoint& point, const EdgeState& state,
+                           double weight, std::array<double, 6>& out) {
+    const Frame B = frame(state.theta, point.meridian);
+    const ColumnWeights w =
+        column_weights(law_, state.chip.h, point.meridian.sin_kappa, point.dS);
+    std::array<double, 3> edge{};
+    for (std::size_t q = 0; q < 3; ++q) {
+      edge[q] = weight * (K_c[q] * w.cutting[q] + K_e[q] * w.edge);
+    }
+    std::array<double, 3> F{};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t q = 0; q < 3; ++q) {
+        F[row] += B[row][q] * edge[q];
+      }
+      out[row] += F[row];
+    }
+    const double x = state.R * std::sin(state.theta);
+    const double y = state.R * std::cos(state.theta);
+    const double z = point.meridian.z - gauge_length;
+    out[3] += state.R * edge[0];    // F-6
+    out[4] += y * F[2] - z * F[1];  // F-7
+    out[5] += z * F[0] - x * F[2];
+  };
+  integrate(phi, allowed, element, sum);
+  return sum;
+}
+
+}  // namespace trochoid::force

@@ -1,0 +1,168 @@
+#include <trochoid/force/cumulative.h>
+
+#include <trochoid/chip/intervals.h>
+#include <trochoid/force/columns.h>
+#include <trochoid/geometry/edge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::force {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+/// Where a turn of theta starts: behind the tool, where nothing is in cut.
+constexpr double start = -std::numbers::pi / 2;
+/// Below this lag the difference of F-5 would lose more digits than its limit [rad].
+constexpr double smallest_lag = 1e-8;
+/// Sines are resolved to 1e-13 on panels of this length [rad].
+constexpr double longest_panel = 0.8;
+
+bool equal_teeth(const geometry::Cutter& cutter,
+                 const std::vector<geometry::EdgePosition>& teeth) {
+  const auto same = [&](const geometry::EdgePosition& p) {
+    return p.R == teeth.front().R && p.epsilon == teeth.front().epsilon;
+  };
+  return std::all_of(teeth.begin(), teeth.end(), same) &&
+         std::all_of(cutter.pitch.begin(), cutter.pitch.end(),
+                     [&](double p) { return p == cutter.pitch.front(); });
+}
+
+}  // namespace
+
+bool CumulativeForce::serves(const Setup& setup) noexcept {
+  const geometry::Profile& p = setup.cutter.profile;
+  const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;
+  const bool same_law = setup.cutter.lag_law == geometry::LagLaw::constant_lead ||
+                        setup.cutter.lag_diameter == p.D;
+  return cylinder && same_law &&
+         (setup.runout.eccentricity == 0 || setup.cutter.helix == 0);
+}
+
+CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tolerance)
+    : passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
+      law_(law),
+      r_(setup.cutter.profile.D / 2),
+      a_p_(setup.cut.a_p),
+      psi_(geometry::tooth_angles(setup.cutter)),
+      teeth_(psi_.size()) {
+  const double slope = 2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter;
+  lag_ = slope * a_p_ < smallest_lag ? 0.0 : slope * a_p_;
+  if (setup.edge_length == EdgeLength::true_length) {
+    edge_factor_ = std::hypot(1.0, r_ * slope);
+  }
+  if (setup.chip.model == chip::Model::none) {
+    teeth_.assign(psi_.size(), {r_, 0.0});
+  } else {
+    geometry::edge_positions(setup.runout, psi_, r_, 0.0, teeth_);
+  }
+  if (lag_ > 0) {
+    const std::size_t tables = equal_teeth(setup.cutter, teeth_) ? 1 : psi_.size();
+    tables_.reserve(tables);
+    for (std::size_t j = 0; j < tables; ++j) {
+      tabulate(j, tolerance);
+    }
+  }
+}
+
+EdgeMoments CumulativeForce::integrand(std::size_t tooth, double theta) const noexcept {
+  const chip::Slice slice{r_, teeth_};
+  const chip::Chip chip =
+      chip::chip_at(passage_, slice, static_cast<int>(tooth), theta);
+  if (!chip.in_cut) {
+    return {};
+  }
+  const double s = std::sin(theta + teeth_[tooth].epsilon);
+  const double c = std::cos(theta + teeth_[tooth].epsilon);
+  const ColumnWeights w = column_weights(law_, chip.h, 1.0, edge_factor_);
+  if (std::holds_alternative<LinearEdge>(law_)) {
+    const double h = w.cutting[0];
+    return {h * s, h * c, h, w.edge * s, w.edge * c, w.edge};
+  }
+  return {w.cutting[0] * s, w.cutting[0] * c, w.cutting[1] * s,
+          w.cutting[1] * c, w.cutting[2],     0.0};
+}
+
+void CumulativeForce::tabulate(std::size_t tooth, double tolerance) {
+  const chip::Slice slice{r_, teeth_};
+  const auto pieces =
+      chip::engaged_pieces(passage_, slice, static_cast<int>(tooth), start);
+  const auto f = [&](double theta) { return integrand(tooth, theta); };
+  EdgeMoments allowed{};
+  for (const chip::ChipPiece& piece : pieces) {
+    const EdgeMoments middle = f(0.5 * (piece.from + piece.to));
+    for (std::size_t q = 0; q < allowed.size(); ++q) {
+      allowed[q] = std::max(allowed[q], std::abs(middle[q]));
+    }
+  }
+  // Sine and cosine parts share a scale: either may vanish in the middle.
+  const double largest = 0.05 * tolerance;
+  const double cutting = largest * std::max({allowed[0], allowed[1], allowed[2]});
+  const double edge = largest * std::max({allowed[3], allowed[4], allowed[5]});
+  allowed = {cutting, cutting, cutting, edge, edge, edge};
+  if (std::holds_alternative<Power>(law_)) {
+    allowed.fill(std::max(cutting, edge));
+  }
+  tables_.emplace_back(start, turn);
+  for (const chip::ChipPiece& piece : pieces) {
+    tables_.back().append(piece.from, piece.to, f, longest_panel, allowed);
+  }
+  tables_.back().finish();
+}
+
+EdgeMoments CumulativeForce::moments(double phi) const noexcept {
+  EdgeMoments sum{};
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    const double theta = phi - psi_[j];
+    if (lag_ == 0) {
+      const EdgeMoments g = integrand(j, theta);
+      for (std::size_t q = 0; q < sum.size(); ++q) {
+        sum[q] += a_p_ * g[q];
+      }
+    } else {  // F-5
+      const auto& table = tables_[tables_.size() == 1 ? 0 : j];
+      table.add_to(sum, theta, a_p_ / lag_);
+      table.add_to(sum, theta - lag_, -a_p_ / lag_);
+    }
+  }
+  return sum;
+}
+
+void CumulativeForce::forces(const std::array<std::array<double, 6>, 3>& weights,
+                             std::span<const double> phi,
+                             std::span<std::array<double, 3>> out) const {
+  if (lag_ == 0) {
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const EdgeMoments m = moments(phi[i]);
+      for (std::size_t row = 0; row < 3; ++row) {
+        out[i][row] = 0.0;
+        for (std::size_t q = 0; q < m.size(); ++q) {
+          out[i][row] += weights[row][q] * m[q];
+        }
+      }
+    }
+    return;
+  }
+  // A fourth, empty component lets the compiler work on whole vectors.
+  const std::array<std::array<double, 6>, 4> padded{weights[0], weights[1], weights[2]};
+  std::vector<numerics::PiecewiseIntegral<4>> tables;
+  tables.reserve(tables_.size());
+  for (const auto& table : tables_) {
+    tables.push_back(table.combined(padded));
+  }
+  const double lead = a_p_ / lag_;
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    std::array<double, 4> sum{};
+    for (std::size_t j = 0; j < psi_.size(); ++j) {
+      const auto& table = tables[tables.size() == 1 ? 0 : j];
+      const double theta = phi[i] - psi_[j];
+      table.add_to(sum, theta, lead);
+      table.add_to(sum, theta - lag_, -lead);
+    }
+    out[i] = {sum[0], sum[1], sum[2]};
+  }
+}
+
+}  // namespace trochoid::force

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <trochoid/chip/chip.h>
+#include <trochoid/force/law.h>
+#include <trochoid/force/setup.h>
+#include <trochoid/geometry/runout.h>
+#include <trochoid/numerics/piecewise_integral.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace trochoid::force {
+
+/// @brief The integrals along an edge of a cylinder of which every entry of [C] is
+/// made.
+///
+/// LinearEdge: h sin, h cos, h, e sin, e cos, e, with e = dS/dz where in cut.
+/// Power: w_t sin, w_t cos, w_r sin, w_r cos, w_a, 0 with w_q = h_0 (h/h_0)^(1 - m_q).
+using EdgeMoments = std::array<double, 6>;
+
+/// @brief Forces on a constant-lead cylinder whose teeth keep their radius along the
+/// edge.
+///
+/// theta and height are one variable there: what an edge does at height z, its tip did
+/// lag(z) earlier. So the sum over the edge is a difference of an antiderivative over
+/// theta, which is found once for each tooth.
+///
+/// @eq F-5 F_j(phi) = lead [G_j(theta) - G_j(theta - lag(a_p))], theta = phi - psi_j,
+///         lead = a_p / lag(a_p); a_p G_j'(theta) at zero helix
+/// @src derived from [riviere2009] eq. 19
+class CumulativeForce {
+ public:
+  /// @param tolerance  relative to the largest value of each moment
+  CumulativeForce(const Setup& setup, const Law& law, double tolerance);
+
+  /// Whether F-5 holds for a setup.
+  static bool serves(const Setup& setup) noexcept;
+
+  /// @brief Moments of all teeth at one angle of the tip of tooth 1.
+  [[nodiscard]] EdgeMoments moments(double phi) const noexcept;
+
+  /// @brief Force on the tool for given coefficients, shape (n, 3).
+  void forces(const std::array<std::array<double, 6>, 3>& weights,
+              std::span<const double> phi, std::span<std::array<double, 3>> out) const;
+
+ private:
+  [[nodiscard]] EdgeMoments integrand(std::size_t tooth, double theta) const noexcept;
+  void tabulate(std::size_t tooth, double tolerance);
+
+  chip::Passage passage_;
+  Law law_;
+  double r_ = 0.0;            ///< [m]
+  double edge_factor_ = 1.0;  ///< dS/dz
+  double a_p_ = 0.0;          ///< [m]
+  double lag_ = 0.0;          ///< of the edge over a_p [rad]; 0: zero helix
+  std::vector<double> psi_;
+  std::vector<geometry::EdgePosition> teeth_;
+  std::vector<numerics::PiecewiseIntegral<6>> tables_;  ///< one, if the teeth are equal
+};
+
+}  // namespace trochoid::force

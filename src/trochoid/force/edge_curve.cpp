@@ -1,0 +1,111 @@
+#include <trochoid/force/edge_curve.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::force {
+
+namespace {
+
+/// Panels turn by no more than this, along the edge and around the corner [rad].
+constexpr double longest_panel = 0.7;
+/// Grid points of a panel, beside its ends.
+constexpr int inner_points = 4;
+constexpr int inner_points_at_tip = 24;
+
+double lag_between(const Setup& setup, const geometry::Meridian& m, double a,
+                   double b) {
+  return geometry::lag_at(setup.cutter, m, b).angle -
+         geometry::lag_at(setup.cutter, m, a).angle;
+}
+
+std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) {
+  const double last = geometry::arc_length_at(m, setup.cut.a_p);
+  std::vector<double> corners = {0.0};
+  for (const double s : {m.s_M, m.s_N}) {
+    if (s > corners.back() && s < last) {
+      corners.push_back(s);
+    }
+  }
+  corners.push_back(last);
+  std::vector<double> ends = {0.0};
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const double a = corners[i];
+    const double b = corners[i + 1];
+    const bool arc = a >= m.s_M && b <= m.s_N;
+    const double turn = std::max(lag_between(setup, m, a, b),
+                                 arc && m.profile.R > 0 ? (b - a) / m.profile.R : 0.0);
+    const int count = std::max(1, static_cast<int>(std::ceil(turn / longest_panel)));
+    for (int k = 1; k <= count; ++k) {
+      ends.push_back(k == count ? b : a + (b - a) * k / count);
+    }
+  }
+  return ends;
+}
+
+std::vector<double> scan_grid(const std::vector<double>& ends, bool from_the_axis) {
+  std::vector<double> grid = {ends.front()};
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const bool tip = from_the_axis && i == 0;
+    const int count = (tip ? inner_points_at_tip : inner_points) + 1;
+    for (int k = 1; k <= count; ++k) {
+      const double t = static_cast<double>(k) / count;
+      // Near the axis everything happens within a feed or two of it.
+      const double u = tip ? t * t * t * t : t;
+      grid.push_back(k == count ? ends[i + 1] : ends[i] + u * (ends[i + 1] - ends[i]));
+    }
+  }
+  return grid;
+}
+
+}  // namespace
+
+Edges::Edges(const Setup& given)
+    : setup(given),
+      meridian(geometry::meridian(given.cutter.profile)),
+      passage(chip::passage(given.cutter, given.cut, given.chip)),
+      psi(geometry::tooth_angles(given.cutter)),
+      ends(panel_ends(given, meridian)),
+      grid(scan_grid(ends, geometry::point_at(meridian, 0).r <
+                               1e-3 * given.cut.a_p + given.cut.f_z)) {
+  if (setup.chip.model == chip::Model::none) {
+    setup.runout = {};
+  }
+}
+
+EdgePoint Edges::point(double s) const noexcept {
+  EdgePoint p{.s = s, .meridian = geometry::point_at(meridian, s)};
+  const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s);
+  p.lag = lag.angle;
+  p.dS = setup.edge_length == EdgeLength::axial
+             ? p.meridian.sin_kappa
+             : geometry::edge_length_factor(p.meridian, lag);
+  return p;
+}
+
+chip::Slice EdgeCurve::slice(const EdgePoint& point) const noexcept {
+  geometry::edge_positions(edges_.setup.runout, edges_.psi, point.meridian.r, point.lag,
+                           teeth_);
+  return {point.meridian.r, teeth_};
+}
+
+EdgeState EdgeCurve::state(const EdgePoint& point) const noexcept {
+  const chip::Slice teeth = slice(point);
+  const double theta = theta_tip_ - point.lag;
+  const geometry::EdgePosition& own = teeth_[tooth_];
+  return {chip::chip_at(edges_.passage, teeth, static_cast<int>(tooth_), theta),
+          theta + own.epsilon, own.R};
+}
+
+EdgeState EdgeCurve::state(double s) const noexcept {
+  return state(edges_.point(s));
+}
+
+double EdgeCurve::boundary(double s, const EdgeState& a,
+                           const EdgeState& b) const noexcept {
+  const EdgePoint point = edges_.point(s);
+  return chip::boundary(edges_.passage, slice(point), static_cast<int>(tooth_),
+                        theta_tip_ - point.lag, a.chip, b.chip);
+}
+
+}  // namespace trochoid::force

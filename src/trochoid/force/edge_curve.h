@@ -1,0 +1,70 @@
+#pragma once
+
+#include <trochoid/chip/intervals.h>
+#include <trochoid/force/setup.h>
+#include <trochoid/geometry/edge.h>
+
+#include <span>
+#include <vector>
+
+namespace trochoid::force {
+
+/// One point of all edges at a height: what does not depend on the spindle angle.
+struct EdgePoint {
+  double s = 0.0;  ///< arc length along the meridian [m]
+  geometry::MeridianPoint meridian;
+  double lag = 0.0;  ///< [rad]
+  double dS = 1.0;   ///< edge length per ds, as the setup asks
+};
+
+/// One tooth at an edge point and a spindle angle.
+struct EdgeState {
+  chip::Chip chip;
+  double theta = 0.0;  ///< effective immersion angle [rad]
+  double R = 0.0;      ///< distance from the axis of rotation [m]
+  [[nodiscard]] bool active() const noexcept { return chip.in_cut; }
+  [[nodiscard]] int branch() const noexcept { return chip.bounds; }
+  [[nodiscard]] double margin() const noexcept { return chip.margin; }
+};
+
+/// @brief The edges of a cutter within the axial depth.
+struct Edges {
+  Edges(const Setup& setup);
+
+  [[nodiscard]] EdgePoint point(double s) const noexcept;
+
+  Setup setup;
+  geometry::Meridian meridian;
+  chip::Passage passage;
+  std::vector<double> psi;   ///< [rad], shape (teeth)
+  std::vector<double> ends;  ///< where the profile or the panels end [m], ascending
+  std::vector<double> grid;  ///< ends and points between them [m], ascending
+};
+
+/// @brief One edge at one spindle angle, as a curve over s for numerics::PieceFinder.
+class EdgeCurve {
+ public:
+  explicit EdgeCurve(const Edges& edges) : edges_(edges), teeth_(edges.psi.size()) {}
+
+  /// @param phi  angle of the tip of tooth 1 [rad]
+  void stand_at(double phi, std::size_t tooth) noexcept {
+    tooth_ = tooth;
+    theta_tip_ = phi - edges_.psi[tooth];
+  }
+
+  [[nodiscard]] double theta_tip() const noexcept { return theta_tip_; }
+  [[nodiscard]] EdgeState state(double s) const noexcept;
+  [[nodiscard]] EdgeState state(const EdgePoint& point) const noexcept;
+  [[nodiscard]] double boundary(double s, const EdgeState& a,
+                                const EdgeState& b) const noexcept;
+
+ private:
+  [[nodiscard]] chip::Slice slice(const EdgePoint& point) const noexcept;
+
+  const Edges& edges_;
+  std::size_t tooth_ = 0;
+  double theta_tip_ = 0.0;
+  mutable std::vector<geometry::EdgePosition> teeth_;
+};
+
+}  // namespace trochoid::force

@@ -1,0 +1,125 @@
+#include <trochoid/force/forces.h>
+
+#include <trochoid/force/axial.h>
+#include <trochoid/force/cumulative.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <unordered_map>
+#include <variant>
+
+namespace trochoid::force {
+
+namespace {
+
+using Weights = std::array<std::array<double, 6>, 3>;
+
+/// Rows of [C]{K} in terms of the edge moments of a cylinder.
+Weights moment_weights(const Law& law) {
+  const std::vector<double> K = coefficients(law);
+  if (K.size() == 6) {
+    return {{{-K[1], -K[0], 0, -K[4], -K[3], 0},
+             {K[0], -K[1], 0, K[3], -K[4], 0},
+             {0, 0, -K[2], 0, 0, -K[5]}}};
+  }
+  return {
+      {{0, -K[0], -K[1], 0, 0, 0}, {K[0], 0, 0, -K[1], 0, 0}, {0, 0, 0, 0, -K[2], 0}}};
+}
+
+void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noexcept {
+  if (columns == 6) {
+    const std::array<double, 18> rows{-m[1], -m[0], 0,     -m[4], -m[3], 0,
+                                      m[0],  -m[1], 0,     m[3],  -m[4], 0,
+                                      0,     0,     -m[2], 0,     0,     -m[5]};
+    std::copy(rows.begin(), rows.end(), C);
+  } else {
+    const std::array<double, 9> rows{-m[1], -m[2], 0, m[0], -m[3], 0, 0, 0, -m[4]};
+    std::copy(rows.begin(), rows.end(), C);
+  }
+}
+
+/// @brief Evaluate once for every angle of a turn; turns repeat to the last digit.
+template <class Value, class Evaluate>
+std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
+  constexpr double turn = 2 * std::numbers::pi;
+  constexpr double same = 1e-11;  // angles closer than this are one angle [rad]
+  std::unordered_map<long long, std::size_t> seen;
+  std::vector<Value> values;
+  values.reserve(phi.size());
+  for (const double angle : phi) {
+    const double u = angle - turn * std::floor(angle / turn);
+    const auto [place, is_new] =
+        seen.try_emplace(std::llround(u / same), values.size());
+    values.push_back(is_new ? evaluate(u) : values[place->second]);
+  }
+  return values;
+}
+
+}  // namespace
+
+struct ForceMatrix::Parts {
+  Law law;
+  std::variant<CumulativeForce, AxialForce> method;
+};
+
+ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance)
+    : parts_(std::make_shared<const Parts>(
+          CumulativeForce::serves(setup)
+              ? Parts{law, CumulativeForce(setup, law, tolerance)}
+              : Parts{law, AxialForce(setup, law, tolerance)})) {}
+
+int ForceMatrix::columns() const noexcept {
+  return coefficient_count(parts_->law);
+}
+
+void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) const {
+  const auto columns = static_cast<std::size_t>(this->columns());
+  if (C.size() != phi.size() * 3 * columns) {
+    throw std::invalid_argument("force matrix: " + std::to_string(C.size()) +
+                                " numbers for " + std::to_string(phi.size()) +
+                                " angles of 3 x " + std::to_string(columns));
+  }
+  if (const auto* cumulative = std::get_if<CumulativeForce>(&parts_->method)) {
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      moments_to_matrix(cumulative->moments(phi[i]), columns, &C[i * 3 * columns]);
+    }
+    return;
+  }
+  const auto& axial = std::get<AxialForce>(parts_->method);
+  using Matrix = std::array<double, 18>;
+  const auto matrices = over_turns<Matrix>(phi, [&](double angle) {
+    Matrix m{};
+    axial.matrix(angle, std::span(m).first(3 * columns));
+    return m;
+  });
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
+  }
+}
+
+std::vector<Vector3> forces(const Setup& setup, const Law& law,
+                            std::span<const double> phi, double tolerance) {
+  if (CumulativeForce::serves(setup)) {
+    std::vector<Vector3> out(phi.size());
+    CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
+    return out;
+  }
+  const AxialForce axial(setup, law, tolerance);
+  return over_turns<Vector3>(phi, [&](double angle) {
+    const auto v = axial.loads(angle, 0.0);
+    return Vector3{v[0], v[1], v[2]};
+  });
+}
+
+std::vector<Loads> loads(const Setup& setup, const Law& law,
+                         std::span<const double> phi, double gauge_length,
+                         double tolerance) {
+  const AxialForce axial(setup, law, tolerance);
+  return over_turns<Loads>(phi, [&](double angle) {
+    const auto v = axial.loads(angle, gauge_length);
+    return Loads{v[3], std::hypot(v[4], v[5])};
+  });
+}
+
+}  // namespace trochoid::force
