@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Check the checks: each must accept a sound small tree and refuse it wrong in one way."""
+import pathlib
+import tempfile
+import unittest
+
+import check_equations
+import check_layers
+
+SOUND = {
+    "ARCHITECTURE.md": "| rank | rooms |\n|---|---|\n| 0 | base |\n| 2 | chip |\n"
+    "| 5 | structure, signal |\n| 8 | results |\n| 9 | report, run |\n",
+    "src/trochoid/base/a.h": "#include <vector>\n",
+    "src/trochoid/chip/c.h": "#include <trochoid/base/a.h>\n/// @eq C-1 h = f\n",
+    "src/trochoid/chip/c.cpp": "#include <trochoid/chip/c.h>\n#include <Eigen/Core>\n",
+    "src/trochoid/signal/s.cpp": "#include <trochoid/chip/c.h>\n",
+    "src/trochoid/results/r.h": "#include <nlohmann/json_fwd.hpp>\n",
+    "src/trochoid/report/p.cpp": "#include <trochoid/results/r.h>\n",
+    "docs/theory/chip.md": "$$h = f \\tag{C-1}$$\n",
+    "tests/unit/chip/c.cpp": "TEST(Chip, IsTheFeed) {}  // [C-1]\nint x = y[N-1];\n",
+}
+
+
+def answers(check, **changes):
+    """What a check says of the sound tree with some files added or replaced."""
+    with tempfile.TemporaryDirectory() as folder:
+        top = pathlib.Path(folder)
+        for name, text in {**SOUND, **changes.get("files", {})}.items():
+            file = top / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+        return [line.replace(f"{top}/", "") for line in check(top)]
+
+
+class Layers(unittest.TestCase):
+    def refused(self, name, text):
+        found = answers(check_layers.violations, files={name: text})
+        self.assertEqual(len(found), 1, found)
+        return found[0]
+
+    def test_sound_tree_is_accepted(self):
+        self.assertEqual(answers(check_layers.violations), [])
+
+    def test_higher_room(self):
+        said = self.refused("src/trochoid/base/a.h", "\n# include <trochoid/chip/c.h>\n")
+        self.assertIn("src/trochoid/base/a.h:2: base (rank 0) may not include chip", said)
+
+    def test_sibling_room(self):
+        said = self.refused("src/trochoid/structure/a.h", "#include <trochoid/signal/s.h>")
+        self.assertIn("structure (rank 5) may not include signal (rank 5)", said)
+
+    def test_report_sees_base_and_results_only(self):
+        said = self.refused("src/trochoid/report/p.cpp", "#include <trochoid/chip/c.h>\n")
+        self.assertIn("base and results only, not chip", said)
+
+    def test_room_that_architecture_does_not_name(self):
+        said = self.refused("src/trochoid/utils/u.h", "")
+        self.assertIn("utils is not a room", said)
+
+    def test_include_of_an_unknown_room(self):
+        said = self.refused("src/trochoid/chip/c.h", "#include <trochoid/utils/u.h>\n")
+        self.assertIn("utils is not a room", said)
+
+    def test_quoted_include_hides_the_room(self):
+        said = self.refused("src/trochoid/base/a.h", '#include "../chip/c.h"\n')
+        self.assertIn("include it as", said)
+
+    def test_heavy_header_in_a_header(self):
+        said = self.refused("src/trochoid/chip/d.h", "#include <Eigen/Dense>\n")
+        self.assertIn("only in .cpp files", said)
+
+
+class Equations(unittest.TestCase):
+    def refused(self, **files):
+        names = {"theory": "docs/theory/chip.md", "header": "src/trochoid/chip/c.h",
+                 "source": "src/trochoid/chip/c.cpp", "test": "tests/unit/chip/c.cpp"}
+        found = answers(check_equations.gaps,
+                        files={names[kind]: text for kind, text in files.items()})
+        self.assertEqual(len(found), 1, found)
+        return found[0]
+
+    def test_sound_tree_is_accepted(self):
+        self.assertEqual(answers(check_equations.gaps), [])
+
+    def test_not_coded(self):
+        self.assertIn("chip.md:1: C-1 is not coded", self.refused(header="// C-1\n"))
+
+    def test_not_tested(self):
+        self.assertIn("chip.md:1: C-1 is not tested", self.refused(test="// C-1\n"))
+
+    def test_not_written(self):
+        said = self.refused(header="/// @eq C-1 h = f\n/// @eq C-2 h = g\n")
+        self.assertIn("c.h:2: C-2 is not written", said)
+
+    def test_written_twice(self):
+        said = self.refused(theory="\\tag{C-1}\n\n\\tag{C-1}\n")
+        self.assertIn("chip.md:3: C-1 is already written at", said)
+
+    def test_tested_but_not_written(self):
+        said = self.refused(test="// [C-1] [C-11]\n")
+        self.assertIn("C-11 is tested but not written", said)
+
+    def test_coded_out_of_sight(self):
+        self.assertIn("belongs in the header", self.refused(source="/// @eq C-1 h = f\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
