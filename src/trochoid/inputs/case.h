@@ -2,6 +2,7 @@
 
 #include <trochoid/force/law.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/inputs/machine_tables.h>
 
 #include <array>
 #include <filesystem>
@@ -16,11 +17,11 @@ namespace trochoid::inputs {
 struct Sampling {
   int samples_per_rev = 720;
   double revolutions = 1.0;
-  double start = 0.0;                 ///< [rad]
-  std::vector<double> angles;         ///< [rad]; not empty: instead of the three above
-  std::vector<double> edge_angles;    ///< nominal theta of chip.csv [rad]
-  std::vector<double> edge_heights;   ///< heights of chip.csv [m]
-  double tolerance = 1e-6;            ///< of the peak force
+  double start = 0.0;                ///< [rad]
+  std::vector<double> angles;        ///< [rad]; not empty: instead of the three above
+  std::vector<double> edge_angles;   ///< nominal theta of chip.csv [rad]
+  std::vector<double> edge_heights;  ///< heights of chip.csv [m]
+  double tolerance = 1e-6;           ///< of the peak force
 };
 
 /// [dynamometer]: channel i = sum over j of matrix[i][j] times force j on the tool.
@@ -33,14 +34,14 @@ enum class FileFormat { detect, csv, dynoware };
 
 /// One [[measurement]].
 struct Measurement {
-  std::filesystem::path file;              ///< absolute, or relative to where we run
+  std::filesystem::path file;  ///< absolute, or relative to where we run
   FileFormat format = FileFormat::detect;
-  std::vector<std::string> columns;        ///< three names; empty: found by name
-  std::string angle_column;                ///< empty: found by name
-  std::string time_column;                 ///< empty: found by name
-  std::optional<double> sample_rate;       ///< [Hz]
-  geometry::Cut cut;                       ///< [cut] with this run's overrides
-  std::string location;                    ///< file:line:col of its `file` key
+  std::vector<std::string> columns;   ///< three names; empty: found by name
+  std::string angle_column;           ///< empty: found by name
+  std::string time_column;            ///< empty: found by name
+  std::optional<double> sample_rate;  ///< [Hz]
+  geometry::Cut cut;                  ///< [cut] with this run's overrides
+  std::string location;               ///< file:line:col of its `file` key
 };
 
 enum class RunoutFit { none, fixed, offsets, eccentricity };
@@ -57,8 +58,8 @@ struct Identify {
   std::vector<chip::Model> chip_models = {chip::Model::none, chip::Model::feed,
                                           chip::Model::trochoidal};
   RunoutFit runout = RunoutFit::offsets;
-  std::optional<double> phase;                ///< [rad]; absent: free
-  int band_harmonics = 0;                     ///< 0: all
+  std::optional<double> phase;  ///< [rad]; absent: free
+  int band_harmonics = 0;       ///< 0: all
   ChannelOffset channel_offsets = ChannelOffset::none;
   struct Sweep {
     double first = 0.0;  ///< [m]
@@ -72,22 +73,26 @@ struct Identify {
 struct Case {
   std::filesystem::path file;
   std::string title;
-  force::Setup setup;          ///< [tool] [runout] [cut] [chip], edge length of [force]
-  force::Law law;              ///< [force]
+  force::Setup setup;  ///< [tool] [runout] [cut] [chip], edge length of [force]
+  force::Law law;      ///< [force]
   std::optional<double> gauge_length;  ///< [tool] gauge_length_mm [m]
   Sampling sampling;
   std::optional<Dynamometer> dynamometer;
   std::vector<Measurement> measurements;
   Identify identify;
-  std::string as_understood;   ///< TOML with every default filled in
+  MachineTables machine;      ///< of other commands
+  std::string as_understood;  ///< TOML with every default filled in
 };
 
 /// Commands differ in the tables that they need.
 enum class Command { check, simulate, identify };
 
 /// @brief Read a case file with all that it includes.
+/// @param result_folder  where `as_understood` will be written: the relative names of
+///                       files in it count from there; empty: they become absolute
 /// @throws base::InputError with every problem of the file
-Case read_case(const std::filesystem::path& file, Command command);
+Case read_case(const std::filesystem::path& file, Command command,
+               const std::filesystem::path& result_folder = {});
 
 /// @brief A commented case file to start from.
 std::string new_case(Command command);

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace trochoid::inputs {
+
+/// Where something stands in a file; line and column count from 1.
+struct Location {
+  std::string file;
+  int line = 1;
+  int column = 1;
+};
+
+/// `file:line:col`
+std::string to_string(const Location& where);
+
+struct Member;
+struct Node;
+using Array = std::vector<Node>;
+using Members = std::vector<Member>;  ///< of a table, in the order of the file
+
+/// A value of a TOML file; std::monostate stands for a date or a time.
+struct Node {
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Members>
+      value;
+  Location where;
+  bool inherited = false;  ///< from an included file, or from the table it overrides
+};
+
+struct Member {
+  std::string key;
+  Location where;
+  Node node;
+};
+
+/// @return nullptr when the table has no such key
+const Node* find(const Node& table, std::string_view key);
+
+/// @brief A value as one would write it in TOML, cut short when it is long.
+std::string to_string(const Node& node);
+
+/// @brief Parse one TOML file, without looking at `include`.
+/// @throws base::InputError when it cannot be read, or is not TOML
+Node parse_file(const std::filesystem::path& file);
+
+/// @brief Parse a TOML file and merge what it includes; the including file wins.
+///
+/// Tables merge key by key; anything else, lists of tables too, is replaced whole.
+/// @throws base::InputError also for a cycle or an `include` that is not text
+Node load_document(const std::filesystem::path& file);
+
+/// @brief `over` upon `base`: keys of `over` win, those of `base` become inherited.
+Node merged(Node base, const Node& over);
+
+}  // namespace trochoid::inputs

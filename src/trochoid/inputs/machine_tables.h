@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Tables about the machine, the workpiece and its surface, in SI. `simulate` and
+/// `identify` check them but do not use them: one case file serves several commands.
+namespace trochoid::inputs {
+
+/// [cutter_body]: the cutter as a beam.
+struct CutterBody {
+  double overhang = 0.0;                      ///< [m]
+  std::optional<double> flute_length;         ///< [m]
+  std::optional<double> shank_diameter;       ///< [m]
+  std::optional<double> equivalent_diameter;  ///< of the fluted part [m]
+  double youngs_modulus = 0.0;                ///< [N/m^2]
+};
+
+/// [wall]: the workpiece as a plate, clamped below.
+struct Wall {
+  double length = 0.0;          ///< [m]
+  double height = 0.0;          ///< [m]
+  double thickness = 0.0;       ///< [m]
+  double youngs_modulus = 0.0;  ///< [N/m^2]
+  double poisson_ratio = 0.0;
+  double position = 0.0;  ///< of the cutter along the wall [m]
+};
+
+enum class SurfaceModel { quasi_static, imprint, envelope };
+enum class SurfaceLoad { distributed, concentrated };
+enum class Feedback { none, entry, regenerative };
+
+/// [surface]
+struct Surface {
+  SurfaceModel model = SurfaceModel::envelope;
+  SurfaceLoad load = SurfaceLoad::distributed;
+  Feedback feedback = Feedback::none;
+  double phase = 0.0;  ///< [rad]
+};
+
+/// One [[surface_measurement]].
+struct SurfaceMeasurement {
+  std::string file;  ///< absolute, or relative to where we run
+  bool datum_offset = false;
+};
+
+enum class ModeBody { tool, table };
+enum class Axis { x, y, z };
+
+/// One [[mode]]: two of mass, stiffness and frequency, one of the dampings.
+struct Mode {
+  ModeBody body = ModeBody::tool;
+  Axis axis = Axis::x;
+  std::optional<double> mass;       ///< [kg]
+  std::optional<double> stiffness;  ///< [N/m]
+  std::optional<double> damping;    ///< [N s/m]
+  std::optional<double> frequency;  ///< [Hz]
+  std::optional<double> damping_ratio;
+};
+
+/// [actuator]: by its time constants, or by frequency and damping ratio.
+struct Actuator {
+  double gain = 1.0;
+  std::vector<double> time_constants;  ///< [s]
+  std::optional<double> frequency;     ///< [Hz]
+  std::optional<double> damping_ratio;
+  std::vector<double> stroke;                ///< lowest and highest [m]
+  std::optional<double> coupling_stiffness;  ///< [N/m]
+  std::optional<double> slew;                ///< [m/s]
+};
+
+enum class CommandShape { sine, square, trapezoid, table };
+
+/// [command]: imposed on the actuator.
+struct ImposedCommand {
+  CommandShape shape = CommandShape::sine;
+  double peak_to_peak = 0.0;  ///< [m]
+  double lead = 0.0;          ///< [s]
+};
+
+enum class CorrectionTarget { peak_force, chip_area, least_squares };
+enum class CorrectionStrategy { plain, lead, inverse, learning };
+
+/// [correct]
+struct Correction {
+  CorrectionTarget target = CorrectionTarget::peak_force;
+  CorrectionStrategy strategy = CorrectionStrategy::inverse;
+};
+
+struct MachineTables {
+  std::optional<CutterBody> cutter_body;
+  std::optional<Wall> wall;
+  std::optional<Surface> surface;
+  std::vector<SurfaceMeasurement> surface_measurements;
+  std::vector<Mode> modes;
+  std::optional<Actuator> actuator;
+  std::optional<ImposedCommand> command;
+  std::optional<Correction> correct;
+};
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,203 @@
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/document.h>
+#include <trochoid/inputs/read_table.h>
+#include <trochoid/inputs/rules.h>
+#include <trochoid/inputs/tables.h>
+#include <trochoid/inputs/write_case.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace trochoid::inputs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string_view verb(Command command) {
+  switch (command) {
+    case Command::check:
+      return "check";
+    case Command::simulate:
+      return "simulate";
+    case Command::identify:
+      break;
+  }
+  return "identify";
+}
+
+/// Whether a command has no answer without this table.
+bool needs(Command command, std::string_view table) {
+  if (table == "measurement") {
+    return command == Command::identify;
+  }
+  return table == "tool" || table == "cut" ||
+         (table == "force" && command != Command::identify);
+}
+
+/// One [name], or every [[name]], into its entry.
+void read_entry(const TableEntry& entry, const Node& node, const Reading& reading,
+                Findings& findings) {
+  const std::string name{entry.name};
+  const auto read = [&](const Node& table, const std::string& path) {
+    entry.add();
+    const std::size_t last = entry.count() - 1;
+    read_table(
+        table, path, [&](const Visitor& v) { entry.describe(last, v); }, reading,
+        findings);
+  };
+  const auto* list = std::get_if<Array>(&node.value);
+  if (!entry.many && std::holds_alternative<Members>(node.value)) {
+    read(node, name);
+  } else if (entry.many && list != nullptr && !list->empty() &&
+             std::holds_alternative<Members>(list->front().value)) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string path = fmt::format("{}[{}]", name, i + 1);
+      if (std::holds_alternative<Members>((*list)[i].value)) {
+        read((*list)[i], path);
+      } else {
+        report(findings, path, (*list)[i].where,
+               fmt::format("{} = {}: not a table ({})", path, to_string((*list)[i]),
+                           entry.meaning));
+      }
+    }
+  } else {
+    report(
+        findings, name, node.where,
+        fmt::format("{} = {}: not a table of that kind; must be written as {} ({})",
+                    name, to_string(node),
+                    entry.many ? "[[" + name + "]]" : "[" + name + "]", entry.meaning));
+  }
+}
+
+void report_unknown(const Node& root, const std::vector<TableEntry>& entries,
+                    Findings& findings) {
+  std::vector<std::string> names = {"title", "include"};
+  for (const TableEntry& entry : entries) {
+    names.emplace_back(entry.name);
+  }
+  for (const Member& member : std::get<Members>(root.value)) {
+    if (std::find(names.begin(), names.end(), member.key) != names.end()) {
+      continue;
+    }
+    const bool table = std::holds_alternative<Members>(member.node.value);
+    const std::string shown = shown_key(member.key);
+    report(findings, shown, member.where,
+           table ? fmt::format("[{}]: no such table{}", shown,
+                               suggestion(member.key, names))
+                 : fmt::format("{} = {}: no such key above the tables{}", shown,
+                               to_string(member.node),
+                               home_or_suggestion(member.key, names)));
+  }
+}
+
+CaseTables read_tables(const Node& root, Command command, Findings& findings) {
+  CaseTables tables;
+  const Node* measurements = find(root, "measurement");
+  const Node* cut = find(root, "cut");
+  const Reading reading{
+      .coefficients_needed = command == Command::simulate ||
+                             (command == Command::check && measurements == nullptr),
+      .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
+                                                                           : nullptr};
+  read_table(
+      root, "", [&](const Visitor& v) { describe(v, tables); }, reading, findings);
+  const auto entries = tables_of(tables);
+  for (const TableEntry& entry : entries) {
+    if (const Node* node = find(root, entry.name)) {
+      read_entry(entry, *node, reading, findings);
+    } else if (needs(command, entry.name) &&
+               (entry.name != "force" || reading.coefficients_needed)) {
+      report(findings, std::string(entry.name),
+             fmt::format("{0}{1}{2} is missing ({3}); {4} needs it",
+                         entry.many ? "[[" : "[", entry.name, entry.many ? "]]" : "]",
+                         entry.meaning, verb(command)));
+    }
+  }
+  report_unknown(root, entries, findings);
+  for (std::size_t i = 0; i < tables.measurements.size(); ++i) {
+    if (findings.places.count(fmt::format("measurement[{}].cut", i + 1)) == 0) {
+      tables.measurements[i].cut = tables.cut;
+    }
+  }
+  return tables;
+}
+
+Case assemble(CaseTables& t, Command command, Findings& findings) {
+  Case c;
+  c.title = t.title;
+  c.setup.cutter = cutter_of(t.tool, findings);
+  check_runout(t.runout, t.tool, findings);
+  c.setup.runout = t.runout;
+  c.setup.cut = cut_of(t.cut, "cut", c.setup.cutter, findings);
+  check_chip(t.chip, findings);
+  c.setup.chip = t.chip;
+  c.setup.edge_length = t.force.edge_length;
+  c.gauge_length = t.tool.gauge_length;
+  check_sampling(t.sampling, t.cut.axial_depth, findings);
+  c.sampling = t.sampling;
+  const bool to_fit = command == Command::identify || !t.measurements.empty();
+  c.law = law_of(t.force, to_fit);
+  if (t.dynamometer) {
+    c.dynamometer = dynamometer_of(*t.dynamometer, findings);
+  }
+  for (std::size_t i = 0; i < t.measurements.size(); ++i) {
+    c.measurements.push_back(
+        measurement_of(t.measurements[i], i + 1, c.setup.cutter, findings));
+  }
+  if (to_fit && !t.identify) {
+    t.identify.emplace();
+  }
+  if (t.identify) {
+    c.identify = identify_of(*t.identify, t, findings);
+  }
+  check_machine(t.machine, t.tool, findings);
+  c.machine = t.machine;
+  for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
+    auto& file = c.machine.surface_measurements[i].file;
+    file = resolved(file, place_of(findings,
+                                   fmt::format("surface_measurement[{}].file", i + 1)))
+               .string();
+  }
+  return c;
+}
+
+/// A file name as the echo in the result folder must have it.
+std::string renamed(const std::string& name, const fs::path& file,
+                    const fs::path& folder) {
+  if (fs::path(name).is_absolute()) {
+    return name;
+  }
+  const fs::path whole = fs::absolute(file).lexically_normal();
+  return folder.empty()
+             ? whole.string()
+             : whole.lexically_relative(fs::absolute(folder).lexically_normal())
+                   .string();
+}
+
+}  // namespace
+
+Case read_case(const fs::path& file, Command command, const fs::path& result_folder) {
+  const Node root = load_document(file);
+  Findings findings{.file = file.string()};
+  CaseTables tables = read_tables(root, command, findings);
+  Case c = assemble(tables, command, findings);
+  if (!findings.problems.empty()) {
+    throw base::InputError(lines(findings));
+  }
+  c.file = file;
+  for (std::size_t i = 0; i < c.measurements.size(); ++i) {
+    auto& name = tables.measurements[i].file;
+    name = renamed(name, c.measurements[i].file, result_folder);
+  }
+  for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
+    auto& name = tables.machine.surface_measurements[i].file;
+    name = renamed(name, c.machine.surface_measurements[i].file, result_folder);
+  }
+  c.as_understood = write_case(tables);
+  return c;
+}
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <trochoid/inputs/document.h>
+#include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/schema.h>
+
+#include <functional>
+#include <string>
+
+namespace trochoid::inputs {
+
+/// What the reading of a table depends on besides the table.
+struct Reading {
+  bool coefficients_needed = false;  ///< Need::simulate counts
+  const Node* cut = nullptr;         ///< [cut], which a measurement may override
+  bool only_own = false;             ///< inherited values have been judged before
+};
+
+/// @brief Read a table into the fields that `describe` shows, and report what is wrong.
+/// @param path      `tool`, `measurement[1]`; empty for the top of the file
+/// @param describe  calls a visitor with each key of the table
+void read_table(const Node& table, const std::string& path,
+                const std::function<void(const Visitor&)>& describe,
+                const Reading& reading, Findings& findings);
+
+/// @brief What to say of an unknown key: the table it belongs to, or a name like it.
+std::string home_or_suggestion(std::string_view key,
+                               const std::vector<std::string>& names);
+
+}  // namespace trochoid::inputs

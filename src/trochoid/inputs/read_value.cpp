@@ -1,0 +1,193 @@
+#include <trochoid/inputs/read_value.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::inputs {
+
+namespace {
+
+bool contains(const Range& range, double value) {
+  return (range.open_low ? value > range.low : value >= range.low) &&
+         (range.open_high ? value < range.high : value <= range.high);
+}
+
+struct Reader {
+  const Node& node;
+  const std::string& path;
+  const Key& key;
+  const Field& field;
+  Findings& findings;
+  Unit unit = unit_of(key.name);
+
+  /// @param at     the value that does not fit, or an entry of it
+  /// @param entry  1, 2 ... in a list; 0: not in a list
+  void refuse(const Node& at, std::size_t entry, std::string_view why) const {
+    const std::string what = entry > 0 ? fmt::format("{} entry {}", path, entry) : path;
+    const bool number = number_in(at).has_value() && !unit.symbol.empty();
+    report(findings, path, at.where,
+           fmt::format("{} = {}{}{}: {}; must be {} ({})", what, to_string(at),
+                       number ? " " : "", number ? unit.symbol : "", why,
+                       expectation(key, field), key.meaning));
+  }
+  std::optional<double> number(const Node& at, std::size_t entry) const {
+    const auto value = number_in(at);
+    if (!value) {
+      refuse(at, entry, "not a number");
+    } else if (!std::isfinite(*value)) {
+      refuse(at, entry, "not a finite number");
+    } else if (!contains(key.range, *value)) {
+      refuse(at, entry, "out of range");
+    } else {
+      return *value * unit.factor;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] bool is_word() const {
+    const auto* text = std::get_if<std::string>(&node.value);
+    return text != nullptr && !key.word.empty() && *text == key.word;
+  }
+  const Array* list(std::size_t length) const {
+    const auto* entries = std::get_if<Array>(&node.value);
+    if (entries == nullptr) {
+      refuse(node, 0, "not a list");
+    } else if (entries->empty()) {
+      refuse(node, 0, "an empty list");
+      return nullptr;
+    } else if (length > 0 && entries->size() != length) {
+      refuse(node, 0, fmt::format("{} entries", entries->size()));
+      return nullptr;
+    }
+    return entries;
+  }
+  std::optional<int> chosen(const Node& at, std::size_t entry,
+                            std::span<const std::string_view> names) const {
+    const auto* text = std::get_if<std::string>(&at.value);
+    if (text == nullptr) {
+      refuse(at, entry, "not a text");
+      return std::nullopt;
+    }
+    const auto found = std::find(names.begin(), names.end(), *text);
+    if (found == names.end()) {
+      const std::string near =
+          nearest(*text, std::vector<std::string>(names.begin(), names.end()));
+      refuse(at, entry,
+             near.empty() ? "unknown" : fmt::format("did you mean \"{}\"", near) + "?");
+      return std::nullopt;
+    }
+    return static_cast<int>(found - names.begin());
+  }
+
+  void operator()(bool* target) const {
+    if (const auto* value = std::get_if<bool>(&node.value)) {
+      *target = *value;
+    } else {
+      refuse(node, 0, "neither true nor false");
+    }
+  }
+  void operator()(int* target) const {
+    const auto value = number_in(node);
+    if (!value || (std::isfinite(*value) && *value != std::round(*value))) {
+      refuse(node, 0, "not a whole number");
+    } else if (const auto whole = number(node, 0)) {
+      *target = static_cast<int>(*whole);
+    }
+  }
+  void operator()(double* target) const { *target = number(node, 0).value_or(*target); }
+  void operator()(std::optional<double>* target) const {
+    if (is_word()) {
+      target->reset();
+    } else {
+      *target = number(node, 0);
+    }
+  }
+  void operator()(std::string* target) const {
+    const auto* value = std::get_if<std::string>(&node.value);
+    if (value == nullptr) {
+      refuse(node, 0, "not a text");
+    } else if (value->empty() && key.need == Need::always) {
+      refuse(node, 0, "an empty text");
+    } else {
+      *target = *value;
+    }
+  }
+  void operator()(std::vector<double>* target) const {
+    target->clear();
+    const Array* entries = list(key.count);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      target->push_back(number((*entries)[i], i + 1).value_or(0.0));
+    }
+  }
+  void operator()(std::vector<std::string>* target) const {
+    if (is_word()) {
+      *target = {std::string(key.word)};
+      return;
+    }
+    target->clear();
+    const Array* entries = list(key.count);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      const auto* text = std::get_if<std::string>(&(*entries)[i].value);
+      if (text == nullptr || text->empty()) {
+        refuse((*entries)[i], i + 1, "not a text");
+      }
+      target->push_back(text == nullptr ? "" : *text);
+    }
+  }
+  void operator()(Rows* target) const {
+    target->clear();
+    const Array* rows = list(3);
+    for (std::size_t i = 0; rows != nullptr && i < rows->size(); ++i) {
+      const auto* row = std::get_if<Array>(&(*rows)[i].value);
+      if (row == nullptr || row->size() != 3) {
+        refuse((*rows)[i], i + 1, "not a row of 3 numbers");
+        continue;
+      }
+      auto& numbers = target->emplace_back();
+      for (std::size_t j = 0; j < 3; ++j) {
+        numbers[j] = number((*row)[j], 3 * i + j + 1).value_or(0.0);
+      }
+    }
+  }
+  void operator()(const Choice& choice) const {
+    if (const auto i = chosen(node, 0, choice.names)) {
+      choice.set(*i);
+    }
+  }
+  void operator()(const Choices& choices) const {
+    std::vector<int> all;
+    const Array* entries = list(0);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      const auto one = chosen((*entries)[i], i + 1, choices.names);
+      if (one && std::find(all.begin(), all.end(), *one) != all.end()) {
+        refuse((*entries)[i], i + 1, "twice in the list");
+      } else if (one) {
+        all.push_back(*one);
+      }
+    }
+    if (entries != nullptr) {
+      choices.set(all);
+    }
+  }
+  void operator()(CutTable*) const {}  // read_table does it: it needs [cut] as well
+};
+
+}  // namespace
+
+std::optional<double> number_in(const Node& node) {
+  if (const auto* whole = std::get_if<std::int64_t>(&node.value)) {
+    return static_cast<double>(*whole);
+  }
+  if (const auto* number = std::get_if<double>(&node.value)) {
+    return *number;
+  }
+  return std::nullopt;
+}
+
+void read_value(const Node& node, const std::string& path, const Key& key,
+                const Field& field, Findings& findings) {
+  std::visit(Reader{node, path, key, field, findings}, field);
+}
+
+}  // namespace trochoid::inputs

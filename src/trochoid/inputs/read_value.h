@@ -1,0 +1,19 @@
+#pragma once
+
+#include <trochoid/inputs/document.h>
+#include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/schema.h>
+
+#include <string>
+
+namespace trochoid::inputs {
+
+/// @brief Put the value of a node into a field, in SI, or report why it does not fit.
+/// @param path  of the key, for messages
+void read_value(const Node& node, const std::string& path, const Key& key,
+                const Field& field, Findings& findings);
+
+/// @brief A number of the file, whole or not; nothing when the node is no number.
+std::optional<double> number_in(const Node& node);
+
+}  // namespace trochoid::inputs

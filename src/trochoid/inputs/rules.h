@@ -1,0 +1,38 @@
+#pragma once
+
+#include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/tables.h>
+
+/// What the keys of a case must fulfil together. Each function reports what is wrong,
+/// fills in the defaults that depend on other keys, and turns tables into what the
+/// rooms below work with. Nothing is reported that follows from a problem reported
+/// before.
+namespace trochoid::inputs {
+
+geometry::Cutter cutter_of(ToolTable& tool, Findings& findings);
+void check_runout(geometry::Runout& runout, const ToolTable& tool, Findings& findings);
+
+/// @param path  `cut`, or `measurement[1].cut`
+geometry::Cut cut_of(CutTable& cut, const std::string& path,
+                     const geometry::Cutter& cutter, Findings& findings);
+
+void check_chip(const chip::ChipModel& chip, Findings& findings);
+force::Law law_of(ForceTable& force, bool exponents_default);
+void check_sampling(Sampling& sampling, double axial_depth, Findings& findings);
+
+Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings);
+
+/// @param number  1, 2 ... of the [[measurement]]
+Measurement measurement_of(MeasurementTable& table, std::size_t number,
+                           const geometry::Cutter& cutter, Findings& findings);
+
+Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
+                     Findings& findings);
+
+void check_machine(MachineTables& machine, const ToolTable& tool, Findings& findings);
+
+/// @brief A file that a case names, seen from where we run.
+/// @param named_at  the place of the name: the path is relative to that file
+std::filesystem::path resolved(const std::string& file, const Location& named_at);
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,175 @@
+#include <trochoid/base/units.h>
+#include <trochoid/geometry/meridian.h>
+#include <trochoid/inputs/number_text.h>
+#include <trochoid/inputs/rules.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::inputs {
+
+namespace {
+
+/// Two feeds agree when they differ by less than this part: files round them.
+constexpr double feed_slack = 1e-3;
+
+constexpr double most_samples = 1e7;
+
+std::string mm(double length) {
+  return number_text(length, unit::mm);
+}
+
+/// Feed per tooth is kept, feed rate is dropped once it has been used.
+void settle_feed(CutTable& cut, const std::string& path, int teeth,
+                 Findings& findings) {
+  if (!cut.feed_rate ||
+      !sound(findings, {"tool.teeth", path + ".spindle_rpm",
+                        path + ".feed_rate_mm_per_min", path + ".feed_per_tooth_mm"})) {
+    return;
+  }
+  const double teeth_per_second = teeth * cut.spindle_speed / (2 * std::numbers::pi);
+  const double from_rate = *cut.feed_rate / teeth_per_second;
+  const double stated = cut.feed_per_tooth.value_or(from_rate);
+  if (std::abs(stated - from_rate) > feed_slack * std::max(stated, from_rate)) {
+    report(findings, path + ".feed_rate_mm_per_min",
+           fmt::format("{}.feed_rate_mm_per_min = {} mm/min: with {} teeth at {} rpm "
+                       "this is {:.6g} mm per tooth, but feed_per_tooth_mm = {}; give "
+                       "one of them, or {:.6g} mm/min",
+                       path, number_text(*cut.feed_rate, unit::mm_per_min), teeth,
+                       number_text(cut.spindle_speed, unit::rpm), from_rate / unit::mm,
+                       mm(stated), stated * teeth_per_second / unit::mm_per_min));
+    return;
+  }
+  cut.feed_per_tooth =
+      cut.feed_per_tooth ? *cut.feed_per_tooth : as_written(from_rate, unit::mm);
+  cut.feed_rate.reset();
+}
+
+geometry::Engagement engagement_of(const CutTable& cut, const std::string& path,
+                                   double D, Findings& findings) {
+  const double a_e = cut.radial_depth.value_or(0.0);
+  switch (cut.engagement) {
+    case EngagementKind::slot:
+      return geometry::Slot{};
+    case EngagementKind::band:
+      if (cut.stock_y.size() != 2) {
+        return geometry::Band{};
+      }
+      if (cut.stock_y[0] >= cut.stock_y[1] && sound(findings, {path + ".stock_y_mm"})) {
+        report(findings, path + ".stock_y_mm",
+               fmt::format("{}.stock_y_mm = [{}, {}]: not in order; must be the lower, "
+                           "then the higher y of the stock",
+                           path, mm(cut.stock_y[0]), mm(cut.stock_y[1])));
+      }
+      return geometry::Band{cut.stock_y[0], cut.stock_y[1]};
+    default:
+      break;
+  }
+  const std::string key = path + ".radial_depth_mm";
+  if (a_e > D && sound(findings, {key, "tool.diameter_mm"})) {
+    report(findings, key,
+           fmt::format("{} = {} mm: more than diameter_mm = {} mm; must be a number "
+                       "above 0 and at most {} mm (radial depth of cut)",
+                       key, mm(a_e), mm(D), mm(D)));
+  }
+  return cut.engagement == EngagementKind::up
+             ? geometry::Engagement{geometry::UpMilling{a_e}}
+             : geometry::Engagement{geometry::DownMilling{a_e}};
+}
+
+/// A flank that leans inwards ends where it meets the axis.
+void check_height(const CutTable& cut, const std::string& path,
+                  const geometry::Profile& profile, Findings& findings) {
+  const std::string key = path + ".axial_depth_mm";
+  if (profile.beta >= 0 || !sound(findings, {"tool", key})) {
+    return;
+  }
+  const double u =
+      profile.D / 2 * (1 - std::tan(profile.alpha) * std::tan(profile.beta));
+  const double apex = -u / std::tan(profile.beta);
+  if (cut.axial_depth >= apex) {
+    report(
+        findings, key,
+        fmt::format("{} = {} mm: the flank meets the axis at {:.6g} mm; must be less "
+                    "(axial depth of cut)",
+                    key, mm(cut.axial_depth), apex / unit::mm));
+  }
+}
+
+}  // namespace
+
+geometry::Cut cut_of(CutTable& cut, const std::string& path,
+                     const geometry::Cutter& cutter, Findings& findings) {
+  settle_feed(cut, path, cutter.teeth(), findings);
+  check_height(cut, path, cutter.profile, findings);
+  return {.engagement = engagement_of(cut, path, cutter.profile.D, findings),
+          .a_p = cut.axial_depth,
+          .f_z = cut.feed_per_tooth.value_or(0.0),
+          .Omega = cut.spindle_speed};
+}
+
+void check_chip(const chip::ChipModel& chip, Findings& findings) {
+  const bool paths =
+      chip.model == chip::Model::feed || chip.model == chip::Model::trochoidal;
+  if (chip.lookback == chip::Lookback::previous && !paths) {
+    report(
+        findings, "chip.lookback",
+        fmt::format("chip.lookback = \"previous\": has no meaning for model = \"{}\"; "
+                    "belongs to \"feed\" and \"trochoidal\" only (which earlier teeth "
+                    "left the surface)",
+                    chip.model == chip::Model::none ? "none" : "radial"));
+  }
+}
+
+force::Law law_of(ForceTable& force, bool exponents_default) {
+  if (force.law == LawKind::linear_edge) {
+    return force::LinearEdge{.K_tc = force.K_tc.value_or(0.0),
+                             .K_rc = force.K_rc.value_or(0.0),
+                             .K_ac = force.K_ac.value_or(0.0),
+                             .K_te = force.K_te.value_or(0.0),
+                             .K_re = force.K_re.value_or(0.0),
+                             .K_ae = force.K_ae.value_or(0.0)};
+  }
+  constexpr double usual_exponent = 0.25;
+  for (auto* m : {&force.m_t, &force.m_r, &force.m_a}) {
+    if (exponents_default && !*m) {
+      *m = usual_exponent;
+    }
+  }
+  return force::Power{.K_t1 = force.K_t1.value_or(0.0),
+                      .K_r1 = force.K_r1.value_or(0.0),
+                      .K_a1 = force.K_a1.value_or(0.0),
+                      .m_t = force.m_t.value_or(0.0),
+                      .m_r = force.m_r.value_or(0.0),
+                      .m_a = force.m_a.value_or(0.0)};
+}
+
+void check_sampling(Sampling& sampling, double axial_depth, Findings& findings) {
+  if (sampling.edge_heights.empty()) {
+    sampling.edge_heights = {0.0};
+  }
+  const double samples = sampling.samples_per_rev * sampling.revolutions;
+  if (sampling.angles.empty() && (samples > most_samples || samples < 1) &&
+      sound(findings, {"sampling.samples_per_rev", "sampling.revolutions"})) {
+    report(findings, "sampling.samples_per_rev",
+           fmt::format("sampling.samples_per_rev = {} times revolutions = {}: {:.6g} "
+                       "spindle angles; must be from 1 to 1e+07",
+                       sampling.samples_per_rev, number_text(sampling.revolutions),
+                       samples));
+  }
+  for (std::size_t i = 0; i < sampling.edge_heights.size(); ++i) {
+    if (sampling.edge_heights[i] > axial_depth &&
+        sound(findings, {"cut.axial_depth_mm", "sampling.edge_heights_mm"})) {
+      report(
+          findings, "sampling.edge_heights_mm",
+          fmt::format("sampling.edge_heights_mm entry {} = {} mm: above the cut; must "
+                      "be from 0 to axial_depth_mm = {} mm (height above the tip)",
+                      i + 1, mm(sampling.edge_heights[i]), mm(axial_depth)));
+    }
+  }
+}
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,97 @@
+#include <trochoid/inputs/number_text.h>
+#include <trochoid/inputs/rules.h>
+
+#include <trochoid/base/units.h>
+
+#include <fmt/core.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+void check_mode(const Mode& mode, const std::string& path, Findings& findings) {
+  if (!sound(findings,
+             {path + ".mass_kg", path + ".stiffness_N_per_m", path + ".frequency_Hz",
+              path + ".damping_Ns_per_m", path + ".damping_ratio"})) {
+    return;
+  }
+  const int given = int{mode.mass.has_value()} + int{mode.stiffness.has_value()} +
+                    int{mode.frequency.has_value()};
+  if (given != 2) {
+    report(
+        findings, path,
+        fmt::format("{}: {} of mass_kg, stiffness_N_per_m and frequency_Hz are given; "
+                    "must be 2, the third follows",
+                    path, given));
+  }
+  if (mode.damping.has_value() == mode.damping_ratio.has_value()) {
+    report(
+        findings, path,
+        fmt::format("{}: {} of damping_Ns_per_m and damping_ratio given; must be one "
+                    "of the two",
+                    path, mode.damping ? "both" : "none"));
+  }
+}
+
+void check_actuator(const Actuator& a, Findings& findings) {
+  if (!sound(findings, {"actuator.time_constants_s", "actuator.frequency_Hz",
+                        "actuator.damping_ratio", "actuator.stroke_um"})) {
+    return;
+  }
+  const bool lags = !a.time_constants.empty();
+  if (lags == (a.frequency || a.damping_ratio) ||
+      a.frequency.has_value() != a.damping_ratio.has_value()) {
+    report(findings, "actuator",
+           "actuator: must have either time_constants_s, or frequency_Hz and "
+           "damping_ratio");
+  }
+  if (a.stroke.size() == 2 && a.stroke[0] >= a.stroke[1]) {
+    report(findings, "actuator.stroke_um",
+           fmt::format(
+               "actuator.stroke_um = [{}, {}]: not in order; must be the lowest, "
+               "then the highest position",
+               number_text(a.stroke[0], unit::um), number_text(a.stroke[1], unit::um)));
+  }
+}
+
+void settle_body(CutterBody& body, const ToolTable& tool, Findings& findings) {
+  if (!sound(findings, {"cutter_body.overhang_mm", "cutter_body.flute_length_mm",
+                        "tool.diameter_mm"})) {
+    return;
+  }
+  body.flute_length = body.flute_length.value_or(body.overhang);
+  body.shank_diameter = body.shank_diameter.value_or(tool.diameter);
+  body.equivalent_diameter =
+      body.equivalent_diameter.value_or(as_written(0.8 * tool.diameter, unit::mm));
+  if (*body.flute_length > body.overhang) {
+    report(findings, "cutter_body.flute_length_mm",
+           fmt::format("cutter_body.flute_length_mm = {} mm: longer than overhang_mm = "
+                       "{} mm (length of the fluted part)",
+                       number_text(*body.flute_length, unit::mm),
+                       number_text(body.overhang, unit::mm)));
+  }
+}
+
+}  // namespace
+
+void check_machine(MachineTables& machine, const ToolTable& tool, Findings& findings) {
+  if (machine.cutter_body) {
+    settle_body(*machine.cutter_body, tool, findings);
+  }
+  for (std::size_t i = 0; i < machine.modes.size(); ++i) {
+    check_mode(machine.modes[i], fmt::format("mode[{}]", i + 1), findings);
+  }
+  if (machine.actuator) {
+    check_actuator(*machine.actuator, findings);
+  }
+  if (machine.wall && machine.wall->position > machine.wall->length &&
+      sound(findings, {"wall.position_mm", "wall.length_mm"})) {
+    report(findings, "wall.position_mm",
+           fmt::format("wall.position_mm = {} mm: beyond length_mm = {} mm (where the "
+                       "cutter is along the wall)",
+                       number_text(machine.wall->position, unit::mm),
+                       number_text(machine.wall->length, unit::mm)));
+  }
+}
+
+}  // namespace trochoid::inputs

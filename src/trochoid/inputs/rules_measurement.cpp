@@ -1,0 +1,181 @@
+#include <trochoid/base/units.h>
+#include <trochoid/inputs/number_text.h>
+#include <trochoid/inputs/rules.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+namespace trochoid::inputs {
+
+namespace {
+
+/// Below this, a matrix whose rows are long 1 counts as singular.
+constexpr double least_determinant = 1e-9;
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// -1 for none of the six names.
+int axis_of(std::string_view name) {
+  if (!name.empty() && (name.front() == '-' || name.front() == '+')) {
+    name.remove_prefix(1);
+  }
+  return name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : -1;
+}
+
+Matrix matrix_of_axes(const std::vector<std::string>& axes, Findings& findings) {
+  Matrix matrix{};
+  std::array<int, 3> uses{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int axis = axis_of(axes[i]);
+    if (axis < 0) {
+      report(findings, "dynamometer.axes",
+             fmt::format("dynamometer.axes entry {} = {}: no axis; must be x, y or z, "
+                         "with a sign if need be (what channel {} reads)",
+                         i + 1, toml_string(axes[i]), i + 1));
+      return matrix;
+    }
+    const auto j = static_cast<std::size_t>(axis);
+    matrix[i][j] = axes[i].front() == '-' ? -1.0 : 1.0;
+    ++uses[j];
+  }
+  if (uses != std::array{1, 1, 1}) {
+    report(
+        findings, "dynamometer.axes",
+        fmt::format("dynamometer.axes = [{}, {}, {}]: an axis is there twice; must be "
+                    "x, y and z, each once, in any order and with any sign",
+                    toml_string(axes[0]), toml_string(axes[1]), toml_string(axes[2])));
+  }
+  return matrix;
+}
+
+void check_invertible(const Matrix& m, Findings& findings) {
+  const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  double lengths = 1.0;
+  for (const auto& row : m) {
+    lengths *= std::hypot(row[0], row[1], row[2]);
+  }
+  if (!(std::abs(det) > least_determinant * lengths)) {
+    report(findings, "dynamometer.matrix",
+           fmt::format("dynamometer.matrix: the determinant is {:.3g}, so the force "
+                       "cannot be told from the channels; must be invertible",
+                       det));
+  }
+}
+
+void check_file(const Measurement& m, const std::string& key, const std::string& name,
+                Findings& findings) {
+  std::error_code error;
+  const auto status = std::filesystem::status(m.file, error);
+  std::string why;
+  if (!std::filesystem::exists(status)) {
+    why = fmt::format("there is no such file ({})", m.file.string());
+  } else if (std::filesystem::is_directory(status)) {
+    why = "this is a folder";
+  } else if (!std::filesystem::is_regular_file(status)) {
+    why = "this is not a regular file";
+  }
+  if (!why.empty()) {
+    report(
+        findings, key,
+        fmt::format("{} = {}: {}; must be a force record (csv or dynoware), relative "
+                    "to the file that names it",
+                    key, toml_string(name), why));
+  }
+}
+
+}  // namespace
+
+std::filesystem::path resolved(const std::string& file, const Location& named_at) {
+  return (std::filesystem::path(named_at.file).parent_path() / file).lexically_normal();
+}
+
+Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
+  Dynamometer result;
+  if (!sound(findings, {"dynamometer.axes", "dynamometer.matrix"})) {
+    return result;
+  }
+  if (!table.axes.empty() && !table.matrix.empty()) {
+    report(
+        findings, "dynamometer.matrix",
+        "dynamometer.matrix: axes is given as well; must be one of the two (what the "
+        "channels read)");
+  } else if (table.axes.size() == 3) {
+    result.matrix = matrix_of_axes(table.axes, findings);
+  } else if (!table.axes.empty()) {
+    result.automatic = true;
+  } else if (table.matrix.size() == 3) {
+    std::copy(table.matrix.begin(), table.matrix.end(), result.matrix.begin());
+    check_invertible(result.matrix, findings);
+  }
+  return result;
+}
+
+Measurement measurement_of(MeasurementTable& table, std::size_t number,
+                           const geometry::Cutter& cutter, Findings& findings) {
+  const std::string path = fmt::format("measurement[{}]", number);
+  const Location named_at = place_of(findings, path + ".file");
+  Measurement m{.file = resolved(table.file, named_at),
+                .format = table.format,
+                .columns = table.columns,
+                .angle_column = table.angle_column,
+                .time_column = table.time_column,
+                .sample_rate = table.sample_rate,
+                .cut = cut_of(table.cut, path + ".cut", cutter, findings),
+                .location = to_string(named_at)};
+  if (sound(findings, {path + ".file"})) {
+    check_file(m, path + ".file", table.file, findings);
+  }
+  if (!table.time_column.empty() && table.sample_rate) {
+    report(
+        findings, path + ".sample_rate_Hz",
+        fmt::format("{}.sample_rate_Hz = {} Hz: time_column is given as well; must be "
+                    "one of the two",
+                    path, number_text(*table.sample_rate)));
+  }
+  return m;
+}
+
+Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
+                     Findings& findings) {
+  Identify result{.chip_models = table.chip_models,
+                  .runout = table.runout,
+                  .phase = table.phase,
+                  .band_harmonics = table.band_harmonics,
+                  .channel_offsets = table.channel_offsets};
+  const auto& models = table.chip_models;
+  if (tables.chip.lookback == chip::Lookback::previous &&
+      std::find(models.begin(), models.end(), chip::Model::radial) != models.end()) {
+    report(findings, "identify.chip_models",
+           "identify.chip_models: \"radial\" knows no [chip] lookback = \"previous\"; "
+           "must be any of \"none\", \"feed\", \"trochoidal\" with it");
+  }
+  if (table.sweep.size() != 3 || !sound(findings, {"identify.sweep_um"})) {
+    return result;
+  }
+  constexpr double most = 100000;
+  const double count = table.sweep[2] / unit::um;
+  const double whole = std::round(count);
+  if (table.sweep[0] >= table.sweep[1] || std::abs(count - whole) > 1e-9 * most ||
+      whole < 2 || whole > most) {
+    report(
+        findings, "identify.sweep_um",
+        fmt::format("identify.sweep_um = [{}, {}, {}]: no sweep; must be first < last "
+                    "in um, then a whole number of offsets from 2 to 100000",
+                    number_text(table.sweep[0], unit::um),
+                    number_text(table.sweep[1], unit::um),
+                    number_text(table.sweep[2], unit::um)));
+  } else if (tables.tool.teeth < 2 && sound(findings, {"tool.teeth"})) {
+    report(findings, "identify.sweep_um",
+           "identify.sweep_um: a cutter with 1 tooth has no second one to sweep");
+  }
+  result.sweep =
+      Identify::Sweep{table.sweep[0], table.sweep[1], static_cast<int>(whole)};
+  return result;
+}
+
+}  // namespace trochoid::inputs

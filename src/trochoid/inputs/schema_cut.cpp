@@ -1,0 +1,206 @@
+#include <trochoid/inputs/schema_choice.h>
+#include <trochoid/inputs/tables.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+using Names = std::string_view;
+
+constexpr Names shapes[] = {"cylinder", "ball", "bull_nose", "taper", "apt"};
+constexpr Names lag_laws[] = {"constant_lead", "constant_helix"};
+constexpr Names orders[] = {"exact", "first"};
+constexpr Names engagements[] = {"slot", "up", "down", "band"};
+constexpr Names models[] = {"none", "feed", "radial", "trochoidal"};
+constexpr Names lookbacks[] = {"all", "previous"};
+constexpr Names laws[] = {"linear_edge", "power"};
+constexpr Names edge_lengths[] = {"true", "axial"};
+
+constexpr double longest_mm = 10000;
+
+}  // namespace
+
+void describe(const Visitor& v, CaseTables& t) {
+  v({.name = "title", .meaning = "what this case is, for the report"}, &t.title);
+}
+
+void describe(const Visitor& v, ToolTable& t) {
+  v({.name = "shape", .meaning = "shape of the cutter"}, choice(t.shape, shapes));
+  v({.name = "teeth",
+     .meaning = "number of teeth",
+     .range = between(1, 64),
+     .need = Need::always},
+    &t.teeth);
+  v({.name = "diameter_mm",
+     .meaning = "diameter; of a taper and apt, where bottom and flank would meet",
+     .range = above_up_to(0, longest_mm),
+     .need = Need::always},
+    &t.diameter);
+  v({.name = "helix_deg",
+     .meaning = "helix angle, right-hand",
+     .range = from_below(0, 90),
+     .need = Need::always},
+    &t.helix);
+  v({.name = "pitch_deg",
+     .meaning = "angle from each tooth to the next that passes; the sum is 360",
+     .range = above_up_to(0, 360),
+     .standard = "equal pitches"},
+    &t.pitch);
+  v({.name = "corner_radius_mm",
+     .meaning = "corner radius R",
+     .range = between(0, longest_mm),
+     .only = {"shape", {"bull_nose", "taper", "apt"}},
+     .neutral = 0,
+     .standard = "0 for taper; bull_nose and apt must give it"},
+    &t.corner_radius);
+  v({.name = "corner_center_radius_mm",
+     .meaning = "distance Rr of the corner's centre from the axis",
+     .range = between(-longest_mm, longest_mm),
+     .need = Need::always,
+     .only = {"shape", {"apt"}}},
+    &t.corner_center_radius);
+  v({.name = "corner_center_height_mm",
+     .meaning = "height Rz of the corner's centre above the tip",
+     .range = between(-longest_mm, longest_mm),
+     .need = Need::always,
+     .only = {"shape", {"apt"}},
+     .neutral = 0},
+    &t.corner_center_height);
+  v({.name = "bottom_angle_deg",
+     .meaning = "angle alpha of the bottom against the horizontal",
+     .range = from_below(0, 90),
+     .need = Need::always,
+     .only = {"shape", {"apt"}},
+     .neutral = 0},
+    &t.bottom_angle);
+  v({.name = "taper_deg",
+     .meaning = "angle beta of the flank against the axis, positive: wider upwards",
+     .range = inside(-90, 90),
+     .need = Need::always,
+     .only = {"shape", {"taper", "apt"}},
+     .neutral = 0},
+    &t.taper);
+  v({.name = "lag", .meaning = "how the edge lags behind its tip with the height"},
+    choice(t.lag, lag_laws));
+  v({.name = "lag_diameter_mm",
+     .meaning = "diameter to which the lag refers: lag = 2 z tan(helix) / lag_diameter",
+     .range = above_up_to(0, longest_mm),
+     .standard = "diameter_mm"},
+    &t.lag_diameter);
+  v({.name = "gauge_length_mm",
+     .meaning = "height above the tip at which the bending moment is wanted",
+     .range = above_up_to(0, longest_mm)},
+    &t.gauge_length);
+}
+
+void describe(const Visitor& v, geometry::Runout& t) {
+  v({.name = "radial_offsets_mm",
+     .meaning = "by how much each tooth stands out; one number for each tooth",
+     .range = between(-longest_mm, longest_mm),
+     .standard = "all 0"},
+    &t.radial_offsets);
+  v({.name = "eccentricity_mm",
+     .meaning = "distance from the rotation centre to the geometric centre",
+     .range = between(0, longest_mm)},
+    &t.eccentricity);
+  v({.name = "angle_deg",
+     .meaning =
+         "where the geometric centre lies: from the tip of tooth 1 towards tooth 2",
+     .range = between(-360, 360)},
+    &t.angle);
+  v({.name = "eccentricity_order",
+     .meaning = "exact, or first: radius + eccentricity cos only"},
+    choice(t.order, orders));
+}
+
+void describe(const Visitor& v, CutTable& t) {
+  v({.name = "engagement",
+     .meaning = "which part of the cutter's width is in the stock",
+     .need = Need::always},
+    choice(t.engagement, engagements));
+  v({.name = "radial_depth_mm",
+     .meaning = "radial depth of cut, at most the diameter",
+     .range = above_up_to(0, longest_mm),
+     .need = Need::always,
+     .only = {"engagement", {"up", "down"}}},
+    &t.radial_depth);
+  v({.name = "stock_y_mm",
+     .meaning = "the stock lies between these two y",
+     .range = between(-longest_mm, longest_mm),
+     .need = Need::always,
+     .count = 2,
+     .only = {"engagement", {"band"}}},
+    &t.stock_y);
+  v({.name = "axial_depth_mm",
+     .meaning = "axial depth of cut",
+     .range = above_up_to(0, longest_mm),
+     .need = Need::always},
+    &t.axial_depth);
+  v({.name = "feed_per_tooth_mm",
+     .meaning = "feed per tooth; the feed per revolution is teeth times this",
+     .range = between(0, 1000),
+     .need = Need::always,
+     .rival = "feed_rate_mm_per_min"},
+    &t.feed_per_tooth);
+  v({.name = "feed_rate_mm_per_min",
+     .meaning = "feed rate; both feeds may be given only if they agree",
+     .range = between(0, 1e9),
+     .rival = "feed_per_tooth_mm",
+     .standard = "from feed_per_tooth_mm"},
+    &t.feed_rate);
+  v({.name = "spindle_rpm",
+     .meaning = "spindle speed",
+     .range = above_up_to(0, 1e6),
+     .need = Need::always},
+    &t.spindle_speed);
+}
+
+void describe(const Visitor& v, chip::ChipModel& t) {
+  v({.name = "model", .meaning = "how the uncut chip thickness is computed"},
+    choice(t.model, models));
+  v({.name = "lookback",
+     .meaning = "which earlier teeth left the surface: all, or only the one before "
+                "(previous: feed and trochoidal only)"},
+    choice(t.lookback, lookbacks));
+}
+
+void describe(const Visitor& v, ForceTable& t) {
+  v({.name = "law", .meaning = "linear_edge: K_c h + K_e; power: K_1 (h/1 mm)^(1-m)"},
+    choice(t.law, laws));
+  const auto coefficient = [&](std::string_view name, std::string_view meaning,
+                               std::string_view law, std::optional<double>& value) {
+    v({.name = name,
+       .meaning = meaning,
+       .range = between(-1e9, 1e9),
+       .need = Need::simulate,
+       .only = {"law", {law}}},
+      &value);
+  };
+  const auto exponent = [&](std::string_view name, std::string_view meaning,
+                            std::optional<double>& value) {
+    v({.name = name,
+       .meaning = meaning,
+       .range = from_below(0, 1),
+       .need = Need::simulate,
+       .only = {"law", {"power"}},
+       .standard = "0.25 for identify"},
+      &value);
+  };
+  coefficient("K_tc_MPa", "tangential cutting coefficient", "linear_edge", t.K_tc);
+  coefficient("K_rc_MPa", "radial cutting coefficient", "linear_edge", t.K_rc);
+  coefficient("K_ac_MPa", "axial cutting coefficient", "linear_edge", t.K_ac);
+  coefficient("K_te_N_per_mm", "tangential edge coefficient", "linear_edge", t.K_te);
+  coefficient("K_re_N_per_mm", "radial edge coefficient", "linear_edge", t.K_re);
+  coefficient("K_ae_N_per_mm", "axial edge coefficient", "linear_edge", t.K_ae);
+  coefficient("K_t1_MPa", "tangential pressure at a chip of 1 mm", "power", t.K_t1);
+  exponent("m_t", "tangential exponent", t.m_t);
+  coefficient("K_r1_MPa", "radial pressure at a chip of 1 mm", "power", t.K_r1);
+  exponent("m_r", "radial exponent", t.m_r);
+  coefficient("K_a1_MPa", "axial pressure at a chip of 1 mm", "power", t.K_a1);
+  exponent("m_a", "axial exponent", t.m_a);
+  v({.name = "edge_length",
+     .meaning = "edge coefficients act per mm of true edge length or of axial depth"},
+    choice(t.edge_length, edge_lengths));
+}
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,170 @@
+#include <trochoid/inputs/schema_choice.h>
+#include <trochoid/inputs/schema_machine.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+using Names = std::string_view;
+
+constexpr Names surface_models[] = {"quasi_static", "imprint", "envelope"};
+constexpr Names loads[] = {"distributed", "concentrated"};
+constexpr Names feedbacks[] = {"none", "entry", "regenerative"};
+constexpr Names bodies[] = {"tool", "table"};
+constexpr Names axes[] = {"x", "y", "z"};
+constexpr Names command_shapes[] = {"sine", "square", "trapezoid", "table"};
+constexpr Names targets[] = {"peak_force", "chip_area", "least_squares"};
+constexpr Names strategies[] = {"plain", "lead", "inverse", "learning"};
+
+constexpr double longest_mm = 10000;
+constexpr Range length = above_up_to(0, longest_mm);
+constexpr Range modulus = above_up_to(0, 10000);
+
+}  // namespace
+
+void describe(const Visitor& v, CutterBody& t) {
+  v({.name = "overhang_mm",
+     .meaning = "from the holder to the tip",
+     .range = length,
+     .need = Need::always},
+    &t.overhang);
+  v({.name = "flute_length_mm",
+     .meaning = "length of the fluted part",
+     .range = length,
+     .standard = "overhang_mm"},
+    &t.flute_length);
+  v({.name = "shank_diameter_mm",
+     .meaning = "diameter of the shank",
+     .range = length,
+     .standard = "[tool] diameter_mm"},
+    &t.shank_diameter);
+  v({.name = "equivalent_diameter_mm",
+     .meaning = "diameter of a round bar as stiff as the fluted part",
+     .range = length,
+     .standard = "0.8 of [tool] diameter_mm"},
+    &t.equivalent_diameter);
+  v({.name = "youngs_modulus_GPa",
+     .meaning = "Young's modulus of the cutter",
+     .range = modulus,
+     .need = Need::always},
+    &t.youngs_modulus);
+}
+
+void describe(const Visitor& v, Wall& t) {
+  const auto size = [&](std::string_view name, std::string_view meaning,
+                        double& value) {
+    v({.name = name, .meaning = meaning, .range = length, .need = Need::always},
+      &value);
+  };
+  size("length_mm", "length of the wall along the feed", t.length);
+  size("height_mm", "height of the wall above its clamping", t.height);
+  size("thickness_mm", "thickness of the wall", t.thickness);
+  v({.name = "youngs_modulus_GPa",
+     .meaning = "Young's modulus of the wall",
+     .range = modulus,
+     .need = Need::always},
+    &t.youngs_modulus);
+  v({.name = "poisson_ratio",
+     .meaning = "Poisson's ratio of the wall",
+     .range = from_below(0, 0.5),
+     .need = Need::always},
+    &t.poisson_ratio);
+  v({.name = "position_mm",
+     .meaning = "where the cutter is along the wall",
+     .range = between(0, longest_mm),
+     .need = Need::always},
+    &t.position);
+}
+
+void describe(const Visitor& v, Surface& t) {
+  v({.name = "model", .meaning = "how the surface arises"},
+    choice(t.model, surface_models));
+  v({.name = "load", .meaning = "along the axial depth, or at its middle"},
+    choice(t.load, loads));
+  v({.name = "feedback", .meaning = "whether the deflection changes the chip"},
+    choice(t.feedback, feedbacks));
+  v({.name = "phase_deg",
+     .meaning = "spindle angle phi0 at the start",
+     .range = between(-360, 360)},
+    &t.phase);
+}
+
+void describe(const Visitor& v, SurfaceMeasurement& t) {
+  v({.name = "file",
+     .meaning = "the measured surface, relative to the file that names it",
+     .need = Need::always},
+    &t.file);
+  v({.name = "datum_offset", .meaning = "estimate a constant shift of the readings"},
+    &t.datum_offset);
+}
+
+void describe(const Visitor& v, Mode& t) {
+  v({.name = "body", .meaning = "what vibrates", .need = Need::always},
+    choice(t.body, bodies));
+  v({.name = "axis", .meaning = "in which direction", .need = Need::always},
+    choice(t.axis, axes));
+  v({.name = "mass_kg", .meaning = "modal mass", .range = above(0)}, &t.mass);
+  v({.name = "stiffness_N_per_m", .meaning = "modal stiffness", .range = above(0)},
+    &t.stiffness);
+  v({.name = "damping_Ns_per_m",
+     .meaning = "modal damping",
+     .range = at_least(0),
+     .rival = "damping_ratio"},
+    &t.damping);
+  v({.name = "frequency_Hz", .meaning = "natural frequency", .range = above(0)},
+    &t.frequency);
+  v({.name = "damping_ratio",
+     .meaning = "damping as a part of the critical one",
+     .range = at_least(0),
+     .rival = "damping_Ns_per_m"},
+    &t.damping_ratio);
+}
+
+void describe(const Visitor& v, Actuator& t) {
+  v({.name = "gain", .meaning = "motion for a command of 1", .range = above(0)},
+    &t.gain);
+  v({.name = "time_constants_s",
+     .meaning = "of two first-order lags in a row",
+     .range = above(0),
+     .count = 2,
+     .rival = "frequency_Hz"},
+    &t.time_constants);
+  v({.name = "frequency_Hz",
+     .meaning = "natural frequency",
+     .range = above(0),
+     .rival = "time_constants_s"},
+    &t.frequency);
+  v({.name = "damping_ratio",
+     .meaning = "damping as a part of the critical one",
+     .range = at_least(0),
+     .rival = "time_constants_s"},
+    &t.damping_ratio);
+  v({.name = "stroke_um", .meaning = "lowest and highest position", .count = 2},
+    &t.stroke);
+  v({.name = "coupling_stiffness_N_per_m",
+     .meaning = "stiffness between actuator and table",
+     .range = above(0),
+     .standard = "that of the table's mode"},
+    &t.coupling_stiffness);
+  v({.name = "slew_um_per_s", .meaning = "greatest speed", .range = above(0)}, &t.slew);
+}
+
+void describe(const Visitor& v, ImposedCommand& t) {
+  v({.name = "shape", .meaning = "shape of the command over one revolution"},
+    choice(t.shape, command_shapes));
+  v({.name = "peak_to_peak_um",
+     .meaning = "from the lowest to the highest command",
+     .range = at_least(0),
+     .need = Need::always},
+    &t.peak_to_peak);
+  v({.name = "lead_s", .meaning = "by how much the command comes early"}, &t.lead);
+}
+
+void describe(const Visitor& v, Correction& t) {
+  v({.name = "target", .meaning = "what is made equal from tooth to tooth"},
+    choice(t.target, targets));
+  v({.name = "strategy", .meaning = "how the command is found"},
+    choice(t.strategy, strategies));
+}
+
+}  // namespace trochoid::inputs

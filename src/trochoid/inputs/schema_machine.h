@@ -1,0 +1,17 @@
+#pragma once
+
+#include <trochoid/inputs/machine_tables.h>
+#include <trochoid/inputs/schema.h>
+
+namespace trochoid::inputs {
+
+void describe(const Visitor& v, CutterBody& t);
+void describe(const Visitor& v, Wall& t);
+void describe(const Visitor& v, Surface& t);
+void describe(const Visitor& v, SurfaceMeasurement& t);
+void describe(const Visitor& v, Mode& t);
+void describe(const Visitor& v, Actuator& t);
+void describe(const Visitor& v, ImposedCommand& t);
+void describe(const Visitor& v, Correction& t);
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,125 @@
+#include <trochoid/inputs/schema_choice.h>
+#include <trochoid/inputs/tables.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+using Names = std::string_view;
+
+constexpr Names models[] = {"none", "feed", "radial", "trochoidal"};
+constexpr Names formats[] = {"detect", "csv", "dynoware"};
+constexpr Names runout_fits[] = {"none", "fixed", "offsets", "eccentricity"};
+constexpr Names channel_offsets[] = {"none", "idle", "fit"};
+
+}  // namespace
+
+void describe(const Visitor& v, Sampling& t) {
+  v({.name = "samples_per_rev",
+     .meaning = "spindle angles in one revolution",
+     .range = between(1, 1e6)},
+    &t.samples_per_rev);
+  v({.name = "revolutions",
+     .meaning = "revolutions of the spindle",
+     .range = above_up_to(0, 1e4)},
+    &t.revolutions);
+  v({.name = "start_deg",
+     .meaning = "first spindle angle",
+     .range = between(-1e6, 1e6)},
+    &t.start);
+  v({.name = "angles_deg",
+     .meaning = "spindle angles, instead of the three keys above",
+     .range = between(-1e9, 1e9)},
+    &t.angles);
+  v({.name = "edge_angles_deg",
+     .meaning = "nominal immersion angles of chip.csv",
+     .range = between(-1e6, 1e6)},
+    &t.edge_angles);
+  v({.name = "edge_heights_mm",
+     .meaning = "heights above the tip of chip.csv, at most the axial depth",
+     .range = between(0, 10000),
+     .standard = "0"},
+    &t.edge_heights);
+  v({.name = "tolerance",
+     .meaning = "allowed error of the force, relative to its peak",
+     .range = between(1e-13, 0.1)},
+    &t.tolerance);
+}
+
+void describe(const Visitor& v, DynamometerTable& t) {
+  v({.name = "axes",
+     .meaning = "what channels 1 to 3 read in terms of the force on the tool: x, y, z, "
+                "each once, with a sign; auto: found from the record",
+     .need = Need::always,
+     .count = 3,
+     .word = "auto",
+     .rival = "matrix"},
+    &t.axes);
+  v({.name = "matrix",
+     .meaning = "channel i = sum of matrix[i][j] times force j on the tool; invertible",
+     .range = between(-1e6, 1e6),
+     .rival = "axes"},
+    &t.matrix);
+}
+
+void describe(const Visitor& v, MeasurementTable& t) {
+  v({.name = "file",
+     .meaning = "the force record, relative to the file that names it",
+     .need = Need::always},
+    &t.file);
+  v({.name = "format", .meaning = "format of the record; detect: from its content"},
+    choice(t.format, formats));
+  v({.name = "columns",
+     .meaning = "names of the columns of channels 1 to 3",
+     .count = 3,
+     .standard = "found by name"},
+    &t.columns);
+  v({.name = "angle_column",
+     .meaning = "column of the spindle angle",
+     .standard = "found by name"},
+    &t.angle_column);
+  v({.name = "time_column",
+     .meaning = "column of the time",
+     .rival = "sample_rate_Hz",
+     .standard = "found by name"},
+    &t.time_column);
+  v({.name = "sample_rate_Hz",
+     .meaning = "samples a second, when the record has no time",
+     .range = above_up_to(0, 1e9),
+     .rival = "time_column"},
+    &t.sample_rate);
+  v({.name = "cut", .meaning = "keys of [cut] that are different in this run"}, &t.cut);
+}
+
+void describe(const Visitor& v, IdentifyTable& t) {
+  v({.name = "chip_models", .meaning = "one fit for each of these chip models"},
+    choices(t.chip_models, models));
+  v({.name = "runout",
+     .meaning =
+         "none; fixed: [runout] as it stands; or find the radial offsets, or the "
+         "eccentricity"},
+    choice(t.runout, runout_fits));
+  v({.name = "phase_deg",
+     .meaning =
+         "true angle of the tip of tooth 1 minus the recorded angle; free: found",
+     .range = between(-360, 360),
+     .word = "free"},
+    &t.phase);
+  v({.name = "band_harmonics",
+     .meaning = "fit only the mean and so many harmonics of the spindle; 0: everything",
+     .range = between(0, 1e6)},
+    &t.band_harmonics);
+  v({.name = "channel_offsets",
+     .meaning =
+         "constant and drift of the channels: left as they are, taken from where "
+         "nothing cuts, or fitted"},
+    choice(t.channel_offsets, channel_offsets));
+  v({.name = "sweep_um",
+     .meaning =
+         "first, last and number of radial offsets of tooth 2 to try for sweep.csv",
+     .range = between(-1e6, 1e6),
+     .count = 3},
+    &t.sweep);
+}
+
+}  // namespace trochoid::inputs

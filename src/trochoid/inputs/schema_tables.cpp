@@ -1,0 +1,67 @@
+#include <trochoid/inputs/schema_machine.h>
+#include <trochoid/inputs/tables.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+template <class Table>
+TableEntry one(std::string_view name, std::string_view meaning, Table& table) {
+  return {.name = name,
+          .meaning = meaning,
+          .count = [] { return std::size_t{1}; },
+          .add = [] {},
+          .describe = [&table](std::size_t, const Visitor& v) { describe(v, table); }};
+}
+
+template <class Table>
+TableEntry perhaps(std::string_view name, std::string_view meaning,
+                   std::optional<Table>& table) {
+  return {.name = name,
+          .meaning = meaning,
+          .count = [&table] { return std::size_t{table ? 1U : 0U}; },
+          .add = [&table] { table.emplace(); },
+          .describe = [&table](std::size_t, const Visitor& v) { describe(v, *table); }};
+}
+
+template <class Table>
+TableEntry several(std::string_view name, std::string_view meaning,
+                   std::vector<Table>& all) {
+  return {.name = name,
+          .meaning = meaning,
+          .many = true,
+          .count = [&all] { return all.size(); },
+          .add = [&all] { all.emplace_back(); },
+          .describe = [&all](std::size_t i, const Visitor& v) { describe(v, all[i]); }};
+}
+
+}  // namespace
+
+std::vector<TableEntry> tables_of(CaseTables& t) {
+  return {
+      one("tool", "the cutter", t.tool),
+      one("runout", "how the teeth stand out; left out: no runout", t.runout),
+      one("cut", "the cut; the tool feeds along +x", t.cut),
+      one("chip", "the model of the uncut chip thickness", t.chip),
+      one("force", "the force law and its coefficients, as forces on the tool",
+          t.force),
+      one("sampling", "where a simulation is evaluated, and how exactly", t.sampling),
+      perhaps("dynamometer", "what the channels read; left out: x, y, z",
+              t.dynamometer),
+      several("measurement", "a force record; several are fitted together",
+              t.measurements),
+      perhaps("identify", "what is to be found from the measurements", t.identify),
+      perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
+      perhaps("wall", "the workpiece as an elastic plate; left out: rigid",
+              t.machine.wall),
+      perhaps("surface", "how the machined surface is computed", t.machine.surface),
+      several("surface_measurement", "a measured surface",
+              t.machine.surface_measurements),
+      several("mode", "a mode of vibration", t.machine.modes),
+      perhaps("actuator", "the actuator that moves the table", t.machine.actuator),
+      perhaps("command", "an imposed command of the actuator", t.machine.command),
+      perhaps("correct", "how runout is to be cancelled", t.machine.correct),
+  };
+}
+
+}  // namespace trochoid::inputs

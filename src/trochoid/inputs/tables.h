@@ -1,0 +1,104 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/schema.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The tables of a case file as they are written, in SI; case.h is what becomes of
+/// them.
+namespace trochoid::inputs {
+
+enum class Shape { cylinder, ball, bull_nose, taper, apt };
+enum class EngagementKind { slot, up, down, band };
+enum class LawKind { linear_edge, power };
+
+struct ToolTable {
+  Shape shape = Shape::cylinder;
+  int teeth = 1;
+  double diameter = 0.0;
+  double helix = 0.0;
+  std::vector<double> pitch;
+  std::optional<double> corner_radius;
+  std::optional<double> corner_center_radius;
+  std::optional<double> corner_center_height;
+  std::optional<double> bottom_angle;
+  std::optional<double> taper;
+  geometry::LagLaw lag = geometry::LagLaw::constant_lead;
+  std::optional<double> lag_diameter;
+  std::optional<double> gauge_length;
+};
+
+struct CutTable {
+  EngagementKind engagement = EngagementKind::slot;
+  std::optional<double> radial_depth;
+  std::vector<double> stock_y;
+  double axial_depth = 0.0;
+  std::optional<double> feed_per_tooth;
+  std::optional<double> feed_rate;
+  double spindle_speed = 0.0;
+};
+
+struct ForceTable {
+  LawKind law = LawKind::linear_edge;
+  std::optional<double> K_tc, K_rc, K_ac, K_te, K_re, K_ae;
+  std::optional<double> K_t1, m_t, K_r1, m_r, K_a1, m_a;
+  force::EdgeLength edge_length = force::EdgeLength::true_length;
+};
+
+struct DynamometerTable {
+  std::vector<std::string> axes;
+  Rows matrix;
+};
+
+struct MeasurementTable {
+  std::string file;
+  FileFormat format = FileFormat::detect;
+  std::vector<std::string> columns;
+  std::string angle_column;
+  std::string time_column;
+  std::optional<double> sample_rate;
+  CutTable cut;  ///< complete: [cut] with the overrides of this run
+};
+
+struct IdentifyTable {
+  std::vector<chip::Model> chip_models = Identify{}.chip_models;
+  RunoutFit runout = RunoutFit::offsets;
+  std::optional<double> phase;
+  int band_harmonics = 0;
+  ChannelOffset channel_offsets = ChannelOffset::none;
+  std::vector<double> sweep;
+};
+
+struct CaseTables {
+  std::string title;
+  ToolTable tool;
+  geometry::Runout runout;
+  CutTable cut;
+  chip::ChipModel chip;
+  ForceTable force;
+  Sampling sampling;
+  std::optional<DynamometerTable> dynamometer;
+  std::vector<MeasurementTable> measurements;
+  std::optional<IdentifyTable> identify;
+  MachineTables machine;
+};
+
+void describe(const Visitor& v, ToolTable& t);
+void describe(const Visitor& v, geometry::Runout& t);
+void describe(const Visitor& v, CutTable& t);
+void describe(const Visitor& v, chip::ChipModel& t);
+void describe(const Visitor& v, ForceTable& t);
+void describe(const Visitor& v, Sampling& t);
+void describe(const Visitor& v, DynamometerTable& t);
+void describe(const Visitor& v, MeasurementTable& t);
+void describe(const Visitor& v, IdentifyTable& t);
+/// The keys above all tables.
+void describe(const Visitor& v, CaseTables& t);
+
+/// @brief Every table of a case file, in the order in which they are written.
+std::vector<TableEntry> tables_of(CaseTables& tables);
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,44 @@
+#include <trochoid/inputs/write_case.h>
+
+#include <fmt/core.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+std::string inline_table(CutTable& cut) {
+  std::string text;
+  describe(
+      [&text](const Key& key, const Field& field) {
+        if (const auto value = toml_text(key, field)) {
+          text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.name, *value);
+        }
+      },
+      cut);
+  return fmt::format("{{ {} }}", text);
+}
+
+}  // namespace
+
+std::string write_case(CaseTables& tables) {
+  std::string text;
+  const Visitor key_line = [&text](const Key& key, const Field& field) {
+    CutTable* const* cut = std::get_if<CutTable*>(&field);
+    const auto value = cut != nullptr ? inline_table(**cut) : toml_text(key, field);
+    if (value) {
+      text += fmt::format("{} = {}\n", key.name, *value);
+    }
+  };
+  describe(key_line, tables);
+  for (const TableEntry& table : tables_of(tables)) {
+    for (std::size_t i = 0; i < table.count(); ++i) {
+      text += text.empty() ? "" : "\n";
+      text += fmt::format("{0}{1}{2}\n", table.many ? "[[" : "[", table.name,
+                          table.many ? "]]" : "]");
+      table.describe(i, key_line);
+    }
+  }
+  return text;
+}
+
+}  // namespace trochoid::inputs
