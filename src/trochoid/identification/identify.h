@@ -17,7 +17,14 @@ struct Run {
   std::vector<std::array<double, 3>> force;  ///< on the tool [N], shape (n)
 };
 
-enum class RunoutUnknowns { none, fixed, offsets, eccentricity };
+/// What is not searched is kept as the setup gives it: with `offsets` a given
+/// eccentricity, with `eccentricity` given offsets.
+enum class RunoutUnknowns {
+  none,          ///< the tool runs true
+  fixed,         ///< as given
+  offsets,       ///< of teeth 2..N; the first is 0
+  eccentricity,  ///< rho and lambda
+};
 
 /// What is to be found, and how.
 struct Options {
@@ -26,6 +33,14 @@ struct Options {
   std::optional<double> phase;  ///< [rad]; absent: free, one for each run
   int band_harmonics = 0;       ///< 0: all; n: mean and spindle harmonics 1..n only
   bool fit_channel_offsets = false;  ///< one constant and one slope a channel and run
+  bool fit_exponents = true;         ///< of a Power law; false: as given
+};
+
+/// Part of a channel that is not force: constant + slope (t - mean t)/(t_last -
+/// t_first).
+struct ChannelOffset {
+  double constant = 0.0;  ///< [N]
+  double slope = 0.0;     ///< change from the first sample to the last [N]
 };
 
 /// An estimate with its standard error and 95 % interval; absent: not identifiable.
@@ -37,34 +52,66 @@ struct Estimate {
 };
 
 /// @brief Result of one fit. Coefficients in SI, in the order of force::coefficients.
+///
+/// A quantity that is named in `unidentifiable` has no value: what stands for it in
+/// `runout` or `phase` is one of the many possible values, good for `fitted` only.
 struct Fit {
   bool ok = false;
   std::string message;  ///< when not ok, why there is no answer
+  Options options;      ///< as asked for
   chip::ChipModel chip;
+  force::Law law;  ///< with the values found
   std::vector<std::optional<Estimate>> coefficients;
+  /// m_t, m_r, m_a of a Power law when they were fitted, else empty.
+  std::vector<std::optional<Estimate>> exponents;
   geometry::Runout runout;
-  std::vector<std::optional<double>> radial_offsets_se;  ///< [m], shape (teeth)
-  std::optional<double> eccentricity_se;                 ///< [m]
-  std::optional<double> angle_se;                        ///< [rad]
-  std::vector<double> phase;                             ///< [rad], one a run
-  std::vector<std::optional<double>> phase_se;           ///< [rad]
-  double rms = 0.0;                                      ///< [N]
-  std::array<double, 3> rms_axis{};                      ///< [N]
-  double condition = 0.0;                                ///< of [D], unit-norm columns
-  int rank = 0;
+  /// [m], shape (teeth). Absent: given, the gauge of tooth 1, or not identifiable.
+  std::vector<std::optional<double>> radial_offsets_se;
+  std::optional<double> eccentricity_se;        ///< [m]
+  std::optional<double> angle_se;               ///< [rad]
+  std::vector<double> phase;                    ///< [rad], one a run
+  std::vector<std::optional<double>> phase_se;  ///< [rad]; absent: given, or as above
+  std::vector<std::array<ChannelOffset, 3>> channel_offsets;  ///< one a run, or empty
+  double rms = 0.0;                                           ///< [N], I-5
+  std::array<double, 3> rms_axis{};                           ///< [N]
+  double condition = 0.0;  ///< of [D], unit-norm columns
+  int rank = 0;            ///< of [D], channel offsets included
+  double freedom = 0.0;    ///< equations less unknowns
   /// Unidentifiable quantities, by name of the summary, and why.
   std::vector<std::pair<std::string, std::string>> unidentifiable;
-  /// Correlation of neighbouring residuals; well above 0, the standard errors are too small.
+  /// Correlation of neighbouring residuals; well above 0, the standard errors are too
+  /// small. 0 with a band limit, which correlates them by itself.
   double residual_correlation = 0.0;
-  /// Fitted force of each run, shape (n).
+  /// Fitted force of each run with its channel offsets, shape (n).
   std::vector<std::vector<std::array<double, 3>>> fitted;
 };
 
-/// @brief Fit coefficients, runout and phase to all runs of one tool and material.
+/// @brief Fit coefficients, runout and phase to all runs of one tool.
+///
+/// @eq  I-1 {F} = [D]{K} at given runout and phase
+/// @eq  I-2 se(K_c) = sqrt(RSS/(n - 6) ([D]^T [D])^-1_cc) at fixed runout
+/// @eq  I-3 min over p of min over K of |[D(p)]{K} - {F}|^2
+/// @eq  I-4 J = [[D] | d[D]/dp {K}], cov = RSS/(n - dim K - dim p) (J^T J)^-1
+/// @eq  I-5 RMS = sqrt(mean over samples of |dF|^2)
+/// @eq  I-7 {F_c} = [D]_c {K} + a_c + b_c (t - mean t)/(t_last - t_first)
+/// @eq  I-8 value +- t_0.975(n - dim K - dim p) se
+/// @src [riviere2009] eq. 20 to 22, section 3.3; I-3, I-4, I-8 standard
+///
 /// @param setup  tool, given runout (start or fixed), chip lookback, edge length; its
 ///               `cut` and `chip.model` are replaced by those of run and options
-/// @param law    the kind of law and, for Power, its exponents
-Fit identify(const force::Setup& setup, const force::Law& law, std::span<const Run> runs,
-             const Options& options);
+/// @param law    the kind of law and, for Power, its exponents (start or fixed)
+/// @param runs   at least one
+/// @throws std::invalid_argument when a run has not one force for each angle
+Fit identify(const force::Setup& setup, const force::Law& law,
+             std::span<const Run> runs, const Options& options);
+
+/// @brief RMS over the offset of tooth 2, with the coefficients fitted anew for each.
+/// @param fit      of the same setup, law and runs: its options, phase and other
+/// offsets
+/// @param offsets  of tooth 2 [m]
+/// @return [N], shape of offsets; empty without a phase to use or a second tooth
+std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
+                          std::span<const Run> runs, const Fit& fit,
+                          std::span<const double> offsets);
 
 }  // namespace trochoid::identification

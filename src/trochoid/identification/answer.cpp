@@ -1,0 +1,262 @@
+#include <trochoid/base/units.h>
+#include <trochoid/identification/answer.h>
+#include <trochoid/numerics/student.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::identification {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::size_t index(int i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+/// Force at the folded angles, shape (u).
+std::vector<std::array<double, 3>> folded_force(std::span<const double> C,
+                                                std::span<const double> K) {
+  std::vector<std::array<double, 3>> out(C.size() / (3 * K.size()));
+  for (std::size_t g = 0; g < out.size(); ++g) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      out[g][q] = 0.0;
+      for (std::size_t c = 0; c < K.size(); ++c) {
+        out[g][q] += C[(3 * g + q) * K.size() + c] * K[c];
+      }
+    }
+  }
+  return out;
+}
+
+/// Sums over the residuals of all runs.
+struct ResidualSums {
+  std::array<double, 3> squares{};
+  double neighbours = 0.0;
+  double samples = 0.0;
+};
+
+void add_residuals(const Run& run, std::span<const std::array<double, 3>> fitted,
+                   ResidualSums& sums) {
+  std::array<double, 3> before{};
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      const double d = run.force[i][q] - fitted[i][q];
+      sums.squares[q] += d * d;
+      sums.neighbours += d * before[q];
+      before[q] = d;
+    }
+  }
+  sums.samples += static_cast<double>(fitted.size());
+}
+
+/// Why each unknown has no value, over those that have none.
+class Reasons {
+ public:
+  Reasons(const Problem& problem, const Uncertainty& known, Fit& fit)
+      : known_(known), names_(names_of(problem)), fit_(fit) {}
+
+  bool determined(std::size_t i) {
+    if (known_.reason[i].empty()) return true;
+    refuse(names_[i], known_.reason[i]);
+    return false;
+  }
+
+  void refuse(const std::string& name, const std::string& reason) {
+    fit_.unidentifiable.emplace_back(name, reason);
+  }
+
+  [[nodiscard]] double covariance(std::size_t i, std::size_t j) const {
+    return known_.covariance[i * names_.size() + j];
+  }
+  [[nodiscard]] double se(std::size_t i) const { return std::sqrt(covariance(i, i)); }
+
+  [[nodiscard]] Estimate estimate(std::size_t i, double value) const {
+    const double half = numerics::student_t(0.975, known_.freedom) * se(i);  // I-8
+    return {value, se(i), value - half, value + half};
+  }
+
+  [[nodiscard]] const std::string& reason(std::size_t i) const {
+    return known_.reason[i];
+  }
+  [[nodiscard]] const std::string& name(std::size_t i) const { return names_[i]; }
+
+ private:
+  const Uncertainty& known_;
+  std::vector<std::string> names_;
+  Fit& fit_;
+};
+
+void fill_offsets(const Unknowns& u, std::size_t first, Reasons& reasons, Fit& fit) {
+  for (int k = 1; k < u.teeth; ++k) {
+    const std::size_t i = first + index(k - 1);
+    if (reasons.determined(i))
+      fit.radial_offsets_se[index(k)] = u.length * reasons.se(i);
+  }
+}
+
+/// The one component of the eccentricity that the record determines.
+void fill_single_direction(const Unknowns& u, std::size_t i, double e,
+                           Reasons& reasons) {
+  const std::string reason = fmt::format(
+      "only its component rho cos(lambda - {:.3g} deg) = {:.4g} mm (standard error "
+      "{:.2g} "
+      "mm) changes the radii of the teeth against one another",
+      *u.direction / unit::deg, e * u.length / unit::mm,
+      reasons.se(i) * u.length / unit::mm);
+  reasons.refuse("eccentricity_mm", reason);
+  reasons.refuse("angle_deg", reason);
+}
+
+/// rho and lambda from e_x and e_y by the chain rule.
+void fill_eccentricity(const Unknowns& u, std::size_t i, double ex, double ey,
+                       Reasons& reasons, Fit& fit) {
+  if (!reasons.reason(i).empty() || !reasons.reason(i + 1).empty()) {
+    const std::string& why =
+        reasons.reason(i).empty() ? reasons.reason(i + 1) : reasons.reason(i);
+    reasons.refuse("eccentricity_mm", why);
+    reasons.refuse("angle_deg", why);
+    return;
+  }
+  const double rho = std::hypot(ex, ey);
+  const double c = rho > 0.0 ? ex / rho : 1.0;
+  const double s = rho > 0.0 ? ey / rho : 0.0;
+  const double xx = reasons.covariance(i, i);
+  const double xy = reasons.covariance(i, i + 1);
+  const double yy = reasons.covariance(i + 1, i + 1);
+  fit.eccentricity_se =
+      u.length * std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy));
+  const double across =
+      std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy));
+  if (across < rho) {
+    fit.angle_se = across / rho;
+  } else {
+    reasons.refuse("angle_deg",
+                   "the eccentricity is not larger than its standard error");
+  }
+}
+
+void fill_phases(const Problem& problem, Reasons& reasons, Fit& fit) {
+  const Unknowns& u = problem.unknowns;
+  const std::size_t first = index(problem.linear() + u.first_phase());
+  for (std::size_t r = 0; r < index(u.phases); ++r) {
+    if (!reasons.determined(first + r)) continue;
+    const double se = reasons.se(first + r);
+    if (se > pi / u.teeth) {
+      reasons.refuse(
+          reasons.name(first + r),
+          fmt::format("its standard error of {:.3g} deg is more than half the "
+                      "pitch of the teeth",
+                      se / unit::deg));
+    } else {
+      fit.phase_se[r] = se;
+    }
+  }
+}
+
+}  // namespace
+
+double equations_of(const Problem& problem, std::span<const Run> runs) {
+  double count = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    count += problem.runs[r].band > 0 ? 3.0 * problem.runs[r].band
+                                      : 3.0 * static_cast<double>(runs[r].angle.size());
+  }
+  return count;
+}
+
+void fill_fitted(const Problem& problem, std::span<const Run> runs,
+                 const Evaluation& at, const numerics::LeastSquares& linear, Fit& fit) {
+  const std::span<const double> x(linear.x);
+  ResidualSums sums;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const FoldedRun& folded = problem.runs[r];
+    const auto force = folded_force(at.C[r], x.first(index(problem.columns)));
+    const std::size_t n = runs[r].angle.size();
+    std::array<ChannelOffset, 3> offsets{};
+    if (!folded.drift.empty()) {
+      const std::span<const double> own = x.subspan(index(problem.columns) + 6 * r, 6);
+      for (std::size_t q = 0; q < 3; ++q) offsets[q] = {own[2 * q], own[2 * q + 1]};
+      fit.channel_offsets.push_back(offsets);
+    }
+    std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t q = 0; q < 3; ++q) {
+        fitted[i][q] = force[folded.group[i]][q] + offsets[q].constant +
+                       offsets[q].slope * slope_at(i, n);  // I-7
+      }
+    }
+    add_residuals(runs[r], fitted, sums);
+  }
+  const double total = sums.squares[0] + sums.squares[1] + sums.squares[2];
+  if (problem.runs.front().band > 0) {
+    sums.squares = {};
+    for (std::size_t i = 0; i < linear.residual.size(); ++i) {
+      sums.squares[i % 3] += linear.residual[i] * linear.residual[i];
+    }
+  } else if (total > 0.0) {
+    fit.residual_correlation = sums.neighbours / total;
+  }
+  double mean = 0.0;
+  for (std::size_t q = 0; q < 3; ++q) {  // I-5
+    mean += sums.squares[q] / sums.samples;
+    fit.rms_axis[q] = std::sqrt(sums.squares[q] / sums.samples);
+  }
+  fit.rms = std::sqrt(mean);
+}
+
+void fill_estimates(const Problem& problem, std::span<const double> p,
+                    std::span<const double> K, const Uncertainty& known, Fit& fit) {
+  const Unknowns& u = problem.unknowns;
+  const std::size_t linear = index(problem.linear());
+  const Point point = point_of(problem, p);
+  Reasons reasons(problem, known, fit);
+  fit.freedom = known.freedom;
+  fit.law = force::with_coefficients(point.law, K.first(index(problem.columns)));
+  for (std::size_t c = 0; c < index(problem.columns); ++c) {
+    if (reasons.determined(c)) fit.coefficients[c] = reasons.estimate(c, K[c]);
+  }
+  fit.runout = point.runout;
+  fit.runout.radial_offsets.resize(index(u.teeth), 0.0);
+  fit.radial_offsets_se.assign(index(u.teeth), std::nullopt);
+  if (u.runout == RunoutUnknowns::offsets) {
+    fill_offsets(u, linear, reasons, fit);
+  } else if (u.runout == RunoutUnknowns::eccentricity && u.direction) {
+    fill_single_direction(u, linear, p[0], reasons);
+  } else if (u.runout == RunoutUnknowns::eccentricity) {
+    fill_eccentricity(u, linear, p[0], p[1], reasons, fit);
+  }
+  for (std::size_t e = 0; e < index(u.exponent_count()); ++e) {
+    const std::size_t i = index(u.runout_count()) + e;
+    fit.exponents.emplace_back();
+    if (reasons.determined(linear + i)) {
+      fit.exponents.back() = reasons.estimate(linear + i, p[i]);
+    }
+  }
+  fit.phase = point.phase;
+  fit.phase_se.assign(point.phase.size(), std::nullopt);
+  fill_phases(problem, reasons, fit);
+}
+
+void refuse_coefficients(const Problem& problem, Fit& fit) {
+  const std::vector<std::string> names = names_of(problem);
+  for (std::size_t c = 0; c < index(problem.columns); ++c) {
+    fit.unidentifiable.emplace_back(names[c], fit.message);
+  }
+}
+
+void refuse_runout_of_one_tooth(Fit& fit) {
+  const std::string reason =
+      "a single tooth meets only marks of its own radius, so its runout changes "
+      "nothing";
+  if (fit.options.runout == RunoutUnknowns::offsets) {
+    fit.unidentifiable.emplace_back("radial_offsets_mm", reason);
+  } else if (fit.options.runout == RunoutUnknowns::eccentricity) {
+    fit.unidentifiable.emplace_back("eccentricity_mm", reason);
+    fit.unidentifiable.emplace_back("angle_deg", reason);
+  }
+}
+
+}  // namespace trochoid::identification

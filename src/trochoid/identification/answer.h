@@ -1,0 +1,33 @@
+#pragma once
+
+#include <trochoid/identification/identify.h>
+#include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <span>
+
+namespace trochoid::identification {
+
+/// @brief Number of equations: three a sample, or three a column of the band.
+double equations_of(const Problem& problem, std::span<const Run> runs);
+
+/// @brief Fitted forces, channel offsets, RMS and correlation of the residuals.
+///
+/// @eq I-5 RMS_q = sqrt(mean over samples of dF_q^2), RMS^2 = sum_q RMS_q^2
+/// @eq I-8 r = sum(dF_i dF_(i+1)) / sum(dF_i^2), over channels and runs
+void fill_fitted(const Problem& problem, std::span<const Run> runs,
+                 const Evaluation& at, const numerics::LeastSquares& linear, Fit& fit);
+
+/// @brief Values with standard errors and intervals, and what has none.
+///
+/// @eq I-8 value +- t_0.975(freedom) se
+void fill_estimates(const Problem& problem, std::span<const double> p,
+                    std::span<const double> K, const Uncertainty& known, Fit& fit);
+
+/// No coefficient has a value, for the reason in the message.
+void refuse_coefficients(const Problem& problem, Fit& fit);
+
+/// One tooth meets only its own marks: no runout can be seen.
+void refuse_runout_of_one_tooth(Fit& fit);
+
+}  // namespace trochoid::identification

@@ -1,0 +1,209 @@
+#include <trochoid/identification/folded.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace trochoid::identification {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+/// Angles closer than this are the same: far above the rounding of an angle after many
+/// turns, far below what changes a force.
+constexpr double same_angle = 1e-9;
+
+double within_turn(double angle) noexcept {
+  const double a = angle - turn * std::floor(angle / turn);
+  return a >= turn - 0.5 * same_angle ? 0.0 : a;
+}
+
+/// Groups of samples at the same angle, in the order of the angle.
+std::vector<std::size_t> groups(std::span<const double> angle) {
+  const std::size_t n = angle.size();
+  std::vector<double> in_turn(n);
+  std::ranges::transform(angle, in_turn.begin(), within_turn);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return in_turn[i]; });
+  std::vector<std::size_t> group(n);
+  std::size_t current = 0;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (in_turn[order[k]] - in_turn[order[k - 1]] > same_angle) ++current;
+    group[order[k]] = current;
+  }
+  return group;
+}
+
+/// Means of the samples of each group.
+void take_means(const Run& run, bool drift, FoldedRun& out) {
+  const std::size_t n = run.angle.size();
+  const std::size_t u = 1 + *std::ranges::max_element(out.group);
+  out.angle.assign(u, 0.0);
+  out.weight.assign(u, 0.0);
+  out.force.assign(u, {});
+  out.slope.assign(drift ? u : 0, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t g = out.group[i];
+    out.angle[g] = run.angle[i];
+    out.weight[g] += 1.0;
+    for (std::size_t q = 0; q < 3; ++q) out.force[g][q] += run.force[i][q];
+    if (drift) out.slope[g] += slope_at(i, n);
+  }
+  for (std::size_t g = 0; g < u; ++g) {
+    for (double& f : out.force[g]) f /= out.weight[g];
+    if (drift) out.slope[g] /= out.weight[g];
+    out.weight[g] = std::sqrt(out.weight[g]);
+  }
+}
+
+void make_band(int harmonics, FoldedRun& run) {
+  if (harmonics == 0) return;
+  run.band = 2 * harmonics + 1;
+  const auto columns = static_cast<std::size_t>(run.band);
+  if (columns > run.angle.size()) {
+    run.band = 0;  // fewer samples than harmonics: the band holds everything
+    return;
+  }
+  std::vector<double> A;
+  A.reserve(run.angle.size() * columns);
+  for (std::size_t g = 0; g < run.angle.size(); ++g) {
+    A.push_back(run.weight[g]);
+    for (int k = 1; k <= harmonics; ++k) {
+      A.push_back(run.weight[g] * std::cos(k * run.angle[g]));
+      A.push_back(run.weight[g] * std::sin(k * run.angle[g]));
+    }
+  }
+  run.basis = numerics::orthonormal(A, run.band);
+}
+
+/// b and drift from the means.
+void make_rows(bool drift, FoldedRun& run) {
+  const std::size_t u = run.angle.size();
+  run.rows = 3 * (run.band > 0 ? run.band : static_cast<int>(u));
+  std::vector<double> F(3 * u);
+  for (std::size_t g = 0; g < u; ++g) std::ranges::copy(run.force[g], &F[3 * g]);
+  run.b = rows_of(run, F, 1);
+  run.drift.clear();
+  if (!drift) return;
+  std::vector<double> E(18 * u, 0.0);  // I-7
+  for (std::size_t g = 0; g < u; ++g) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      E[18 * g + 6 * q + 2 * q] = 1.0;
+      E[18 * g + 6 * q + 2 * q + 1] = run.slope[g];
+    }
+  }
+  run.drift = rows_of(run, E, 6);
+}
+
+/// The row that a slope keeps within the groups, one a channel.
+void add_slope_rows(const Run& source, FoldedRun& run) {
+  const std::size_t n = source.angle.size();
+  double norm2 = 0.0;
+  std::array<double, 3> product{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t g = run.group[i];
+    const double d = slope_at(i, n) - run.slope[g];
+    norm2 += d * d;
+    for (std::size_t q = 0; q < 3; ++q) {
+      product[q] += d * (source.force[i][q] - run.force[g][q]);
+    }
+  }
+  const double norm = std::sqrt(norm2);
+  if (norm < 1e-9) return;
+  for (std::size_t q = 0; q < 3; ++q) {
+    run.b.push_back(product[q] / norm);
+    std::array<double, 6> row{};
+    row[2 * q + 1] = norm;
+    run.drift.insert(run.drift.end(), row.begin(), row.end());
+  }
+  run.rows += 3;
+}
+
+}  // namespace
+
+double slope_at(std::size_t i, std::size_t n) noexcept {
+  return n < 2 ? 0.0 : static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
+}
+
+FoldedRun fold(const Run& run, const Options& options) {
+  if (run.angle.size() != run.force.size() || run.angle.empty()) {
+    throw std::invalid_argument("a run of " + std::to_string(run.angle.size()) +
+                                " angles and " + std::to_string(run.force.size()) +
+                                " forces: it needs one force for each angle");
+  }
+  FoldedRun out;
+  out.cut = run.cut;
+  out.group = groups(run.angle);
+  take_means(run, options.fit_channel_offsets, out);
+  make_band(options.band_harmonics, out);
+  make_rows(options.fit_channel_offsets, out);
+  if (options.fit_channel_offsets && out.band == 0) add_slope_rows(run, out);
+  return out;
+}
+
+FoldedRun coarsen(const FoldedRun& run, int bins) {
+  const bool drift = !run.slope.empty();
+  const auto count = static_cast<std::size_t>(bins);
+  FoldedRun out;
+  out.cut = run.cut;
+  if (run.angle.size() <= count) {
+    out = run;
+    out.basis.clear();
+    out.band = 0;
+    make_rows(drift, out);
+    return out;
+  }
+  std::vector<double> n(count, 0.0);
+  std::vector<std::array<double, 5>> sums(count, std::array<double, 5>{});
+  for (std::size_t g = 0; g < run.angle.size(); ++g) {
+    const double angle = within_turn(run.angle[g]);
+    const auto bin = std::min(count - 1, static_cast<std::size_t>(angle / turn * bins));
+    const double w = run.weight[g] * run.weight[g];
+    n[bin] += w;
+    for (std::size_t q = 0; q < 3; ++q) sums[bin][q] += w * run.force[g][q];
+    sums[bin][3] += w * angle;
+    if (drift) sums[bin][4] += w * run.slope[g];
+  }
+  for (std::size_t bin = 0; bin < count; ++bin) {
+    if (n[bin] == 0.0) continue;
+    for (double& s : sums[bin]) s /= n[bin];
+    out.angle.push_back(sums[bin][3]);
+    out.weight.push_back(std::sqrt(n[bin]));
+    out.force.push_back({sums[bin][0], sums[bin][1], sums[bin][2]});
+    if (drift) out.slope.push_back(sums[bin][4]);
+  }
+  make_rows(drift, out);
+  return out;
+}
+
+std::vector<double> rows_of(const FoldedRun& run, std::span<const double> X,
+                            int columns) {
+  const std::size_t u = run.angle.size();
+  const std::size_t width = 3 * static_cast<std::size_t>(columns);
+  std::vector<double> out;
+  if (run.band == 0) {
+    out.assign(std::max(u * width, static_cast<std::size_t>(run.rows * columns)), 0.0);
+    for (std::size_t g = 0; g < u; ++g) {
+      for (std::size_t c = 0; c < width; ++c) {
+        out[g * width + c] = run.weight[g] * X[g * width + c];
+      }
+    }
+    return out;
+  }
+  const auto band = static_cast<std::size_t>(run.band);
+  out.assign(band * width, 0.0);
+  for (std::size_t g = 0; g < u; ++g) {
+    for (std::size_t k = 0; k < band; ++k) {
+      const double w = run.weight[g] * run.basis[g * band + k];
+      for (std::size_t c = 0; c < width; ++c)
+        out[k * width + c] += w * X[g * width + c];
+    }
+  }
+  return out;
+}
+
+}  // namespace trochoid::identification

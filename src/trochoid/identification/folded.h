@@ -1,0 +1,48 @@
+#pragma once
+
+#include <trochoid/identification/identify.h>
+
+#include <span>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// @brief A run as the rows of a least-squares problem.
+///
+/// Samples at the same angle of the turn are one row a channel: their mean, weighted
+/// with the root of their number. What they scatter about it does not depend on the
+/// model, except through a slope in time, which keeps one row of its own (an orthogonal
+/// transformation of the rows: nothing is lost).
+struct FoldedRun {
+  geometry::Cut cut;
+  std::vector<double> angle;                 ///< [rad], shape (u)
+  std::vector<double> weight;                ///< shape (u)
+  std::vector<std::array<double, 3>> force;  ///< mean [N], shape (u)
+  std::vector<double> slope;                 ///< mean of the slope column, shape (u)
+  std::vector<std::size_t> group;            ///< index into angle, one a sample
+  /// Orthonormal columns of the band over the weighted rows, shape (u, band); or empty.
+  std::vector<double> basis;
+  int band = 0;
+
+  int rows = 0;           ///< of b and drift
+  std::vector<double> b;  ///< measured force, shape (rows)
+  std::vector<double>
+      drift;  ///< channel constants and slopes, shape (rows, 6); or empty
+};
+
+/// The slope column at sample i of n: from -1/2 to 1/2.
+double slope_at(std::size_t i, std::size_t n) noexcept;
+
+/// @throws std::invalid_argument when a run has not one force for each angle
+FoldedRun fold(const Run& run, const Options& options);
+
+/// @brief The same run in at most so many rows a channel, by means over equal bins.
+FoldedRun coarsen(const FoldedRun& run, int bins);
+
+/// @brief Bring a quantity of the shape of a force into the rows of the problem.
+/// @param X  at each angle of the run, row-major, shape (u, 3, columns)
+/// @return   row-major, shape (rows, columns)
+std::vector<double> rows_of(const FoldedRun& run, std::span<const double> X,
+                            int columns);
+
+}  // namespace trochoid::identification

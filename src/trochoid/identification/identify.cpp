@@ -1,0 +1,204 @@
+#include <trochoid/identification/answer.h>
+#include <trochoid/identification/jumps.h>
+#include <trochoid/identification/search.h>
+#include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace trochoid::identification {
+namespace {
+
+/// Change of the force over the turn below this part of it says nothing.
+constexpr double constant_force = 1e-7;
+
+std::size_t index(int i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+bool finite(const Run& run) {
+  const auto good = [](double v) { return std::isfinite(v); };
+  return std::ranges::all_of(run.angle, good) &&
+         std::ranges::all_of(
+             run.force, [&](const auto& f) { return std::ranges::all_of(f, good); });
+}
+
+/// What can be refused before any computing; empty: nothing.
+std::string refusal(const geometry::Cutter& cutter, std::span<const Run> runs) {
+  if (runs.empty()) return "there is no measurement";
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!finite(runs[r])) {
+      return fmt::format("measurement {} has values that are not finite", r + 1);
+    }
+  }
+  const auto idle = [&](const Run& run) {
+    return !(run.cut.f_z * cutter.teeth() > 0.0) || !(run.cut.a_p > 0.0);
+  };
+  if (std::ranges::all_of(runs, idle)) {
+    return "the feed or the axial depth is zero: nothing is cut, so the forces hold no "
+           "information about the material";
+  }
+  return "";
+}
+
+bool force_is_constant(const std::vector<FoldedRun>& runs) {
+  double change = 0.0;
+  double total = 0.0;
+  for (const FoldedRun& run : runs) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      double w = 0.0;
+      double sum = 0.0;
+      for (std::size_t g = 0; g < run.angle.size(); ++g) {
+        w += run.weight[g] * run.weight[g];
+        sum += run.weight[g] * run.weight[g] * run.force[g][q];
+      }
+      for (std::size_t g = 0; g < run.angle.size(); ++g) {
+        const double d = run.weight[g] * (run.force[g][q] - sum / w);
+        const double f = run.weight[g] * run.force[g][q];
+        change += d * d;
+        total += f * f;
+      }
+    }
+  }
+  return change <= constant_force * constant_force * total;
+}
+
+Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
+                     std::span<const Run> runs, const Options& options) {
+  Unknowns out;
+  out.teeth = setup.cutter.teeth();
+  out.runout =
+      options.chip_model == chip::Model::none ? RunoutUnknowns::none : options.runout;
+  if (out.teeth == 1 && out.runout != RunoutUnknowns::fixed) {
+    out.runout = RunoutUnknowns::none;
+  }
+  out.length = 0.0;
+  for (const Run& run : runs) out.length = std::max(out.length, run.cut.f_z);
+  out.exponents = options.fit_exponents && std::holds_alternative<force::Power>(law);
+  out.phases = options.phase ? 0 : static_cast<int>(runs.size());
+  return out;
+}
+
+Problem problem_of(const force::Setup& setup, const force::Law& law,
+                   std::span<const Run> runs, const Options& options) {
+  Problem out;
+  out.setup = setup;
+  out.setup.chip.model = options.chip_model;
+  out.law = law;
+  out.unknowns = unknowns_of(setup, law, runs, options);
+  if (out.unknowns.runout == RunoutUnknowns::none) out.setup.runout = {};
+  for (const Run& run : runs) out.runs.push_back(fold(run, options));
+  out.fixed_phase = options.phase.value_or(0.0);
+  out.columns = force::coefficient_count(law);
+  return out;
+}
+
+/// Too few equations for the unknowns: the sentence that says so, else empty.
+std::string too_few(const Problem& problem, double equations) {
+  const int unknowns = problem.linear() + problem.unknowns.count();
+  if (equations > unknowns) return "";
+  return fmt::format("{} equations for {} unknowns: at least {} are needed", equations,
+                     unknowns, unknowns + 1);
+}
+
+/// Names of the columns of [D] that are zero or depend on one another.
+std::string dependent_names(const Problem& problem, const numerics::LeastSquares& fit) {
+  const std::vector<std::string> names = names_of(problem);
+  const std::size_t n = fit.x.size();
+  std::string list;
+  for (std::size_t c = 0; c < n; ++c) {
+    double part = 0.0;
+    for (std::size_t v = c; v < fit.null_space.size(); v += n) {
+      part = std::max(part, std::abs(fit.null_space[v]));
+    }
+    if (part > 1e-3) list += (list.empty() ? "" : ", ") + names[c];
+  }
+  return list;
+}
+
+std::string rank_refusal(const Problem& problem, const numerics::LeastSquares& fit) {
+  if (fit.rank == problem.linear()) return "";
+  if (*std::ranges::max_element(fit.norms) == 0.0) {
+    return "nothing is in cut at any of the measured angles";
+  }
+  return fmt::format(
+      "the forces determine only {} of {} linear unknowns: {} cannot be told apart",
+      fit.rank, problem.linear(), dependent_names(problem, fit));
+}
+
+/// Where only one component of the eccentricity shows, search that one alone.
+void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
+  if (problem.unknowns.runout != RunoutUnknowns::eccentricity) return;
+  const Point point = point_of(problem, p);
+  std::vector<double> residual = measured(problem);
+  const std::vector<double> K = numerics::project_out(
+      design(problem, evaluate(problem, p)), problem.linear(), residual, 1);
+  problem.unknowns.direction = single_direction(problem, p, K);
+  if (!problem.unknowns.direction) return;
+  p = settle(problem, parameters_of(problem, point)).p;
+}
+
+/// The fit at the minimum, with all its numbers; `fit.ok` tells whether they stand.
+void answer_at(const Problem& problem, std::span<const Run> runs,
+               const std::vector<double>& p, Fit& fit) {
+  const Evaluation at = evaluate(problem, p);
+  const numerics::LeastSquares linear = numerics::least_squares(
+      design(problem, at), problem.linear(), measured(problem), rank_tolerance);
+  fit.rank = linear.rank;
+  fit.condition = linear.condition;
+  fit.message = rank_refusal(problem, linear);
+  if (!fit.message.empty()) {
+    refuse_coefficients(problem, fit);
+    return;
+  }
+  fit.ok = true;
+  fill_fitted(problem, runs, at, linear, fit);
+  const double equations = equations_of(problem, runs);
+  const double rss =
+      problem.runs.front().band > 0 ? linear.rss : fit.rms * fit.rms * equations / 3.0;
+  fill_estimates(problem, p, linear.x,
+                 uncertainty(problem, p, linear.x, rss, equations), fit);
+}
+
+}  // namespace
+
+Fit identify(const force::Setup& setup, const force::Law& law,
+             std::span<const Run> runs, const Options& options) {
+  Fit fit;
+  fit.options = options;
+  fit.chip = {options.chip_model, setup.chip.lookback};
+  fit.law = law;
+  fit.coefficients.resize(index(force::coefficient_count(law)));
+  fit.message = refusal(setup.cutter, runs);
+  if (!fit.message.empty()) return fit;
+  Problem problem = problem_of(setup, law, runs, options);
+  fit.message = too_few(problem, equations_of(problem, runs));
+  if (fit.message.empty() && std::holds_alternative<force::LinearEdge>(law) &&
+      force_is_constant(problem.runs)) {
+    fit.message =
+        "the force does not change with the angle: its three means are all that the "
+        "record tells, and they cannot determine six coefficients";
+  }
+  if (!fit.message.empty()) {
+    refuse_coefficients(problem, fit);
+    return fit;
+  }
+  problem.tolerance = final_tolerance;
+  Minimum minimum = search(problem);
+  if (!minimum.converged) {
+    fit.message = "the search for runout and phase did not converge: " + minimum.reason;
+    refuse_coefficients(problem, fit);
+    return fit;
+  }
+  restrict_eccentricity(problem, minimum.p);
+  answer_at(problem, runs, minimum.p, fit);
+  if (setup.cutter.teeth() == 1) refuse_runout_of_one_tooth(fit);
+  return fit;
+}
+
+}  // namespace trochoid::identification

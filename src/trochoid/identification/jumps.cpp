@@ -1,0 +1,110 @@
+#include <trochoid/identification/jumps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::identification {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+std::size_t index(int i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+double spacing(const FoldedRun& run) {
+  return turn / static_cast<double>(run.angle.size());
+}
+
+/// Best value of one unknown among those within reach of the present one.
+void sweep_one(const Problem& problem, std::size_t i, double reach, int steps,
+               Minimum& at) {
+  std::vector<double> p = at.p;
+  const double middle = p[i];
+  for (int k = -steps; k <= steps; ++k) {
+    p[i] = middle + reach * k / steps;
+    const double rss = rss_at(problem, p);
+    if (rss < at.rss) {
+      at.rss = rss;
+      at.p = p;
+    }
+  }
+}
+
+/// One round of a pattern search: every unknown up and down by its step.
+bool explore(const Problem& problem, std::span<const double> steps, Minimum& at) {
+  bool better = false;
+  for (std::size_t i = 0; i < at.p.size(); ++i) {
+    for (const double sign : {1.0, -1.0}) {
+      std::vector<double> p = at.p;
+      p[i] += sign * steps[i];
+      const double rss = rss_at(problem, p);
+      if (!(rss < at.rss)) continue;
+      at.rss = rss;
+      at.p = std::move(p);
+      better = true;
+      break;
+    }
+  }
+  return better;
+}
+
+void pattern_search(const Problem& problem, std::vector<double> steps, Minimum& at) {
+  for (int round = 0; round < 400; ++round) {
+    const std::vector<double> before = at.p;
+    if (explore(problem, steps, at)) {
+      std::vector<double> ahead = at.p;
+      for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += ahead[i] - before[i];
+      const double rss = rss_at(problem, ahead);
+      if (rss < at.rss) at = {ahead, rss, true, at.reason};
+      continue;
+    }
+    for (double& s : steps) s *= 0.4;
+    if (*std::ranges::max_element(steps) < 1e-7) return;
+  }
+}
+
+}  // namespace
+
+bool sum_of_squares_jumps(const Problem& problem) {
+  if (problem.unknowns.phases == 0) return false;
+  if (!std::holds_alternative<force::LinearEdge>(problem.law)) return false;
+  const geometry::Cutter& cutter = problem.setup.cutter;
+  return std::ranges::any_of(problem.runs, [&](const FoldedRun& run) {
+    const double lag = 2.0 * run.cut.a_p * std::tan(cutter.helix) / cutter.lag_diameter;
+    return lag < 2.0 * spacing(run);
+  });
+}
+
+Minimum refine_by_sweeps(const Problem& problem, std::vector<double> start) {
+  Minimum at{std::move(start), 0.0, true, "the sweeps no longer changed anything"};
+  at.rss = rss_at(problem, at.p);
+  const int first_phase = problem.unknowns.first_phase();
+  Step step;
+  step.parameter = 1e-5;
+  step.phase = 1e-6;
+  numerics::LevenbergMarquardtOptions options;
+  options.max_iterations = 15;
+  const auto improve = [&] {
+    const Minimum smooth = refine(problem, at.p, step, options);
+    if (smooth.rss < at.rss) at = {smooth.p, smooth.rss, true, at.reason};
+  };
+  std::vector<double> steps(at.p.size(), 0.02);
+  for (int round = 0; round < 4; ++round) {
+    const double before = at.rss;
+    for (int r = 0; r < problem.unknowns.phases; ++r) {
+      const double cell = spacing(problem.runs[index(r)]);
+      const double reach = round == 0 ? std::max(2.0 * cell, 0.06) : 2.0 * cell;
+      sweep_one(problem, index(first_phase + r), reach, 24, at);
+      steps[index(first_phase + r)] = 0.3 * cell;
+    }
+    improve();
+    pattern_search(problem, steps, at);
+    improve();
+    if (!(at.rss < before * (1.0 - 1e-9))) break;
+  }
+  return at;
+}
+
+}  // namespace trochoid::identification

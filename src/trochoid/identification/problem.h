@@ -1,0 +1,90 @@
+#pragma once
+
+#include <trochoid/force/forces.h>
+#include <trochoid/identification/folded.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// @brief What the nonlinear unknowns p mean, in their order: runout, exponents,
+/// phases.
+///
+/// p is scaled to about one: runout by `length`, the phases in radians.
+struct Unknowns {
+  RunoutUnknowns runout = RunoutUnknowns::none;
+  int teeth = 1;
+  double length = 1.0;  ///< [m]: the feed per tooth
+  /// The eccentricity is searched along this angle only [rad].
+  std::optional<double> direction;
+  bool exponents = false;
+  int phases = 0;
+
+  [[nodiscard]] int runout_count() const noexcept;
+  [[nodiscard]] int exponent_count() const noexcept { return exponents ? 3 : 0; }
+  [[nodiscard]] int first_phase() const noexcept {
+    return runout_count() + exponent_count();
+  }
+  [[nodiscard]] int count() const noexcept { return first_phase() + phases; }
+};
+
+/// @brief A fit to be made: data, model and unknowns. Constant once made.
+struct Problem {
+  force::Setup setup;  ///< its cut is that of the run in question
+  force::Law law;
+  std::vector<FoldedRun> runs;
+  Unknowns unknowns;
+  double fixed_phase = 0.0;  ///< [rad], where the phases are not unknown
+  double tolerance = 1e-7;   ///< of the force matrix
+  int columns = 0;           ///< of the force matrix
+
+  [[nodiscard]] int drift_columns() const noexcept;
+  [[nodiscard]] int linear() const noexcept { return columns + drift_columns(); }
+  [[nodiscard]] int rows() const noexcept;
+};
+
+/// The physical meaning of p.
+struct Point {
+  geometry::Runout runout;
+  force::Law law;
+  std::vector<double> phase;  ///< [rad], one a run
+};
+
+Point point_of(const Problem& problem, std::span<const double> p);
+
+/// p at which the unknowns have these values.
+std::vector<double> parameters_of(const Problem& problem, const Point& point);
+
+/// Force matrices of all runs at one p.
+struct Evaluation {
+  Point point;
+  std::vector<force::ForceMatrix> matrix;
+  std::vector<std::vector<double>> C;  ///< shape (runs)(u, 3, columns)
+};
+
+/// @brief Whether p is in the range where the model means anything.
+bool in_range(const Problem& problem, std::span<const double> p);
+
+Evaluation evaluate(const Problem& problem, std::span<const double> p);
+
+/// @brief [D] with its channel columns, row-major, shape (rows, linear).
+std::vector<double> design(const Problem& problem, const Evaluation& evaluation);
+
+/// Measured force of all runs, shape (rows).
+std::vector<double> measured(const Problem& problem);
+
+/// How to take derivatives.
+struct Step {
+  double parameter = 1e-4;  ///< of the scaled runout and of the exponents
+  double phase = 1e-4;      ///< [rad]
+  bool central = false;
+};
+
+/// @brief d[D]/dp_i {K}, shape (rows).
+std::vector<double> derivative(const Problem& problem, const Evaluation& at,
+                               std::span<const double> p, int i,
+                               std::span<const double> K, const Step& step);
+
+}  // namespace trochoid::identification

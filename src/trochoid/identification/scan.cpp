@@ -1,0 +1,294 @@
+#include <trochoid/identification/scan.h>
+#include <trochoid/identification/variable_projection.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace trochoid::identification {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+/// Cells of the turn: 3 degrees, a fraction of what a force curve needs to show its
+/// shape.
+constexpr std::size_t cells = 120;
+
+std::size_t index(int i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+/// A run averaged over the cells of the turn.
+struct Cells {
+  std::vector<double> weight;                ///< number of samples
+  std::vector<std::array<double, 3>> force;  ///< mean [N]
+  double squares = 0.0;                      ///< weighted sum of F^2 [N^2]
+};
+
+Cells cells_of(const FoldedRun& run) {
+  Cells out{std::vector<double>(cells, 0.0), std::vector<std::array<double, 3>>(cells),
+            0.0};
+  for (std::size_t g = 0; g < run.angle.size(); ++g) {
+    const double a = run.angle[g] / turn;
+    const auto cell =
+        std::min(cells - 1, static_cast<std::size_t>((a - std::floor(a)) * cells));
+    const double w = run.weight[g] * run.weight[g];
+    out.weight[cell] += w;
+    for (std::size_t q = 0; q < 3; ++q) out.force[cell][q] += w * run.force[g][q];
+  }
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (out.weight[i] == 0.0) continue;
+    for (double& f : out.force[i]) {
+      f /= out.weight[i];
+      out.squares += out.weight[i] * f * f;
+    }
+  }
+  return out;
+}
+
+std::vector<double> grid() {
+  std::vector<double> out(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    out[i] = (static_cast<double>(i) + 0.5) * turn / static_cast<double>(cells);
+  }
+  return out;
+}
+
+/// Normal equations of one run at one shift, with the means of the channels taken out
+/// if the channels have an offset of their own.
+struct Normal {
+  std::vector<double> G;
+  std::vector<double> g;
+  double squares = 0.0;
+
+  void add(const Normal& other) {
+    for (std::size_t i = 0; i < G.size(); ++i) G[i] += other.G[i];
+    for (std::size_t i = 0; i < g.size(); ++i) g[i] += other.g[i];
+    squares += other.squares;
+  }
+};
+
+void center(std::span<const double> mean_C, std::span<const double> mean_F, double w,
+            Normal& normal) {
+  const std::size_t n = normal.g.size();
+  for (std::size_t q = 0; q < 3; ++q) {
+    for (std::size_t a = 0; a < n; ++a) {
+      const double c = mean_C[q * n + a] / w;
+      normal.g[a] -= c * mean_F[q];
+      for (std::size_t b = 0; b < n; ++b) normal.G[a * n + b] -= c * mean_C[q * n + b];
+    }
+    normal.squares -= mean_F[q] * mean_F[q] / w;
+  }
+}
+
+Normal normal_at(const Cells& data, std::span<const double> C, std::size_t n,
+                 std::size_t shift, bool centered) {
+  Normal out{std::vector<double>(n * n, 0.0), std::vector<double>(n, 0.0),
+             data.squares};
+  std::vector<double> mean_C(3 * n, 0.0);
+  std::array<double, 3> mean_F{};
+  double total = 0.0;
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double w = data.weight[i];
+    if (w == 0.0) continue;
+    const double* const rows = &C[((i + shift) % cells) * 3 * n];
+    total += w;
+    for (std::size_t q = 0; q < 3; ++q) {
+      const double* const c = rows + q * n;
+      const double wF = w * data.force[i][q];
+      mean_F[q] += wF;
+      for (std::size_t a = 0; a < n; ++a) {
+        out.g[a] += wF * c[a];
+        mean_C[q * n + a] += w * c[a];
+        for (std::size_t b = 0; b <= a; ++b) out.G[a * n + b] += w * c[a] * c[b];
+      }
+    }
+  }
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) out.G[a * n + b] = out.G[b * n + a];
+  }
+  if (centered) center(mean_C, mean_F, total, out);
+  return out;
+}
+
+double rss_of(const Normal& normal) {
+  std::vector<double> K(normal.g.size());
+  return normal.squares - numerics::solve_normal(normal.G, normal.g, K);
+}
+
+/// Minimum of a parabola through three equally spaced values, in steps from the middle.
+double vertex(double left, double middle, double right) {
+  const double curvature = left - 2.0 * middle + right;
+  return curvature > 0.0 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5)
+                         : 0.0;
+}
+
+/// A phase of one run at which its own best fit is a local minimum.
+struct PhaseMinimum {
+  double phase = 0.0;
+  double rss = 0.0;
+  Normal normal;
+};
+
+std::vector<PhaseMinimum> phase_minima(const Cells& data, std::span<const double> C,
+                                       std::size_t n, double span, bool centered) {
+  const double width = turn / static_cast<double>(cells);
+  const int half = static_cast<int>(std::ceil(0.5 * span / width));
+  const bool all = 2 * half >= static_cast<int>(cells);
+  const int first = all ? 0 : -half;
+  const int last = all ? static_cast<int>(cells) - 1 : half;
+  std::vector<double> rss;
+  for (int k = first; k <= last; ++k) {
+    rss.push_back(rss_of(
+        normal_at(data, C, n, index(k + static_cast<int>(cells)) % cells, centered)));
+  }
+  std::vector<PhaseMinimum> out;
+  const std::size_t count = rss.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double left = i > 0 ? rss[i - 1] : (all ? rss[count - 1] : rss[i + 1]);
+    const double right = i + 1 < count ? rss[i + 1] : (all ? rss[0] : rss[i - 1]);
+    if (rss[i] > left || rss[i] > right) continue;
+    const double k = first + static_cast<double>(i);
+    out.push_back({(k + vertex(left, rss[i], right)) * width, rss[i], {}});
+  }
+  std::ranges::sort(out, {}, &PhaseMinimum::rss);
+  if (out.size() > 2) out.resize(2);
+  for (PhaseMinimum& m : out) {
+    const auto k =
+        static_cast<int>(std::lround(m.phase / width)) + static_cast<int>(cells);
+    m.normal = normal_at(data, C, n, index(k) % cells, centered);
+  }
+  return out;
+}
+
+/// Candidates of one runout: the best phases of all runs, and each run at its second
+/// best.
+void combine(std::vector<double> p,
+             const std::vector<std::vector<PhaseMinimum>>& minima, int first_phase,
+             std::vector<Candidate>& out) {
+  for (std::size_t other = 0; other <= minima.size(); ++other) {
+    if (other < minima.size() && minima[other].size() < 2) continue;
+    Normal sum;
+    for (std::size_t r = 0; r < minima.size(); ++r) {
+      const PhaseMinimum& m = minima[r][r == other ? 1 : 0];
+      p[index(first_phase) + r] = m.phase;
+      if (r == 0) {
+        sum = m.normal;
+      } else {
+        sum.add(m.normal);
+      }
+    }
+    out.push_back({p, rss_of(sum)});
+  }
+}
+
+void scan_phases(const Problem& problem, const std::vector<Cells>& data, double span,
+                 std::vector<double> p, std::vector<Candidate>& out) {
+  const Point point = point_of(problem, p);
+  const auto n = index(problem.columns);
+  const std::vector<double> phi = grid();
+  std::vector<std::vector<PhaseMinimum>> minima;
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    force::Setup setup = problem.setup;
+    setup.runout = point.runout;
+    setup.cut = problem.runs[r].cut;
+    std::vector<double> C(cells * 3 * n);
+    force::ForceMatrix(setup, point.law, 1e-4).evaluate(phi, C);
+    minima.push_back(phase_minima(data[r], C, n, span, !problem.runs[r].drift.empty()));
+    if (minima.back().empty()) return;
+  }
+  combine(std::move(p), minima, problem.unknowns.first_phase(), out);
+}
+
+/// Offsets like those of an eccentric tool, relative to tooth 1.
+std::vector<double> eccentric_offsets(const std::vector<double>& psi, double amplitude,
+                                      double lambda) {
+  std::vector<double> out;
+  for (std::size_t k = 1; k < psi.size(); ++k) {
+    out.push_back(amplitude * (std::cos(psi[k] - lambda) - std::cos(lambda)));
+  }
+  return out;
+}
+
+void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>& out) {
+  const std::vector<double> psi = geometry::tooth_angles(problem.setup.cutter);
+  const std::size_t n = psi.size();
+  if (n == 2) {
+    for (const double s : {0.4, -0.4, 1.3, -1.3}) out.push_back({s});
+    return;
+  }
+  for (const double amplitude : {0.3, 0.9}) {
+    for (int k = 0; k < 8; ++k) {
+      out.push_back(eccentric_offsets(psi, amplitude, 0.125 * turn * k));
+    }
+  }
+  for (std::size_t tooth = 0; tooth < n && n <= 8; ++tooth) {
+    std::vector<double> s(n - 1, tooth == 0 ? 0.8 : 0.0);  // tooth 1 alone is short
+    if (tooth > 0) s[tooth - 1] = -0.8;
+    out.push_back(s);
+  }
+  if (n % 2 == 0) {
+    for (const double sign : {0.5, -0.5}) {
+      std::vector<double> s(n - 1, 0.0);
+      for (std::size_t k = 0; k < n - 1; k += 2) s[k] = sign;
+      out.push_back(s);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> runout_starts(const Problem& problem) {
+  const Unknowns& u = problem.unknowns;
+  std::vector<std::vector<double>> out = {
+      std::vector<double>(index(u.runout_count()), 0.0)};
+  if (u.runout_count() == 0) return out;
+  std::vector<double> given =
+      parameters_of(problem, {problem.setup.runout, problem.law,
+                              std::vector<double>(problem.runs.size(), 0.0)});
+  given.resize(index(u.runout_count()));
+  if (std::ranges::any_of(given, [](double v) { return v != 0.0; }))
+    out.push_back(given);
+  if (u.runout == RunoutUnknowns::offsets) {
+    add_offset_starts(problem, out);
+  } else if (u.direction) {
+    for (const double e : {0.3, -0.3, 0.8, -0.8}) out.push_back({e});
+  } else {
+    for (const double rho : {0.3, 0.8}) {
+      for (int k = 0; k < 8; ++k) {
+        const double lambda = 0.125 * turn * k;
+        out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<Candidate> scan(const Problem& problem, double span) {
+  const Unknowns& u = problem.unknowns;
+  std::vector<Cells> data;
+  for (const FoldedRun& run : problem.runs) data.push_back(cells_of(run));
+  std::vector<double> p =
+      parameters_of(problem, {problem.setup.runout, problem.law,
+                              std::vector<double>(problem.runs.size(), 0.0)});
+  std::vector<Candidate> out;
+  for (const std::vector<double>& runout : runout_starts(problem)) {
+    std::ranges::copy(runout, p.begin());
+    if (!in_range(problem, p)) continue;
+    if (u.phases == 0) {
+      out.push_back({p, rss_at(problem, p)});
+      continue;
+    }
+    try {
+      scan_phases(problem, data, span, p, out);
+    } catch (const std::invalid_argument&) {
+      continue;  // no such cutter
+    }
+  }
+  std::ranges::stable_sort(out, {}, &Candidate::rss);
+  return out;
+}
+
+}  // namespace trochoid::identification

@@ -1,0 +1,142 @@
+#include <trochoid/identification/jumps.h>
+#include <trochoid/identification/scan.h>
+#include <trochoid/identification/search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::identification {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr int coarse_bins = 180;
+
+bool equal_pitch(const geometry::Cutter& cutter) {
+  const double pitch = turn / cutter.teeth();
+  return std::ranges::all_of(cutter.pitch,
+                             [&](double p) { return std::abs(p - pitch) < 1e-9; });
+}
+
+bool equal_offsets(const geometry::Runout& runout) {
+  const auto& s = runout.radial_offsets;
+  return std::ranges::all_of(s, [&](double v) { return v == s.front(); });
+}
+
+/// The same fit on averaged data and with a coarse force matrix.
+Problem coarse_problem(const Problem& problem) {
+  Problem out = problem;
+  for (FoldedRun& run : out.runs) run = coarsen(run, coarse_bins);
+  out.tolerance = std::max(problem.tolerance, 1e-6);
+  return out;
+}
+
+bool nearly_equal(const Minimum& a, const Minimum& b) {
+  double distance = 0.0;
+  for (std::size_t i = 0; i < a.p.size(); ++i) {
+    distance = std::max(distance, std::abs(a.p[i] - b.p[i]));
+  }
+  return distance < 1e-3;
+}
+
+/// Local minima from the best candidates, the best first.
+std::vector<Minimum> coarse_minima(const Problem& problem,
+                                   const std::vector<Candidate>& candidates) {
+  const Problem coarse = coarse_problem(problem);
+  const std::size_t starts = problem.unknowns.runout_count() > 2 ? 6 : 3;
+  numerics::LevenbergMarquardtOptions options;
+  options.max_iterations = 25;
+  options.parameter_tolerance = 1e-4;
+  options.function_tolerance = 1e-7;
+  Step step;
+  step.parameter = 1e-3;
+  step.phase = 1e-3;
+  std::vector<Minimum> out;
+  for (std::size_t i = 0; i < std::min(starts, candidates.size()); ++i) {
+    Minimum m = refine(coarse, candidates[i].p, step, options);
+    const bool known = std::ranges::any_of(
+        out, [&](const Minimum& other) { return nearly_equal(m, other); });
+    if (!known) out.push_back(std::move(m));
+  }
+  std::ranges::stable_sort(out, {}, &Minimum::rss);
+  return out;
+}
+
+}  // namespace
+
+Minimum settle(const Problem& problem, const std::vector<double>& start) {
+  if (sum_of_squares_jumps(problem)) return refine_by_sweeps(problem, start);
+  numerics::LevenbergMarquardtOptions options;
+  options.max_iterations = 40;
+  options.parameter_tolerance = 1e-9;
+  options.function_tolerance = 1e-24;
+  Minimum out = refine(problem, start, {}, options);
+  if (out.converged) return out;
+  // Kinks of the sum of squares can keep the steps from vanishing; what counts is that
+  // they no longer gain anything.
+  Minimum again = refine(problem, out.p, {}, options);
+  again.converged = again.converged || again.rss > out.rss * (1.0 - 1e-6);
+  return again;
+}
+
+bool teeth_are_alike(const Problem& problem) {
+  const Unknowns& u = problem.unknowns;
+  if (u.phases == 0 || !equal_pitch(problem.setup.cutter)) return false;
+  const geometry::Runout& given = problem.setup.runout;
+  if (u.runout == RunoutUnknowns::offsets) return given.eccentricity == 0.0;
+  if (u.runout == RunoutUnknowns::eccentricity) return equal_offsets(given);
+  return given.eccentricity == 0.0 && equal_offsets(given);
+}
+
+bool apply_gauge(const Problem& problem, std::vector<double>& p) {
+  const Unknowns& u = problem.unknowns;
+  if (u.phases == 0) return false;
+  Point point = point_of(problem, p);
+  const double pitch = turn / u.teeth;
+  int shift = 0;
+  if (teeth_are_alike(problem)) {
+    const auto passed = static_cast<int>(std::floor(point.phase[0] / pitch + 0.5));
+    shift = ((passed % u.teeth) + u.teeth) % u.teeth;
+    for (double& phase : point.phase) phase -= passed * pitch;
+  }
+  if (u.runout == RunoutUnknowns::offsets && shift != 0) {
+    auto& s = point.runout.radial_offsets;
+    std::ranges::rotate(s, s.begin() + shift);
+  }
+  point.runout.angle -= shift * pitch;
+  for (std::size_t r = 0; r < point.phase.size(); ++r) {
+    double& phase = point.phase[r];
+    if (r > 0 || !teeth_are_alike(problem))
+      phase -= turn * std::floor(phase / turn + 0.5);
+  }
+  p = parameters_of(problem, point);
+  return shift != 0;
+}
+
+Minimum search(const Problem& problem) {
+  const Unknowns& u = problem.unknowns;
+  if (u.count() == 0) return refine(problem, {}, {}, {});
+  const double span = teeth_are_alike(problem) ? turn / u.teeth : turn;
+  const std::vector<Candidate> candidates = scan(coarse_problem(problem), span);
+  if (candidates.empty()) return {{}, 0.0, false, "no start gives a force"};
+  Minimum best;
+  if (sum_of_squares_jumps(problem)) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, candidates.size()); ++i) {
+      Minimum m = refine_by_sweeps(problem, candidates[i].p);
+      if (i == 0 || m.rss < best.rss) best = std::move(m);
+    }
+    apply_gauge(problem, best.p);
+    return best;
+  }
+  const std::vector<Minimum> minima = coarse_minima(problem, candidates);
+  best = settle(problem, minima.front().p);
+  if (minima.size() > 1 && minima[1].rss < 1.02 * minima[0].rss) {
+    Minimum second = settle(problem, minima[1].p);
+    if (second.rss < best.rss) best = std::move(second);
+  }
+  // Renumbering changes the common part of the offsets, which has a slight effect.
+  if (apply_gauge(problem, best.p)) best = settle(problem, best.p);
+  return best;
+}
+
+}  // namespace trochoid::identification

@@ -1,0 +1,59 @@
+#include <trochoid/identification/identify.h>
+#include <trochoid/identification/problem.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::identification {
+namespace {
+
+/// Sum of squares that the folded rows no longer hold, because no model changes it.
+double scatter_of(const Run& run, const FoldedRun& folded) {
+  if (folded.band > 0) return 0.0;
+  double measured = 0.0;
+  for (const auto& F : run.force) measured += F[0] * F[0] + F[1] * F[1] + F[2] * F[2];
+  double kept = 0.0;
+  for (const double b : folded.b) kept += b * b;
+  return std::max(0.0, measured - kept);
+}
+
+}  // namespace
+
+std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
+                          std::span<const Run> runs, const Fit& fit,
+                          std::span<const double> offsets) {
+  const auto teeth = static_cast<std::size_t>(setup.cutter.teeth());
+  if (runs.empty() || fit.phase.size() != runs.size() || teeth < 2) return {};
+  Problem problem;
+  problem.setup = setup;
+  problem.setup.chip = fit.chip;
+  problem.setup.runout = fit.runout;
+  problem.law = fit.ok ? fit.law : law;
+  problem.columns = force::coefficient_count(law);
+  problem.tolerance = 1e-8;
+  double samples = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    problem.runs.push_back(fold(runs[r], fit.options));
+    for (double& angle : problem.runs.back().angle) angle += fit.phase[r];
+    samples += static_cast<double>(runs[r].angle.size());
+  }
+  // What the folded rows no longer hold: the scatter of samples at the same angle.
+  double scatter = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    scatter += scatter_of(runs[r], problem.runs[r]);
+
+  std::vector<double> out;
+  for (const double offset : offsets) {
+    problem.setup.runout.radial_offsets.resize(teeth, 0.0);
+    problem.setup.runout.radial_offsets[1] = offset;
+    const Evaluation at = evaluate(problem, {});
+    const double rss = numerics::least_squares(design(problem, at), problem.linear(),
+                                               measured(problem), 1e-8)
+                           .rss;
+    out.push_back(std::sqrt((rss + scatter) / samples));
+  }
+  return out;
+}
+
+}  // namespace trochoid::identification

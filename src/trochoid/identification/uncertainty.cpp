@@ -1,0 +1,192 @@
+#include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace trochoid::identification {
+namespace {
+
+constexpr double insensitive = 1e-6;  ///< of the measured force, for one scaled unit
+constexpr double dependent = 1e-6;    ///< of the largest singular value
+constexpr double separable = 0.01;
+constexpr double takes_part = 1e-3;  ///< of the largest part in a null direction
+
+constexpr Step fine_step{1e-4, 1e-5, true};
+
+std::size_t index(int i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+double norm(std::span<const double> v) {
+  return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+}
+
+/// Columns of a row-major matrix that are kept, in their order.
+std::vector<double> keep_columns(std::span<const double> A, std::size_t width,
+                                 const std::vector<std::size_t>& kept) {
+  std::vector<double> out;
+  out.reserve(A.size() / width * kept.size());
+  for (std::size_t row = 0; row < A.size(); row += width) {
+    for (const std::size_t c : kept) out.push_back(A[row + c]);
+  }
+  return out;
+}
+
+/// [D] and the derivatives beside it, row-major.
+std::vector<double> full_jacobian(const Problem& problem, std::span<const double> p,
+                                  std::span<const double> K) {
+  const Evaluation at = evaluate(problem, p);
+  const std::vector<double> D = design(problem, at);
+  const std::size_t linear = index(problem.linear());
+  const std::size_t width = linear + p.size();
+  const std::size_t rows = index(problem.rows());
+  std::vector<double> J(rows * width);
+  for (std::size_t k = 0; k < rows; ++k) {
+    std::copy_n(&D[k * linear], linear, &J[k * width]);
+  }
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const std::vector<double> column =
+        derivative(problem, at, p, static_cast<int>(i), K, fine_step);
+    for (std::size_t k = 0; k < rows; ++k) J[k * width + linear + i] = column[k];
+  }
+  return J;
+}
+
+std::string together(const std::vector<std::string>& names,
+                     const std::vector<std::size_t>& members, std::size_t self) {
+  std::string list;
+  for (const std::size_t m : members) {
+    if (m != self) list += (list.empty() ? "" : ", ") + names[m];
+  }
+  return "cannot be told apart from " + list;
+}
+
+void drop_insensitive(std::span<const double> J, std::size_t width, std::size_t linear,
+                      double force_norm, Uncertainty& out) {
+  for (std::size_t c = linear; c < width; ++c) {
+    double sum = 0.0;
+    for (std::size_t k = c; k < J.size(); k += width) sum += J[k] * J[k];
+    if (!(std::sqrt(sum) > insensitive * force_norm)) {
+      out.reason[c] = "the force does not depend on it";
+    }
+  }
+}
+
+/// Mark what takes part in null directions; the rest of the unknowns is not concerned.
+numerics::LeastSquares drop_dependent(std::span<const double> J,
+                                      const std::vector<std::string>& names,
+                                      std::span<const double> b,
+                                      std::vector<std::size_t>& kept,
+                                      Uncertainty& out) {
+  const std::size_t width = names.size();
+  for (;;) {
+    const std::vector<double> A = keep_columns(J, width, kept);
+    numerics::LeastSquares fit =
+        numerics::least_squares(A, static_cast<int>(kept.size()), b, dependent);
+    if (fit.null_space.empty()) return fit;
+    const std::span<const double> v(fit.null_space.data(), kept.size());
+    const auto size = [](double a, double c) { return std::abs(a) < std::abs(c); };
+    const auto largest = std::ranges::max_element(v, size);
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (std::abs(v[i]) > takes_part * std::abs(*largest)) members.push_back(kept[i]);
+    }
+    for (const std::size_t m : members) {
+      if (out.reason[m].empty()) out.reason[m] = together(names, members, m);
+    }
+    kept.erase(kept.begin() + (largest - v.begin()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(const Problem& problem) {
+  const Unknowns& u = problem.unknowns;
+  const bool power = std::holds_alternative<force::Power>(problem.law);
+  std::vector<std::string> out =
+      power
+          ? std::vector<std::string>{"K_t1_MPa", "K_r1_MPa", "K_a1_MPa"}
+          : std::vector<std::string>{"K_tc_MPa",      "K_rc_MPa",      "K_ac_MPa",
+                                     "K_te_N_per_mm", "K_re_N_per_mm", "K_ae_N_per_mm"};
+  for (int i = 0; i < problem.drift_columns(); ++i) {
+    out.push_back(fmt::format("{} of channel {} in run {}",
+                              i % 2 == 0 ? "offset" : "drift", i % 6 / 2 + 1,
+                              i / 6 + 1));
+  }
+  if (u.runout == RunoutUnknowns::offsets) {
+    for (int k = 1; k < u.teeth; ++k) {
+      out.push_back(fmt::format("radial_offsets_mm[{}]", k + 1));
+    }
+  } else if (u.runout == RunoutUnknowns::eccentricity) {
+    out.emplace_back("eccentricity_mm");
+    if (!u.direction) out.emplace_back("angle_deg");
+  }
+  if (u.exponents) out.insert(out.end(), {"m_t", "m_r", "m_a"});
+  for (int r = 0; r < u.phases; ++r) {
+    out.push_back(u.phases == 1 ? "phase_deg" : fmt::format("phase_deg[{}]", r + 1));
+  }
+  return out;
+}
+
+Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
+                        std::span<const double> K, double rss, double equations) {
+  const std::vector<std::string> names = names_of(problem);
+  const std::size_t width = names.size();
+  const std::size_t linear = index(problem.linear());
+  const std::vector<double> J = full_jacobian(problem, p, K);
+  const std::vector<double> b = measured(problem);
+  Uncertainty out;
+  out.reason.assign(width, "");
+  drop_insensitive(J, width, linear, norm(b), out);
+  std::vector<std::size_t> kept;
+  for (std::size_t c = 0; c < width; ++c) {
+    if (out.reason[c].empty()) kept.push_back(c);
+  }
+  const numerics::LeastSquares fit = drop_dependent(J, names, b, kept, out);
+  out.freedom = equations - static_cast<double>(kept.size());
+  const double variance = out.freedom > 0.0 ? rss / out.freedom : 0.0;
+  out.covariance.assign(width * width, 0.0);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t j = 0; j < kept.size(); ++j) {
+      out.covariance[kept[i] * width + kept[j]] =
+          variance * fit.inverse_gram[i * kept.size() + j];
+    }
+  }
+  return out;
+}
+
+std::optional<double> single_direction(const Problem& problem,
+                                       std::span<const double> p,
+                                       std::span<const double> K) {
+  const Unknowns& u = problem.unknowns;
+  if (u.runout != RunoutUnknowns::eccentricity || u.direction) return std::nullopt;
+  Problem first = problem;
+  first.setup.runout.order = geometry::EccentricityOrder::first;
+  const std::vector<double> J = full_jacobian(first, p, K);
+  const std::size_t linear = index(problem.linear());
+  const std::size_t width = linear + p.size();
+  std::vector<std::size_t> others(linear);
+  std::iota(others.begin(), others.end(), std::size_t{0});
+  for (std::size_t c = linear + 2; c < width; ++c) others.push_back(c);
+  std::vector<double> E = keep_columns(J, width, {linear, linear + 1});
+  numerics::project_out(keep_columns(J, width, others), static_cast<int>(others.size()),
+                        E, 2);
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (std::size_t k = 0; k < E.size(); k += 2) {
+    xx += E[k] * E[k];
+    xy += E[k] * E[k + 1];
+    yy += E[k + 1] * E[k + 1];
+  }
+  const double half = 0.5 * (xx + yy);
+  const double swing = std::hypot(0.5 * (xx - yy), xy);
+  if (half - swing > separable * separable * (half + swing)) return std::nullopt;
+  return 0.5 * std::atan2(2.0 * xy, xx - yy);
+}
+
+}  // namespace trochoid::identification

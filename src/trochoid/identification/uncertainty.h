@@ -1,0 +1,50 @@
+#pragma once
+
+#include <trochoid/identification/problem.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// Singular values of [D] below this part of the largest are zero: a hundred times what
+/// the force matrix is accurate to in the last fit.
+inline constexpr double rank_tolerance = 1e-8;
+/// Error of the force matrix in the last fit, relative to its largest entries.
+inline constexpr double final_tolerance = 1e-10;
+
+/// @brief How well the unknowns are known: linear ones first, then p.
+struct Uncertainty {
+  /// Why an unknown is not determined; empty: it is. Shape (linear + count).
+  std::vector<std::string> reason;
+  std::vector<double> covariance;  ///< shape (linear + count, linear + count)
+  double freedom = 0.0;
+};
+
+/// Names of the summary, in the order of Uncertainty::reason.
+std::vector<std::string> names_of(const Problem& problem);
+
+/// @brief Covariance of all unknowns from the full Jacobian.
+///
+/// @eq I-4 J = [[D] | d[D]/dp {K}], cov = RSS/(n - dim K - dim p) (J^T J)^-1
+///
+/// Not determined is an unknown whose whole range changes the force by less than 1e-6
+/// of it, and one that takes part in a combination whose singular value, with columns
+/// of unit norm, is below 1e-6 of the largest.
+/// @param K    at p, shape (linear)
+/// @param rss  of all samples [N^2]
+/// @param equations  number of equations that rss stands for
+Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
+                        std::span<const double> K, double rss, double equations);
+
+/// @brief The only direction of the eccentricity that the record determines, if it
+/// determines but one [rad].
+///
+/// Judged by the radii alone (first order), after the other unknowns have had their
+/// share: one direction must change the force by at least 1 % of what the other does.
+std::optional<double> single_direction(const Problem& problem,
+                                       std::span<const double> p,
+                                       std::span<const double> K);
+
+}  // namespace trochoid::identification

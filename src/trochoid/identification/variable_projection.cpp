@@ -1,0 +1,98 @@
+#include <trochoid/identification/variable_projection.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+namespace trochoid::identification {
+namespace {
+
+double squared(std::span<const double> v) {
+  return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+}
+
+/// Everything known at one p.
+struct State {
+  std::vector<double> p;
+  Evaluation evaluation;
+  std::vector<double> D;
+  std::vector<double> K;
+  std::vector<double> residual;
+};
+
+std::optional<State> state_at(const Problem& problem, std::span<const double> p) {
+  if (!in_range(problem, p)) return std::nullopt;
+  State out;
+  out.p.assign(p.begin(), p.end());
+  try {
+    out.evaluation = evaluate(problem, p);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // a cutter that cannot be, such as a radius below zero
+  }
+  out.D = design(problem, out.evaluation);
+  out.residual = measured(problem);
+  out.K = numerics::project_out(out.D, problem.linear(), out.residual, 1);
+  return out;
+}
+
+/// Derivatives of the residual: column-major, shape (rows, unknowns).
+void fill_jacobian(const Problem& problem, const State& state, const Step& step,
+                   std::span<double> jacobian) {
+  const auto rows = static_cast<std::size_t>(problem.rows());
+  const int count = problem.unknowns.count();
+  const auto width = static_cast<std::size_t>(count);
+  std::vector<double> B(rows * width);
+  for (std::size_t i = 0; i < width; ++i) {
+    const std::vector<double> column = derivative(problem, state.evaluation, state.p,
+                                                  static_cast<int>(i), state.K, step);
+    for (std::size_t k = 0; k < rows; ++k) B[k * width + i] = -column[k];
+  }
+  numerics::project_out(state.D, problem.linear(), B, count);
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t i = 0; i < width; ++i) jacobian[i * rows + k] = B[k * width + i];
+  }
+}
+
+}  // namespace
+
+double rss_at(const Problem& problem, std::span<const double> p) {
+  const std::optional<State> state = state_at(problem, p);
+  return state ? squared(state->residual) : std::numeric_limits<double>::infinity();
+}
+
+Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
+               const numerics::LevenbergMarquardtOptions& options) {
+  Minimum out{std::move(start), 0.0, true, "nothing to search"};
+  if (problem.unknowns.count() == 0) {
+    out.rss = rss_at(problem, out.p);
+    return out;
+  }
+  const double scale = std::sqrt(squared(measured(problem)));
+  if (!(scale > 0.0)) return out;
+  std::optional<State> last;
+  const auto residuals = [&](std::span<const double> p, std::span<double> r,
+                             std::span<double> jacobian) {
+    if (!last || !std::ranges::equal(last->p, p)) last = state_at(problem, p);
+    if (!last) return false;
+    std::ranges::transform(last->residual, r.begin(),
+                           [&](double v) { return v / scale; });
+    if (!jacobian.empty()) {
+      fill_jacobian(problem, *last, step, jacobian);
+      for (double& j : jacobian) j /= scale;
+    }
+    return true;
+  };
+  const auto summary =
+      numerics::levenberg_marquardt(residuals, problem.rows(), out.p, options);
+  out.p = summary.p;
+  out.rss = 2.0 * summary.final_cost * scale * scale;
+  out.converged = summary.converged;
+  out.reason = summary.reason;
+  return out;
+}
+
+}  // namespace trochoid::identification

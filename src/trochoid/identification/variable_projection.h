@@ -1,0 +1,29 @@
+#pragma once
+
+#include <trochoid/identification/problem.h>
+#include <trochoid/numerics/levenberg_marquardt.h>
+
+#include <string>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// A minimum over p with the coefficients at their best for every p.
+struct Minimum {
+  std::vector<double> p;
+  double rss = 0.0;  ///< [N^2], over the rows of the problem
+  bool converged = false;
+  std::string reason;
+};
+
+/// @brief Sum of squares at p with the best coefficients [N^2]; infinite out of range.
+double rss_at(const Problem& problem, std::span<const double> p);
+
+/// @brief Local minimum by Levenberg-Marquardt with the coefficients eliminated.
+///
+/// @eq  I-3 r(p) = (1 - P) {F}, dr/dp = -(1 - P) d[D]/dp {K}, P the projection on [D]
+/// @src Golub and Pereyra, Kaufman's form: exact gradient, Gauss-Newton Hessian
+Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
+               const numerics::LevenbergMarquardtOptions& options);
+
+}  // namespace trochoid::identification
