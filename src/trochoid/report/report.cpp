@@ -1,18 +1,46 @@
 #include <trochoid/report/report.h>
 
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include <trochoid/report/drawn.h>
+#include <trochoid/report/page.h>
+
 namespace trochoid::report {
 
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped(std::string_view text) {
   std::string out;
+  out.reserve(text.size());
   for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// JSON inside <script>: no text in it may look like the end of the script.
+std::string in_script(std::string_view json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      out += "\\u003c";
     } else {
       out += c;
     }
@@ -20,12 +48,82 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+std::string warnings_html(const base::Answer& answer) {
+  if (answer.warnings.empty()) return {};
+  std::string text =
+      "<section class=\"warnings\" id=\"warnings\"><h2>Please note</h2><ul>";
+  for (const auto& warning : answer.warnings) {
+    text += "<li data-code=\"" + escaped(warning.code) + "\">" +
+            escaped(warning.message) + "</li>";
+  }
+  return text + "</ul></section>";
+}
+
+std::string without_script(const base::Answer& answer) {
+  std::string text = "<p>The curves of this page need JavaScript.</p>";
+  if (!answer.short_table.empty()) {
+    text += "<pre>" + escaped(answer.short_table) + "</pre>";
+  }
+  return text;
+}
+
+std::string page_scripts() {
+  std::string text;
+  for (const auto part : {text_js(), charts_js(), parts_js(), simulate_js(),
+                          identify_js(), any_js(), main_js()}) {
+    text += part;
+  }
+  return text;
+}
+
+std::string data_json(const base::Answer& answer, const std::string& summary) {
+  return in_script("{\"summary\":" + summary +
+                   ",\"tables\":" + tables_json(answer.tables) + "}");
+}
+
+/// `version` or `commit` of the program that made the summary; it may be an older one.
+std::string provenance(const std::string& summary, const char* key) {
+  const auto read = nlohmann::json::parse(summary, nullptr, false);
+  if (!read.is_object()) return "unknown";
+  return read.value("trochoid", nlohmann::json::object()).value(key, "unknown");
+}
+
+std::string value_of(std::string_view name, const base::Answer& answer,
+                     const std::string& summary) {
+  if (name == "title") {
+    return escaped(answer.title.empty() ? answer.command : answer.title);
+  }
+  if (name == "command") return escaped(answer.command);
+  if (name == "status") return answer.ok ? "ok" : "failed";
+  if (name == "verdict") return answer.ok ? "" : "No good answer";
+  if (name == "message") return escaped(answer.message);
+  if (name == "warnings") return warnings_html(answer);
+  if (name == "without_script") return without_script(answer);
+  if (name == "case") return escaped(answer.case_toml);
+  if (name == "summary") return escaped(summary);
+  if (name == "version") return escaped(provenance(summary, "version"));
+  if (name == "commit") return escaped(provenance(summary, "commit"));
+  if (name == "style") return std::string(uplot_css()) + std::string(page_css());
+  if (name == "data") return data_json(answer, summary);
+  if (name == "uplot") return std::string(uplot_js());
+  if (name == "script") return page_scripts();
+  return {};
+}
+
 }  // namespace
 
 std::string html(const base::Answer& answer, const std::string& summary) {
-  return "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>" +
-         escaped(answer.title) + "</title><h1>" + escaped(answer.title) + "</h1><p>" +
-         escaped(answer.message) + "</p><pre>" + escaped(summary) + "</pre></html>\n";
+  std::string page;
+  std::string_view rest = page_html();
+  for (std::size_t mark = rest.find("{{"); mark != std::string_view::npos;
+       mark = rest.find("{{")) {
+    const std::size_t end = rest.find("}}", mark);
+    page += rest.substr(0, mark);
+    page += value_of(rest.substr(mark + 2, end - mark - 2), answer, summary);
+    rest = rest.substr(end + 2);
+  }
+  page += rest;
+  return page;
 }
 
 }  // namespace trochoid::report

@@ -1,0 +1,98 @@
+#include <trochoid/report/drawn.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace trochoid::report {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false,
+                                   nlohmann::json::error_handler_t::replace);
+}
+
+void append_float(std::string& text, double value) {
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded)) {
+    text += "null";
+    return;
+  }
+  std::array<char, 24> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), rounded).ptr;
+  text.append(digits.data(), end);
+}
+
+void append_extremes(const std::vector<double>& values, std::size_t from,
+                     std::size_t to, std::vector<std::size_t>& rows) {
+  std::size_t low = from;
+  std::size_t high = from;
+  for (std::size_t i = from; i < to; ++i) {
+    if (!(values[i] >= values[low])) low = i;
+    if (!(values[i] <= values[high])) high = i;
+  }
+  rows.push_back(low);
+  rows.push_back(high);
+}
+
+void append_table(std::string& text, const base::Table& table) {
+  const std::size_t count =
+      table.columns.empty() ? 0 : table.columns.front().values.size();
+  const auto rows = drawn_rows(table, drawn_cells);
+  text += "{\"file\":" + quoted(table.file) + ",\"rows\":" + std::to_string(count) +
+          ",\"drawn\":" + std::to_string(rows.size()) + ",\"columns\":[";
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const auto& column = table.columns[c];
+    text += (c > 0 ? ",{\"name\":" : "{\"name\":") + quoted(column.name);
+    text += ",\"values\":[";
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i > 0) text += ',';
+      append_float(text, column.values[rows[i]]);
+    }
+    text += "]}";
+  }
+  text += "]}";
+}
+
+}  // namespace
+
+std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells) {
+  const std::size_t columns = table.columns.size();
+  if (columns == 0) return {};
+  const std::size_t count = table.columns.front().values.size();
+  std::vector<std::size_t> rows;
+  if (count * columns <= cells) {
+    rows.resize(count);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return rows;
+  }
+  const std::size_t stretches =
+      std::max<std::size_t>(1, cells / (2 * columns * columns));
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const std::size_t from = count * s / stretches;
+    const std::size_t to = count * (s + 1) / stretches;
+    if (from == to) continue;
+    for (const auto& column : table.columns) {
+      append_extremes(column.values, from, to, rows);
+    }
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+std::string tables_json(const std::vector<base::Table>& tables) {
+  std::string text = "[";
+  for (const auto& table : tables) {
+    if (text.size() > 1) text += ',';
+    append_table(text, table);
+  }
+  return text + ']';
+}
+
+}  // namespace trochoid::report

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+/// The parts of the page, embedded when the program is built (embed.cmake).
+namespace trochoid::report {
+
+std::string_view page_html();  ///< the page, with places `{{name}}` to be filled
+std::string_view uplot_css();
+std::string_view page_css();
+std::string_view uplot_js();
+
+// The scripts of page/, each needs those above it.
+std::string_view text_js();    ///< numbers, names and elements
+std::string_view charts_js();  ///< curves
+std::string_view parts_js();   ///< what several commands show
+std::string_view simulate_js();
+std::string_view identify_js();
+std::string_view any_js();  ///< every command without a page of its own
+std::string_view main_js();
+
+}  // namespace trochoid::report

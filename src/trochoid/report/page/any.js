@@ -1,0 +1,48 @@
+// The page of a command that has none of its own: its result, its curves, its tables.
+
+const rowsShown = 12;
+
+function anyPage(report) {
+  return [
+    { part: isEmpty(report.result) ? null :
+      section('result', 'Result', described(report.result)) },
+    ...report.tables.map((t, i) => anyTable(t, i)),
+  ];
+}
+
+const increases = (values) => values.length > 2 &&
+  values.every((v, i) => i === 0 || (isNumber(v) && v > values[i - 1]));
+
+/** Curves over the first column if it increases, one panel a unit; else the first rows. */
+function anyTable(t, i) {
+  const id = `table${i + 1}`;
+  if (!t.drawn || !t.columns.length) return null;
+  const [first, ...rest] = t.columns;
+  if (!increases(first.values)) {
+    return { part: section(id, t.file, firstRows(t)) };
+  }
+  const byUnit = new Map();
+  for (const column of rest) {
+    const { name, unit } = nameAndUnit(column.name);
+    if (!byUnit.has(unit)) byUnit.set(unit, []);
+    const of = byUnit.get(unit);
+    of.push({ name: symbol(name), values: column.values, color: seriesColor(of.length),
+      dash: dashOf(of.length) });
+  }
+  const x = nameAndUnit(first.name);
+  const chart = figure({ key: first.name, x: first.values, label: words(x.name), unit: x.unit,
+    caption: zoomHint + thinned(t) });
+  const panels = [...byUnit].map(([unit, series]) => ({ label: '', unit, height: 180, series }));
+  return { part: section(id, t.file, chart.element,
+    el('details', {}, el('summary', {}, 'Show rows'), firstRows(t))),
+    draw: () => chart.draw(panels) };
+}
+
+function firstRows(t) {
+  const count = Math.min(rowsShown, t.drawn);
+  const rows = Array.from({ length: count }, (_, i) =>
+    t.columns.map((column) => number(column.values[i], 6)));
+  return [table(t.columns.map((column) => column.name), rows, { class: 'rows' }),
+    t.rows > count ? el('p', { class: 'small' },
+      `The first ${count} of ${t.rows} rows; all are in ${t.file}.`) : null];
+}

@@ -1,0 +1,212 @@
+// Curves: stacks of panels over one axis, with one cursor and one zoom.
+
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const seriesColors = ['--s1', '--s2', '--s3', '--s4', '--s5', '--s6'];
+const modelColors = { none: '--s3', feed: '--s2', radial: '--s4', trochoidal: '--s1' };
+const seriesColor = (i) => seriesColors[i % seriesColors.length];
+const modelColor = (model, i) => modelColors[model] || seriesColor(i);
+/** Beyond the colours, dashes tell curves apart. */
+const dashOf = (i) => [undefined, [6, 3], [2, 3], [8, 3, 2, 3]][
+  Math.floor(i / seriesColors.length) % 4];
+
+const charts = new Set();  // all that are on the page, for a new width or colour scheme
+
+const degreeSteps = [1, 2, 5, 10, 15, 30, 45, 90, 180, 360, 720, 1440, 3600, 7200, 36000];
+const font = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
+
+function axes(options) {
+  const common = {
+    stroke: () => css('--soft'), font, labelFont: font,
+    grid: { stroke: () => css('--grid'), width: 1 },
+    ticks: { stroke: () => css('--grid'), width: 1, size: 4 },
+    // uPlot groups thousands by a comma, which reads as a decimal comma to many.
+    values: (u, splits) => splits.map((v) => (v === null ? '' : number(v, 6))),
+  };
+  return [
+    {
+      ...common, show: options.showX, size: 30, space: 55,
+      ...(options.unit === '°' ? { incrs: degreeSteps } : {}),
+    },
+    { ...common, size: 62, space: 34 },  // 50 px by default, which cuts "−1400"
+  ];
+}
+
+/** The legend above a panel: name and unit, and every curve with its value at the cursor. */
+function legend(panel) {
+  const values = panel.series.map(() => el('b', {}));
+  const items = panel.series.map((series, i) => {
+    const key = el('i', { class: 'key' });
+    key.style.setProperty('--key', `var(${series.color})`);
+    key.style.height = `${Math.max(2, series.width || 1.5)}px`;
+    if (series.dash) key.classList.add('dashed');
+    if (series.points) key.classList.add('dot');
+    return el('span', {}, key, series.name, values[i]);
+  });
+  const unit = panel.unit ? ` [${panel.unit}]` : '';
+  const row = el('div', { class: 'legend' },
+    el('strong', {}, panel.label, unit), el('span', { class: 'items' }, items));
+  const show = (u) => {
+    const at = u.cursor.idx;
+    panel.series.forEach((series, i) => {
+      const value = at === null || at === undefined ? null : series.values[at];
+      values[i].textContent = isNumber(value) ? number(value, 4) : '';
+    });
+  };
+  return { row, show };
+}
+
+/** A vertical line with a word, for example where the best fit lies. */
+function markers(list) {
+  return (u) => {
+    for (const { x, text, color } of list) {
+      const at = u.valToPos(x, 'x', true);
+      const { left, top, width, height } = u.bbox;
+      if (!(at >= left && at <= left + width)) continue;
+      const scale = devicePixelRatio;
+      u.ctx.save();
+      u.ctx.strokeStyle = u.ctx.fillStyle = css(color || '--ink');
+      u.ctx.lineWidth = scale;
+      u.ctx.setLineDash([4 * scale, 3 * scale]);
+      u.ctx.beginPath();
+      u.ctx.moveTo(at, top);
+      u.ctx.lineTo(at, top + height);
+      u.ctx.stroke();
+      u.ctx.font = font.replace('12px', `${12 * scale}px`);
+      const room = u.ctx.measureText(text).width + 12 * scale;
+      const right = at + room < left + width;
+      u.ctx.textAlign = right ? 'left' : 'right';
+      u.ctx.fillText(text, at + (right ? 6 : -6) * scale, top + 14 * scale);
+      u.ctx.restore();
+    }
+  };
+}
+
+function zeroLine(u) {
+  const at = Math.round(u.valToPos(0, 'y', true));
+  const { left, top, width, height } = u.bbox;
+  if (!(at > top && at < top + height)) return;
+  u.ctx.save();
+  u.ctx.strokeStyle = css('--zero');
+  u.ctx.lineWidth = devicePixelRatio;
+  u.ctx.beginPath();
+  u.ctx.moveTo(left, at);
+  u.ctx.lineTo(left + width, at);
+  u.ctx.stroke();
+  u.ctx.restore();
+}
+
+function curve(series) {
+  return {
+    stroke: () => css(series.color), width: series.width || 1.5, dash: series.dash,
+    points: series.points ? { show: true, size: 5 } : { show: false },
+  };
+}
+
+/** One plot of a stack, in its own element. */
+function plotOf(stack, panel, last) {
+  const { row, show } = legend(panel);
+  const place = el('div', { class: 'plot' });
+  const element = el('div', { class: 'panel' }, row, place);
+  const options = {
+    width: 600, height: panel.height + (last ? 30 : 0),
+    padding: [8, 12, last ? 0 : 4, 0],
+    legend: { show: false },
+    scales: { x: { time: false }, y: { range: panel.range } },
+    axes: axes({ showX: last, unit: stack.unit }),
+    series: [{}, ...panel.series.map(curve)],
+    cursor: {
+      sync: { key: stack.key, setSeries: false, scales: ['x', null] },
+      points: { size: 6 }, drag: { x: true, y: false, uni: 8 },
+    },
+    hooks: {
+      setCursor: [show],
+      drawClear: [zeroLine],
+      draw: [markers(panel.markers || [])],
+    },
+  };
+  const data = [stack.x, ...panel.series.map((series) => series.values)];
+  return { element, place, make: () => new uPlot(options, data, place), panel, last };
+}
+
+/** Like uPlot's own range, but with a margin at both ends and never empty. */
+function paddedRange(u, low, high) {
+  if (low === null || high === null || !isNumber(low) || !isNumber(high)) return [-1, 1];
+  const margin = 0.06 * (high - low || Math.abs(high) || 1);
+  return [low >= 0 && low - margin < 0 ? 0 : low - margin, high + margin];
+}
+
+/**
+ * Draw panels over a common axis. stack: {key, x, label, unit, panels, ranges, caption};
+ * panel: {label, unit, height, series: [{name, values, color}], markers}.
+ * Returns the figure; its `draw(panels)` replaces the curves and keeps the zoom.
+ */
+function figure(stack) {
+  const place = el('div', { class: 'panels' });
+  const controls = el('div', { class: 'controls' });
+  const element = el('figure', { class: 'chart' }, controls, place,
+    el('figcaption', {}, `${stack.label}${stack.unit ? ` [${stack.unit}]` : ''}`,
+      stack.caption ? el('span', {}, stack.caption) : null));
+  const chart = { element, controls, plots: [], range: null };
+  chart.zoom = (range) => {
+    chart.range = range;
+    for (const plot of chart.plots) plot.setScale('x', { min: range[0], max: range[1] });
+  };
+  chart.draw = (panels, x = stack.x) => {
+    const scale = chart.plots.length && x === stack.x ? chart.plots[0].scales.x : null;
+    const before = scale ? [scale.min, scale.max] : chart.range;
+    for (const plot of chart.plots) plot.destroy();
+    stack.x = x;
+    const made = panels.map((panel, i) => plotOf(stack,
+      { height: 150, range: paddedRange, ...panel }, i === panels.length - 1));
+    place.replaceChildren(...made.map(({ element: panel }) => panel));
+    chart.plots = made.map(({ make }) => make());
+    chart.sizes = made.map(({ panel, last }) => panel.height + (last ? 30 : 0));
+    chart.resize();
+    if (before && isNumber(before[0])) chart.zoom(before);
+  };
+  chart.resize = (width = place.clientWidth) => {
+    if (width < 40) return;
+    chart.plots.forEach((plot, i) => plot.setSize({ width, height: chart.sizes[i] }));
+  };
+  chart.redraw = () => chart.plots.forEach((plot) => plot.redraw(false, true));
+  charts.add(chart);
+  return chart;
+}
+
+/** Buttons that show one revolution, two, or everything; needed where nobody can drag. */
+function rangeChoice(chart, x) {
+  const first = x[0];
+  const last = x[x.length - 1];
+  const turns = (last - first) / 360;
+  const options = [1, 2, 5].filter((n) => n < turns - 0.01)
+    .map((n) => ({ value: n, text: n === 1 ? '1 revolution' : `${n} revolutions` }));
+  options.push({ value: 0, text: 'all' });
+  const show = (n) => chart.zoom([first, n ? first + 360 * n : last]);
+  const start = turns > 5 ? 2 : 0;
+  if (start) chart.range = [first, first + 720];
+  return choice('Show', options, start, show);
+}
+
+function watchPage() {
+  const each = (action) => () => charts.forEach((chart) => action(chart));
+  let width = window.innerWidth;
+  window.addEventListener('resize', () => {
+    if (window.innerWidth !== width) each((chart) => chart.resize())();
+    width = window.innerWidth;
+  });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change',
+    each((chart) => chart.redraw()));
+  // Canvases do not follow the paper by themselves: 660 px are an A4 page less margins.
+  let opened = [];
+  window.addEventListener('beforeprint', () => {
+    document.documentElement.classList.add('print');
+    opened = [...document.querySelectorAll('details:not(.raw):not([open])')];
+    for (const details of opened) details.open = true;
+    charts.forEach((chart) => { chart.resize(660); chart.redraw(); });
+  });
+  window.addEventListener('afterprint', () => {
+    document.documentElement.classList.remove('print');
+    for (const details of opened) details.open = false;
+    charts.forEach((chart) => { chart.resize(); chart.redraw(); });
+  });
+}

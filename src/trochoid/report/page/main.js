@@ -1,0 +1,28 @@
+// Builds the page from the data that are embedded in it.
+
+const pages = { simulate: simulatePage, identify: identifyPage };
+
+function build() {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const { summary, tables } = data;
+  const report = { ...summary, result: summary.result || {}, tables };
+  const page = pages[report.command] || anyPage;
+  const parts = page(report).filter(Boolean);
+  const figures = document.getElementById('figures');
+  for (const { lead, part } of parts) {
+    if (lead) document.getElementById('answer').append(...[lead].flat(9).filter(Boolean));
+    if (part) figures.append(part);
+  }
+  // Plots need the width of their place, so they are drawn when all stands on the page.
+  for (const { draw } of parts) draw?.();
+  contents();
+  watchPage();
+}
+
+function contents() {
+  const links = [...document.querySelectorAll('main section[id] > h2')].map((heading) =>
+    el('a', { href: `#${heading.parentElement.id}` }, heading.textContent));
+  document.getElementById('contents').append(...links);
+}
+
+build();

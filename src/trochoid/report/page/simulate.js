@@ -1,0 +1,83 @@
+// The page of `simulate`.
+
+const simulateKnown = ['mean_N', 'min_N', 'max_N', 'rms_N', 'peak_xy_N', 'torque_mean_Nm',
+  'torque_peak_Nm', 'power_W', 'teeth', 'volume_check'];
+const isBending = (key) => key.startsWith('bending');
+
+function simulatePage(report) {
+  const { result } = report;
+  const bending = Object.entries(result).find(([key, value]) => isBending(key) && isNumber(value));
+  const parts = [
+    { part: null, lead: tiles([
+      { label: 'Peak force across the tool', value: result.peak_xy_N, unit: 'N' },
+      { label: 'Mean torque', value: result.torque_mean_Nm, unit: 'N m',
+        note: isNumber(result.torque_peak_Nm) && `peak ${number(result.torque_peak_Nm)} N m` },
+      { label: 'Power', value: result.power_W, unit: 'W' },
+      bending && { label: sentence(words(nameAndUnit(bending[0]).name)), value: bending[1],
+        unit: nameAndUnit(bending[0]).unit },
+    ]) },
+    forcesOverAngle(report),
+    { part: statistics(result) },
+    chipSection(report),
+    { part: engagementSection(result.teeth) },
+    { part: volumeSection(result.volume_check) },
+    channelsOverAngle(report),
+    { part: restSection(result, simulateKnown) },
+  ];
+  return parts;
+}
+
+function forcesOverAngle(report) {
+  const forces = tableNamed(report, 'forces.csv');
+  const x = columnNamed(forces, 'angle_deg');
+  if (!x?.length) return null;
+  const panels = forcePanels((axis) => {
+    const values = columnNamed(forces, `F${axis}_N`);
+    const i = axesOfForce.indexOf(axis);
+    return values ? [{ name: '', values, color: seriesColor(i), width: 1.8 }] : [];
+  });
+  const chart = figure({
+    key: 'angle', x, label: 'φ, spindle angle', unit: '°', caption: zoomHint + thinned(forces),
+  });
+  chart.controls.append(...[rangeChoice(chart, x)].filter(Boolean));
+  const part = section('forces', 'Cutting force over the spindle angle',
+    prose('Force on the tool in the workpiece frame: x is the direction of feed, z points up.'),
+    chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+function channelsOverAngle(report) {
+  const forces = tableNamed(report, 'forces.csv');
+  const x = columnNamed(forces, 'angle_deg');
+  const channels = (forces?.columns || []).filter((column) => /^channel\d+_/.test(column.name));
+  if (!x?.length || !channels.length) return null;
+  const chart = figure({
+    key: 'angle', x, label: 'φ, spindle angle', unit: '°', caption: zoomHint + thinned(forces),
+  });
+  const panels = channels.map((column, i) => ({
+    label: words(nameAndUnit(column.name).name).replace(/(\d)/, ' $1'),
+    unit: nameAndUnit(column.name).unit, height: 120,
+    series: [{ name: '', values: column.values, color: seriesColor(i) }],
+  }));
+  const part = section('channels', 'What the dynamometer reads',
+    prose('The same force as the channels of the dynamometer show it.'), chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+function statistics(result) {
+  const rows = [['mean_N', 'mean'], ['min_N', 'smallest'], ['max_N', 'largest'], ['rms_N', 'rms']]
+    .filter(([key]) => Array.isArray(result[key]))
+    .map(([key, name]) => [name, ...result[key].map((value) => number(value))]);
+  if (!rows.length) return null;
+  return section('numbers', 'The force in numbers',
+    table(['N', ...axesOfForce.map(forceName)], rows));
+}
+
+function volumeSection(check) {
+  if (isEmpty(check)) return null;
+  return section('volume', 'Self-check: material removed',
+    prose('The chips of all teeth must add up to what the feed brings into the cut. ' +
+      'With all earlier teeth looked at, the two agree; with the previous tooth only, more ' +
+      'material is counted than exists.'),
+    typeof check === 'object' ? described(check) : prose(shown(check)));
+}

@@ -1,0 +1,124 @@
+// Numbers, names with units, and elements.
+
+const missing = '–';
+const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
+
+/** A number for people: some significant digits, a true minus sign, no needless zeros. */
+function number(x, digits = 4) {
+  if (!isNumber(x)) return missing;
+  if (x === 0) return '0';
+  const size = Math.abs(x);
+  let text;
+  if (size >= 1e7 || size < 1e-4) {
+    const [mantissa, exponent] = x.toExponential(digits - 1).split('e');
+    text = `${trimmed(mantissa)} × 10${superscript(Number(exponent))}`;
+  } else {
+    const places = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+    text = trimmed(x.toFixed(Math.min(places, 12)));
+  }
+  return text.replace('-', '−');
+}
+
+const trimmed = (text) => (text.includes('.') ? text.replace(/\.?0+$/, '') : text);
+
+function superscript(n) {
+  return [...String(n)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
+}
+
+/** The digits that an interval justifies: two of its half width. */
+function digitsFor(value, halfWidth) {
+  if (!isNumber(halfWidth) || halfWidth <= 0 || !value) return 4;
+  const digits = Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(halfWidth));
+  return Math.min(7, Math.max(2, digits + 2));
+}
+
+const units = {
+  N: 'N', mm: 'mm', um: 'µm', deg: '°', s: 's', Nm: 'N m', Nmm: 'N mm', W: 'W', MPa: 'MPa',
+  GPa: 'GPa', rpm: 'rpm', Hz: 'Hz', kg: 'kg', mm2: 'mm²', mm3: 'mm³', percent: '%',
+  N_per_mm: 'N/mm', N_per_m: 'N/m', Ns_per_m: 'N s/m', mm_per_min: 'mm/min', um_per_s: 'µm/s',
+  mm3_per_rev: 'mm³/rev', N_per_s: 'N/s',
+};
+
+/** `K_te_N_per_mm` -> {name: 'K_te', unit: 'N/mm'}: the unit is the end of every name. */
+function nameAndUnit(key) {
+  const parts = key.split('_');
+  for (let i = 1; i < parts.length; ++i) {
+    const unit = units[parts.slice(i).join('_')];
+    if (unit) return { name: parts.slice(0, i).join('_'), unit };
+  }
+  return { name: key, unit: '' };
+}
+
+const meanings = {
+  K_tc: 'tangential, cutting', K_rc: 'radial, cutting', K_ac: 'axial, cutting',
+  K_te: 'tangential, edge', K_re: 'radial, edge', K_ae: 'axial, edge',
+  K_t1: 'tangential', K_r1: 'radial', K_a1: 'axial',
+};
+
+const chipModels = {
+  none: 'no runout', feed: 'feed (simple)', radial: 'radial', trochoidal: 'trochoidal (exact)',
+};
+const modelName = (model) => chipModels[model] || model;
+
+/** `K_tc` -> K with the subscript tc; `Fx` -> F with the subscript x. */
+function symbol(name) {
+  const found = /^([A-Za-z])_([A-Za-z0-9]+)$/.exec(name) || /^([FM])([xyz]{1,2})$/.exec(name);
+  if (!found) return words(name);
+  return el('span', { class: 'symbol' }, el('i', {}, found[1]), el('sub', {}, found[2]));
+}
+
+const words = (name) => name.replaceAll('_', ' ');
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+function valueWithUnit(value, unit, digits) {
+  if (!isNumber(value)) return missing;
+  if (!unit) return number(value, digits);
+  return number(value, digits) + (unit === '°' || unit === '%' ? '' : ' ') + unit;
+}
+
+/** An element with its attributes and children; functions among the attributes listen. */
+function el(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (typeof value === 'function') element.addEventListener(key, value);
+    else if (value !== undefined && value !== false) element.setAttribute(key, value);
+  }
+  element.append(...children.flat(9).filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+/** A section with a heading, an anchor and some prose. */
+function section(id, heading, ...children) {
+  return el('section', { id }, el('h2', {}, heading), ...children);
+}
+
+const prose = (...children) => el('p', {}, ...children);
+
+/** Choice of one of several, as a row of buttons; nothing for a single one. */
+function choice(label, options, chosen, onChange) {
+  if (options.length < 2) return null;
+  const buttons = options.map(({ value, text }) => el('button', {
+    type: 'button',
+    'aria-pressed': String(value === chosen),
+    click: (event) => {
+      for (const button of buttons) button.setAttribute('aria-pressed', 'false');
+      event.currentTarget.setAttribute('aria-pressed', 'true');
+      onChange(value);
+    },
+  }, text));
+  return el('div', { class: 'choice', role: 'group', 'aria-label': label },
+    el('span', {}, label), el('div', {}, buttons));
+}
+
+/** rows: arrays of cells; the first cell of a row is its head. */
+function table(head, rows, options = {}) {
+  const cell = (tag, content, i) => {
+    const chosen = options.chosen === i ? 'chosen' : undefined;
+    const scope = tag === 'th' ? (i === 0 ? 'row' : 'col') : undefined;
+    return el(tag, { class: chosen, scope }, content);
+  };
+  return el('div', { class: 'scroll' }, el('table', { class: options.class },
+    el('thead', {}, el('tr', {}, head.map((content, i) => cell('th', content, i)))),
+    el('tbody', {}, rows.map((row) => el('tr', {},
+      row.map((content, i) => cell(i === 0 ? 'th' : 'td', content, i)))))));
+}
