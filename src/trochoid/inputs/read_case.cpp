@@ -16,25 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string_view verb(Command command) {
-  switch (command) {
-    case Command::check:
-      return "check";
-    case Command::simulate:
-      return "simulate";
-    case Command::identify:
-      break;
-  }
-  return "identify";
-}
-
-/// Whether a command has no answer without this table.
-bool needs(Command command, std::string_view table) {
-  if (table == "measurement") {
-    return command == Command::identify;
-  }
-  return table == "tool" || table == "cut" ||
-         (table == "force" && command != Command::identify);
+/// `check` asks for what the case seems to be made for.
+std::string_view verb(Command command, bool with_measurements) {
+  const bool fit =
+      command == Command::identify || (command == Command::check && with_measurements);
+  return fit ? "identify" : "simulate";
 }
 
 /// One [name], or every [[name]], into its entry.
@@ -97,9 +83,9 @@ CaseTables read_tables(const Node& root, Command command, Findings& findings) {
   CaseTables tables;
   const Node* measurements = find(root, "measurement");
   const Node* cut = find(root, "cut");
+  const std::string_view purpose = verb(command, measurements != nullptr);
   const Reading reading{
-      .coefficients_needed = command == Command::simulate ||
-                             (command == Command::check && measurements == nullptr),
+      .coefficients_needed = purpose == "simulate",
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(
@@ -108,12 +94,11 @@ CaseTables read_tables(const Node& root, Command command, Findings& findings) {
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
-    } else if (needs(command, entry.name) &&
-               (entry.name != "force" || reading.coefficients_needed)) {
+    } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), purpose) >
+               0) {
       report(findings, std::string(entry.name),
-             fmt::format("{0}{1}{2} is missing ({3}); {4} needs it",
-                         entry.many ? "[[" : "[", entry.name, entry.many ? "]]" : "]",
-                         entry.meaning, verb(command)));
+             fmt::format("{} is missing ({}); {} needs it", heading(entry),
+                         entry.meaning, purpose));
     }
   }
   report_unknown(root, entries, findings);

@@ -159,6 +159,9 @@ struct TableReader {
 
 std::string home_or_suggestion(std::string_view key,
                                const std::vector<std::string>& names) {
+  if (key == "title" || key == "include") {
+    return fmt::format("; {} stands above all tables", key);
+  }
   CaseTables tables;
   for (const TableEntry& entry : tables_of(tables)) {
     if (entry.count() == 0) {
@@ -168,8 +171,7 @@ std::string home_or_suggestion(std::string_view key,
     entry.describe(0,
                    [&](const Key& k, const Field&) { here = here || k.name == key; });
     if (here) {
-      return fmt::format("; {} belongs to {}{}{}", key, entry.many ? "[[" : "[",
-                         entry.name, entry.many ? "]]" : "]");
+      return fmt::format("; {} belongs to {}", key, heading(entry));
     }
   }
   return suggestion(key, names);

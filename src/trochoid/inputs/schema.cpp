@@ -147,6 +147,10 @@ struct Writer {
 
 }  // namespace
 
+std::string heading(const TableEntry& table) {
+  return fmt::format(fmt::runtime(table.many ? "[[{}]]" : "[{}]"), table.name);
+}
+
 Unit unit_of(std::string_view key) {
   for (const Ending& ending : endings) {
     if (key.ends_with(ending.text)) {

@@ -95,11 +95,15 @@ using Visitor = std::function<void(const Key&, const Field&)>;
 struct TableEntry {
   std::string_view name;
   std::string_view meaning;
-  bool many = false;                   ///< [[name]] instead of [name]
-  std::function<std::size_t()> count;  ///< how many there are
-  std::function<void()> add;           ///< one more (at most one unless `many`)
+  std::vector<std::string_view> needed_by = {};  ///< commands with no answer without it
+  bool many = false;                             ///< [[name]] instead of [name]
+  std::function<std::size_t()> count;            ///< how many there are
+  std::function<void()> add;  ///< one more (at most one unless `many`)
   std::function<void(std::size_t, const Visitor&)> describe;  ///< the keys of one
 };
+
+/// `[name]` or `[[name]]`
+std::string heading(const TableEntry& table);
 
 /// A unit of the file: factor to SI, and its symbol.
 struct Unit {

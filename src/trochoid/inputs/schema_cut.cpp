@@ -167,11 +167,14 @@ void describe(const Visitor& v, chip::ChipModel& t) {
 void describe(const Visitor& v, ForceTable& t) {
   v({.name = "law", .meaning = "linear_edge: K_c h + K_e; power: K_1 (h/1 mm)^(1-m)"},
     choice(t.law, laws));
+  constexpr Range pressing = between(0, 1e6);
+  constexpr Range any = between(-1e6, 1e6);
   const auto coefficient = [&](std::string_view name, std::string_view meaning,
-                               std::string_view law, std::optional<double>& value) {
+                               std::string_view law, const Range& range,
+                               std::optional<double>& value) {
     v({.name = name,
        .meaning = meaning,
-       .range = between(-1e9, 1e9),
+       .range = range,
        .need = Need::simulate,
        .only = {"law", {law}}},
       &value);
@@ -186,17 +189,20 @@ void describe(const Visitor& v, ForceTable& t) {
        .standard = "0.25 for identify"},
       &value);
   };
-  coefficient("K_tc_MPa", "tangential cutting coefficient", "linear_edge", t.K_tc);
-  coefficient("K_rc_MPa", "radial cutting coefficient", "linear_edge", t.K_rc);
-  coefficient("K_ac_MPa", "axial cutting coefficient", "linear_edge", t.K_ac);
-  coefficient("K_te_N_per_mm", "tangential edge coefficient", "linear_edge", t.K_te);
-  coefficient("K_re_N_per_mm", "radial edge coefficient", "linear_edge", t.K_re);
-  coefficient("K_ae_N_per_mm", "axial edge coefficient", "linear_edge", t.K_ae);
-  coefficient("K_t1_MPa", "tangential pressure at a chip of 1 mm", "power", t.K_t1);
+  coefficient("K_tc_MPa", "tangential cutting coefficient", "linear_edge", pressing,
+              t.K_tc);
+  coefficient("K_rc_MPa", "radial cutting coefficient", "linear_edge", any, t.K_rc);
+  coefficient("K_ac_MPa", "axial cutting coefficient", "linear_edge", any, t.K_ac);
+  coefficient("K_te_N_per_mm", "tangential edge coefficient", "linear_edge", any,
+              t.K_te);
+  coefficient("K_re_N_per_mm", "radial edge coefficient", "linear_edge", any, t.K_re);
+  coefficient("K_ae_N_per_mm", "axial edge coefficient", "linear_edge", any, t.K_ae);
+  coefficient("K_t1_MPa", "tangential pressure at a chip of 1 mm", "power", pressing,
+              t.K_t1);
   exponent("m_t", "tangential exponent", t.m_t);
-  coefficient("K_r1_MPa", "radial pressure at a chip of 1 mm", "power", t.K_r1);
+  coefficient("K_r1_MPa", "radial pressure at a chip of 1 mm", "power", any, t.K_r1);
   exponent("m_r", "radial exponent", t.m_r);
-  coefficient("K_a1_MPa", "axial pressure at a chip of 1 mm", "power", t.K_a1);
+  coefficient("K_a1_MPa", "axial pressure at a chip of 1 mm", "power", any, t.K_a1);
   exponent("m_a", "axial exponent", t.m_a);
   v({.name = "edge_length",
      .meaning = "edge coefficients act per mm of true edge length or of axial depth"},

@@ -5,10 +5,14 @@ namespace trochoid::inputs {
 
 namespace {
 
+using Commands = std::vector<std::string_view>;
+
 template <class Table>
-TableEntry one(std::string_view name, std::string_view meaning, Table& table) {
+TableEntry one(std::string_view name, std::string_view meaning, Table& table,
+               Commands needed_by = {}) {
   return {.name = name,
           .meaning = meaning,
+          .needed_by = std::move(needed_by),
           .count = [] { return std::size_t{1}; },
           .add = [] {},
           .describe = [&table](std::size_t, const Visitor& v) { describe(v, table); }};
@@ -26,9 +30,10 @@ TableEntry perhaps(std::string_view name, std::string_view meaning,
 
 template <class Table>
 TableEntry several(std::string_view name, std::string_view meaning,
-                   std::vector<Table>& all) {
+                   std::vector<Table>& all, Commands needed_by = {}) {
   return {.name = name,
           .meaning = meaning,
+          .needed_by = std::move(needed_by),
           .many = true,
           .count = [&all] { return all.size(); },
           .add = [&all] { all.emplace_back(); },
@@ -39,9 +44,9 @@ TableEntry several(std::string_view name, std::string_view meaning,
 
 std::vector<TableEntry> tables_of(CaseTables& t) {
   return {
-      one("tool", "the cutter", t.tool),
+      one("tool", "the cutter", t.tool, {"simulate", "identify"}),
       one("runout", "how the teeth stand out; left out: no runout", t.runout),
-      one("cut", "the cut; the tool feeds along +x", t.cut),
+      one("cut", "the cut; the tool feeds along +x", t.cut, {"simulate", "identify"}),
       one("chip", "the model of the uncut chip thickness", t.chip),
       one("force", "the force law and its coefficients, as forces on the tool",
           t.force),
@@ -49,7 +54,7 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       perhaps("dynamometer", "what the channels read; left out: x, y, z",
               t.dynamometer),
       several("measurement", "a force record; several are fitted together",
-              t.measurements),
+              t.measurements, {"identify"}),
       perhaps("identify", "what is to be found from the measurements", t.identify),
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
       perhaps("wall", "the workpiece as an elastic plate; left out: rigid",

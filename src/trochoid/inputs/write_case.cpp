@@ -33,8 +33,7 @@ std::string write_case(CaseTables& tables) {
   for (const TableEntry& table : tables_of(tables)) {
     for (std::size_t i = 0; i < table.count(); ++i) {
       text += text.empty() ? "" : "\n";
-      text += fmt::format("{0}{1}{2}\n", table.many ? "[[" : "[", table.name,
-                          table.many ? "]]" : "]");
+      text += heading(table) + '\n';
       table.describe(i, key_line);
     }
   }

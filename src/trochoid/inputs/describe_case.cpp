@@ -1,0 +1,93 @@
+#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/tables.h>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+
+namespace trochoid::inputs {
+
+namespace {
+
+constexpr std::string_view introduction = R"(# The case file
+
+<!-- Made by the program from its schema (src/trochoid/inputs/schema_*.cpp). -->
+
+A case file says in [TOML](https://toml.io) what is to be computed: the cutter, the cut,
+the force law, the measurements. One file serves several commands; each takes the tables
+that it needs and checks all of them. `trochoid new simulate` and `trochoid new identify`
+write a file to start from, `trochoid check CASE.toml` only looks for mistakes.
+
+* The unit is the end of the name of every key: `_mm`, `_um`, `_deg`, `_rpm`, `_MPa`,
+  `_GPa`, `_N_per_mm`, `_Hz`, `_s`. A key without such an ending is a plain number, a text
+  or a choice.
+* A mistake is told as `file:line:column: key = value: why; what is right (what it means)`,
+  all mistakes at once. Unknown keys are mistakes.
+* Relative file names count from the file in which they stand.
+* `include = "other.toml"` above all tables takes over the tables of another case file.
+  Tables merge key by key and the including file wins; a list of tables (`[[...]]`) is
+  replaced whole. An included file may include another.
+* In the folder of results, `case.toml` is the case as it was understood, with every
+  default filled in. It is a case file again.
+* The letters and signs are those of [the notation](../notation.md).
+)";
+
+std::string default_of(const Key& key, const Field& field) {
+  std::string text;
+  if (key.need == Need::always) {
+    text = key.rival.empty() ? "needed" : fmt::format("needed, or `{}`", key.rival);
+  } else if (key.need == Need::simulate) {
+    text = "`simulate` needs it";
+  } else if (key.standard.empty()) {
+    const auto value = toml_text(key, field);
+    text = value ? fmt::format("`{}`", *value) : "left out";
+  }
+  if (!key.standard.empty()) {
+    text += (text.empty() ? "" : "; ") + std::string(key.standard);
+  }
+  return text;
+}
+
+std::string meaning_of(const Key& key) {
+  if (key.only.selector.empty()) {
+    return std::string(key.meaning);
+  }
+  return fmt::format("only for `{}` = `\"{}\"`: {}", key.only.selector,
+                     fmt::join(key.only.values, "\"`, `\""), key.meaning);
+}
+
+}  // namespace
+
+std::string describe_case_file() {
+  std::string text{introduction};
+  const Visitor row = [&text](const Key& key, const Field& field) {
+    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, expectation(key, field),
+                        default_of(key, field), meaning_of(key));
+  };
+  const auto head = [&text](std::string_view title, std::string_view meaning) {
+    text += fmt::format(
+        "\n## {}\n\n{}.\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
+        title, meaning);
+  };
+  CaseTables tables;
+  head("Above all tables", "Before the first table");
+  text +=
+      "| `include` | text | left out | a case file whose tables this one builds on |\n";
+  describe(row, tables);
+  for (const TableEntry& table : tables_of(tables)) {
+    std::string meaning{table.meaning};
+    if (!table.needed_by.empty()) {
+      meaning += fmt::format(" (needed by `{}`)", fmt::join(table.needed_by, "`, `"));
+    }
+    meaning.front() = static_cast<char>(std::toupper(meaning.front()));
+    head(fmt::format("`{}`", heading(table)), meaning);
+    if (table.count() == 0) {
+      table.add();
+    }
+    table.describe(0, row);
+  }
+  return text;
+}
+
+}  // namespace trochoid::inputs
