@@ -16,10 +16,15 @@ std::size_t index(int i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
-/// Force at the folded angles, shape (u).
-std::vector<std::array<double, 3>> folded_force(std::span<const double> C,
-                                                std::span<const double> K) {
-  std::vector<std::array<double, 3>> out(C.size() / (3 * K.size()));
+/// Force at every sample, shape (n).
+std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
+                                            const Run& run, double phase,
+                                            std::span<const double> K) {
+  std::vector<double> phi(run.angle);
+  for (double& a : phi) a += phase;
+  std::vector<double> C(3 * K.size() * phi.size());
+  matrix.evaluate(phi, C);
+  std::vector<std::array<double, 3>> out(phi.size());
   for (std::size_t g = 0; g < out.size(); ++g) {
     for (std::size_t q = 0; q < 3; ++q) {
       out[g][q] = 0.0;
@@ -173,7 +178,6 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
   ResidualSums sums;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const FoldedRun& folded = problem.runs[r];
-    const auto force = folded_force(at.C[r], x.first(index(problem.columns)));
     const std::size_t n = runs[r].angle.size();
     std::array<ChannelOffset, 3> offsets{};
     if (!folded.drift.empty()) {
@@ -181,11 +185,11 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
       for (std::size_t q = 0; q < 3; ++q) offsets[q] = {own[2 * q], own[2 * q + 1]};
       fit.channel_offsets.push_back(offsets);
     }
-    std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(n);
+    std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(force_of(
+        at.matrix[r], runs[r], at.point.phase[r], x.first(index(problem.columns))));
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t q = 0; q < 3; ++q) {
-        fitted[i][q] = force[folded.group[i]][q] + offsets[q].constant +
-                       offsets[q].slope * slope_at(i, n);  // I-7
+        fitted[i][q] += offsets[q].constant + offsets[q].slope * slope_at(i, n);  // I-7
       }
     }
     add_residuals(runs[r], fitted, sums);

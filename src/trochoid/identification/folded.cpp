@@ -16,12 +16,17 @@ constexpr double turn = 2.0 * std::numbers::pi;
 /// turns, far below what changes a force.
 constexpr double same_angle = 1e-9;
 
+/// More angles than this are averaged in bins: the curvature of a force over a bin
+/// changes its mean by less than 1e-6.
+constexpr std::size_t most_angles = 4000;
+constexpr std::size_t bins_of_many = 3600;
+
 double within_turn(double angle) noexcept {
   const double a = angle - turn * std::floor(angle / turn);
   return a >= turn - 0.5 * same_angle ? 0.0 : a;
 }
 
-/// Groups of samples at the same angle, in the order of the angle.
+/// Groups of samples at the same angle, or nearly so if there are very many angles.
 std::vector<std::size_t> groups(std::span<const double> angle) {
   const std::size_t n = angle.size();
   std::vector<double> in_turn(n);
@@ -34,6 +39,15 @@ std::vector<std::size_t> groups(std::span<const double> angle) {
   for (std::size_t k = 1; k < n; ++k) {
     if (in_turn[order[k]] - in_turn[order[k - 1]] > same_angle) ++current;
     group[order[k]] = current;
+  }
+  if (current < most_angles) return group;
+  std::vector<std::size_t> number(bins_of_many, n);
+  std::size_t next = 0;
+  for (const std::size_t i : order) {
+    const auto bin = static_cast<std::size_t>(in_turn[i] / turn * bins_of_many);
+    std::size_t& at = number[std::min(bin, bins_of_many - 1)];
+    if (at == n) at = next++;
+    group[i] = at;
   }
   return group;
 }
@@ -48,13 +62,14 @@ void take_means(const Run& run, bool drift, FoldedRun& out) {
   out.slope.assign(drift ? u : 0, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t g = out.group[i];
-    out.angle[g] = run.angle[i];
+    out.angle[g] += within_turn(run.angle[i]);
     out.weight[g] += 1.0;
     for (std::size_t q = 0; q < 3; ++q) out.force[g][q] += run.force[i][q];
     if (drift) out.slope[g] += slope_at(i, n);
   }
   for (std::size_t g = 0; g < u; ++g) {
     for (double& f : out.force[g]) f /= out.weight[g];
+    out.angle[g] /= out.weight[g];
     if (drift) out.slope[g] /= out.weight[g];
     out.weight[g] = std::sqrt(out.weight[g]);
   }

@@ -135,10 +135,11 @@ std::string rank_refusal(const Problem& problem, const numerics::LeastSquares& f
 void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
   if (problem.unknowns.runout != RunoutUnknowns::eccentricity) return;
   const Point point = point_of(problem, p);
-  std::vector<double> residual = measured(problem);
+  const Problem coarse = coarse_problem(problem);
+  std::vector<double> residual = measured(coarse);
   const std::vector<double> K = numerics::project_out(
-      design(problem, evaluate(problem, p)), problem.linear(), residual, 1);
-  problem.unknowns.direction = single_direction(problem, p, K);
+      design(coarse, evaluate(coarse, p)), coarse.linear(), residual, 1);
+  problem.unknowns.direction = single_direction(coarse, p, K);
   if (!problem.unknowns.direction) return;
   p = settle(problem, parameters_of(problem, point)).p;
 }

@@ -15,6 +15,8 @@ constexpr double turn = 2.0 * std::numbers::pi;
 /// Cells of the turn: 3 degrees, a fraction of what a force curve needs to show its
 /// shape.
 constexpr std::size_t cells = 120;
+/// Starts for three and more teeth beyond the regular patterns.
+constexpr int scattered_starts = 16;
 
 std::size_t index(int i) noexcept {
   return static_cast<std::size_t>(i);
@@ -24,12 +26,13 @@ std::size_t index(int i) noexcept {
 struct Cells {
   std::vector<double> weight;                ///< number of samples
   std::vector<std::array<double, 3>> force;  ///< mean [N]
+  bool even = false;                         ///< the weights are equal
   double squares = 0.0;                      ///< weighted sum of F^2 [N^2]
 };
 
 Cells cells_of(const FoldedRun& run) {
   Cells out{std::vector<double>(cells, 0.0), std::vector<std::array<double, 3>>(cells),
-            0.0};
+            false, 0.0};
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
     const double a = run.angle[g] / turn;
     const auto cell =
@@ -45,10 +48,13 @@ Cells cells_of(const FoldedRun& run) {
       out.squares += out.weight[i] * f * f;
     }
   }
+  out.even = std::ranges::all_of(out.weight, [&](double w) {
+    return std::abs(w - out.weight[0]) < 1e-9 * out.weight[0];
+  });
   return out;
 }
 
-std::vector<double> grid() {
+std::vector<double> cell_angles() {
   std::vector<double> out(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     out[i] = (static_cast<double>(i) + 0.5) * turn / static_cast<double>(cells);
@@ -56,8 +62,44 @@ std::vector<double> grid() {
   return out;
 }
 
-/// Normal equations of one run at one shift, with the means of the channels taken out
-/// if the channels have an offset of their own.
+/// The force matrix over the cells, and whether the means of the channels are taken out
+/// (because the channels have an offset of their own).
+struct Grid {
+  std::vector<double> C;  ///< shape (cells, 3, columns)
+  std::size_t columns = 0;
+  bool centered = false;
+};
+
+/// Products of the columns, weighted as the data at one shift.
+struct Gram {
+  std::vector<double> G;
+  std::vector<double> sums;  ///< of the columns, shape (3, columns)
+  double weight = 0.0;
+};
+
+Gram gram_at(const Cells& data, const Grid& grid, std::size_t shift) {
+  const std::size_t n = grid.columns;
+  Gram out{std::vector<double>(n * n, 0.0), std::vector<double>(3 * n, 0.0), 0.0};
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double w = data.weight[i];
+    if (w == 0.0) continue;
+    const double* const rows = &grid.C[((i + shift) % cells) * 3 * n];
+    out.weight += w;
+    for (std::size_t q = 0; q < 3; ++q) {
+      const double* const c = rows + q * n;
+      for (std::size_t a = 0; a < n; ++a) {
+        out.sums[q * n + a] += w * c[a];
+        for (std::size_t b = 0; b <= a; ++b) out.G[a * n + b] += w * c[a] * c[b];
+      }
+    }
+  }
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) out.G[a * n + b] = out.G[b * n + a];
+  }
+  return out;
+}
+
+/// Normal equations of one run at one shift.
 struct Normal {
   std::vector<double> G;
   std::vector<double> g;
@@ -70,46 +112,33 @@ struct Normal {
   }
 };
 
-void center(std::span<const double> mean_C, std::span<const double> mean_F, double w,
-            Normal& normal) {
+void center(const Gram& gram, const std::array<double, 3>& sum_F, Normal& normal) {
   const std::size_t n = normal.g.size();
   for (std::size_t q = 0; q < 3; ++q) {
+    const double* const sum_C = &gram.sums[q * n];
     for (std::size_t a = 0; a < n; ++a) {
-      const double c = mean_C[q * n + a] / w;
-      normal.g[a] -= c * mean_F[q];
-      for (std::size_t b = 0; b < n; ++b) normal.G[a * n + b] -= c * mean_C[q * n + b];
+      const double c = sum_C[a] / gram.weight;
+      normal.g[a] -= c * sum_F[q];
+      for (std::size_t b = 0; b < n; ++b) normal.G[a * n + b] -= c * sum_C[b];
     }
-    normal.squares -= mean_F[q] * mean_F[q] / w;
+    normal.squares -= sum_F[q] * sum_F[q] / gram.weight;
   }
 }
 
-Normal normal_at(const Cells& data, std::span<const double> C, std::size_t n,
-                 std::size_t shift, bool centered) {
-  Normal out{std::vector<double>(n * n, 0.0), std::vector<double>(n, 0.0),
-             data.squares};
-  std::vector<double> mean_C(3 * n, 0.0);
-  std::array<double, 3> mean_F{};
-  double total = 0.0;
+Normal normal_at(const Cells& data, const Grid& grid, std::size_t shift,
+                 const Gram& gram) {
+  const std::size_t n = grid.columns;
+  Normal out{gram.G, std::vector<double>(n, 0.0), data.squares};
+  std::array<double, 3> sum_F{};
   for (std::size_t i = 0; i < cells; ++i) {
-    const double w = data.weight[i];
-    if (w == 0.0) continue;
-    const double* const rows = &C[((i + shift) % cells) * 3 * n];
-    total += w;
+    const double* const rows = &grid.C[((i + shift) % cells) * 3 * n];
     for (std::size_t q = 0; q < 3; ++q) {
-      const double* const c = rows + q * n;
-      const double wF = w * data.force[i][q];
-      mean_F[q] += wF;
-      for (std::size_t a = 0; a < n; ++a) {
-        out.g[a] += wF * c[a];
-        mean_C[q * n + a] += w * c[a];
-        for (std::size_t b = 0; b <= a; ++b) out.G[a * n + b] += w * c[a] * c[b];
-      }
+      const double wF = data.weight[i] * data.force[i][q];
+      sum_F[q] += wF;
+      for (std::size_t a = 0; a < n; ++a) out.g[a] += wF * rows[q * n + a];
     }
   }
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = a + 1; b < n; ++b) out.G[a * n + b] = out.G[b * n + a];
-  }
-  if (centered) center(mean_C, mean_F, total, out);
+  if (grid.centered) center(gram, sum_F, out);
   return out;
 }
 
@@ -132,18 +161,21 @@ struct PhaseMinimum {
   Normal normal;
 };
 
-std::vector<PhaseMinimum> phase_minima(const Cells& data, std::span<const double> C,
-                                       std::size_t n, double span, bool centered) {
+std::vector<PhaseMinimum> phase_minima(const Cells& data, const Grid& grid,
+                                       double span) {
   const double width = turn / static_cast<double>(cells);
   const int half = static_cast<int>(std::ceil(0.5 * span / width));
   const bool all = 2 * half >= static_cast<int>(cells);
   const int first = all ? 0 : -half;
   const int last = all ? static_cast<int>(cells) - 1 : half;
+  const Gram even = gram_at(data, grid, 0);
+  const auto at = [&](int k) {
+    const std::size_t shift = index(k + static_cast<int>(cells)) % cells;
+    // With equal weights a shift changes the order of the sums only.
+    return normal_at(data, grid, shift, data.even ? even : gram_at(data, grid, shift));
+  };
   std::vector<double> rss;
-  for (int k = first; k <= last; ++k) {
-    rss.push_back(rss_of(
-        normal_at(data, C, n, index(k + static_cast<int>(cells)) % cells, centered)));
-  }
+  for (int k = first; k <= last; ++k) rss.push_back(rss_of(at(k)));
   std::vector<PhaseMinimum> out;
   const std::size_t count = rss.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -156,9 +188,7 @@ std::vector<PhaseMinimum> phase_minima(const Cells& data, std::span<const double
   std::ranges::sort(out, {}, &PhaseMinimum::rss);
   if (out.size() > 2) out.resize(2);
   for (PhaseMinimum& m : out) {
-    const auto k =
-        static_cast<int>(std::lround(m.phase / width)) + static_cast<int>(cells);
-    m.normal = normal_at(data, C, n, index(k) % cells, centered);
+    m.normal = at(static_cast<int>(std::lround(m.phase / width)));
   }
   return out;
 }
@@ -188,15 +218,15 @@ void scan_phases(const Problem& problem, const std::vector<Cells>& data, double 
                  std::vector<double> p, std::vector<Candidate>& out) {
   const Point point = point_of(problem, p);
   const auto n = index(problem.columns);
-  const std::vector<double> phi = grid();
+  const std::vector<double> phi = cell_angles();
   std::vector<std::vector<PhaseMinimum>> minima;
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     force::Setup setup = problem.setup;
     setup.runout = point.runout;
     setup.cut = problem.runs[r].cut;
-    std::vector<double> C(cells * 3 * n);
-    force::ForceMatrix(setup, point.law, 1e-4).evaluate(phi, C);
-    minima.push_back(phase_minima(data[r], C, n, span, !problem.runs[r].drift.empty()));
+    Grid grid{std::vector<double>(cells * 3 * n), n, !problem.runs[r].drift.empty()};
+    force::ForceMatrix(setup, point.law, 1e-4).evaluate(phi, grid.C);
+    minima.push_back(phase_minima(data[r], grid, r == 0 ? span : turn));
     if (minima.back().empty()) return;
   }
   combine(std::move(p), minima, problem.unknowns.first_phase(), out);
@@ -208,6 +238,21 @@ std::vector<double> eccentric_offsets(const std::vector<double>& psi, double amp
   std::vector<double> out;
   for (std::size_t k = 1; k < psi.size(); ++k) {
     out.push_back(amplitude * (std::cos(psi[k] - lambda) - std::cos(lambda)));
+  }
+  return out;
+}
+
+/// Offsets spread evenly over (-0.9, 0.9) in all teeth (an additive recurrence with the
+/// roots of x^(n) = x + 1).
+std::vector<double> scattered_offsets(std::size_t n, int i) {
+  double root = 1.5;
+  for (int step = 0; step < 40; ++step) {
+    root = std::pow(1.0 + root, 1.0 / static_cast<double>(n));
+  }
+  std::vector<double> out;
+  for (std::size_t k = 1; k < n; ++k) {
+    const double a = i * std::pow(root, -static_cast<double>(k));
+    out.push_back(1.8 * (a - std::floor(a)) - 0.9);
   }
   return out;
 }
@@ -229,6 +274,7 @@ void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>&
     if (tooth > 0) s[tooth - 1] = -0.8;
     out.push_back(s);
   }
+  for (int i = 1; i <= scattered_starts; ++i) out.push_back(scattered_offsets(n, i));
   if (n % 2 == 0) {
     for (const double sign : {0.5, -0.5}) {
       std::vector<double> s(n - 1, 0.0);
@@ -257,8 +303,8 @@ std::vector<std::vector<double>> runout_starts(const Problem& problem) {
     for (const double e : {0.3, -0.3, 0.8, -0.8}) out.push_back({e});
   } else {
     for (const double rho : {0.3, 0.8}) {
-      for (int k = 0; k < 8; ++k) {
-        const double lambda = 0.125 * turn * k;
+      for (int k = 0; k < 6; ++k) {
+        const double lambda = turn * k / 6.0;
         out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
       }
     }

@@ -16,7 +16,7 @@ struct Candidate {
 ///
 /// The force matrix is evaluated once for each runout, on a uniform grid over the turn
 /// onto which the record is averaged: there a phase is a shift of the grid.
-/// @param span  phases tried: from -span/2 to span/2 [rad]; 2 pi: all
+/// @param span  phases tried for the first run: from -span/2 to span/2 [rad]; 2 pi: all
 std::vector<Candidate> scan(const Problem& problem, double span);
 
 /// @brief Runouts to start from, in the unknowns of the problem: the tool that runs

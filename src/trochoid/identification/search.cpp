@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace trochoid::identification {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr int coarse_bins = 180;
+constexpr int coarse_bins = 120;
 
 bool equal_pitch(const geometry::Cutter& cutter) {
   const double pitch = turn / cutter.teeth();
@@ -23,14 +24,6 @@ bool equal_offsets(const geometry::Runout& runout) {
   return std::ranges::all_of(s, [&](double v) { return v == s.front(); });
 }
 
-/// The same fit on averaged data and with a coarse force matrix.
-Problem coarse_problem(const Problem& problem) {
-  Problem out = problem;
-  for (FoldedRun& run : out.runs) run = coarsen(run, coarse_bins);
-  out.tolerance = std::max(problem.tolerance, 1e-6);
-  return out;
-}
-
 bool nearly_equal(const Minimum& a, const Minimum& b) {
   double distance = 0.0;
   for (std::size_t i = 0; i < a.p.size(); ++i) {
@@ -39,36 +32,84 @@ bool nearly_equal(const Minimum& a, const Minimum& b) {
   return distance < 1e-3;
 }
 
+constexpr Step coarse_step{1e-3, 1e-3, false};
+
+numerics::LevenbergMarquardtOptions coarse_options() {
+  numerics::LevenbergMarquardtOptions out;
+  out.max_iterations = 25;
+  out.parameter_tolerance = 1e-4;
+  out.function_tolerance = 1e-7;
+  return out;
+}
+
+/// The best place on a line through one offset, the others kept.
+std::vector<double> best_on_line(const Problem& coarse, std::vector<double> p,
+                                 std::size_t i) {
+  std::vector<double> best = p;
+  double least = std::numeric_limits<double>::infinity();
+  const double here = p[i];
+  for (int k = -4; k <= 4; ++k) {
+    if (k == 0) continue;
+    p[i] = here + 0.3 * k;
+    const double rss = rss_at(coarse, p);
+    if (rss < least) {
+      least = rss;
+      best = p;
+    }
+  }
+  return best;
+}
+
+/// Leave a local minimum in which one tooth is wrong: a tooth that hardly cuts hides
+/// where its offset should go.
+void move_single_teeth(const Problem& coarse, Minimum& best) {
+  if (coarse.unknowns.runout != RunoutUnknowns::offsets) return;
+  const auto count = static_cast<std::size_t>(coarse.unknowns.runout_count());
+  if (count < 2 || count > 11) return;
+  bool better = true;
+  for (int round = 0; better && round < 3; ++round) {
+    better = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      Minimum m = refine(coarse, best_on_line(coarse, best.p, i), coarse_step,
+                         coarse_options());
+      if (!(m.rss < 0.999 * best.rss)) continue;
+      best = std::move(m);
+      better = true;
+    }
+  }
+}
+
 /// Local minima from the best candidates, the best first.
-std::vector<Minimum> coarse_minima(const Problem& problem,
+std::vector<Minimum> coarse_minima(const Problem& coarse,
                                    const std::vector<Candidate>& candidates) {
-  const Problem coarse = coarse_problem(problem);
-  const std::size_t starts = problem.unknowns.runout_count() > 2 ? 6 : 3;
-  numerics::LevenbergMarquardtOptions options;
-  options.max_iterations = 25;
-  options.parameter_tolerance = 1e-4;
-  options.function_tolerance = 1e-7;
-  Step step;
-  step.parameter = 1e-3;
-  step.phase = 1e-3;
+  const std::size_t starts = coarse.unknowns.runout_count() > 2 ? 6 : 3;
   std::vector<Minimum> out;
   for (std::size_t i = 0; i < std::min(starts, candidates.size()); ++i) {
-    Minimum m = refine(coarse, candidates[i].p, step, options);
+    Minimum m = refine(coarse, candidates[i].p, coarse_step, coarse_options());
+    apply_gauge(coarse, m.p);
     const bool known = std::ranges::any_of(
         out, [&](const Minimum& other) { return nearly_equal(m, other); });
     if (!known) out.push_back(std::move(m));
   }
   std::ranges::stable_sort(out, {}, &Minimum::rss);
+  move_single_teeth(coarse, out.front());
   return out;
 }
 
 }  // namespace
 
+Problem coarse_problem(const Problem& problem) {
+  Problem out = problem;
+  for (FoldedRun& run : out.runs) run = coarsen(run, coarse_bins);
+  out.tolerance = std::max(problem.tolerance, 1e-6);
+  return out;
+}
+
 Minimum settle(const Problem& problem, const std::vector<double>& start) {
   if (sum_of_squares_jumps(problem)) return refine_by_sweeps(problem, start);
   numerics::LevenbergMarquardtOptions options;
   options.max_iterations = 40;
-  options.parameter_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-7;
   options.function_tolerance = 1e-24;
   Minimum out = refine(problem, start, {}, options);
   if (out.converged) return out;
@@ -117,7 +158,8 @@ Minimum search(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
   if (u.count() == 0) return refine(problem, {}, {}, {});
   const double span = teeth_are_alike(problem) ? turn / u.teeth : turn;
-  const std::vector<Candidate> candidates = scan(coarse_problem(problem), span);
+  const Problem coarse = coarse_problem(problem);
+  const std::vector<Candidate> candidates = scan(coarse, span);
   if (candidates.empty()) return {{}, 0.0, false, "no start gives a force"};
   Minimum best;
   if (sum_of_squares_jumps(problem)) {
@@ -128,7 +170,7 @@ Minimum search(const Problem& problem) {
     apply_gauge(problem, best.p);
     return best;
   }
-  const std::vector<Minimum> minima = coarse_minima(problem, candidates);
+  const std::vector<Minimum> minima = coarse_minima(coarse, candidates);
   best = settle(problem, minima.front().p);
   if (minima.size() > 1 && minima[1].rss < 1.02 * minima[0].rss) {
     Minimum second = settle(problem, minima[1].p);

@@ -13,6 +13,9 @@ namespace trochoid::identification {
 /// @eq I-3 min over p of min over K of |[D(p)]{K} - {F}|^2
 Minimum search(const Problem& problem);
 
+/// The same fit on data averaged over the turn and with a coarse force matrix.
+Problem coarse_problem(const Problem& problem);
+
 /// @brief The local minimum near a start, as accurate as the problem allows.
 Minimum settle(const Problem& problem, const std::vector<double>& start);
 
