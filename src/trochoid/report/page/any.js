@@ -5,7 +5,7 @@ const rowsShown = 12;
 function anyPage(report) {
   return [
     { part: isEmpty(report.result) ? null :
-      section('result', 'Result', described(report.result)) },
+      section('result', 'Result', 'Result', described(report.result)) },
     ...report.tables.map((t, i) => anyTable(t, i)),
   ];
 }
@@ -19,7 +19,7 @@ function anyTable(t, i) {
   if (!t.drawn || !t.columns.length) return null;
   const [first, ...rest] = t.columns;
   if (!increases(first.values)) {
-    return { part: section(id, t.file, firstRows(t)) };
+    return { part: section(id, t.file, t.file, firstRows(t)) };
   }
   const byUnit = new Map();
   for (const column of rest) {
@@ -33,7 +33,7 @@ function anyTable(t, i) {
   const chart = figure({ key: first.name, x: first.values, label: words(x.name), unit: x.unit,
     caption: zoomHint + thinned(t) });
   const panels = [...byUnit].map(([unit, series]) => ({ label: '', unit, height: 180, series }));
-  return { part: section(id, t.file, chart.element,
+  return { part: section(id, t.file, t.file, chart.element,
     el('details', {}, el('summary', {}, 'Show rows'), firstRows(t))),
     draw: () => chart.draw(panels) };
 }

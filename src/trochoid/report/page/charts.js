@@ -22,12 +22,13 @@ function axes(options) {
     // uPlot groups thousands by a comma, which reads as a decimal comma to many.
     values: (u, splits) => splits.map((v) => (v === null ? '' : number(v, 6))),
   };
+  const bare = { size: 0, values: (u, splits) => splits.map(() => ''), ticks: { show: false } };
   return [
     {
-      ...common, show: options.showX, size: 30, space: 55,
+      ...common, size: 30, space: 55, ...(options.showX ? {} : bare),
       ...(options.unit === '°' ? { incrs: degreeSteps } : {}),
     },
-    { ...common, size: 62, space: 34 },  // 50 px by default, which cuts "−1400"
+    { ...common, size: 62, space: 24 },  // 50 px by default, which cuts "−1400"
   ];
 }
 
@@ -39,8 +40,7 @@ function legend(panel) {
     key.style.setProperty('--key', `var(${series.color})`);
     key.style.height = `${Math.max(2, series.width || 1.5)}px`;
     if (series.dash) key.classList.add('dashed');
-    if (series.points) key.classList.add('dot');
-    return el('span', {}, key, series.name, values[i]);
+    return el('span', {}, panel.series.length > 1 || series.name ? key : null, series.name, values[i]);
   });
   const unit = panel.unit ? ` [${panel.unit}]` : '';
   const row = el('div', { class: 'legend' },
@@ -98,7 +98,7 @@ function zeroLine(u) {
 function curve(series) {
   return {
     stroke: () => css(series.color), width: series.width || 1.5, dash: series.dash,
-    points: series.points ? { show: true, size: 5 } : { show: false },
+    points: { show: false }, pxAlign: 0,
   };
 }
 

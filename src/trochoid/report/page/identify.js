@@ -15,7 +15,7 @@ function identifyPage(report) {
     { part: fitsSection(fits, best) },
     sweepSection(report, best),
     chipSection(report),
-    { part: isEmpty(result.signal) ? null : section('signal', 'The measured signal',
+    { part: isEmpty(result.signal) ? null : section('signal', 'The measured signal', 'Signal',
       described(result.signal)) },
     { part: restSection(result, identifyKnown) },
   ];
@@ -38,11 +38,12 @@ function headline(fit, fits) {
   const phases = numbersOf(fit.phase_deg ?? []).filter(isNumber);
   return [
     tiles([
-      main && { label: symbol(nameAndUnit(key).name), value: main.value, unit: nameAndUnit(key).unit,
-        digits: digitsFor(main.value, half(main)), note: known(main).text },
+      main && { label: [symbol(nameAndUnit(key).name), ` ${meanings[nameAndUnit(key).name] || ''}`],
+        value: measured(main.value, half(main)),
+        unit: nameAndUnit(key).unit, note: known(main).text },
       { label: 'Runout between teeth', value: spread, unit: 'µm', digits: 3,
         note: fit.runout?.eccentricity_mm ? 'off centre' : null },
-      { label: 'What the fit leaves', value: fit.rms_N, unit: 'N rms', digits: 3,
+      { label: 'Residual of the fit', value: fit.rms_N, unit: 'N rms', digits: 3,
         note: comparison(fit, fits) },
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
@@ -92,15 +93,15 @@ function coefficientSection(fit) {
       return [head, missing, missing, el('span', { class: 'reason' },
         reasonOf(fit, key) || 'not identifiable')];
     }
-    const digits = digitsFor(entry.value, half(entry));
+    const width = half(entry);
     const how = known(entry);
     return [head,
-      [el('b', {}, number(entry.value, digits)), ` ${unit}`],
-      `${number(entry.low, digits)} to ${number(entry.high, digits)}`,
+      [el('b', {}, measured(entry.value, width)), ` ${unit}`],
+      `${measured(entry.low, width)} to ${measured(entry.high, width)}`,
       [meter(how.level), how.text]];
   });
   if (!rows.length) return null;
-  return section('coefficients', 'Cutting coefficients',
+  return section('coefficients', 'Cutting coefficients', 'Coefficients',
     prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '.'),
@@ -165,11 +166,11 @@ function measuredOverAngle(report, fits, best) {
     choice('Run', runs.map((r) => ({ value: r, text: number(r) })), state.run, pick('run')),
     range].filter(Boolean));
   if (left) range?.addEventListener('click', () => left.zoom(forces.range));
-  const parts = [{ part: section('forces', 'Measured and fitted force',
+  const parts = [{ part: section('forces', 'Measured and fitted force', 'Forces',
     prose('Force on the tool. Grey is what was measured, the coloured line what the fit computes.'),
     forces.element), draw: redraw }];
   if (left) {
-    parts.push({ part: section('residuals', 'What the fit leaves unexplained',
+    parts.push({ part: section('residuals', 'What the fit leaves unexplained', 'Residuals',
       prose('Measured minus fitted, on one scale. Only noise should be left; a pattern that repeats ' +
         'with the teeth tells of something that the model does not know.'), left.element) });
   }
@@ -179,16 +180,20 @@ function measuredOverAngle(report, fits, best) {
 function drawForces(chart, values, model, models) {
   const color = modelColor(model, models.indexOf(model));
   chart.draw(forcePanels((axis) => [
-    { name: 'measured', values: values(`F${axis}_measured_N`), color: '--measured', width: 3 },
+    { name: 'measured', values: values(`F${axis}_measured_N`), color: '--measured', width: 2.2 },
     { name: modelName(model), values: values(`F${axis}_${model}_N`), color, width: 1.6 },
   ].filter((series) => series.values)), values('angle_deg'));
 }
 
 function drawResiduals(chart, values, model) {
-  const series = axesOfForce.map((axis, i) => ({
-    name: forceName(axis), values: values(`F${axis}_${model}_N`), color: seriesColor(i), width: 1.2,
-  })).filter((entry) => entry.values);
-  chart.draw([{ label: 'residual', unit: 'N', height: 190, series }], values('angle_deg'));
+  const panels = forcePanels((axis) => [{
+    name: '', values: values(`F${axis}_${model}_N`), color: '--s6', width: 1,
+  }].filter((series) => series.values));
+  const all = panels.flatMap(({ series }) => series[0].values.filter(isNumber));
+  const [low, high] = paddedRange(null, all.reduce((a, b) => Math.min(a, b), 0),
+    all.reduce((a, b) => Math.max(a, b), 0));
+  chart.draw(panels.map((panel) => ({ ...panel, height: 100, range: () => [low, high] })),
+    values('angle_deg'));
 }
 
 /** The fits side by side, as in Table 1 of the paper that the method is from. */
@@ -201,9 +206,8 @@ function fitsSection(fits, best) {
       const entry = fit.coefficients?.[key];
       if (!isNumber(entry?.value)) return missing;
       const width = half(entry);
-      const digits = digitsFor(entry.value, width);
-      return [number(entry.value, digits),
-        isNumber(width) ? el('small', {}, `± ${number(width, 2)}`) : null];
+      return [measured(entry.value, width),
+        isNumber(width) ? el('small', {}, `± ${measured(width, width)}`) : null];
     })];
   });
   const row = (name, unit, value) => {
@@ -218,16 +222,25 @@ function fitsSection(fits, best) {
   axesOfForce.forEach((axis, i) => row(['residual ', forceName(axis)], 'N rms',
     (fit) => number(fit.rms_axis_N?.[i], 3)));
   row('condition', '', (fit) => number(fit.condition, 3));
+  const answered = fits.some((fit) => isNumber(fit.rms_N));
   const failed = fits.filter((fit) => fit.ok === false && fit.message);
-  return section('fits', 'The chip models side by side',
+  return section('fits', 'The chip models side by side', 'Fits',
     prose('The same record, fitted with every chip model. Where tools run out, simple models put the ' +
       'runout into the coefficients.'),
-    table(['', ...fits.map((fit) => modelName(fit.chip_model))], rows,
-      { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }),
-    failed.length ? el('ul', { class: 'reasons' }, failed.map((fit) =>
-      el('li', {}, el('b', {}, `${sentence(modelName(fit.chip_model))}: `), fit.message))) : null,
-    el('p', { class: 'small' }, '± is the half width of the 95 % interval. Residual: ' +
-      'square root of the mean of |ΔF|² over all samples, ΔF taken as a vector.'));
+    answered ? table(['', ...fits.map((fit) => modelName(fit.chip_model))], rows,
+      { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }) : null,
+    failed.length ? el('ul', { class: 'reasons' }, failed.map(reasonsOf)) : null,
+    answered ? el('p', { class: 'small' }, '± is the half width of the 95 % interval. Residual: ' +
+      'square root of the mean of |ΔF|² over all samples, ΔF taken as a vector.') : null);
+}
+
+/** Why a fit has no answer, and which quantities it could not tell apart. */
+function reasonsOf(fit) {
+  const each = Object.keys(fit.identifiable || {}).map((key) => [key, reasonOf(fit, key)])
+    .filter(([, reason]) => reason);
+  return el('li', {}, el('b', {}, `${sentence(modelName(fit.chip_model))}: `), fit.message,
+    each.length ? el('ul', {}, each.map(([key, reason]) =>
+      el('li', {}, symbol(nameAndUnit(key).name), ': ', reason))) : null);
 }
 
 function rmsCell(fit, fits) {
@@ -246,7 +259,7 @@ function sweepSection(report, best) {
   const chart = figure({ key: 'offset', x, label: 'offset of tooth 2', unit: 'µm', caption: zoomHint });
   const found = best?.runout?.radial_offsets_mm;
   const at = found?.length > 1 ? 1000 * (found[1] - found[0]) : null;
-  const part = section('sweep', 'How sharply the record tells the runout',
+  const part = section('sweep', 'How sharply the record tells the runout', 'Sweep',
     prose('What the fit leaves when the radius of tooth 2 is held at each value and the coefficients are ' +
       'fitted again. A deep, narrow valley means that the runout is well known.'), chart.element);
   const panel = {

@@ -21,7 +21,8 @@ function build() {
 
 function contents() {
   const links = [...document.querySelectorAll('main section[id] > h2')].map((heading) =>
-    el('a', { href: `#${heading.parentElement.id}` }, heading.textContent));
+    el('a', { href: `#${heading.parentElement.id}` },
+      heading.parentElement.dataset.short || heading.textContent));
   document.getElementById('contents').append(...links);
 }
 

@@ -20,8 +20,8 @@ function tiles(list) {
   if (!shown.length) return null;
   return el('div', { class: 'tiles' }, shown.map((tile) => el('div', { class: 'tile' },
     el('span', { class: 'label' }, tile.label),
-    el('span', { class: 'value' }, isNumber(tile.value) ? number(tile.value, tile.digits || 4) :
-      tile.value, tile.unit ? el('small', {}, ` ${tile.unit}`) : null),
+    el('span', { class: 'value' }, isNumber(tile.value) ?
+      number(tile.value, tile.digits || 4) : tile.value, tile.unit ? el('small', {}, ` ${tile.unit}`) : null),
     tile.note ? el('span', { class: 'note' }, tile.note) : null)));
 }
 
@@ -38,15 +38,15 @@ function shown(value, unit) {
     }
     return el('ol', {}, value.map((entry) => el('li', {}, shown(entry, unit))));
   }
-  return described(value);
+  return described(value, unit);
 }
 
-/** Any object of summary.json as a list of names and values. */
-function described(object, names = {}) {
+/** Any object of summary.json as a list of names and values; `outer`: the unit around it. */
+function described(object, outer = '') {
   return el('dl', {}, Object.entries(object).map(([key, value]) => {
     const { name, unit } = nameAndUnit(key);
-    return el('div', {}, el('dt', {}, names[key] || sentence(words(name))),
-      el('dd', {}, shown(value, unit)));
+    return el('div', {}, el('dt', {}, sentence(words(name))),
+      el('dd', {}, shown(value, unit || outer)));
   }));
 }
 
@@ -66,7 +66,7 @@ function chipSection(report, note) {
     key: 'theta', x: drawn.x, label: 'θ, immersion angle', unit: '°',
     caption: zoomHint + thinned(drawn.table),
   });
-  const part = section('chip', 'Chip thickness of each tooth',
+  const part = section('chip', 'Chip thickness of each tooth', 'Chip',
     prose('Uncut chip thickness ', el('i', {}, 'h'), ' at the tip, along the immersion angle ',
       el('i', {}, 'θ'), ' of the tooth. Teeth that run out cut differently thick chips.', note),
     chart.element);
@@ -130,7 +130,7 @@ function engagementSection(teeth) {
     tick.style.left = at(angle);
     return tick;
   });
-  return section('engagement', 'Where each tooth cuts',
+  return section('engagement', 'Where each tooth cuts', 'Engagement',
     prose('Immersion angles with a chip; 0° is +y, 90° the direction of feed.'),
     el('ol', { class: 'engagement' }, rows,
       el('li', { class: 'ticks' }, el('b', {}), el('span', { class: 'track' }, ticks))));
@@ -141,7 +141,7 @@ function restSection(result, known) {
   const rest = Object.fromEntries(Object.entries(result)
     .filter(([key, value]) => !known.includes(key) && !isEmpty(value)));
   if (isEmpty(rest)) return null;
-  return section('more', 'More of the result', described(rest));
+  return section('more', 'More of the result', 'More', described(rest));
 }
 
 const offsetWords = (um) => (um < 0 ? 'shorter' : 'longer');

@@ -33,14 +33,18 @@ function forcesOverAngle(report) {
   if (!x?.length) return null;
   const panels = forcePanels((axis) => {
     const values = columnNamed(forces, `F${axis}_N`);
-    const i = axesOfForce.indexOf(axis);
-    return values ? [{ name: '', values, color: seriesColor(i), width: 1.8 }] : [];
+    const measured = columnNamed(forces, `F${axis}_measured_N`);
+    const color = seriesColor(axesOfForce.indexOf(axis));
+    return [
+      measured && { name: 'measured', values: measured, color: '--measured', width: 2.2 },
+      values && { name: measured ? 'computed' : '', values, color, width: 1.8 },
+    ].filter(Boolean);
   });
   const chart = figure({
     key: 'angle', x, label: 'φ, spindle angle', unit: '°', caption: zoomHint + thinned(forces),
   });
   chart.controls.append(...[rangeChoice(chart, x)].filter(Boolean));
-  const part = section('forces', 'Cutting force over the spindle angle',
+  const part = section('forces', 'Cutting force over the spindle angle', 'Forces',
     prose('Force on the tool in the workpiece frame: x is the direction of feed, z points up.'),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
@@ -59,7 +63,7 @@ function channelsOverAngle(report) {
     unit: nameAndUnit(column.name).unit, height: 120,
     series: [{ name: '', values: column.values, color: seriesColor(i) }],
   }));
-  const part = section('channels', 'What the dynamometer reads',
+  const part = section('channels', 'What the dynamometer reads', 'Channels',
     prose('The same force as the channels of the dynamometer show it.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -69,13 +73,13 @@ function statistics(result) {
     .filter(([key]) => Array.isArray(result[key]))
     .map(([key, name]) => [name, ...result[key].map((value) => number(value))]);
   if (!rows.length) return null;
-  return section('numbers', 'The force in numbers',
+  return section('numbers', 'The force in numbers', 'Numbers',
     table(['N', ...axesOfForce.map(forceName)], rows));
 }
 
 function volumeSection(check) {
   if (isEmpty(check)) return null;
-  return section('volume', 'Self-check: material removed',
+  return section('volume', 'Self-check: material removed', 'Self-check',
     prose('The chips of all teeth must add up to what the feed brings into the cut. ' +
       'With all earlier teeth looked at, the two agree; with the previous tooth only, more ' +
       'material is counted than exists.'),

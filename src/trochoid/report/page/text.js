@@ -25,11 +25,12 @@ function superscript(n) {
   return [...String(n)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
 }
 
-/** The digits that an interval justifies: two of its half width. */
-function digitsFor(value, halfWidth) {
-  if (!isNumber(halfWidth) || halfWidth <= 0 || !value) return 4;
-  const digits = Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(halfWidth));
-  return Math.min(7, Math.max(2, digits + 2));
+/** A measured value with the decimals that its interval justifies: two digits of the half. */
+function measured(x, halfWidth) {
+  if (!isNumber(x)) return missing;
+  if (!isNumber(halfWidth) || halfWidth <= 0 || Math.abs(x) >= 1e7) return number(x);
+  const places = 1 - Math.floor(Math.log10(halfWidth));
+  return x.toFixed(Math.min(12, Math.max(0, places))).replace('-', '−');
 }
 
 const units = {
@@ -87,9 +88,9 @@ function el(tag, attributes = {}, ...children) {
   return element;
 }
 
-/** A section with a heading, an anchor and some prose. */
-function section(id, heading, ...children) {
-  return el('section', { id }, el('h2', {}, heading), ...children);
+/** A section with a heading, an anchor and some prose; `short` names it in the contents. */
+function section(id, heading, short, ...children) {
+  return el('section', { id, 'data-short': short }, el('h2', {}, heading), ...children);
 }
 
 const prose = (...children) => el('p', {}, ...children);
