@@ -19,18 +19,17 @@ double length_on_ray(double R_k, double theta_p, double feed, double sin_theta,
 
 /// Root of sin(x) + A (theta_p + x) in [lo, hi], where the function rises.
 double bracketed_root(double A, double theta_p, double lo, double hi) noexcept {
+  // Where the root is nearly double, no better x exists than one with g at rounding.
+  const double rounding = 2e-16 * (1 + std::abs(A) * theta_p);
   double x = 0.5 * (lo + hi);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 64; ++i) {
     const double g = std::sin(x) + A * (theta_p + x);
     (g < 0 ? lo : hi) = x;
-    double next = x - g / (std::cos(x) + A);
-    if (!(next > lo && next < hi)) {
-      next = 0.5 * (lo + hi);
+    if (std::abs(g) <= rounding) {
+      break;
     }
-    if (std::abs(next - x) <= 1e-16 * std::max(1e-3, std::abs(x))) {
-      return next;
-    }
-    x = next;
+    const double next = x - g / (std::cos(x) + A);
+    x = next > lo && next < hi ? next : 0.5 * (lo + hi);
   }
   return x;
 }

@@ -90,6 +90,7 @@ AxialForce::AxialForce(const Setup& setup, const Law& law, double tolerance)
                        std::max({w.cutting[0], w.cutting[1], w.cutting[2]});
   }
   allowed_edge_ = 0.02 * tolerance * length;
+  smallest_ = 0.1 * tolerance * length;
 }
 
 template <std::size_t M, class Element>
@@ -117,7 +118,7 @@ void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
       for (const double end : edges_.ends) {
         const double to = std::min(end, piece.to);
         if (to > from) {
-          numerics::add_integral(from, to, add, allowed, sum);
+          numerics::add_integral(from, to, add, allowed, smallest_, sum);
           from = to;
         }
       }

@@ -43,6 +43,7 @@ class AxialForce {
   Law law_;
   double allowed_cutting_ = 0.0;
   double allowed_edge_ = 0.0;
+  double smallest_ = 0.0;  ///< shortest panel [m]
 };
 
 }  // namespace trochoid::force

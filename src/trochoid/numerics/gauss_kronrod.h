@@ -20,11 +20,13 @@ const KronrodRule& kronrod_rule();
 /// The error of the Kronrod sum is taken as S min(1, (200 |K - G| / S)^1.5), S the
 /// integral of |f|, as QUADPACK does: |K - G| itself is the error of the Gauss sum.
 /// @param f        callable as f(x, weight, sum): adds weight times the values at x
-/// @param allowed  error allowed in each component over [from, to]
+/// @param allowed   error allowed in each component over a bisected part
+/// @param smallest  parts shorter than this are taken as they are: a jump may hide
+/// there
 template <std::size_t M, class Function>
 void add_integral(double from, double to, const Function& f,
-                  const std::array<double, M>& allowed, std::array<double, M>& sum,
-                  int depth = 0) {
+                  const std::array<double, M>& allowed, double smallest,
+                  std::array<double, M>& sum) {
   const KronrodRule& rule = kronrod_rule();
   const double half = 0.5 * (to - from);
   const double middle = 0.5 * (to + from);
@@ -46,9 +48,9 @@ void add_integral(double from, double to, const Function& f,
     good = good && (x <= allowed[q] ||
                     (x < size[q] && x * std::sqrt(x / size[q]) <= allowed[q]));
   }
-  if (!good && depth < 30) {
-    add_integral(from, middle, f, allowed, sum, depth + 1);
-    add_integral(middle, to, f, allowed, sum, depth + 1);
+  if (!good && to - from > smallest) {
+    add_integral(from, middle, f, allowed, smallest, sum);
+    add_integral(middle, to, f, allowed, smallest, sum);
     return;
   }
   for (std::size_t q = 0; q < M; ++q) {
