@@ -122,12 +122,12 @@ Closest closest_mark(const Ray& ray) noexcept {
 Chip simple_chip(const Ray& ray) noexcept {
   const double inside = inside_window(ray);
   if (inside <= 0) {
-    return {0.0, inside, Bounds{Bounds::window, Bounds::axis}.code(), false};
+    return {0.0, 0.0, inside, Bounds{Bounds::window, Bounds::axis}.code(), false};
   }
   const Closest best = closest_mark(ray);
   const bool in_cut = best.above > h_threshold;
-  return {in_cut ? best.above : 0.0, best.above, Bounds{Bounds::edge, best.mark}.code(),
-          in_cut};
+  return {in_cut ? best.above : 0.0, position(ray, 0).R, best.above,
+          Bounds{Bounds::edge, best.mark}.code(), in_cut};
 }
 
 Chip exact_chip(const Ray& ray) noexcept {
@@ -171,7 +171,7 @@ Chip exact_chip(const Ray& ray) noexcept {
   }
   const double margin = above - below;  // C-7
   const bool in_cut = margin > h_threshold;
-  return {in_cut ? margin : 0.0, margin, bounds.code(), in_cut};
+  return {in_cut ? margin : 0.0, own - below, margin, bounds.code(), in_cut};
 }
 
 /// Sign of "there is material between these bounds", smooth through cos(theta) = 0.
@@ -227,7 +227,7 @@ Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
              double theta) noexcept {
   const Ray ray = ray_at(passage, slice, tooth, theta);
   if (position(ray, 0).R <= 0 && passage.model.model != Model::none) {
-    return {0.0, position(ray, 0).R, 0, false};
+    return {0.0, 0.0, position(ray, 0).R, 0, false};
   }
   return passage.model.model == Model::trochoidal ? exact_chip(ray) : simple_chip(ray);
 }

@@ -43,6 +43,7 @@ struct Slice {
 /// are.
 struct Chip {
   double h = 0.0;       ///< along the horizontal ray [m]; 0 where not in cut
+  double outer = 0.0;   ///< outer end of the chip on the ray [m]
   double margin = 0.0;  ///< outer minus inner bound [m]; negative: air
   int bounds = 0;       ///< which pair of bounds is the closest one
   bool in_cut = false;
