@@ -65,6 +65,29 @@ void pattern_search(const Problem& problem, std::vector<double> steps, Minimum& 
   }
 }
 
+/// Smooth steps; those that a jump makes worse are taken back.
+void improve(const Problem& problem, Minimum& at) {
+  numerics::LevenbergMarquardtOptions options;
+  options.max_iterations = 15;
+  options.parameter_tolerance = 1e-8;
+  const Minimum smooth = refine(problem, at.p, {1e-5, 1e-6, false}, options);
+  if (smooth.rss < at.rss) at = {smooth.p, smooth.rss, true, at.reason};
+}
+
+/// Smooth steps from phases within one and a half samples of the present one.
+void improve_around(const Problem& problem, std::size_t phase, double cell,
+                    Minimum& at) {
+  const std::vector<double> middle = at.p;
+  for (int k = -6; k <= 6; ++k) {
+    Minimum near = at;
+    near.p = middle;
+    near.p[phase] += cell * k / 4.0;
+    near.rss = rss_at(problem, near.p);
+    improve(problem, near);
+    if (near.rss < at.rss) at = std::move(near);
+  }
+}
+
 }  // namespace
 
 bool sum_of_squares_jumps(const Problem& problem) {
@@ -77,31 +100,35 @@ bool sum_of_squares_jumps(const Problem& problem) {
   });
 }
 
-Minimum refine_by_sweeps(const Problem& problem, std::vector<double> start) {
+Minimum sweep_phases(const Problem& problem, std::vector<double> start) {
   Minimum at{std::move(start), 0.0, true, "the sweeps no longer changed anything"};
   at.rss = rss_at(problem, at.p);
   const int first_phase = problem.unknowns.first_phase();
-  Step step;
-  step.parameter = 1e-5;
-  step.phase = 1e-6;
-  numerics::LevenbergMarquardtOptions options;
-  options.max_iterations = 15;
-  const auto improve = [&] {
-    const Minimum smooth = refine(problem, at.p, step, options);
-    if (smooth.rss < at.rss) at = {smooth.p, smooth.rss, true, at.reason};
-  };
+  for (int r = 0; r < problem.unknowns.phases; ++r) {
+    const double cell = spacing(problem.runs[index(r)]);
+    sweep_one(problem, index(first_phase + r), std::max(2.0 * cell, 0.06), 24, at);
+  }
+  improve(problem, at);
+  return at;
+}
+
+Minimum refine_by_sweeps(const Problem& problem, std::vector<double> start) {
+  Minimum at = sweep_phases(problem, std::move(start));
+  const int first_phase = problem.unknowns.first_phase();
   std::vector<double> steps(at.p.size(), 0.02);
   for (int round = 0; round < 4; ++round) {
     const double before = at.rss;
     for (int r = 0; r < problem.unknowns.phases; ++r) {
       const double cell = spacing(problem.runs[index(r)]);
-      const double reach = round == 0 ? std::max(2.0 * cell, 0.06) : 2.0 * cell;
-      sweep_one(problem, index(first_phase + r), reach, 24, at);
+      sweep_one(problem, index(first_phase + r), 2.0 * cell, 16, at);
       steps[index(first_phase + r)] = 0.3 * cell;
     }
-    improve();
     pattern_search(problem, steps, at);
-    improve();
+    improve(problem, at);
+    for (int r = 0; r < problem.unknowns.phases; ++r) {
+      improve_around(problem, index(first_phase + r), spacing(problem.runs[index(r)]),
+                     at);
+    }
     if (!(at.rss < before * (1.0 - 1e-9))) break;
   }
   return at;

@@ -8,8 +8,10 @@ namespace trochoid::identification {
 /// them passes a sample.
 bool sum_of_squares_jumps(const Problem& problem);
 
-/// @brief Refine a start without derivatives: sweeps of the phases, then a pattern
-/// search.
+/// @brief Refine a start: sweeps of the phases, then smooth steps where nothing switches.
+Minimum sweep_phases(const Problem& problem, std::vector<double> start);
+
+/// @brief The same and a pattern search, until nothing changes any more.
 Minimum refine_by_sweeps(const Problem& problem, std::vector<double> start);
 
 }  // namespace trochoid::identification

@@ -163,9 +163,15 @@ Minimum search(const Problem& problem) {
   if (candidates.empty()) return {{}, 0.0, false, "no start gives a force"};
   Minimum best;
   if (sum_of_squares_jumps(problem)) {
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, candidates.size()); ++i) {
-      Minimum m = refine_by_sweeps(problem, candidates[i].p);
-      if (i == 0 || m.rss < best.rss) best = std::move(m);
+    std::vector<Minimum> swept;
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, candidates.size()); ++i) {
+      swept.push_back(sweep_phases(problem, candidates[i].p));
+    }
+    std::ranges::stable_sort(swept, {}, &Minimum::rss);
+    best = refine_by_sweeps(problem, swept.front().p);
+    if (swept.size() > 1 && swept[1].rss < 4.0 * best.rss) {
+      Minimum second = refine_by_sweeps(problem, swept[1].p);
+      if (second.rss < best.rss) best = std::move(second);
     }
     apply_gauge(problem, best.p);
     return best;
