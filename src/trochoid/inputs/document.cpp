@@ -90,9 +90,9 @@ std::string content_of(const std::filesystem::path& file) {
 
 constexpr std::size_t longest_value_shown = 60;
 
-std::string shortened(std::string text) {
-  if (text.size() > longest_value_shown) {
-    text.resize(longest_value_shown);
+std::string shortened(std::string text, std::size_t longest = longest_value_shown) {
+  if (text.size() > longest) {
+    text.resize(longest);
     // Do not end inside a UTF-8 sequence.
     while (!text.empty() &&
            (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) {
@@ -155,9 +155,11 @@ Node parse_file(const std::filesystem::path& file) {
     root.where = {file.string()};
     return root;
   } catch (const toml::parse_error& error) {
+    const std::string_view why = error.description();
     refuse(
         location(file.string(), error.source()),
-        fmt::format("not valid TOML: {}", shortened(std::string(error.description()))));
+        fmt::format("not valid TOML: {}{}", shortened(std::string(why), 200),
+                    why.ends_with("saw ','") ? "; numbers have a decimal point" : ""));
   }
 }
 

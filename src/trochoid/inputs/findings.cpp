@@ -31,6 +31,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+std::string in_lower_case(std::string_view text) {
+  std::string lower{text};
+  for (char& c : lower) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return lower;
+}
+
 std::string parent(const std::string& path) {
   const auto dot = path.rfind('.');
   return dot == std::string::npos ? std::string{} : path.substr(0, dot);
@@ -90,12 +98,13 @@ std::string nearest(std::string_view wrong, const std::vector<std::string>& name
   if (wrong.size() > longest_name) {
     return {};
   }
+  const std::string lower = in_lower_case(wrong);
   std::string best;
   std::size_t smallest = 1 + wrong.size() / 3;
   for (const std::string& name : names) {
     // A name without its unit, or the beginning of one, is near as well.
-    const bool begins = wrong.size() >= 3 && name.starts_with(wrong);
-    const std::size_t distance = begins ? 1 : edit_distance(wrong, name);
+    const bool begins = wrong.size() >= 3 && in_lower_case(name).starts_with(lower);
+    const std::size_t distance = begins ? 1 : edit_distance(lower, in_lower_case(name));
     if (distance < smallest || (best.empty() && distance == smallest)) {
       smallest = distance;
       best = name;

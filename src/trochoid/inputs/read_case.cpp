@@ -58,25 +58,38 @@ void read_entry(const TableEntry& entry, const Node& node, const Reading& readin
   }
 }
 
-void report_unknown(const Node& root, const std::vector<TableEntry>& entries,
-                    Findings& findings) {
-  std::vector<std::string> names = {"title", "include"};
+/// @return the tables that are there, but misspelt
+std::vector<std::string> report_unknown(const Node& root,
+                                        const std::vector<TableEntry>& entries,
+                                        Findings& findings) {
+  std::vector<std::string> names;
   for (const TableEntry& entry : entries) {
     names.emplace_back(entry.name);
   }
+  std::vector<std::string> meant;
   for (const Member& member : std::get<Members>(root.value)) {
-    if (std::find(names.begin(), names.end(), member.key) != names.end()) {
+    const bool known = member.key == "title" || member.key == "include" ||
+                       std::find(names.begin(), names.end(), member.key) != names.end();
+    if (known) {
       continue;
     }
     const bool table = std::holds_alternative<Members>(member.node.value);
     const std::string shown = shown_key(member.key);
-    report(findings, shown, member.where,
-           table ? fmt::format("[{}]: no such table{}", shown,
-                               suggestion(member.key, names))
-                 : fmt::format("{} = {}: no such key above the tables{}", shown,
-                               to_string(member.node),
-                               home_or_suggestion(member.key, names)));
+    if (table) {
+      meant.push_back(nearest(member.key, names));
+      report(
+          findings, shown, member.where,
+          fmt::format("[{}]: no such table{}", shown, suggestion(member.key, names)));
+    } else {
+      const std::string home = home_of(member.key);
+      report(
+          findings, shown, member.where,
+          fmt::format(
+              "{} = {}: no such key above the tables{}", shown, to_string(member.node),
+              home.empty() ? suggestion(member.key, {"title", "include"}) : home));
+    }
   }
+  return meant;
 }
 
 CaseTables read_tables(const Node& root, Command command, Findings& findings) {
@@ -91,17 +104,21 @@ CaseTables read_tables(const Node& root, Command command, Findings& findings) {
   read_table(
       root, "", [&](const Visitor& v) { describe(v, tables); }, reading, findings);
   const auto entries = tables_of(tables);
+  const auto meant = report_unknown(root, entries, findings);
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
     } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), purpose) >
                0) {
+      findings.wrong.insert(std::string(entry.name));
+      if (std::count(meant.begin(), meant.end(), entry.name) > 0) {
+        continue;
+      }
       report(findings, std::string(entry.name),
              fmt::format("{} is missing ({}); {} needs it", heading(entry),
                          entry.meaning, purpose));
     }
   }
-  report_unknown(root, entries, findings);
   for (std::size_t i = 0; i < tables.measurements.size(); ++i) {
     if (findings.places.count(fmt::format("measurement[{}].cut", i + 1)) == 0) {
       tables.measurements[i].cut = tables.cut;

@@ -9,6 +9,25 @@
 
 namespace trochoid::inputs {
 
+std::string home_of(std::string_view key) {
+  if (key == "title" || key == "include") {
+    return fmt::format("; {} stands above all tables", key);
+  }
+  CaseTables tables;
+  for (const TableEntry& entry : tables_of(tables)) {
+    if (entry.count() == 0) {
+      entry.add();
+    }
+    bool here = false;
+    entry.describe(0,
+                   [&](const Key& k, const Field&) { here = here || k.name == key; });
+    if (here) {
+      return fmt::format("; {} belongs to {}", key, heading(entry));
+    }
+  }
+  return {};
+}
+
 namespace {
 
 void forget_inheritance(Node& node) {
@@ -26,12 +45,17 @@ bool any_below(const std::set<std::string>& paths, const std::string& table) {
   });
 }
 
+/// A file with more problems than this needs other help.
+constexpr std::size_t most_hints = 100;
+
 struct TableReader {
   const Node& table;
   const std::string& path;
   const Reading& reading;
   Findings& findings;
   std::vector<std::string> known = {};
+  std::map<std::string, std::string, std::less<>> must_be = {};  ///< of each known key
+  std::map<std::string, std::string, std::less<>> missing = {};  ///< key to message
   std::map<std::string, std::string, std::less<>> chosen = {};
 
   [[nodiscard]] std::string path_of(std::string_view key) const {
@@ -40,11 +64,13 @@ struct TableReader {
 
   void operator()(const Key& key, const Field& field) {
     known.emplace_back(key.name);
+    must_be[known.back()] =
+        fmt::format("must be {} ({})", expectation(key, field), key.meaning);
     const std::string key_path = path_of(key.name);
     const Node* node = find(table, key.name);
     if (node == nullptr) {
-      if (missing(key)) {
-        report_missing(key, field, key_path);
+      if (lacks(key)) {
+        note_missing(key, key_path);
       }
     } else if (applies(key, field, *node, key_path)) {
       read(*node, key, field, key_path);
@@ -105,7 +131,7 @@ struct TableReader {
                                                                                    : 0;
   }
 
-  [[nodiscard]] bool missing(const Key& key) const {
+  [[nodiscard]] bool lacks(const Key& key) const {
     const bool needed = key.need == Need::always ||
                         (key.need == Need::simulate && reading.coefficients_needed);
     const bool replaced = !key.rival.empty() && find(table, key.rival) != nullptr;
@@ -113,8 +139,8 @@ struct TableReader {
     return needed && !replaced && !said_before && belongs(key) == 1;
   }
 
-  void report_missing(const Key& key, const Field& field,
-                      const std::string& key_path) const {
+  /// Told at the end only: the key may be there with another spelling.
+  void note_missing(const Key& key, const std::string& key_path) {
     std::string why;
     if (!key.only.selector.empty()) {
       why = fmt::format(" for {} = \"{}\"", key.only.selector,
@@ -123,9 +149,44 @@ struct TableReader {
     if (!key.rival.empty()) {
       why += fmt::format(", and so is {}", key.rival);
     }
-    report(findings, key_path, table.where,
-           fmt::format("{} is missing{}; must be {} ({})", key_path, why,
-                       expectation(key, field), key.meaning));
+    findings.wrong.insert(key_path);
+    missing[known.back()] =
+        fmt::format("{} is missing{}; {}", key_path, why, must_be[known.back()]);
+  }
+
+  void report_unknown(const Member& member) {
+    const std::string shown = path_of(shown_key(member.key));
+    std::string hint;
+    if (findings.problems.size() < most_hints) {
+      hint = home_of(member.key);
+      const std::string near = hint.empty() ? nearest(member.key, known) : "";
+      if (hint.empty()) {
+        hint = suggestion(member.key, known);
+      }
+      if (!near.empty()) {
+        missing.erase(near);
+        hint += " " + must_be[near];
+      }
+    }
+    report(findings, shown, member.where,
+           fmt::format("{} = {}: no such key{}", shown,
+                       shown_value(member.key, member.node), hint));
+  }
+
+  void finish() {
+    for (const Member& member : std::get<Members>(table.value)) {
+      const bool is_known =
+          std::find(known.begin(), known.end(), member.key) != known.end();
+      if (!is_known && !(reading.only_own && member.node.inherited)) {
+        report_unknown(member);
+      }
+    }
+    for (const std::string& key : known) {
+      const auto message = missing.find(key);
+      if (message != missing.end()) {
+        report(findings, path_of(key), table.where, message->second);
+      }
+    }
   }
 
   /// Whether a key that is there is to be read; reports one that has no meaning here.
@@ -147,7 +208,7 @@ struct TableReader {
     report(findings, key_path, node.where,
            fmt::format("{} = {}: has no meaning for {} = \"{}\"; belongs to \"{}\" "
                        "only, where it must be {} ({})",
-                       key_path, to_string(node), key.only.selector,
+                       key_path, shown_value(key.name, node), key.only.selector,
                        chosen.find(key.only.selector)->second,
                        fmt::join(key.only.values, "\", \""), expectation(key, field),
                        key.meaning));
@@ -157,26 +218,6 @@ struct TableReader {
 
 }  // namespace
 
-std::string home_or_suggestion(std::string_view key,
-                               const std::vector<std::string>& names) {
-  if (key == "title" || key == "include") {
-    return fmt::format("; {} stands above all tables", key);
-  }
-  CaseTables tables;
-  for (const TableEntry& entry : tables_of(tables)) {
-    if (entry.count() == 0) {
-      entry.add();
-    }
-    bool here = false;
-    entry.describe(0,
-                   [&](const Key& k, const Field&) { here = here || k.name == key; });
-    if (here) {
-      return fmt::format("; {} belongs to {}", key, heading(entry));
-    }
-  }
-  return suggestion(key, names);
-}
-
 void read_table(const Node& table, const std::string& path,
                 const std::function<void(const Visitor&)>& describe,
                 const Reading& reading, Findings& findings) {
@@ -185,18 +226,8 @@ void read_table(const Node& table, const std::string& path,
   }
   TableReader reader{table, path, reading, findings};
   describe([&reader](const Key& key, const Field& field) { reader(key, field); });
-  if (path.empty()) {
-    return;  // the top of the file holds tables as well: read_case.cpp knows them
-  }
-  for (const Member& member : std::get<Members>(table.value)) {
-    const bool known = std::find(reader.known.begin(), reader.known.end(),
-                                 member.key) != reader.known.end();
-    if (!known && !(reading.only_own && member.node.inherited)) {
-      const std::string shown = reader.path_of(shown_key(member.key));
-      report(findings, shown, member.where,
-             fmt::format("{} = {}: no such key{}", shown, to_string(member.node),
-                         home_or_suggestion(member.key, reader.known)));
-    }
+  if (!path.empty()) {  // the top of the file holds tables: read_case.cpp knows them
+    reader.finish();
   }
 }
 

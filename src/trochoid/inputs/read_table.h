@@ -23,8 +23,7 @@ void read_table(const Node& table, const std::string& path,
                 const std::function<void(const Visitor&)>& describe,
                 const Reading& reading, Findings& findings);
 
-/// @brief What to say of an unknown key: the table it belongs to, or a name like it.
-std::string home_or_suggestion(std::string_view key,
-                               const std::vector<std::string>& names);
+/// @brief `; spindle_rpm belongs to [cut]`; empty for a key of no table.
+std::string home_of(std::string_view key);
 
 }  // namespace trochoid::inputs

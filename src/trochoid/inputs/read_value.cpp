@@ -26,11 +26,9 @@ struct Reader {
   /// @param entry  1, 2 ... in a list; 0: not in a list
   void refuse(const Node& at, std::size_t entry, std::string_view why) const {
     const std::string what = entry > 0 ? fmt::format("{} entry {}", path, entry) : path;
-    const bool number = number_in(at).has_value() && !unit.symbol.empty();
     report(findings, path, at.where,
-           fmt::format("{} = {}{}{}: {}; must be {} ({})", what, to_string(at),
-                       number ? " " : "", number ? unit.symbol : "", why,
-                       expectation(key, field), key.meaning));
+           fmt::format("{} = {}: {}; must be {} ({})", what, shown_value(key.name, at),
+                       why, expectation(key, field), key.meaning));
   }
   std::optional<double> number(const Node& at, std::size_t entry) const {
     const auto value = number_in(at);
@@ -74,7 +72,8 @@ struct Reader {
       const std::string near =
           nearest(*text, std::vector<std::string>(names.begin(), names.end()));
       refuse(at, entry,
-             near.empty() ? "unknown" : fmt::format("did you mean \"{}\"", near) + "?");
+             near.empty() ? "unknown"
+                          : fmt::format("unknown, did you mean \"{}\"?", near));
       return std::nullopt;
     }
     return static_cast<int>(found - names.begin());
@@ -183,6 +182,13 @@ std::optional<double> number_in(const Node& node) {
     return *number;
   }
   return std::nullopt;
+}
+
+std::string shown_value(std::string_view key, const Node& node) {
+  const std::string_view symbol = unit_of(key).symbol;
+  return number_in(node) && !symbol.empty()
+             ? fmt::format("{} {}", to_string(node), symbol)
+             : to_string(node);
 }
 
 void read_value(const Node& node, const std::string& path, const Key& key,

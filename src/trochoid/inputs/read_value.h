@@ -16,4 +16,7 @@ void read_value(const Node& node, const std::string& path, const Key& key,
 /// @brief A number of the file, whole or not; nothing when the node is no number.
 std::optional<double> number_in(const Node& node);
 
+/// @brief The value of a key as a message shows it, a number with its unit.
+std::string shown_value(std::string_view key, const Node& node);
+
 }  // namespace trochoid::inputs
