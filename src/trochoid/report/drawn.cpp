@@ -33,8 +33,8 @@ void append_extremes(const std::vector<double>& values, std::size_t from,
   std::size_t low = from;
   std::size_t high = from;
   for (std::size_t i = from; i < to; ++i) {
-    if (!(values[i] >= values[low])) low = i;
-    if (!(values[i] <= values[high])) high = i;
+    if (std::isnan(values[low]) || values[i] < values[low]) low = i;
+    if (std::isnan(values[high]) || values[i] > values[high]) high = i;
   }
   rows.push_back(low);
   rows.push_back(high);

@@ -196,13 +196,13 @@ function watchPage() {
   });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change',
     each((chart) => chart.redraw()));
-  // Canvases do not follow the paper by themselves: 660 px are an A4 page less margins.
+  // Canvases do not follow the paper by themselves: 680 px are an A4 page less margins.
   let opened = [];
   window.addEventListener('beforeprint', () => {
     document.documentElement.classList.add('print');
     opened = [...document.querySelectorAll('details:not(.raw):not([open])')];
     for (const details of opened) details.open = true;
-    charts.forEach((chart) => { chart.resize(660); chart.redraw(); });
+    charts.forEach((chart) => { chart.resize(680); chart.redraw(); });
   });
   window.addEventListener('afterprint', () => {
     document.documentElement.classList.remove('print');

@@ -216,12 +216,12 @@ function fitsSection(fits, best) {
       rows.push([[name, unit ? el('small', {}, unit) : null], ...cells.map((cell) => cell ?? missing)]);
     }
   };
-  row('runout', 'µm', (fit) => number(spreadOf(fit.runout), 3));
+  row('runout', 'µm', (fit) => fixed(spreadOf(fit.runout), 3));
   row('phase', '°', (fit) => numbersOf(fit.phase_deg ?? []).filter(isNumber).map((p) => number(p)).join(', ') || missing);
   row('residual', 'N rms', (fit) => rmsCell(fit, fits));
   axesOfForce.forEach((axis, i) => row(['residual ', forceName(axis)], 'N rms',
-    (fit) => number(fit.rms_axis_N?.[i], 3)));
-  row('condition', '', (fit) => number(fit.condition, 3));
+    (fit) => fixed(fit.rms_axis_N?.[i], 3)));
+  row('condition', '', (fit) => fixed(fit.condition, 3));
   const answered = fits.some((fit) => isNumber(fit.rms_N));
   const failed = fits.filter((fit) => fit.ok === false && fit.message);
   return section('fits', 'The chip models side by side', 'Fits',
@@ -248,7 +248,7 @@ function rmsCell(fit, fits) {
   const largest = Math.max(...fits.map((other) => other.rms_N || 0));
   const bar = el('span', { class: 'fill' });
   bar.style.width = `${100 * fit.rms_N / largest}%`;
-  return [el('b', {}, number(fit.rms_N, 3)), el('span', { class: 'underbar' }, bar)];
+  return [el('b', {}, fixed(fit.rms_N, 3)), el('span', { class: 'underbar' }, bar)];
 }
 
 function sweepSection(report, best) {

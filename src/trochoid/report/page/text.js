@@ -19,6 +19,12 @@ function number(x, digits = 4) {
   return text.replace('-', '−');
 }
 
+/** As many significant digits as asked for, zeros included: for columns of a table. */
+function fixed(x, digits) {
+  if (!isNumber(x) || Math.abs(x) >= 10 ** digits || Math.abs(x) < 1e-4) return number(x, digits);
+  return x.toPrecision(digits).replace('-', '−');
+}
+
 const trimmed = (text) => (text.includes('.') ? text.replace(/\.?0+$/, '') : text);
 
 function superscript(n) {

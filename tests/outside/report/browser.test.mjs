@@ -1,0 +1,202 @@
+// The pages of write_samples.cpp in headless Chromium, as a reader opens them from a file.
+import assert from 'node:assert/strict';
+import { mkdirSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+// From the working folder, where `npm ci` puts it.
+const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
+const samples = process.env.SAMPLES;
+const pictures = path.join(samples, '..', 'pictures');
+let browser;
+
+before(async () => {
+  mkdirSync(pictures, { recursive: true });
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-dev-shm-usage'],
+  });
+});
+after(() => browser?.close());
+
+/** Open a report; whatever it requests, prints or throws is recorded. */
+async function open(name, options = {}) {
+  const { width = 1200, ...rest } = options;
+  const context = await browser.newContext({ viewport: { width, height: 900 }, ...rest });
+  const page = await context.newPage();
+  const seen = { requests: [], complaints: [] };
+  page.on('request', (request) => seen.requests.push(request.url()));
+  page.on('console', (message) => seen.complaints.push(message.text()));
+  page.on('pageerror', (error) => seen.complaints.push(String(error)));
+  const url = pathToFileURL(path.join(samples, name, 'report.html')).href;
+  await page.goto(url);
+  await page.waitForTimeout(200);
+  return { page, seen, url, close: () => context.close() };
+}
+
+/** Share of pixels of each canvas that something was drawn on, and the number of colours. */
+const drawn = (page) => page.$$eval('.uplot canvas', (canvases) => canvases.map((canvas) => {
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const colors = new Map();
+  for (let i = 0; i < data.length; i += 4) {
+    if (data[i + 3] !== 255) continue;
+    const color = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+    colors.set(color, (colors.get(color) || 0) + 1);
+  }
+  return [...colors].sort((a, b) => b[1] - a[1]).map(([color, n]) => ({ color, n }));
+}));
+
+const hex = (text) => parseInt(text.trim().slice(1), 16);
+const colorOf = (page, name) => page.evaluate((n) =>
+  getComputedStyle(document.documentElement).getPropertyValue(n), name).then(hex);
+const has = (canvas, color) => canvas.some((entry) => entry.color === color && entry.n > 100);
+
+async function check(name, options, plots) {
+  const { page, seen, url, close } = await open(name, options);
+  assert.deepEqual(seen.complaints, []);
+  assert.deepEqual(seen.requests.filter((request) => request !== url &&
+    !request.startsWith('data:')), [], 'the page requests something');
+  assert.equal(await page.locator('.uplot').count(), plots);
+  const canvases = await drawn(page);
+  assert.equal(canvases.length, plots);
+  canvases.forEach((canvas, i) => assert.ok(canvas.reduce((sum, { n }) => sum + n, 0) > 500,
+    `plot ${i + 1} is blank`));
+  const overflow = await page.evaluate(() =>
+    document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(overflow <= 0, `the page is ${overflow} px too wide`);
+  const label = `${name}_${options.width || 1200}_${options.colorScheme || 'light'}`;
+  await page.screenshot({ path: path.join(pictures, `${label}.png`), fullPage: true });
+  return { page, canvases, close };
+}
+
+const plotsOf = { identify: 8, simulate: 7, failed: 0, other: 2 };
+for (const [name, plots] of Object.entries(plotsOf)) {
+  for (const width of [1200, 480]) {
+    test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
+      const { close } = await check(name, { width }, plots);
+      await close();
+    });
+  }
+}
+
+test('dark pages draw the same', async () => {
+  const { page, canvases, close } = await check('identify', { colorScheme: 'dark' }, 8);
+  assert.ok(has(canvases[0], await colorOf(page, '--s1')));
+  await close();
+});
+
+test('measured and fitted force lie in one panel, and the chip model can be chosen', async () => {
+  const { page, close } = await open('identify');
+  const [measured, exact, none] = await Promise.all(
+    ['--measured', '--s1', '--s3'].map((name) => colorOf(page, name)));
+  let canvases = await drawn(page);
+  for (const canvas of canvases.slice(0, 3)) {
+    assert.ok(has(canvas, measured), 'measured');
+    assert.ok(has(canvas, exact), 'trochoidal, the chosen one');
+    assert.ok(!has(canvas, none));
+  }
+  await page.getByRole('button', { name: 'no runout' }).click();
+  await page.waitForTimeout(100);
+  canvases = await drawn(page);
+  for (const canvas of canvases.slice(0, 3)) {
+    assert.ok(has(canvas, measured) && has(canvas, none) && !has(canvas, exact));
+  }
+  assert.deepEqual(await page.locator('.uplot').count(), 8, 'old curves stay behind');
+  await close();
+});
+
+test('dragging zooms all panels over the angle together, a double click shows all', async () => {
+  const { page, close } = await open('identify');
+  const blank = async () => (await drawn(page)).map((canvas) => JSON.stringify(canvas));
+  const before = await blank();
+  await page.locator('.u-over').first().evaluate((over) =>
+    over.scrollIntoView({ block: 'center', behavior: 'instant' }));
+  const box = await page.locator('.u-over').first().boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 50);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 300, box.y + 55, { steps: 5 });
+  const values = await page.locator('.legend b').evaluateAll((all) =>
+    all.slice(0, 6).map((b) => b.textContent));
+  assert.ok(values.every((text) => /^−?[\d.]+$/.test(text)), `values at the cursor: ${values}`);
+  await page.mouse.up();
+  await page.waitForTimeout(100);
+  const zoomed = await blank();
+  for (let i = 0; i < 6; ++i) assert.notEqual(zoomed[i], before[i], `panel ${i + 1} stays`);
+  assert.equal(zoomed[6], before[6], 'the sweep has another axis');
+  await page.mouse.dblclick(box.x + 250, box.y + 50);
+  await page.mouse.move(5, 5);
+  await page.waitForTimeout(100);
+  assert.deepEqual(await blank(), before);
+  await close();
+});
+
+test('numbers too large for the usual margin are not cut', async () => {
+  const { page, close } = await open('simulate');
+  const left = await page.$$eval('.u-over', (all) => all.map((over) => over.offsetLeft));
+  assert.ok(left.every((x) => x >= 60), `margins: ${left}`);
+  await close();
+});
+
+test('the answer stands in words and numbers', async () => {
+  const { page, close } = await open('identify');
+  const text = await page.locator('main').innerText();
+  for (const part of ['2618 MPa', '2577 to 2660', 'tooth 2 is 8.03 µm shorter than tooth 1',
+    'Neighbouring residuals are alike', 'cannot be told from the drift', '874.92 rpm']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  assert.equal(await page.locator('.fits .chosen').first().innerText(), 'trochoidal (exact)');
+  await close();
+});
+
+test('an idle tooth is named and hostile text stays text', async () => {
+  const { page, close } = await open('simulate');
+  const text = await page.locator('body').innerText();
+  assert.ok(text.includes('idle: cuts nothing'));
+  assert.ok(text.includes('</script><b>&'));
+  assert.ok((await page.title()).startsWith('Up milling with runout <b> & "quotes" µ – 刀'));
+  assert.equal(await page.locator('h1 b, .warnings b').count(), 0);
+  await close();
+});
+
+test('a failed answer says so first', async () => {
+  const { page, close } = await open('failed');
+  const lead = await page.locator('.lead').innerText();
+  assert.ok(lead.startsWith('No good answer'));
+  assert.ok(lead.includes('rank 3'));
+  const main = await page.locator('main').innerText();
+  assert.ok(main.includes('parallel to K'), main);
+  assert.ok(!/\d+ MPa/.test(main), 'a failed fit must show no number that looks valid');
+  await close();
+});
+
+test('a long table is thinned for drawing, says so, and keeps its peak', async () => {
+  const { page, close } = await open('other');
+  const text = await page.locator('figcaption').innerText();
+  assert.match(text, /Drawn from \d+ of 120000 rows/);
+  const values = await page.evaluate(() =>
+    JSON.parse(document.getElementById('data').textContent).tables[0].columns[1].values);
+  assert.ok(Math.max(...values) > 28);
+  await close();
+});
+
+test('without JavaScript the page still tells its message', async () => {
+  const { page, close } = await open('identify', { javaScriptEnabled: false });
+  const text = await page.locator('body').innerText();
+  assert.ok(text.includes('explains the record best'));
+  assert.ok(text.includes('need JavaScript'));
+  assert.ok(text.includes('K_tc  2618 MPa'));
+  await close();
+});
+
+test('paper is light, and shows the inputs', async () => {
+  const { page, close } = await open('identify', { colorScheme: 'dark' });
+  const pdf = await page.pdf({ format: 'A4', preferCSSPageSize: true });
+  assert.ok(pdf.length > 20000);
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await page.emulateMedia({ media: 'print', colorScheme: 'dark' });
+  assert.equal(await page.locator('#case').isVisible(), true);
+  assert.equal(await colorOf(page, '--paper'), 0xffffff);
+  await close();
+});

@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+#include <trochoid/report/drawn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace trochoid::report {
+namespace {
+
+base::Table wave(std::size_t count) {
+  base::Table table{"forces.csv", {{"angle_deg", {}}, {"Fx_N", {}}}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i);
+    table.columns[0].values.push_back(x);
+    table.columns[1].values.push_back(std::sin(0.01 * x));
+  }
+  return table;
+}
+
+TEST(Drawn, AreAllRowsOfASmallTable) {
+  const auto rows = drawn_rows(wave(100), 1000);
+  ASSERT_EQ(rows.size(), 100U);
+  EXPECT_EQ(rows.front(), 0U);
+  EXPECT_EQ(rows.back(), 99U);
+}
+
+TEST(Drawn, AreNoMoreThanAskedForAndInOrder) {
+  const auto table = wave(100'000);
+  const auto rows = drawn_rows(table, 4000);
+  EXPECT_LE(rows.size() * table.columns.size(), 4000U);
+  EXPECT_GT(rows.size() * table.columns.size(), 1000U);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_EQ(std::adjacent_find(rows.begin(), rows.end()), rows.end());
+  EXPECT_EQ(rows.front(), 0U);
+  EXPECT_EQ(rows.back(), 99'999U);
+}
+
+TEST(Drawn, KeepEveryPeak) {
+  auto table = wave(100'000);
+  table.columns[1].values[54'321] = 7.0;
+  table.columns[1].values[77'777] = -7.0;
+  const auto rows = drawn_rows(table, 4000);
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 54'321U));
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 77'777U));
+}
+
+TEST(Drawn, KeepPeaksBesideMissingNumbers) {
+  auto table = wave(100'000);
+  for (std::size_t i = 0; i < 100'000; i += 2) {
+    table.columns[1].values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  table.columns[1].values[54'321] = 7.0;
+  const auto rows = drawn_rows(table, 4000);
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 54'321U));
+}
+
+TEST(Drawn, BecomeJsonWithoutAnythingThatIsNoNumber) {
+  const base::Table table{
+      "chip \"1\".csv",
+      {{"h_mm", {0.1, std::numeric_limits<double>::infinity(), -1234567.0}}}};
+  const auto json = nlohmann::json::parse(tables_json({table}));
+  EXPECT_EQ(json[0]["file"], "chip \"1\".csv");
+  EXPECT_EQ(json[0]["rows"], 3);
+  EXPECT_EQ(json[0]["drawn"], 3);
+  EXPECT_EQ(json[0]["columns"][0]["values"].dump(), "[0.1,null,-1234567]");
+}
+
+TEST(Drawn, MayBeNothing) {
+  EXPECT_EQ(tables_json({}), "[]");
+  const auto json =
+      nlohmann::json::parse(tables_json({{"a.csv", {}}, {"b.csv", {{"x", {}}}}}));
+  EXPECT_EQ(json.size(), 2U);
+}
+
+}  // namespace
+}  // namespace trochoid::report

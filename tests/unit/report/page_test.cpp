@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+#include <trochoid/report/page.h>
+#include <trochoid/report/report.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+namespace trochoid::report {
+namespace {
+
+const std::string hostile =
+    "</script><script>alert(1)</script> & \"x\" \xC2\xB5 {{case}}";
+
+base::Answer sample() {
+  base::Answer answer;
+  answer.command = "simulate";
+  answer.title = hostile;
+  answer.message = hostile;
+  answer.warnings = {{"code\"", hostile}};
+  answer.result = "{}";
+  answer.case_toml = hostile;
+  answer.short_table = hostile;
+  answer.tables = {{"forces.csv", {{"angle_deg", {0, 1}}, {hostile, {1, 2}}}}};
+  return answer;
+}
+
+std::string summary_of(const base::Answer& answer) {
+  const nlohmann::json summary = {
+      {"trochoid", {{"version", "1.2.3"}, {"commit", "abc" + hostile}}},
+      {"message", answer.message},
+      {"result", nlohmann::json::object()}};
+  return summary.dump();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos;
+       at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+/// What stands between two marks.
+std::string between(const std::string& text, const std::string& from,
+                    const std::string& to) {
+  const auto begin = text.find(from) + from.size();
+  return text.substr(begin, text.find(to, begin) - begin);
+}
+
+TEST(Page, RequestsNothingFromANetwork) {
+  const std::string page = html(sample(), summary_of(sample()));
+  const std::regex fetches(
+      R"((src|href|action|data)\s*=\s*["']?\s*(https?:|//))"
+      R"(|url\(\s*["']?(https?:|//)|@import|fetch\(|XMLHttpRequest)"
+      R"(|WebSocket|sendBeacon)");
+  std::smatch found;
+  EXPECT_FALSE(std::regex_search(page, found, fetches)) << found.str();
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos)
+      << "the browser itself must be told to refuse requests";
+}
+
+TEST(Page, HoldsNoTextThatBecomesMarkup) {
+  const std::string page = html(sample(), summary_of(sample()));
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(count(page, "</script>"), 3U) << "data, uPlot and the page's own";
+  EXPECT_NE(page.find("&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; &amp; "
+                      "&quot;x&quot; \xC2\xB5 {{case}}</h1>"),
+            std::string::npos);
+}
+
+TEST(Page, CarriesItsDataAsJson) {
+  const std::string summary = summary_of(sample());
+  const std::string page = html(sample(), summary);
+  const auto data = nlohmann::json::parse(
+      between(page, "<script type=\"application/json\" id=\"data\">", "</script>"));
+  EXPECT_EQ(data.at("summary"), nlohmann::json::parse(summary));
+  EXPECT_EQ(data.at("tables")[0].at("columns")[1].at("name"), hostile);
+}
+
+TEST(Page, NamesTheProgramThatMadeTheAnswer) {
+  const std::string page = html(sample(), summary_of(sample()));
+  EXPECT_NE(page.find("version 1.2.3"), std::string::npos);
+  EXPECT_NE(page.find("<code>abc&lt;/script&gt;"), std::string::npos);
+}
+
+TEST(Page, SaysProminentlyThatThereIsNoAnswer) {
+  base::Answer answer = sample();
+  EXPECT_EQ(html(answer, summary_of(answer)).find("No good answer"), std::string::npos);
+  answer.ok = false;
+  const std::string page = html(answer, summary_of(answer));
+  EXPECT_NE(page.find("<body class=\"failed\">"), std::string::npos);
+  EXPECT_NE(page.find("No good answer</strong>"), std::string::npos);
+}
+
+TEST(Page, HasNoListOfWarningsWithoutAny) {
+  base::Answer answer = sample();
+  EXPECT_NE(html(answer, summary_of(answer)).find("id=\"warnings\""),
+            std::string::npos);
+  answer.warnings.clear();
+  EXPECT_EQ(html(answer, summary_of(answer)).find("id=\"warnings\""),
+            std::string::npos);
+}
+
+TEST(Page, TakesItsHeadingFromTheCommandWithoutATitle) {
+  base::Answer answer = sample();
+  answer.title.clear();
+  EXPECT_NE(html(answer, summary_of(answer)).find("<h1>simulate</h1>"),
+            std::string::npos);
+}
+
+TEST(Page, HasAPlaceForEachOfItsParts) {
+  for (const auto* name : {"title", "message", "verdict", "warnings", "case", "summary",
+                           "style", "data", "uplot", "script", "version", "commit"}) {
+    EXPECT_NE(page_html().find("{{" + std::string(name) + "}}"), std::string::npos)
+        << name;
+  }
+  EXPECT_EQ(html({}, "{}").find("{{"), std::string::npos) << "a place was not filled";
+}
+
+}  // namespace
+}  // namespace trochoid::report
