@@ -83,7 +83,8 @@ std::string check_sample_count(const DynoWareHeader& header,
   }
   if (rows == promised) return {};
   const double step = header.sample_rate > 0.0 ? 1.0 / header.sample_rate : 0.0;
-  const bool from_the_start = found.first_time <= header.delay + 0.5 * step;
+  const bool from_the_start =
+      found.first_time && *found.first_time <= header.delay + 0.5 * step;
   if (from_the_start || !found.terminated) {
     problems.add(
         found.last_line, 1,

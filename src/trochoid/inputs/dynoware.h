@@ -30,16 +30,17 @@ DynoWareHeader read_dynoware_header(std::string_view first_line, LineReader& lin
 /// What is known of an export once its rows have been read.
 struct DynoWareExport {
   std::size_t rows = 0;
-  double first_time = 0.0;    ///< [s]
-  std::size_t last_line = 0;  ///< of the file
-  bool terminated = true;     ///< whether the last line has an end
+  std::optional<double> first_time;  ///< [s]; absent: no column of times
+  std::size_t last_line = 0;         ///< of the file
+  bool terminated = true;            ///< whether the last line has an end
 };
 
 /// @brief Compare the number of rows with the header.
 ///
 /// DynoWare states the samples of the whole record even when a part of it is exported.
-/// Fewer rows are therefore in order if the part begins later than the record; from the
-/// beginning of the record they are a file that was cut off. More rows never are.
+/// Fewer rows are therefore in order if the part begins later than the record (or tells
+/// no times); from the beginning of the record they are a file that was cut off. More
+/// rows never are.
 /// @return what to note about a part of a record; empty: nothing
 std::string check_sample_count(const DynoWareHeader& header,
                                const DynoWareExport& found, Problems& problems);

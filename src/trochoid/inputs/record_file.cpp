@@ -278,7 +278,8 @@ void check_whole(Reading& reading) {
                     rows, rows == 1 ? "" : "s"));
     throw_problems(reading);
   }
-  const double first = reading.record.time.empty() ? 0.0 : reading.record.time.front();
+  const auto& time = reading.record.time;
+  const auto first = time.empty() ? std::nullopt : std::optional(time.front());
   settle_time(reading);
   if (reading.dynoware) {
     const auto note = check_sample_count(

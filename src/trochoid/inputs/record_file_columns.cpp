@@ -216,7 +216,7 @@ void report_unit(const Search& search, std::size_t index, Quantity quantity,
   const auto& field = in_row ? search.head.units[index] : search.head.names[index];
   search.problems.add(
       in_row ? search.head.units_line : search.head.names_line, field.column,
-      fmt::format("the unit {} of column {} is no unit of {} known here: {} is right",
+      fmt::format("the unit {} of column {} is not one of {}: {} is right",
                   excerpt(text), excerpt(search.head.names[index].text), noun(quantity),
                   right_units(quantity)));
 }
@@ -273,6 +273,15 @@ std::optional<RecordColumn> find_axis(const Search& search, const std::string& g
 
 std::array<std::optional<std::size_t>, 3> usual_forces(const Search& search) {
   std::array<std::optional<std::size_t>, 3> found;
+  const auto& names = search.head.names;
+  if (std::all_of(names.begin(), names.end(), [](const Field& field) {
+        return parse_number(field.text).fault != NumberFault::not_a_number;
+      })) {
+    search.problems.add(search.head.names_line, 1,
+                        "the first row holds numbers: a row of names, for example "
+                        "angle_deg,Fx_N,Fy_N,Fz_N, must come before them");
+    return found;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     found[i] = usual_column(search, NameList(force_names[i]).first(usual));
   }
@@ -281,14 +290,14 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const Search& search) {
       found[i] = usual_column(search, NameList(force_names[i]).subspan(usual));
     }
   }
-  constexpr std::array names = {"Fx", "Fy", "Fz"};
+  constexpr std::array shown = {"Fx", "Fy", "Fz"};
   for (std::size_t i = 0; i < 3; ++i) {
     if (found[i]) continue;
     search.problems.add(
         search.head.names_line, 1,
         fmt::format("no column is named {}, for example {}_N: the columns are {}; "
                     "columns = [...] in the case file names the three forces",
-                    names[i], names[i], all_names(search.head)));
+                    shown[i], shown[i], all_names(search.head)));
   }
   return found;
 }

@@ -8,11 +8,15 @@ namespace trochoid::inputs {
 
 namespace {
 
-double resolution(const PrintedTime& printed, double time) {
+/// By how much a printed time may be off.
+double rounding(const PrintedTime& printed, double time, double rate) {
+  double step = printed.step;
   if (printed.six_digits && time != 0.0) {
-    return std::pow(10.0, std::floor(std::log10(std::abs(time))) - 5.0);
+    step = std::pow(10.0, std::floor(std::log10(std::abs(time))) - 5.0);
   }
-  return printed.step;
+  // Where the period has no more decimals than are printed, nothing was rounded.
+  const double steps = 1.0 / (rate * step);
+  return std::abs(steps - std::round(steps)) < 1e-6 && steps > 0.5 ? 0.0 : step;
 }
 
 }  // namespace
@@ -37,7 +41,7 @@ void check_rate(const TimeColumn& time, double rate, Problems& problems) {
     const double t = time.values[i];
     const double expected = time.values[0] + static_cast<double>(i) / rate;
     const double allowed =
-        0.5 / rate + resolution(time.printed, t) + 1e-9 * std::abs(t);
+        0.5 / rate + rounding(time.printed, t, rate) + 1e-9 * std::abs(t);
     if (std::abs(t - expected) <= allowed) continue;
     problems.add(time.lines[i], time.column,
                  fmt::format("time {} s where {:.9g} s should stand at {} Hz: rows are "
