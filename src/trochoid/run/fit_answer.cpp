@@ -1,0 +1,279 @@
+#include <trochoid/run/fit_answer.h>
+
+#include <trochoid/base/units.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using identification::Estimate;
+using identification::Fit;
+using identification::RunoutUnknowns;
+
+struct Name {
+  const char* key;
+  double unit;
+};
+
+constexpr std::array<Name, 6> linear_names = {{{"K_tc_MPa", unit::MPa},
+                                               {"K_rc_MPa", unit::MPa},
+                                               {"K_ac_MPa", unit::MPa},
+                                               {"K_te_N_per_mm", unit::N_per_mm},
+                                               {"K_re_N_per_mm", unit::N_per_mm},
+                                               {"K_ae_N_per_mm", unit::N_per_mm}}};
+constexpr std::array<Name, 3> power_names = {
+    {{"K_t1_MPa", unit::MPa}, {"K_r1_MPa", unit::MPa}, {"K_a1_MPa", unit::MPa}}};
+constexpr std::array<Name, 3> exponent_names = {{{"m_t", 1}, {"m_r", 1}, {"m_a", 1}}};
+
+std::span<const Name> names_of(const Fit& fit) {
+  if (std::holds_alternative<force::Power>(fit.law)) {
+    return power_names;
+  }
+  return linear_names;
+}
+
+bool unidentifiable(const Fit& fit, const std::string& name) {
+  for (const auto& [what, why] : fit.unidentifiable) {
+    if (what == name) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Json estimate_json(const std::optional<Estimate>& e, double unit) {
+  if (!e) {
+    return nullptr;
+  }
+  return {{"value", e->value / unit},
+          {"se", e->se / unit},
+          {"low", e->low / unit},
+          {"high", e->high / unit}};
+}
+
+Json optional_json(const std::optional<double>& value, double unit) {
+  return value ? Json(*value / unit) : Json(nullptr);
+}
+
+Json runout_json(const Fit& fit) {
+  if (!fit.ok || fit.chip.model == chip::Model::none) {
+    return nullptr;
+  }
+  Json offsets = Json::array();
+  Json errors = Json::array();
+  const bool found = fit.options.runout == RunoutUnknowns::offsets;
+  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    const bool unknown =
+        unidentifiable(fit, "radial_offsets_mm") ||
+        unidentifiable(fit, fmt::format("radial_offsets_mm[{}]", k + 1));
+    offsets.push_back(unknown ? Json(nullptr)
+                              : Json(fit.runout.radial_offsets[k] / unit::mm));
+    const bool gauge = found && k == 0 && !unknown;
+    errors.push_back(gauge ? Json(0.0)
+                           : optional_json(fit.radial_offsets_se[k], unit::mm));
+  }
+  const bool no_rho = unidentifiable(fit, "eccentricity_mm");
+  const bool no_angle = unidentifiable(fit, "angle_deg");
+  return {{"radial_offsets_mm", offsets},
+          {"radial_offsets_se_mm", errors},
+          {"eccentricity_mm",
+           no_rho ? Json(nullptr) : Json(fit.runout.eccentricity / unit::mm)},
+          {"eccentricity_se_mm", optional_json(fit.eccentricity_se, unit::mm)},
+          {"angle_deg", no_angle ? Json(nullptr) : Json(fit.runout.angle / unit::deg)},
+          {"angle_se_deg", optional_json(fit.angle_se, unit::deg)}};
+}
+
+Json phases_json(const Fit& fit) {
+  Json phases = Json::array();
+  for (std::size_t r = 0; r < fit.phase.size(); ++r) {
+    const bool unknown = unidentifiable(fit, "phase_deg") ||
+                         unidentifiable(fit, fmt::format("phase_deg[{}]", r + 1));
+    phases.push_back(unknown ? Json(nullptr) : Json(fit.phase[r] / unit::deg));
+  }
+  return phases;
+}
+
+Json channel_offsets_json(const Fit& fit) {
+  Json runs = Json::array();
+  for (const auto& run : fit.channel_offsets) {
+    Json channels = Json::array();
+    for (const auto& c : run) {
+      channels.push_back({{"constant_N", c.constant}, {"slope_N", c.slope}});
+    }
+    runs.push_back(channels);
+  }
+  return runs;
+}
+
+std::string cell(const std::optional<Estimate>& e, double unit) {
+  if (!e) {
+    return "not identifiable";
+  }
+  return fmt::format("{:.5g} +- {:.2g}", e->value / unit, e->se / unit);
+}
+
+std::string offsets_text(const Fit& fit) {
+  if (!fit.ok || fit.chip.model == chip::Model::none) {
+    return "-";
+  }
+  std::string text;
+  for (std::size_t k = 1; k < fit.runout.radial_offsets.size(); ++k) {
+    const auto& se = fit.radial_offsets_se[k];
+    text += k > 1 ? ", " : "";
+    text += fmt::format("{:.2f}", fit.runout.radial_offsets[k] / unit::um);
+    text += se ? fmt::format(" +- {:.2f}", *se / unit::um) : "";
+  }
+  return text.empty() ? "-" : text;
+}
+
+std::string eccentricity_text(const Fit& fit) {
+  if (!fit.ok || fit.chip.model == chip::Model::none ||
+      unidentifiable(fit, "eccentricity_mm")) {
+    return "-";
+  }
+  return fmt::format("{:.2f} at {:.0f} deg", fit.runout.eccentricity / unit::um,
+                     fit.runout.angle / unit::deg);
+}
+
+}  // namespace
+
+const char* model_name(chip::Model model) {
+  switch (model) {
+    case chip::Model::none:
+      return "none";
+    case chip::Model::feed:
+      return "feed";
+    case chip::Model::radial:
+      return "radial";
+    case chip::Model::trochoidal:
+      return "trochoidal";
+  }
+  return "";
+}
+
+Json fit_json(const Fit& fit) {
+  Json out{{"chip_model", model_name(fit.chip.model)},
+           {"lookback", fit.chip.lookback == chip::Lookback::all ? "all" : "previous"},
+           {"ok", fit.ok},
+           {"message", fit.message}};
+  Json K;
+  Json identifiable;
+  const auto names = names_of(fit);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    K[names[q].key] = q < fit.coefficients.size() && fit.ok
+                          ? estimate_json(fit.coefficients[q], names[q].unit)
+                          : Json(nullptr);
+    identifiable[names[q].key] = !K[names[q].key].is_null();
+  }
+  for (std::size_t q = 0; q < fit.exponents.size(); ++q) {
+    K[exponent_names[q].key] = estimate_json(fit.exponents[q], 1.0);
+  }
+  for (const auto& [what, why] : fit.unidentifiable) {
+    identifiable[what] = why;
+  }
+  out["coefficients"] = K;
+  out["runout"] = runout_json(fit);
+  out["phase_deg"] = phases_json(fit);
+  Json phase_se = Json::array();
+  for (const auto& se : fit.phase_se) {
+    phase_se.push_back(optional_json(se, unit::deg));
+  }
+  out["phase_se_deg"] = phase_se;
+  if (!fit.channel_offsets.empty()) {
+    out["channel_offsets"] = channel_offsets_json(fit);
+  }
+  out["rms_N"] = fit.ok ? Json(fit.rms) : Json(nullptr);
+  out["rms_axis_N"] = fit.ok ? Json(fit.rms_axis) : Json(nullptr);
+  out["rms_meaning"] =
+      "square root of the mean over samples of |dF|^2, and of dF_q^2 per axis";
+  out["condition"] = fit.condition;
+  out["rank"] = fit.rank;
+  out["degrees_of_freedom"] = fit.freedom;
+  out["residual_correlation"] = fit.residual_correlation;
+  out["identifiable"] = identifiable;
+  return out;
+}
+
+std::string fits_table(std::span<const Fit> fits) {
+  std::string text = fmt::format("{:<22}", "chip model");
+  for (const Fit& fit : fits) {
+    text += fmt::format("{:>20}", model_name(fit.chip.model));
+  }
+  text += '\n';
+  const auto row = [&](const char* name, const auto& value) {
+    text += fmt::format("{:<22}", name);
+    for (const Fit& fit : fits) {
+      text += fmt::format("{:>20}", fit.ok ? value(fit) : std::string("-"));
+    }
+    text += '\n';
+  };
+  const auto names = names_of(fits.front());
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    row(names[q].key,
+        [&](const Fit& fit) { return cell(fit.coefficients[q], names[q].unit); });
+  }
+  for (std::size_t q = 0; q < fits.front().exponents.size(); ++q) {
+    row(exponent_names[q].key,
+        [&](const Fit& fit) { return cell(fit.exponents[q], 1.0); });
+  }
+  if (fits.front().options.runout == RunoutUnknowns::eccentricity) {
+    row("eccentricity_um", eccentricity_text);
+  } else {
+    row("radial_offsets_um[2..]", offsets_text);
+  }
+  row("phase_deg", [](const Fit& fit) {
+    std::string phases;
+    for (const Json& phase : phases_json(fit)) {
+      phases += phases.empty() ? "" : ", ";
+      phases += phase.is_null() ? "?" : fmt::format("{:.2f}", phase.get<double>());
+    }
+    return phases;
+  });
+  row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
+  row("condition", [](const Fit& fit) { return fmt::format("{:.1f}", fit.condition); });
+  return text;
+}
+
+std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
+  const bool power = std::holds_alternative<force::Power>(fit.law);
+  std::string text =
+      "# Found by trochoid identify. Use it in another case with\n"
+      "#   include = \"<this file>\"\n\n[force]\n";
+  text += fmt::format("law = \"{}\"\n", power ? "power" : "linear_edge");
+  const auto names = names_of(fit);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    if (fit.coefficients[q]) {
+      text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
+                          fit.coefficients[q]->value / names[q].unit,
+                          fit.coefficients[q]->se / names[q].unit);
+    } else {
+      text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
+    }
+  }
+  if (const auto* law = std::get_if<force::Power>(&fit.law)) {
+    text += fmt::format("m_t = {}\nm_r = {}\nm_a = {}\n", law->m_t, law->m_r, law->m_a);
+  } else {
+    text += fmt::format("edge_length = \"{}\"\n",
+                        edge_length == force::EdgeLength::axial ? "axial" : "true");
+  }
+  if (fit.chip.model == chip::Model::none) {
+    return text;
+  }
+  text += "\n[runout]\nradial_offsets_mm = [";
+  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    text +=
+        fmt::format("{}{}", k > 0 ? ", " : "", fit.runout.radial_offsets[k] / unit::mm);
+  }
+  text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
+                      fit.runout.eccentricity / unit::mm, fit.runout.angle / unit::deg);
+  return text;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/identification/identify.h>
+#include <trochoid/inputs/case.h>
+
+#include <span>
+#include <vector>
+
+namespace trochoid::run {
+
+/// @brief What an engineer should know before trusting a fit.
+void add_fit_warnings(const inputs::Case& given,
+                      std::span<const identification::Run> runs,
+                      std::span<const identification::Fit> fits,
+                      const identification::Fit& chosen,
+                      std::vector<base::Warning>& warnings);
+
+}  // namespace trochoid::run

@@ -1,0 +1,227 @@
+#include <trochoid/run/identify.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/chip_answer.h>
+#include <trochoid/run/choose_axes.h>
+#include <trochoid/run/curve_tables.h>
+#include <trochoid/run/fit_answer.h>
+#include <trochoid/run/fit_options.h>
+#include <trochoid/run/fit_warnings.h>
+#include <trochoid/run/measured_run.h>
+#include <trochoid/signal/axes.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using identification::Fit;
+
+bool is_signed_permutation(const Matrix3& M) {
+  for (const auto& row : M) {
+    if (std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]) != 1) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Json signal_json(const std::vector<MeasuredRun>& runs, const Matrix3& M) {
+  Json rpm = Json::array();
+  Json rpm_se = Json::array();
+  Json stated = Json::array();
+  Json files = Json::array();
+  Json samples = Json::array();
+  for (const MeasuredRun& run : runs) {
+    rpm.push_back(run.Omega / unit::rpm);
+    rpm_se.push_back(run.Omega_se > 0 ? Json(run.Omega_se / unit::rpm) : Json(nullptr));
+    stated.push_back(run.cut.Omega / unit::rpm);
+    files.push_back(run.record.file);
+    samples.push_back(run.record.size());
+  }
+  Json out{{"files", files},
+           {"samples", samples},
+           {"spindle_rpm", rpm},
+           {"spindle_rpm_se", rpm_se},
+           {"stated_rpm", stated}};
+  if (is_signed_permutation(M)) {
+    out["axes"] = signal::axes_names(M);
+  } else {
+    out["axes"] = nullptr;
+    out["matrix"] = M;
+  }
+  return out;
+}
+
+/// The exact model answers where it was asked for, else the one that fits best.
+std::size_t chosen_fit(const std::vector<Fit>& fits) {
+  std::size_t best = fits.size();
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!fits[i].ok) {
+      continue;
+    }
+    if (fits[i].chip.model == chip::Model::trochoidal) {
+      return i;
+    }
+    if (best == fits.size() || fits[i].rms < fits[best].rms) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::vector<base::Table> sweep_tables(const inputs::Case& given,
+                                      std::span<const identification::Run> runs,
+                                      const std::vector<Fit>& fits,
+                                      const Progress& progress) {
+  if (!given.identify.sweep) {
+    return {};
+  }
+  const auto& sweep = *given.identify.sweep;
+  std::vector<double> offsets;
+  for (int i = 0; i < sweep.count; ++i) {
+    const double t = sweep.count > 1 ? static_cast<double>(i) / (sweep.count - 1) : 0.0;
+    offsets.push_back(sweep.first + t * (sweep.last - sweep.first));
+  }
+  base::Table table{"sweep.csv", {{"offset_um", {}}}};
+  for (const double offset : offsets) {
+    table.columns[0].values.push_back(offset / unit::um);
+  }
+  for (const Fit& fit : fits) {
+    if (!fit.ok) {
+      continue;
+    }
+    progress(fmt::format("sweeping the offset, {}", model_name(fit.chip.model)));
+    auto rms = identification::sweep(given.setup, given.law, runs, fit, offsets);
+    if (rms.size() == offsets.size()) {
+      table.columns.push_back(
+          {fmt::format("rms_{}_N", model_name(fit.chip.model)), std::move(rms)});
+    }
+  }
+  if (table.columns.size() == 1) {
+    return {};
+  }
+  return {std::move(table)};
+}
+
+void add_curves(const inputs::Case& given, std::span<const identification::Run> runs,
+                const std::vector<Fit>& fits, const Fit& chosen, base::Answer& answer) {
+  std::vector<ComputedForces> computed;
+  for (const Fit& fit : fits) {
+    if (fit.ok) {
+      computed.push_back({model_name(fit.chip.model), fit.fitted});
+    }
+  }
+  for (auto& table : curve_tables(runs, computed)) {
+    answer.tables.push_back(std::move(table));
+  }
+  for (auto& table : folded_tables(runs)) {
+    answer.tables.push_back(std::move(table));
+  }
+  force::Setup setup = given.setup;
+  setup.chip = chosen.chip;
+  setup.runout = chosen.runout;
+  answer.tables.push_back(chip_curve(setup, default_height(setup)));
+}
+
+base::Answer failed(base::Answer answer, const std::string& why, Json result) {
+  answer.ok = false;
+  answer.message = why;
+  answer.short_table += "No answer: " + why + "\n";
+  answer.result = result.dump();
+  return answer;
+}
+
+std::vector<Fit> all_fits(const inputs::Case& given,
+                          std::span<const identification::Run> runs,
+                          const Progress& progress) {
+  std::vector<Fit> fits;
+  for (const chip::Model model : given.identify.chip_models) {
+    progress(fmt::format("fitting, chip model {}", model_name(model)));
+    fits.push_back(identification::identify(given.setup, given.law, runs,
+                                            fit_options(given, model)));
+  }
+  return fits;
+}
+
+std::string headline(const Fit& fit, const std::vector<MeasuredRun>& runs) {
+  std::size_t samples = 0;
+  for (const MeasuredRun& run : runs) {
+    samples += run.record.size();
+  }
+  return fmt::format(
+      "Coefficients and runout from {} samples of {} record{}; the {} model leaves "
+      "{:.2f} N rms.",
+      samples, runs.size(), runs.size() == 1 ? "" : "s", model_name(fit.chip.model),
+      fit.rms);
+}
+
+}  // namespace
+
+base::Answer identify(const inputs::Case& given, const Progress& progress) {
+  base::Answer answer{
+      .command = "identify", .title = given.title, .case_toml = given.as_understood};
+  std::string message;
+  progress("reading the measurements");
+  const auto measured = measured_runs(given, answer.warnings, message);
+  const Json nothing{{"fits", Json::array()}, {"chosen", nullptr}};
+  if (measured.empty()) {
+    return failed(std::move(answer), message, nothing);
+  }
+  inputs::Dynamometer dynamometer = given.dynamometer.value_or(inputs::Dynamometer{});
+  AxesChoice axes;
+  if (dynamometer.automatic) {
+    axes = choose_axes(given, measured, progress, answer.warnings);
+    if (!axes.ok) {
+      return failed(std::move(answer), axes.message, nothing);
+    }
+    dynamometer.matrix = axes.matrix;
+  }
+  const auto runs = on_tool(measured, dynamometer.matrix);
+  const std::vector<Fit> fits = all_fits(given, runs, progress);
+  Json result{{"fits", Json::array()}, {"chosen", nullptr}};
+  for (const Fit& fit : fits) {
+    result["fits"].push_back(fit_json(fit));
+  }
+  result["signal"] = signal_json(measured, dynamometer.matrix);
+  if (axes.ok) {
+    result["signal"]["axes_rms_N"] = axes.rms;
+    result["signal"]["axes_next_rms_N"] =
+        std::isfinite(axes.next_rms) ? Json(axes.next_rms) : Json(nullptr);
+  }
+  const std::size_t best = chosen_fit(fits);
+  if (best == fits.size()) {
+    return failed(std::move(answer), fits.back().message, result);
+  }
+  const Fit& chosen = fits[best];
+  result["chosen"] = model_name(chosen.chip.model);
+  add_curves(given, runs, fits, chosen, answer);
+  for (auto& table : sweep_tables(given, runs, fits, progress)) {
+    answer.tables.push_back(std::move(table));
+  }
+  add_fit_warnings(given, runs, fits, chosen, answer.warnings);
+  answer.texts.push_back(
+      {"material.toml", material_toml(chosen, given.setup.edge_length)});
+  answer.message = headline(chosen, measured);
+  answer.short_table += fits_table(fits);
+  if (axes.ok) {
+    const auto names = signal::axes_names(dynamometer.matrix);
+    answer.short_table += fmt::format(
+        "axes found: channels read {}, {}, {} (next best {:.2f} times worse)\n",
+        names[0], names[1], names[2], axes.next_rms / axes.rms);
+  }
+  for (const MeasuredRun& run : measured) {
+    answer.short_table += fmt::format("{}: {:.2f} rpm (stated {:g})\n", run.record.file,
+                                      run.Omega / unit::rpm, run.cut.Omega / unit::rpm);
+  }
+  answer.result = result.dump();
+  return answer;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,157 @@
+#include <trochoid/run/measured_run.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/base/units.h>
+#include <trochoid/inputs/record_file.h>
+#include <trochoid/signal/axes.h>
+#include <trochoid/signal/drift.h>
+#include <trochoid/signal/revolutions.h>
+#include <trochoid/signal/spindle_speed.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace trochoid::run {
+
+namespace {
+
+using Warnings = std::vector<base::Warning>;
+
+/// A found speed that differs more than this from the stated one is worth a word.
+constexpr double speed_slack = 1e-3;
+
+std::vector<signal::Record> read_all(const inputs::Case& given) {
+  std::vector<signal::Record> records;
+  std::vector<std::string> problems;
+  for (const inputs::Measurement& m : given.measurements) {
+    try {
+      records.push_back(inputs::read_record(m));
+    } catch (const base::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) {
+    throw base::InputError(std::move(problems));
+  }
+  return records;
+}
+
+void compare_speed(const MeasuredRun& run, Warnings& warnings) {
+  if (std::abs(run.Omega / run.cut.Omega - 1) > speed_slack) {
+    warnings.push_back(
+        {"spindle_speed",
+         fmt::format("{}: the record turns at {:.2f} rpm, {:+.2f} % off the stated "
+                     "{:g} rpm. The found speed is used.",
+                     run.record.file, run.Omega / unit::rpm,
+                     100 * (run.Omega / run.cut.Omega - 1),
+                     run.cut.Omega / unit::rpm)});
+  }
+}
+
+/// Angle and speed of a run; false with the reason where it has none.
+bool lay_over_angle(MeasuredRun& run, int teeth, Warnings& warnings,
+                    std::string& message) {
+  const signal::Record& record = run.record;
+  run.Omega = run.cut.Omega;
+  if (!record.angle.empty()) {
+    run.angle = signal::unwrapped(record.angle);
+    if (!record.time.empty() && record.time.back() > record.time.front()) {
+      run.Omega = (run.angle.back() - run.angle.front()) /
+                  (record.time.back() - record.time.front());
+      compare_speed(run, warnings);
+    }
+    return true;
+  }
+  if (record.time.empty()) {
+    message = record.file +
+              ": neither angles nor times: name angle_column, "
+              "time_column or sample_rate_Hz";
+    return false;
+  }
+  const signal::SpeedEstimate found =
+      signal::spindle_speed(record, {.Omega = run.cut.Omega, .teeth = teeth});
+  if (found.ok) {
+    run.Omega = found.Omega;
+    run.Omega_se = found.se;
+    compare_speed(run, warnings);
+  } else {
+    warnings.push_back(
+        {"spindle_speed_unknown", record.file + ": " + found.message +
+                                      " The stated spindle speed is used as it is."});
+  }
+  run.angle = signal::angle_from_time(record.time, run.Omega);
+  return true;
+}
+
+void take_drift_out(MeasuredRun& run, Warnings& warnings) {
+  const auto drift = signal::idle_drift(run.record.channel, run.angle);
+  if (!drift) {
+    warnings.push_back({"no_idle_part",
+                        run.record.file +
+                            ": nothing in the record is free of cutting, so the offset "
+                            "of the channels cannot be read off it; it is left in. "
+                            "channel_offsets = \"fit\" estimates it with the rest."});
+    return;
+  }
+  signal::remove_drift(run.record.channel, *drift);
+  std::vector<double> angle;
+  std::array<std::vector<double>, 3> channel;
+  std::size_t begin = 0;
+  std::size_t end = run.angle.size();
+  for (const signal::Part& part : drift->idle) {
+    if (part.begin == 0) {
+      begin = part.end;
+    } else {
+      end = part.begin;
+    }
+  }
+  const auto cut_to = [&](std::vector<double>& v) {
+    if (!v.empty()) {
+      v = std::vector<double>(v.begin() + static_cast<std::ptrdiff_t>(begin),
+                              v.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+  };
+  cut_to(run.angle);
+  cut_to(run.record.time);
+  cut_to(run.record.angle);
+  for (auto& values : run.record.channel) {
+    cut_to(values);
+  }
+}
+
+}  // namespace
+
+std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warnings,
+                                       std::string& message) {
+  std::vector<signal::Record> records = read_all(given);
+  std::vector<MeasuredRun> runs;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    MeasuredRun run{.record = std::move(records[i]), .cut = given.measurements[i].cut};
+    warnings.insert(warnings.end(), run.record.notes.begin(), run.record.notes.end());
+    if (!lay_over_angle(run, given.setup.cutter.teeth(), warnings, message)) {
+      return {};
+    }
+    if (given.identify.channel_offsets == inputs::ChannelOffset::idle) {
+      take_drift_out(run, warnings);
+    }
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+std::vector<identification::Run> on_tool(const std::vector<MeasuredRun>& runs,
+                                         const Matrix3& M) {
+  std::vector<identification::Run> out;
+  for (const MeasuredRun& run : runs) {
+    auto force = signal::force_on_tool(run.record.channel, M);
+    if (!force) {
+      throw std::invalid_argument("the matrix of the dynamometer cannot be inverted");
+    }
+    out.push_back({run.cut, run.angle, std::move(*force)});
+  }
+  return out;
+}
+
+}  // namespace trochoid::run
