@@ -36,7 +36,7 @@ async function open(name, options = {}) {
   return { page, seen, url, close: () => context.close() };
 }
 
-/** Share of pixels of each canvas that something was drawn on, and the number of colours. */
+/** The opaque colours of each canvas, with their numbers of pixels. */
 const drawn = (page) => page.$$eval('.uplot canvas', (canvases) => canvases.map((canvas) => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   const colors = new Map();
@@ -53,6 +53,8 @@ const colorOf = (page, name) => page.evaluate((n) =>
   getComputedStyle(document.documentElement).getPropertyValue(n), name).then(hex);
 const has = (canvas, color) => canvas.some((entry) => entry.color === color && entry.n > 100);
 
+const curveColors = ['--measured', '--s1', '--s2', '--s3', '--s4', '--s5', '--s6'];
+
 async function check(name, options, plots) {
   const { page, seen, url, close } = await open(name, options);
   assert.deepEqual(seen.complaints, []);
@@ -61,8 +63,9 @@ async function check(name, options, plots) {
   assert.equal(await page.locator('.uplot').count(), plots);
   const canvases = await drawn(page);
   assert.equal(canvases.length, plots);
-  canvases.forEach((canvas, i) => assert.ok(canvas.reduce((sum, { n }) => sum + n, 0) > 500,
-    `plot ${i + 1} is blank`));
+  const colors = await Promise.all(curveColors.map((color) => colorOf(page, color)));
+  canvases.forEach((canvas, i) => assert.ok(colors.some((color) => has(canvas, color)),
+    `plot ${i + 1} has no curve`));
   const overflow = await page.evaluate(() =>
     document.documentElement.scrollWidth - window.innerWidth);
   assert.ok(overflow <= 0, `the page is ${overflow} px too wide`);
