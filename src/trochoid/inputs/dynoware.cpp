@@ -19,11 +19,16 @@ void take(DynoWareHeader& header, const std::vector<Field>& fields, std::size_t 
   if (!rate && !samples && !delay) return;
   const auto value = fields.size() > 1 ? parse_number(fields[1].text) : Number{};
   const bool number = fields.size() > 1 && value.fault == NumberFault::none;
-  if (!number || (rate && value.value <= 0.0) || (samples && value.value < 1.0)) {
+  constexpr double lowest = 1e-3;  // [Hz]
+  constexpr double highest = 1e9;  // [Hz]
+  if (!number || (rate && !(value.value >= lowest && value.value <= highest)) ||
+      (samples && value.value < 1.0)) {
     const auto text = fields.size() > 1 ? fields[1].text : std::string_view{};
     problems.add(line, fields.size() > 1 ? fields[1].column : 1,
-                 fmt::format("{} {}: a {}number is needed here", key, excerpt(text),
-                             delay ? "" : "positive "));
+                 fmt::format("{} {}: {} is needed here", key, excerpt(text),
+                             rate      ? "a number from 0.001 to 1e9"
+                             : samples ? "a number from 1 on"
+                                       : "a number"));
     return;
   }
   if (rate) {

@@ -156,8 +156,12 @@ std::string_view fault_text(NumberFault fault) {
 double value_of(Reading& reading, const std::vector<Field>& fields,
                 const RecordColumn& column) {
   const auto& field = fields[column.index];
-  const auto number = parse_number(field.text);
+  auto number = parse_number(field.text);
   const auto line = reading.lines.number();
+  if (number.fault == NumberFault::none &&
+      !std::isfinite(number.value * column.factor)) {
+    number.fault = NumberFault::out_of_range;
+  }
   if (number.fault == NumberFault::none) {
     reading.style.see(field.text, line, field.column);
     return number.value * column.factor;

@@ -118,7 +118,7 @@ OneRevolution fold(const std::array<std::vector<double>, 3>& channels,
   const double step =
       n > 1 ? (angle[n - 1] - angle[0]) / static_cast<double>(n - 1) : 0;
   const double turns = std::floor((angle[n - 1] - angle[0] + step) / turn + 1e-9);
-  out.revolutions = static_cast<int>(turns);
+  out.revolutions = static_cast<int>(std::clamp(turns, 0.0, 1e9));
   const double end = turns >= 1.0 ? angle[0] + turns * turn - 0.5 * step
                                   : std::numeric_limits<double>::infinity();
   const auto bin = sums(channels, angle, end, b);

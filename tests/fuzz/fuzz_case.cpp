@@ -1,0 +1,48 @@
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/case.h>
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+using trochoid::inputs::Command;
+
+/// A folder of this process, so that relative names in a case lead nowhere.
+const std::filesystem::path& folder() {
+  static const auto path = [] {
+    auto p = std::filesystem::temp_directory_path() /
+             ("trochoid_fuzz_" + std::to_string(getpid()));
+    std::filesystem::create_directories(p);
+    return p;
+  }();
+  return path;
+}
+
+void read(const std::filesystem::path& file, Command command) {
+  try {
+    const auto read = trochoid::inputs::read_case(file, command);
+    if (read.as_understood.empty()) std::abort();
+  } catch (const trochoid::base::InputError& error) {
+    if (error.problems().empty()) std::abort();
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = folder() / "case.toml";
+  {
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  }
+  for (const auto command : {Command::check, Command::simulate, Command::identify}) {
+    read(file, command);
+  }
+  return 0;
+}

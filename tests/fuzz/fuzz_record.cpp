@@ -1,0 +1,69 @@
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/record_file.h>
+#include <trochoid/signal/drift.h>
+#include <trochoid/signal/revolutions.h>
+#include <trochoid/signal/spindle_speed.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using trochoid::inputs::Measurement;
+
+/// The first byte chooses what the case file says about the record.
+Measurement said_by(std::uint8_t byte) {
+  Measurement m;
+  if ((byte & 1) != 0) m.sample_rate = 1e4;
+  if ((byte & 2) != 0) m.columns = {"a", "Fx", "b"};
+  if ((byte & 4) != 0) m.angle_column = "angle_deg";
+  if ((byte & 8) != 0) m.time_column = "time";
+  return m;
+}
+
+bool finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double x) { return std::isfinite(x); });
+}
+
+void demand(bool condition) {
+  if (!condition) std::abort();
+}
+
+/// What every record that is accepted must be, and must bear.
+void use(const trochoid::signal::Record& record) {
+  demand(record.size() >= 2);
+  for (const auto& channel : record.channel) {
+    demand(channel.size() == record.size() && finite(channel));
+  }
+  demand(record.angle.empty() || record.angle.size() == record.size());
+  demand(record.time.empty() || record.time.size() == record.size());
+  demand(!record.angle.empty() || !record.time.empty());
+  demand(finite(record.angle) && finite(record.time));
+  demand(std::isfinite(record.sample_rate) && record.sample_rate >= 0.0);
+  if (!record.time.empty()) {
+    trochoid::signal::spindle_speed(record, {.Omega = 600.0, .teeth = 2});
+  }
+  const auto angle = record.angle.empty()
+                         ? trochoid::signal::angle_from_time(record.time, 600.0)
+                         : trochoid::signal::unwrapped(record.angle);
+  trochoid::signal::fold(record.channel, angle, 36);
+  trochoid::signal::idle_drift(record.channel, angle);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  std::istringstream in(std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
+  try {
+    use(trochoid::inputs::read_record(in, "record", said_by(data[0])));
+  } catch (const trochoid::base::InputError& error) {
+    demand(!error.problems().empty());
+  }
+  return 0;
+}
