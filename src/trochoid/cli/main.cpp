@@ -1,1 +1,104 @@
-int main() { return 0; }
+#include <trochoid/base/error.h>
+#include <trochoid/cli/commands.h>
+#include <trochoid/results/provenance.h>
+
+#include <CLI/CLI.hpp>
+
+#include <fmt/core.h>
+
+#include <exception>
+#include <functional>
+#include <string>
+
+namespace {
+
+using trochoid::cli::Options;
+
+struct Command {
+  const char* name;
+  const char* what;
+  int (*run)(const Options&);
+};
+
+constexpr Command commands[] = {
+    {"simulate",
+     "Chip, forces, torque and engagement of a case; compared with its measurements, "
+     "if "
+     "it has any",
+     trochoid::cli::simulate},
+    {"identify",
+     "Cutting coefficients and runout from measured forces, with how well each is "
+     "known",
+     trochoid::cli::identify},
+    {"check", "Read a case file and its measurements and name every mistake in them",
+     trochoid::cli::check}};
+
+void add_common(CLI::App& app, Options& options) {
+  app.add_option("CASE.toml", options.file,
+                 "The case file (docs/formats/case.md; `trochoid new` writes one)")
+      ->required();
+  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+}
+
+void add_output(CLI::App& app, Options& options) {
+  app.add_option("-o,--output", options.folder,
+                 "Folder for the results (default: CASE.COMMAND beside the case)");
+  app.add_flag("--json", options.json, "Print summary.json instead of the table");
+  app.add_flag("--no-report", options.no_report, "Do not write report.html");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"What a milling cutter with runout really does.", "trochoid"};
+  app.footer(
+      "Start with\n  trochoid new identify mycase.toml\n  trochoid identify "
+      "mycase.toml\n"
+      "Exit codes: 0 answered, 1 no good answer exists (the reason is said), 2 the "
+      "input "
+      "is wrong, 3 a bug of ours.");
+  app.set_version_flag("--version", std::string(trochoid::results::version()));
+  app.require_subcommand(1);
+  Options options;
+  std::function<int()> chosen;
+  for (const Command& command : commands) {
+    CLI::App* sub = app.add_subcommand(command.name, command.what);
+    add_common(*sub, options);
+    if (std::string(command.name) != "check") {
+      add_output(*sub, options);
+    }
+    sub->callback([&] { chosen = [&] { return command.run(options); }; });
+  }
+  std::string wanted;
+  CLI::App* fresh =
+      app.add_subcommand("new", "Write a commented case file to start from");
+  fresh->add_option("COMMAND", wanted, "simulate or identify")
+      ->required()
+      ->check(CLI::IsMember({"simulate", "identify"}));
+  fresh->add_option("FILE", options.file, "Where (default: print it)");
+  fresh->callback(
+      [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });
+  CLI::App* report = app.add_subcommand(
+      "report", "Make report.html of a result folder again from its files");
+  report->add_option("FOLDER", options.file, "The result folder")->required();
+  report->add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  report->callback([&] { chosen = [&] { return trochoid::cli::report(options); }; });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? trochoid::cli::answered : trochoid::cli::wrong_input;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const trochoid::base::InputError& error) {
+    fmt::print(stderr, "{}", error.what());
+    return trochoid::cli::wrong_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "trochoid: {}\n", error.what());
+    return trochoid::cli::our_bug;
+  }
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace trochoid::cli {
+
+/// What all commands that answer a case have in common.
+struct Options {
+  std::filesystem::path file;    ///< the case, or the folder of `report`
+  std::filesystem::path folder;  ///< -o; empty: beside the case
+  bool json = false;
+  bool quiet = false;
+  bool no_report = false;
+};
+
+/// Exit codes (DESIGN section 4).
+inline constexpr int answered = 0;
+inline constexpr int no_answer = 1;
+inline constexpr int wrong_input = 2;
+inline constexpr int our_bug = 3;
+
+int simulate(const Options& options);
+int identify(const Options& options);
+int check(const Options& options);
+/// @param command  whose case file is wanted
+/// @param file     where to write it; empty: to the standard output
+int new_case(const std::string& command, const std::filesystem::path& file);
+int report(const Options& options);
+
+}  // namespace trochoid::cli

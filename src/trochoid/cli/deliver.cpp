@@ -1,0 +1,79 @@
+#include <trochoid/cli/deliver.h>
+
+#include <trochoid/report/report.h>
+#include <trochoid/results/folder.h>
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace trochoid::cli {
+
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+std::filesystem::path result_folder(const Options& options,
+                                    const std::string& command) {
+  if (!options.folder.empty()) {
+    return options.folder;
+  }
+  std::filesystem::path folder = options.file;
+  folder.replace_extension();
+  folder += "." + command;
+  return folder;
+}
+
+int deliver(const base::Answer& answer, const Options& options) {
+  const std::filesystem::path folder = result_folder(options, answer.command);
+  const std::string summary = results::summary_json(answer);
+  results::write_folder(folder, answer,
+                        options.no_report ? "" : report::html(answer, summary));
+  if (options.json) {
+    fmt::print("{}\n", summary);
+  } else if (!options.quiet) {
+    if (!answer.title.empty()) {
+      fmt::print("{}\n\n", answer.title);
+    }
+    fmt::print("{}", answer.short_table);
+    for (const base::Warning& warning : answer.warnings) {
+      fmt::print("warning: {}\n", warning.message);
+    }
+    fmt::print("\nresults: {}\n", folder.string());
+    if (!options.no_report) {
+      fmt::print("report:  {}\n", (folder / "report.html").string());
+    }
+  }
+  if (!answer.ok) {
+    fmt::print(stderr, "trochoid {}: {}\n", answer.command, answer.message);
+  }
+  return answer.ok ? answered : no_answer;
+}
+
+ProgressLine::ProgressLine(bool quiet)
+    : wanted_(!quiet && isatty(STDERR_FILENO) == 1), started_(seconds()) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) {
+    std::fputs("\r\033[K", stderr);
+  }
+}
+
+void ProgressLine::operator()(const std::string& what) {
+  const double elapsed = seconds() - started_;
+  if (wanted_ && elapsed > 1.0) {
+    std::fprintf(stderr, "\r\033[K%s ... %.0f s", what.c_str(), elapsed);
+    std::fflush(stderr);
+    shown_ = true;
+  }
+}
+
+}  // namespace trochoid::cli

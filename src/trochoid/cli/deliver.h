@@ -1,0 +1,32 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/cli/commands.h>
+
+#include <string>
+
+namespace trochoid::cli {
+
+/// @brief Result folder of a command: -o, or CASE.COMMAND beside the case.
+std::filesystem::path result_folder(const Options& options, const std::string& command);
+
+/// @brief Write the folder of an answer and print what a person wants to see.
+/// @return exit code
+int deliver(const base::Answer& answer, const Options& options);
+
+/// @brief Tells a person on a terminal what takes longer than a second.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void operator()(const std::string& what);
+
+ private:
+  bool shown_ = false;
+  bool wanted_ = false;
+  double started_ = 0.0;  ///< [s]
+};
+
+}  // namespace trochoid::cli

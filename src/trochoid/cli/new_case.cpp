@@ -1,0 +1,33 @@
+#include <trochoid/base/error.h>
+#include <trochoid/cli/commands.h>
+#include <trochoid/inputs/case.h>
+
+#include <fmt/core.h>
+
+#include <fstream>
+
+namespace trochoid::cli {
+
+int new_case(const std::string& command, const std::filesystem::path& file) {
+  const std::string text = inputs::new_case(
+      command == "identify" ? inputs::Command::identify : inputs::Command::simulate);
+  if (file.empty()) {
+    fmt::print("{}", text);
+    return answered;
+  }
+  if (std::filesystem::exists(file)) {
+    throw base::InputError({file.string() +
+                            ": it exists already and is not overwritten; name another "
+                            "file"});
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) {
+    throw base::InputError({file.string() + ": it cannot be written"});
+  }
+  fmt::print("{0}: edit it, then run\n  trochoid {1} {0}\n", file.string(), command);
+  return answered;
+}
+
+}  // namespace trochoid::cli
