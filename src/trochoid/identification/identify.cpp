@@ -16,6 +16,9 @@ namespace {
 
 /// Change of the force over the turn below this part of it says nothing.
 constexpr double constant_force = 1e-7;
+/// A fit must explain so many times more than it would of noise (the F statistic): with
+/// all phases tried, noise alone reaches about 5.
+constexpr double least_F = 10.0;
 
 std::size_t index(int i) noexcept {
   return static_cast<std::size_t>(i);
@@ -46,26 +49,20 @@ std::string refusal(const geometry::Cutter& cutter, std::span<const Run> runs) {
   return "";
 }
 
-bool force_is_constant(const std::vector<FoldedRun>& runs) {
-  double change = 0.0;
+bool force_is_constant(const Problem& problem) {
   double total = 0.0;
-  for (const FoldedRun& run : runs) {
-    for (std::size_t q = 0; q < 3; ++q) {
-      double w = 0.0;
-      double sum = 0.0;
-      for (std::size_t g = 0; g < run.angle.size(); ++g) {
-        w += run.weight[g] * run.weight[g];
-        sum += run.weight[g] * run.weight[g] * run.force[g][q];
-      }
-      for (std::size_t g = 0; g < run.angle.size(); ++g) {
-        const double d = run.weight[g] * (run.force[g][q] - sum / w);
-        const double f = run.weight[g] * run.force[g][q];
-        change += d * d;
-        total += f * f;
-      }
-    }
-  }
-  return change <= constant_force * constant_force * total;
+  for (const double b : measured(problem)) total += b * b;
+  return rss_of_means(problem) <= constant_force * constant_force * total;
+}
+
+/// Whether what the fit explains beyond the means is no more than a fit to noise
+/// explains.
+bool only_noise(const Problem& problem, const numerics::LeastSquares& linear,
+                double variance) {
+  const double unknowns = problem.linear() + problem.unknowns.count();
+  const double means = 3.0 * static_cast<double>(problem.runs.size());
+  return rss_of_means(problem) - linear.rss <
+         least_F * std::max(1.0, unknowns - means) * variance;
 }
 
 Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
@@ -157,13 +154,22 @@ void answer_at(const Problem& problem, std::span<const Run> runs,
     refuse_coefficients(problem, fit);
     return;
   }
-  fit.ok = true;
   fill_fitted(problem, runs, at, linear, fit);
   const double equations = equations_of(problem, runs);
   const double rss =
       problem.runs.front().band > 0 ? linear.rss : fit.rms * fit.rms * equations / 3.0;
-  fill_estimates(problem, p, linear.x,
-                 uncertainty(problem, p, linear.x, rss, equations), fit);
+  const Uncertainty known = uncertainty(problem, p, linear.x, rss, equations);
+  if (std::holds_alternative<force::LinearEdge>(problem.law) &&
+      only_noise(problem, linear, rss / known.freedom)) {
+    fit.message =
+        "over the turn the force changes no more than its noise, so that only its "
+        "three "
+        "means are known, and they cannot determine six coefficients";
+    refuse_coefficients(problem, fit);
+    return;
+  }
+  fit.ok = true;
+  fill_estimates(problem, p, linear.x, known, fit);
 }
 
 }  // namespace
@@ -180,7 +186,7 @@ Fit identify(const force::Setup& setup, const force::Law& law,
   Problem problem = problem_of(setup, law, runs, options);
   fit.message = too_few(problem, equations_of(problem, runs));
   if (fit.message.empty() && std::holds_alternative<force::LinearEdge>(law) &&
-      force_is_constant(problem.runs)) {
+      force_is_constant(problem)) {
     fit.message =
         "the force does not change with the angle: its three means are all that the "
         "record tells, and they cannot determine six coefficients";

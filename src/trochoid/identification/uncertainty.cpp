@@ -1,3 +1,4 @@
+#include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/least_squares.h>
 
@@ -36,6 +37,22 @@ std::vector<double> keep_columns(std::span<const double> A, std::size_t width,
   return out;
 }
 
+/// Where the force jumps as an unknown passes a value, the jump itself says nothing
+/// about the neighbourhood: of both one-sided differences the smaller one is without
+/// it.
+std::vector<double> smooth_derivative(const Problem& problem, const Evaluation& at,
+                                      std::span<const double> p, int i,
+                                      std::span<const double> K) {
+  if (!sum_of_squares_jumps(problem)) {
+    return derivative(problem, at, p, i, K, fine_step);
+  }
+  std::vector<double> ahead =
+      derivative(problem, at, p, i, K, {fine_step.parameter, fine_step.phase, false});
+  std::vector<double> behind =
+      derivative(problem, at, p, i, K, {-fine_step.parameter, -fine_step.phase, false});
+  return norm(ahead) < norm(behind) ? ahead : behind;
+}
+
 /// [D] and the derivatives beside it, row-major.
 std::vector<double> full_jacobian(const Problem& problem, std::span<const double> p,
                                   std::span<const double> K) {
@@ -50,7 +67,7 @@ std::vector<double> full_jacobian(const Problem& problem, std::span<const double
   }
   for (std::size_t i = 0; i < p.size(); ++i) {
     const std::vector<double> column =
-        derivative(problem, at, p, static_cast<int>(i), K, fine_step);
+        smooth_derivative(problem, at, p, static_cast<int>(i), K);
     for (std::size_t k = 0; k < rows; ++k) J[k * width + linear + i] = column[k];
   }
   return J;
@@ -157,6 +174,25 @@ Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
     }
   }
   return out;
+}
+
+double rss_of_means(const Problem& problem) {
+  double sum = 0.0;
+  for (const FoldedRun& run : problem.runs) {
+    std::vector<double> A = run.drift;
+    if (A.empty()) {
+      const std::size_t u = run.angle.size();
+      std::vector<double> ones(9 * u, 0.0);
+      for (std::size_t g = 0; g < u; ++g) {
+        for (std::size_t q = 0; q < 3; ++q) ones[9 * g + 4 * q] = 1.0;
+      }
+      A = rows_of(run, ones, 3);
+    }
+    std::vector<double> b = run.b;
+    numerics::project_out(A, run.drift.empty() ? 3 : 6, b, 1);
+    sum += std::inner_product(b.begin(), b.end(), b.begin(), 0.0);
+  }
+  return sum;
 }
 
 std::optional<double> single_direction(const Problem& problem,

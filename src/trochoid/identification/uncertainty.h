@@ -38,6 +38,10 @@ std::vector<std::string> names_of(const Problem& problem);
 Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
                         std::span<const double> K, double rss, double equations);
 
+/// @brief Sum of squares of the folded rows about the means of the channels (or, with
+/// channel offsets, about constants and slopes) [N^2].
+double rss_of_means(const Problem& problem);
+
 /// @brief The only direction of the eccentricity that the record determines, if it
 /// determines but one [rad].
 ///
