@@ -1,5 +1,6 @@
 #include <trochoid/cli/deliver.h>
 
+#include <trochoid/base/error.h>
 #include <trochoid/report/report.h>
 #include <trochoid/results/folder.h>
 
@@ -8,6 +9,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <stdexcept>
 
 namespace trochoid::cli {
 
@@ -35,8 +37,12 @@ std::filesystem::path result_folder(const Options& options,
 int deliver(const base::Answer& answer, const Options& options) {
   const std::filesystem::path folder = result_folder(options, answer.command);
   const std::string summary = results::summary_json(answer);
-  results::write_folder(folder, answer,
-                        options.no_report ? "" : report::html(answer, summary));
+  const std::string page = options.no_report ? "" : report::html(answer, summary);
+  try {
+    results::write_folder(folder, answer, page);
+  } catch (const std::runtime_error& error) {  // the place is wrong, not the program
+    throw base::InputError({error.what()});
+  }
   if (options.json) {
     fmt::print("{}\n", summary);
   } else if (!options.quiet) {

@@ -138,7 +138,7 @@ Case assemble(CaseTables& t, Command command, Findings& findings) {
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
   c.gauge_length = t.tool.gauge_length;
-  check_sampling(t.sampling, t.cut.axial_depth, findings);
+  check_sampling(t.sampling, findings);
   c.sampling = t.sampling;
   const bool to_fit = command == Command::identify || !t.measurements.empty();
   c.law = law_of(t.force, to_fit);

@@ -18,7 +18,7 @@ geometry::Cut cut_of(CutTable& cut, const std::string& path,
 
 void check_chip(const chip::ChipModel& chip, Findings& findings);
 force::Law law_of(ForceTable& force, bool exponents_default);
-void check_sampling(Sampling& sampling, double axial_depth, Findings& findings);
+void check_sampling(Sampling& sampling, Findings& findings);
 
 Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings);
 

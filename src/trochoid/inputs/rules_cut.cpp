@@ -147,7 +147,7 @@ force::Law law_of(ForceTable& force, bool exponents_default) {
                       .m_a = force.m_a.value_or(0.0)};
 }
 
-void check_sampling(Sampling& sampling, double axial_depth, Findings& findings) {
+void check_sampling(Sampling& sampling, Findings& findings) {
   if (sampling.edge_heights.empty()) {
     sampling.edge_heights = {0.0};
   }
@@ -159,16 +159,6 @@ void check_sampling(Sampling& sampling, double axial_depth, Findings& findings) 
                        "spindle angles; must be from 1 to 1e+07",
                        sampling.samples_per_rev, number_text(sampling.revolutions),
                        samples));
-  }
-  for (std::size_t i = 0; i < sampling.edge_heights.size(); ++i) {
-    if (sampling.edge_heights[i] > axial_depth &&
-        sound(findings, {"cut.axial_depth_mm", "sampling.edge_heights_mm"})) {
-      report(
-          findings, "sampling.edge_heights_mm",
-          fmt::format("sampling.edge_heights_mm entry {} = {} mm: above the cut; must "
-                      "be from 0 to axial_depth_mm = {} mm (height above the tip)",
-                      i + 1, mm(sampling.edge_heights[i]), mm(axial_depth)));
-    }
   }
 }
 

@@ -126,7 +126,7 @@ void describe(const Visitor& v, CutTable& t) {
     &t.radial_depth);
   v({.name = "stock_y_mm",
      .meaning = "the stock lies between these two y",
-     .range = between(-longest_mm, longest_mm),
+     .range = between(-1e6, 1e6),
      .need = Need::always,
      .count = 2,
      .only = {"engagement", {"band"}}},

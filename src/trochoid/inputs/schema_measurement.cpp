@@ -36,7 +36,7 @@ void describe(const Visitor& v, Sampling& t) {
      .range = between(-1e6, 1e6)},
     &t.edge_angles);
   v({.name = "edge_heights_mm",
-     .meaning = "heights above the tip of chip.csv, at most the axial depth",
+     .meaning = "heights above the tip of chip.csv",
      .range = between(0, 10000),
      .standard = "0"},
     &t.edge_heights);

@@ -101,7 +101,7 @@ void write_folder(const fs::path& folder, const base::Answer& answer,
                   const std::string& report_html) {
   check_names(answer);
   std::error_code error;
-  fs::path place = fs::weakly_canonical(folder, error);
+  fs::path place = fs::weakly_canonical(fs::absolute(folder), error);
   if (error) fail(folder, error);
   if (!place.has_filename()) place = place.parent_path();
   check_replaceable(place);
