@@ -24,7 +24,8 @@ report_programs=(node=nodejs npm=npm)
 test_libraries=(libgtest-dev librapidcheck-dev libbenchmark-dev python3-numpy)
 test_programs=(clang-format=clang-format chromium=chromium)
 
-say() { printf '%s\n' "$*" >&2; }
+# One argument, one line.
+say() { printf '%s\n' "$@" >&2; }
 stop() { say "$@"; exit 3; }
 
 # The packages of "$@" (names, or command=package) that this machine lacks.
@@ -65,8 +66,8 @@ install_packages() {
     return
   fi
   if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
-    stop "Some Debian packages are missing, and only root can install them. As root, please run:" \
-      $'\n'"  apt-get update && apt-get install --no-install-recommends ${wanted[*]}"
+    stop "Some Debian packages are missing, and only root can install them. Please run as root:" \
+      "  apt-get update && apt-get install --no-install-recommends ${wanted[*]}"
   fi
   say "Installing what is missing (once, a few minutes): ${wanted[*]}"
   for try in 1 2 3; do
@@ -81,7 +82,7 @@ install_packages() {
   done
   tail -n 15 "$log" >&2
   stop "Installing the packages did not work; above is the end of $log." \
-    $'\n'"If the network was the reason, simply start the same command again."
+    "If the network was the reason, simply start the same command again."
 }
 
 # What node_modules must hold for "$1" (run or test): the lock file's packages.
@@ -99,7 +100,7 @@ install_node_modules() {
   if ! (cd "$root" && rm -rf node_modules && npm ci "${options[@]}") </dev/null >>"$log" 2>&1; then
     tail -n 15 "$log" >&2
     stop "npm did not get the plot libraries; above is the end of $log." \
-      $'\n'"If the network was the reason, simply start the same command again."
+      "If the network was the reason, simply start the same command again."
   fi
   printf '%s' "$1" >"$root/node_modules/.complete"
 }
@@ -114,8 +115,8 @@ setup() {
   [ -f "$root/package-lock.json" ] && needs+=("${report_programs[@]}")
   [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
   if ! command -v dpkg-query >/dev/null; then
-    stop "This is not a Debian system: please install by hand what tools/setup.sh lists," \
-      "then use cmake --preset release."
+    stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \
+      "  npm ci --omit=dev && cmake --preset release && cmake --build --preset release"
   fi
   install_packages "${needs[@]}"
   install_node_modules "$1"
@@ -137,7 +138,7 @@ configure() {
   if ! (cd "$root" && cmake --fresh --preset release "$@") </dev/null >>"$log" 2>&1; then
     tail -n 25 "$log" >&2
     stop "CMake did not succeed; above is the end of $log." \
-      $'\n'"A fresh start may help: rm -rf '$root/build'"
+      "A fresh start may help: rm -rf '$root/build'"
   fi
   printf '%s' "$wanted" >"$stamp"
 }
@@ -152,7 +153,7 @@ compile() {
         announced=yes
         [ -t 2 ] && printf '\r\033[K%s' "${line:0:79}" >&2
         ;;
-      \[*\]' '* | 'ninja: no work'* | 'ninja: Entering'*) ;;
+      \[*\]' '* | 'ninja: no work'* | 'ninja: Entering'* | '-- '*) ;;
       *) say "$line" ;;
     esac
   done
@@ -166,7 +167,7 @@ take_lock() {
   mkdir -p "$root/build" 2>/dev/null
   if ! { exec 9>"$root/build/.lock"; } 2>/dev/null; then
     stop "$root/build cannot be written (made by another user?)." \
-      $'\n'"This helps: sudo chown -R \"\$USER\" '$root/build' '$root/node_modules'"
+      "This helps: sudo chown -R \"\$USER\" '$root/build' '$root/node_modules'"
   fi
   flock -n 9 || { say "Waiting for another ./run or ./test in this folder"; flock 9; }
 }

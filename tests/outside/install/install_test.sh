@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install to an empty place, then build and run a foreign project with find_package.
-# Usage: install_test.sh BUILD_FOLDER SCRATCH_FOLDER
+# Usage: install_test.sh BUILD_FOLDER SCRATCH_FOLDER VERSION
 set -euo pipefail
 here=$(cd -- "$(dirname -- "$0")" && pwd)
 build=$1 scratch=$2
@@ -10,7 +10,7 @@ mkdir -p "$scratch"
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
 version=$("$scratch/prefix/bin/trochoid" --version)
 echo "installed program: $version"
-grep -q '^[Tt]rochoid [0-9]' <<<"$version"
+[ "$version" = "$3" ]
 
 cmake -G Ninja -S "$here/consumer" -B "$scratch/build" \
   -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
