@@ -30,16 +30,16 @@ struct TextFile {
 /// @brief What a command answers, in the units of its files: the whole content of its
 /// result folder, and all that the report may show.
 struct Answer {
-  std::string command;             ///< for example `simulate`
-  std::string title;               ///< of the case
-  bool ok = true;                  ///< false: no good answer exists (exit code 1)
-  std::string message;             ///< one sentence; when not ok, the reason
+  std::string command;  ///< for example `simulate`
+  std::string title;    ///< of the case
+  bool ok = true;       ///< false: no good answer exists (exit code 1)
+  std::string message;  ///< one sentence; when not ok, the reason
   std::vector<Warning> warnings;
-  std::string result;              ///< JSON text of the object `result` of summary.json
-  std::string short_table;         ///< what the program prints for a person
-  std::string case_toml;           ///< the case as understood, every default filled in
+  std::string result;       ///< JSON text of the object `result` of summary.json
+  std::string short_table;  ///< what the program prints for a person
+  std::string case_toml;    ///< the case as understood, every default filled in
   std::vector<Table> tables;
-  std::vector<TextFile> texts;     ///< beside case.toml, for example what others include
+  std::vector<TextFile> texts;  ///< beside case.toml, for example what others include
 };
 
 }  // namespace trochoid::base

@@ -90,8 +90,8 @@ base::Table chip_table(const force::Setup& setup, std::span<const double> edge_a
     for (const double theta : edge_angles) {
       for (std::size_t i = 0; i < heights.size(); ++i) {
         table.columns[0].values.push_back(j + 1);
-        table.columns[1].values.push_back(theta / unit::deg);
-        table.columns[2].values.push_back(heights[i] / unit::mm);
+        table.columns[1].values.push_back(unit::in(theta, unit::deg));
+        table.columns[2].values.push_back(unit::in(heights[i], unit::mm));
         table.columns[3].values.push_back(
             chip::chip_at(passage, slices[i].slice(), j, theta).h / unit::mm);
       }

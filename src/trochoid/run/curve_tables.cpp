@@ -35,7 +35,7 @@ std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
     for (std::size_t i = 0; i < runs[r].angle.size(); ++i) {
       for (base::Table* table : {&fitted, &residual}) {
         table->columns[0].values.push_back(static_cast<double>(r + 1));
-        table->columns[1].values.push_back(runs[r].angle[i] / unit::deg);
+        table->columns[1].values.push_back(unit::in(runs[r].angle[i], unit::deg));
       }
       for (std::size_t q = 0; q < 3; ++q) {
         const double measured = runs[r].force[i][q];

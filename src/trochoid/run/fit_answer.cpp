@@ -74,7 +74,7 @@ Json runout_json(const Fit& fit) {
         unidentifiable(fit, "radial_offsets_mm") ||
         unidentifiable(fit, fmt::format("radial_offsets_mm[{}]", k + 1));
     offsets.push_back(unknown ? Json(nullptr)
-                              : Json(fit.runout.radial_offsets[k] / unit::mm));
+                              : Json(unit::in(fit.runout.radial_offsets[k], unit::mm)));
     const bool gauge = found && k == 0 && !unknown;
     errors.push_back(gauge ? Json(0.0)
                            : optional_json(fit.radial_offsets_se[k], unit::mm));
@@ -84,9 +84,10 @@ Json runout_json(const Fit& fit) {
   return {{"radial_offsets_mm", offsets},
           {"radial_offsets_se_mm", errors},
           {"eccentricity_mm",
-           no_rho ? Json(nullptr) : Json(fit.runout.eccentricity / unit::mm)},
+           no_rho ? Json(nullptr) : Json(unit::in(fit.runout.eccentricity, unit::mm))},
           {"eccentricity_se_mm", optional_json(fit.eccentricity_se, unit::mm)},
-          {"angle_deg", no_angle ? Json(nullptr) : Json(fit.runout.angle / unit::deg)},
+          {"angle_deg",
+           no_angle ? Json(nullptr) : Json(unit::in(fit.runout.angle, unit::deg))},
           {"angle_se_deg", optional_json(fit.angle_se, unit::deg)}};
 }
 
@@ -95,7 +96,7 @@ Json phases_json(const Fit& fit) {
   for (std::size_t r = 0; r < fit.phase.size(); ++r) {
     const bool unknown = unidentifiable(fit, "phase_deg") ||
                          unidentifiable(fit, fmt::format("phase_deg[{}]", r + 1));
-    phases.push_back(unknown ? Json(nullptr) : Json(fit.phase[r] / unit::deg));
+    phases.push_back(unknown ? Json(nullptr) : Json(unit::in(fit.phase[r], unit::deg)));
   }
   return phases;
 }
@@ -139,7 +140,7 @@ std::string eccentricity_text(const Fit& fit) {
     return "-";
   }
   return fmt::format("{:.2f} at {:.0f} deg", fit.runout.eccentricity / unit::um,
-                     fit.runout.angle / unit::deg);
+                     unit::in(fit.runout.angle, unit::deg));
 }
 
 }  // namespace
@@ -268,11 +269,12 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
   }
   text += "\n[runout]\nradial_offsets_mm = [";
   for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
-    text +=
-        fmt::format("{}{}", k > 0 ? ", " : "", fit.runout.radial_offsets[k] / unit::mm);
+    text += fmt::format("{}{}", k > 0 ? ", " : "",
+                        unit::in(fit.runout.radial_offsets[k], unit::mm));
   }
   text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
-                      fit.runout.eccentricity / unit::mm, fit.runout.angle / unit::deg);
+                      unit::in(fit.runout.eccentricity, unit::mm),
+                      unit::in(fit.runout.angle, unit::deg));
   return text;
 }
 

@@ -39,9 +39,9 @@ Json signal_json(const std::vector<MeasuredRun>& runs, const Matrix3& M) {
   Json files = Json::array();
   Json samples = Json::array();
   for (const MeasuredRun& run : runs) {
-    rpm.push_back(run.Omega / unit::rpm);
+    rpm.push_back(unit::in(run.Omega, unit::rpm));
     rpm_se.push_back(run.Omega_se > 0 ? Json(run.Omega_se / unit::rpm) : Json(nullptr));
-    stated.push_back(run.cut.Omega / unit::rpm);
+    stated.push_back(unit::in(run.cut.Omega, unit::rpm));
     files.push_back(run.record.file);
     samples.push_back(run.record.size());
   }
@@ -91,7 +91,7 @@ std::vector<base::Table> sweep_tables(const inputs::Case& given,
   }
   base::Table table{"sweep.csv", {{"offset_um", {}}}};
   for (const double offset : offsets) {
-    table.columns[0].values.push_back(offset / unit::um);
+    table.columns[0].values.push_back(unit::in(offset, unit::um));
   }
   for (const Fit& fit : fits) {
     if (!fit.ok) {

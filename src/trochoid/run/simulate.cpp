@@ -60,7 +60,7 @@ base::Table force_table(const inputs::Case& given, std::span<const double> phi,
     }
   }
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    table.columns[0].values.push_back(phi[i] / unit::deg);
+    table.columns[0].values.push_back(unit::in(phi[i], unit::deg));
     table.columns[1].values.push_back(phi[i] / given.setup.cut.Omega);
     for (std::size_t q = 0; q < 3; ++q) {
       table.columns[2 + q].values.push_back(forces[i][q]);
@@ -90,7 +90,7 @@ void add_loads(const inputs::Case& given, std::span<const double> phi, Json& res
   result["torque_peak_Nm"] = peak;
   result["power_W"] = mean * given.setup.cut.Omega;
   if (given.gauge_length) {
-    result["gauge_length_mm"] = *given.gauge_length / unit::mm;
+    result["gauge_length_mm"] = unit::in(*given.gauge_length, unit::mm);
     result["bending_peak_Nm"] = bending;
   }
 }
@@ -117,7 +117,7 @@ void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
     }
   }
   result["teeth"] = teeth;
-  result["teeth_height_mm"] = height / unit::mm;
+  result["teeth_height_mm"] = unit::in(height, unit::mm);
 }
 
 /// The chips of a turn against the material there is (C-8).
