@@ -87,6 +87,7 @@ std::vector<std::string> lines(const Findings& findings) {
   std::stable_sort(problems.begin(), problems.end(),
                    [&](const auto& a, const auto& b) { return order(a) < order(b); });
   std::vector<std::string> all;
+  all.reserve(problems.size());
   for (const auto& p : problems) {
     all.push_back(to_string(p.where) + ": " + p.text);
   }

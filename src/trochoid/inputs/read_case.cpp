@@ -63,6 +63,7 @@ std::vector<std::string> report_unknown(const Node& root,
                                         const std::vector<TableEntry>& entries,
                                         Findings& findings) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const TableEntry& entry : entries) {
     names.emplace_back(entry.name);
   }

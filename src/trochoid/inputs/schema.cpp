@@ -109,6 +109,7 @@ struct Writer {
   }
   Text operator()(const std::vector<double>* v) const {
     std::vector<std::string> entries;
+    entries.reserve(v->size());
     for (const double entry : *v) {
       entries.push_back(number_text(entry, factor));
     }
@@ -119,6 +120,7 @@ struct Writer {
       return toml_string(key.word);
     }
     std::vector<std::string> entries;
+    entries.reserve(v->size());
     for (const std::string& entry : *v) {
       entries.push_back(toml_string(entry));
     }
@@ -126,6 +128,7 @@ struct Writer {
   }
   Text operator()(const Rows* v) const {
     std::vector<std::string> rows;
+    rows.reserve(v->size());
     for (const auto& r : *v) {
       rows.push_back(fmt::format("[{}, {}, {}]", number_text(r[0], factor),
                                  number_text(r[1], factor), number_text(r[2], factor)));

@@ -15,6 +15,7 @@ template <class Enum>
 Field choices(std::vector<Enum>& values, std::span<const std::string_view> names) {
   const auto get = [&values] {
     std::vector<int> all;
+    all.reserve(values.size());
     for (const Enum value : values) {
       all.push_back(static_cast<int>(value));
     }
