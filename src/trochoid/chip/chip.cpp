@@ -65,8 +65,12 @@ double above_mark(const Ray& ray, int m) noexcept {
     case Model::radial:
       return ray.p.feed * back * ray.sine + own.R - other.R;  // C-4
     default: {
-      double theta_p = back + other.epsilon - own.epsilon;
-      theta_p += theta_p <= 0 ? full_turn : (theta_p > full_turn ? -full_turn : 0.0);
+      // A tooth's own mark is one whole turn old; rounding must not make it new.
+      double theta_p = back;
+      if (m != ray.p.teeth) {
+        theta_p += other.epsilon - own.epsilon;
+        theta_p += theta_p <= 0 ? full_turn : (theta_p > full_turn ? -full_turn : 0.0);
+      }
       return own.R - surface_left(other.R, theta_p, ray.p.feed, ray.sine, ray.cosine);
     }
   }
@@ -124,7 +128,10 @@ Chip simple_chip(const Ray& ray) noexcept {
   if (inside <= 0) {
     return {0.0, 0.0, inside, Bounds{Bounds::window, Bounds::axis}.code(), false};
   }
-  const Closest best = closest_mark(ray);
+  Closest best = closest_mark(ray);
+  if (best.above == infinity) {  // nobody left a mark: material up to the axis
+    best.above = position(ray, 0).R;
+  }
   const bool in_cut = best.above > h_threshold;
   return {in_cut ? best.above : 0.0, position(ray, 0).R, best.above,
           Bounds{Bounds::edge, best.mark}.code(), in_cut};

@@ -148,9 +148,6 @@ force::Law law_of(ForceTable& force, bool exponents_default) {
 }
 
 void check_sampling(Sampling& sampling, Findings& findings) {
-  if (sampling.edge_heights.empty()) {
-    sampling.edge_heights = {0.0};
-  }
   const double samples = sampling.samples_per_rev * sampling.revolutions;
   if (sampling.angles.empty() && (samples > most_samples || samples < 1) &&
       sound(findings, {"sampling.samples_per_rev", "sampling.revolutions"})) {
