@@ -38,7 +38,7 @@ void describe(const Visitor& v, Sampling& t) {
   v({.name = "edge_heights_mm",
      .meaning = "heights above the tip of chip.csv",
      .range = between(0, 10000),
-     .standard = "0"},
+     .standard = "0, or the axial depth where the edge reaches the axis"},
     &t.edge_heights);
   v({.name = "tolerance",
      .meaning = "allowed error of the force, relative to its peak",
