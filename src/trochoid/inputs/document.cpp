@@ -106,6 +106,18 @@ std::string shortened(std::string text, std::size_t longest = longest_value_show
   return text;
 }
 
+/// A message is one line, whatever character it complains of.
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    line += code >= 0x20 && code != 0x7F ? std::string(1, c)
+            : c == '\n'                  ? "\\n"
+                                         : fmt::format("\\x{:02X}", code);
+  }
+  return line;
+}
+
 struct Printer {
   std::string operator()(std::monostate) const { return "(a date or a time)"; }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
@@ -158,7 +170,7 @@ Node parse_file(const std::filesystem::path& file) {
     const std::string_view why = error.description();
     refuse(
         location(file.string(), error.source()),
-        fmt::format("not valid TOML: {}{}", shortened(std::string(why), 200),
+        fmt::format("not valid TOML: {}{}", shortened(one_line(why), 200),
                     why.ends_with("saw ','") ? "; numbers have a decimal point" : ""));
   }
 }

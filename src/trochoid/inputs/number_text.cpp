@@ -4,7 +4,6 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 
 namespace trochoid::inputs {
 
@@ -20,15 +19,7 @@ double file_number(double si, double unit) {
       return number;
     }
   }
-  // The quotient is rounded: its neighbours may be what was multiplied once.
-  const double quotient = si / unit;
-  for (const double neighbour :
-       {std::nextafter(quotient, -HUGE_VAL), std::nextafter(quotient, HUGE_VAL)}) {
-    if (neighbour * unit == si) {
-      return neighbour;
-    }
-  }
-  return quotient;
+  return si / unit;
 }
 
 }  // namespace

@@ -18,34 +18,7 @@ constexpr Names edge_lengths[] = {"true", "axial"};
 
 constexpr double longest_mm = 10000;
 
-}  // namespace
-
-void describe(const Visitor& v, CaseTables& t) {
-  v({.name = "title", .meaning = "what this case is, for the report"}, &t.title);
-}
-
-void describe(const Visitor& v, ToolTable& t) {
-  v({.name = "shape", .meaning = "shape of the cutter"}, choice(t.shape, shapes));
-  v({.name = "teeth",
-     .meaning = "number of teeth",
-     .range = between(1, 64),
-     .need = Need::always},
-    &t.teeth);
-  v({.name = "diameter_mm",
-     .meaning = "diameter; of a taper and apt, where bottom and flank would meet",
-     .range = above_up_to(0, longest_mm),
-     .need = Need::always},
-    &t.diameter);
-  v({.name = "helix_deg",
-     .meaning = "helix angle, right-hand",
-     .range = from_below(0, 90),
-     .need = Need::always},
-    &t.helix);
-  v({.name = "pitch_deg",
-     .meaning = "angle from each tooth to the next that passes; the sum is 360",
-     .range = above_up_to(0, 360),
-     .standard = "equal pitches"},
-    &t.pitch);
+void describe_profile(const Visitor& v, ToolTable& t) {
   v({.name = "corner_radius_mm",
      .meaning = "corner radius R",
      .range = between(0, longest_mm),
@@ -80,6 +53,37 @@ void describe(const Visitor& v, ToolTable& t) {
      .only = {"shape", {"taper", "apt"}},
      .neutral = 0},
     &t.taper);
+}
+
+}  // namespace
+
+void describe(const Visitor& v, CaseTables& t) {
+  v({.name = "title", .meaning = "what this case is, for the report"}, &t.title);
+}
+
+void describe(const Visitor& v, ToolTable& t) {
+  v({.name = "shape", .meaning = "shape of the cutter"}, choice(t.shape, shapes));
+  v({.name = "teeth",
+     .meaning = "number of teeth",
+     .range = between(1, 64),
+     .need = Need::always},
+    &t.teeth);
+  v({.name = "diameter_mm",
+     .meaning = "diameter; of a taper and apt, where bottom and flank would meet",
+     .range = above_up_to(0, longest_mm),
+     .need = Need::always},
+    &t.diameter);
+  v({.name = "helix_deg",
+     .meaning = "helix angle, right-hand",
+     .range = from_below(0, 90),
+     .need = Need::always},
+    &t.helix);
+  v({.name = "pitch_deg",
+     .meaning = "angle from each tooth to the next that passes; the sum is 360",
+     .range = above_up_to(0, 360),
+     .standard = "equal pitches"},
+    &t.pitch);
+  describe_profile(v, t);
   v({.name = "lag", .meaning = "how the edge lags behind its tip with the height"},
     choice(t.lag, lag_laws));
   v({.name = "lag_diameter_mm",

@@ -9,10 +9,10 @@ using Commands = std::vector<std::string_view>;
 
 template <class Table>
 TableEntry one(std::string_view name, std::string_view meaning, Table& table,
-               Commands needed_by = {}) {
+               const Commands& needed_by = {}) {
   return {.name = name,
           .meaning = meaning,
-          .needed_by = std::move(needed_by),
+          .needed_by = needed_by,
           .count = [] { return std::size_t{1}; },
           .add = [] {},
           .describe = [&table](std::size_t, const Visitor& v) { describe(v, table); }};
@@ -30,10 +30,10 @@ TableEntry perhaps(std::string_view name, std::string_view meaning,
 
 template <class Table>
 TableEntry several(std::string_view name, std::string_view meaning,
-                   std::vector<Table>& all, Commands needed_by = {}) {
+                   std::vector<Table>& all, const Commands& needed_by = {}) {
   return {.name = name,
           .meaning = meaning,
-          .needed_by = std::move(needed_by),
+          .needed_by = needed_by,
           .many = true,
           .count = [&all] { return all.size(); },
           .add = [&all] { all.emplace_back(); },

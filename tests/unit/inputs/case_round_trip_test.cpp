@@ -183,6 +183,19 @@ sweep_um = [-20.1, 20.3, 41]
                     Command::identify);
 }
 
+TEST(CaseRoundTrip, AFeedThatFollowsFromTheRate) {
+  // 1.3 / 3000 mm is among the numbers whose SI value no number of a file meets
+  // exactly.
+  for (const char* rate : {"1.3", "100", "333.3", "1000"}) {
+    std::string text = test::slot;
+    text.replace(text.find("feed_per_tooth_mm = 0.04"), 24,
+                 std::string("feed_rate_mm_per_min = ") + rate);
+    text.replace(text.find("teeth = 2"), 9, "teeth = 3");
+    text.replace(text.find("875"), 3, "1000");
+    expect_round_trip(text, Command::simulate);
+  }
+}
+
 TEST(CaseRoundTrip, AutomaticAxesAndFreePhase) {
   expect_round_trip(test::slot + R"(
 [dynamometer]
