@@ -156,7 +156,7 @@ FoldedRun fold(const Run& run, const Options& options) {
   take_means(run, options.fit_channel_offsets, out);
   make_band(options.band_harmonics, out);
   make_rows(options.fit_channel_offsets, out);
-  if (options.fit_channel_offsets && out.band == 0) add_slope_rows(run, out);
+  if (options.fit_channel_offsets) add_slope_rows(run, out);
   return out;
 }
 
@@ -210,7 +210,7 @@ std::vector<double> rows_of(const FoldedRun& run, std::span<const double> X,
     return out;
   }
   const auto band = static_cast<std::size_t>(run.band);
-  out.assign(band * width, 0.0);
+  out.assign(std::max(band * width, static_cast<std::size_t>(run.rows * columns)), 0.0);
   for (std::size_t g = 0; g < u; ++g) {
     for (std::size_t k = 0; k < band; ++k) {
       const double w = run.weight[g] * run.basis[g * band + k];

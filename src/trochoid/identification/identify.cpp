@@ -118,14 +118,33 @@ std::string dependent_names(const Problem& problem, const numerics::LeastSquares
   return list;
 }
 
-std::string rank_refusal(const Problem& problem, const numerics::LeastSquares& fit) {
-  if (fit.rank == problem.linear()) return "";
-  if (*std::ranges::max_element(fit.norms) == 0.0) {
+/// [D] without its channel columns.
+std::vector<double> force_columns(const Problem& problem, std::span<const double> D) {
+  const std::size_t linear = index(problem.linear());
+  const std::size_t columns = index(problem.columns);
+  std::vector<double> out;
+  out.reserve(D.size() / linear * columns);
+  for (std::size_t row = 0; row < D.size(); row += linear) {
+    out.insert(out.end(), D.begin() + static_cast<std::ptrdiff_t>(row),
+               D.begin() + static_cast<std::ptrdiff_t>(row + columns));
+  }
+  return out;
+}
+
+/// Coefficients that cannot be told apart from one another refuse the fit. One that
+/// only an unknown channel offset hides is absent, and the others stand.
+std::string rank_refusal(const Problem& problem, std::span<const double> D,
+                         const numerics::LeastSquares& all) {
+  if (all.rank == problem.linear()) return "";
+  const numerics::LeastSquares force = numerics::least_squares(
+      force_columns(problem, D), problem.columns, measured(problem), rank_tolerance);
+  if (*std::ranges::max_element(force.norms) == 0.0) {
     return "nothing is in cut at any of the measured angles";
   }
+  if (force.rank == problem.columns) return "";
   return fmt::format(
-      "the forces determine only {} of {} linear unknowns: {} cannot be told apart",
-      fit.rank, problem.linear(), dependent_names(problem, fit));
+      "the forces determine only {} of {} coefficients: {} cannot be told apart",
+      force.rank, problem.columns, dependent_names(problem, force));
 }
 
 /// Where only one component of the eccentricity shows, search that one alone.
@@ -145,11 +164,12 @@ void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
 void answer_at(const Problem& problem, std::span<const Run> runs,
                const std::vector<double>& p, Fit& fit) {
   const Evaluation at = evaluate(problem, p);
-  const numerics::LeastSquares linear = numerics::least_squares(
-      design(problem, at), problem.linear(), measured(problem), rank_tolerance);
+  const std::vector<double> D = design(problem, at);
+  const numerics::LeastSquares linear =
+      numerics::least_squares(D, problem.linear(), measured(problem), rank_tolerance);
   fit.rank = linear.rank;
   fit.condition = linear.condition;
-  fit.message = rank_refusal(problem, linear);
+  fit.message = rank_refusal(problem, D, linear);
   if (!fit.message.empty()) {
     refuse_coefficients(problem, fit);
     return;
@@ -168,8 +188,9 @@ void answer_at(const Problem& problem, std::span<const Run> runs,
     refuse_coefficients(problem, fit);
     return;
   }
-  fit.ok = true;
   fill_estimates(problem, p, linear.x, known, fit);
+  fit.ok = std::ranges::any_of(fit.coefficients, [](const auto& K) { return !!K; });
+  if (!fit.ok) fit.message = "none of the coefficients can be told from the record";
 }
 
 }  // namespace

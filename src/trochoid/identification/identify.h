@@ -75,7 +75,7 @@ struct Fit {
   double rms = 0.0;                                           ///< [N], I-5
   std::array<double, 3> rms_axis{};                           ///< [N]
   double condition = 0.0;  ///< of [D], unit-norm columns
-  int rank = 0;            ///< of [D], channel offsets included
+  int rank = 0;            ///< of [D], channel columns included
   double freedom = 0.0;    ///< equations less unknowns
   /// Unidentifiable quantities, by name of the summary, and why.
   std::vector<std::pair<std::string, std::string>> unidentifiable;

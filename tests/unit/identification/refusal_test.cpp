@@ -42,6 +42,32 @@ TEST(Refusal, ForceThatDoesNotChangeHasThreeMeansOnly) {  // [I-6]
   EXPECT_NE(fit.message.find("K_te_N_per_mm"), std::string::npos) << fit.message;
 }
 
+TEST(Refusal, CoefficientThatAChannelOffsetHides) {  // [I-6] [I-7]
+  // Two teeth in a slot: one of them is in cut at every height, so the axial edge force
+  // is constant, like an offset of the third channel. All the rest can be told.
+  force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
+  setup.chip.model = chip::Model::feed;
+  setup.runout.radial_offsets = {0.0, -8.0 * unit::um};
+  std::vector<Record> runs = {made_record(setup, steel(), {})};
+  for (auto& F : runs[0].force) F[2] += 30.0;
+  Options options;
+  options.chip_model = chip::Model::feed;
+  options.runout = RunoutUnknowns::fixed;
+  options.phase = 0.0;
+  options.fit_channel_offsets = true;
+  const Fit fit = identify(setup, steel(), runs, options);
+  ASSERT_TRUE(fit.ok) << fit.message;
+  EXPECT_EQ(fit.rank, 11);
+  EXPECT_FALSE(fit.coefficients[5].has_value());
+  EXPECT_TRUE(refused(fit, "K_ae_N_per_mm"));
+  const std::vector<double> K = force::coefficients(steel());
+  for (std::size_t c = 0; c < 5; ++c) {
+    ASSERT_TRUE(fit.coefficients[c].has_value()) << c;
+    EXPECT_NEAR(fit.coefficients[c]->value, K[c], 1e-5 * K[c]) << c;
+  }
+  EXPECT_LT(fit.rms, 1e-5);
+}
+
 TEST(Refusal, NothingInCut) {  // [I-6]
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
   setup.cut.engagement = geometry::Band{1.0, 2.0};
