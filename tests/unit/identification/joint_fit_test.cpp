@@ -89,8 +89,10 @@ TEST(JointFit, EccentricityOfThreeAndFourTeethComesBack) {  // [I-3]
   }
 }
 
-TEST(JointFit, TwoTeethWithoutHelixShowOneComponentOnly) {
-  force::Setup setup = slot_setup(2, 0.0, 2.0 * unit::mm);
+class OneComponent : public testing::TestWithParam<double> {};
+
+TEST_P(OneComponent, IsAllThatTwoTeethWithHardlyAnyLagShow) {  // [I-3]
+  force::Setup setup = slot_setup(2, GetParam(), 2.0 * unit::mm);
   setup.runout.eccentricity = 5.0 * unit::um;
   setup.runout.angle = 0.5;
   Sampling noisy;
@@ -110,6 +112,8 @@ TEST(JointFit, TwoTeethWithoutHelixShowOneComponentOnly) {
               5e-6 * std::cos(0.5), 0.2e-6);
   EXPECT_TRUE(fit.coefficients[0].has_value());
 }
+
+INSTANTIATE_TEST_SUITE_P(HelixDeg, OneComponent, testing::Values(0.0, 1.0));
 
 TEST(JointFit, TwoTeethWithALittleLagKeepBothComponents) {
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
