@@ -166,8 +166,9 @@ void fill_phases(const Problem& problem, Reasons& reasons, Fit& fit) {
 double equations_of(const Problem& problem, std::span<const Run> runs) {
   double count = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    count += problem.runs[r].band > 0 ? 3.0 * problem.runs[r].band
-                                      : 3.0 * static_cast<double>(runs[r].angle.size());
+    count += problem.runs[r].band > 0
+                 ? problem.runs[r].rows  // with those of the slopes
+                 : 3.0 * static_cast<double>(runs[r].angle.size());
   }
   return count;
 }

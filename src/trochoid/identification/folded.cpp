@@ -114,17 +114,37 @@ void make_rows(bool drift, FoldedRun& run) {
   run.drift = rows_of(run, E, 6);
 }
 
-/// The row that a slope keeps within the groups, one a channel.
+/// What the rows of a run already hold of the slope column, at each angle.
+std::vector<double> slope_in_rows(const FoldedRun& run) {
+  if (run.band == 0) return run.slope;
+  const auto band = static_cast<std::size_t>(run.band);
+  std::vector<double> out(run.slope.size(), 0.0);
+  for (std::size_t k = 0; k < band; ++k) {
+    double c = 0.0;
+    for (std::size_t g = 0; g < out.size(); ++g) {
+      c += run.basis[g * band + k] * run.weight[g] * run.slope[g];
+    }
+    for (std::size_t g = 0; g < out.size(); ++g) {
+      out[g] += c * run.basis[g * band + k] / run.weight[g];
+    }
+  }
+  return out;
+}
+
+/// The row that a slope keeps beside the groups and outside the band, one a channel.
+/// Without it a slope would be read off the few harmonics of a band, where it hardly
+/// shows.
 void add_slope_rows(const Run& source, FoldedRun& run) {
   const std::size_t n = source.angle.size();
+  const std::vector<double> known = slope_in_rows(run);
   double norm2 = 0.0;
   std::array<double, 3> product{};
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t g = run.group[i];
-    const double d = slope_at(i, n) - run.slope[g];
+    const double d = slope_at(i, n) - known[g];
     norm2 += d * d;
     for (std::size_t q = 0; q < 3; ++q) {
-      product[q] += d * (source.force[i][q] - run.force[g][q]);
+      product[q] += d * source.force[i][q];
     }
   }
   const double norm = std::sqrt(norm2);

@@ -50,7 +50,10 @@ Reading fitted(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
       identification::identify(given.setup, given.law, on_tool(runs, Q), options);
   if (!fit.ok) {
     message = fit.message;
-    return reading;
+    if (!(fit.rms > 0)) {
+      return reading;
+    }
+    // Refused, but what it leaves unexplained still tells how wrong this reading is.
   }
   reading.rms = fit.rms;
   for (std::size_t q = 0; q < 3; ++q) {
@@ -100,7 +103,7 @@ AxesChoice choose_axes(const inputs::Case& given, const std::vector<MeasuredRun>
   std::vector<Reading> readings = all_readings(given, runs, progress, choice.message);
   std::stable_sort(readings.begin(), readings.end(),
                    [](const Reading& a, const Reading& b) { return a.rms < b.rms; });
-  if (!std::isfinite(readings.front().rms)) {
+  if (!std::isfinite(readings.front().rms) || positive(readings.front()) == 0) {
     choice.message = "no reading of the channels could be fitted: " + choice.message;
     return choice;
   }

@@ -238,7 +238,10 @@ std::string fits_table(std::span<const Fit> fits) {
     return phases;
   });
   row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
-  row("condition", [](const Fit& fit) { return fmt::format("{:.1f}", fit.condition); });
+  row("condition", [](const Fit& fit) {
+    return fit.condition < 1e8 ? fmt::format("{:.1f}", fit.condition)
+                               : std::string("rank deficient");
+  });
   return text;
 }
 
