@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Run the console blocks of a page and compare what they print.
+"""Run the console blocks of README.md and docs/guide and compare what they print.
 
 In a block ```console, lines after `$ ` are commands (a trailing backslash continues them),
 all others are their output; `...` stands for anything. The commands of one page share one
 scratch folder, which holds ./run and the examples as a clone has them.
-Usage: transcripts.py REPOSITORY PAGE...
+Usage: transcripts.py [--renew] REPOSITORY
+--renew writes what is printed now into the pages, for you to read before you commit it.
 """
 import doctest
 import os
@@ -16,26 +17,8 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
+STEP = re.compile(r"^\$ ((?:.*\\\n)*.*\n)((?:(?!\$ ).*\n)*)", re.MULTILINE)
 RULES = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-
-
-def steps(text):
-    """(line, command, expected output) of every command of a page."""
-    for block in BLOCK.finditer(text):
-        line = text.count("\n", 0, block.start(1)) + 1
-        command = None
-        for row in block[1].splitlines(keepends=True):
-            if row.startswith("$ "):
-                if command:
-                    yield start, command, expected
-                start, command, expected = line, row[2:], ""
-            elif command and command.endswith("\\\n"):
-                command += row
-            else:
-                expected += row
-            line += 1
-        if command:
-            yield start, command, expected
 
 
 def scratch_clone(top, folder):
@@ -44,29 +27,44 @@ def scratch_clone(top, folder):
     shutil.copytree(top / "examples", folder / "examples", ignore=ours)
 
 
-def differences(top, page):
+def output(command, folder):
     environment = {**os.environ, "LC_ALL": "C.UTF-8", "COLUMNS": "100"}
+    done = subprocess.run(command, shell=True, cwd=folder, env=environment, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, timeout=300, check=False)
+    return done.stdout.replace(f"{folder}/", "")
+
+
+def differences(top, page, renew):
+    text = page.read_text()
+    changes = []
+    count = 0
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         scratch_clone(top, folder)
-        count = 0
-        for line, command, expected in steps(page.read_text()):
-            count += 1
-            done = subprocess.run(command, shell=True, cwd=folder, env=environment, text=True,
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, timeout=300, check=False)
-            printed = done.stdout.replace(f"{folder}/", "")
-            if not doctest.OutputChecker().check_output(expected, printed, RULES):
-                yield (f"{page}:{line}: $ {command}--- expected\n{expected}"
-                       f"--- printed (exit {done.returncode})\n{printed}")
-        print(f"{page.name}: {count} commands")
-        if count == 0:
-            yield f"{page}:1: no console block, so nothing was checked"
+        for block in BLOCK.finditer(text):
+            for step in STEP.finditer(text, block.start(1), block.end(1)):
+                count += 1
+                printed = output(step[1], folder)
+                if doctest.OutputChecker().check_output(step[2], printed, RULES):
+                    continue
+                line = text.count("\n", 0, step.start()) + 1
+                yield (f"{page}:{line}: $ {step[1]}--- the page says\n{step[2]}"
+                       f"--- printed\n{printed}")
+                changes.append((step.start(2), step.end(2), printed))
+    print(f"{page.name}: {count} commands")
+    if count == 0:
+        yield f"{page}:1: no console block, so nothing was checked"
+    for start, end, printed in reversed(changes if renew else []):
+        text = text[:start] + printed + text[end:]
+        page.write_text(text)
 
 
 def main():
-    top = pathlib.Path(sys.argv[1]).resolve()
-    found = [text for page in sys.argv[2:] for text in differences(top, pathlib.Path(page))]
+    top = pathlib.Path(sys.argv[-1]).resolve()
+    pages = [top / "README.md"]
+    pages += [p for p in sorted(top.glob("docs/guide/*.md")) if BLOCK.search(p.read_text())]
+    found = [text for page in pages for text in differences(top, page, "--renew" in sys.argv)]
     print("\n".join(found))
     return 1 if found else 0
 
