@@ -1,14 +1,20 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/commands.h>
+#include <trochoid/numerics/parallel.h>
 #include <trochoid/results/provenance.h>
 
 #include <CLI/CLI.hpp>
 
 #include <fmt/core.h>
 
+#include <charconv>
+#include <cstdlib>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace {
 
@@ -45,6 +51,24 @@ void add_output(CLI::App& app, Options& options) {
                  "Folder for the results (default: CASE.COMMAND beside the case)");
   app.add_flag("--json", options.json, "Print summary.json instead of the table");
   app.add_flag("--no-report", options.no_report, "Do not write report.html");
+}
+
+/// TROCHOID_THREADS limits the threads; anything but a positive number is an error.
+std::unique_ptr<trochoid::numerics::ThreadLimit> thread_limit() {
+  const char* text = std::getenv("TROCHOID_THREADS");
+  if (text == nullptr) {
+    return nullptr;
+  }
+  const std::string_view wanted(text);
+  int threads = 0;
+  const auto read =
+      std::from_chars(wanted.data(), wanted.data() + wanted.size(), threads);
+  if (read.ec != std::errc{} || read.ptr != wanted.data() + wanted.size() ||
+      threads < 1 || threads > 4096) {
+    throw trochoid::base::InputError({"TROCHOID_THREADS = \"" + std::string(wanted) +
+                                      "\": not a number of threads, from 1 to 4096"});
+  }
+  return std::make_unique<trochoid::numerics::ThreadLimit>(threads);
 }
 
 int run(int argc, char** argv) {
@@ -86,6 +110,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? trochoid::cli::answered : trochoid::cli::wrong_input;
   }
+  const auto limit = thread_limit();
   return chosen();
 }
 

@@ -1,21 +1,28 @@
+#include <trochoid/base/error.h>
 #include <trochoid/cli/deliver.h>
+#include <trochoid/report/report.h>
 #include <trochoid/results/folder.h>
 
 #include <fmt/core.h>
 
+#include <stdexcept>
+
 namespace trochoid::cli {
 
 int report(const Options& options) {
-  const base::Answer answer = results::read_folder(options.file);
-  Options again = options;
-  again.folder = options.file;
-  again.quiet = true;
-  again.json = false;
-  const int code = deliver(answer, again);
-  if (!options.quiet) {
-    fmt::print("report: {}\n", (options.file / "report.html").string());
+  const std::filesystem::path& folder = options.file;
+  const base::Answer answer = results::read_folder(folder);
+  // As it stands: the numbers keep the version that made them.
+  const std::string summary = results::read_summary(folder);
+  try {
+    results::write_report(folder, report::html(answer, summary));
+  } catch (const std::runtime_error& error) {  // the place is wrong, not the program
+    throw base::InputError({error.what()});
   }
-  return code;
+  if (!options.quiet) {
+    fmt::print("report: {}\n", (folder / "report.html").string());
+  }
+  return answer.ok ? answered : no_answer;
 }
 
 }  // namespace trochoid::cli

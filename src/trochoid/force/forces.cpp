@@ -2,6 +2,7 @@
 
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
+#include <trochoid/numerics/parallel.h>
 
 #include <cmath>
 #include <numbers>
@@ -45,13 +46,24 @@ std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evalu
   constexpr double turn = 2 * std::numbers::pi;
   constexpr double same = 1e-11;  // angles closer than this are one angle [rad]
   std::unordered_map<long long, std::size_t> seen;
-  std::vector<Value> values;
-  values.reserve(phi.size());
+  std::vector<double> angles;      // different ones
+  std::vector<std::size_t> place;  // which of them is the i-th
+  place.reserve(phi.size());
   for (const double angle : phi) {
     const double u = angle - turn * std::floor(angle / turn);
-    const auto [place, is_new] =
-        seen.try_emplace(std::llround(u / same), values.size());
-    values.push_back(is_new ? evaluate(u) : values[place->second]);
+    const auto [at, is_new] = seen.try_emplace(std::llround(u / same), angles.size());
+    if (is_new) {
+      angles.push_back(u);
+    }
+    place.push_back(at->second);
+  }
+  std::vector<Value> different(angles.size());
+  numerics::for_each_index(angles.size(),
+                           [&](std::size_t i) { different[i] = evaluate(angles[i]); });
+  std::vector<Value> values;
+  values.reserve(phi.size());
+  for (const std::size_t i : place) {
+    values.push_back(different[i]);
   }
   return values;
 }

@@ -182,9 +182,8 @@ void answer_at(const Problem& problem, std::span<const Run> runs,
   if (std::holds_alternative<force::LinearEdge>(problem.law) &&
       only_noise(problem, linear, rss / known.freedom)) {
     fit.message =
-        "over the turn the force changes no more than its noise, so that only its "
-        "three "
-        "means are known, and they cannot determine six coefficients";
+        "this model explains no more of how the force changes over the turn than it "
+        "would of noise; the three means alone cannot determine six coefficients";
     refuse_coefficients(problem, fit);
     return;
   }

@@ -1,6 +1,7 @@
 #include <trochoid/run/simulate.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/force/closed_form.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/run/angles.h>
 #include <trochoid/run/chip_answer.h>
@@ -209,6 +210,9 @@ base::Answer simulate(const inputs::Case& given) {
               {"max_N", s.max},
               {"rms_N", s.rms},
               {"peak_xy_N", s.peak_xy}};
+  if (const auto mean = force::closed_form_mean(setup, given.law)) {
+    result["closed_form_mean_N"] = *mean;
+  }
   add_loads(given, phi, result);
   const auto& heights = given.sampling.edge_heights;
   const double height = heights.empty() ? default_height(setup) : heights.front();

@@ -1,0 +1,41 @@
+#include <trochoid/force/closed_form.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::force {
+
+namespace {
+
+bool runs_true(const Setup& setup) {
+  const auto& offsets = setup.runout.radial_offsets;
+  return setup.chip.model == chip::Model::none ||
+         (setup.runout.eccentricity == 0 &&
+          std::all_of(offsets.begin(), offsets.end(),
+                      [&](double r) { return r == offsets.front(); }));
+}
+
+}  // namespace
+
+std::optional<Vector3> closed_form_mean(const Setup& setup, const Law& law) {
+  const geometry::Profile& p = setup.cutter.profile;
+  const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;
+  const auto* K = std::get_if<LinearEdge>(&law);
+  if (K == nullptr || !cylinder || setup.chip.model == chip::Model::trochoidal ||
+      !std::holds_alternative<geometry::Slot>(setup.cut.engagement) ||
+      !runs_true(setup) || !(setup.cut.f_z > 0)) {
+    return std::nullopt;
+  }
+  constexpr double pi = std::numbers::pi;
+  const double slope = 2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter;
+  const double e =
+      setup.edge_length == EdgeLength::axial ? 1.0 : std::hypot(1.0, p.D / 2 * slope);
+  const double f = setup.cut.f_z;
+  const double width = setup.cutter.teeth() * setup.cut.a_p;
+  return Vector3{-width * (K->K_rc * f / 4 + K->K_re * e / pi),  // F-8
+                 width * (K->K_tc * f / 4 + K->K_te * e / pi),
+                 -width * (K->K_ac * f / pi + K->K_ae * e / 2)};
+}
+
+}  // namespace trochoid::force
