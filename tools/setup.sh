@@ -13,6 +13,7 @@ libraries=(
   libeigen3-dev        # linear algebra
   libceres-dev         # its header ceres/tiny_solver.h: Levenberg-Marquardt
   libboost-dev         # Boost.Math: Student's t, quadrature, roots
+  libtbb-dev           # threads
   libfmt-dev           # number formatting
   libtomlplusplus-dev  # case files
   nlohmann-json3-dev   # summary.json
