@@ -49,6 +49,15 @@ std::string refusal(const geometry::Cutter& cutter, std::span<const Run> runs) {
   return "";
 }
 
+/// Whether the mean forces alone cannot determine the coefficients: one feed, six of
+/// them.
+bool means_do_not_suffice(const Problem& problem) {
+  const double f_z = problem.runs.front().cut.f_z;
+  return std::holds_alternative<force::LinearEdge>(problem.law) &&
+         std::ranges::all_of(problem.runs,
+                             [&](const FoldedRun& run) { return run.cut.f_z == f_z; });
+}
+
 bool force_is_constant(const Problem& problem) {
   double total = 0.0;
   for (const double b : measured(problem)) total += b * b;
@@ -179,7 +188,7 @@ void answer_at(const Problem& problem, std::span<const Run> runs,
   const double rss =
       problem.runs.front().band > 0 ? linear.rss : fit.rms * fit.rms * equations / 3.0;
   const Uncertainty known = uncertainty(problem, p, linear.x, rss, equations);
-  if (std::holds_alternative<force::LinearEdge>(problem.law) &&
+  if (means_do_not_suffice(problem) &&
       only_noise(problem, linear, rss / known.freedom)) {
     fit.message =
         "this model explains no more of how the force changes over the turn than it "
@@ -205,7 +214,7 @@ Fit identify(const force::Setup& setup, const force::Law& law,
   if (!fit.message.empty()) return fit;
   Problem problem = problem_of(setup, law, runs, options);
   fit.message = too_few(problem, equations_of(problem, runs));
-  if (fit.message.empty() && std::holds_alternative<force::LinearEdge>(law) &&
+  if (fit.message.empty() && means_do_not_suffice(problem) &&
       force_is_constant(problem)) {
     fit.message =
         "the force does not change with the angle: its three means are all that the "

@@ -42,6 +42,24 @@ TEST(Refusal, ForceThatDoesNotChangeHasThreeMeansOnly) {  // [I-6]
   EXPECT_NE(fit.message.find("K_te_N_per_mm"), std::string::npos) << fit.message;
 }
 
+TEST(Refusal, NotOfConstantForcesAtTwoFeeds) {  // [I-6]
+  // Three means at each of two feeds are six equations for six coefficients.
+  force::Setup slow = slot_setup(4, 30.0, 8e-3 * pi / 4.0 / std::tan(30.0 * unit::deg));
+  slow.chip.model = chip::Model::none;
+  force::Setup fast = slow;
+  fast.cut.f_z = 70.0 * unit::um;
+  const std::vector<Record> runs = {made_record(slow, steel(), {}),
+                                    made_record(fast, steel(), {})};
+  Options options;
+  options.chip_model = chip::Model::none;
+  options.phase = 0.0;
+  const Fit fit = identify(slow, steel(), runs, options);
+  ASSERT_TRUE(fit.ok) << fit.message;
+  EXPECT_EQ(fit.rank, 6);
+  EXPECT_NEAR(fit.coefficients[0]->value, 2600e6, 10.0);
+  EXPECT_NEAR(fit.coefficients[5]->value, 1e3, 1e-3);
+}
+
 TEST(Refusal, CoefficientThatAChannelOffsetHides) {  // [I-6] [I-7]
   // Two teeth in a slot: one of them is in cut at every height, so the axial edge force
   // is constant, like an offset of the third channel. All the rest can be told.
