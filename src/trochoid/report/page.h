@@ -11,9 +11,10 @@ std::string_view page_css();
 std::string_view uplot_js();
 
 // The scripts of page/, each needs those above it.
-std::string_view text_js();    ///< numbers, names and elements
-std::string_view charts_js();  ///< curves
-std::string_view parts_js();   ///< what several commands show
+std::string_view text_js();      ///< numbers, names and elements
+std::string_view charts_js();    ///< curves
+std::string_view parts_js();     ///< what several commands show
+std::string_view measured_js();  ///< measured against computed
 std::string_view simulate_js();
 std::string_view identify_js();
 std::string_view any_js();  ///< every command without a page of its own

@@ -124,4 +124,19 @@ void write_folder(const fs::path& folder, const base::Answer& answer,
   }
 }
 
+void write_report(const fs::path& folder, const std::string& report_html) {
+  static_cast<void>(read_summary(folder));
+  const fs::path report = folder / "report.html";
+  const fs::path fresh = folder / fmt::format(".report.{}.new", ::getpid());
+  std::error_code error;
+  try {
+    write_file(fresh, report_html);
+    fs::rename(fresh, report, error);
+    if (error) fail(report, error);
+  } catch (...) {
+    fs::remove(fresh, error);
+    throw;
+  }
+}
+
 }  // namespace trochoid::results

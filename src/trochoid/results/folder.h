@@ -22,6 +22,15 @@ std::string csv(const base::Table& table);
 void write_folder(const std::filesystem::path& folder, const base::Answer& answer,
                   const std::string& report_html);
 
+/// @brief Put a new report.html into a folder of ours; everything else stays as it is.
+/// @throws base::InputError when it is not a folder of ours
+/// @throws std::runtime_error when it cannot be written
+void write_report(const std::filesystem::path& folder, const std::string& report_html);
+
+/// @brief Text of the summary.json of a folder, with the provenance of whoever made it.
+/// @throws base::InputError when it is not a folder of ours
+std::string read_summary(const std::filesystem::path& folder);
+
 /// @brief Read a folder back, for `report`.
 /// @throws base::InputError when it is not a folder of ours
 base::Answer read_folder(const std::filesystem::path& folder);

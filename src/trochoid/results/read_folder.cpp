@@ -83,12 +83,9 @@ std::string title_of(const std::string& case_toml) {
   }
 }
 
-void read_summary(const fs::path& path, base::Answer& answer) {
-  const Json summary = Json::parse(read_file(path), nullptr, false);
-  if (!summary.is_object() || !summary.contains("trochoid")) {
-    refuse(path, "not a summary.json of trochoid");
-  }
+void take_summary(const fs::path& path, base::Answer& answer) {
   try {
+    const Json summary = Json::parse(read_summary(path.parent_path()));
     answer.command = summary.at("command").get<std::string>();
     answer.ok = summary.at("status") == "ok";
     answer.message = summary.at("message").get<std::string>();
@@ -104,9 +101,19 @@ void read_summary(const fs::path& path, base::Answer& answer) {
 
 }  // namespace
 
+std::string read_summary(const fs::path& folder) {
+  const fs::path path = folder / "summary.json";
+  std::string text = read_file(path);
+  const Json summary = Json::parse(text, nullptr, false);
+  if (!summary.is_object() || !summary.contains("trochoid")) {
+    refuse(path, "not a summary.json of trochoid");
+  }
+  return text;
+}
+
 base::Answer read_folder(const fs::path& folder) {
   base::Answer answer;
-  read_summary(folder / "summary.json", answer);
+  take_summary(folder / "summary.json", answer);
   answer.case_toml = read_file(folder / "case.toml");
   answer.title = title_of(answer.case_toml);
   std::vector<fs::path> paths;

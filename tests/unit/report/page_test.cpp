@@ -3,7 +3,7 @@
 #include <trochoid/report/report.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <string>
 
 namespace trochoid::report {
 namespace {
@@ -50,12 +50,18 @@ std::string between(const std::string& text, const std::string& from,
 
 TEST(Page, RequestsNothingFromANetwork) {
   const std::string page = html(sample(), summary_of(sample()));
-  const std::regex fetches(
-      R"((src|href|action|data)\s*=\s*["']?\s*(https?:|//))"
-      R"(|url\(\s*["']?(https?:|//)|@import|fetch\(|XMLHttpRequest)"
-      R"(|WebSocket|sendBeacon)");
-  std::smatch found;
-  EXPECT_FALSE(std::regex_search(page, found, fetches)) << found.str();
+  for (const std::string place : {"src=", "href=", "action=", "url("}) {
+    for (const std::string quote : {"", "'", "\""}) {
+      for (const std::string address : {"http:", "https:", "//"}) {
+        const std::string fetch = place + quote + address;
+        EXPECT_EQ(page.find(fetch), std::string::npos) << fetch;
+      }
+    }
+  }
+  for (const std::string call :
+       {"@import", "fetch(", "XMLHttpRequest", "WebSocket", "sendBeacon"}) {
+    EXPECT_EQ(page.find(call), std::string::npos) << call;
+  }
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos)
       << "the browser itself must be told to refuse requests";
 }

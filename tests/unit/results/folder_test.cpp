@@ -197,6 +197,25 @@ TEST_F(Folder, IsReadOnlyIfItIsOurs) {
   EXPECT_THROW(static_cast<void>(read_folder(folder_)), base::InputError);
 }
 
+TEST_F(Folder, TakesANewReportAndKeepsTheRest) {
+  write_folder(folder_, sample(), "<html>");
+  const std::string older = R"({"trochoid": {"version": "0.0.1", "commit": "older"}})";
+  put(folder_ / "summary.json", older);
+  put(folder_ / "notes.txt", "mine");
+  write_report(folder_, "<html>new");
+  EXPECT_EQ(content(folder_ / "report.html"), "<html>new");
+  EXPECT_EQ(read_summary(folder_), older) << "whoever made the numbers stays named";
+  EXPECT_EQ(content(folder_ / "notes.txt"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}),
+            7);
+}
+
+TEST_F(Folder, TakesAReportOnlyIfItIsOurs) {
+  fs::create_directory(folder_);
+  EXPECT_THROW(write_report(folder_, "<html>"), base::InputError);
+  EXPECT_FALSE(fs::exists(folder_ / "report.html"));
+}
+
 TEST_F(Folder, NamesTheLineOfABrokenTable) {
   write_folder(folder_, sample(), "");
   put(folder_ / "forces.csv", "angle_deg,Fx_N\n0,1\n0.5,many\n");

@@ -42,6 +42,10 @@ function legend(panel) {
     if (series.dash) key.classList.add('dashed');
     return el('span', {}, panel.series.length > 1 || series.name ? key : null, series.name, values[i]);
   });
+  if (panel.band) {
+    const key = el('i', { class: 'key band' });
+    items.push(el('span', {}, key, panel.band.name));
+  }
   const unit = panel.unit ? ` [${panel.unit}]` : '';
   const row = el('div', { class: 'legend' },
     el('strong', {}, panel.label, unit), el('span', { class: 'items' }, items));
@@ -106,6 +110,7 @@ function curve(series) {
 function plotOf(stack, panel, last) {
   const { row, show } = legend(panel);
   const place = el('div', { class: 'plot' });
+  const edges = panel.band ? [panel.band.low, panel.band.high] : [];
   const element = el('div', { class: 'panel' }, row, place);
   const options = {
     width: 600, height: panel.height + (last ? 30 : 0),
@@ -113,7 +118,9 @@ function plotOf(stack, panel, last) {
     legend: { show: false },
     scales: { x: { time: false }, y: { range: panel.range } },
     axes: axes({ showX: last, unit: stack.unit }),
-    series: [{}, ...panel.series.map(curve)],
+    // The band first, so that curves lie above it.
+    series: [{}, ...edges.map(() => ({ points: { show: false } })), ...panel.series.map(curve)],
+    bands: edges.length ? [{ series: [2, 1], fill: () => css('--band') }] : [],
     cursor: {
       sync: { key: stack.key, setSeries: false, scales: ['x', null] },
       points: { size: 6 }, drag: { x: true, y: false, uni: 8 },
@@ -124,7 +131,7 @@ function plotOf(stack, panel, last) {
       draw: [markers(panel.markers || [])],
     },
   };
-  const data = [stack.x, ...panel.series.map((series) => series.values)];
+  const data = [stack.x, ...edges, ...panel.series.map((series) => series.values)];
   return { element, place, make: () => new uPlot(options, data, place), panel, last };
 }
 
@@ -173,17 +180,18 @@ function figure(stack) {
   return chart;
 }
 
-/** Buttons that show one revolution, two, or everything; needed where nobody can drag. */
-function rangeChoice(chart, x) {
+/** Buttons that show some revolutions or everything; needed where nobody can drag. */
+function rangeChoice(figures, x) {
   const first = x[0];
   const last = x[x.length - 1];
   const turns = (last - first) / 360;
   const options = [1, 2, 5].filter((n) => n < turns - 0.01)
     .map((n) => ({ value: n, text: n === 1 ? '1 revolution' : `${n} revolutions` }));
   options.push({ value: 0, text: 'all' });
-  const show = (n) => chart.zoom([first, n ? first + 360 * n : last]);
+  const show = (n) => figures.forEach((chart) =>
+    chart.zoom([first, n ? first + 360 * n : last]));
   const start = turns > 5 ? 2 : 0;
-  if (start) chart.range = [first, first + 720];
+  if (start) figures.forEach((chart) => { chart.range = [first, first + 720]; });
   return choice('Show', options, start, show);
 }
 

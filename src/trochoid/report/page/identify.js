@@ -7,11 +7,15 @@ function identifyPage(report) {
   const fits = Array.isArray(result.fits) ? result.fits : [];
   const best = fits.find((fit) => fit.chip_model === result.chosen) ||
     fits.find((fit) => fit.ok !== false);
-  const measured = measuredOverAngle(report, fits, best);
+  const curves = measuredOverAngle(report, {
+    heading: 'Measured and fitted force', short: 'Forces', model: best?.chip_model,
+    text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.',
+  });
   return [
     { lead: best ? headline(best, fits) : null },
     { part: best ? coefficientSection(best) : null },
-    ...measured,
+    ...curves,
+    foldedSection(report),
     { part: fitsSection(fits, best) },
     sweepSection(report, best),
     chipSection(report),
@@ -41,9 +45,10 @@ function headline(fit, fits) {
       main && { label: [symbol(nameAndUnit(key).name), ` ${meanings[nameAndUnit(key).name] || ''}`],
         value: measured(main.value, half(main)),
         unit: nameAndUnit(key).unit, note: known(main).text },
-      { label: 'Runout between teeth', value: spread, unit: 'µm', digits: 3,
+      { label: 'Runout between teeth', value: spread && fixed(spread, 3), unit: 'µm',
         note: fit.runout?.eccentricity_mm ? 'off centre' : null },
-      { label: 'Residual of the fit', value: fit.rms_N, unit: 'N rms', digits: 3,
+      { label: 'Residual of the fit', value: isNumber(fit.rms_N) ? fixed(fit.rms_N, 3) : null,
+        unit: 'N rms',
         note: comparison(fit, fits) },
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
@@ -74,6 +79,7 @@ const half = (entry) => (isNumber(entry?.high - entry?.low) ? (entry.high - entr
 function known(entry) {
   const width = half(entry);
   if (!isNumber(width) || !entry.value) return { text: missing, level: 0 };
+  if (entry.low <= 0 && entry.high >= 0) return { text: 'it may be zero', level: 0 };
   const relative = Math.abs(width / entry.value);
   const level = relative <= 0.02 ? 4 : relative <= 0.1 ? 3 : relative <= 0.5 ? 2 : 1;
   const word = ['', 'hardly', 'roughly', 'well', 'very well'][level];
@@ -122,78 +128,9 @@ function offsetTable(fit) {
       bar.style.left = `${50 + Math.min(0, 50 * r / largest)}%`;
       bar.style.width = `${Math.abs(50 * r / largest)}%`;
       return el('li', {}, el('b', {}, `Tooth ${i + 1}`), el('span', { class: 'track' }, bar),
-        el('span', { class: 'text' }, `${number(r, 3)} µm`,
+        el('span', { class: 'text' }, `${i ? measured(r, 1000 * se[i]) : '0'} µm`,
           isNumber(se[i]) && i > 0 ? el('small', {}, `standard error ${number(1000 * se[i], 2)} µm`) : null));
     })));
-}
-
-/** The models whose curves a table holds, in its order: `Fx_feed_N` -> feed. */
-function modelsOf(t) {
-  const found = (t?.columns || []).map(({ name }) => /^Fx_(.+)_N$/.exec(name)?.[1]);
-  return found.filter((model) => model && model !== 'measured');
-}
-
-/** Rows of one run; without a column `run` all rows belong to the only one. */
-function rowsOfRun(t, run) {
-  const runs = columnNamed(t, 'run');
-  const of = (values) => (runs ? values.filter((_, i) => runs[i] === run) : values);
-  return (name) => {
-    const values = columnNamed(t, name);
-    return values && of(values);
-  };
-}
-
-function measuredOverAngle(report, fits, best) {
-  const fitted = tableNamed(report, 'fitted.csv');
-  const residual = tableNamed(report, 'residual.csv');
-  if (!fitted?.drawn) return [];
-  const models = modelsOf(fitted);
-  const runs = [...new Set(columnNamed(fitted, 'run') || [1])];
-  const state = { run: runs[0], model: models.includes(best?.chip_model) ? best.chip_model : models[0] };
-  const x = rowsOfRun(fitted, state.run)('angle_deg');
-  const base = { key: 'angle', x, label: 'φ, recorded spindle angle', unit: '°' };
-  const forces = figure({ ...base, caption: zoomHint + thinned(fitted) });
-  const left = residual?.drawn ? figure({ ...base, caption: thinned(residual) }) : null;
-  const redraw = () => {
-    drawForces(forces, rowsOfRun(fitted, state.run), state.model, models);
-    if (left) drawResiduals(left, rowsOfRun(residual, state.run), state.model);
-  };
-  const pick = (name) => (value) => { state[name] = value; redraw(); };
-  const range = rangeChoice(forces, x);
-  if (left) left.range = forces.range;
-  forces.controls.append(...[
-    choice('Chip model', models.map((m) => ({ value: m, text: modelName(m) })), state.model, pick('model')),
-    choice('Run', runs.map((r) => ({ value: r, text: number(r) })), state.run, pick('run')),
-    range].filter(Boolean));
-  if (left) range?.addEventListener('click', () => left.zoom(forces.range));
-  const parts = [{ part: section('forces', 'Measured and fitted force', 'Forces',
-    prose('Force on the tool. Grey is what was measured, the coloured line what the fit computes.'),
-    forces.element), draw: redraw }];
-  if (left) {
-    parts.push({ part: section('residuals', 'What the fit leaves unexplained', 'Residuals',
-      prose('Measured minus fitted, on one scale. Only noise should be left; a pattern that repeats ' +
-        'with the teeth tells of something that the model does not know.'), left.element) });
-  }
-  return parts;
-}
-
-function drawForces(chart, values, model, models) {
-  const color = modelColor(model, models.indexOf(model));
-  chart.draw(forcePanels((axis) => [
-    { name: 'measured', values: values(`F${axis}_measured_N`), color: '--measured', width: 2.2 },
-    { name: modelName(model), values: values(`F${axis}_${model}_N`), color, width: 1.6 },
-  ].filter((series) => series.values)), values('angle_deg'));
-}
-
-function drawResiduals(chart, values, model) {
-  const panels = forcePanels((axis) => [{
-    name: '', values: values(`F${axis}_${model}_N`), color: '--s6', width: 1,
-  }].filter((series) => series.values));
-  const all = panels.flatMap(({ series }) => series[0].values.filter(isNumber));
-  const [low, high] = paddedRange(null, all.reduce((a, b) => Math.min(a, b), 0),
-    all.reduce((a, b) => Math.max(a, b), 0));
-  chart.draw(panels.map((panel) => ({ ...panel, height: 100, range: () => [low, high] })),
-    values('angle_deg'));
 }
 
 /** The fits side by side, as in Table 1 of the paper that the method is from. */
@@ -223,24 +160,31 @@ function fitsSection(fits, best) {
     (fit) => fixed(fit.rms_axis_N?.[i], 3)));
   row('condition', '', (fit) => fixed(fit.condition, 3));
   const answered = fits.some((fit) => isNumber(fit.rms_N));
-  const failed = fits.filter((fit) => fit.ok === false && fit.message);
+  const noted = fits.filter((fit) => (fit.ok === false && fit.message) ||
+    Object.keys(fit.identifiable || {}).some((key) => reasonOf(fit, key)));
   return section('fits', 'The chip models side by side', 'Fits',
     prose('The same record, fitted with every chip model. Where tools run out, simple models put the ' +
       'runout into the coefficients.'),
     answered ? table(['', ...fits.map((fit) => modelName(fit.chip_model))], rows,
       { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }) : null,
-    failed.length ? el('ul', { class: 'reasons' }, failed.map(reasonsOf)) : null,
+    noted.length ? el('ul', { class: 'reasons' }, noted.map(reasonsOf)) : null,
     answered ? el('p', { class: 'small' }, '± is the half width of the 95 % interval. Residual: ' +
       'square root of the mean of |ΔF|² over all samples, ΔF taken as a vector.') : null);
 }
 
-/** Why a fit has no answer, and which quantities it could not tell apart. */
+/** Why a fit has no answer, and which quantities it could not tell apart, by reason. */
 function reasonsOf(fit) {
-  const each = Object.keys(fit.identifiable || {}).map((key) => [key, reasonOf(fit, key)])
-    .filter(([, reason]) => reason);
-  return el('li', {}, el('b', {}, `${sentence(modelName(fit.chip_model))}: `), fit.message,
-    each.length ? el('ul', {}, each.map(([key, reason]) =>
-      el('li', {}, symbol(nameAndUnit(key).name), ': ', reason))) : null);
+  const byReason = new Map();
+  for (const key of Object.keys(fit.identifiable || {})) {
+    const reason = reasonOf(fit, key);
+    if (!reason || reason === fit.message) continue;
+    byReason.set(reason, [...(byReason.get(reason) || []), symbol(nameAndUnit(key).name)]);
+  }
+  const items = [...byReason].map(([reason, names]) => el('li', {},
+    names.flatMap((name, i) => (i ? [', ', name] : [name])), ': ', reason));
+  return el('li', {}, el('b', {}, `${sentence(modelName(fit.chip_model))}: `),
+    fit.ok === false ? fit.message : null,
+    items.length ? el('ul', {}, items) : null);
 }
 
 function rmsCell(fit, fits) {

@@ -21,7 +21,7 @@ function tiles(list) {
   return el('div', { class: 'tiles' }, shown.map((tile) => el('div', { class: 'tile' },
     el('span', { class: 'label' }, tile.label),
     el('span', { class: 'value' }, isNumber(tile.value) ?
-      number(tile.value, tile.digits || 4) : tile.value, tile.unit ? el('small', {}, ` ${tile.unit}`) : null),
+      number(tile.value) : tile.value, tile.unit ? el('small', {}, ` ${tile.unit}`) : null),
     tile.note ? el('span', { class: 'note' }, tile.note) : null)));
 }
 
@@ -104,7 +104,7 @@ function chipCurves(report) {
 }
 
 /** Where each tooth cuts, as bars over the immersion angle from -90 to 270 degrees. */
-function engagementSection(teeth) {
+function engagementSection(teeth, height) {
   if (!Array.isArray(teeth) || !teeth.length) return null;
   const at = (angle) => `${((angle + 90) / 3.6).toFixed(3)}%`;
   const rows = teeth.map((tooth, i) => {
@@ -131,7 +131,8 @@ function engagementSection(teeth) {
     return tick;
   });
   return section('engagement', 'Where each tooth cuts', 'Engagement',
-    prose('Immersion angles with a chip; 0° is +y, 90° the direction of feed.'),
+    prose('Immersion angles with a chip', isNumber(height) ? ` ${number(height)} mm above the tip` : '',
+      '; 0° is +y, 90° the direction of feed.'),
     el('ol', { class: 'engagement' }, rows,
       el('li', { class: 'ticks' }, el('b', {}), el('span', { class: 'track' }, ticks))));
 }
@@ -153,7 +154,7 @@ function runoutWords(runout) {
   const se = runout?.radial_offsets_se_mm?.map((r) => (isNumber(r) ? 1000 * r : null)) || [];
   if (offsets?.length === 2 && isNumber(offsets[1] - offsets[0]) && offsets[1] !== offsets[0]) {
     const r = offsets[1] - offsets[0];
-    parts.push(`tooth 2 is ${number(Math.abs(r), 3)} µm ${offsetWords(r)} than tooth 1` +
+    parts.push(`tooth 2 is ${measured(Math.abs(r), se[1])} µm ${offsetWords(r)} than tooth 1` +
       (isNumber(se[1]) ? ` (standard error ${number(se[1], 2)} µm)` : ''));
   } else if (offsets?.length > 2 && offsets.some((r) => r !== offsets[0])) {
     const low = offsets.indexOf(Math.min(...offsets));

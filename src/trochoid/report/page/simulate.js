@@ -1,7 +1,8 @@
 // The page of `simulate`.
 
 const simulateKnown = ['mean_N', 'min_N', 'max_N', 'rms_N', 'peak_xy_N', 'torque_mean_Nm',
-  'torque_peak_Nm', 'power_W', 'teeth', 'volume_check'];
+  'torque_peak_Nm', 'power_W', 'teeth', 'volume_check', 'comparison',
+  'teeth_height_mm', 'gauge_length_mm', 'bending_peak_Nm'];
 const isBending = (key) => key.startsWith('bending');
 
 function simulatePage(report) {
@@ -14,16 +15,34 @@ function simulatePage(report) {
         note: isNumber(result.torque_peak_Nm) && `peak ${number(result.torque_peak_Nm)} N m` },
       { label: 'Power', value: result.power_W, unit: 'W' },
       bending && { label: sentence(words(nameAndUnit(bending[0]).name)), value: bending[1],
-        unit: nameAndUnit(bending[0]).unit },
+        unit: nameAndUnit(bending[0]).unit, note: isNumber(result.gauge_length_mm) &&
+          `${number(result.gauge_length_mm)} mm above the tip` },
     ]) },
+    ...comparisonParts(report),
     forcesOverAngle(report),
     { part: statistics(result) },
     chipSection(report),
-    { part: engagementSection(result.teeth) },
+    { part: engagementSection(result.teeth, result.teeth_height_mm) },
     { part: volumeSection(result.volume_check) },
     channelsOverAngle(report),
     { part: restSection(result, simulateKnown) },
   ];
+  return parts;
+}
+
+/** Where the case names measurements: the computed force against them. */
+function comparisonParts(report) {
+  const list = report.result.comparison;
+  const parts = measuredOverAngle(report, {
+    heading: 'Measured and computed force', short: 'Comparison',
+    text: 'Force on the tool. Grey is what was measured, the coloured line what the case gives ' +
+      'without any fitting of coefficients.',
+  });
+  if (!Array.isArray(list) || !list.length) return parts;
+  const rows = list.map((run) => [run.file || '', number(run.rms_N, 3), number(run.measured_rms_N, 3),
+    number(run.phase_deg)]);
+  parts.push({ part: section('comparison', 'The comparison in numbers', 'Difference',
+    table(['', 'difference, N rms', 'measured, N rms', 'phase, °'], rows, { class: 'fits' })) });
   return parts;
 }
 
@@ -43,7 +62,7 @@ function forcesOverAngle(report) {
   const chart = figure({
     key: 'angle', x, label: 'φ, spindle angle', unit: '°', caption: zoomHint + thinned(forces),
   });
-  chart.controls.append(...[rangeChoice(chart, x)].filter(Boolean));
+  chart.controls.append(...[rangeChoice([chart], x)].filter(Boolean));
   const part = section('forces', 'Cutting force over the spindle angle', 'Forces',
     prose('Force on the tool in the workpiece frame: x is the direction of feed, z points up.'),
     chart.element);

@@ -43,11 +43,15 @@ const units = {
   N: 'N', mm: 'mm', um: 'µm', deg: '°', s: 's', Nm: 'N m', Nmm: 'N mm', W: 'W', MPa: 'MPa',
   GPa: 'GPa', rpm: 'rpm', Hz: 'Hz', kg: 'kg', mm2: 'mm²', mm3: 'mm³', percent: '%',
   N_per_mm: 'N/mm', N_per_m: 'N/m', Ns_per_m: 'N s/m', mm_per_min: 'mm/min', um_per_s: 'µm/s',
-  mm3_per_rev: 'mm³/rev', N_per_s: 'N/s',
+  mm3_per_rev: 'mm³/rev', mm2_per_rev: 'mm²/rev', N_per_s: 'N/s',
 };
 
 /** `K_te_N_per_mm` -> {name: 'K_te', unit: 'N/mm'}: the unit is the end of every name. */
 function nameAndUnit(key) {
+  if (key.endsWith('_se')) {
+    const of = nameAndUnit(key.slice(0, -3));
+    return { ...of, name: `${of.name}_se` };
+  }
   const parts = key.split('_');
   for (let i = 1; i < parts.length; ++i) {
     const unit = units[parts.slice(i).join('_')];
@@ -74,7 +78,12 @@ function symbol(name) {
   return el('span', { class: 'symbol' }, el('i', {}, found[1]), el('sub', {}, found[2]));
 }
 
-const words = (name) => name.replaceAll('_', ' ');
+const labels = {
+  spindle: 'spindle speed', stated: 'spindle speed, stated', files: 'measurements',
+  removed: 'chips of all teeth', feed_times_width: 'feed × width of cut',
+};
+const words = (name) => (name.endsWith('_se') ? `${words(name.slice(0, -3))}, standard error` :
+  labels[name] || name.replaceAll('_', ' '));
 const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 function valueWithUnit(value, unit, digits) {

@@ -1,0 +1,97 @@
+// Measured force against computed force: of fits, and of simulations.
+
+/** The models whose curves a table holds, in its order: `Fx_feed_N` -> feed. */
+function modelsOf(t) {
+  const found = (t?.columns || []).map(({ name }) => /^Fx_(.+)_N$/.exec(name)?.[1]);
+  return found.filter((model) => model && model !== 'measured');
+}
+
+/** Rows of one run; without a column `run` all rows belong to the only one. */
+function rowsOfRun(t, run) {
+  const runs = columnNamed(t, 'run');
+  const of = (values) => (runs ? values.filter((_, i) => runs[i] === run) : values);
+  return (name) => {
+    const values = columnNamed(t, name);
+    return values && of(values);
+  };
+}
+
+/** words: {heading, short, text, model}; model: the one that is shown first. */
+function measuredOverAngle(report, words) {
+  const fitted = tableNamed(report, 'fitted.csv');
+  const residual = tableNamed(report, 'residual.csv');
+  if (!fitted?.drawn) return [];
+  const models = modelsOf(fitted);
+  const runs = [...new Set(columnNamed(fitted, 'run') || [1])];
+  const state = { run: runs[0], model: models.includes(words.model) ? words.model : models[0] };
+  const x = rowsOfRun(fitted, state.run)('angle_deg');
+  const base = { key: 'recorded', x, label: 'φ, recorded spindle angle', unit: '°' };
+  const forces = figure({ ...base, caption: zoomHint + thinned(fitted) });
+  const left = residual?.drawn ? figure({ ...base, caption: thinned(residual) }) : null;
+  const redraw = () => {
+    drawForces(forces, rowsOfRun(fitted, state.run), state.model, models);
+    if (left) drawResiduals(left, rowsOfRun(residual, state.run), state.model);
+  };
+  const pick = (name) => (value) => { state[name] = value; redraw(); };
+  const both = [forces, left].filter(Boolean);
+  forces.controls.append(...[
+    choice('Chip model', models.map((m) => ({ value: m, text: modelName(m) })), state.model, pick('model')),
+    choice('Run', runs.map((r) => ({ value: r, text: number(r) })), state.run, pick('run')),
+    rangeChoice(both, x)].filter(Boolean));
+  const parts = [{ part: section('measured', words.heading, words.short,
+    prose(words.text), forces.element), draw: redraw }];
+  if (left) {
+    parts.push({ part: section('residuals', 'What stays unexplained', 'Residuals',
+      prose('Measured minus computed, on one scale. Only noise should be left; a pattern that ' +
+        'repeats with the teeth tells of something that the model does not know.'), left.element) });
+  }
+  return parts;
+}
+
+function drawForces(chart, values, model, models) {
+  const color = modelColor(model, models.indexOf(model));
+  chart.draw(forcePanels((axis) => [
+    { name: 'measured', values: values(`F${axis}_measured_N`), color: '--measured', width: 2.2 },
+    { name: modelName(model), values: values(`F${axis}_${model}_N`), color, width: 1.6 },
+  ].filter((series) => series.values)), values('angle_deg'));
+}
+
+function drawResiduals(chart, values, model) {
+  const panels = forcePanels((axis) => [{
+    name: '', values: values(`F${axis}_${model}_N`), color: '--s6', width: 1,
+  }].filter((series) => series.values));
+  const all = panels.flatMap(({ series }) => series[0].values.filter(isNumber));
+  const [low, high] = paddedRange(null, all.reduce((a, b) => Math.min(a, b), 0),
+    all.reduce((a, b) => Math.max(a, b), 0));
+  chart.draw(panels.map((panel) => ({ ...panel, height: 100, range: () => [low, high] })),
+    values('angle_deg'));
+}
+
+/** One revolution: the mean of all, and how far single ones scatter around it. */
+function foldedSection(report) {
+  const folded = tableNamed(report, 'folded.csv');
+  if (!folded?.drawn) return null;
+  const runs = [...new Set(columnNamed(folded, 'run') || [1])];
+  const panelsOf = (run) => {
+    const values = rowsOfRun(folded, run);
+    return forcePanels((axis) => [
+      { name: 'mean', values: values(`F${axis}_mean_N`), color: '--s1', width: 1.6 },
+    ].filter((series) => series.values)).map((panel, i) => {
+      const mean = panel.series[0].values;
+      const sd = values(`F${axesOfForce[i]}_sd_N`) || mean.map(() => 0);
+      return { ...panel, height: 110, band: {
+        low: mean.map((f, k) => f - sd[k]), high: mean.map((f, k) => f + sd[k]),
+        name: 'mean ± standard deviation' } };
+    });
+  };
+  const angle = (run) => rowsOfRun(folded, run)('angle_deg');
+  const chart = figure({ key: 'turn', x: angle(runs[0]), label: 'φ, recorded spindle angle',
+    unit: '°', caption: zoomHint });
+  const draw = (run) => chart.draw(panelsOf(run), angle(run));
+  chart.controls.append(...[choice('Run', runs.map((r) => ({ value: r, text: number(r) })),
+    runs[0], draw)].filter(Boolean));
+  const part = section('folded', 'How well revolutions repeat', 'Revolutions',
+    prose('All revolutions laid over one another. A wide band is noise, chatter or a spindle ' +
+      'speed that drifts.'), chart.element);
+  return { part, draw: () => draw(runs[0]) };
+}
