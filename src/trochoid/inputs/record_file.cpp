@@ -220,8 +220,17 @@ void read_rows(Reading& reading, RecordHead& head) {
       head.units_line = reading.lines.number();
     }
   }
+  if (head.units.size() == head.names.size() + 1 && head.units.back().text.empty()) {
+    head.units.pop_back();
+  }
+  if (!head.units.empty() && head.units.size() != head.names.size()) {
+    reading.problems.add(head.units_line, 1,
+                         fmt::format("the row of units has {} fields, the row of names "
+                                     "{}: every column needs its unit",
+                                     head.units.size(), head.names.size()));
+    head.units.resize(std::min(head.units.size(), head.names.size()));
+  }
   // The texts of the unit row end with the next line.
-  head.units.resize(std::min(head.units.size(), head.names.size()));
   reading.columns =
       find_columns(head, reading.measurement, reading.problems, reading.record.notes);
   if (!head.units.empty()) line = next_content(reading);

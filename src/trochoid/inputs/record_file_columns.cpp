@@ -212,7 +212,8 @@ std::optional<std::size_t> usual_column(const Search& search, NameList names) {
 
 void report_unit(const Search& search, std::size_t index, Quantity quantity,
                  std::string_view text) {
-  const bool in_row = !search.head.units.empty();
+  const bool in_row =
+      index < search.head.units.size() && !search.head.units[index].text.empty();
   const auto& field = in_row ? search.head.units[index] : search.head.names[index];
   search.problems.add(
       in_row ? search.head.units_line : search.head.names_line, field.column,

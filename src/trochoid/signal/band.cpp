@@ -11,7 +11,7 @@ Band::Band(std::span<const double> angle, int harmonics) : samples_(angle.size()
     throw std::invalid_argument("Band: angles and harmonics >= 0 are needed");
   }
   const auto n = static_cast<Eigen::Index>(angle.size());
-  Eigen::MatrixXd A(n, 2 * harmonics + 1);
+  Eigen::MatrixXd A(n, 2 * Eigen::Index{harmonics} + 1);
   for (Eigen::Index i = 0; i < n; ++i) {
     A(i, 0) = 1.0;
     for (int m = 1; m <= harmonics; ++m) {
