@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_panel = 0.7;
 /// Grid points of a panel, beside its ends.
 constexpr int inner_points = 4;
-constexpr int inner_points_at_tip = 24;
+constexpr int inner_points_at_tip = 64;
 
 double lag_between(const Setup& setup, const geometry::Meridian& m, double a,
                    double b) {

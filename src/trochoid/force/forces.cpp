@@ -128,10 +128,17 @@ std::vector<Loads> loads(const Setup& setup, const Law& law,
                          std::span<const double> phi, double gauge_length,
                          double tolerance) {
   const AxialForce axial(setup, law, tolerance);
-  return over_turns<Loads>(phi, [&](double angle) {
+  auto loads = over_turns<Loads>(phi, [&](double angle) {
     const auto v = axial.loads(angle, gauge_length);
-    return Loads{v[3], std::hypot(v[4], v[5])};
+    return Loads{{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])};
   });
+  if (CumulativeForce::serves(setup)) {  // good to more digits, and costs nothing
+    const auto exact = forces(setup, law, phi, tolerance);
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      loads[i].force = exact[i];
+    }
+  }
+  return loads;
 }
 
 }  // namespace trochoid::force

@@ -45,13 +45,14 @@ class ForceMatrix {
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance);
 
-/// What the spindle and the tool holder feel.
+/// What the workpiece, the spindle and the tool holder feel.
 struct Loads {
+  Vector3 force{};       ///< on the tool [N], workpiece frame
   double torque = 0.0;   ///< about the spindle axis [N m], positive: the spindle drives
   double bending = 0.0;  ///< bending moment at the gauge length [N m]
 };
 
-/// @brief Torque and bending moment at the angles phi [rad] (F-6, F-7).
+/// @brief Force, torque and bending moment at the angles phi [rad] (F-4, F-6, F-7).
 /// @param gauge_length  height of the section above the tool tip [m]
 /// @return shape (n)
 std::vector<Loads> loads(const Setup& setup, const Law& law,

@@ -4,6 +4,21 @@
 
 namespace trochoid::geometry {
 
+namespace {
+
+/// atan2(y, x) with the few terms that suffice where the angle is small, as it is
+/// everywhere but at a tip.
+double angle_of(double x, double y) noexcept {
+  if (std::abs(y) > 0.03 * x) {
+    return std::atan2(y, x);
+  }
+  const double t = y / x;
+  const double u = t * t;
+  return t * (1 - u * (1.0 / 3 - u * (1.0 / 5 - u * (1.0 / 7 - u / 9))));
+}
+
+}  // namespace
+
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept {
   const double t = std::tan(cutter.helix);
   const double lead = 2 * t / cutter.lag_diameter;
@@ -32,7 +47,7 @@ EdgePosition edge_position(const Runout& runout, double r, double c) noexcept {
     return {x, 0.0};  // G-10
   }
   const double y = rho * std::sin(c);
-  return {std::hypot(x, y), std::atan2(y, x)};  // G-9
+  return {std::sqrt(x * x + y * y), angle_of(x, y)};  // G-9
 }
 
 void edge_positions(const Runout& runout, std::span<const double> psi, double r,

@@ -75,10 +75,8 @@ base::Table force_table(const inputs::Case& given, std::span<const double> phi,
   return table;
 }
 
-void add_loads(const inputs::Case& given, std::span<const double> phi, Json& result) {
-  const auto loads =
-      force::loads(given.setup, given.law, phi, given.gauge_length.value_or(0.0),
-                   given.sampling.tolerance);
+void add_loads(const inputs::Case& given, std::span<const force::Loads> loads,
+               Json& result) {
   double mean = 0.0;
   double peak = 0.0;
   double bending = 0.0;
@@ -203,7 +201,12 @@ base::Answer simulate(const inputs::Case& given) {
   base::Answer answer{
       .command = "simulate", .title = given.title, .case_toml = given.as_understood};
   const std::vector<double> phi = sampled_angles(given.sampling);
-  const Forces forces = force::forces(setup, given.law, phi, given.sampling.tolerance);
+  const std::vector<force::Loads> loads =
+      force::loads(setup, given.law, phi, given.gauge_length.value_or(0.0),
+                   given.sampling.tolerance);
+  Forces forces(loads.size());
+  std::transform(loads.begin(), loads.end(), forces.begin(),
+                 [](const force::Loads& load) { return load.force; });
   const Statistics s = statistics(forces);
   Json result{{"mean_N", s.mean},
               {"min_N", s.min},
@@ -213,7 +216,7 @@ base::Answer simulate(const inputs::Case& given) {
   if (const auto mean = force::closed_form_mean(setup, given.law)) {
     result["closed_form_mean_N"] = *mean;
   }
-  add_loads(given, phi, result);
+  add_loads(given, loads, result);
   const auto& heights = given.sampling.edge_heights;
   const double height = heights.empty() ? default_height(setup) : heights.front();
   const SliceAnswer slice = slice_answer(setup, height);
