@@ -67,8 +67,11 @@ def trochoidal(case, j, theta, r, lag_z):
         k = (j - m) % N
         R_k, eps_k = geometry.runout(case, r, lag_z, k)
         turned = sum(case.tool.pitch[(j - i) % N] for i in range(1, m + 1))
-        # theta_k - theta_j = turned exactly, up to the epsilons; a full turn for m = N
-        L_k = surface_left(R_k, turned + eps_k - eps_j, case.f, th)
+        # the last passage: in (0, 2 pi], a full turn for the tooth itself
+        ahead = turned + eps_k - eps_j if m < N else np.full_like(th, 2 * np.pi)
+        ahead = np.where(ahead <= 0, ahead + 2 * np.pi, ahead)
+        ahead = np.where(ahead > 2 * np.pi, ahead - 2 * np.pi, ahead)
+        L_k = surface_left(R_k, ahead, case.f, th)
         better = L_k > L
         L, winner = np.where(better, L_k, L), np.where(better, m, winner)
     L = np.where(L > 0, L, 0.0)
@@ -98,7 +101,7 @@ def simplified(case, j, theta, r, lag_z):
         h = np.where(R_j > 0, h, 0.0)
     y = r * np.cos(theta)
     cut = (s > 0) & (y >= case.y_lo) & (y <= case.y_hi) & (h > IN_CUT)
-    return np.where(cut, h, 0.0), np.where(cut, winner, 0)
+    return np.where(cut, h, 0.0), np.where(cut, winner + 1, 0)
 
 
 def chip(case, j, theta, r, lag_z):

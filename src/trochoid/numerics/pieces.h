@@ -72,31 +72,65 @@ class PieceFinder {
   void look_for_hidden_peaks() {
     const std::size_t n = nodes_.size();
     for (std::size_t i = 1; i + 1 < n; ++i) {
-      const Node& a = nodes_[i - 1];
-      const Node& b = nodes_[i];
-      const Node& c = nodes_[i + 1];
-      const bool active = b.state.active();
-      if (a.state.active() != active || c.state.active() != active) {
-        continue;
-      }
-      const double sign = active ? -1.0 : 1.0;
-      const double left = sign * (b.state.margin() - a.state.margin());
-      const double right = sign * (b.state.margin() - c.state.margin());
-      if (!(left >= 0 && right >= 0) || left + right == 0) {
-        continue;
-      }
-      const double at = vertex(a, b, c);
-      if (!std::isfinite(at)) {
-        continue;
-      }
-      const State peak = curve_.state(at);
-      if (peak.active() != active) {
-        nodes_.push_back({at, peak});
-      }
+      follow_peak(nodes_[i - 1], nodes_[i], nodes_[i + 1]);
+    }
+    // Within the outermost intervals: does the margin rise from the end?
+    if (n > 1) {
+      constexpr double step = 1e-3;
+      const Node first = nodes_[0];
+      const Node second = nodes_[1];
+      follow_peak(first, node(first.x + step * (second.x - first.x)), second);
+      const Node last = nodes_[n - 1];
+      const Node before = nodes_[n - 2];
+      follow_peak(before, node(last.x - step * (last.x - before.x)), last);
     }
     if (nodes_.size() > n) {
       std::sort(nodes_.begin(), nodes_.end(),
                 [](const Node& p, const Node& q) { return p.x < q.x; });
+    }
+  }
+
+  [[nodiscard]] Node node(double x) const { return {x, curve_.state(x)}; }
+
+  /// Climb to the peak of the margin at b, towards the other side, as long as it may
+  /// reach there. Where marks take over from one another the peak is a kink, so that
+  /// only a section search gets to its top.
+  void follow_peak(Node a, Node b, Node c) {
+    const bool active = b.state.active();
+    if (a.state.active() != active || c.state.active() != active) {
+      return;
+    }
+    const double sign = active ? -1.0 : 1.0;
+    const auto height = [sign](const Node& p) { return sign * p.state.margin(); };
+    if (!(height(b) >= height(a) && height(b) >= height(c)) ||
+        height(a) + height(c) == 2 * height(b)) {
+      return;
+    }
+    constexpr double golden = 0.381966011250105;
+    for (int i = 0; i < 40 && c.x - a.x > resolution_; ++i) {
+      const double rise = std::max((height(b) - height(a)) / (b.x - a.x) * (c.x - b.x),
+                                   (height(b) - height(c)) / (c.x - b.x) * (b.x - a.x));
+      if (height(b) + 3 * rise < 0) {
+        return;
+      }
+      double x = vertex(a, b, c);
+      if (i % 2 == 1 || !(x > a.x && x < c.x && x != b.x)) {
+        x = c.x - b.x > b.x - a.x ? b.x + golden * (c.x - b.x)
+                                  : b.x - golden * (b.x - a.x);
+      }
+      const bool right = x > b.x;
+      const Node peak = node(x);
+      if (peak.state.active() != active) {
+        nodes_.push_back(peak);
+        return;
+      }
+      const bool higher = height(peak) > height(b);
+      if (right) {
+        (higher ? a : c) = higher ? b : peak;
+      } else {
+        (higher ? c : a) = higher ? b : peak;
+      }
+      b = higher ? peak : b;
     }
   }
 
@@ -115,7 +149,8 @@ class PieceFinder {
       return;
     }
     double x = 0.5 * (a.x + b.x);
-    if (hand_over(a, b, x)) {
+    // At a jump the rule creeps up from one side: then halving it is.
+    if (depth < 10 && hand_over(a, b, x)) {
       const double step = std::min(resolution_, 0.25 * (b.x - a.x));
       const Node before{std::max(x - step, a.x), curve_.state(std::max(x - step, a.x))};
       const Node after{std::min(x + step, b.x), curve_.state(std::min(x + step, b.x))};
