@@ -143,6 +143,27 @@ std::string eccentricity_text(const Fit& fit) {
                      unit::in(fit.runout.angle, unit::deg));
 }
 
+std::string runout_toml(const Fit& fit) {
+  for (const auto& [what, why] : fit.unidentifiable) {
+    if (what.starts_with("radial_offsets_mm") || what == "eccentricity_mm" ||
+        what == "angle_deg") {
+      return fmt::format("\n# [runout]: {}: {}\n", what, why);
+    }
+  }
+  std::string text = "\n[runout]\nradial_offsets_mm = [";
+  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    text += fmt::format("{}{}", k > 0 ? ", " : "",
+                        unit::in(fit.runout.radial_offsets[k], unit::mm));
+  }
+  text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
+                      unit::in(fit.runout.eccentricity, unit::mm),
+                      unit::in(fit.runout.angle, unit::deg));
+  if (fit.runout.order == geometry::EccentricityOrder::first) {
+    text += "eccentricity_order = \"first\"\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 const char* model_name(chip::Model model) {
@@ -270,15 +291,7 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
   if (fit.chip.model == chip::Model::none) {
     return text;
   }
-  text += "\n[runout]\nradial_offsets_mm = [";
-  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
-    text += fmt::format("{}{}", k > 0 ? ", " : "",
-                        unit::in(fit.runout.radial_offsets[k], unit::mm));
-  }
-  text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
-                      unit::in(fit.runout.eccentricity, unit::mm),
-                      unit::in(fit.runout.angle, unit::deg));
-  return text;
+  return text + runout_toml(fit);
 }
 
 }  // namespace trochoid::run
