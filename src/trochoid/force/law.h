@@ -20,9 +20,9 @@ struct Power {
   double K_t1 = 0.0;  ///< [N/m^2]
   double K_r1 = 0.0;  ///< [N/m^2]
   double K_a1 = 0.0;  ///< [N/m^2]
-  double m_t = 0.0;   ///< in [0, 1)
-  double m_r = 0.0;   ///< in [0, 1)
-  double m_a = 0.0;   ///< in [0, 1)
+  double m_t = 0.0;   ///< in [-0.5, 1)
+  double m_r = 0.0;   ///< in [-0.5, 1)
+  double m_a = 0.0;   ///< in [-0.5, 1)
 };
 
 using Law = std::variant<LinearEdge, Power>;

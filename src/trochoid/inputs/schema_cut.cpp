@@ -187,7 +187,7 @@ void describe(const Visitor& v, ForceTable& t) {
                             std::optional<double>& value) {
     v({.name = name,
        .meaning = meaning,
-       .range = from_below(0, 1),
+       .range = from_below(-0.5, 1),
        .need = Need::simulate,
        .only = {"law", {"power"}},
        .standard = "0.25 for identify"},
