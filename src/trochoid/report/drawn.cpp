@@ -40,6 +40,19 @@ void append_extremes(const std::vector<double>& values, std::size_t from,
   rows.push_back(high);
 }
 
+/// Rows where a run begins; the first one where there is no column `run`.
+std::vector<std::size_t> starts_of_runs(const base::Table& table) {
+  std::vector<std::size_t> starts = {0};
+  const auto run =
+      std::find_if(table.columns.begin(), table.columns.end(),
+                   [](const auto& column) { return column.name == "run"; });
+  if (run == table.columns.end()) return starts;
+  for (std::size_t i = 1; i < run->values.size(); ++i) {
+    if (run->values[i] != run->values[i - 1]) starts.push_back(i);
+  }
+  return starts;
+}
+
 void append_table(std::string& text, const base::Table& table) {
   const std::size_t count =
       table.columns.empty() ? 0 : table.columns.front().values.size();
@@ -71,8 +84,15 @@ std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells)
     std::iota(rows.begin(), rows.end(), std::size_t{0});
     return rows;
   }
+  const auto starts = starts_of_runs(table);
+  const std::size_t whole = cells / (4 * columns * starts.size());
+  for (const std::size_t start : starts) {
+    for (std::size_t i = start; i < std::min(start + whole, count); ++i) {
+      rows.push_back(i);
+    }
+  }
   const std::size_t stretches =
-      std::max<std::size_t>(1, cells / (2 * columns * columns));
+      std::max<std::size_t>(1, 3 * cells / (8 * columns * columns));
   for (std::size_t s = 0; s < stretches; ++s) {
     const std::size_t from = count * s / stretches;
     const std::size_t to = count * (s + 1) / stretches;

@@ -9,11 +9,11 @@
 namespace trochoid::report {
 
 /// Cells of a table that are drawn at most; a page stays below a few megabytes.
-inline constexpr std::size_t drawn_cells = 200'000;
+inline constexpr std::size_t drawn_cells = 400'000;
 
-/// @brief Rows of a table that are drawn, in order: all, or those that hold the
-/// smallest and largest values of every column in short stretches, so that no peak
-/// disappears.
+/// @brief Rows of a table that are drawn, in order: all of them; or, of a longer table,
+/// the first rows of every run (column `run`), and of the rest those that hold the
+/// smallest and largest values of every column in short stretches: no peak disappears.
 std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells);
 
 /// @brief JSON text of the tables as the page draws them; numbers rounded to float.

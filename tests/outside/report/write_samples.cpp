@@ -236,10 +236,10 @@ Answer other() {
   answer.case_toml = case_toml;
   Table motion{"motion.csv",
                {{"time_s", {}}, {"x_um", {}}, {"y_um", {}}, {"Fx_N", {}}}};
-  constexpr int count = 120'000;
+  constexpr int count = 240'000;
   for (int i = 0; i < count; ++i) {
-    const double t = 1e-5 * i;
-    const bool spike = i == 70'001;
+    const double t = 5e-6 * i;
+    const bool spike = i == 170'001;
     motion.columns[0].values.push_back(t);
     motion.columns[1].values.push_back(12 * std::sin(600 * t) + (spike ? 40 : 0));
     motion.columns[2].values.push_back(9 * std::cos(610 * t));

@@ -46,6 +46,19 @@ TEST(Drawn, KeepEveryPeak) {
   EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 77'777U));
 }
 
+TEST(Drawn, KeepTheBeginningOfEveryRunWhole) {
+  auto table = wave(100'000);
+  table.columns.insert(table.columns.begin(),
+                       {"run", std::vector<double>(100'000, 1.0)});
+  for (std::size_t i = 60'000; i < 100'000; ++i) table.columns[0].values[i] = 2.0;
+  const auto rows = drawn_rows(table, 6000);
+  EXPECT_LE(rows.size() * table.columns.size(), 6000U);
+  for (std::size_t i = 0; i < 200; ++i) {
+    EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), i)) << i;
+    EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 60'000 + i)) << i;
+  }
+}
+
 TEST(Drawn, KeepPeaksBesideMissingNumbers) {
   auto table = wave(100'000);
   for (std::size_t i = 0; i < 100'000; i += 2) {

@@ -11,7 +11,7 @@ const isEmpty = (value) => value === null || value === undefined ||
 /** How much of a table is drawn, where that is not all of it. */
 function thinned(t) {
   if (!t || t.drawn >= t.rows) return '';
-  return ` Drawn from ${t.drawn} of ${t.rows} rows, extremes kept; all are in ${t.file}.`;
+  return ` Drawn from ${t.drawn} of ${t.rows} rows, the first ones and all extremes kept; all are in ${t.file}.`;
 }
 
 /** The few numbers that matter most. list: {label, value, unit, note} */
@@ -26,17 +26,17 @@ function tiles(list) {
 }
 
 /** A value of summary.json in words. */
-function shown(value, unit) {
+function shown(value, unit, digits = 6) {
   if (value === null || value === undefined) return missing;
   if (typeof value === 'boolean') return value ? 'yes' : 'no';
-  if (typeof value === 'number') return valueWithUnit(value, unit, 6);
+  if (typeof value === 'number') return valueWithUnit(value, unit, digits);
   if (typeof value === 'string') return value;
   if (Array.isArray(value)) {
     if (value.every((entry) => typeof entry !== 'object' || entry === null)) {
-      const list = value.map((entry) => shown(entry, '')).join(', ');
+      const list = value.map((entry) => shown(entry, '', digits)).join(', ');
       return unit && value.length ? `${list} ${unit}` : list || 'none';
     }
-    return el('ol', {}, value.map((entry) => el('li', {}, shown(entry, unit))));
+    return el('ol', {}, value.map((entry) => el('li', {}, shown(entry, unit, digits))));
   }
   return described(value, unit);
 }
@@ -46,7 +46,7 @@ function described(object, outer = '') {
   return el('dl', {}, Object.entries(object).map(([key, value]) => {
     const { name, unit } = nameAndUnit(key);
     return el('div', {}, el('dt', {}, sentence(words(name))),
-      el('dd', {}, shown(value, unit || outer)));
+      el('dd', {}, shown(value, unit || outer, key.includes('_se') ? 2 : 6)));
   }));
 }
 
