@@ -103,10 +103,6 @@ AxesChoice choose_axes(const inputs::Case& given, const std::vector<MeasuredRun>
   std::vector<Reading> readings = all_readings(given, runs, progress, choice.message);
   std::stable_sort(readings.begin(), readings.end(),
                    [](const Reading& a, const Reading& b) { return a.rms < b.rms; });
-  if (!std::isfinite(readings.front().rms) || positive(readings.front()) == 0) {
-    choice.message = "no reading of the channels could be fitted: " + choice.message;
-    return choice;
-  }
   const double best = readings.front().rms;
   const auto other = std::find_if(
       readings.begin(), readings.end(),
@@ -114,6 +110,10 @@ AxesChoice choose_axes(const inputs::Case& given, const std::vector<MeasuredRun>
   const Reading& chosen = *std::max_element(
       readings.begin(), other,
       [](const Reading& a, const Reading& b) { return positive(a) < positive(b); });
+  if (!std::isfinite(chosen.rms) || positive(chosen) == 0) {
+    choice.message = "no reading of the channels could be fitted: " + choice.message;
+    return choice;
+  }
   choice.ok = true;
   choice.matrix = chosen.Q;
   choice.rms = chosen.rms;
