@@ -14,14 +14,9 @@ namespace {
 using trochoid::inputs::Command;
 
 /// A folder of this process, so that relative names in a case lead nowhere.
-const std::filesystem::path& folder() {
-  static const auto path = [] {
-    auto p = std::filesystem::temp_directory_path() /
-             ("trochoid_fuzz_" + std::to_string(getpid()));
-    std::filesystem::create_directories(p);
-    return p;
-  }();
-  return path;
+std::filesystem::path folder() {
+  return std::filesystem::temp_directory_path() /
+         ("trochoid_fuzz_" + std::to_string(getpid()));
 }
 
 void read(const std::filesystem::path& file, Command command) {
@@ -37,6 +32,7 @@ void read(const std::filesystem::path& file, Command command) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = folder() / "case.toml";
+  std::filesystem::create_directories(folder());
   {
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
@@ -44,5 +40,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto command : {Command::check, Command::simulate, Command::identify}) {
     read(file, command);
   }
+  std::filesystem::remove_all(folder());
   return 0;
 }

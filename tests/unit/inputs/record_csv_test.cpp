@@ -145,7 +145,8 @@ TEST(RecordCsv, TakesDecimalCommasOnlyWhereNothingElseCanBeMeant) {
   EXPECT_EQ(record.channel[0][0], 1.234);
   EXPECT_EQ(record.channel[1][0], -2.5);
   EXPECT_DOUBLE_EQ(record.time[1], 1e-3);
-  // 0,500 cannot be thousands, 1234,567 neither; 1,234 can.
+  // 0,500 cannot be thousands, 1234,567 and 1,2345 neither; 1,234 can.
+  EXPECT_EQ(refusal("angle_deg;Fx_N;Fy_N;Fz_N\n0;1,2345;2;3\n1;1;2;3\n"), "");
   EXPECT_EQ(refusal("angle_deg;Fx_N;Fy_N;Fz_N\n0;0,500;2;3\n1;1;2;3\n"), "");
   EXPECT_EQ(refusal("angle_deg;Fx_N;Fy_N;Fz_N\n0;1234,567;2;3\n1;1;2;3\n"), "");
   EXPECT_NE(refusal("angle_deg;Fx_N;Fy_N;Fz_N\n0;1,234;2;3\n1;1;2;3\n"), "");

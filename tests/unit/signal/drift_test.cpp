@@ -88,6 +88,14 @@ TEST(IdleDrift, IsNotFoundWhereTheToolAlwaysCuts) {
   EXPECT_FALSE(idle_drift(few.channel, few.angle));
 }
 
+TEST(IdleDrift, DoesNotTakeALighterCutForIdle) {
+  auto s = make({.before = 0, .entering = 0, .cutting = 40, .after = 0});
+  for (auto& channel : s.channel) {
+    for (std::size_t i = 0; i < 15u * a_turn; ++i) channel[i] *= 0.35;
+  }
+  EXPECT_TRUE(idle_parts(s.channel, s.angle).empty());
+}
+
 TEST(IdleDrift, DoesNotTakeASlowEntryForIdle) {
   const auto s = make({.before = 10, .entering = 60, .after = 0});
   const auto parts = idle_parts(s.channel, s.angle);

@@ -64,6 +64,17 @@ TEST(Fold, FindsTheScatterOfTheNoise) {
   }
 }
 
+TEST(Fold, CountsTheMeanAndTheLineAsUsed) {
+  // Two turns at the same angles, 1 N apart: deviation 1/sqrt(2).
+  auto s = make(20, 10.0);
+  for (std::size_t i = 0; i < 20; ++i) s.channel[2][i] = i < 10 ? 1.0 : 2.0;
+  EXPECT_NEAR(fold(s.channel, s.angle, 10).scatter[2][4], std::sqrt(0.5), 1e-12);
+  // Four samples of one bin, +-1 about a line: sum of squares 4, two of them used up.
+  const std::vector<double> angle = {0.1, 0.2, 0.3, 0.4};
+  const std::vector<double> y = {1.0 + 1, 2.0 - 1, 3.0 - 1, 4.0 + 1};
+  EXPECT_NEAR(fold({y, y, y}, angle, 1).scatter[0][0], std::sqrt(2.0), 1e-12);
+}
+
 TEST(Fold, LeavesOutThePartOfATurnAtTheEnd) {
   auto s = make(250, 100.0);
   for (std::size_t i = 200; i < 250; ++i) s.channel[0][i] = 1e6;
