@@ -103,10 +103,16 @@ Json phases_json(const Fit& fit) {
 
 Json channel_offsets_json(const Fit& fit) {
   Json runs = Json::array();
-  for (const auto& run : fit.channel_offsets) {
+  for (std::size_t r = 0; r < fit.channel_offsets.size(); ++r) {
     Json channels = Json::array();
-    for (const auto& c : run) {
-      channels.push_back({{"constant_N", c.constant}, {"slope_N", c.slope}});
+    for (std::size_t q = 0; q < 3; ++q) {
+      const auto known = [&](const char* what, double value) {
+        const auto name = fmt::format("{} of channel {} in run {}", what, q + 1, r + 1);
+        return unidentifiable(fit, name) ? Json(nullptr) : Json(value);
+      };
+      const auto& c = fit.channel_offsets[r][q];
+      channels.push_back({{"constant_N", known("offset", c.constant)},
+                          {"slope_N", known("drift", c.slope)}});
     }
     runs.push_back(channels);
   }
@@ -215,10 +221,11 @@ Json fit_json(const Fit& fit) {
   out["rms_axis_N"] = fit.ok ? Json(fit.rms_axis) : Json(nullptr);
   out["rms_meaning"] =
       "square root of the mean over samples of |dF|^2, and of dF_q^2 per axis";
-  out["condition"] = fit.condition;
-  out["rank"] = fit.rank;
-  out["degrees_of_freedom"] = fit.freedom;
-  out["residual_correlation"] = fit.residual_correlation;
+  const bool solved = fit.rank > 0;  // a refusal may come before the equations
+  out["condition"] = solved ? Json(fit.condition) : Json(nullptr);
+  out["rank"] = solved ? Json(fit.rank) : Json(nullptr);
+  out["degrees_of_freedom"] = fit.ok ? Json(fit.freedom) : Json(nullptr);
+  out["residual_correlation"] = fit.ok ? Json(fit.residual_correlation) : Json(nullptr);
   out["identifiable"] = identifiable;
   return out;
 }

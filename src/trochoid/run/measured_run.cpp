@@ -129,7 +129,9 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
   std::vector<MeasuredRun> runs;
   for (std::size_t i = 0; i < records.size(); ++i) {
     MeasuredRun run{.record = std::move(records[i]), .cut = given.measurements[i].cut};
-    warnings.insert(warnings.end(), run.record.notes.begin(), run.record.notes.end());
+    for (const base::Warning& note : run.record.notes) {
+      warnings.push_back({note.code, run.record.file + ": " + note.message});
+    }
     if (!lay_over_angle(run, given.setup.cutter.teeth(), warnings, message)) {
       return {};
     }
