@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <system_error>
 
 namespace trochoid::cli {
 
@@ -15,7 +16,9 @@ int new_case(const std::string& command, const std::filesystem::path& file) {
     fmt::print("{}", text);
     return answered;
   }
-  if (std::filesystem::exists(file)) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  if (std::filesystem::exists(status)) {  // a link that leads nowhere counts
     throw base::InputError({file.string() +
                             ": it exists already and is not overwritten; name another "
                             "file"});

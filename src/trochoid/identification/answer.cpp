@@ -63,6 +63,7 @@ class Reasons {
   Reasons(const Problem& problem, const Uncertainty& known, Fit& fit)
       : known_(known), names_(names_of(problem)), fit_(fit) {}
 
+  /// Takes down the reason if it is not.
   bool determined(std::size_t i) {
     if (known_.reason[i].empty()) return true;
     refuse(names_[i], known_.reason[i]);
@@ -222,6 +223,9 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   fit.law = force::with_coefficients(point.law, K.first(index(problem.columns)));
   for (std::size_t c = 0; c < index(problem.columns); ++c) {
     if (reasons.determined(c)) fit.coefficients[c] = reasons.estimate(c, K[c]);
+  }
+  for (std::size_t c = index(problem.columns); c < linear; ++c) {
+    reasons.determined(c);
   }
   fit.runout = point.runout;
   fit.runout.radial_offsets.resize(index(u.teeth), 0.0);

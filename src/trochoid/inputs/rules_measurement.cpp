@@ -73,7 +73,11 @@ void check_file(const Measurement& m, const std::string& key, const std::string&
   const auto status = std::filesystem::status(m.file, error);
   std::string why;
   if (!std::filesystem::exists(status)) {
-    why = fmt::format("there is no such file ({})", m.file.string());
+    const std::string path = m.file.string();
+    const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
+      return static_cast<unsigned char>(c) < 0x20;
+    });
+    why = fmt::format("there is no such file ({})", plain ? path : toml_string(path));
   } else if (std::filesystem::is_directory(status)) {
     why = "this is a folder";
   } else if (!std::filesystem::is_regular_file(status)) {
