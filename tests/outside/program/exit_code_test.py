@@ -1,0 +1,128 @@
+"""What the exit code says: 0 answered, 1 no good answer, 2 the input is wrong."""
+import signal
+import subprocess
+import time
+
+from in_folder import InFolder, ROOT, identification, main, program, simulation
+
+
+def numbers(value):
+    """All numbers anywhere in a JSON value."""
+    if isinstance(value, dict):
+        return [n for v in value.values() for n in numbers(v)]
+    if isinstance(value, list):
+        return [n for v in value for n in numbers(v)]
+    return [value] if isinstance(value, (int, float)) and not isinstance(value, bool) else []
+
+
+class ExitCode(InFolder):
+    def test_answered_is_0(self):
+        self.write("cut.toml", simulation())
+        done = self.run_program("simulate", "cut.toml")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(self.summary("cut.simulate")["status"], "ok")
+
+    def test_warnings_are_still_0(self):
+        self.write("cut.toml", simulation(runout={"radial_offsets_mm": [0.0, -0.2]}))
+        self.run_program("simulate", "cut.toml")
+        codes = [w["code"] for w in self.summary("cut.simulate")["warnings"]]
+        self.assertIn("idle_tooth", codes)
+
+    def test_a_feed_of_0_cuts_nothing_and_is_answered(self):
+        self.write("cut.toml", simulation(cut={"feed_per_tooth_mm": 0.0}))
+        self.run_program("simulate", "cut.toml")
+        result = self.summary("cut.simulate")["result"]
+        self.assertEqual(result["rms_N"], [0, 0, 0])
+        self.assertEqual([t["peak_chip_mm"] for t in result["teeth"]], [0, 0])
+
+    def test_nothing_to_identify_at_a_feed_of_0_is_1(self):
+        self.record()
+        self.write("cut.toml", identification(cut={"feed_per_tooth_mm": 0.0}))
+        done = self.run_program("identify", "cut.toml", code=1)
+        summary = self.summary("cut.identify")
+        self.assertEqual(summary["status"], "failed")
+        self.assertTrue(summary["message"])
+        self.assertIn(summary["message"], done.stderr)
+        for fit in summary["result"]["fits"]:
+            self.assertLessEqual(set(numbers(fit)), {0}, fit)  # the rank may be known
+            self.assertIsNone(fit["runout"])
+            self.assertTrue(all(v is None for v in fit["coefficients"].values()))
+        self.assertIsNone(summary["result"].get("chosen"))
+        self.assertFalse((self.folder / "cut.identify/material.toml").exists())
+
+    def test_a_force_that_never_changes_is_1(self):
+        self.write("record.csv", "angle_deg,Fx_N,Fy_N,Fz_N\n" + "".join(
+            f"{3 * i},1,2,3\n" for i in range(120)))
+        self.write("cut.toml", identification())
+        self.run_program("identify", "cut.toml", code=1)
+        for fit in self.summary("cut.identify")["result"]["fits"]:
+            self.assertEqual(numbers(fit), [])
+
+    def test_a_failed_answer_is_said_even_when_quiet(self):
+        self.record()
+        self.write("cut.toml", identification(cut={"feed_per_tooth_mm": 0.0}))
+        done = self.run_program("identify", "cut.toml", "--quiet", code=1)
+        self.assertEqual(done.stdout, "")
+        self.assertIn("trochoid identify:", done.stderr)
+
+    def test_what_cannot_be_told_apart_is_no_number(self):
+        """Without a chip that changes its length the axial edge force of a slot is a
+        constant, as is the offset of channel 3."""
+        self.record()
+        self.write("cut.toml", identification(identify={
+            "chip_models": ["none", "trochoidal"], "channel_offsets": "fit"}))
+        self.run_program("identify", "cut.toml")
+        fit = self.summary("cut.identify")["result"]["fits"][0]
+        self.assertIsNone(fit["coefficients"]["K_ae_N_per_mm"])
+        self.assertIsInstance(fit["identifiable"]["K_ae_N_per_mm"], str)
+        self.assertIsNone(fit["channel_offsets"][0][2]["constant_N"])
+        self.assertLess(max(map(abs, numbers(fit["channel_offsets"]))), 1e3)
+
+    def test_wrong_commands_are_2(self):
+        self.write("cut.toml", simulation())
+        before = self.everything()
+        for arguments in ([], ["simulat", "cut.toml"], ["simulate"],
+                          ["simulate", "cut.toml", "--nonsense"],
+                          ["simulate", "cut.toml", "other.toml"],
+                          ["new", "nonsense", "x.toml"], ["report"],
+                          ["simulate", "cut.toml", "-o"]):
+            with self.subTest(arguments):
+                done = self.run_program(*arguments, code=2)
+                self.assertTrue(done.stderr)
+        self.assertEqual(self.everything(), before)
+
+    def test_help_and_version_are_0(self):
+        for arguments in (["--help"], ["--version"], ["simulate", "--help"],
+                          ["identify", "-h"]):
+            self.assertTrue(self.run_program(*arguments).stdout, arguments)
+
+    def test_check_says_what_it_read(self):
+        self.record()
+        self.write("cut.toml", identification())
+        self.assertIn("cut.toml", self.run_program("check", "cut.toml").stdout)
+        self.assertFalse(list(self.folder.glob("cut.*/")))
+
+
+class Killed(InFolder):
+    def test_an_end_in_the_middle_leaves_no_half_folder(self):
+        """Whenever it comes: all of the folder is there, or none of it."""
+        case = ROOT / "examples/st52_slot/case.toml"
+        start = time.monotonic()
+        self.run_program("identify", case, "-o", "whole", "-q")
+        duration = time.monotonic() - start
+        names = sorted(p.name for p in (self.folder / "whole").iterdir())
+        for i in range(24):
+            out = self.folder / f"out{i}"
+            child = subprocess.Popen([program.PROGRAM, "identify", str(case), "-o", str(out),
+                                      "-q"], cwd=self.folder)
+            time.sleep(duration * (i + 1) / 24)
+            child.send_signal(signal.SIGKILL)
+            child.wait()
+            if out.exists():
+                self.assertEqual(sorted(p.name for p in out.iterdir()), names)
+        # what was begun hides, and does not hinder the next run
+        self.run_program("identify", case, "-o", "out0", "-q")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,231 @@
+"""Where answers go: the folder of a result, what is printed, what is never lost."""
+import json
+import os
+import re
+
+from in_folder import InFolder, ROOT, identification, main, simulation
+
+FILES = {"case.toml", "chip.csv", "chip_curve.csv", "forces.csv", "report.html",
+         "summary.json"}
+
+
+class ResultFolder(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.write("cut.toml", simulation(
+            sampling={"edge_angles_deg": [90.0], "edge_heights_mm": [0.0]}))
+
+    def names(self, folder):
+        return {p.name for p in (self.folder / folder).iterdir()}
+
+    def test_beside_the_case_by_default(self):
+        self.write("deep/my cut.v2.toml", simulation())
+        self.run_program("simulate", "deep/my cut.v2.toml", "-q")
+        self.assertEqual(self.names("deep/my cut.v2.simulate"), FILES)
+        self.assertEqual(self.names("deep"), {"my cut.v2.toml", "my cut.v2.simulate"})
+
+    def test_where_o_says(self):
+        for i, option in enumerate((["-o", "out0"], ["--output", "out1"], ["-oout2"],
+                                    ["--output=a/b/out3"], ["-o", "out4/"])):
+            self.run_program("simulate", "cut.toml", "-q", *option)
+        for folder in ("out0", "out1", "out2", "a/b/out3", "out4"):
+            self.assertEqual(self.names(folder), FILES)
+        self.assertFalse((self.folder / "cut.simulate").exists())
+
+    def test_nothing_else_is_left_beside_it(self):
+        self.run_program("simulate", "cut.toml")
+        self.run_program("simulate", "cut.toml")
+        self.assertEqual(self.names("."), {"cut.toml", "cut.simulate"})
+
+    def test_json_prints_exactly_the_summary(self):
+        done = self.run_program("simulate", "cut.toml", "--json")
+        summary = (self.folder / "cut.simulate/summary.json").read_text()
+        self.assertEqual(done.stdout.strip(), summary.strip())
+        self.assertEqual(list(json.loads(done.stdout)),
+                         ["trochoid", "command", "status", "message", "warnings", "result"])
+        self.assertEqual(done.stderr, "")
+
+    def test_a_failed_answer_is_json_too(self):
+        self.record()
+        self.write("cut.toml", identification(cut={"feed_per_tooth_mm": 0.0}))
+        done = self.run_program("identify", "cut.toml", "--json", code=1)
+        self.assertEqual(json.loads(done.stdout), self.summary("cut.identify"))
+
+    def test_quiet_prints_nothing(self):
+        for option in ("-q", "--quiet"):
+            done = self.run_program("simulate", "cut.toml", option)
+            self.assertEqual(done.stdout + done.stderr, "")
+
+    def test_no_report_leaves_none_from_before(self):
+        self.run_program("simulate", "cut.toml")
+        done = self.run_program("simulate", "cut.toml", "--no-report")
+        self.assertEqual(self.names("cut.simulate"), FILES - {"report.html"})
+        self.assertNotIn("report.html", done.stdout)
+
+    def test_every_number_is_finite_and_no_file_is_empty(self):
+        self.run_program("simulate", "cut.toml")
+        for file in (self.folder / "cut.simulate").iterdir():
+            text = file.read_text()
+            self.assertTrue(text.endswith("\n"), file.name)
+            if file.suffix in (".csv", ".json"):
+                for word in ("nan", "inf"):
+                    self.assertNotRegex(text.lower(), rf"\b{word}\b", file.name)
+
+    def test_the_report_needs_no_network(self):
+        self.run_program("simulate", "cut.toml")
+        page = (self.folder / "cut.simulate/report.html").read_text()
+        for word in (" src=", "<link rel=\"stylesheet", "@import", "url(", "fetch("):
+            self.assertFalse(word in page, word)
+
+    # what is never lost
+
+    def keeps(self, *arguments):
+        before = self.everything()
+        done = self.run_program(*arguments, code=2)
+        self.assertEqual(self.everything(), before)
+        self.assertTrue(done.stderr)
+        return done.stderr
+
+    def test_a_folder_of_somebody_else_is_kept(self):
+        self.write("mine/thesis.doc", "years of work")
+        self.assertIn("thesis.doc", self.keeps("simulate", "cut.toml", "-o", "mine"))
+
+    def test_a_file_put_into_a_result_folder_is_kept(self):
+        self.run_program("simulate", "cut.toml", "-o", "out")
+        self.write("out/notes.txt", "mine")
+        self.assertIn("notes.txt", self.keeps("simulate", "cut.toml", "-o", "out"))
+
+    def test_a_folder_with_a_summary_of_another_program_is_kept(self):
+        self.write("out/summary.json", "{\"result\": 1}")
+        self.keeps("simulate", "cut.toml", "-o", "out")
+
+    def test_the_folder_of_the_case_is_kept(self):
+        for place in (".", "./", self.folder, "cut.toml", "cut.toml/sub"):
+            self.keeps("simulate", "cut.toml", "-o", place)
+
+    def test_a_place_that_cannot_be_written(self):
+        places = ["/proc/trochoid", "/dev/null", "/dev/null/out", "/"]
+        if os.geteuid() != 0:
+            (self.folder / "locked").mkdir(mode=0o500)
+            places.append("locked/out")
+        for place in places:
+            with self.subTest(place):
+                self.keeps("simulate", "cut.toml", "-o", place)
+
+    def test_a_wrong_case_leaves_the_old_answer(self):
+        self.run_program("simulate", "cut.toml")
+        self.write("cut.toml", simulation(cut={"axial_depth_mm": -1.0}))
+        self.keeps("simulate", "cut.toml")
+
+    def test_a_failed_answer_replaces_the_old_one(self):
+        self.record()
+        self.write("cut.toml", identification())
+        self.run_program("identify", "cut.toml")
+        self.write("cut.toml", identification(cut={"feed_per_tooth_mm": 0.0}))
+        self.run_program("identify", "cut.toml", code=1)
+        self.assertEqual(self.summary("cut.identify")["status"], "failed")
+        self.assertNotIn("material.toml", self.names("cut.identify"))
+
+    def test_a_link_is_not_followed_into_the_folder_of_somebody_else(self):
+        self.write("mine/thesis.doc", "years of work")
+        (self.folder / "out").symlink_to("mine")
+        self.keeps("simulate", "cut.toml", "-o", "out")
+
+
+class NewCase(InFolder):
+    def test_a_new_case_is_right_as_it_stands(self):
+        self.run_program("new", "simulate", "fresh.toml")
+        self.run_program("check", "fresh.toml")
+        self.run_program("simulate", "fresh.toml", "-q")
+
+    def test_a_new_identification_misses_nothing_but_its_record(self):
+        self.run_program("new", "identify", "fresh.toml")
+        done = self.run_program("check", "fresh.toml", code=2)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(".csv", done.stderr)
+
+    def test_it_is_printed_where_no_file_is_named(self):
+        for command in ("simulate", "identify"):
+            text = self.run_program("new", command).stdout
+            self.run_program("new", command, f"{command}.toml")
+            self.assertEqual((self.folder / f"{command}.toml").read_text(), text)
+            self.assertIn("#", text)
+
+    def test_it_never_overwrites(self):
+        self.write("mine.toml", "title = \"mine\"\n")
+        (self.folder / "loose.toml").symlink_to("nowhere.toml")
+        (self.folder / "folder").mkdir()
+        for place in ("mine.toml", "loose.toml", "folder"):
+            with self.subTest(place):
+                self.run_program("new", "simulate", place, code=2)
+        self.assertEqual((self.folder / "mine.toml").read_text(), "title = \"mine\"\n")
+        self.assertFalse((self.folder / "nowhere.toml").exists())
+
+    def test_a_place_that_does_not_exist(self):
+        done = self.run_program("new", "simulate", "no/such/folder/x.toml", code=2)
+        self.assertIn("no/such/folder/x.toml", done.stderr)
+
+
+class Report(InFolder):
+    def page(self, folder):
+        """What a report shows: all but the table for those without scripts, which is in
+        no file. The order of the tables is free."""
+        text = (self.folder / folder / "report.html").read_text()
+        text = re.sub("<noscript>.*?</noscript>", "", text, flags=re.S)
+        data = re.search('<script[^>]*id="data"[^>]*>(.*?)</script>', text, flags=re.S)
+        shown = json.loads(data[1])
+        shown["tables"].sort(key=lambda table: table["file"])
+        return text.replace(data[1], ""), shown
+
+    def unchanged_but_the_report(self, before):
+        after = self.everything()
+        self.assertEqual(list(after), list(before))
+        changed = [name for name in after if after[name] != before[name]]
+        self.assertLessEqual({name.split("/")[-1] for name in changed}, {"report.html"})
+
+    def test_it_is_made_again_from_the_files(self):
+        case = ROOT / "examples/st52_slot/case.toml"
+        self.run_program("identify", case, "-o", "out", "-q")
+        before, page = self.everything(), self.page("out")
+        (self.folder / "out/report.html").unlink()
+        self.assertIn("report.html", self.run_program("report", "out").stdout)
+        self.assertEqual(self.page("out"), page)
+        self.unchanged_but_the_report(before)
+
+    def test_a_report_left_out_can_be_made_later(self):
+        self.write("cut.toml", simulation())
+        self.run_program("simulate", "cut.toml", "-q")
+        before, page = self.everything(), self.page("cut.simulate")
+        self.run_program("simulate", "cut.toml", "-q", "--no-report")
+        self.run_program("report", "cut.simulate", "-q")
+        self.assertEqual(self.page("cut.simulate"), page)
+        self.unchanged_but_the_report(before)
+
+    def test_what_is_no_result_is_refused(self):
+        self.write("mine/summary.json", "{\"result\": 1}")
+        self.write("rubbish/summary.json", bytes(range(256)) * 4096)
+        self.write("cut.toml", simulation())
+        before = self.everything()
+        for place in ("nowhere", "mine", "rubbish", ".", "cut.toml", "/dev/null"):
+            with self.subTest(place):
+                self.run_program("report", place, code=2)
+        self.assertEqual(self.everything(), before)
+
+    def test_a_damaged_result_is_refused(self):
+        self.write("cut.toml", simulation())
+        for file, content in (("forces.csv", "angle_deg,Fx_N\n1,x\n"),
+                              ("forces.csv", "angle_deg,Fx_N\n1\n"),
+                              ("summary.json", "{\"trochoid\": 1}"),
+                              ("summary.json", "{\"trochoid\": {}, \"command\": 7}")):
+            with self.subTest(content):
+                self.run_program("simulate", "cut.toml", "-q")
+                good = (self.folder / "cut.simulate" / file).read_text()
+                self.write(f"cut.simulate/{file}", content)
+                before = self.everything()
+                self.run_program("report", "cut.simulate", code=2)
+                self.assertEqual(self.everything(), before)
+                self.write(f"cut.simulate/{file}", good)
+
+
+if __name__ == "__main__":
+    main()
