@@ -91,6 +91,7 @@ class Worked(unittest.TestCase):
                 np.testing.assert_array_less(np.abs(fit["K"] - f["K"]), f["tolerance"]["K"])
                 np.testing.assert_allclose(fit["se_p"], f["se_p"], rtol=0.05)
                 np.testing.assert_allclose(fit["se_K"], f["se_K"], rtol=0.05)
+                np.testing.assert_allclose(fit["correlation"], f["corr"], atol=0.02)
             if "sweep" in c:
                 x = np.array(c["sweep"]["shift2_um"])[::5] * 1e-3
                 want = np.array(c["sweep"]["rms_vec_N"]["exact"])[::5]

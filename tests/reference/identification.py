@@ -24,6 +24,14 @@ def linear(D, F):
     return K, rank, sv[0] / sv[-1]
 
 
+def correlation(J):
+    """Correlation of the estimates [I-4]"""
+    size = np.linalg.norm(J, axis=0)
+    inverse = np.linalg.inv((J / size).T @ (J / size))
+    d = np.sqrt(np.diag(inverse))
+    return inverse / np.outer(d, d)
+
+
 def standard_errors(J, residual):
     """[I-2] for J = [D], [I-4] for the full Jacobian"""
     size = np.linalg.norm(J, axis=0)
@@ -120,10 +128,11 @@ def joint(case, angle, F, names, start, step=None):
         lo = stacked(*_moved(case, names, p - step * scale * e, angle)) @ K
         columns.append((hi - lo) / (2 * step * scale[np.argmax(e)]))
     res = y - D @ K
-    se = standard_errors(np.hstack([D, np.array(columns).T]), res)
+    J = np.hstack([D, np.array(columns).T])
+    se = standard_errors(J, res)
     total, axis = rms(res)
     return dict(p=p, se_p=se[len(K):], K=K, se_K=se[:len(K)], rms=total, rms_axis=axis,
-                cond=cond, rank=rank)
+                cond=cond, rank=rank, correlation=correlation(J))
 
 
 def _moved(case, names, p, angle):

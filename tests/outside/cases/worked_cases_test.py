@@ -239,6 +239,10 @@ class WorkedCases(unittest.TestCase):
                 k = int(n[6:])
                 if len(sigma) == 2 or got["numbered from"] == 0:
                     out += near(sigma[k], se[n], tol["se_rel"] * se[n], f"{name} se({n})")
+        if identify["runout"] == "eccentricity" and "corr" in f:
+            want_se = eccentricity_se(f, want, se)
+            out += near(fit["runout"]["eccentricity_se_mm"], want_se,
+                        tol["se_rel"] * want_se, f"{name} se(eccentricity)")
         return out
 
     def test_sweeps(self):  # Fig. 9 of the paper
@@ -269,6 +273,15 @@ class WorkedCases(unittest.TestCase):
                 self.assertTrue(answer.summary["message"])
                 for fit in answer.result.get("fits", []):
                     self.assertTrue(all(v is None for v in fit["coefficients"].values()))
+
+
+def eccentricity_se(f, p, se):
+    """Standard error of rho from those of ex, ey and their correlation."""
+    names = f["parameters"]
+    i, j = (len(f["corr"]) - len(names) + names.index(n) for n in ("ex", "ey"))
+    rho = math.hypot(p["ex"], p["ey"])
+    a, b = p["ex"] / rho * se["ex"], p["ey"] / rho * se["ey"]
+    return math.sqrt(a * a + b * b + 2 * f["corr"][i][j] * a * b)
 
 
 def relabelled(c, fit, first):
