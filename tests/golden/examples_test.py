@@ -1,0 +1,222 @@
+"""The examples: do they recover their truth, and do the numbers hold?
+
+The expected numbers are not stored: simulated records carry their truth beside them, and
+forces come from the transcription in tests/reference. Only examples/st52_predict/
+material.toml is an answer of the program; `examples_test.py --renew` writes it anew.
+"""
+import math
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+import tomllib
+import unittest
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/reference"))
+import chip  # noqa: E402
+import force  # noqa: E402
+import geometry  # noqa: E402
+import program  # noqa: E402
+import tables as tb  # noqa: E402
+
+EXAMPLES = ROOT / "examples"
+MATERIAL = EXAMPLES / "st52_predict/material.toml"
+
+RPM, PHASE_DEG = 874.3, 37.5
+
+
+def added(seed, offsets):
+    """RMS [N] of what tools/make_st52_records.py adds to the forces: noise, a sine on two
+    channels and, if wanted, channels that do not start at zero and drift."""
+    t = np.arange(2000) / 5000
+    out = 18.0 * np.random.default_rng(seed).standard_normal((2000, 3))
+    for q in range(2):
+        out[:, q] += 12.0 * np.sin(2 * np.pi * 143.0 * t + q)
+    if offsets:
+        out += np.array([6.0, -4.0, 3.0]) + np.outer(t / t[-1], [5.0, 3.0, -2.0])
+    return math.sqrt((out**2).sum(axis=1).mean())
+
+
+def toml(path):
+    return tomllib.loads(path.read_text())
+
+
+def values(table):
+    """The numbers of a table, lists laid flat."""
+    out = {}
+    for key, value in table.items():
+        for i, x in enumerate(value if isinstance(value, list) else [value]):
+            if isinstance(x, (int, float)):
+                out[f"{key}[{i}]"] = x
+    return out
+
+
+class Example(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="trochoid_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def answer(self, command, name):
+        """The example as it stands, files beside it included."""
+        shutil.copytree(EXAMPLES / name, self.folder / name)
+        case = self.folder / name / "case.toml"
+        return program.run(command, case.read_text(), case.parent, "case")
+
+
+class Identified(Example):
+    def setUp(self):
+        super().setUp()
+        answer = self.answer("identify", "st52_slot")
+        self.assertEqual(answer.code, 0, answer.stderr)
+        self.result, self.written = answer.result, toml(answer.folder / "material.toml")
+        self.fits = {fit["chip_model"]: fit for fit in self.result["fits"]}
+        self.truth = toml(EXAMPLES / "st52_slot/truth.toml")
+
+    def within(self, value, want, se, what):
+        self.assertLessEqual(abs(value - want), 4 * se, f"{what}: {value} +- {se}, {want}")
+
+    def test_the_truth_is_recovered(self):
+        fit = self.fits["trochoidal"]
+        for name, c in fit["coefficients"].items():
+            self.within(c["value"], self.truth["force"][name], c["se"], name)
+            self.assertAlmostEqual(c["high"] - c["low"], 2 * 1.96 * c["se"],
+                                   delta=0.001 * c["se"])
+        offsets = self.truth["runout"]["radial_offsets_mm"]
+        self.within(fit["runout"]["radial_offsets_mm"][1], offsets[1] - offsets[0],
+                    fit["runout"]["radial_offsets_se_mm"][1], "offset")
+        self.within(fit["phase_deg"][0], PHASE_DEG, fit["phase_se_deg"][0], "phase")
+        signal = self.result["signal"]
+        self.within(signal["spindle_rpm"][0], RPM, signal["spindle_rpm_se"][0], "rpm")
+
+    def test_the_better_chip_leaves_less(self):
+        self.assertEqual(self.result["chosen"], "trochoidal")
+        rms = [self.fits[m]["rms_N"] for m in ("trochoidal", "feed", "none")]
+        self.assertLess(1.05 * rms[0], rms[1])
+        self.assertLess(1.05 * rms[1], rms[2])
+
+    def test_the_exact_chip_leaves_what_was_added(self):
+        """Less a little: 14 unknowns take 14 of 6000 parts of its square."""
+        left = self.fits["trochoidal"]["rms_N"] / added(875, offsets=False)
+        self.assertLess(left, 1.0)
+        self.assertGreater(left, 0.997)
+
+    def test_the_simple_chip_overstates_the_runout(self):
+        """It spreads R_j - R_k over sin(theta), whose first harmonic is pi/4."""
+        found = [self.fits[m]["runout"] for m in ("feed", "trochoidal")]
+        offset = [r["radial_offsets_mm"][1] for r in found]
+        se = math.hypot(*(r["radial_offsets_se_mm"][1] / o for r, o in zip(found, offset)))
+        self.assertAlmostEqual(offset[0] / offset[1], 4 / math.pi, delta=4 * se)
+
+    def test_the_sweep_is_least_where_the_offset_was_found(self):
+        answer = self.folder / "st52_slot/case.out"
+        sweep = program.Answer(answer, 0, "").columns("sweep.csv")
+        self.assertEqual(len(sweep["offset_um"]), 41)
+        for model in ("feed", "trochoidal"):
+            rms = sweep[f"rms_{model}_N"]
+            found = 1000 * self.fits[model]["runout"]["radial_offsets_mm"][1]
+            least = sweep["offset_um"][int(np.argmin(rms))]
+            self.assertLessEqual(abs(least - found), 0.5 + 1e-9, model)
+            self.assertGreaterEqual(min(rms), self.fits[model]["rms_N"] - 1e-6)
+
+    def test_material_toml_of_the_other_example_is_what_was_found(self):
+        stored = toml(MATERIAL)
+        for table in ("force", "runout"):
+            now, then = values(self.written[table]), values(stored[table])
+            self.assertEqual(sorted(now), sorted(then))
+            for key, value in now.items():
+                self.assertAlmostEqual(value, then[key], delta=1e-6 * abs(then[key]),
+                                       msg=f"{key}; examples_test.py --renew")
+
+
+class Predicted(Example):
+    def rms(self, answer):
+        self.assertEqual(answer.code, 0, answer.stderr)
+        return answer.result["comparison"][0]["rms_N"]
+
+    def test_what_is_left_is_what_was_added(self):
+        found = self.rms(self.answer("simulate", "st52_predict"))
+        truth = toml(EXAMPLES / "st52_predict/truth.toml")
+        case = toml(EXAMPLES / "st52_predict/case.toml")
+        tables = {name: truth[name] for name in ("tool", "runout", "cut", "force")}
+        tables["dynamometer"] = case["dynamometer"]
+        record = [{"file": str(EXAMPLES / "st52_predict/record.csv")}]
+        best = self.rms(program.run("simulate", program.case_text("truth", tables, record),
+                                    self.folder, "truth"))
+        left = added(1050, offsets=True)
+        self.assertAlmostEqual(best, left, delta=0.001 * left)
+        self.assertGreater(found, 0.999 * best)
+        self.assertLess(found, 1.01 * best)
+
+
+class Simulated(Example):
+    """Against the transcription."""
+
+    def compared(self, name, tolerance, cells):
+        answer = self.answer("simulate", name)
+        self.assertEqual(answer.code, 0, answer.stderr)
+        tables = toml(EXAMPLES / name / "case.toml")
+        case = tb.to_case(tables)
+        col = answer.columns("forces.csv")
+        pick = slice(None, None, max(1, len(col["angle_deg"]) // 36))
+        got = np.array([col["Fx_N"], col["Fy_N"], col["Fz_N"]]).T[pick]
+        phi = np.radians(col["angle_deg"][pick])
+        want = force.forces(case, tb.coefficients(tables["force"]), phi, cells)[:, :3]
+        self.assertLessEqual(np.abs(got - want).max(), tolerance * np.abs(want).max())
+        self.teeth(case, answer.result)
+        return answer
+
+    def teeth(self, case, result):
+        z = result["teeth_height_mm"]
+        r, _, lag, _ = geometry.at_height(case.tool, z)
+        theta = np.linspace(-np.pi / 2, 1.5 * np.pi, 20000, endpoint=False)
+        removed = 0.0
+        for j, tooth in enumerate(result["teeth"]):
+            want = np.degrees(chip.intervals(case, j, r, lag)).reshape(-1, 2)
+            got = np.array(tooth["intervals_deg"], float).reshape(-1, 2)
+            np.testing.assert_allclose(got, want, atol=1e-5)
+            lo, hi, code = chip.trochoidal(case, j, theta, np.full_like(theta, r),
+                                           np.full_like(theta, lag))
+            h = np.where(code > 0, hi - lo, 0.0)
+            # a parabola's top is missed by less than one step squared
+            self.assertAlmostEqual(tooth["peak_chip_mm"], h.max(), delta=1e-5)
+            th = theta + geometry.runout(case, r, lag, j)[1]
+            area = (hi**2 - lo**2) / 2 + case.f / (2 * np.pi) * np.cos(th) * (hi - lo)
+            removed += 2 * np.pi * np.where(code > 0, area, 0.0).mean()
+        check = result["volume_check"]
+        self.assertAlmostEqual(check["removed_mm2_per_rev"], removed, delta=1e-4 * removed)
+        self.assertAlmostEqual(check["ratio"], 1.0, delta=2e-4)
+
+    def test_ball(self):
+        """Less sharp than below: marks appear and vanish near the tip."""
+        answer = self.compared("ball", 2e-5, 512)
+        self.assertGreater(answer.result["mean_N"][2], 0.0)  # pushed up by the tip
+
+    def test_up_milling_with_runout_above_the_feed(self):
+        answer = self.compared("up_milling_runout", 1e-6, 64)
+        idle = [tooth["tooth"] for tooth in answer.result["teeth"]
+                if tooth["peak_chip_mm"] == 0]
+        self.assertEqual(idle, [3])
+        self.assertIn("idle_tooth", [w["code"] for w in answer.summary["warnings"]])
+
+
+def renew():
+    folder = tempfile.mkdtemp(prefix="trochoid_")
+    try:
+        shutil.copytree(EXAMPLES / "st52_slot", f"{folder}/st52_slot")
+        case = pathlib.Path(folder, "st52_slot/case.toml")
+        answer = program.run("identify", case.read_text(), case.parent, "case")
+        shutil.copyfile(answer.folder / "material.toml", MATERIAL)
+    finally:
+        shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    if not os.path.exists(program.PROGRAM):
+        sys.exit(f"no program at {program.PROGRAM}; set TROCHOID")
+    if "--renew" in sys.argv:
+        sys.exit(renew())
+    unittest.main()
