@@ -101,7 +101,11 @@ bool gone(const Teeth& t, std::size_t j, Real tau, Point p, int turns) {
   for (std::size_t k = 0; k < t.radius.size(); ++k) {
     const Real until = k == j ? tau - Real(0.3) : tau;
     Real before = 0;
-    for (Real now = tau - 2 * pi * turns; now < until; now += Real(0.0005)) {
+    constexpr Real step = 0.0005;
+    const Real start = tau - 2 * pi * turns;
+    const int steps = static_cast<int>((until - start) / step);
+    for (int i = 0; i <= steps; ++i) {
+      const Real now = start + step * i;
       const Point c = axis(t, now);
       const Real angle = now - t.behind[k];
       const Real dx = p.x - c.x;
