@@ -88,9 +88,9 @@ class Identified(Example):
         offsets = self.truth["runout"]["radial_offsets_mm"]
         self.within(fit["runout"]["radial_offsets_mm"][1], offsets[1] - offsets[0],
                     fit["runout"]["radial_offsets_se_mm"][1], "offset")
-        self.within(fit["phase_deg"][0], PHASE_DEG, fit["phase_se_deg"][0], "phase")
+        self.within(fit["phase_deg"], PHASE_DEG, fit["phase_se_deg"], "phase")
         signal = self.result["signal"]
-        self.within(signal["spindle_rpm"][0], RPM, signal["spindle_rpm_se"][0], "rpm")
+        self.within(signal["spindle_rpm"], RPM, signal["spindle_rpm_se"], "rpm")
 
     def test_the_better_chip_leaves_less(self):
         self.assertEqual(self.result["chosen"], "trochoidal")

@@ -130,8 +130,8 @@ class Identify(unittest.TestCase):
             self.assertAlmostEqual(r["radial_offsets_mm"][k], p[name], delta=0.02 * se[name])
             self.assertAlmostEqual(r["radial_offsets_se_mm"][k], se[name],
                                    delta=0.02 * se[name])
-        self.assertAlmostEqual(fit["phase_deg"][0], p["phase"], delta=0.02 * se["phase"])
-        self.assertAlmostEqual(fit["phase_se_deg"][0], se["phase"], delta=0.02 * se["phase"])
+        self.assertAlmostEqual(fit["phase_deg"], p["phase"], delta=0.02 * se["phase"])
+        self.assertAlmostEqual(fit["phase_se_deg"], se["phase"], delta=0.02 * se["phase"])
 
     def test_eccentricity_of_four_teeth(self):  # [I-3] [I-4] [G-9]
         given = tables(tool={"teeth": 4, "pitch_deg": [85.0, 95.0, 88.0, 92.0]},

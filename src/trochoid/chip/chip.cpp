@@ -219,7 +219,7 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
             .marks = model.model == Model::none || model.lookback == Lookback::previous
                          ? 1
                          : n};
-  p.back.reserve(static_cast<std::size_t>(n * n));
+  p.back.reserve(cutter.pitch.size() * cutter.pitch.size());
   for (int j = 0; j < n; ++j) {
     double sum = 0.0;
     for (int m = 1; m <= n; ++m) {

@@ -29,7 +29,7 @@ struct EdgeState {
 
 /// @brief The edges of a cutter within the axial depth.
 struct Edges {
-  Edges(const Setup& setup);
+  explicit Edges(const Setup& given);
 
   [[nodiscard]] EdgePoint point(double s) const noexcept;
 

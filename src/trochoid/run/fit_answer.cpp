@@ -186,6 +186,10 @@ const char* model_name(chip::Model model) {
   return "";
 }
 
+Json alone_or_list(const Json& list) {
+  return list.size() == 1 ? list.front() : list;
+}
+
 Json fit_json(const Fit& fit) {
   Json out{{"chip_model", model_name(fit.chip.model)},
            {"lookback", fit.chip.lookback == chip::Lookback::all ? "all" : "previous"},
@@ -208,12 +212,12 @@ Json fit_json(const Fit& fit) {
   }
   out["coefficients"] = K;
   out["runout"] = runout_json(fit);
-  out["phase_deg"] = phases_json(fit);
+  out["phase_deg"] = alone_or_list(phases_json(fit));
   Json phase_se = Json::array();
   for (const auto& se : fit.phase_se) {
     phase_se.push_back(optional_json(se, unit::deg));
   }
-  out["phase_se_deg"] = phase_se;
+  out["phase_se_deg"] = alone_or_list(phase_se);
   if (!fit.channel_offsets.empty()) {
     out["channel_offsets"] = channel_offsets_json(fit);
   }

@@ -36,7 +36,7 @@ void warn_correlation(const Fit& chosen, Warnings& warnings) {
 
 void warn_unidentifiable(const Fit& chosen, Warnings& warnings) {
   for (const auto& [what, why] : chosen.unidentifiable) {
-    warnings.push_back({"not_identifiable", what + ": " + why});
+    warnings.push_back({"not_identifiable", fmt::format("{}: {}", what, why)});
   }
 }
 

@@ -47,9 +47,9 @@ Json signal_json(const std::vector<MeasuredRun>& runs, const Matrix3& M) {
   }
   Json out{{"files", files},
            {"samples", samples},
-           {"spindle_rpm", rpm},
-           {"spindle_rpm_se", rpm_se},
-           {"stated_rpm", stated}};
+           {"spindle_rpm", alone_or_list(rpm)},
+           {"spindle_rpm_se", alone_or_list(rpm_se)},
+           {"stated_rpm", alone_or_list(stated)}};
   if (is_signed_permutation(M)) {
     out["axes"] = signal::axes_names(M);
   } else {
@@ -130,7 +130,7 @@ void add_curves(const inputs::Case& given, std::span<const identification::Run> 
   answer.tables.push_back(chip_curve(setup, default_height(setup)));
 }
 
-base::Answer failed(base::Answer answer, const std::string& why, Json result) {
+base::Answer failed(base::Answer answer, const std::string& why, const Json& result) {
   answer.ok = false;
   answer.message = why;
   answer.short_table += "No answer: " + why + "\n";

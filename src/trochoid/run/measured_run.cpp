@@ -96,18 +96,8 @@ void take_drift_out(MeasuredRun& run, Warnings& warnings) {
     return;
   }
   signal::remove_drift(run.record.channel, *drift);
-  std::vector<double> angle;
-  std::array<std::vector<double>, 3> channel;
-  std::size_t begin = 0;
-  std::size_t end = run.angle.size();
-  for (const signal::Part& part : drift->idle) {
-    if (part.begin == 0) {
-      begin = part.end;
-    } else {
-      end = part.begin;
-    }
-  }
-  const auto cut_to = [&](std::vector<double>& v) {
+  const auto [begin, end] = signal::steady_part(run.record.channel, run.angle);
+  const auto cut_to = [begin = begin, end = end](std::vector<double>& v) {
     if (!v.empty()) {
       v = std::vector<double>(v.begin() + static_cast<std::ptrdiff_t>(begin),
                               v.begin() + static_cast<std::ptrdiff_t>(end));

@@ -126,6 +126,29 @@ std::vector<Part> idle_parts(const Channels& channels, std::span<const double> a
   return parts;
 }
 
+Part steady_part(const Channels& channels, std::span<const double> angle) {
+  const std::vector<Part> turns = whole_turns(angle);
+  if (turns.size() < 4) return {0, angle.size()};
+  std::vector<double> level;
+  for (const Part& part : turns) level.push_back(activity(channels, part));
+  std::vector<double> sorted = level;
+  const auto quartile =
+      sorted.begin() + static_cast<std::ptrdiff_t>(3 * sorted.size() / 4);
+  std::nth_element(sorted.begin(), quartile, sorted.end());
+  const double least = 0.9 * *quartile;
+  std::size_t best = 0;
+  std::size_t best_count = 0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < level.size(); ++k) {
+    count = level[k] >= least ? count + 1 : 0;
+    if (count > best_count) {
+      best_count = count;
+      best = k + 1 - count;
+    }
+  }
+  return {turns[best].begin, turns[best + best_count - 1].end};
+}
+
 std::optional<Drift> idle_drift(const Channels& channels,
                                 std::span<const double> angle) {
   Drift drift;

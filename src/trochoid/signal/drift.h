@@ -41,6 +41,16 @@ struct Drift {
 std::vector<Part> idle_parts(const std::array<std::vector<double>, 3>& channels,
                              std::span<const double> angle);
 
+/// @brief The part in which the tool cuts as it does for most of the cut: without
+/// entry, exit and what is idle.
+///
+/// The longest run of whole revolutions, counted from the first sample, whose force
+/// varies at least 0.9 times as much as the upper quartile of them does.
+/// @param angle  [rad], shape (n), increasing
+/// @return the whole record where it is shorter than four revolutions
+Part steady_part(const std::array<std::vector<double>, 3>& channels,
+                 std::span<const double> angle);
+
 /// @brief Offset and drift of each channel from its idle parts.
 ///
 /// @eq  S-4  (a_c, b_c) = argmin of sum over the idle samples of (F_c - a - b t)^2

@@ -111,6 +111,22 @@ TEST(IdleDrift, IsExactWithoutNoise) {
   EXPECT_NEAR(drift->channel[0].last, -25.0, 1e-9);
 }
 
+TEST(SteadyPart, LeavesEntryExitAndAirOut) {
+  const auto s = make({});
+  const Part part = steady_part(s.channel, s.angle);
+  // 20 idle turns and 5 of entry; the last of these has 90 % of the force.
+  EXPECT_GE(part.begin, 24u * a_turn);
+  EXPECT_LE(part.begin, 25u * a_turn);
+  EXPECT_EQ(part.end, 65u * a_turn);
+}
+
+TEST(SteadyPart, IsTheWholeOfAShortRecord) {
+  const auto s = make({.before = 0, .entering = 0, .cutting = 3, .after = 0});
+  const Part part = steady_part(s.channel, s.angle);
+  EXPECT_EQ(part.begin, 0u);
+  EXPECT_EQ(part.end, s.angle.size());
+}
+
 TEST(RemoveDrift, TakesTheLineOut) {
   auto s = make({.noise = 0.0});
   const auto drift = idle_drift(s.channel, s.angle);
