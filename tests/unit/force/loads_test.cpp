@@ -1,0 +1,81 @@
+#include "made_cut.h"
+
+#include <gtest/gtest.h>
+
+namespace trochoid::force {
+namespace {
+
+double mean_torque(const MadeCut& setup, const Law& law, int count) {
+  double sum = 0.0;
+  for (const Loads& l : loads(setup, law, turn(count), 0.1, 1e-10)) sum += l.torque;
+  return sum / count;
+}
+
+TEST(Loads, PowerIsTheCuttingEnergyOfWhatIsRemoved) {  // [F-6]
+  // one turn: K_tc times the volume, K_te times the edge times its way in cut
+  for (const int teeth : {1, 2, 3}) {
+    MadeCut s = slot(geometry::cylinder(8e-3), teeth, 30);
+    s.chip.model = chip::Model::none;
+    const double D = s.cutter.profile.D;
+    const double volume = teeth * s.cut.f_z * D * s.cut.a_p;
+    const double edge = s.cut.a_p / std::cos(30 * unit::deg);
+    const double way = teeth * pi * D / 2;
+    const LinearEdge K = steel();
+    const double energy = K.K_tc * volume + K.K_te * edge * way;
+    EXPECT_NEAR(2 * pi * mean_torque(s, K, 1440), energy, 1e-5 * energy);
+  }
+}
+
+TEST(Loads, PowerWithRunoutIsThatOfTheVolumeToo) {  // [F-6] [C-8]
+  MadeCut s = slot(geometry::cylinder(8e-3), 3, 30);
+  s.runout.radial_offsets = {0.0, 7e-6, -12e-6};
+  s.cut.engagement = geometry::Band{-2e-3, 1e-3};
+  const double volume = 3 * s.cut.f_z * 3e-3 * s.cut.a_p;
+  const LinearEdge K{2600e6, 0, 0, 0, 0, 0};
+  // R h stands for the mean radius of the chip: h/2 of R, and the motion of the axis
+  EXPECT_NEAR(2 * pi * mean_torque(s, K, 1440), K.K_tc * volume,
+              0.01 * K.K_tc * volume);
+}
+
+TEST(Loads, OnlyTangentialForcesTurnTheSpindle) {  // [F-6]
+  MadeCut s = slot(geometry::ball(8e-3), 2, 30);
+  const LinearEdge others{0, 1500e6, 330e6, 0, 3e3, 1e3};
+  for (const Loads& l : loads(s, others, turn(30), 0.05, 1e-9)) {
+    EXPECT_NEAR(l.torque, 0.0, 1e-12);
+  }
+  for (const Loads& l : loads(s, steel(), turn(30), 0.05, 1e-9)) {
+    EXPECT_GE(l.torque, 0.0);
+  }
+}
+
+TEST(Loads, AThinSliceBendsByItsForceTimesTheArm) {  // [F-7]
+  MadeCut s = slot(geometry::cylinder(8e-3), 2, 30);
+  s.cut.a_p = 1e-6;
+  const LinearEdge K{2600e6, 1500e6, 0, 7e3, 3e3, 0};  // F_z would add its own arm
+  const double gauge = 0.06;
+  for (const Loads& l : loads(s, K, turn(50), gauge, 1e-9)) {
+    const double F = std::hypot(l.force[0], l.force[1]);
+    EXPECT_NEAR(l.bending, F * gauge, 2e-5 * F * gauge);
+  }
+}
+
+TEST(Loads, AxialForcesBendByTheRadius) {  // [F-7]
+  const MadeCut s = slot(geometry::cylinder(8e-3), 1, 0);
+  for (const Loads& l :
+       loads(s, LinearEdge{0, 0, 330e6, 0, 0, 1e3}, turn(50), 0.06, 1e-10)) {
+    EXPECT_NEAR(l.bending, 4e-3 * std::abs(l.force[2]), 1e-12);
+  }
+}
+
+TEST(Loads, ForcesAreThoseWithoutMoments) {
+  MadeCut s = slot(geometry::ball(8e-3), 2, 30);
+  s.runout.eccentricity = 6e-6;
+  const auto phi = turn(30);
+  const auto F = forces(s, steel(), phi, 1e-9);
+  std::vector<Vector3> other;
+  for (const Loads& l : loads(s, steel(), phi, 0.06, 1e-9)) other.push_back(l.force);
+  EXPECT_LE(difference(F, other), 1e-8 * peak(F));
+}
+
+}  // namespace
+}  // namespace trochoid::force
