@@ -235,13 +235,13 @@ Json fit_json(const Fit& fit) {
 }
 
 std::string fits_table(std::span<const Fit> fits) {
-  std::string text = fmt::format("{:<22}", "chip model");
+  std::string text = fmt::format("{:<24}", "chip model");
   for (const Fit& fit : fits) {
     text += fmt::format("{:>20}", model_name(fit.chip.model));
   }
   text += '\n';
   const auto row = [&](const char* name, const auto& value) {
-    text += fmt::format("{:<22}", name);
+    text += fmt::format("{:<24}", name);
     for (const Fit& fit : fits) {
       text += fmt::format("{:>20}", fit.ok ? value(fit) : std::string("-"));
     }
