@@ -1,6 +1,7 @@
 #include <trochoid/run/fit_answer.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/run/coefficient_names.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -16,37 +17,6 @@ using Json = nlohmann::ordered_json;
 using identification::Estimate;
 using identification::Fit;
 using identification::RunoutUnknowns;
-
-struct Name {
-  const char* key;
-  double unit;
-};
-
-constexpr std::array<Name, 6> linear_names = {{{"K_tc_MPa", unit::MPa},
-                                               {"K_rc_MPa", unit::MPa},
-                                               {"K_ac_MPa", unit::MPa},
-                                               {"K_te_N_per_mm", unit::N_per_mm},
-                                               {"K_re_N_per_mm", unit::N_per_mm},
-                                               {"K_ae_N_per_mm", unit::N_per_mm}}};
-constexpr std::array<Name, 3> power_names = {
-    {{"K_t1_MPa", unit::MPa}, {"K_r1_MPa", unit::MPa}, {"K_a1_MPa", unit::MPa}}};
-constexpr std::array<Name, 3> exponent_names = {{{"m_t", 1}, {"m_r", 1}, {"m_a", 1}}};
-
-std::span<const Name> names_of(const Fit& fit) {
-  if (std::holds_alternative<force::Power>(fit.law)) {
-    return power_names;
-  }
-  return linear_names;
-}
-
-bool unidentifiable(const Fit& fit, const std::string& name) {
-  for (const auto& [what, why] : fit.unidentifiable) {
-    if (what == name) {
-      return true;
-    }
-  }
-  return false;
-}
 
 Json estimate_json(const std::optional<Estimate>& e, double unit) {
   if (!e) {
@@ -149,27 +119,6 @@ std::string eccentricity_text(const Fit& fit) {
                      unit::in(fit.runout.angle, unit::deg));
 }
 
-std::string runout_toml(const Fit& fit) {
-  for (const auto& [what, why] : fit.unidentifiable) {
-    if (what.starts_with("radial_offsets_mm") || what == "eccentricity_mm" ||
-        what == "angle_deg") {
-      return fmt::format("\n# [runout]: {}: {}\n", what, why);
-    }
-  }
-  std::string text = "\n[runout]\nradial_offsets_mm = [";
-  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
-    text += fmt::format("{}{}", k > 0 ? ", " : "",
-                        unit::in(fit.runout.radial_offsets[k], unit::mm));
-  }
-  text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
-                      unit::in(fit.runout.eccentricity, unit::mm),
-                      unit::in(fit.runout.angle, unit::deg));
-  if (fit.runout.order == geometry::EccentricityOrder::first) {
-    text += "eccentricity_order = \"first\"\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 const char* model_name(chip::Model model) {
@@ -197,7 +146,7 @@ Json fit_json(const Fit& fit) {
            {"message", fit.message}};
   Json K;
   Json identifiable;
-  const auto names = names_of(fit);
+  const auto names = coefficient_names(fit.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     K[names[q].key] = q < fit.coefficients.size() && fit.ok
                           ? estimate_json(fit.coefficients[q], names[q].unit)
@@ -205,7 +154,7 @@ Json fit_json(const Fit& fit) {
     identifiable[names[q].key] = !K[names[q].key].is_null();
   }
   for (std::size_t q = 0; q < fit.exponents.size(); ++q) {
-    K[exponent_names[q].key] = estimate_json(fit.exponents[q], 1.0);
+    K[exponent_names[q]] = estimate_json(fit.exponents[q], 1.0);
   }
   for (const auto& [what, why] : fit.unidentifiable) {
     identifiable[what] = why;
@@ -247,14 +196,13 @@ std::string fits_table(std::span<const Fit> fits) {
     }
     text += '\n';
   };
-  const auto names = names_of(fits.front());
+  const auto names = coefficient_names(fits.front().law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     row(names[q].key,
         [&](const Fit& fit) { return cell(fit.coefficients[q], names[q].unit); });
   }
   for (std::size_t q = 0; q < fits.front().exponents.size(); ++q) {
-    row(exponent_names[q].key,
-        [&](const Fit& fit) { return cell(fit.exponents[q], 1.0); });
+    row(exponent_names[q], [&](const Fit& fit) { return cell(fit.exponents[q], 1.0); });
   }
   if (fits.front().options.runout == RunoutUnknowns::eccentricity) {
     row("eccentricity_um", eccentricity_text);
@@ -275,34 +223,6 @@ std::string fits_table(std::span<const Fit> fits) {
                                : std::string("rank deficient");
   });
   return text;
-}
-
-std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
-  const bool power = std::holds_alternative<force::Power>(fit.law);
-  std::string text =
-      "# Found by trochoid identify. Use it in another case with\n"
-      "#   include = \"<this file>\"\n\n[force]\n";
-  text += fmt::format("law = \"{}\"\n", power ? "power" : "linear_edge");
-  const auto names = names_of(fit);
-  for (std::size_t q = 0; q < names.size(); ++q) {
-    if (fit.coefficients[q]) {
-      text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
-                          fit.coefficients[q]->value / names[q].unit,
-                          fit.coefficients[q]->se / names[q].unit);
-    } else {
-      text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
-    }
-  }
-  if (const auto* law = std::get_if<force::Power>(&fit.law)) {
-    text += fmt::format("m_t = {}\nm_r = {}\nm_a = {}\n", law->m_t, law->m_r, law->m_a);
-  } else {
-    text += fmt::format("edge_length = \"{}\"\n",
-                        edge_length == force::EdgeLength::axial ? "axial" : "true");
-  }
-  if (fit.chip.model == chip::Model::none) {
-    return text;
-  }
-  return text + runout_toml(fit);
 }
 
 }  // namespace trochoid::run

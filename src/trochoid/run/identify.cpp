@@ -7,6 +7,7 @@
 #include <trochoid/run/fit_answer.h>
 #include <trochoid/run/fit_options.h>
 #include <trochoid/run/fit_warnings.h>
+#include <trochoid/run/material.h>
 #include <trochoid/run/measured_run.h>
 #include <trochoid/signal/axes.h>
 

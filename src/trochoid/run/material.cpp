@@ -1,0 +1,65 @@
+#include <trochoid/run/material.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/coefficient_names.h>
+
+#include <fmt/core.h>
+
+namespace trochoid::run {
+
+namespace {
+
+using identification::Fit;
+
+std::string runout_toml(const Fit& fit) {
+  for (const auto& [what, why] : fit.unidentifiable) {
+    if (what.starts_with("radial_offsets_mm") || what == "eccentricity_mm" ||
+        what == "angle_deg") {
+      return fmt::format("\n# [runout]: {}: {}\n", what, why);
+    }
+  }
+  std::string text = "\n[runout]\nradial_offsets_mm = [";
+  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    text += fmt::format("{}{}", k > 0 ? ", " : "",
+                        unit::in(fit.runout.radial_offsets[k], unit::mm));
+  }
+  text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
+                      unit::in(fit.runout.eccentricity, unit::mm),
+                      unit::in(fit.runout.angle, unit::deg));
+  if (fit.runout.order == geometry::EccentricityOrder::first) {
+    text += "eccentricity_order = \"first\"\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
+  const bool power = std::holds_alternative<force::Power>(fit.law);
+  std::string text =
+      "# Found by trochoid identify. Use it in another case with\n"
+      "#   include = \"<this file>\"\n\n[force]\n";
+  text += fmt::format("law = \"{}\"\n", power ? "power" : "linear_edge");
+  const auto names = coefficient_names(fit.law);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    if (fit.coefficients[q]) {
+      text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
+                          fit.coefficients[q]->value / names[q].unit,
+                          fit.coefficients[q]->se / names[q].unit);
+    } else {
+      text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
+    }
+  }
+  if (const auto* law = std::get_if<force::Power>(&fit.law)) {
+    text += fmt::format("m_t = {}\nm_r = {}\nm_a = {}\n", law->m_t, law->m_r, law->m_a);
+  } else {
+    text += fmt::format("edge_length = \"{}\"\n",
+                        edge_length == force::EdgeLength::axial ? "axial" : "true");
+  }
+  if (fit.chip.model == chip::Model::none) {
+    return text;
+  }
+  return text + runout_toml(fit);
+}
+
+}  // namespace trochoid::run
