@@ -113,6 +113,26 @@ TEST(Chip, LookingBackAtMoreTeethNeverMakesItThicker) {
   }
 }
 
+TEST(Chip, AToothThatComesLaterIsOneOfAnotherPitch) {  // [C-5] [G-1]
+  std::mt19937 random(4);
+  for (int n = 0; n < 30; ++n) {
+    const MadeSlice late = random_slice(random, 200e-6);
+    MadeSlice uneven = late;
+    const std::size_t N = late.teeth.size();
+    for (std::size_t k = 0; k < N; ++k) {
+      uneven.cutter.pitch[k] -= late.teeth[(k + 1) % N].epsilon - late.teeth[k].epsilon;
+      uneven.teeth[k].epsilon = 0.0;
+    }
+    for (std::size_t j = 0; j < N; ++j) {
+      const int tooth = static_cast<int>(j);
+      for (double theta = -0.2; theta < 3.4; theta += 0.11) {
+        EXPECT_NEAR(late.h(tooth, theta),
+                    uneven.h(tooth, theta + late.teeth[j].epsilon), 1e-15);
+      }
+    }
+  }
+}
+
 TEST(Chip, UnequalPitchesShareTheFeed) {  // [C-1]
   MadeSlice s = made_slice(10e-3, 3, 40e-6);
   s.model.model = Model::none;

@@ -59,6 +59,22 @@ TEST(Loads, AThinSliceBendsByItsForceTimesTheArm) {  // [F-7]
   }
 }
 
+TEST(Loads, ItsMomentIsTheCrossProductOfArmAndForce) {  // [F-7]
+  MadeCut s = slot(geometry::cylinder(8e-3), 1, 0);
+  s.cut.a_p = 1e-6;
+  const LinearEdge K{2600e6, 1500e6, 9000e6, 7e3, 3e3, 9e3};
+  const double gauge = 6e-3;  // short: axial forces weigh as much as the others
+  const auto phi = turn(50);
+  const auto all = loads(s, K, phi, gauge, 1e-9);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const Vector3& F = all[i].force;
+    const double x = 4e-3 * std::sin(phi[i]);
+    const double y = 4e-3 * std::cos(phi[i]);
+    const double M = std::hypot(y * F[2] + gauge * F[1], -gauge * F[0] - x * F[2]);
+    EXPECT_NEAR(all[i].bending, M, 2e-4 * M);  // half the depth against the gauge
+  }
+}
+
 TEST(Loads, AxialForcesBendByTheRadius) {  // [F-7]
   const MadeCut s = slot(geometry::cylinder(8e-3), 1, 0);
   for (const Loads& l :
