@@ -8,10 +8,12 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -118,12 +120,17 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (std::fflush(stdout) != 0) {
+      throw std::runtime_error("what is printed cannot be written");
+    }
+    return code;
   } catch (const trochoid::base::InputError& error) {
     fmt::print(stderr, "{}", error.what());
     return trochoid::cli::wrong_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "trochoid: {}\n", error.what());
-    return trochoid::cli::our_bug;
+    const bool full = std::ferror(stdout) != 0;  // the place is wrong, not the program
+    return full ? trochoid::cli::wrong_input : trochoid::cli::our_bug;
   }
 }

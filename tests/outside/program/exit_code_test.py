@@ -96,6 +96,25 @@ class ExitCode(InFolder):
                           ["identify", "-h"]):
             self.assertTrue(self.run_program(*arguments).stdout, arguments)
 
+    def test_a_full_disk_behind_a_pipe_is_2(self):
+        """Whether little is printed or more than a buffer holds."""
+        self.record()
+        self.write("cut.toml", identification())
+        for arguments in (["check", "cut.toml"], ["identify", "cut.toml", "--json"],
+                          ["new", "identify"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([program.PROGRAM, *arguments], cwd=self.folder,
+                                      stdout=full, stderr=subprocess.PIPE)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertTrue(done.stderr)
+
+    def test_threads_are_a_number(self):
+        self.write("cut.toml", simulation())
+        for wrong in ("0", "-1", "two", "1.5", "99999999999999999999", ""):
+            done = self.run_program("simulate", "cut.toml", code=2, TROCHOID_THREADS=wrong)
+            self.assertIn("TROCHOID_THREADS", done.stderr)
+        self.assertFalse((self.folder / "cut.simulate").exists())
+
     def test_check_says_what_it_read(self):
         self.record()
         self.write("cut.toml", identification())
