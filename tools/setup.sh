@@ -22,7 +22,7 @@ libraries=(
 # Programs as command=package, so that one from another source is kept.
 programs=(g++=g++ cmake=cmake ninja=ninja-build git=git)
 report_programs=(node=nodejs npm=npm)
-test_libraries=(libgtest-dev librapidcheck-dev libbenchmark-dev python3-numpy)
+test_libraries=(libgtest-dev libbenchmark-dev python3-numpy python3-scipy)
 test_programs=(clang-format=clang-format chromium=chromium)
 
 # One argument, one line.
