@@ -15,7 +15,7 @@ TEST(Chip, ZeroRunoutGivesEqualTeeth) {  // [C-1] [C-2] [C-3] [C-4]
     MadeSlice s = made_slice(10e-3, teeth, 60e-6);
     for (const Model model : models) {
       s.model.model = model;
-      for (double theta = -1.5; theta < 4.6; theta += 0.05) {
+      for (const double theta : steps(-1.5, 4.6, 0.05)) {
         for (int j = 1; j < teeth; ++j) {
           EXPECT_NEAR(s.h(j, theta), s.h(0, theta), 1e-17);
         }
@@ -28,7 +28,7 @@ TEST(Chip, SimpleModelsAreTheFeedTimesTheSine) {  // [C-2] [C-3] [C-4]
   MadeSlice s = made_slice(10e-3, 2, 60e-6);
   for (const Model model : {Model::none, Model::feed, Model::radial}) {
     s.model.model = model;
-    for (double theta = -1.5; theta < 4.6; theta += 0.05) {
+    for (const double theta : steps(-1.5, 4.6, 0.05)) {
       EXPECT_NEAR(s.h(1, theta), std::max(0.0, 60e-6 * std::sin(theta)), 1e-17);
     }
   }
@@ -39,7 +39,7 @@ TEST(Chip, TheExactChipDiffersBySecondOrderOfTheFeed) {  // [C-5] [C-6] [C-7]
   const double R = 5e-3;
   const double f_z = 20e-6;
   const MadeSlice s = made_slice(2 * R, 2, f_z);
-  for (double theta = 0.3; theta < 2.9; theta += 0.1) {
+  for (const double theta : steps(0.3, 2.9, 0.1)) {
     const double c = std::cos(theta);
     const double second = f_z * f_z * c * c / (2 * R) -
                           2 * f_z * f_z * std::sin(theta) * c / (2 * pi * R);
@@ -64,7 +64,7 @@ TEST(Chip, NothingIsCutWithoutFeed) {
     MadeSlice s = made_slice(10e-3, 3, 0.0, {.radial_offsets = offsets});
     for (const Model model : models) {
       s.model.model = model;
-      for (double theta = -1.5; theta < 4.6; theta += 0.01) {
+      for (const double theta : steps(-1.5, 4.6, 0.01)) {
         for (int j = 0; j < 3; ++j) {
           EXPECT_EQ(s.h(j, theta), 0.0);
         }
@@ -78,7 +78,7 @@ TEST(Chip, AToothShorterThanItsFeedIsIdleAndItsNeighbourDoesItsWork) {
   MadeSlice s = made_slice(10e-3, 3, 30e-6, {.radial_offsets = {0.0, 0.0, -70e-6}});
   for (const Model model : {Model::feed, Model::radial, Model::trochoidal}) {
     s.model.model = model;
-    for (double theta = -1.5; theta < 4.6; theta += 0.01) {
+    for (const double theta : steps(-1.5, 4.6, 0.01)) {
       EXPECT_EQ(s.h(2, theta), 0.0);
     }
     EXPECT_NEAR(s.h(0, pi / 2), 60e-6, 1e-8);
@@ -101,7 +101,7 @@ TEST(Chip, LookingBackAtMoreTeethNeverMakesItThicker) {
     MadeSlice s = random_slice(random, 50e-6);
     for (const Model model : {Model::feed, Model::trochoidal}) {
       s.model.model = model;
-      for (double theta = -0.2; theta < 3.4; theta += 0.09) {
+      for (const double theta : steps(-0.2, 3.4, 0.09)) {
         for (int j = 0; j < s.cutter.teeth(); ++j) {
           s.model.lookback = Lookback::previous;
           const double previous = s.h(j, theta);
@@ -125,7 +125,7 @@ TEST(Chip, AToothThatComesLaterIsOneOfAnotherPitch) {  // [C-5] [G-1]
     }
     for (std::size_t j = 0; j < N; ++j) {
       const int tooth = static_cast<int>(j);
-      for (double theta = -0.2; theta < 3.4; theta += 0.11) {
+      for (const double theta : steps(-0.2, 3.4, 0.11)) {
         EXPECT_NEAR(late.h(tooth, theta),
                     uneven.h(tooth, theta + late.teeth[j].epsilon), 1e-15);
       }
@@ -146,7 +146,7 @@ TEST(Chip, UnequalPitchesShareTheFeed) {  // [C-1]
 TEST(Chip, StockBoundsTheChip) {  // [C-7] [G-11]
   MadeSlice s = made_slice(10e-3, 2, 50e-6);
   s.cut.engagement = geometry::Band{-1e-3, 2e-3};
-  for (double theta = 0.05; theta < 3.1; theta += 0.05) {
+  for (const double theta : steps(0.05, 3.1, 0.05)) {
     const double y = 5e-3 * std::cos(theta);
     if (y > -1e-3 && y < 2e-3) {
       EXPECT_GT(s.h(0, theta), 0.0);

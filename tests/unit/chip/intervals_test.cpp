@@ -36,7 +36,7 @@ TEST(Intervals, HoldAllThatCutsAndNothingElse) {
     if (n % 2 == 1) s.cut.engagement = geometry::Band{-0.2e-3, 1e-3};
     for (int j = 0; j < s.cutter.teeth(); ++j) {
       const auto arcs = engaged_arcs(s.passage(), s.slice(), j);
-      for (double theta = -pi / 2; theta < 1.5 * pi; theta += 0.011) {
+      for (const double theta : steps(-pi / 2, 1.5 * pi, 0.011)) {
         bool inside = false;
         double distance = 1.0;
         for (const Arc& arc : arcs) {

@@ -12,6 +12,13 @@ namespace trochoid::chip {
 
 inline constexpr double pi = std::numbers::pi;
 
+/// from, from + step, ... below to.
+inline std::vector<double> steps(double from, double to, double step) {
+  std::vector<double> out;
+  for (int i = 0; from + i * step < to; ++i) out.push_back(from + i * step);
+  return out;
+}
+
 /// Teeth of a cylinder at its tip, in a cut.
 struct MadeSlice {
   geometry::Cutter cutter;

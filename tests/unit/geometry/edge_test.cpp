@@ -1,3 +1,5 @@
+#include "steps.h"
+
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/cut.h>
 #include <trochoid/geometry/edge.h>
@@ -86,7 +88,7 @@ TEST(Lag, OfAConstantHelixKeepsTheAngleToTheMeridian) {  // [G-8]
     const Profile p = taper(10e-3, taper_deg * unit::deg);
     const Cutter c = cutter_of(p, LagLaw::constant_helix, 35);
     const Meridian m = meridian(p);
-    for (double s = 1e-3; s < 10e-3; s += 1e-3) {
+    for (const double s : steps(1e-3, 10e-3, 1e-3)) {
       EXPECT_NEAR(point_at(m, s).r * lag_at(c, m, s).per_arc, std::tan(35 * unit::deg),
                   1e-12);
     }

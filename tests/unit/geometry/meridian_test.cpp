@@ -1,3 +1,5 @@
+#include "steps.h"
+
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/meridian.h>
 
@@ -92,7 +94,7 @@ TEST(Meridian, PointsSatisfyTheEquationOfTheirSegment) {  // [G-2] [G-3] [G-4]
   for (const auto& [name, p, tangent] : shapes()) {
     const Meridian m = meridian(p);
     const double u = p.D / 2 * (1 - std::tan(p.alpha) * std::tan(p.beta));
-    for (double s = 1e-6; s < 12e-3; s += 37e-6) {
+    for (const double s : steps(1e-6, 12e-3, 37e-6)) {
       const MeridianPoint at = point_at(m, s);
       if (s < m.s_M) {
         EXPECT_NEAR(at.z, at.r * std::tan(p.alpha), 1e-15) << name;
@@ -112,7 +114,7 @@ TEST(Meridian, TheCurveRunsAlongItsTangentAtUnitSpeed) {
   const double step = 1e-7;
   for (const auto& [name, p, tangent] : shapes()) {
     const Meridian m = meridian(p);
-    for (double s = 2e-6; s < 12e-3; s += 41e-6) {
+    for (const double s : steps(2e-6, 12e-3, 41e-6)) {
       if (std::abs(s - m.s_M) < 2 * step || std::abs(s - m.s_N) < 2 * step) {
         continue;
       }
@@ -148,10 +150,11 @@ TEST(Meridian, TheCurveIsWholeAndItsTangentTurnsOnlyAtCorners) {
 TEST(Meridian, ArcLengthAndHeightAreInverse) {
   for (const auto& [name, p, tangent] : shapes()) {
     const Meridian m = meridian(p);
-    for (double z = m.profile.alpha > 0 ? 0.0 : m.M.z + 1e-9; z < 9e-3; z += 53e-6) {
+    for (const double z :
+         steps(m.profile.alpha > 0 ? 0.0 : m.M.z + 1e-9, 9e-3, 53e-6)) {
       EXPECT_NEAR(point_at(m, arc_length_at(m, z)).z, z, 1e-13) << name;
     }
-    for (double s = 20e-6; s < 9e-3; s += 59e-6) {
+    for (const double s : steps(20e-6, 9e-3, 59e-6)) {
       // s(z) of an arc has few digits where the arc is flat
       const double slack = 1e-15 / point_at(m, s).sin_kappa;
       EXPECT_NEAR(arc_length_at(m, point_at(m, s).z), s, 10 * slack) << name;

@@ -1,3 +1,5 @@
+#include "steps.h"
+
 #include <trochoid/geometry/cutter.h>
 #include <trochoid/geometry/edge.h>
 
@@ -21,7 +23,7 @@ EdgePosition first(double rho, double c) {
 }
 
 TEST(Runout, AnEccentricPointIsASumOfTwoVectors) {  // [G-9]
-  for (double c = -4; c < 4; c += 0.13) {
+  for (const double c : steps(-4, 4, 0.13)) {
     for (const double rho : {1e-6, 80e-6, 2e-3}) {
       const EdgePosition p = exact(rho, c);
       EXPECT_NEAR(p.R * std::cos(p.epsilon), r + rho * std::cos(c), 1e-15);
@@ -31,7 +33,7 @@ TEST(Runout, AnEccentricPointIsASumOfTwoVectors) {  // [G-9]
 }
 
 TEST(Runout, TheFirstOrderErrsByTheSquareOfTheEccentricity) {  // [G-9] [G-10]
-  for (double c = 0.1; c < 6.2; c += 0.2) {
+  for (const double c : steps(0.1, 6.2, 0.2)) {
     const double rho = 40e-6;
     const double error = exact(rho, c).R - first(rho, c).R;
     const double half = exact(rho / 2, c).R - first(rho / 2, c).R;
@@ -45,7 +47,7 @@ TEST(Runout, TheFirstOrderErrsByTheSquareOfTheEccentricity) {  // [G-9] [G-10]
 
 TEST(Runout, ATurnIsItsSineOverTheRadius) {  // [G-9]
   const double rho = 1e-6;
-  for (double c = 0; c < 6.2; c += 0.3) {
+  for (const double c : steps(0, 6.2, 0.3)) {
     EXPECT_NEAR(exact(rho, c).epsilon, rho * std::sin(c) / r, 2 * rho * rho / (r * r));
   }
 }
