@@ -233,6 +233,9 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
 Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
              double theta) noexcept {
   const Ray ray = ray_at(passage, slice, tooth, theta);
+  if (passage.feed <= 0) {  // nothing is left for a second turn
+    return {};
+  }
   if (position(ray, 0).R <= 0 && passage.model.model != Model::none) {
     return {0.0, 0.0, position(ray, 0).R, 0, false};
   }

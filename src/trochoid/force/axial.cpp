@@ -28,7 +28,8 @@ Frame frame(double theta, const geometry::MeridianPoint& p) noexcept {
            {0.0, p.cos_kappa, -p.sin_kappa}}};
 }
 
-/// No chip can be thicker than one turn's feed of the widest gap and the runout.
+/// No chip can be thicker than the feed of the widest gap and the runout, nor, where
+/// all marks count, than the feed of a turn.
 double thickest_chip(const Edges& edges) {
   const geometry::Runout& runout = edges.setup.runout;
   double spread = 2 * runout.eccentricity;
@@ -39,8 +40,10 @@ double thickest_chip(const Edges& edges) {
   }
   const double gap = *std::max_element(edges.setup.cutter.pitch.begin(),
                                        edges.setup.cutter.pitch.end());
-  return std::min(edges.passage.feed * gap + spread,
-                  edges.passage.feed * 2 * std::numbers::pi);
+  const double previous = edges.passage.feed * gap + spread;
+  return edges.setup.chip.lookback == chip::Lookback::all
+             ? std::min(previous, edges.passage.feed * 2 * std::numbers::pi)
+             : previous;
 }
 
 /// Seeds near which a short cut along the edge can hide: the front of the tool and the
@@ -55,23 +58,24 @@ void add_seeds(const Edges& edges, double theta_tip, std::vector<double>& grid) 
       targets[count++] = std::acos(x);
     }
   }
-  const double last = edges.point(edges.ends.back()).lag;
+  const std::vector<double>& lags = edges.lag_at_ends;
+  const double last = lags.back();
   if (last == 0) {
     return;
   }
-  const std::size_t panels = edges.ends.size() - 1;
   for (std::size_t t = 0; t < count; ++t) {
     // theta_tip - lag = target + k turn, lag in (0, last)
     double lag = theta_tip - targets[t];
     lag -= turn * std::floor(lag / turn);
-    for (; lag < last; lag += turn) {
-      for (std::size_t i = 0; i < panels; ++i) {
-        const double a = edges.point(edges.ends[i]).lag;
-        const double b = edges.point(edges.ends[i + 1]).lag;
-        if (lag > a && lag < b) {
-          grid.push_back(edges.ends[i] +
-                         (edges.ends[i + 1] - edges.ends[i]) * (lag - a) / (b - a));
-        }
+    const int windings = static_cast<int>(std::ceil((last - lag) / turn));
+    for (int k = 0; k < windings; ++k) {
+      const double at = lag + k * turn;
+      const auto above = std::upper_bound(lags.begin(), lags.end(), at);
+      if (above != lags.begin() && above != lags.end()) {
+        const auto i = static_cast<std::size_t>(above - lags.begin());
+        grid.push_back(edges.ends[i - 1] + (edges.ends[i] - edges.ends[i - 1]) *
+                                               (at - lags[i - 1]) /
+                                               (lags[i] - lags[i - 1]));
       }
     }
   }

@@ -1,5 +1,7 @@
 #include <trochoid/force/closed_form.h>
 
+#include <trochoid/geometry/edge.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,7 +30,8 @@ std::optional<Vector3> closed_form_mean(const Setup& setup, const Law& law) {
     return std::nullopt;
   }
   constexpr double pi = std::numbers::pi;
-  const double slope = 2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter;
+  const geometry::Meridian m = geometry::meridian(p);
+  const double slope = geometry::lag_at(setup.cutter, m, 0.0).per_arc;
   const double e =
       setup.edge_length == EdgeLength::axial ? 1.0 : std::hypot(1.0, p.D / 2 * slope);
   const double f = setup.cut.f_z;

@@ -9,10 +9,10 @@ namespace trochoid::force {
 /// Reference chip thickness of the power law [m].
 inline constexpr double h_0 = 1e-3;
 
-/// @brief How strongly an edge element pulls in t, r, a for unit coefficients, per dz.
+/// @brief How strongly an edge element pulls in t, r, a for unit coefficients, per ds.
 struct ColumnWeights {
-  std::array<double, 3> cutting{};  ///< h or w_q sin(kappa)^..., for t, r, a [m]
-  double edge = 0.0;                ///< dS/dz, or 0 in a power law
+  std::array<double, 3> cutting{};  ///< h sin(kappa), or w_q, for t, r, a [m]
+  double edge = 0.0;                ///< dS/ds, or 0 in a power law
 };
 
 /// @brief Weights of one element per meridian length ds, zero chip excluded.

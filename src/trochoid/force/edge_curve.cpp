@@ -68,6 +68,9 @@ Edges::Edges(const Setup& given)
       ends(panel_ends(given, meridian)),
       grid(scan_grid(ends, geometry::point_at(meridian, 0).r <
                                1e-3 * given.cut.a_p + given.cut.f_z)) {
+  for (const double s : ends) {
+    lag_at_ends.push_back(geometry::lag_at(setup.cutter, meridian, s).angle);
+  }
   if (setup.chip.model == chip::Model::none) {
     setup.runout = {};
   }

@@ -38,7 +38,8 @@ struct Edges {
   chip::Passage passage;
   std::vector<double> psi;   ///< [rad], shape (teeth)
   std::vector<double> ends;  ///< where the profile or the panels end [m], ascending
-  std::vector<double> grid;  ///< ends and points between them [m], ascending
+  std::vector<double> lag_at_ends;  ///< [rad]
+  std::vector<double> grid;         ///< ends and points between them [m], ascending
 };
 
 /// @brief One edge at one spindle angle, as a curve over s for numerics::PieceFinder.

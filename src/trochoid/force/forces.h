@@ -40,7 +40,7 @@ class ForceMatrix {
 };
 
 /// @brief Force on the tool [N] at the angles phi of the tip of tooth 1 [rad].
-/// @param tolerance  relative to the peak force
+/// @param tolerance  relative to the largest force that the feed and depth could make
 /// @return shape (n, 3), workpiece frame
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance);

@@ -99,12 +99,33 @@ void check_height(const CutTable& cut, const std::string& path,
   }
 }
 
+/// Nothing that cuts winds about itself this often; a slip of the helix does.
+void check_windings(const CutTable& cut, const std::string& path,
+                    const geometry::Cutter& cutter, Findings& findings) {
+  constexpr double most_windings = 1000;
+  const std::string key = path + ".axial_depth_mm";
+  if (!sound(findings,
+             {"tool.diameter_mm", "tool.helix_deg", "tool.lag_diameter_mm", key}) ||
+      !(cutter.lag_diameter > 0)) {
+    return;
+  }
+  const double windings = 2 * cut.axial_depth * std::tan(cutter.helix) /
+                          (cutter.lag_diameter * 2 * std::numbers::pi);
+  if (windings > most_windings) {
+    report(findings, key,
+           fmt::format("{} = {} mm: over it the edge winds {:.4g} times around the "
+                       "cutter; must be at most {:g} (helix_deg, lag_diameter_mm)",
+                       key, mm(cut.axial_depth), windings, most_windings));
+  }
+}
+
 }  // namespace
 
 geometry::Cut cut_of(CutTable& cut, const std::string& path,
                      const geometry::Cutter& cutter, Findings& findings) {
   settle_feed(cut, path, cutter.teeth(), findings);
   check_height(cut, path, cutter.profile, findings);
+  check_windings(cut, path, cutter, findings);
   return {.engagement = engagement_of(cut, path, cutter.profile.D, findings),
           .a_p = cut.axial_depth,
           .f_z = cut.feed_per_tooth.value_or(0.0),

@@ -13,7 +13,7 @@ namespace trochoid::inputs {
 namespace {
 
 /// Below this, a matrix whose rows are long 1 counts as singular.
-constexpr double least_determinant = 1e-9;
+constexpr double least_determinant = 1e-7;
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
@@ -55,11 +55,12 @@ void check_invertible(const Matrix& m, Findings& findings) {
   const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  double lengths = 1.0;
+  double size2 = 0.0;
   for (const auto& row : m) {
-    lengths *= std::hypot(row[0], row[1], row[2]);
+    size2 += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
   }
-  if (!(std::abs(det) > least_determinant * lengths)) {
+  // |det| / size^3 bounds how much of a force the channels still tell apart.
+  if (!(std::abs(det) > least_determinant * size2 * std::sqrt(size2))) {
     report(findings, "dynamometer.matrix",
            fmt::format("dynamometer.matrix: the determinant is {:.3g}, so the force "
                        "cannot be told from the channels; must be invertible",

@@ -139,10 +139,7 @@ void check_runout(geometry::Runout& runout, const ToolTable& tool, Findings& fin
                        offsets.size(), teeth));
     return;
   }
-  const bool round = tool.shape == Shape::cylinder || tool.shape == Shape::ball ||
-                     tool.shape == Shape::bull_nose;
-  if (!round ||
-      !sound(findings, {"tool.shape", "tool.diameter_mm", "runout.eccentricity_mm"})) {
+  if (!sound(findings, {"tool.shape", "tool.diameter_mm", "runout.eccentricity_mm"})) {
     return;
   }
   const double radius = tool.diameter / 2;

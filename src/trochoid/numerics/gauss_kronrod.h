@@ -42,10 +42,11 @@ void add_integral(double from, double to, const Function& f,
       size[q] += rule.kronrod[i] * std::abs(value[q]);
     }
   }
+  constexpr double rounding = 1e-13;
   bool good = true;
   for (std::size_t q = 0; q < M; ++q) {
     const double x = 200 * std::abs(fine[q] - coarse[q]);
-    good = good && (x <= allowed[q] ||
+    good = good && (x <= std::max(allowed[q], rounding * size[q]) ||
                     (x < size[q] && x * std::sqrt(x / size[q]) <= allowed[q]));
   }
   if (!good && to - from > smallest) {

@@ -125,9 +125,12 @@ void compare(const inputs::Case& given, base::Answer& answer, Json& result) {
           {std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2])}},
          {"measured_rms_N", std::sqrt(size)},
          {"spindle_rpm", measured[r].Omega / unit::rpm}});
-    answer.short_table += fmt::format(
-        "compared with {}: rms of the difference {:.2f} N ({:.1f} % of the force)\n",
-        measured[r].record.file, rms, 100 * rms / std::sqrt(size));
+    answer.short_table +=
+        fmt::format("compared with {}: rms of the difference {:.2f} N",
+                    measured[r].record.file, rms);
+    answer.short_table += size > 0 ? fmt::format(" ({:.1f} % of the force)\n",
+                                                 100 * rms / std::sqrt(size))
+                                   : std::string(" (the record holds no force)\n");
   }
   result["comparison"] = comparison;
   for (auto& table : curve_tables(runs, std::vector{computed})) {

@@ -1,6 +1,7 @@
 #include <trochoid/run/fit_warnings.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/fit_answer.h>
 #include <trochoid/signal/band.h>
 
@@ -41,15 +42,16 @@ void warn_unidentifiable(const Fit& chosen, Warnings& warnings) {
 }
 
 void warn_signs(const Fit& chosen, Warnings& warnings) {
-  for (std::size_t q = 0; q < 2 && q < chosen.coefficients.size(); ++q) {
+  const auto names = coefficient_names(chosen.law);
+  for (std::size_t q = 0; q < chosen.coefficients.size(); ++q) {
     const auto& K = chosen.coefficients[q];
-    if (K && K->high < 0) {
+    const bool along_the_axis = q % 3 == 2;  // may pull either way
+    if (K && K->high < 0 && !along_the_axis) {
       warnings.push_back(
           {"negative_coefficient",
-           fmt::format(
-               "{} came out negative, which no cut does: check the axes of the "
-               "dynamometer and the sense of rotation.",
-               q == 0 ? "The tangential coefficient" : "The radial coefficient")});
+           fmt::format("{} came out negative, which no cut does: check the axes of the "
+                       "dynamometer and the sense of rotation.",
+                       names[q].key)});
     }
   }
 }

@@ -60,6 +60,14 @@ bool lay_over_angle(MeasuredRun& run, int teeth, Warnings& warnings,
     if (!record.time.empty() && record.time.back() > record.time.front()) {
       run.Omega = (run.angle.back() - run.angle.front()) /
                   (record.time.back() - record.time.front());
+      if (!(run.Omega > 0)) {
+        throw base::InputError(
+            {record.file +
+             ": the spindle angle falls while the time rises; it must rise (if it was "
+             "counted backwards, change its sign; two samples must lie less than half "
+             "a "
+             "turn apart)"});
+      }
       compare_speed(run, warnings);
     }
     return true;

@@ -98,6 +98,9 @@ void add_loads(const inputs::Case& given, std::span<const force::Loads> loads,
 void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
                Json& result) {
   Json teeth = Json::array();
+  const bool some_cut =
+      std::any_of(slice.teeth.begin(), slice.teeth.end(),
+                  [](const ToothEngagement& tooth) { return !tooth.arcs.empty(); });
   for (std::size_t j = 0; j < slice.teeth.size(); ++j) {
     const ToothEngagement& tooth = slice.teeth[j];
     Json arcs = Json::array();
@@ -107,13 +110,18 @@ void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
     teeth.push_back({{"tooth", j + 1},
                      {"intervals_deg", arcs},
                      {"peak_chip_mm", tooth.peak_chip / unit::mm}});
-    if (tooth.arcs.empty()) {
+    if (tooth.arcs.empty() && some_cut) {
       answer.warnings.push_back(
           {"idle_tooth",
            fmt::format("Tooth {} cuts nothing at {:g} mm above the tip: the runout "
                        "keeps it behind what the others leave.",
                        j + 1, height / unit::mm)});
     }
+  }
+  if (!some_cut) {
+    answer.warnings.push_back(
+        {"no_cut", fmt::format("No tooth cuts anything at {:g} mm above the tip.",
+                               height / unit::mm)});
   }
   result["teeth"] = teeth;
   result["teeth_height_mm"] = unit::in(height, unit::mm);
@@ -219,6 +227,15 @@ base::Answer simulate(const inputs::Case& given) {
   add_loads(given, loads, result);
   const auto& heights = given.sampling.edge_heights;
   const double height = heights.empty() ? default_height(setup) : heights.front();
+  for (const double z : heights) {
+    if (z > setup.cut.a_p) {
+      answer.warnings.push_back(
+          {"height_above_cut",
+           fmt::format("edge_heights_mm: {:g} mm lies above the axial depth; the chip "
+                       "there is what a deeper cut would give.",
+                       z / unit::mm)});
+    }
+  }
   const SliceAnswer slice = slice_answer(setup, height);
   add_teeth(slice, height, answer, result);
   add_volume(setup, slice, answer, result);
