@@ -130,6 +130,7 @@ Part steady_part(const Channels& channels, std::span<const double> angle) {
   const std::vector<Part> turns = whole_turns(angle);
   if (turns.size() < 4) return {0, angle.size()};
   std::vector<double> level;
+  level.reserve(turns.size());
   for (const Part& part : turns) level.push_back(activity(channels, part));
   std::vector<double> sorted = level;
   const auto quartile =

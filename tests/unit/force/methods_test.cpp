@@ -131,6 +131,34 @@ TEST(Methods, MeansOfASlotAreTheFormula) {  // [F-8]
   }
 }
 
+TEST(Methods, TheFormulaKnowsTheHelixOfEitherLagLaw) {  // [F-8] [G-8]
+  MadeCut s = slot(geometry::cylinder(8e-3), 2, 30.0);
+  s.chip.model = chip::Model::feed;
+  s.cutter.lag_diameter = 4e-3;
+  for (const auto law :
+       {geometry::LagLaw::constant_lead, geometry::LagLaw::constant_helix}) {
+    s.cutter.lag_law = law;
+    const auto phi = turn(7200);
+    Vector3 mean{};
+    for (const Vector3& F : forces(s, steel(), phi, 1e-6)) {
+      for (std::size_t q = 0; q < 3; ++q) mean[q] += F[q] / 7200.0;
+    }
+    const auto formula = closed_form_mean(s, steel());
+    ASSERT_TRUE(formula);
+    for (std::size_t q = 0; q < 3; ++q) {
+      EXPECT_NEAR((*formula)[q], mean[q], 1e-3) << q;
+    }
+  }
+}
+
+TEST(Methods, NothingIsCutWithoutFeed) {
+  MadeCut s = slot(geometry::ball(8e-3), 2, 30.0);
+  s.runout.radial_offsets = {0.0, -8e-6};
+  s.chip.lookback = chip::Lookback::previous;
+  s.cut.f_z = 0.0;
+  EXPECT_EQ(peak(forces(s, aluminium(), turn(12), 1e-6)), 0.0);
+}
+
 TEST(Methods, TheFormulaIsSilentWhereItDoesNotHold) {  // [F-8]
   MadeCut s = slot(geometry::cylinder(8e-3), 2, 30);
   s.chip.model = chip::Model::none;
