@@ -37,8 +37,8 @@ std::string default_of(const Key& key, const Field& field) {
   std::string text;
   if (key.need == Need::always) {
     text = key.rival.empty() ? "needed" : fmt::format("needed, or `{}`", key.rival);
-  } else if (key.need == Need::simulate) {
-    text = "`simulate` needs it";
+  } else if (key.need == Need::coefficient) {
+    text = "`simulate` and `surface` need it";
   } else if (key.standard.empty()) {
     const auto value = toml_text(key, field);
     text = value ? fmt::format("`{}`", *value) : "left out";

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// Tables about the machine, the workpiece and its surface, in SI. `simulate` and
-/// `identify` check them but do not use them: one case file serves several commands.
+/// Tables about the machine, the workpiece and its surface, in SI. Commands that do not
+/// use them check them nevertheless: one case file serves several commands.
 namespace trochoid::inputs {
 
 /// [cutter_body]: the cutter as a beam.
@@ -24,25 +24,30 @@ struct Wall {
   double thickness = 0.0;       ///< [m]
   double youngs_modulus = 0.0;  ///< [N/m^2]
   double poisson_ratio = 0.0;
-  double position = 0.0;  ///< of the cutter along the wall [m]
+  double position = 0.0;  ///< of the cutter along the wall [m]; default: its middle
 };
 
 enum class SurfaceModel { quasi_static, imprint, envelope };
 enum class SurfaceLoad { distributed, concentrated };
-enum class Feedback { none, entry, regenerative };
+enum class Feedback { none, entry, regenerative, direct };
 
 /// [surface]
 struct Surface {
   SurfaceModel model = SurfaceModel::envelope;
   SurfaceLoad load = SurfaceLoad::distributed;
   Feedback feedback = Feedback::none;
-  double phase = 0.0;  ///< [rad]
+  double phase = 0.0;                     ///< phi0 [rad]
+  std::vector<double> heights;            ///< of the answer, above the tip [m]
+  std::vector<double> influence_heights;  ///< of influence.csv, above the tip [m]
+  double probe_diameter = 0.0;            ///< of the measuring tip [m]; 0: a point
 };
 
 /// One [[surface_measurement]].
 struct SurfaceMeasurement {
-  std::string file;  ///< absolute, or relative to where we run
-  bool datum_offset = false;
+  std::string file;           ///< absolute, or relative to where we run
+  bool datum_offset = false;  ///< a constant shift of the readings is estimated
+  bool datum_tilt = false;    ///< as are tilts along and across the feed
+  std::string location;       ///< file:line:col of its `file` key
 };
 
 enum class ModeBody { tool, table };

@@ -72,7 +72,7 @@ std::string new_case(Command command) {
   };
   const Visitor key_line = [&](const Key& key, const Field& field) {
     const auto value = toml_text(key, field);
-    if (command == Command::identify && key.need == Need::simulate) {
+    if (command == Command::identify && key.need == Need::coefficient) {
       return;  // this is what will be found
     }
     const bool nested = std::holds_alternative<CutTable*>(field);

@@ -17,10 +17,34 @@ namespace {
 namespace fs = std::filesystem;
 
 /// `check` asks for what the case seems to be made for.
-std::string_view verb(Command command, bool with_measurements) {
-  const bool fit =
-      command == Command::identify || (command == Command::check && with_measurements);
-  return fit ? "identify" : "simulate";
+Command purpose_of(Command command, const Node& root) {
+  const auto has = [&root](std::string_view table) {
+    return find(root, table) != nullptr;
+  };
+  if (command != Command::check) {
+    return command;
+  }
+  if (has("measurement")) {
+    return Command::identify;
+  }
+  if (has("surface_measurement")) {
+    return Command::calibrate;
+  }
+  return has("surface") || has("wall") || has("cutter_body") ? Command::surface
+                                                             : Command::simulate;
+}
+
+std::string_view verb(Command purpose) {
+  switch (purpose) {
+    case Command::identify:
+      return "identify";
+    case Command::surface:
+      return "surface";
+    case Command::calibrate:
+      return "calibrate";
+    default:
+      return "simulate";
+  }
 }
 
 /// One [name], or every [[name]], into its entry.
@@ -93,13 +117,13 @@ std::vector<std::string> report_unknown(const Node& root,
   return meant;
 }
 
-CaseTables read_tables(const Node& root, Command command, Findings& findings) {
+CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   CaseTables tables;
-  const Node* measurements = find(root, "measurement");
   const Node* cut = find(root, "cut");
-  const std::string_view purpose = verb(command, measurements != nullptr);
+  const std::string_view wanted = verb(purpose);
   const Reading reading{
-      .coefficients_needed = purpose == "simulate",
+      .coefficients_needed =
+          purpose == Command::simulate || purpose == Command::surface,
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(
@@ -109,15 +133,14 @@ CaseTables read_tables(const Node& root, Command command, Findings& findings) {
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
-    } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), purpose) >
-               0) {
+    } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), wanted) > 0) {
       findings.wrong.insert(std::string(entry.name));
       if (std::count(meant.begin(), meant.end(), entry.name) > 0) {
         continue;
       }
       report(findings, std::string(entry.name),
              fmt::format("{} is missing ({}); {} needs it", heading(entry),
-                         entry.meaning, purpose));
+                         entry.meaning, wanted));
     }
   }
   for (std::size_t i = 0; i < tables.measurements.size(); ++i) {
@@ -128,7 +151,7 @@ CaseTables read_tables(const Node& root, Command command, Findings& findings) {
   return tables;
 }
 
-Case assemble(CaseTables& t, Command command, Findings& findings) {
+Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   Case c;
   c.title = t.title;
   c.setup.cutter = cutter_of(t.tool, findings);
@@ -141,8 +164,8 @@ Case assemble(CaseTables& t, Command command, Findings& findings) {
   c.gauge_length = t.tool.gauge_length;
   check_sampling(t.sampling, findings);
   c.sampling = t.sampling;
-  const bool to_fit = command == Command::identify || !t.measurements.empty();
-  c.law = law_of(t.force, to_fit);
+  const bool to_fit = purpose == Command::identify || !t.measurements.empty();
+  c.law = law_of(t.force, to_fit || purpose == Command::calibrate);
   if (t.dynamometer) {
     c.dynamometer = dynamometer_of(*t.dynamometer, findings);
   }
@@ -157,12 +180,13 @@ Case assemble(CaseTables& t, Command command, Findings& findings) {
     c.identify = identify_of(*t.identify, t, findings);
   }
   check_machine(t.machine, t.tool, findings);
+  if (purpose == Command::surface || purpose == Command::calibrate) {
+    check_wall_cut(t, verb(purpose), findings);
+  }
+  check_surface(t, findings);
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
-    auto& file = c.machine.surface_measurements[i].file;
-    file = resolved(file, place_of(findings,
-                                   fmt::format("surface_measurement[{}].file", i + 1)))
-               .string();
+    settle_surface_file(c.machine.surface_measurements[i], i + 1, findings);
   }
   return c;
 }
@@ -185,8 +209,9 @@ std::string renamed(const std::string& name, const fs::path& file,
 Case read_case(const fs::path& file, Command command, const fs::path& result_folder) {
   const Node root = load_document(file);
   Findings findings{.file = file.string()};
-  CaseTables tables = read_tables(root, command, findings);
-  Case c = assemble(tables, command, findings);
+  const Command purpose = purpose_of(command, root);
+  CaseTables tables = read_tables(root, purpose, findings);
+  Case c = assemble(tables, purpose, findings);
   if (!findings.problems.empty()) {
     throw base::InputError(lines(findings));
   }

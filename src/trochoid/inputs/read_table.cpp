@@ -133,7 +133,7 @@ struct TableReader {
 
   [[nodiscard]] bool lacks(const Key& key) const {
     const bool needed = key.need == Need::always ||
-                        (key.need == Need::simulate && reading.coefficients_needed);
+                        (key.need == Need::coefficient && reading.coefficients_needed);
     const bool replaced = !key.rival.empty() && find(table, key.rival) != nullptr;
     const bool said_before = reading.only_own && any_below(findings.wrong, "cut");
     return needed && !replaced && !said_before && belongs(key) == 1;

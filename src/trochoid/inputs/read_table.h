@@ -11,7 +11,7 @@ namespace trochoid::inputs {
 
 /// What the reading of a table depends on besides the table.
 struct Reading {
-  bool coefficients_needed = false;  ///< Need::simulate counts
+  bool coefficients_needed = false;  ///< Need::coefficient counts
   const Node* cut = nullptr;         ///< [cut], which a measurement may override
   bool only_own = false;             ///< inherited values have been judged before
 };

@@ -31,6 +31,23 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
 
 void check_machine(MachineTables& machine, const ToolTable& tool, Findings& findings);
 
+/// @brief What a surface needs so that there is one finished wall; fills in [surface].
+/// @param verb  `surface` or `calibrate`, for messages
+void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& findings);
+
+/// @brief Heights, cut, flutes and wall against one another.
+void check_surface(CaseTables& tables, Findings& findings);
+
+/// @param number  1, 2 ... of the [[surface_measurement]]
+void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
+                         Findings& findings);
+
+/// @brief Report a file that is not there or that cannot be a measurement.
+/// @param shown  its name as the case has it
+/// @param what   it must be, in words
+void check_file(const std::filesystem::path& file, const std::string& key,
+                const std::string& shown, std::string_view what, Findings& findings);
+
 /// @brief A file that a case names, seen from where we run.
 /// @param named_at  the place of the name: the path is relative to that file
 std::filesystem::path resolved(const std::string& file, const Location& named_at);

@@ -54,6 +54,22 @@ void check_actuator(const Actuator& a, Findings& findings) {
   }
 }
 
+void settle_wall(Wall& wall, Findings& findings) {
+  if (!sound(findings, {"wall.position_mm", "wall.length_mm"})) {
+    return;
+  }
+  if (findings.places.count("wall.position_mm") == 0) {
+    wall.position = as_written(wall.length / 2, unit::mm);
+  }
+  if (wall.position > wall.length) {
+    report(findings, "wall.position_mm",
+           fmt::format("wall.position_mm = {} mm: beyond length_mm = {} mm (where the "
+                       "cutter is along the wall)",
+                       number_text(wall.position, unit::mm),
+                       number_text(wall.length, unit::mm)));
+  }
+}
+
 void settle_body(CutterBody& body, const ToolTable& tool, Findings& findings) {
   if (!sound(findings, {"cutter_body.overhang_mm", "cutter_body.flute_length_mm",
                         "tool.diameter_mm"})) {
@@ -84,13 +100,8 @@ void check_machine(MachineTables& machine, const ToolTable& tool, Findings& find
   if (machine.actuator) {
     check_actuator(*machine.actuator, findings);
   }
-  if (machine.wall && machine.wall->position > machine.wall->length &&
-      sound(findings, {"wall.position_mm", "wall.length_mm"})) {
-    report(findings, "wall.position_mm",
-           fmt::format("wall.position_mm = {} mm: beyond length_mm = {} mm (where the "
-                       "cutter is along the wall)",
-                       number_text(machine.wall->position, unit::mm),
-                       number_text(machine.wall->length, unit::mm)));
+  if (machine.wall) {
+    settle_wall(*machine.wall, findings);
   }
 }
 

@@ -68,13 +68,19 @@ void check_invertible(const Matrix& m, Findings& findings) {
   }
 }
 
-void check_file(const Measurement& m, const std::string& key, const std::string& name,
-                Findings& findings) {
+}  // namespace
+
+std::filesystem::path resolved(const std::string& file, const Location& named_at) {
+  return (std::filesystem::path(named_at.file).parent_path() / file).lexically_normal();
+}
+
+void check_file(const std::filesystem::path& file, const std::string& key,
+                const std::string& shown, std::string_view what, Findings& findings) {
   std::error_code error;
-  const auto status = std::filesystem::status(m.file, error);
+  const auto status = std::filesystem::status(file, error);
   std::string why;
   if (!std::filesystem::exists(status)) {
-    const std::string path = m.file.string();
+    const std::string path = file.string();
     const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
       return static_cast<unsigned char>(c) < 0x20;
     });
@@ -85,18 +91,10 @@ void check_file(const Measurement& m, const std::string& key, const std::string&
     why = "this is not a regular file";
   }
   if (!why.empty()) {
-    report(
-        findings, key,
-        fmt::format("{} = {}: {}; must be a force record (csv or dynoware), relative "
-                    "to the file that names it",
-                    key, toml_string(name), why));
+    report(findings, key,
+           fmt::format("{} = {}: {}; must be {}, relative to the file that names it",
+                       key, toml_string(shown), why, what));
   }
-}
-
-}  // namespace
-
-std::filesystem::path resolved(const std::string& file, const Location& named_at) {
-  return (std::filesystem::path(named_at.file).parent_path() / file).lexically_normal();
 }
 
 Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
@@ -133,7 +131,8 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
   if (sound(findings, {path + ".file"})) {
-    check_file(m, path + ".file", table.file, findings);
+    check_file(m.file, path + ".file", table.file, "a force record (csv or dynoware)",
+               findings);
   }
   if (!table.time_column.empty() && table.sample_rate) {
     report(

@@ -44,7 +44,7 @@ constexpr Range inside(double low, double high) {
 enum class Need {
   optional,
   always,
-  simulate,  ///< only where forces are computed from given coefficients
+  coefficient,  ///< only where forces are computed from given coefficients
 };
 
 /// A key that has a meaning only for some values of another key of its table.

@@ -179,7 +179,7 @@ void describe(const Visitor& v, ForceTable& t) {
     v({.name = name,
        .meaning = meaning,
        .range = range,
-       .need = Need::simulate,
+       .need = Need::coefficient,
        .only = {"law", {law}}},
       &value);
   };
@@ -188,7 +188,7 @@ void describe(const Visitor& v, ForceTable& t) {
     v({.name = name,
        .meaning = meaning,
        .range = from_below(-0.5, 1),
-       .need = Need::simulate,
+       .need = Need::coefficient,
        .only = {"law", {"power"}},
        .standard = "0.25 for identify"},
       &value);

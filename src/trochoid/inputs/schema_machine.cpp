@@ -9,7 +9,7 @@ using Names = std::string_view;
 
 constexpr Names surface_models[] = {"quasi_static", "imprint", "envelope"};
 constexpr Names loads[] = {"distributed", "concentrated"};
-constexpr Names feedbacks[] = {"none", "entry", "regenerative"};
+constexpr Names feedbacks[] = {"none", "entry", "regenerative", "direct"};
 constexpr Names bodies[] = {"tool", "table"};
 constexpr Names axes[] = {"x", "y", "z"};
 constexpr Names command_shapes[] = {"sine", "square", "trapezoid", "table"};
@@ -72,7 +72,7 @@ void describe(const Visitor& v, Wall& t) {
   v({.name = "position_mm",
      .meaning = "where the cutter is along the wall",
      .range = between(0, longest_mm),
-     .need = Need::always},
+     .standard = "half of length_mm"},
     &t.position);
 }
 
@@ -81,12 +81,30 @@ void describe(const Visitor& v, Surface& t) {
     choice(t.model, surface_models));
   v({.name = "load", .meaning = "along the axial depth, or at its middle"},
     choice(t.load, loads));
-  v({.name = "feedback", .meaning = "whether the deflection changes the chip"},
+  v({.name = "feedback",
+     .meaning = "what the deflection changes: nothing, where an edge enters the stock, "
+                "or the chip as well; direct: the chip as if earlier teeth had not "
+                "been deflected"},
     choice(t.feedback, feedbacks));
   v({.name = "phase_deg",
      .meaning = "spindle angle phi0 at the start",
      .range = between(-360, 360)},
     &t.phase);
+  v({.name = "heights_mm",
+     .meaning = "heights above the tip where the surface is wanted",
+     .range = between(0, longest_mm),
+     .standard = "edge_heights_mm of [sampling], else spread over the axial depth"},
+    &t.heights);
+  v({.name = "influence_heights_mm",
+     .meaning = "heights above the tip for influence.csv, at most the overhang",
+     .range = between(0, longest_mm),
+     .standard = "the heights of the surface"},
+    &t.influence_heights);
+  v({.name = "probe_diameter_mm",
+     .meaning = "diameter of the ball that touches the surface, which a measuring "
+                "machine cannot avoid; 0: a point",
+     .range = between(0, 100)},
+    &t.probe_diameter);
 }
 
 void describe(const Visitor& v, SurfaceMeasurement& t) {
@@ -96,6 +114,9 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
     &t.file);
   v({.name = "datum_offset", .meaning = "estimate a constant shift of the readings"},
     &t.datum_offset);
+  v({.name = "datum_tilt",
+     .meaning = "estimate a tilt of the readings along and across the feed"},
+    &t.datum_tilt);
 }
 
 void describe(const Visitor& v, Mode& t) {

@@ -24,8 +24,15 @@ std::vector<std::string> broken_cases() {
 
 /// `# command: identify` in the first line; else simulate.
 Command command_of(const std::string& text) {
-  return text.starts_with("# command: identify") ? Command::identify
-                                                 : Command::simulate;
+  using Named = std::pair<std::string_view, Command>;
+  for (const auto& [name, command] :
+       {Named{"check", Command::check}, Named{"identify", Command::identify},
+        Named{"surface", Command::surface}, Named{"calibrate", Command::calibrate}}) {
+    if (text.starts_with("# command: " + std::string(name) + "\n")) {
+      return command;
+    }
+  }
+  return Command::simulate;
 }
 
 class BrokenCase : public testing::TestWithParam<std::string> {};

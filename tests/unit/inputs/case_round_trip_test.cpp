@@ -106,6 +106,7 @@ void expect_equal(const Case& a, const Case& b) {
 void expect_round_trip(const std::string& text, Command command) {
   const CaseFolder folder;
   static_cast<void>(folder.write("run 1.csv", "x"));
+  static_cast<void>(folder.write("wall.csv", "x"));
   const auto results = folder.path() / "case.results";
   const Case first = read_case(folder.write("case.toml", text), command, results);
   SCOPED_TRACE(first.as_understood);

@@ -1,0 +1,136 @@
+#include <trochoid/base/units.h>
+#include <trochoid/inputs/number_text.h>
+#include <trochoid/inputs/rules.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace trochoid::inputs {
+
+namespace {
+
+std::string mm(double length) {
+  return number_text(length, unit::mm);
+}
+
+/// A list of heights above the tip, and what they may reach.
+struct Heights {
+  const std::vector<double>& values;
+  std::string key;
+  double highest = 0.0;
+  std::string highest_key;  ///< as the message names it
+  std::string meaning;
+};
+
+void check_heights(const Heights& heights, Findings& findings) {
+  if (!sound(findings, {heights.key})) {
+    return;
+  }
+  for (std::size_t i = 0; i < heights.values.size(); ++i) {
+    const double height = heights.values[i];
+    const auto entry = [&](const std::string& why) {
+      report(findings, heights.key,
+             fmt::format("{} entry {} = {} mm: {} ({})", heights.key, i + 1, mm(height),
+                         why, heights.meaning));
+    };
+    const auto* const begin = heights.values.data();
+    const auto* const same = std::find(begin, begin + i, height);
+    if (height > heights.highest) {
+      entry(fmt::format("above {} = {} mm; must be from 0 to {} mm",
+                        heights.highest_key, mm(heights.highest), mm(heights.highest)));
+    } else if (same != begin + i) {
+      entry(fmt::format("entry {} is the same; must be there once", same - begin + 1));
+    }
+  }
+}
+
+void check_depth_below(double limit, const std::string& limit_key,
+                       const std::string& why, const CutTable& cut,
+                       Findings& findings) {
+  if (!sound(findings, {"cut.axial_depth_mm", limit_key}) || cut.axial_depth <= limit) {
+    return;
+  }
+  report(findings, "cut.axial_depth_mm",
+         fmt::format("cut.axial_depth_mm = {} mm: more than {} = {} mm; {} (axial "
+                     "depth of cut)",
+                     mm(cut.axial_depth), limit_key, mm(limit), why));
+}
+
+}  // namespace
+
+void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& findings) {
+  if (!tables.machine.surface && sound(findings, {"surface"})) {
+    tables.machine.surface.emplace();
+  }
+  if (tables.tool.shape != Shape::cylinder && sound(findings, {"tool.shape"})) {
+    report(findings, "tool.shape",
+           fmt::format("tool.shape: {} knows the wall that a \"cylinder\" leaves only "
+                       "(shape of the cutter)",
+                       verb));
+  }
+  const auto engagement = tables.cut.engagement;
+  if (engagement != EngagementKind::up && engagement != EngagementKind::down &&
+      sound(findings, {"cut.engagement"})) {
+    report(findings, "cut.engagement",
+           fmt::format("cut.engagement = \"{}\": leaves no single finished wall, which "
+                       "{} is about; must be \"up\" or \"down\" (which part of the "
+                       "cutter's width is in the stock)",
+                       engagement == EngagementKind::slot ? "slot" : "band", verb));
+  }
+  if (tables.cut.feed_per_tooth == 0.0 &&
+      sound(findings, {"cut.feed_per_tooth_mm", "cut.feed_rate_mm_per_min"})) {
+    report(findings, "cut.feed_per_tooth_mm",
+           fmt::format("cut.feed_per_tooth_mm = 0 mm: nothing is cut, and {} is about "
+                       "the wall that is cut; must be a number above 0 mm (feed per "
+                       "tooth)",
+                       verb));
+  }
+}
+
+void check_surface(CaseTables& tables, Findings& findings) {
+  MachineTables& m = tables.machine;
+  if (m.cutter_body && m.cutter_body->flute_length) {
+    check_depth_below(*m.cutter_body->flute_length, "cutter_body.flute_length_mm",
+                      "the shank would be in the cut", tables.cut, findings);
+  }
+  if (m.wall) {
+    check_depth_below(m.wall->height, "wall.height_mm",
+                      "the cut would reach below the wall", tables.cut, findings);
+  }
+  if (!m.surface) {
+    return;
+  }
+  const bool stand_in = m.surface->heights.empty() && sound(findings, {"surface"});
+  if (stand_in) {
+    m.surface->heights = tables.sampling.edge_heights;
+  }
+  if (sound(findings, {"cut.axial_depth_mm"})) {
+    check_heights({m.surface->heights,
+                   stand_in ? "sampling.edge_heights_mm" : "surface.heights_mm",
+                   tables.cut.axial_depth, "axial_depth_mm",
+                   "heights above the tip where the surface is wanted"},
+                  findings);
+  }
+  if (m.cutter_body && sound(findings, {"cutter_body.overhang_mm"})) {
+    check_heights({m.surface->influence_heights, "surface.influence_heights_mm",
+                   m.cutter_body->overhang, "overhang_mm",
+                   "heights above the tip for influence.csv"},
+                  findings);
+  }
+}
+
+void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
+                         Findings& findings) {
+  const std::string key = fmt::format("surface_measurement[{}].file", number);
+  const Location named_at = place_of(findings, key);
+  const std::string shown = measurement.file;
+  const auto file = resolved(shown, named_at);
+  if (sound(findings, {key})) {
+    check_file(file, key, shown, "a measured surface (csv)", findings);
+  }
+  measurement.file = file.string();
+  measurement.location = to_string(named_at);
+}
+
+}  // namespace trochoid::inputs
