@@ -1,0 +1,85 @@
+#pragma once
+
+#include <trochoid/inputs/csv.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// A table of numbers in delimited text, while it is read. Separators are `,` `;` or a
+/// tab; decimals have a point or, where nothing else can be meant, a comma; lines with
+/// `#` are comments.
+namespace trochoid::inputs {
+
+/// How messages speak of a kind of table.
+struct TableKind {
+  std::string_view noun;     ///< `a record`
+  std::string_view files;    ///< `a CSV file or a DynoWare text export`
+  std::string_view row;      ///< `sample`
+  std::string_view example;  ///< a row of names
+};
+
+struct TableText {
+  TableText(std::istream& in, const std::string& name, const TableKind& kind_of_table)
+      : lines(in), kind(kind_of_table) {
+    problems.file = name;
+  }
+
+  LineReader lines;
+  TableKind kind;
+  Problems problems;
+  DecimalStyle style;
+  char separator = ',';
+};
+
+/// A column that is used: where it stands in every row.
+struct TableColumn {
+  std::size_t index = 0;
+  double factor = 1.0;  ///< from the unit of the file to SI
+  std::string name;
+};
+
+/// The head of a table: the row of names and, if there is one, the row of units.
+struct TableHead {
+  std::vector<Field> names;
+  std::size_t names_line = 0;
+  std::vector<Field> units;  ///< empty: no such row
+  std::size_t units_line = 0;
+};
+
+/// @brief Open a file that a case names.
+/// @param location  `file:line:col` of its name in the case; empty: the file itself
+/// @throws base::InputError when it is absent, no regular file, or empty
+std::ifstream open_table(const std::filesystem::path& file, const std::string& location,
+                         const TableKind& kind);
+
+/// @brief The next line that holds something; none at the end or after a problem.
+std::optional<std::string_view> next_content(TableText& table);
+
+/// @brief Settle the separator, by `sep=;` or by the row of names.
+/// @param line  the first line of the table
+/// @return the row of names
+std::string names_row(TableText& table, std::string_view line);
+
+/// @brief Split the row of names, which has just been read.
+TableHead head_of(const TableText& table, std::string_view names);
+
+/// @brief Take the row of units, if the line after the names is one.
+/// @param line    the first line after the names, or none
+/// @param fields  of that line
+void take_units(TableText& table, const std::vector<Field>& fields, TableHead& head);
+
+/// @brief Whether a row has a field for each of `count` columns, or what it lacks.
+bool complete_row(TableText& table, std::vector<Field>& fields, std::size_t count);
+
+/// @brief One number of a row, in SI; a problem and 0 when it is none.
+double number_in_row(TableText& table, const std::vector<Field>& fields,
+                     const TableColumn& column);
+
+/// @throws base::InputError if there are problems
+void throw_problems(const TableText& table);
+
+}  // namespace trochoid::inputs
