@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace trochoid::structure {
+
+/// Cuts of a plate into patches, so that few polynomials suffice on each.
+struct Patches {
+  std::vector<double> x;  ///< ascending, from 0 to the length [m]
+  std::vector<double> y;  ///< ascending, from 0 to the height [m]
+  double depth = 0.0;     ///< from the free edge down: where patches suit loads [m]
+};
+
+/// @brief Cut a wall at its loads, and at distances from them that grow geometrically.
+///
+/// A load on the free edge bends the wall over its reach: the distance to the next
+/// clamped side. Patches begin with twice that and each is three times as long as the
+/// one before.
+/// @param x  of the loads, in [0, length]; those on a clamped side bend nothing
+Patches patches(double length, double height, std::span<const double> x);
+
+}  // namespace trochoid::structure

@@ -1,0 +1,218 @@
+#include <trochoid/structure/patches.h>
+#include <trochoid/structure/plate.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace trochoid::structure {
+
+namespace {
+
+/// Degrees that are tried one after the other.
+constexpr std::array<std::size_t, 11> degrees = {6,  8,  11, 15, 20, 27,
+                                                 36, 48, 64, 86, 115};
+/// Beyond this many terms the plate is given up.
+constexpr std::size_t most_terms = 20000;
+/// The error falls at least with this power of the degree, even for a point load that
+/// lies inside a patch.
+constexpr double order = 2.0;
+/// Where the error is looked at, from the free edge down, in parts of the depth.
+constexpr std::array<double, 9> probed = {0.0,  0.02, 0.06, 0.14, 0.26,
+                                          0.38, 0.52, 0.67, 0.84};
+
+void check(const Plate& plate, std::span<const double> x) {
+  const bool sound = plate.length > 0 && plate.height > 0 && plate.thickness > 0 &&
+                     plate.youngs_modulus > 0 && plate.poisson_ratio > -1 &&
+                     plate.poisson_ratio <= 0.5;
+  if (!sound) {
+    throw std::invalid_argument(fmt::format(
+        "no plate: length {}, height {}, thickness {}, E {}, nu {}", plate.length,
+        plate.height, plate.thickness, plate.youngs_modulus, plate.poisson_ratio));
+  }
+  for (const double at : x) {
+    if (!(at >= 0 && at <= plate.length)) {
+      throw std::invalid_argument(
+          fmt::format("x = {} is outside 0..{}", at, plate.length));
+    }
+  }
+}
+
+double flexural_rigidity(const Plate& p) {
+  return p.youngs_modulus * p.thickness * p.thickness * p.thickness /
+         (12 * (1 - p.poisson_ratio * p.poisson_ratio));  // B-3
+}
+
+std::vector<double> line_shapes(const PatchBasis& basis, std::span<const double> y) {
+  std::vector<double> shapes;
+  for (const double at : y) {
+    const std::vector<double> values = basis.values(at);
+    shapes.insert(shapes.end(), values.begin(), values.end());
+  }
+  return shapes;
+}
+
+/// Loads where the error is looked at.
+struct Probes {
+  std::vector<double> x;
+  std::vector<double> y;  ///< the free edge first
+};
+
+Probes probes(const Plate& plate, std::span<const double> x, double depth) {
+  Probes out;
+  std::copy_if(x.begin(), x.end(), std::back_inserter(out.x),
+               [&](double at) { return at > 0 && at < plate.length; });
+  for (const double down : probed) {
+    out.y.push_back(plate.height - down * depth);
+  }
+  return out;
+}
+
+/// Deflections under the probes themselves, times D, shape (x, y).
+std::vector<double> deflections(const RitzSystem& ritz, const Probes& probes) {
+  std::vector<double> out;
+  const std::vector<double> fy = line_shapes(ritz.y(), probes.y);
+  for (const double at : probes.x) {
+    const std::vector<double> z = ritz.reduced(ritz.x().values(at), fy);
+    for (std::size_t j = 0; j < probes.y.size(); ++j) {
+      const std::span<const double> row(z.data() + j * ritz.size(), ritz.size());
+      out.push_back(products(row, row, ritz.size()).front());
+    }
+  }
+  return out;
+}
+
+/// Largest change of a deflection, as a part of that of the loaded edge.
+double largest_change(const std::vector<double>& before,
+                      const std::vector<double>& now) {
+  double change = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double edge = now[i - i % probed.size()];
+    change = std::max(change, std::abs(now[i] - before[i]) / edge);
+  }
+  return change;
+}
+
+/// What is left to come after a change from one degree to the next.
+double remainder(double change, std::size_t degree) {
+  const double r = std::pow(
+      static_cast<double>(degrees[degree - 1]) / static_cast<double>(degrees[degree]),
+      order);
+  return change * r / (1 - r);  // B-8
+}
+
+/// Degrees in x and y, and what each still leaves of the error.
+struct Refinement {
+  std::size_t x = 0;  ///< index of degrees
+  std::size_t y = 0;
+  double x_error = std::numeric_limits<double>::infinity();
+  double y_error = std::numeric_limits<double>::infinity();
+};
+
+RitzSystem system(const Plate& plate, const Patches& patches, const Refinement& at) {
+  return {PatchBasis(patches.x, degrees[at.x], true),
+          PatchBasis(patches.y, degrees[at.y], false), plate.poisson_ratio};
+}
+
+}  // namespace
+
+PlateSolution::Refined PlateSolution::refined(const Plate& plate,
+                                              std::span<const double> x,
+                                              double tolerance) {
+  check(plate, x);
+  const Patches mesh = patches(plate.length, plate.height, x);
+  const Probes at = probes(plate, x, mesh.depth);
+  Refinement now;
+  Refined out{.ritz = system(plate, mesh, now), .depth = mesh.depth};
+  out.converged = at.x.empty();
+  std::vector<double> before = deflections(out.ritz, at);
+  while (!out.converged && out.ritz.size() < most_terms) {
+    const bool along_x = now.x_error >= now.y_error;
+    std::size_t& degree = along_x ? now.x : now.y;
+    if (++degree == degrees.size()) {
+      break;
+    }
+    out.ritz = system(plate, mesh, now);
+    std::vector<double> after = deflections(out.ritz, at);
+    (along_x ? now.x_error : now.y_error) =
+        remainder(largest_change(before, after), degree);
+    out.error = now.x_error + now.y_error;
+    out.converged = out.error <= tolerance;
+    before = std::move(after);
+  }
+  return out;
+}
+
+PlateSolution::PlateSolution(const Plate& plate, double x, double tolerance)
+    : PlateSolution(plate, std::span<const double>(&x, 1), tolerance) {}
+
+PlateSolution::PlateSolution(const Plate& plate, std::span<const double> x,
+                             double tolerance)
+    : plate_(plate),
+      D_(flexural_rigidity(plate)),
+      found_(refined(plate, x, tolerance)) {
+  std::vector<double> fx = ritz().x().means(0, plate.length);
+  for (double& f : fx) {
+    f *= plate.length * plate.height;
+  }
+  even_pressure_ = ritz().reduced(fx, ritz().y().means(0, plate.height));
+}
+
+std::vector<double> PlateSolution::reduced(double x, std::span<const double> y) const {
+  check(plate_, std::span<const double>(&x, 1));
+  for (const double at : y) {
+    if (!(at >= 0 && at <= plate_.height)) {
+      throw std::invalid_argument(
+          fmt::format("y = {} is outside 0..{}", at, plate_.height));
+    }
+  }
+  return ritz().reduced(ritz().x().values(x), line_shapes(ritz().y(), y));
+}
+
+std::vector<double> PlateSolution::influence(double x_observed,
+                                             std::span<const double> y_observed,
+                                             double x_loaded,
+                                             std::span<const double> y_loaded) const {
+  const std::vector<double> loaded = reduced(x_loaded, y_loaded);
+  const bool same =
+      x_observed == x_loaded && std::equal(y_observed.begin(), y_observed.end(),
+                                           y_loaded.begin(), y_loaded.end());
+  std::vector<double> G =
+      products(same ? loaded : reduced(x_observed, y_observed), loaded, ritz().size());
+  for (double& g : G) {
+    g /= D_;  // B-7
+  }
+  return G;
+}
+
+std::vector<double> PlateSolution::line_load(double x_observed,
+                                             std::span<const double> y_observed,
+                                             double x_loaded, double y_from,
+                                             double y_to) const {
+  if (!(y_from >= 0 && y_to >= y_from && y_to <= plate_.height)) {
+    throw std::invalid_argument(fmt::format("the load from {} to {} is not on 0..{}",
+                                            y_from, y_to, plate_.height));
+  }
+  check(plate_, std::span<const double>(&x_loaded, 1));
+  const std::vector<double> loaded =
+      ritz().reduced(ritz().x().values(x_loaded), ritz().y().means(y_from, y_to));
+  std::vector<double> w =
+      products(reduced(x_observed, y_observed), loaded, ritz().size());
+  for (double& one : w) {
+    one /= D_;
+  }
+  return w;
+}
+
+double PlateSolution::pressure(double x, double y) const {
+  const std::vector<double> observed = reduced(x, std::span<const double>(&y, 1));
+  return products(observed, even_pressure_, ritz().size()).front() / D_;
+}
+
+}  // namespace trochoid::structure
