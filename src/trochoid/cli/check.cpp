@@ -2,6 +2,7 @@
 #include <trochoid/cli/commands.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/record_file.h>
+#include <trochoid/inputs/surface_file.h>
 
 #include <fmt/core.h>
 
@@ -13,6 +14,17 @@ int check(const Options& options) {
   for (const inputs::Measurement& measurement : given.measurements) {
     try {
       inputs::read_record(measurement);
+    } catch (const base::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  const auto& surfaces = given.machine.surface_measurements;
+  for (const inputs::SurfaceMeasurement& measurement : surfaces) {
+    try {
+      const auto wrong = inputs::check_readings(
+          inputs::read_surface(measurement, given.setup.cutter.teeth()),
+          measurement.file, given);
+      problems.insert(problems.end(), wrong.begin(), wrong.end());
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -14,6 +14,20 @@ std::string mm(double length) {
   return number_text(length, unit::mm);
 }
 
+/// The value of a key as the file would have it.
+template <class Table>
+std::string shown_choice(Table& table, std::string_view key) {
+  std::string text;
+  describe(
+      [&](const Key& k, const Field& field) {
+        if (k.name == key) {
+          text = toml_text(k, field).value_or("");
+        }
+      },
+      table);
+  return text;
+}
+
 /// A list of heights above the tip, and what they may reach.
 struct Heights {
   const std::vector<double>& values;
@@ -46,15 +60,30 @@ void check_heights(const Heights& heights, Findings& findings) {
 }
 
 void check_depth_below(double limit, const std::string& limit_key,
-                       const std::string& why, const CutTable& cut,
+                       const std::string& then, const CutTable& cut,
                        Findings& findings) {
   if (!sound(findings, {"cut.axial_depth_mm", limit_key}) || cut.axial_depth <= limit) {
     return;
   }
   report(findings, "cut.axial_depth_mm",
-         fmt::format("cut.axial_depth_mm = {} mm: more than {} = {} mm; {} (axial "
-                     "depth of cut)",
-                     mm(cut.axial_depth), limit_key, mm(limit), why));
+         fmt::format("cut.axial_depth_mm = {} mm: more than {} = {} mm, so {}; must be "
+                     "at most {} mm (axial depth of cut)",
+                     mm(cut.axial_depth), limit_key, mm(limit), then, mm(limit)));
+}
+
+void check_feed(const CutTable& cut, std::string_view verb, Findings& findings) {
+  const std::string per_tooth = "cut.feed_per_tooth_mm";
+  const std::string rate = "cut.feed_rate_mm_per_min";
+  if (cut.feed_per_tooth != 0.0 || !sound(findings, {per_tooth, rate})) {
+    return;
+  }
+  const bool by_tooth = findings.places.count(per_tooth) > 0;
+  report(findings, by_tooth ? per_tooth : rate,
+         fmt::format("{} = 0 {}: nothing is cut, and {} is about the wall that is cut; "
+                     "must be a number above 0 {} ({})",
+                     by_tooth ? per_tooth : rate, by_tooth ? "mm" : "mm/min", verb,
+                     by_tooth ? "mm" : "mm/min",
+                     by_tooth ? "feed per tooth" : "feed rate"));
 }
 
 }  // namespace
@@ -65,26 +94,25 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
   }
   if (tables.tool.shape != Shape::cylinder && sound(findings, {"tool.shape"})) {
     report(findings, "tool.shape",
-           fmt::format("tool.shape: {} knows the wall that a \"cylinder\" leaves only "
-                       "(shape of the cutter)",
-                       verb));
+           fmt::format("tool.shape = {}: {} knows the wall of a cylinder only; must be "
+                       "\"cylinder\" (shape of the cutter)",
+                       shown_choice(tables.tool, "shape"), verb));
   }
   const auto engagement = tables.cut.engagement;
   if (engagement != EngagementKind::up && engagement != EngagementKind::down &&
       sound(findings, {"cut.engagement"})) {
     report(findings, "cut.engagement",
-           fmt::format("cut.engagement = \"{}\": leaves no single finished wall, which "
-                       "{} is about; must be \"up\" or \"down\" (which part of the "
+           fmt::format("cut.engagement = {}: leaves no single finished wall, which {} "
+                       "is about; must be \"up\" or \"down\" (which part of the "
                        "cutter's width is in the stock)",
-                       engagement == EngagementKind::slot ? "slot" : "band", verb));
+                       shown_choice(tables.cut, "engagement"), verb));
   }
-  if (tables.cut.feed_per_tooth == 0.0 &&
-      sound(findings, {"cut.feed_per_tooth_mm", "cut.feed_rate_mm_per_min"})) {
-    report(findings, "cut.feed_per_tooth_mm",
-           fmt::format("cut.feed_per_tooth_mm = 0 mm: nothing is cut, and {} is about "
-                       "the wall that is cut; must be a number above 0 mm (feed per "
-                       "tooth)",
-                       verb));
+  check_feed(tables.cut, verb, findings);
+  const bool rigid = !tables.machine.cutter_body && !tables.machine.wall;
+  if (verb == "calibrate" && rigid && sound(findings, {"cutter_body", "wall"})) {
+    report(findings, "cutter_body",
+           "[cutter_body] and [wall] are missing: nothing bends, so the wall tells "
+           "nothing of the forces; calibrate needs one of them");
   }
 }
 
@@ -95,8 +123,8 @@ void check_surface(CaseTables& tables, Findings& findings) {
                       "the shank would be in the cut", tables.cut, findings);
   }
   if (m.wall) {
-    check_depth_below(m.wall->height, "wall.height_mm",
-                      "the cut would reach below the wall", tables.cut, findings);
+    check_depth_below(m.wall->height, "wall.height_mm", "it would reach below the wall",
+                      tables.cut, findings);
   }
   if (!m.surface) {
     return;

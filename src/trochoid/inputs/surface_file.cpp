@@ -185,6 +185,12 @@ std::vector<SurfaceReading> read_surface(std::istream& in, const std::string& na
   }
   throw_problems(table);
   TableHead head = head_of(table, names);
+  if (head.names.size() == 1) {
+    table.problems.add(head.names_line, 1,
+                       "the row of names has 1 column: place, height and error are "
+                       "needed, separated by , ; or a tab");
+    throw_problems(table);
+  }
   auto readings = read_rows(table, head, teeth);
   table.style.check(table.problems);
   throw_problems(table);

@@ -84,6 +84,32 @@ void expect_equal(const Measurement& a, const Measurement& b) {
   expect_equal(a.cut, b.cut);
 }
 
+void expect_equal(const MachineTables& a, const MachineTables& b) {
+  ASSERT_EQ(a.wall.has_value(), b.wall.has_value());
+  if (a.wall) {
+    EXPECT_EQ(a.wall->position, b.wall->position);
+    EXPECT_EQ(a.wall->thickness, b.wall->thickness);
+  }
+  ASSERT_EQ(a.surface.has_value(), b.surface.has_value());
+  if (a.surface) {
+    EXPECT_EQ(a.surface->model, b.surface->model);
+    EXPECT_EQ(a.surface->load, b.surface->load);
+    EXPECT_EQ(a.surface->feedback, b.surface->feedback);
+    EXPECT_EQ(a.surface->phase, b.surface->phase);
+    EXPECT_EQ(a.surface->heights, b.surface->heights);
+    EXPECT_EQ(a.surface->influence_heights, b.surface->influence_heights);
+    EXPECT_EQ(a.surface->probe_diameter, b.surface->probe_diameter);
+  }
+  ASSERT_EQ(a.surface_measurements.size(), b.surface_measurements.size());
+  for (std::size_t i = 0; i < a.surface_measurements.size(); ++i) {
+    const auto& m = a.surface_measurements[i];
+    const auto& n = b.surface_measurements[i];
+    EXPECT_EQ(m.file, n.file);
+    EXPECT_EQ(m.datum_offset, n.datum_offset);
+    EXPECT_EQ(m.datum_tilt, n.datum_tilt);
+  }
+}
+
 void expect_equal(const Case& a, const Case& b) {
   EXPECT_EQ(a.title, b.title);
   expect_equal(a.setup, b.setup);
@@ -101,6 +127,7 @@ void expect_equal(const Case& a, const Case& b) {
     expect_equal(a.measurements[i], b.measurements[i]);
   }
   expect_equal(a.identify, b.identify);
+  expect_equal(a.machine, b.machine);
 }
 
 void expect_round_trip(const std::string& text, Command command) {
@@ -229,9 +256,13 @@ model = "quasi_static"
 load = "concentrated"
 feedback = "entry"
 phase_deg = 12.5
+heights_mm = [0.1, 1.7]
+influence_heights_mm = [0.3, 45.1]
+probe_diameter_mm = 1.1
 [[surface_measurement]]
 file = "wall.csv"
 datum_offset = true
+datum_tilt = true
 [[mode]]
 body = "tool"
 axis = "x"
@@ -259,6 +290,28 @@ target = "chip_area"
 strategy = "learning"
 )",
                     Command::simulate);
+}
+
+TEST(CaseRoundTrip, CalibrateWithAWallWhoseMiddleIsCrooked) {
+  std::string text = test::tool + test::cut + R"(
+[cutter_body]
+overhang_mm = 83.1
+youngs_modulus_GPa = 206.3
+[wall]
+length_mm = 60.123456789012345
+height_mm = 30
+thickness_mm = 2.1
+youngs_modulus_GPa = 69
+poisson_ratio = 0.33
+[sampling]
+edge_heights_mm = [0.1, 0.30000000000000004]
+[[surface_measurement]]
+file = "wall.csv"
+)";
+  const std::string slot = "engagement = \"slot\"";
+  text.replace(text.find(slot), slot.size(),
+               "engagement = \"up\"\nradial_depth_mm = 1.1");
+  expect_round_trip(text, Command::calibrate);
 }
 
 TEST(CaseRoundTrip, EchoNamesFilesFromTheResultFolderOrInFull) {
