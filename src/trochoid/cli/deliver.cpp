@@ -51,7 +51,7 @@ int deliver(const base::Answer& answer, const Options& options) {
     }
     fmt::print("{}", answer.short_table);
     for (const base::Warning& warning : answer.warnings) {
-      fmt::print("warning: {}\n", warning.message);
+      fmt::print("warning [{}]: {}\n", warning.code, warning.message);
     }
     fmt::print("\nresults: {}\n", folder.string());
     if (!options.no_report) {

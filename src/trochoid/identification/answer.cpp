@@ -1,5 +1,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/identification/answer.h>
+#include <trochoid/identification/residuals.h>
 #include <trochoid/numerics/student.h>
 
 #include <fmt/core.h>
@@ -36,27 +37,6 @@ std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
   return out;
 }
 
-/// Sums over the residuals of all runs.
-struct ResidualSums {
-  std::array<double, 3> squares{};
-  double neighbours = 0.0;
-  double samples = 0.0;
-};
-
-void add_residuals(const Run& run, std::span<const std::array<double, 3>> fitted,
-                   ResidualSums& sums) {
-  std::array<double, 3> before{};
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    for (std::size_t q = 0; q < 3; ++q) {
-      const double d = run.force[i][q] - fitted[i][q];
-      sums.squares[q] += d * d;
-      sums.neighbours += d * before[q];
-      before[q] = d;
-    }
-  }
-  sums.samples += static_cast<double>(fitted.size());
-}
-
 /// Why each unknown has no value, over those that have none.
 class Reasons {
  public:
@@ -70,6 +50,12 @@ class Reasons {
     return false;
   }
 
+  /// Takes it down if it has none.
+  bool has_error(std::size_t i) {
+    if (known_.on_edge[i]) fit_.on_edge.push_back(names_[i]);
+    return !known_.on_edge[i];
+  }
+
   void refuse(const std::string& name, const std::string& reason) {
     fit_.unidentifiable.emplace_back(name, reason);
   }
@@ -80,7 +66,7 @@ class Reasons {
   [[nodiscard]] double se(std::size_t i) const { return std::sqrt(covariance(i, i)); }
 
   [[nodiscard]] Estimate estimate(std::size_t i, double value) const {
-    const double half = numerics::student_t(0.975, known_.freedom) * se(i);  // I-8
+    const double half = fit_.interval_factor * se(i);  // I-8
     return {value, se(i), value - half, value + half};
   }
 
@@ -98,8 +84,9 @@ class Reasons {
 void fill_offsets(const Unknowns& u, std::size_t first, Reasons& reasons, Fit& fit) {
   for (int k = 1; k < u.teeth; ++k) {
     const std::size_t i = first + index(k - 1);
-    if (reasons.determined(i))
+    if (reasons.determined(i) && reasons.has_error(i)) {
       fit.radial_offsets_se[index(k)] = u.length * reasons.se(i);
+    }
   }
 }
 
@@ -126,6 +113,8 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, double ex, double ey,
     reasons.refuse("angle_deg", why);
     return;
   }
+  const bool smooth = reasons.has_error(i);
+  if (!reasons.has_error(i + 1) || !smooth) return;
   const double rho = std::hypot(ex, ey);
   const double c = rho > 0.0 ? ex / rho : 1.0;
   const double s = rho > 0.0 ? ey / rho : 0.0;
@@ -177,7 +166,6 @@ double equations_of(const Problem& problem, std::span<const Run> runs) {
 void fill_fitted(const Problem& problem, std::span<const Run> runs,
                  const Evaluation& at, const numerics::LeastSquares& linear, Fit& fit) {
   const std::span<const double> x(linear.x);
-  ResidualSums sums;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const FoldedRun& folded = problem.runs[r];
     const std::size_t n = runs[r].angle.size();
@@ -194,23 +182,8 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
         fitted[i][q] += offsets[q].constant + offsets[q].slope * slope_at(i, n);  // I-7
       }
     }
-    add_residuals(runs[r], fitted, sums);
   }
-  const double total = sums.squares[0] + sums.squares[1] + sums.squares[2];
-  if (problem.runs.front().band > 0) {
-    sums.squares = {};
-    for (std::size_t i = 0; i < linear.residual.size(); ++i) {
-      sums.squares[i % 3] += linear.residual[i] * linear.residual[i];
-    }
-  } else if (total > 0.0) {
-    fit.residual_correlation = sums.neighbours / total;
-  }
-  double mean = 0.0;
-  for (std::size_t q = 0; q < 3; ++q) {  // I-5
-    mean += sums.squares[q] / sums.samples;
-    fit.rms_axis[q] = std::sqrt(sums.squares[q] / sums.samples);
-  }
-  fit.rms = std::sqrt(mean);
+  fill_residuals(problem, runs, linear.residual, fit);
 }
 
 void fill_estimates(const Problem& problem, std::span<const double> p,
@@ -220,6 +193,7 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   const Point point = point_of(problem, p);
   Reasons reasons(problem, known, fit);
   fit.freedom = known.freedom;
+  fit.interval_factor = numerics::student_t(0.975, known.freedom);  // I-8
   fit.law = force::with_coefficients(point.law, K.first(index(problem.columns)));
   for (std::size_t c = 0; c < index(problem.columns); ++c) {
     if (reasons.determined(c)) fit.coefficients[c] = reasons.estimate(c, K[c]);

@@ -11,10 +11,7 @@ namespace trochoid::identification {
 /// @brief Number of equations: three a sample, or three a column of the band.
 double equations_of(const Problem& problem, std::span<const Run> runs);
 
-/// @brief Fitted forces, channel offsets, RMS and correlation of the residuals.
-///
-/// @eq I-5 RMS_q = sqrt(mean over samples of dF_q^2), RMS^2 = sum_q RMS_q^2
-/// @eq I-8 r = sum(dF_i dF_(i+1)) / sum(dF_i^2), over channels and runs
+/// @brief Fitted forces and channel offsets, and what they leave (fill_residuals).
 void fill_fitted(const Problem& problem, std::span<const Run> runs,
                  const Evaluation& at, const numerics::LeastSquares& linear, Fit& fit);
 

@@ -1,5 +1,6 @@
 #include <trochoid/identification/answer.h>
 #include <trochoid/identification/jumps.h>
+#include <trochoid/identification/residuals.h>
 #include <trochoid/identification/search.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/least_squares.h>
@@ -19,6 +20,10 @@ constexpr double constant_force = 1e-7;
 /// A fit must explain so many times more than it would of noise (the F statistic): with
 /// all phases tried, noise alone reaches about 5.
 constexpr double least_F = 10.0;
+
+/// Part of the sum of squares of the force that a fit must explain, unless what it
+/// leaves is noise.
+constexpr double least_explained = 0.1;
 
 /// With fewer equations to spare a fit meets the record in several false minima, and
 /// its standard errors mean nothing.
@@ -76,6 +81,25 @@ bool only_noise(const Problem& problem, const numerics::LeastSquares& linear,
   const double means = 3.0 * static_cast<double>(problem.runs.size());
   return rss_of_means(problem) - linear.rss <
          least_F * std::max(1.0, unknowns - means) * variance;
+}
+
+/// A fit that explains next to nothing of a force that is not noise: why, else empty.
+std::string nothing_explained(const Fit& fit) {
+  const Unexplained& u = fit.unexplained;
+  if (u.all * u.all <= 1.0 - least_explained || u.correlation <= noise_correlation) {
+    return "";  // I-9
+  }
+  return fmt::format(
+      "the best fit explains {:.1f} % of the force (sum of squares), and what it "
+      "leaves "
+      "is not noise: this record and this tool and cut do not belong together",
+      100.0 * (1.0 - u.all * u.all));
+}
+
+double samples_of(std::span<const Run> runs) {
+  double sum = 0.0;
+  for (const Run& run : runs) sum += static_cast<double>(run.angle.size());
+  return sum;
 }
 
 Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
@@ -188,9 +212,13 @@ void answer_at(const Problem& problem, std::span<const Run> runs,
     return;
   }
   fill_fitted(problem, runs, at, linear, fit);
+  fit.message = nothing_explained(fit);
+  if (!fit.message.empty()) {
+    refuse_coefficients(problem, fit);
+    return;
+  }
   const double equations = equations_of(problem, runs);
-  const double rss =
-      problem.runs.front().band > 0 ? linear.rss : fit.rms * fit.rms * equations / 3.0;
+  const double rss = fit.rms * fit.rms * samples_of(runs);
   const Uncertainty known = uncertainty(problem, p, linear.x, rss, equations);
   if (means_do_not_suffice(problem) &&
       only_noise(problem, linear, rss / known.freedom)) {

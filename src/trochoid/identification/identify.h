@@ -51,6 +51,15 @@ struct Estimate {
   double high = 0.0;
 };
 
+/// How much of the measured force a fit does not explain, as parts of its RMS from 0
+/// to 1. Constants and slopes of the channels, where they are fitted, are no force.
+struct Unexplained {
+  double in_band = 0.0;  ///< of the force within the band of the fit
+  double all = 0.0;      ///< of the whole force, what lies outside of the band included
+  double outside = 0.0;  ///< part of the force that lies outside of the band
+  double correlation = 0.0;  ///< of neighbouring residuals, with a band limit as well
+};
+
 /// @brief Result of one fit. Coefficients in SI, in the order of force::coefficients.
 ///
 /// A quantity that is named in `unidentifiable` has no value: what stands for it in
@@ -74,14 +83,19 @@ struct Fit {
   std::vector<std::array<ChannelOffset, 3>> channel_offsets;  ///< one a run, or empty
   double rms = 0.0;                                           ///< [N], I-5
   std::array<double, 3> rms_axis{};                           ///< [N]
-  double condition = 0.0;  ///< of [D], unit-norm columns
-  int rank = 0;            ///< of [D], channel columns included
-  double freedom = 0.0;    ///< equations less unknowns
+  double condition = 0.0;        ///< of [D], unit-norm columns
+  int rank = 0;                  ///< of [D], channel columns included
+  double freedom = 0.0;          ///< equations less unknowns
+  double interval_factor = 0.0;  ///< half of a 95 % interval over its standard error
   /// Unidentifiable quantities, by name of the summary, and why.
   std::vector<std::pair<std::string, std::string>> unidentifiable;
+  /// Runout that is found where a tooth just starts or stops cutting: a value without a
+  /// standard error.
+  std::vector<std::string> on_edge;
   /// Correlation of neighbouring residuals; well above 0, the standard errors are too
   /// small. 0 with a band limit, which correlates them by itself.
   double residual_correlation = 0.0;
+  Unexplained unexplained;
   /// Fitted force of each run with its channel offsets, shape (n).
   std::vector<std::vector<std::array<double, 3>>> fitted;
 };
@@ -95,6 +109,7 @@ struct Fit {
 /// @eq  I-5 RMS = sqrt(mean over samples of |dF|^2)
 /// @eq  I-7 {F_c} = [D]_c {K} + a_c + b_c (t - mean t)/(t_last - t_first)
 /// @eq  I-8 value +- t_0.975(n - dim K - dim p) se
+/// @eq  I-9 nothing is explained where u > sqrt(0.9) and r > 0.3
 /// @src [riviere2009] eq. 20 to 22, section 3.3; I-3, I-4, I-8 standard
 ///
 /// @param setup  tool, given runout (start or fixed), chip lookback, edge length; its

@@ -17,6 +17,8 @@ constexpr double separable = 0.01;
 constexpr double takes_part = 1e-3;  ///< of the largest part in a null direction
 
 constexpr Step fine_step{1e-4, 1e-5, true};
+/// Slopes to either side that differ by more than this are those of an edge.
+constexpr double edge_ratio = 3.0;
 
 std::size_t index(int i) noexcept {
   return static_cast<std::size_t>(i);
@@ -37,40 +39,59 @@ std::vector<double> keep_columns(std::span<const double> A, std::size_t width,
   return out;
 }
 
+/// The change of the force with an unknown.
+struct Slope {
+  std::vector<double> column;
+  bool on_edge = false;  ///< very different to either side
+};
+
 /// Where the force jumps as an unknown passes a value, the jump itself says nothing
 /// about the neighbourhood: of both one-sided differences the smaller one is without
 /// it.
-std::vector<double> smooth_derivative(const Problem& problem, const Evaluation& at,
-                                      std::span<const double> p, int i,
-                                      std::span<const double> K) {
-  if (!sum_of_squares_jumps(problem)) {
-    return derivative(problem, at, p, i, K, fine_step);
-  }
-  std::vector<double> ahead =
-      derivative(problem, at, p, i, K, {fine_step.parameter, fine_step.phase, false});
-  std::vector<double> behind =
+Slope slope_of(const Problem& problem, const Evaluation& at, std::span<const double> p,
+               int i, std::span<const double> K) {
+  Slope out{
+      derivative(problem, at, p, i, K, {fine_step.parameter, fine_step.phase, false}),
+      false};
+  const std::vector<double> behind =
       derivative(problem, at, p, i, K, {-fine_step.parameter, -fine_step.phase, false});
-  return norm(ahead) < norm(behind) ? ahead : behind;
+  const double a = norm(out.column);
+  const double b = norm(behind);
+  if (sum_of_squares_jumps(problem)) {
+    if (b <= a) out.column = behind;
+    return out;
+  }
+  out.on_edge = std::max(a, b) > edge_ratio * std::min(a, b);
+  std::ranges::transform(out.column, behind, out.column.begin(),
+                         [](double x, double y) { return 0.5 * (x + y); });
+  return out;
 }
 
-/// [D] and the derivatives beside it, row-major.
-std::vector<double> full_jacobian(const Problem& problem, std::span<const double> p,
-                                  std::span<const double> K) {
+/// Derivatives of the force by all unknowns.
+struct Jacobian {
+  std::vector<double> J;      ///< [D] and the derivatives beside it, row-major
+  std::vector<bool> on_edge;  ///< shape (linear + count)
+};
+
+Jacobian full_jacobian(const Problem& problem, std::span<const double> p,
+                       std::span<const double> K) {
   const Evaluation at = evaluate(problem, p);
   const std::vector<double> D = design(problem, at);
   const std::size_t linear = index(problem.linear());
   const std::size_t width = linear + p.size();
   const std::size_t rows = index(problem.rows());
-  std::vector<double> J(rows * width);
+  Jacobian out{std::vector<double>(rows * width), std::vector<bool>(width, false)};
   for (std::size_t k = 0; k < rows; ++k) {
-    std::copy_n(&D[k * linear], linear, &J[k * width]);
+    std::copy_n(&D[k * linear], linear, &out.J[k * width]);
   }
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const std::vector<double> column =
-        smooth_derivative(problem, at, p, static_cast<int>(i), K);
-    for (std::size_t k = 0; k < rows; ++k) J[k * width + linear + i] = column[k];
+    const Slope slope = slope_of(problem, at, p, static_cast<int>(i), K);
+    out.on_edge[linear + i] = slope.on_edge;
+    for (std::size_t k = 0; k < rows; ++k) {
+      out.J[k * width + linear + i] = slope.column[k];
+    }
   }
-  return J;
+  return out;
 }
 
 std::string together(const std::vector<std::string>& names,
@@ -154,14 +175,17 @@ Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
   const std::vector<std::string> names = names_of(problem);
   const std::size_t width = names.size();
   const std::size_t linear = index(problem.linear());
-  const std::vector<double> J = full_jacobian(problem, p, K);
+  const auto [J, on_edge] = full_jacobian(problem, p, K);
   const std::vector<double> b = measured(problem);
   Uncertainty out;
   out.reason.assign(width, "");
+  out.on_edge.assign(width, false);
   drop_insensitive(J, width, linear, norm(b), out);
   std::vector<std::size_t> kept;
+  const std::size_t runout_end = linear + index(problem.unknowns.runout_count());
   for (std::size_t c = 0; c < width; ++c) {
-    if (out.reason[c].empty()) kept.push_back(c);
+    out.on_edge[c] = on_edge[c] && c < runout_end && out.reason[c].empty();
+    if (out.reason[c].empty() && !out.on_edge[c]) kept.push_back(c);
   }
   const numerics::LeastSquares fit = drop_dependent(J, names, b, kept, out);
   out.freedom = equations - static_cast<double>(kept.size());
@@ -202,7 +226,7 @@ std::optional<double> single_direction(const Problem& problem,
   if (u.runout != RunoutUnknowns::eccentricity || u.direction) return std::nullopt;
   Problem first = problem;
   first.setup.runout.order = geometry::EccentricityOrder::first;
-  const std::vector<double> J = full_jacobian(first, p, K);
+  const std::vector<double> J = full_jacobian(first, p, K).J;
   const std::size_t linear = index(problem.linear());
   const std::size_t width = linear + p.size();
   std::vector<std::size_t> others(linear);

@@ -18,6 +18,9 @@ inline constexpr double final_tolerance = 1e-10;
 struct Uncertainty {
   /// Why an unknown is not determined; empty: it is. Shape (linear + count).
   std::vector<std::string> reason;
+  /// The fit sits where a tooth just starts or stops cutting: determined, but by two
+  /// different slopes, so that it has no standard error. It counts as known.
+  std::vector<bool> on_edge;
   std::vector<double> covariance;  ///< shape (linear + count, linear + count)
   double freedom = 0.0;
 };

@@ -1,5 +1,6 @@
 #include <trochoid/report/report.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -89,13 +90,22 @@ std::string provenance(const std::string& summary, const char* key) {
   return read.value("trochoid", nlohmann::json::object()).value(key, "unknown");
 }
 
+/// Failed, or answered with numbers that must not be used, or ok.
+std::string status(const base::Answer& answer) {
+  if (!answer.ok) return "failed";
+  const bool doubtful =
+      std::any_of(answer.warnings.begin(), answer.warnings.end(),
+                  [](const auto& warning) { return warning.code == "do_not_use"; });
+  return doubtful ? "doubtful" : "ok";
+}
+
 std::string value_of(std::string_view name, const base::Answer& answer,
                      const std::string& summary) {
   if (name == "title") {
     return escaped(answer.title.empty() ? answer.command : answer.title);
   }
   if (name == "command") return escaped(answer.command);
-  if (name == "status") return answer.ok ? "ok" : "failed";
+  if (name == "status") return status(answer);
   if (name == "verdict") return answer.ok ? "" : "No good answer";
   if (name == "message") return escaped(answer.message);
   if (name == "warnings") return warnings_html(answer);

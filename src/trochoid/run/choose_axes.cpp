@@ -112,6 +112,7 @@ AxesChoice choose_axes(const inputs::Case& given, const std::vector<MeasuredRun>
       [](const Reading& a, const Reading& b) { return positive(a) < positive(b); });
   if (!std::isfinite(chosen.rms) || positive(chosen) == 0) {
     choice.message = "no reading of the channels could be fitted: " + choice.message;
+    choice.rms = chosen.rms;
     return choice;
   }
   choice.ok = true;
@@ -136,6 +137,12 @@ AxesChoice choose_axes(const inputs::Case& given, const std::vector<MeasuredRun>
              choice.next_rms / choice.rms)});
   }
   return choice;
+}
+
+double reading_rms(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
+                   const Matrix3& M) {
+  std::string message;
+  return fitted(given, runs, M, message).rms;
 }
 
 }  // namespace trochoid::run

@@ -15,7 +15,7 @@ struct AxesChoice {
   bool ok = false;
   std::string message;    ///< when not ok, why
   Matrix3 matrix{};       ///< channels = matrix times force on the tool
-  double rms = 0.0;       ///< of the low band with this choice [N]
+  double rms = 0.0;       ///< of the low band with this choice [N]; infinite: no fit
   double next_rms = 0.0;  ///< of the best choice that is not the same data [N]
 };
 
@@ -26,5 +26,10 @@ struct AxesChoice {
 /// always eight) are decided by K_tc, K_rc, K_ac > 0.
 AxesChoice choose_axes(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
                        const Progress& progress, std::vector<base::Warning>& warnings);
+
+/// @brief What a given reading of the channels leaves, as choose_axes compares it [N];
+/// infinite where it cannot be fitted.
+double reading_rms(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
+                   const Matrix3& M);
 
 }  // namespace trochoid::run

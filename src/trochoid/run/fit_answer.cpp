@@ -1,6 +1,7 @@
 #include <trochoid/run/fit_answer.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/identification/residuals.h>
 #include <trochoid/run/coefficient_names.h>
 
 #include <fmt/core.h>
@@ -89,36 +90,6 @@ Json channel_offsets_json(const Fit& fit) {
   return runs;
 }
 
-std::string cell(const std::optional<Estimate>& e, double unit) {
-  if (!e) {
-    return "not identifiable";
-  }
-  return fmt::format("{:.5g} +- {:.2g}", e->value / unit, e->se / unit);
-}
-
-std::string offsets_text(const Fit& fit) {
-  if (!fit.ok || fit.chip.model == chip::Model::none) {
-    return "-";
-  }
-  std::string text;
-  for (std::size_t k = 1; k < fit.runout.radial_offsets.size(); ++k) {
-    const auto& se = fit.radial_offsets_se[k];
-    text += k > 1 ? ", " : "";
-    text += fmt::format("{:.2f}", fit.runout.radial_offsets[k] / unit::um);
-    text += se ? fmt::format(" +- {:.2f}", *se / unit::um) : "";
-  }
-  return text.empty() ? "-" : text;
-}
-
-std::string eccentricity_text(const Fit& fit) {
-  if (!fit.ok || fit.chip.model == chip::Model::none ||
-      unidentifiable(fit, "eccentricity_mm")) {
-    return "-";
-  }
-  return fmt::format("{:.2f} at {:.0f} deg", fit.runout.eccentricity / unit::um,
-                     unit::in(fit.runout.angle, unit::deg));
-}
-
 }  // namespace
 
 const char* model_name(chip::Model model) {
@@ -177,52 +148,19 @@ Json fit_json(const Fit& fit) {
   const bool solved = fit.rank > 0;  // a refusal may come before the equations
   out["condition"] = solved ? Json(fit.condition) : Json(nullptr);
   out["rank"] = solved ? Json(fit.rank) : Json(nullptr);
-  out["degrees_of_freedom"] = fit.ok ? Json(fit.freedom) : Json(nullptr);
-  out["residual_correlation"] = fit.ok ? Json(fit.residual_correlation) : Json(nullptr);
+  const auto number = [&](double value) {
+    return fit.ok ? Json(value) : Json(nullptr);
+  };
+  out["degrees_of_freedom"] = number(fit.freedom);
+  out["interval_factor"] = number(fit.interval_factor);
+  out["residual_correlation"] = number(fit.residual_correlation);
+  out["se_correlation_factor"] =
+      number(identification::correlation_factor(fit.residual_correlation));
+  out["unexplained_in_band"] = number(fit.unexplained.in_band);
+  out["unexplained"] = number(fit.unexplained.all);
+  out["outside_band"] = number(fit.unexplained.outside);
   out["identifiable"] = identifiable;
   return out;
-}
-
-std::string fits_table(std::span<const Fit> fits) {
-  std::string text = fmt::format("{:<24}", "chip model");
-  for (const Fit& fit : fits) {
-    text += fmt::format("{:>20}", model_name(fit.chip.model));
-  }
-  text += '\n';
-  const auto row = [&](const char* name, const auto& value) {
-    text += fmt::format("{:<24}", name);
-    for (const Fit& fit : fits) {
-      text += fmt::format("{:>20}", fit.ok ? value(fit) : std::string("-"));
-    }
-    text += '\n';
-  };
-  const auto names = coefficient_names(fits.front().law);
-  for (std::size_t q = 0; q < names.size(); ++q) {
-    row(names[q].key,
-        [&](const Fit& fit) { return cell(fit.coefficients[q], names[q].unit); });
-  }
-  for (std::size_t q = 0; q < fits.front().exponents.size(); ++q) {
-    row(exponent_names[q], [&](const Fit& fit) { return cell(fit.exponents[q], 1.0); });
-  }
-  if (fits.front().options.runout == RunoutUnknowns::eccentricity) {
-    row("eccentricity_um", eccentricity_text);
-  } else {
-    row("radial_offsets_um[2..]", offsets_text);
-  }
-  row("phase_deg", [](const Fit& fit) {
-    std::string phases;
-    for (const Json& phase : phases_json(fit)) {
-      phases += phases.empty() ? "" : ", ";
-      phases += phase.is_null() ? "?" : fmt::format("{:.2f}", phase.get<double>());
-    }
-    return phases;
-  });
-  row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
-  row("condition", [](const Fit& fit) {
-    return fit.condition < 1e8 ? fmt::format("{:.1f}", fit.condition)
-                               : std::string("rank deficient");
-  });
-  return text;
 }
 
 }  // namespace trochoid::run

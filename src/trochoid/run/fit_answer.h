@@ -16,13 +16,6 @@ nlohmann::ordered_json alone_or_list(const nlohmann::ordered_json& list);
 /// @brief One entry of `fits` of the summary.
 nlohmann::ordered_json fit_json(const identification::Fit& fit);
 
-/// @brief The fits side by side, for a person.
-std::string fits_table(std::span<const identification::Fit> fits);
-
-/// @brief material.toml: what another case includes to use what was found.
-std::string material_toml(const identification::Fit& fit,
-                          force::EdgeLength edge_length);
-
 /// Name of a chip model in files.
 const char* model_name(chip::Model model);
 

@@ -1,11 +1,14 @@
 #include <trochoid/run/fit_warnings.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/identification/residuals.h>
 #include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/fit_answer.h>
-#include <trochoid/signal/band.h>
+#include <trochoid/run/rounded.h>
+#include <trochoid/run/trust.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,23 +18,23 @@ namespace trochoid::run {
 namespace {
 
 using identification::Fit;
-using identification::Run;
 using Warnings = std::vector<base::Warning>;
 
-/// Neighbouring residuals that agree more than this are not white noise.
-constexpr double much_correlation = 0.3;
-/// Part of the force that may lie above the harmonics that a rigid tool makes.
+/// Cutting coefficients of real materials, from plastics to hardened steel [N/m^2].
+constexpr double softest = 100 * unit::MPa;
+constexpr double hardest = 20000 * unit::MPa;
+/// Part of the force (rms) that may stay unexplained, or outside of the band, unsaid.
 constexpr double much_ringing = 0.2;
 
 void warn_correlation(const Fit& chosen, Warnings& warnings) {
   const double r = chosen.residual_correlation;
-  if (r > much_correlation) {
+  if (r > identification::noise_correlation) {
     warnings.push_back(
         {"correlated_residuals",
          fmt::format("What the fit leaves is not noise: neighbouring samples agree "
-                     "(correlation {:.2f}). The standard errors assume white noise; "
-                     "multiply them by about {:.1f}.",
-                     r, std::sqrt((1 + r) / (1 - std::min(r, 0.999))))});
+                     "(correlation {:.2f}). Standard errors and intervals assume white "
+                     "noise; multiply them by about {:.1f}.",
+                     r, identification::correlation_factor(r))});
   }
 }
 
@@ -43,61 +46,61 @@ void warn_unidentifiable(const Fit& chosen, Warnings& warnings) {
 
 void warn_signs(const Fit& chosen, Warnings& warnings) {
   const auto names = coefficient_names(chosen.law);
+  std::vector<const char*> negative;
   for (std::size_t q = 0; q < chosen.coefficients.size(); ++q) {
     const auto& K = chosen.coefficients[q];
     const bool along_the_axis = q % 3 == 2;  // may pull either way
     if (K && K->high < 0 && !along_the_axis) {
-      warnings.push_back(
-          {"negative_coefficient",
-           fmt::format("{} came out negative, which no cut does: check the axes of the "
-                       "dynamometer and the sense of rotation.",
-                       names[q].key)});
+      negative.push_back(names[q].key);
     }
+  }
+  if (!negative.empty()) {
+    warnings.push_back(
+        {"negative_coefficient",
+         fmt::format("{} came out negative, which no cut does: check the axes of the "
+                     "dynamometer and the sense of rotation.",
+                     fmt::join(negative, ", "))});
   }
 }
 
-/// What the band leaves out, as a part of the force.
-void warn_ringing(const inputs::Case& given, std::span<const Run> runs,
-                  const Fit& chosen, Warnings& warnings) {
-  const int band = given.identify.band_harmonics;
-  double left_out = 0.0;
-  double all = 0.0;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    for (std::size_t q = 0; q < 3; ++q) {
-      std::vector<double> difference(runs[r].angle.size());
-      for (std::size_t i = 0; i < difference.size(); ++i) {
-        difference[i] = runs[r].force[i][q] - chosen.fitted[r][i][q];
-        all += runs[r].force[i][q] * runs[r].force[i][q];
-      }
-      for (const double d : difference) {
-        left_out += d * d;
-      }
-      if (band > 0) {
-        for (const double d : signal::Band(runs[r].angle, band).project(difference)) {
-          left_out -= d * d;
-        }
-      }
-    }
-  }
-  const double part = std::sqrt(std::max(0.0, left_out) / std::max(all, 1e-300));
-  if (part <= much_ringing) {
+void warn_size(const Fit& chosen, Warnings& warnings) {
+  const auto& K_tc = chosen.coefficients.front();
+  if (!K_tc || !std::holds_alternative<force::LinearEdge>(chosen.law) ||
+      (K_tc->value >= softest && K_tc->value <= hardest)) {
     return;
   }
-  if (band > 0) {
+  warnings.push_back(
+      {"implausible",
+       fmt::format("K_tc_MPa = {:.4g} is outside of what materials have ({:g} to {:g} "
+                   "MPa): check the unit of the forces, the feed and the axial depth.",
+                   K_tc->value / unit::MPa, softest / unit::MPa, hardest / unit::MPa)});
+}
+
+/// What the fit does not explain and has not looked at.
+void warn_ringing(const inputs::Case& given, const Fit& chosen, Warnings& warnings) {
+  const identification::Unexplained& u = chosen.unexplained;
+  if (u.outside > much_ringing) {
     warnings.push_back(
         {"outside_the_band",
-         fmt::format(
-             "{:.0f} % of the force (rms) lies outside the mean and the first {} "
-             "harmonics and is not explained: a ringing dynamometer, chatter or "
-             "noise.",
-             100 * part, band)});
-  } else {
+         fmt::format("{} of the force (rms) lies outside the mean and the first {} "
+                     "harmonics, where the fit does not look: a ringing dynamometer, "
+                     "chatter or noise.",
+                     percent(u.outside), given.identify.band_harmonics)});
+  }
+  const bool noise = given.identify.band_harmonics == 0 &&
+                     chosen.residual_correlation <= identification::noise_correlation;
+  if (u.in_band > much_ringing && !noise && reasons_against(chosen).empty()) {
+    const std::string hint =
+        given.identify.band_harmonics > 0
+            ? "Look at the residuals."
+            : fmt::format(
+                  "If the dynamometer rings, a fit of every harmonic is "
+                  "confidently wrong: try band_harmonics = {} in [identify].",
+                  given.setup.cutter.teeth());
     warnings.push_back(
         {"poor_fit",
-         fmt::format("{:.0f} % of the force (rms) is not explained. If the dynamometer "
-                     "rings, a fit of every harmonic is confidently wrong: try "
-                     "band_harmonics = {} in [identify].",
-                     100 * part, given.setup.cutter.teeth())});
+         fmt::format("{} of the force (rms{}) is not explained. {}", percent(u.in_band),
+                     given.identify.band_harmonics > 0 ? ", in the band" : "", hint)});
   }
 }
 
@@ -128,25 +131,42 @@ void warn_other_model(std::span<const Fit> fits, const Fit& chosen,
 
 void warn_large_runout(const inputs::Case& given, const Fit& chosen,
                        Warnings& warnings) {
-  const auto& offsets = chosen.runout.radial_offsets;
-  if (offsets.empty() || chosen.chip.model == chip::Model::none) {
+  if (chosen.chip.model == chip::Model::none || !(given.setup.cut.f_z > 0)) {
     return;
   }
-  const auto [lo, hi] = std::minmax_element(offsets.begin(), offsets.end());
-  if (*hi - *lo > given.setup.cut.f_z && given.setup.cut.f_z > 0) {
+  double lo = 0.0;
+  double hi = 0.0;
+  const auto& offsets = chosen.runout.radial_offsets;
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    if (!unidentifiable(chosen, fmt::format("radial_offsets_mm[{}]", k + 1))) {
+      lo = std::min(lo, offsets[k]);
+      hi = std::max(hi, offsets[k]);
+    }
+  }
+  if (hi - lo > given.setup.cut.f_z) {
     warnings.push_back(
         {"runout_above_feed",
          fmt::format("The teeth differ by {:.1f} um, more than the feed per tooth: a "
                      "tooth may cut nothing.",
-                     (*hi - *lo) / unit::um)});
+                     (hi - lo) / unit::um)});
+  }
+}
+
+void warn_edge(const Fit& chosen, Warnings& warnings) {
+  for (const std::string& name : chosen.on_edge) {
+    warnings.push_back(
+        {"runout_on_edge",
+         fmt::format(
+             "{} is found where a tooth just starts or stops cutting: the force "
+             "tells it to one side only, so it has no standard error.",
+             name)});
   }
 }
 
 }  // namespace
 
-void add_fit_warnings(const inputs::Case& given, std::span<const Run> runs,
-                      std::span<const Fit> fits, const Fit& chosen,
-                      Warnings& warnings) {
+void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
+                      const Fit& chosen, Warnings& warnings) {
   for (const Fit& fit : fits) {
     if (!fit.ok) {
       warnings.push_back(
@@ -156,11 +176,13 @@ void add_fit_warnings(const inputs::Case& given, std::span<const Run> runs,
   }
   warn_unidentifiable(chosen, warnings);
   warn_signs(chosen, warnings);
+  warn_size(chosen, warnings);
   warn_correlation(chosen, warnings);
-  warn_ringing(given, runs, chosen, warnings);
+  warn_ringing(given, chosen, warnings);
   warn_freedom(chosen, warnings);
   warn_other_model(fits, chosen, warnings);
   warn_large_runout(given, chosen, warnings);
+  warn_edge(chosen, warnings);
 }
 
 }  // namespace trochoid::run

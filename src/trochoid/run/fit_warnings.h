@@ -11,7 +11,6 @@ namespace trochoid::run {
 
 /// @brief What an engineer should know before trusting a fit.
 void add_fit_warnings(const inputs::Case& given,
-                      std::span<const identification::Run> runs,
                       std::span<const identification::Fit> fits,
                       const identification::Fit& chosen,
                       std::vector<base::Warning>& warnings);

@@ -7,8 +7,11 @@
 #include <trochoid/run/fit_answer.h>
 #include <trochoid/run/fit_options.h>
 #include <trochoid/run/fit_warnings.h>
+#include <trochoid/run/fits_table.h>
+#include <trochoid/run/likely_causes.h>
 #include <trochoid/run/material.h>
 #include <trochoid/run/measured_run.h>
+#include <trochoid/run/trust.h>
 #include <trochoid/signal/axes.h>
 
 #include <fmt/core.h>
@@ -163,6 +166,56 @@ std::string headline(const Fit& fit, const std::vector<MeasuredRun>& runs) {
       fit.rms);
 }
 
+void add_causes(const inputs::Case& given, const std::vector<MeasuredRun>& measured,
+                const Matrix3& M, const Progress& progress, base::Answer& answer) {
+  auto causes = likely_causes(given, measured, M, progress);
+  const bool after_verdict =
+      !answer.warnings.empty() && answer.warnings.front().code == "do_not_use";
+  answer.warnings.insert(answer.warnings.begin() + (after_verdict ? 1 : 0),
+                         causes.begin(), causes.end());
+}
+
+/// What the reader of the records noted is less urgent than what the fit says.
+void put_notes_last(std::vector<base::Warning>& warnings) {
+  std::stable_partition(
+      warnings.begin(), warnings.end(), [](const base::Warning& warning) {
+        return warning.code != "part_of_record" && warning.code != "unit_assumed";
+      });
+}
+
+/// Warnings, and before everything else whether the numbers may be used at all.
+/// @return what speaks against that
+std::vector<std::string> judge(const inputs::Case& given, const std::vector<Fit>& fits,
+                               const Fit& chosen, base::Answer& answer, Json& result) {
+  const auto reasons = reasons_against(chosen);
+  result["do_not_use"] = reasons;
+  add_fit_warnings(given, fits, chosen, answer.warnings);
+  if (!reasons.empty()) {
+    const std::string verdict = do_not_use(reasons);
+    answer.message = verdict + " " + answer.message;
+    answer.short_table += verdict + "\n\n";
+    answer.warnings.insert(answer.warnings.begin(), {"do_not_use", verdict});
+  }
+  return reasons;
+}
+
+/// Below the table of fits: axes and spindle speeds found.
+std::string signal_lines(const std::vector<MeasuredRun>& measured,
+                         const AxesChoice& axes) {
+  std::string text;
+  if (axes.ok) {
+    const auto names = signal::axes_names(axes.matrix);
+    text += fmt::format(
+        "axes found: channels read {}, {}, {} (next best {:.2f} times worse)\n",
+        names[0], names[1], names[2], axes.next_rms / axes.rms);
+  }
+  for (const MeasuredRun& run : measured) {
+    text += fmt::format("{}: {:.2f} rpm (stated {:g})\n", run.record.file,
+                        run.Omega / unit::rpm, run.cut.Omega / unit::rpm);
+  }
+  return text;
+}
+
 }  // namespace
 
 base::Answer identify(const inputs::Case& given, const Progress& progress) {
@@ -180,6 +233,10 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
   if (dynamometer.automatic) {
     axes = choose_axes(given, measured, progress, answer.warnings);
     if (!axes.ok) {
+      if (std::isfinite(axes.rms)) {
+        add_causes(given, measured, dynamometer.matrix, progress, answer);
+      }
+      put_notes_last(answer.warnings);
       return failed(std::move(answer), axes.message, nothing);
     }
     dynamometer.matrix = axes.matrix;
@@ -198,6 +255,10 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
   }
   const std::size_t best = chosen_fit(fits);
   if (best == fits.size()) {
+    if (fits.back().rms > 0) {  // equations that could be solved, to no avail
+      add_causes(given, measured, dynamometer.matrix, progress, answer);
+    }
+    put_notes_last(answer.warnings);
     return failed(std::move(answer), fits.back().message, result);
   }
   const Fit& chosen = fits[best];
@@ -206,21 +267,14 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
   for (auto& table : sweep_tables(given, runs, fits, progress)) {
     answer.tables.push_back(std::move(table));
   }
-  add_fit_warnings(given, runs, fits, chosen, answer.warnings);
   answer.texts.push_back(
       {"material.toml", material_toml(chosen, given.setup.edge_length)});
   answer.message = headline(chosen, measured);
-  answer.short_table += fits_table(fits);
-  if (axes.ok) {
-    const auto names = signal::axes_names(dynamometer.matrix);
-    answer.short_table += fmt::format(
-        "axes found: channels read {}, {}, {} (next best {:.2f} times worse)\n",
-        names[0], names[1], names[2], axes.next_rms / axes.rms);
+  if (!judge(given, fits, chosen, answer, result).empty()) {
+    add_causes(given, measured, dynamometer.matrix, progress, answer);
   }
-  for (const MeasuredRun& run : measured) {
-    answer.short_table += fmt::format("{}: {:.2f} rpm (stated {:g})\n", run.record.file,
-                                      run.Omega / unit::rpm, run.cut.Omega / unit::rpm);
-  }
+  put_notes_last(answer.warnings);
+  answer.short_table += fits_table(fits) + signal_lines(measured, axes);
   answer.result = result.dump();
   return answer;
 }

@@ -1,7 +1,9 @@
 #include <trochoid/run/material.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/identification/residuals.h>
 #include <trochoid/run/coefficient_names.h>
+#include <trochoid/run/trust.h>
 
 #include <fmt/core.h>
 
@@ -36,16 +38,27 @@ std::string runout_toml(const Fit& fit) {
 
 std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
   const bool power = std::holds_alternative<force::Power>(fit.law);
-  std::string text =
+  std::string text;
+  if (const auto reasons = reasons_against(fit); !reasons.empty()) {
+    text += "# " + do_not_use(reasons) + "\n\n";
+  }
+  text +=
       "# Found by trochoid identify. Use it in another case with\n"
-      "#   include = \"<this file>\"\n\n[force]\n";
+      "#   include = \"<this file>\"\n";
+  if (fit.residual_correlation > identification::noise_correlation) {
+    text += fmt::format(
+        "# What the fit leaves is correlated: the intervals are {:.1f} times wider.\n",
+        identification::correlation_factor(fit.residual_correlation));
+  }
+  text += "\n[force]\n";
   text += fmt::format("law = \"{}\"\n", power ? "power" : "linear_edge");
   const auto names = coefficient_names(fit.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     if (fit.coefficients[q]) {
-      text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
-                          fit.coefficients[q]->value / names[q].unit,
-                          fit.coefficients[q]->se / names[q].unit);
+      const auto& K = *fit.coefficients[q];
+      text +=
+          fmt::format("{} = {}  # 95 %: +- {:.2g}\n", names[q].key,
+                      K.value / names[q].unit, 0.5 * (K.high - K.low) / names[q].unit);
     } else {
       text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
     }

@@ -1,4 +1,5 @@
 """What the exit code says: 0 answered, 1 no good answer, 2 the input is wrong."""
+import math
 import signal
 import subprocess
 import time
@@ -77,6 +78,47 @@ class ExitCode(InFolder):
         self.assertIsInstance(fit["identifiable"]["K_ae_N_per_mm"], str)
         self.assertIsNone(fit["channel_offsets"][0][2]["constant_N"])
         self.assertLess(max(map(abs, numbers(fit["channel_offsets"]))), 1e3)
+
+    def test_numbers_that_must_not_be_used_say_so_first(self):
+        """Channels in the wrong order: a fit of every harmonic, and an answer of 0."""
+        self.record()
+        self.write("cut.toml", identification(dynamometer={"axes": ["z", "x", "y"]}))
+        done = self.run_program("identify", "cut.toml")
+        summary = self.summary("cut.identify")
+        self.assertTrue(summary["result"]["do_not_use"])
+        self.assertTrue(summary["message"].startswith("Do not use these numbers: "))
+        self.assertEqual(done.stdout.splitlines()[2].split(":")[0], "Do not use these numbers")
+        self.assertEqual([w["code"] for w in summary["warnings"][:2]],
+                         ["do_not_use", "likely_cause"])
+        self.assertIn('axes = "auto"', summary["warnings"][1]["message"])
+        self.assertIn("x, y, z", summary["warnings"][1]["message"])
+        self.assertIn("warning [do_not_use]: ", done.stdout)
+        folder = self.folder / "cut.identify"
+        self.assertTrue((folder / "material.toml").read_text().startswith("# Do not use"))
+        self.assertIn('<body class="doubtful">', (folder / "report.html").read_text())
+
+    def test_usable_numbers_say_nothing_of_the_kind(self):
+        self.record()
+        self.write("cut.toml", identification())
+        done = self.run_program("identify", "cut.toml")
+        self.assertEqual(self.summary("cut.identify")["result"]["do_not_use"], [])
+        self.assertNotIn("Do not use", done.stdout)
+        report = (self.folder / "cut.identify/report.html").read_text()
+        self.assertIn('<body class="ok">', report)
+
+    def test_a_record_that_is_not_of_this_cut_is_1(self):
+        self.write("record.csv", "angle_deg,Fx_N,Fy_N,Fz_N\n" + "".join(
+            f"{3 * i}," + ",".join(f"{100 * math.sin(math.radians(21 * i) + q)!r}"
+                                   for q in range(3)) + "\n" for i in range(120)))
+        self.write("cut.toml", identification())
+        done = self.run_program("identify", "cut.toml", code=1)
+        summary = self.summary("cut.identify")
+        self.assertIn("not noise", summary["message"])
+        self.assertIn("likely_cause", [w["code"] for w in summary["warnings"]])
+        self.assertIn("No answer: ", done.stdout)
+        for fit in summary["result"]["fits"]:
+            self.assertTrue(all(v is None for v in fit["coefficients"].values()))
+            self.assertIsNone(fit["rms_N"])
 
     def test_wrong_commands_are_2(self):
         self.write("cut.toml", simulation())

@@ -28,7 +28,8 @@ NEXT_CLASS = 4.5  # how many times worse the next reading of the channels is
 RPM = {"n6000_f600_ap3.csv": (5999.73, 0.06), "n6000_f1200_ap3.csv": (5999.80, 0.3)}
 
 
-def case():
+def case(**changes):
+    """The tables with changed keys; a table of None is left out."""
     tables = {
         "tool": {"shape": "cylinder", "teeth": 2, "diameter_mm": 25.0, "helix_deg": 45.0},
         "cut": {"engagement": "slot", "axial_depth_mm": 3.0, "feed_per_tooth_mm": 0.05,
@@ -37,6 +38,8 @@ def case():
         "dynamometer": {"axes": "auto"},
         "identify": {"chip_models": ["none", "feed", "trochoidal"], "runout": "offsets",
                      "band_harmonics": 2, "channel_offsets": "fit"}}
+    tables.update(changes)
+    tables = {name: table for name, table in tables.items() if table is not None}
     text = program.case_text("two slots at 6000 rpm", tables)
     for file, feed in FEEDS.items():
         text += (f"\n[[measurement]]\nfile = {program.toml(str(RECORDS / file))}\n"
@@ -93,6 +96,39 @@ class RealRecord(unittest.TestCase):
     def test_the_ringing_beyond_the_band_is_said(self):
         codes = [w["code"] for w in self.answer.summary["warnings"]]
         self.assertIn("outside_the_band", codes)
+
+
+class Naive(unittest.TestCase):
+    """As a newcomer writes it: what comes out must not look like an answer."""
+
+    def answer(self, **changes):
+        folder = tempfile.mkdtemp(prefix="trochoid_")
+        self.addCleanup(shutil.rmtree, folder)
+        return program.run("identify", case(**changes), folder, "naive")
+
+    def warnings(self, answer, code):
+        return [w["message"] for w in answer.summary["warnings"] if w["code"] == code]
+
+    def test_default_axes_are_found_wrong_and_the_right_ones_named(self):
+        for identify in (None, {"band_harmonics": 2}):
+            answer = self.answer(dynamometer=None, identify=identify)
+            self.assertEqual(answer.code, 0)
+            self.assertTrue(answer.result["do_not_use"])
+            self.assertTrue(answer.summary["message"].startswith("Do not use"))
+            cause, = self.warnings(answer, "likely_cause")
+            self.assertIn("y, x, -z", cause)
+
+    def test_a_wrong_spindle_speed_is_no_answer(self):
+        cut = {"engagement": "slot", "axial_depth_mm": 3.0, "feed_per_tooth_mm": 0.05}
+        for rpm in (600, 3000, 5000):
+            answer = self.answer(cut={**cut, "spindle_rpm": rpm})
+            self.assertEqual(answer.code, 1, rpm)
+            causes = self.warnings(answer, "likely_cause")
+            self.assertTrue(any("spindle_rpm" in c for c in causes), causes)
+            self.assertNotRegex(str(answer.summary["warnings"]), r"\d{3} %")
+
+    def test_the_good_case_may_be_used(self):
+        self.assertEqual(self.answer().result["do_not_use"], [])
 
 
 def show(fits):

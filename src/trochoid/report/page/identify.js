@@ -1,6 +1,6 @@
 // The page of `identify`.
 
-const identifyKnown = ['fits', 'chosen', 'signal'];
+const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -12,8 +12,8 @@ function identifyPage(report) {
     text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.',
   });
   return [
-    { lead: best ? headline(best, fits) : null },
-    { part: best ? coefficientSection(best) : null },
+    { lead: best ? headline(best, fits, isEmpty(result.do_not_use)) : null },
+    { part: best ? coefficientSection(best, isEmpty(result.do_not_use)) : null },
     ...curves,
     foldedSection(report),
     { part: fitsSection(fits, best) },
@@ -35,8 +35,8 @@ function reasonOf(fit, key) {
   return entry?.reason || entry?.message || (entry === false ? 'cannot be told apart' : '');
 }
 
-function headline(fit, fits) {
-  const runout = runoutWords(fit.runout);
+function headline(fit, fits, usable) {
+  const runout = runoutWords(fit.runout, fit.interval_factor);
   const [key, main] = coefficientsOf(fit).find(([, entry]) => entry) || [];
   const spread = spreadOf(fit.runout);
   const phases = numbersOf(fit.phase_deg ?? []).filter(isNumber);
@@ -44,16 +44,16 @@ function headline(fit, fits) {
     tiles([
       main && { label: [symbol(nameAndUnit(key).name), ` ${meanings[nameAndUnit(key).name] || ''}`],
         value: measured(main.value, half(main)),
-        unit: nameAndUnit(key).unit, note: known(main).text },
+        unit: nameAndUnit(key).unit, note: known(main, fit, usable).text },
       { label: 'Runout between teeth', value: spread && fixed(spread, 3), unit: 'µm',
-        note: fit.runout?.eccentricity_mm ? 'off centre' : null },
+        note: spread && !usable ? 'do not use' : fit.runout?.eccentricity_mm ? 'off centre' : null },
       { label: 'Residual of the fit', value: isNumber(fit.rms_N) ? fixed(fit.rms_N, 3) : null,
         unit: 'N rms',
         note: comparison(fit, fits) },
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
     ]),
-    runout ? prose('Runout: ', runout, '.') : null,
+    runout && usable ? prose('Runout: ', runout, '.') : null,
   ];
 }
 
@@ -75,12 +75,20 @@ function comparison(fit, fits) {
 
 const half = (entry) => (isNumber(entry?.high - entry?.low) ? (entry.high - entry.low) / 2 : null);
 
-/** How well a coefficient is known: the half width of its interval against its value. */
-function known(entry) {
+/** Above this factor the correlation of the residuals is worth counting. */
+const muchWider = 1.2;
+const widening = (fit) => Math.max(1, fit?.se_correlation_factor || 1);
+
+/**
+ * How well a coefficient is known: half of its interval against its value, wider where
+ * the residuals are correlated. Nothing is well known of a fit that must not be used.
+ */
+function known(entry, fit, usable) {
+  if (!usable) return { text: 'do not use', level: 0 };
   const width = half(entry);
   if (!isNumber(width) || !entry.value) return { text: missing, level: 0 };
-  if (entry.low <= 0 && entry.high >= 0) return { text: 'it may be zero', level: 0 };
-  const relative = Math.abs(width / entry.value);
+  const relative = Math.abs(widening(fit) * width / entry.value);
+  if (relative >= 1) return { text: 'it may be zero', level: 0 };
   const level = relative <= 0.02 ? 4 : relative <= 0.1 ? 3 : relative <= 0.5 ? 2 : 1;
   const word = ['', 'hardly', 'roughly', 'well', 'very well'][level];
   return { text: `${word}: ± ${number(100 * relative, 2)} %`, level };
@@ -91,7 +99,7 @@ function meter(level) {
     [1, 2, 3, 4].map((i) => el('i', { class: i <= level ? 'on' : '' })));
 }
 
-function coefficientSection(fit) {
+function coefficientSection(fit, usable) {
   const rows = coefficientsOf(fit).map(([key, entry]) => {
     const { name, unit } = nameAndUnit(key);
     const head = [symbol(name), meanings[name] ? el('small', {}, meanings[name]) : null];
@@ -100,7 +108,7 @@ function coefficientSection(fit) {
         reasonOf(fit, key) || 'not identifiable')];
     }
     const width = half(entry);
-    const how = known(entry);
+    const how = known(entry, fit, usable);
     return [head,
       [el('b', {}, measured(entry.value, width)), ` ${unit}`],
       `${measured(entry.low, width)} to ${measured(entry.high, width)}`,
@@ -110,8 +118,11 @@ function coefficientSection(fit) {
   return section('coefficients', 'Cutting coefficients', 'Coefficients',
     prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
-        'the previous tooth only'})` : '', '.'),
-    table(['', 'value', '95 % interval', 'how well it is known'], rows, { class: 'coefficients' }),
+        'the previous tooth only'})` : '', '. ',
+      widening(fit) > muchWider ? 'The intervals assume that what the fit leaves is white noise. It is not ' +
+        `(correlation ${number(fit.residual_correlation, 2)}): “how well” counts them ` +
+        `${number(widening(fit), 2)} times as wide.` : null),
+    table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
     offsetTable(fit));
 }
 
@@ -120,6 +131,7 @@ function offsetTable(fit) {
   if (!Array.isArray(offsets) || offsets.length < 2) return null;
   const um = offsets.map((r) => 1000 * r);
   const se = fit.runout.radial_offsets_se_mm || [];
+  const factor = fit.interval_factor || 1.96;
   const largest = Math.max(...um.map(Math.abs)) || 1;
   return el('details', { class: 'offsets', open: offsets.length <= 8 ? '' : undefined },
     el('summary', {}, 'Radius of each tooth against tooth 1'),
@@ -128,8 +140,8 @@ function offsetTable(fit) {
       bar.style.left = `${50 + Math.min(0, 50 * r / largest)}%`;
       bar.style.width = `${Math.abs(50 * r / largest)}%`;
       return el('li', {}, el('b', {}, `Tooth ${i + 1}`), el('span', { class: 'track' }, bar),
-        el('span', { class: 'text' }, `${i ? measured(r, 1000 * se[i]) : '0'} µm`,
-          isNumber(se[i]) && i > 0 ? el('small', {}, `standard error ${number(1000 * se[i], 2)} µm`) : null));
+        el('span', { class: 'text' }, isNumber(offsets[i]) ? `${i ? measured(r, 1000 * factor * se[i]) : '0'} µm` : 'not known',
+          isNumber(se[i]) && i > 0 ? el('small', {}, `95 %: ± ${number(1000 * factor * se[i], 2)} µm`) : null));
     })));
 }
 
@@ -158,6 +170,8 @@ function fitsSection(fits, best) {
   row('residual', 'N rms', (fit) => rmsCell(fit, fits));
   axesOfForce.forEach((axis, i) => row(['residual ', forceName(axis)], 'N rms',
     (fit) => fixed(fit.rms_axis_N?.[i], 3)));
+  row('unexplained', 'of the force, rms', (fit) => (isNumber(fit.unexplained_in_band) ?
+    `${number(100 * fit.unexplained_in_band, 2)} %` : null));
   row('condition', '', (fit) => fixed(fit.condition, 3));
   const answered = fits.some((fit) => isNumber(fit.rms_N));
   const noted = fits.filter((fit) => (fit.ok === false && fit.message) ||
@@ -165,7 +179,7 @@ function fitsSection(fits, best) {
   return section('fits', 'The chip models side by side', 'Fits',
     prose('The same record, fitted with every chip model. Where tools run out, simple models put the ' +
       'runout into the coefficients.'),
-    answered ? table(['', ...fits.map((fit) => modelName(fit.chip_model))], rows,
+    answered ? table(['± 95 %', ...fits.map((fit) => modelName(fit.chip_model))], rows,
       { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }) : null,
     noted.length ? el('ul', { class: 'reasons' }, noted.map(reasonsOf)) : null,
     answered ? el('p', { class: 'small' }, '± is the half width of the 95 % interval. Residual: ' +

@@ -148,14 +148,14 @@ function restSection(result, known) {
 const offsetWords = (um) => (um < 0 ? 'shorter' : 'longer');
 
 /** Runout in a sentence; everything relative to tooth 1, as only differences matter. */
-function runoutWords(runout) {
+function runoutWords(runout, factor = 1.96) {
   const parts = [];
   const offsets = runout?.radial_offsets_mm?.map((r) => 1000 * r);
   const se = runout?.radial_offsets_se_mm?.map((r) => (isNumber(r) ? 1000 * r : null)) || [];
   if (offsets?.length === 2 && isNumber(offsets[1] - offsets[0]) && offsets[1] !== offsets[0]) {
     const r = offsets[1] - offsets[0];
-    parts.push(`tooth 2 is ${measured(Math.abs(r), se[1])} µm ${offsetWords(r)} than tooth 1` +
-      (isNumber(se[1]) ? ` (standard error ${number(se[1], 2)} µm)` : ''));
+    parts.push(`tooth 2 is ${measured(Math.abs(r), factor * se[1])} µm ${offsetWords(r)} than tooth 1` +
+      (isNumber(se[1]) ? ` (95 %: ± ${number(factor * se[1], 2)} µm)` : ''));
   } else if (offsets?.length > 2 && offsets.some((r) => r !== offsets[0])) {
     const low = offsets.indexOf(Math.min(...offsets));
     const high = offsets.indexOf(Math.max(...offsets));

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <trochoid/identification/identify.h>
+
+#include <string>
+#include <vector>
+
+namespace trochoid::run {
+
+/// @brief What speaks against using the numbers of a fit at all; empty: nothing.
+///
+/// More than half of the force (rms, within the band of the fit) stays unexplained and
+/// is not white noise; or the tangential cutting coefficient may be zero; or it or the
+/// radial one is negative by more than its interval.
+/// @eq I-9 u_band > 1/2 and (band limit or r > 0.3)
+std::vector<std::string> reasons_against(const identification::Fit& fit);
+
+/// @brief One sentence for a person: `Do not use these numbers: ...`.
+std::string do_not_use(const std::vector<std::string>& reasons);
+
+}  // namespace trochoid::run
