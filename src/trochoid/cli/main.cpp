@@ -96,9 +96,9 @@ int run(int argc, char** argv) {
   std::string wanted;
   CLI::App* fresh =
       app.add_subcommand("new", "Write a commented case file to start from");
-  fresh->add_option("COMMAND", wanted, "simulate or identify")
+  fresh->add_option("COMMAND", wanted, "simulate, identify, surface or calibrate")
       ->required()
-      ->check(CLI::IsMember({"simulate", "identify"}));
+      ->check(CLI::IsMember({"simulate", "identify", "surface", "calibrate"}));
   fresh->add_option("FILE", options.file, "Where (default: print it)");
   fresh->callback(
       [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });

@@ -9,9 +9,19 @@
 
 namespace trochoid::cli {
 
+namespace {
+
+inputs::Command command_named(const std::string& name) {
+  return name == "identify"    ? inputs::Command::identify
+         : name == "surface"   ? inputs::Command::surface
+         : name == "calibrate" ? inputs::Command::calibrate
+                               : inputs::Command::simulate;
+}
+
+}  // namespace
+
 int new_case(const std::string& command, const std::filesystem::path& file) {
-  const std::string text = inputs::new_case(
-      command == "identify" ? inputs::Command::identify : inputs::Command::simulate);
+  const std::string text = inputs::new_case(command_named(command));
   if (file.empty()) {
     fmt::print("{}", text);
     return answered;

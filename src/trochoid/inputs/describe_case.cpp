@@ -16,8 +16,8 @@ constexpr std::string_view introduction = R"(# The case file
 
 A case file says in [TOML](https://toml.io) what is to be computed: the cutter, the cut,
 the force law, the measurements. One file serves several commands; each takes the tables
-that it needs and checks all of them. `trochoid new simulate` and `trochoid new identify`
-write a file to start from, `trochoid check CASE.toml` only looks for mistakes.
+that it needs and checks all of them. `trochoid new COMMAND` writes a file to start from,
+`trochoid check CASE.toml` only looks for mistakes.
 
 * The unit is the end of the name of every key: `_mm`, `_um`, `_deg`, `_rpm`, `_MPa`,
   `_GPa`, `_N_per_mm`, `_Hz`, `_s`. A key without such an ending is a plain number, a text
@@ -30,6 +30,7 @@ write a file to start from, `trochoid check CASE.toml` only looks for mistakes.
   replaced whole. An included file may include another.
 * In the folder of results, `case.toml` is the case as it was understood, with every
   default filled in. It is a case file again.
+* A measured surface is [a CSV file](surface_csv.md).
 * The letters and signs are those of [the notation](../notation.md).
 )";
 

@@ -17,7 +17,7 @@ struct CutterBody {
   double youngs_modulus = 0.0;                ///< [N/m^2]
 };
 
-/// [wall]: the workpiece as a plate, clamped below.
+/// [wall]: the workpiece as a plate, clamped below and at both ends, free on top.
 struct Wall {
   double length = 0.0;          ///< [m]
   double height = 0.0;          ///< [m]

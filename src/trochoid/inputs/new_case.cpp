@@ -12,8 +12,7 @@ namespace trochoid::inputs {
 namespace {
 
 /// A slot like that of the paper whose model this is: 8 mm, two teeth, one 8 um short.
-CaseTables example(Command command) {
-  CaseTables t;
+void add_slot(CaseTables& t) {
   t.title = "Slot, 8 mm end mill";
   t.tool.teeth = 2;
   t.tool.diameter = 8 * unit::mm;
@@ -21,12 +20,45 @@ CaseTables example(Command command) {
   t.cut.axial_depth = 2 * unit::mm;
   t.cut.feed_per_tooth = 0.04 * unit::mm;
   t.cut.spindle_speed = 875 * unit::rpm;
-  if (command == Command::identify) {
-    t.dynamometer.emplace().axes = {"x", "y", "z"};
-    t.measurements.emplace_back().file = "record.csv";
-    t.identify.emplace();
-    return t;
-  }
+}
+
+/// Down milling of an aluminium wall with a long cutter: both bend.
+void add_thin_wall(CaseTables& t) {
+  t.title = "Thin wall, 12 mm end mill";
+  t.tool.teeth = 3;
+  t.tool.diameter = 12 * unit::mm;
+  t.tool.helix = 45 * unit::deg;
+  t.cut.engagement = EngagementKind::down;
+  t.cut.radial_depth = 1 * unit::mm;
+  t.cut.axial_depth = 3 * unit::mm;
+  t.cut.feed_per_tooth = 0.1 * unit::mm;
+  t.cut.spindle_speed = 2000 * unit::rpm;
+  CutterBody& body = t.machine.cutter_body.emplace();
+  body.overhang = 83 * unit::mm;
+  body.flute_length = 45 * unit::mm;
+  body.youngs_modulus = 206 * unit::GPa;
+  Wall& wall = t.machine.wall.emplace();
+  wall.length = 60 * unit::mm;
+  wall.height = 30 * unit::mm;
+  wall.thickness = 4 * unit::mm;
+  wall.youngs_modulus = 69 * unit::GPa;
+  wall.poisson_ratio = 0.33;
+  wall.position = wall.length / 2;
+  t.machine.surface.emplace();
+}
+
+CaseTables identify_example() {
+  CaseTables t;
+  add_slot(t);
+  t.dynamometer.emplace().axes = {"x", "y", "z"};
+  t.measurements.emplace_back().file = "record.csv";
+  t.identify.emplace();
+  return t;
+}
+
+CaseTables simulate_example() {
+  CaseTables t;
+  add_slot(t);
   t.runout.radial_offsets = {0.0, -0.008 * unit::mm};
   t.force.K_tc = 2620 * unit::MPa;
   t.force.K_rc = 1560 * unit::MPa;
@@ -37,11 +69,59 @@ CaseTables example(Command command) {
   return t;
 }
 
-std::vector<std::string_view> shown_tables(Command command) {
-  if (command == Command::identify) {
-    return {"tool", "cut", "chip", "force", "dynamometer", "measurement", "identify"};
+CaseTables surface_example() {
+  CaseTables t;
+  add_thin_wall(t);
+  t.runout.eccentricity = 0.003 * unit::mm;
+  t.runout.angle = 71 * unit::deg;
+  t.force.K_tc = 800 * unit::MPa;
+  t.force.K_rc = 300 * unit::MPa;
+  t.force.K_ac = 100 * unit::MPa;
+  t.force.K_te = 0.0;
+  t.force.K_re = 0.0;
+  t.force.K_ae = 0.0;
+  return t;
+}
+
+CaseTables calibrate_example() {
+  CaseTables t;
+  add_thin_wall(t);
+  t.machine.surface->probe_diameter = 1 * unit::mm;
+  SurfaceMeasurement& measurement = t.machine.surface_measurements.emplace_back();
+  measurement.file = "wall.csv";
+  measurement.datum_offset = true;
+  return t;
+}
+
+/// What a new case of a command shows.
+struct Template {
+  std::string_view verb;
+  CaseTables tables;
+  std::vector<std::string_view> shown;
+};
+
+Template template_for(Command command) {
+  switch (command) {
+    case Command::identify:
+      return {
+          "identify",
+          identify_example(),
+          {"tool", "cut", "chip", "force", "dynamometer", "measurement", "identify"}};
+    case Command::surface:
+      return {
+          "surface",
+          surface_example(),
+          {"tool", "runout", "cut", "chip", "force", "cutter_body", "wall", "surface"}};
+    case Command::calibrate:
+      return {"calibrate",
+              calibrate_example(),
+              {"tool", "cut", "chip", "cutter_body", "wall", "surface",
+               "surface_measurement"}};
+    default:
+      return {"simulate",
+              simulate_example(),
+              {"tool", "runout", "cut", "chip", "force", "sampling"}};
   }
-  return {"tool", "runout", "cut", "chip", "force", "sampling"};
 }
 
 std::string comment(const Key& key, const Field& field, bool given) {
@@ -61,12 +141,12 @@ std::string comment(const Key& key, const Field& field, bool given) {
 }  // namespace
 
 std::string new_case(Command command) {
-  const std::string_view verb = command == Command::identify ? "identify" : "simulate";
+  Template fresh = template_for(command);
   std::string text = fmt::format(
       "# A case for `trochoid {}`: write your own numbers in place of these.\n"
       "# Every key ends in its unit. A key behind a # may be left out. All keys, with\n"
       "# their ranges: docs/formats/case.md\n\n",
-      verb);
+      fresh.verb);
   const auto line = [&text](std::string_view left, std::string_view right) {
     text += fmt::format("{:<33} # {}\n", left, right);
   };
@@ -80,10 +160,9 @@ std::string new_case(Command command) {
                : fmt::format("# {} = {}", key.name, nested ? "{ ... }" : "..."),
          comment(key, field, value.has_value()));
   };
-  CaseTables tables = example(command);
-  describe(key_line, tables);
-  const auto shown = shown_tables(command);
-  for (const TableEntry& table : tables_of(tables)) {
+  describe(key_line, fresh.tables);
+  const auto& shown = fresh.shown;
+  for (const TableEntry& table : tables_of(fresh.tables)) {
     if (std::find(shown.begin(), shown.end(), table.name) != shown.end()) {
       text += '\n';
       line(heading(table), table.meaning);

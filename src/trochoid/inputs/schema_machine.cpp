@@ -77,14 +77,18 @@ void describe(const Visitor& v, Wall& t) {
 }
 
 void describe(const Visitor& v, Surface& t) {
-  v({.name = "model", .meaning = "how the surface arises"},
+  v({.name = "model",
+     .meaning = "quasi_static: the deflection at each spindle angle, a pulse and no "
+                "surface; imprint: where each tooth touches the wall squarely; "
+                "envelope: what all passes of all teeth leave"},
     choice(t.model, surface_models));
-  v({.name = "load", .meaning = "along the axial depth, or at its middle"},
+  v({.name = "load",
+     .meaning = "the force acts along the axial depth, or at its middle"},
     choice(t.load, loads));
   v({.name = "feedback",
-     .meaning = "what the deflection changes: nothing, where an edge enters the stock, "
-                "or the chip as well; direct: the chip as if earlier teeth had not "
-                "been deflected"},
+     .meaning = "what the deflection changes; entry: where an edge enters the stock; "
+                "regenerative: the chip as well; direct: the chip as if earlier teeth "
+                "had not been deflected"},
     choice(t.feedback, feedbacks));
   v({.name = "phase_deg",
      .meaning = "spindle angle phi0 at the start",

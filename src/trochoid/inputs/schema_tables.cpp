@@ -58,7 +58,9 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
               t.measurements, {"identify"}),
       perhaps("identify", "what is to be found from the measurements", t.identify),
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
-      perhaps("wall", "the workpiece as an elastic plate; left out: rigid",
+      perhaps("wall",
+              "the workpiece as an elastic plate, clamped below and at both ends; left "
+              "out: rigid",
               t.machine.wall),
       perhaps("surface", "how the machined surface is computed", t.machine.surface),
       several("surface_measurement", "a measured surface; several are fitted together",

@@ -144,8 +144,20 @@ class NewCase(InFolder):
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn(".csv", done.stderr)
 
+    def test_a_new_surface_is_right_as_it_stands(self):
+        self.run_program("new", "surface", "fresh.toml")
+        self.run_program("check", "fresh.toml")
+
+    def test_a_new_calibration_misses_nothing_but_its_surface(self):
+        self.run_program("new", "calibrate", "fresh.toml")
+        done = self.run_program("check", "fresh.toml", code=2)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("wall.csv", done.stderr)
+        self.write("wall.csv", "x_mm,height_mm,error_mm\n30,0.5,0.05\n30,1.5,0.03\n")
+        self.run_program("check", "fresh.toml")
+
     def test_it_is_printed_where_no_file_is_named(self):
-        for command in ("simulate", "identify"):
+        for command in ("simulate", "identify", "surface", "calibrate"):
             text = self.run_program("new", command).stdout
             self.run_program("new", command, f"{command}.toml")
             self.assertEqual((self.folder / f"{command}.toml").read_text(), text)

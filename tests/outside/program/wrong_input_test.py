@@ -47,6 +47,11 @@ class WrongInput(InFolder):
             said = self.refused(command, "cut.toml", **expected)
         return said
 
+    def wrong_surface(self, rows, **expected):
+        self.write("wall.csv", "x_mm,height_mm,error_mm\n" + rows)
+        self.write("cut.toml", self.run_program("new", "calibrate").stdout)
+        return self.refused("check", "cut.toml", **expected)
+
     # the case
 
     def test_no_such_case(self):
@@ -143,6 +148,30 @@ class WrongInput(InFolder):
                         b"\xff\xfe" + record().encode("utf-16-le")):
             with self.subTest(content[:12]):
                 self.wrong_record(content, where="record.csv:")
+
+    # a measured surface: 3 mm deep on a wall 60 mm long
+
+    def test_every_bad_row_of_a_surface(self):
+        said = self.wrong_surface("30,0.5,0.05\n30,1.5,nan\n30,2.5\n30,,0.05\n",
+                                  where="wall.csv:3:8: ")
+        self.assertEqual(len(said.splitlines()), 3, said)
+
+    def test_the_same_place_twice(self):
+        self.wrong_surface("30,0.5,0.05\n30,0.5,0.04\n", where="wall.csv:3:",
+                           says="line 2")
+
+    def test_readings_outside_the_cut_and_the_wall(self):
+        said = self.wrong_surface("30,3.5,0.05\n-1,0.5,0.05\n60,3.0,0.05\n61,-1,0\n",
+                                  where="wall.csv:2:",
+                                  says=["axial_depth_mm = 3", "length_mm = 60"])
+        self.assertEqual(len(said.splitlines()), 4, said)
+
+    def test_a_surface_that_is_no_text(self):
+        for content in (b"", b"\0\1\2", bytes(range(256)), b"PK\3\4"):
+            with self.subTest(content[:12]):
+                self.write("cut.toml", self.run_program("new", "calibrate").stdout)
+                self.write("wall.csv", content)
+                self.refused("check", "cut.toml", where="wall.csv:")
 
     def test_only_regular_files_are_read(self):
         os.mkfifo(self.folder / "pipe")

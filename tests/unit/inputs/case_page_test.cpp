@@ -37,8 +37,30 @@ TEST(CasePage, NewIdentifyLacksOnlyItsRecord) {
   EXPECT_EQ(folder.problems(text, Command::identify), "");
 }
 
+TEST(CasePage, NewSurfaceIsAValidCase) {
+  const CaseFolder folder;
+  const std::string text = new_case(Command::surface);
+  EXPECT_EQ(folder.problems(text, Command::surface), "");
+  EXPECT_EQ(folder.problems(text, Command::check), "");
+  EXPECT_EQ(folder.problems(text, Command::simulate), "");
+}
+
+TEST(CasePage, NewCalibrateLacksOnlyItsSurface) {
+  const CaseFolder folder;
+  const std::string text = new_case(Command::calibrate);
+  const std::string problem = folder.problems(text, Command::calibrate);
+  EXPECT_NE(
+      problem.find("surface_measurement[1].file = \"wall.csv\": there is no such file"),
+      std::string::npos);
+  EXPECT_EQ(std::count(problem.begin(), problem.end(), '\n'), 1);
+  static_cast<void>(folder.write("wall.csv", "x"));
+  EXPECT_EQ(folder.problems(text, Command::calibrate), "");
+  EXPECT_EQ(folder.problems(text, Command::check), "");
+}
+
 TEST(CasePage, EveryLineOfANewCaseIsExplained) {
-  for (const Command command : {Command::simulate, Command::identify}) {
+  for (const Command command :
+       {Command::simulate, Command::identify, Command::surface, Command::calibrate}) {
     std::istringstream lines(new_case(command));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;
