@@ -15,6 +15,10 @@ constexpr double same_cut = 0.05;
 /// Other cuts keep this distance from each other and from the sides, in patch lengths.
 constexpr double apart = 0.5;
 
+/// Loads nearer to a clamped end, in shorter sides, are treated as if they were there:
+/// they hardly bend the wall.
+constexpr double nearest = 0.05;
+
 double reach_at(double length, double height, double x) {
   return std::min({x, length - x, height});
 }
@@ -24,42 +28,42 @@ bool is_free(std::span<const double> cuts, double at, double distance) {
                       [&](double cut) { return std::abs(cut - at) < distance; });
 }
 
-/// Add cuts from `at` towards both ends, where none is near.
-void grow(std::vector<double>& cuts, double at, double reach, double end) {
-  for (const double direction : {-1.0, 1.0}) {
-    double patch = first_patch * reach;
-    double cut = at + direction * patch;
-    while (cut > 0 && cut < end) {
-      if (is_free(cuts, cut, apart * patch)) {
-        cuts.push_back(cut);
-      }
-      patch *= growth;
-      cut += direction * patch;
+/// Add cuts on one side of `at`: patches of equal length as far as `even`, then
+/// growing.
+void grow(std::vector<double>& cuts, double at, double patch, double even, double end) {
+  double cut = at + patch;
+  while (cut > 0 && cut < end) {
+    if (is_free(cuts, cut, apart * std::abs(patch))) {
+      cuts.push_back(cut);
     }
+    patch *= std::abs(cut - at) < even ? 1 : growth;
+    cut += patch;
   }
 }
 
 }  // namespace
 
-Patches patches(double length, double height, std::span<const double> x) {
-  Patches out{.x = {0.0, length}, .y = {0.0, height}, .depth = height};
-  std::vector<double> loads;
+Patches patches(double length, double height, std::span<const double> x, double depth) {
+  Patches out{.x = {0.0, length}, .y = {0.0, height}, .loads = {}, .depth = height};
+  const double near = nearest * std::min(length, height);
   double least_reach = height;
   for (const double at : x) {
-    const double reach = reach_at(length, height, at);
-    if (reach > 0 && is_free(out.x, at, same_cut * reach)) {
-      out.x.push_back(at);
-      loads.push_back(at);
-      least_reach = std::min(least_reach, reach);
+    const double load = std::clamp(at, near, length - near);
+    const double reach = reach_at(length, height, load);
+    least_reach = std::min(least_reach, reach);
+    out.loads.push_back(load);
+    if (is_free(out.x, load, same_cut * reach)) {
+      out.x.push_back(load);
     }
   }
-  for (const double at : loads) {
-    grow(out.x, at, reach_at(length, height, at), length);
+  for (const double load : out.loads) {
+    const double patch = first_patch * reach_at(length, height, load);
+    grow(out.x, load, patch, 0, length);
+    grow(out.x, load, -patch, 0, length);
   }
-  if (!loads.empty()) {
-    grow(out.y, height, least_reach, height);
-  }
-  out.depth = std::min(height, first_patch * least_reach);
+  const double patch = first_patch * least_reach;
+  out.depth = std::min(height, std::max(depth, patch));
+  grow(out.y, height, -patch, out.depth - apart * patch, height);
   std::sort(out.x.begin(), out.x.end());
   std::sort(out.y.begin(), out.y.end());
   return out;

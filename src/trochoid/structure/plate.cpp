@@ -23,12 +23,15 @@ constexpr std::size_t most_terms = 20000;
 /// The error falls at least with this power of the degree, even for a point load that
 /// lies inside a patch.
 constexpr double order = 2.0;
-/// Where the error is looked at, from the free edge down, in parts of the depth.
-constexpr std::array<double, 9> probed = {0.0,  0.02, 0.06, 0.14, 0.26,
-                                          0.38, 0.52, 0.67, 0.84};
+/// Where the error is looked at, from the top of a patch down, in parts of it.
+constexpr std::array<double, 9> probed_at_top = {0.0,  0.02, 0.06, 0.14, 0.26,
+                                                 0.38, 0.52, 0.67, 0.84};
+constexpr std::array<double, 3> probed_below = {0.14, 0.38, 0.62};
 
 void check(const Plate& plate, std::span<const double> x) {
-  const bool sound = plate.length > 0 && plate.height > 0 && plate.thickness > 0 &&
+  const bool sound = std::isfinite(plate.length + plate.height + plate.thickness +
+                                   plate.youngs_modulus) &&
+                     plate.length > 0 && plate.height > 0 && plate.thickness > 0 &&
                      plate.youngs_modulus > 0 && plate.poisson_ratio > -1 &&
                      plate.poisson_ratio <= 0.5;
   if (!sound) {
@@ -64,12 +67,20 @@ struct Probes {
   std::vector<double> y;  ///< the free edge first
 };
 
-Probes probes(const Plate& plate, std::span<const double> x, double depth) {
-  Probes out;
-  std::copy_if(x.begin(), x.end(), std::back_inserter(out.x),
-               [&](double at) { return at > 0 && at < plate.length; });
-  for (const double down : probed) {
-    out.y.push_back(plate.height - down * depth);
+Probes probes(const Patches& patches) {
+  Probes out{.x = patches.loads, .y = {}};
+  const double height = patches.y.back();
+  const double top = height - patches.y[patches.y.size() - 2];
+  for (const double down : probed_at_top) {
+    out.y.push_back(height - down * top);
+  }
+  for (std::size_t i = patches.y.size() - 2; i > 0; --i) {
+    for (const double part : probed_below) {
+      const double y = patches.y[i] - part * (patches.y[i] - patches.y[i - 1]);
+      if (height - y <= patches.depth) {
+        out.y.push_back(y);
+      }
+    }
   }
   return out;
 }
@@ -89,11 +100,12 @@ std::vector<double> deflections(const RitzSystem& ritz, const Probes& probes) {
 }
 
 /// Largest change of a deflection, as a part of that of the loaded edge.
-double largest_change(const std::vector<double>& before,
-                      const std::vector<double>& now) {
+/// @param rows  probes in y
+double largest_change(const std::vector<double>& before, const std::vector<double>& now,
+                      std::size_t rows) {
   double change = 0.0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    const double edge = now[i - i % probed.size()];
+    const double edge = now[i - i % rows];
     change = std::max(change, std::abs(now[i] - before[i]) / edge);
   }
   return change;
@@ -124,13 +136,17 @@ RitzSystem system(const Plate& plate, const Patches& patches, const Refinement& 
 
 PlateSolution::Refined PlateSolution::refined(const Plate& plate,
                                               std::span<const double> x,
-                                              double tolerance) {
+                                              double tolerance, double depth) {
   check(plate, x);
-  const Patches mesh = patches(plate.length, plate.height, x);
-  const Probes at = probes(plate, x, mesh.depth);
+  if (x.empty()) {
+    throw std::invalid_argument("a wall without a load");
+  }
+  const Patches mesh = patches(plate.length, plate.height, x, depth);
+  const Probes at = probes(mesh);
   Refinement now;
-  Refined out{.ritz = system(plate, mesh, now), .depth = mesh.depth};
-  out.converged = at.x.empty();
+  Refined out{.ritz = system(plate, mesh, now),
+              .depth = mesh.depth,
+              .error = std::numeric_limits<double>::infinity()};
   std::vector<double> before = deflections(out.ritz, at);
   while (!out.converged && out.ritz.size() < most_terms) {
     const bool along_x = now.x_error >= now.y_error;
@@ -141,7 +157,7 @@ PlateSolution::Refined PlateSolution::refined(const Plate& plate,
     out.ritz = system(plate, mesh, now);
     std::vector<double> after = deflections(out.ritz, at);
     (along_x ? now.x_error : now.y_error) =
-        remainder(largest_change(before, after), degree);
+        remainder(largest_change(before, after, at.y.size()), degree);
     out.error = now.x_error + now.y_error;
     out.converged = out.error <= tolerance;
     before = std::move(after);
@@ -149,14 +165,15 @@ PlateSolution::Refined PlateSolution::refined(const Plate& plate,
   return out;
 }
 
-PlateSolution::PlateSolution(const Plate& plate, double x, double tolerance)
-    : PlateSolution(plate, std::span<const double>(&x, 1), tolerance) {}
+PlateSolution::PlateSolution(const Plate& plate, double x, double tolerance,
+                             double depth)
+    : PlateSolution(plate, std::span<const double>(&x, 1), tolerance, depth) {}
 
 PlateSolution::PlateSolution(const Plate& plate, std::span<const double> x,
-                             double tolerance)
+                             double tolerance, double depth)
     : plate_(plate),
       D_(flexural_rigidity(plate)),
-      found_(refined(plate, x, tolerance)) {
+      found_(refined(plate, x, tolerance, depth)) {
   std::vector<double> fx = ritz().x().means(0, plate.length);
   for (double& f : fx) {
     f *= plate.length * plate.height;

@@ -49,13 +49,17 @@ class PlateSolution {
   /// @param tolerance  error wanted, as a part of the deflection of the loaded edge;
   ///        where `converged` says no after some 20000 terms (below about 3e-5), the
   ///        best that was found is kept and `error` tells how good it is
+  /// @param depth  from the free edge down to the lowest load [m]; by itself twice the
+  ///        distance to the nearest clamped side, which is enough save near the ends
+  ///        and on tall walls
   /// @throws std::invalid_argument when the plate or x is out of its range
-  PlateSolution(const Plate& plate, double x, double tolerance);
+  PlateSolution(const Plate& plate, double x, double tolerance, double depth = 0.0);
 
   /// @brief For loads at several x; the error is that of the worst of them.
   ///
-  /// For many x one solution each is faster.
-  PlateSolution(const Plate& plate, std::span<const double> x, double tolerance);
+  /// Costs as much as one solution for each, or more.
+  PlateSolution(const Plate& plate, std::span<const double> x, double tolerance,
+                double depth = 0.0);
 
   /// @brief Deflection at points of one line for point loads of 1 N on another.
   ///
@@ -97,7 +101,7 @@ class PlateSolution {
     bool converged = false;
   };
   static Refined refined(const Plate& plate, std::span<const double> x,
-                         double tolerance);
+                         double tolerance, double depth);
 
   [[nodiscard]] const RitzSystem& ritz() const { return found_.ritz; }
   [[nodiscard]] std::vector<double> reduced(double x, std::span<const double> y) const;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "difference_plate.h"
+#include "even_basis.h"
 
 namespace trochoid::structure {
 
@@ -88,7 +89,7 @@ TEST(Plate, ErrorIsBelowTheTolerance) {  // [B-8]
                                   {0.5, 0.25},
                                   {0.3, 0.1}}) {
     const Plate wall = unit_plate(length, 1, nu);
-    const PlateSolution fine(wall, x, 4e-5);
+    const PlateSolution fine(wall, x, 1e-4);
     std::vector<double> y;
     for (int i = 0; i < 30; ++i) {
       y.push_back(1 - fine.depth() * i / 32.0);
@@ -144,6 +145,102 @@ TEST(Plate, AgreesWithFiniteDifferences) {  // [B-3] [B-6] [B-7]
   }
 }
 
+TEST(Plate, LongEdgeUnderALineLoadIsACantileverBeam) {  // [B-6]
+  // 1 N/m along the whole free edge, far from the ends: b^3 / 3 D, whatever nu is.
+  for (const double nu : {0.0, 0.3}) {
+    const double length = 40;
+    const RitzSystem ritz(PatchBasis({0, 2, 8, 20, 32, 38, length}, 12, true),
+                          PatchBasis({0, 1}, 8, false), nu);
+    const auto edge = ritz.y().values(1);
+    auto along = ritz.x().means(0, length);
+    for (double& one : along) {
+      one *= length;
+    }
+    const auto load = ritz.reduced(along, edge);
+    const auto point = ritz.reduced(ritz.x().values(length / 2), edge);
+    // What the degree leaves on the patches in the middle.
+    EXPECT_NEAR(3 * products(point, load, ritz.size()).front(), 1, 1e-6) << nu;
+  }
+}
+
+TEST(Plate, OffCentreTheTextbookBasisIsWrong) {  // [B-4] [B-5]
+  const double nu = 0.33;
+  const PlateSolution middle(unit_plate(2, 1, nu), 1, 1e-3);
+  const PlateSolution quarter(unit_plate(2, 1, nu), 0.5, 1e-3);
+  const double at_middle = under_load(middle, 1, 1);
+  const double at_quarter = under_load(quarter, 0.5, 1);
+  // In the middle the even shapes come near, at a quarter they stay half as stiff again
+  // or more, however many there are.
+  EXPECT_NEAR(even_basis_deflection(2, 1, nu, 14, 1) / at_middle, 1, 0.05);
+  double before = 0.0;
+  for (const std::size_t terms : {4U, 8U, 14U}) {
+    const double ratio = even_basis_deflection(2, 1, nu, terms, 0.5) / at_quarter;
+    EXPECT_GT(ratio, before);
+    EXPECT_LT(ratio, 0.7) << terms;
+    before = ratio;
+  }
+}
+
+TEST(Plate, ErrorFallsWithTheTolerance) {  // [B-8]
+  const Plate wall = unit_plate(2, 1, 0.33);
+  const double exact = under_load(PlateSolution(wall, 0.5, 1e-4), 0.5, 1);
+  double before = 0.0;
+  std::size_t terms = 0;
+  for (double tolerance = 1.6e-2; tolerance > 3e-4; tolerance /= 2) {
+    const PlateSolution plate(wall, 0.5, tolerance);
+    const double w = under_load(plate, 0.5, 1);
+    EXPECT_LE(std::abs(exact - w), tolerance * exact);
+    EXPECT_GE(w, before);  // from below, and never further away
+    EXPECT_GE(plate.terms(), terms);
+    before = w;
+    terms = plate.terms();
+  }
+  EXPECT_LT(exact - before, 1e-4 * exact);
+}
+
+TEST(Plate, SaysWhenTheToleranceIsNotMet) {  // [B-8]
+  const PlateSolution plate(unit_plate(2, 1, 0.33), 0.5, 1e-9);
+  EXPECT_FALSE(plate.converged());
+  EXPECT_GT(plate.error(), 1e-9);
+  EXPECT_LT(plate.error(), 1e-4);  // and yet the best that was found
+  EXPECT_NEAR(under_load(plate, 0.5, 1), 0.0525119, 1e-6);
+}
+
+TEST(Plate, ServesSeveralLoadsAtOnce) {  // [B-8]
+  const Plate wall = unit_plate(2, 1, 0.33);
+  const std::array<double, 4> x = {0.3, 1.0, 1.001, 1.7};
+  const PlateSolution all(wall, x, 5e-4);
+  EXPECT_TRUE(all.converged());
+  for (const double at : x) {
+    const double alone = under_load(PlateSolution(wall, at, 1e-4), at, 1);
+    EXPECT_NEAR(under_load(all, at, 1) / alone, 1, 5e-4) << at;
+  }
+}
+
+TEST(Plate, IsGoodAsDeepAsAsked) {  // [B-8]
+  const Plate wall = unit_plate(2, 1, 0.33);
+  const double x = 0.1;
+  EXPECT_NEAR(PlateSolution(wall, x, 1e-2).depth(), 0.2, 1e-12);
+  const PlateSolution deep(wall, x, 1e-3, 0.5);
+  EXPECT_TRUE(deep.converged());
+  EXPECT_EQ(deep.depth(), 0.5);
+  const PlateSolution fine(wall, x, 2e-4, 0.5);
+  for (const double y : {1.0, 0.8, 0.71, 0.6, 0.5}) {
+    EXPECT_NEAR(under_load(deep, x, y), under_load(fine, x, y),
+                1e-3 * under_load(fine, x, 1));
+  }
+}
+
+TEST(Plate, HasNoEnd) {  // [B-4]
+  // A load near the end of a long wall sees the other end as little as that of a
+  // longer.
+  const Plate wall = unit_plate(30, 1, 0.33);
+  const Plate longer = unit_plate(3000, 1, 0.33);
+  EXPECT_NEAR(under_load(PlateSolution(wall, 1, 2e-4), 1, 1) /
+                  under_load(PlateSolution(longer, 1, 2e-4), 1, 1),
+              1, 4e-4);
+}
+
 TEST(Plate, RefusesWhatIsNoPlate) {  // [B-3]
   const Plate good = unit_plate(2, 1, 0.3);
   for (double Plate::*field :
@@ -166,7 +263,7 @@ TEST(Plate, RefusesWhatIsNoPlate) {  // [B-3]
 
 TEST(Plate, StandsStillAtItsClamps) {  // [B-4]
   const PlateSolution plate(unit_plate(2, 1, 0.3), 0.0, 1e-3);
-  EXPECT_TRUE(plate.converged());
+  EXPECT_TRUE(plate.converged());  // as if loaded a twentieth away
   EXPECT_NEAR(under_load(plate, 0, 1), 0, 1e-30);
   EXPECT_NEAR(under_load(plate, 1, 0), 0, 1e-30);
 }
