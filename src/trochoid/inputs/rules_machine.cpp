@@ -59,7 +59,7 @@ void settle_wall(Wall& wall, Findings& findings) {
     return;
   }
   if (findings.places.count("wall.position_mm") == 0) {
-    wall.position = as_written(wall.length / 2, unit::mm);
+    wall.position = wall.length / 2;
   }
   if (wall.position > wall.length) {
     report(findings, "wall.position_mm",
