@@ -3,6 +3,7 @@
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/surface_file.h>
+#include <trochoid/run/describe_record.h>
 
 #include <fmt/core.h>
 
@@ -11,9 +12,15 @@ namespace trochoid::cli {
 int check(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::check);
   std::vector<std::string> problems;
+  std::string found;
   for (const inputs::Measurement& measurement : given.measurements) {
     try {
-      inputs::read_record(measurement);
+      const signal::Record record = inputs::read_record(measurement);
+      found += run::describe_record(record, measurement.cut);
+      for (const base::Warning& note : record.notes) {
+        found +=
+            fmt::format("warning [{}]: {}: {}\n", note.code, record.file, note.message);
+      }
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -33,7 +40,10 @@ int check(const Options& options) {
     throw base::InputError(std::move(problems));
   }
   if (!options.quiet) {
-    fmt::print("{}: no mistakes found\n", options.file.string());
+    fmt::print("{}: no mistakes found\n{}", options.file.string(), found);
+    for (const std::string& table : run::unused_tables(given)) {
+      fmt::print("{} is checked, but no command of this version uses it yet\n", table);
+    }
   }
   return answered;
 }

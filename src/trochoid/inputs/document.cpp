@@ -139,6 +139,17 @@ struct Printer {
   }
 };
 
+/// What is likely meant by the usual slips.
+std::string_view hint(std::string_view why) {
+  if (why.ends_with("saw ','")) {
+    return "; numbers have a decimal point";
+  }
+  if (why.find("could not determine value type") != std::string_view::npos) {
+    return "; a text needs quotes: key = \"value\"";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string to_string(const Location& where) {
@@ -170,8 +181,7 @@ Node parse_file(const std::filesystem::path& file) {
     const std::string_view why = error.description();
     refuse(
         location(file.string(), error.source()),
-        fmt::format("not valid TOML: {}{}", shortened(one_line(why), 200),
-                    why.ends_with("saw ','") ? "; numbers have a decimal point" : ""));
+        fmt::format("not valid TOML: {}{}", shortened(one_line(why), 200), hint(why)));
   }
 }
 

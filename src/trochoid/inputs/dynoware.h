@@ -32,7 +32,6 @@ struct DynoWareExport {
   std::size_t rows = 0;
   std::optional<double> first_time;  ///< [s]; absent: no column of times
   std::size_t last_line = 0;         ///< of the file
-  bool terminated = true;            ///< whether the last line has an end
 };
 
 /// @brief Compare the number of rows with the header.

@@ -1,5 +1,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/inputs/number_text.h>
 #include <trochoid/inputs/tables.h>
 
 #include <fmt/core.h>
@@ -50,7 +51,7 @@ void add_thin_wall(CaseTables& t) {
 CaseTables identify_example() {
   CaseTables t;
   add_slot(t);
-  t.dynamometer.emplace().axes = {"x", "y", "z"};
+  t.dynamometer.emplace().axes = {"auto"};
   t.measurements.emplace_back().file = "record.csv";
   t.identify.emplace();
   return t;
@@ -138,6 +139,17 @@ std::string comment(const Key& key, const Field& field, bool given) {
   return text;
 }
 
+/// What may stand behind a key that is left out: TOML in any case.
+std::string_view example_of(const Key& key) {
+  return key.example.empty() ? "0" : key.example;
+}
+
+constexpr std::string_view second_record =
+    "\n# [[measurement]]                 # a second record of the same tool and "
+    "material,\n"
+    "# file = \"record2.csv\"            # best at another feed: fitted together\n"
+    "# cut = { feed_per_tooth_mm = 0.08 } # what is different from [cut]\n";
+
 }  // namespace
 
 std::string new_case(Command command) {
@@ -155,10 +167,13 @@ std::string new_case(Command command) {
     if (command == Command::identify && key.need == Need::coefficient) {
       return;  // this is what will be found
     }
-    const bool nested = std::holds_alternative<CutTable*>(field);
     line(value ? fmt::format("{} = {}", key.name, *value)
-               : fmt::format("# {} = {}", key.name, nested ? "{ ... }" : "..."),
+               : fmt::format("# {} = {}", key.name, example_of(key)),
          comment(key, field, value.has_value()));
+    if (key.name == "axes" && value && *value == toml_string(key.word)) {
+      line(fmt::format("# axes = {}", key.example),
+           "a table dynamometer along the axes of the machine: it feels the reaction");
+    }
   };
   describe(key_line, fresh.tables);
   const auto& shown = fresh.shown;
@@ -167,6 +182,7 @@ std::string new_case(Command command) {
       text += '\n';
       line(heading(table), table.meaning);
       table.describe(0, key_line);
+      text += table.name == "measurement" ? second_record : "";
     }
   }
   return text;

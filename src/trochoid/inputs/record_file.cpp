@@ -98,6 +98,14 @@ void read_row(Reading& reading, std::vector<Field>& fields) {
   reading.row_lines.push_back(reading.text.lines.number());
 }
 
+void keep_names(const RecordColumns& columns, signal::Record& record) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (columns.force[i]) record.channel_column[i] = columns.force[i]->name;
+  }
+  if (columns.angle) record.angle_column = columns.angle->name;
+  if (columns.time) record.time_column = columns.time->name;
+}
+
 void read_rows(Reading& reading, TableHead& head) {
   std::vector<Field> fields;
   auto line = next_content(reading.text);
@@ -108,6 +116,7 @@ void read_rows(Reading& reading, TableHead& head) {
   // The texts of the unit row end with the next line.
   reading.columns = find_columns(head, reading.measurement, reading.text.problems,
                                  reading.record.notes);
+  keep_names(reading.columns, reading.record);
   if (!head.units.empty()) line = next_content(reading.text);
   while (line) {
     split(*line, reading.text.separator, fields);
@@ -147,6 +156,8 @@ void settle_time(Reading& reading) {
     check_increasing(column, reading.text.problems);
     if (reading.text.problems.lines.empty()) {
       record.sample_rate = even_rate(record.time);
+      const auto note = gap_note(record.time);
+      if (!note.empty()) record.notes.push_back({"time_gap", note});
     }
   } else if (record.angle.empty()) {
     reading.text.problems.add(
@@ -157,9 +168,29 @@ void settle_time(Reading& reading) {
   }
 }
 
+/// The last row of an export that ends without a line end may be cut off inside its
+/// last number.
+void drop_last_row(Reading& reading) {
+  auto& record = reading.record;
+  for (auto& values : record.channel) values.pop_back();
+  if (!record.angle.empty()) record.angle.pop_back();
+  if (!record.time.empty()) record.time.pop_back();
+  reading.row_lines.pop_back();
+  record.notes.push_back(
+      {"last_row_left_out",
+       "The last line has no end, so that its last number may be cut off: the row is "
+       "left out."});
+}
+
 void check_whole(Reading& reading) {
   reading.text.style.check(reading.text.problems);
   throw_problems(reading.text);
+  const bool in_part =
+      reading.header.samples &&
+      static_cast<double>(reading.row_lines.size()) < *reading.header.samples;
+  if (in_part && !reading.text.lines.terminated() && reading.row_lines.size() > 2) {
+    drop_last_row(reading);
+  }
   const auto rows = reading.row_lines.size();
   const auto last = reading.text.lines.number();
   if (rows < 2) {
@@ -174,9 +205,8 @@ void check_whole(Reading& reading) {
   const auto first = time.empty() ? std::nullopt : std::optional(time.front());
   settle_time(reading);
   if (reading.dynoware) {
-    const auto note = check_sample_count(
-        reading.header, {rows, first, last, reading.text.lines.terminated()},
-        reading.text.problems);
+    const auto note =
+        check_sample_count(reading.header, {rows, first, last}, reading.text.problems);
     if (!note.empty()) reading.record.notes.push_back({"part_of_record", note});
   }
   throw_problems(reading.text);

@@ -8,6 +8,9 @@ namespace trochoid::inputs {
 
 namespace {
 
+/// A step of this many usual ones is a gap.
+constexpr double gap_factor = 2.5;
+
 /// By how much a printed time may be off.
 double rounding(const PrintedTime& printed, double time, double rate) {
   double step = printed.step;
@@ -58,6 +61,26 @@ double even_rate(std::span<const double> time) {
     if (std::abs(time[i] - time[i - 1] - step) > 0.5 * step) return 0.0;
   }
   return 1.0 / step;
+}
+
+std::string gap_note(std::span<const double> time) {
+  if (time.size() < 3) return {};
+  std::vector<double> steps(time.size() - 1);
+  for (std::size_t i = 1; i < time.size(); ++i) steps[i - 1] = time[i] - time[i - 1];
+  const auto largest = std::max_element(steps.begin(), steps.end());
+  const auto at = static_cast<std::size_t>(largest - steps.begin());
+  const double longest = *largest;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double usual = *middle;
+  const auto gaps = std::count_if(steps.begin(), steps.end(),
+                                  [&](double s) { return s > gap_factor * usual; });
+  if (gaps == 0) return {};
+  return fmt::format(
+      "The times have {} gap{}: the longest goes from {:.6g} s to {:.6g} s, {:.0f} "
+      "usual "
+      "steps. Samples may be missing; the spindle is taken to turn evenly across.",
+      gaps, gaps == 1 ? "" : "s", time[at], time[at + 1], longest / usual);
 }
 
 double last_decimal(std::string_view text) {

@@ -3,6 +3,7 @@
 #include <trochoid/inputs/csv.h>
 
 #include <span>
+#include <string>
 
 /// The time column of a record.
 namespace trochoid::inputs {
@@ -28,6 +29,10 @@ void check_increasing(const TimeColumn& time, Problems& problems);
 /// the rate is wrong. Coarse printing is allowed for.
 /// @param rate  [Hz]
 void check_rate(const TimeColumn& time, double rate, Problems& problems);
+
+/// @brief What to say of steps much longer than the usual one; empty: there are none.
+/// @param time  increasing [s]
+std::string gap_note(std::span<const double> time);
 
 /// @brief Sampling rate of evenly spaced times; 0: they are not even.
 /// @return [Hz]

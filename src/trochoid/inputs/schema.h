@@ -65,6 +65,7 @@ struct Key {
   std::string_view word = {};          ///< text that may stand instead of the value
   std::string_view rival = {};         ///< key that may stand instead of this one
   std::string_view standard = {};      ///< the default in words, where it is computed
+  std::string_view example = {};       ///< TOML, where there is no default to show
 };
 
 /// A closed choice; enumerators and names are in the same order.

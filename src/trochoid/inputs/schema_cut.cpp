@@ -24,34 +24,39 @@ void describe_profile(const Visitor& v, ToolTable& t) {
      .range = between(0, longest_mm),
      .only = {"shape", {"bull_nose", "taper", "apt"}},
      .neutral = 0,
-     .standard = "0 for taper; bull_nose and apt must give it"},
+     .standard = "0 for taper; bull_nose and apt must give it",
+     .example = "1"},
     &t.corner_radius);
   v({.name = "corner_center_radius_mm",
      .meaning = "distance Rr of the corner's centre from the axis",
      .range = between(-longest_mm, longest_mm),
      .need = Need::always,
-     .only = {"shape", {"apt"}}},
+     .only = {"shape", {"apt"}},
+     .example = "3"},
     &t.corner_center_radius);
   v({.name = "corner_center_height_mm",
      .meaning = "height Rz of the corner's centre above the tip",
      .range = between(-longest_mm, longest_mm),
      .need = Need::always,
      .only = {"shape", {"apt"}},
-     .neutral = 0},
+     .neutral = 0,
+     .example = "1"},
     &t.corner_center_height);
   v({.name = "bottom_angle_deg",
      .meaning = "angle alpha of the bottom against the horizontal",
      .range = from_below(0, 90),
      .need = Need::always,
      .only = {"shape", {"apt"}},
-     .neutral = 0},
+     .neutral = 0,
+     .example = "2"},
     &t.bottom_angle);
   v({.name = "taper_deg",
      .meaning = "angle beta of the flank against the axis, positive: wider upwards",
      .range = inside(-90, 90),
      .need = Need::always,
      .only = {"shape", {"taper", "apt"}},
-     .neutral = 0},
+     .neutral = 0,
+     .example = "3"},
     &t.taper);
 }
 
@@ -81,7 +86,8 @@ void describe(const Visitor& v, ToolTable& t) {
   v({.name = "pitch_deg",
      .meaning = "angle from each tooth to the next that passes; the sum is 360",
      .range = above_up_to(0, 360),
-     .standard = "equal pitches"},
+     .standard = "equal pitches",
+     .example = "[178, 182]"},
     &t.pitch);
   describe_profile(v, t);
   v({.name = "lag", .meaning = "how the edge lags behind its tip with the height"},
@@ -89,11 +95,13 @@ void describe(const Visitor& v, ToolTable& t) {
   v({.name = "lag_diameter_mm",
      .meaning = "diameter to which the lag refers: lag = 2 z tan(helix) / lag_diameter",
      .range = above_up_to(0, longest_mm),
-     .standard = "diameter_mm"},
+     .standard = "diameter_mm",
+     .example = "8"},
     &t.lag_diameter);
   v({.name = "gauge_length_mm",
      .meaning = "height above the tip at which the bending moment is wanted",
-     .range = above_up_to(0, longest_mm)},
+     .range = above_up_to(0, longest_mm),
+     .example = "60"},
     &t.gauge_length);
 }
 
@@ -101,7 +109,8 @@ void describe(const Visitor& v, geometry::Runout& t) {
   v({.name = "radial_offsets_mm",
      .meaning = "by how much each tooth stands out; one number for each tooth",
      .range = between(-longest_mm, longest_mm),
-     .standard = "all 0"},
+     .standard = "all 0",
+     .example = "[0, -0.008]"},
     &t.radial_offsets);
   v({.name = "eccentricity_mm",
      .meaning = "distance from the rotation centre to the geometric centre",
@@ -126,14 +135,16 @@ void describe(const Visitor& v, CutTable& t) {
      .meaning = "radial depth of cut, at most the diameter",
      .range = above_up_to(0, longest_mm),
      .need = Need::always,
-     .only = {"engagement", {"up", "down"}}},
+     .only = {"engagement", {"up", "down"}},
+     .example = "2"},
     &t.radial_depth);
   v({.name = "stock_y_mm",
      .meaning = "the stock lies between these two y",
      .range = between(-1e6, 1e6),
      .need = Need::always,
      .count = 2,
-     .only = {"engagement", {"band"}}},
+     .only = {"engagement", {"band"}},
+     .example = "[-4, 2]"},
     &t.stock_y);
   v({.name = "axial_depth_mm",
      .meaning = "axial depth of cut",
@@ -150,7 +161,8 @@ void describe(const Visitor& v, CutTable& t) {
      .meaning = "feed rate; both feeds may be given only if they agree",
      .range = between(0, 1e9),
      .rival = "feed_per_tooth_mm",
-     .standard = "from feed_per_tooth_mm"},
+     .standard = "from feed_per_tooth_mm",
+     .example = "70"},
     &t.feed_rate);
   v({.name = "spindle_rpm",
      .meaning = "spindle speed",

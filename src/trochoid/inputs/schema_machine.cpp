@@ -36,12 +36,14 @@ void describe(const Visitor& v, CutterBody& t) {
   v({.name = "shank_diameter_mm",
      .meaning = "diameter of the shank",
      .range = length,
-     .standard = "[tool] diameter_mm"},
+     .standard = "[tool] diameter_mm",
+     .example = "12"},
     &t.shank_diameter);
   v({.name = "equivalent_diameter_mm",
      .meaning = "diameter of a round bar as stiff as the fluted part",
      .range = length,
-     .standard = "0.8 of [tool] diameter_mm"},
+     .standard = "0.8 of [tool] diameter_mm",
+     .example = "9.6"},
     &t.equivalent_diameter);
   v({.name = "youngs_modulus_GPa",
      .meaning = "Young's modulus of the cutter",
@@ -97,12 +99,14 @@ void describe(const Visitor& v, Surface& t) {
   v({.name = "heights_mm",
      .meaning = "heights above the tip where the surface is wanted",
      .range = between(0, longest_mm),
-     .standard = "edge_heights_mm of [sampling], else spread over the axial depth"},
+     .standard = "edge_heights_mm of [sampling], else spread over the axial depth",
+     .example = "[1, 2]"},
     &t.heights);
   v({.name = "influence_heights_mm",
      .meaning = "heights above the tip for influence.csv, at most the overhang",
      .range = between(0, longest_mm),
-     .standard = "the heights of the surface"},
+     .standard = "the heights of the surface",
+     .example = "[0, 10]"},
     &t.influence_heights);
   v({.name = "probe_diameter_mm",
      .meaning = "diameter of the ball that touches the surface, which a measuring "

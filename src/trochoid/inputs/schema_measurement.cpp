@@ -29,16 +29,19 @@ void describe(const Visitor& v, Sampling& t) {
     &t.start);
   v({.name = "angles_deg",
      .meaning = "spindle angles, instead of the three keys above",
-     .range = between(-1e9, 1e9)},
+     .range = between(-1e9, 1e9),
+     .example = "[0, 10, 20]"},
     &t.angles);
   v({.name = "edge_angles_deg",
      .meaning = "nominal immersion angles of chip.csv",
-     .range = between(-1e6, 1e6)},
+     .range = between(-1e6, 1e6),
+     .example = "[45, 90, 135]"},
     &t.edge_angles);
   v({.name = "edge_heights_mm",
      .meaning = "heights above the tip of chip.csv",
      .range = between(0, 10000),
-     .standard = "0, or the axial depth where the edge reaches the axis"},
+     .standard = "0, or the axial depth where the edge reaches the axis",
+     .example = "[0, 1]"},
     &t.edge_heights);
   v({.name = "tolerance",
      .meaning = "allowed error of the force, relative to its peak",
@@ -53,12 +56,14 @@ void describe(const Visitor& v, DynamometerTable& t) {
      .need = Need::always,
      .count = 3,
      .word = "auto",
-     .rival = "matrix"},
+     .rival = "matrix",
+     .example = "[\"-x\", \"-y\", \"-z\"]"},
     &t.axes);
   v({.name = "matrix",
      .meaning = "channel i = sum of matrix[i][j] times force j on the tool; invertible",
      .range = between(-1e6, 1e6),
-     .rival = "axes"},
+     .rival = "axes",
+     .example = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"},
     &t.matrix);
 }
 
@@ -72,23 +77,30 @@ void describe(const Visitor& v, MeasurementTable& t) {
   v({.name = "columns",
      .meaning = "names of the columns of channels 1 to 3",
      .count = 3,
-     .standard = "found by name"},
+     .standard = "found by name",
+     .example = "[\"Fx\", \"Fy\", \"Fz\"]"},
     &t.columns);
   v({.name = "angle_column",
      .meaning = "column of the spindle angle",
-     .standard = "found by name"},
+     .standard = "found by name",
+     .example = "\"angle_deg\""},
     &t.angle_column);
   v({.name = "time_column",
      .meaning = "column of the time",
      .rival = "sample_rate_Hz",
-     .standard = "found by name"},
+     .standard = "found by name",
+     .example = "\"time_s\""},
     &t.time_column);
   v({.name = "sample_rate_Hz",
      .meaning = "samples a second, when the record has no time",
      .range = above_up_to(0, 1e9),
-     .rival = "time_column"},
+     .rival = "time_column",
+     .example = "10000"},
     &t.sample_rate);
-  v({.name = "cut", .meaning = "keys of [cut] that are different in this run"}, &t.cut);
+  v({.name = "cut",
+     .meaning = "keys of [cut] that are different in this run",
+     .example = "{ feed_per_tooth_mm = 0.06 }"},
+    &t.cut);
 }
 
 void describe(const Visitor& v, IdentifyTable& t) {
@@ -118,7 +130,8 @@ void describe(const Visitor& v, IdentifyTable& t) {
      .meaning =
          "first, last and number of radial offsets of tooth 2 to try for sweep.csv",
      .range = between(-1e6, 1e6),
-     .count = 3},
+     .count = 3,
+     .example = "[-20, 20, 41]"},
     &t.sweep);
 }
 

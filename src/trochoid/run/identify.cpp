@@ -179,7 +179,8 @@ void add_causes(const inputs::Case& given, const std::vector<MeasuredRun>& measu
 void put_notes_last(std::vector<base::Warning>& warnings) {
   std::stable_partition(
       warnings.begin(), warnings.end(), [](const base::Warning& warning) {
-        return warning.code != "part_of_record" && warning.code != "unit_assumed";
+        return warning.code != "part_of_record" && warning.code != "unit_assumed" &&
+               warning.code != "last_row_left_out";
       });
 }
 

@@ -15,7 +15,10 @@ struct Record {
   std::vector<double> angle;  ///< spindle angle phi [rad], shape (n); empty: unknown
   std::vector<double> time;   ///< [s], shape (n); rebuilt from the rate; empty: unknown
   double sample_rate = 0.0;   ///< [Hz]; 0: unknown
-  std::vector<base::Warning> notes;  ///< what the reader had to assume
+  std::array<std::string, 3> channel_column;  ///< names in the file, for people
+  std::string angle_column;                   ///< the same; empty: none
+  std::string time_column;                    ///< the same
+  std::vector<base::Warning> notes;           ///< what the reader had to assume
 
   [[nodiscard]] std::size_t size() const noexcept { return channel[0].size(); }
 };

@@ -159,9 +159,31 @@ class ExitCode(InFolder):
 
     def test_check_says_what_it_read(self):
         self.record()
-        self.write("cut.toml", identification())
-        self.assertIn("cut.toml", self.run_program("check", "cut.toml").stdout)
+        modes = "\n[[mode]]\nbody = \"tool\"\naxis = \"x\"\nmass_kg = 0.03\n" \
+            "stiffness_N_per_m = 8e6\ndamping_ratio = 0.03\n"
+        self.write("cut.toml", identification() + modes)
+        said = self.run_program("check", "cut.toml").stdout
+        rows = [[float(v) for v in line.split(",")] for line in
+                (self.folder / "record.csv").read_text().splitlines()[1:]]
+        low, high = min(r[1] for r in rows), max(r[1] for r in rows)
+        for part in ("cut.toml: no mistakes found", "record.csv: 120 samples",
+                     "0.99 revolutions by their angles", "angle from column angle_deg",
+                     f"channel 1 from column Fx_N: {low:.1f} to {high:.1f} N",
+                     "[[mode]] is checked, but no command"):
+            self.assertIn(part, said)
         self.assertFalse(list(self.folder.glob("cut.*/")))
+        self.assertEqual(self.run_program("check", "cut.toml", "-q").stdout, "")
+
+    def test_check_tells_time_and_gaps(self):
+        times = [0.001 * i for i in range(400)] + [0.5 + 0.001 * i for i in range(400)]
+        self.write("record.csv", "time_s,Fx_N,Fy_N,Fz_N\n" + "".join(
+            f"{t:.4f},1,2,{i % 7}\n" for i, t in enumerate(times)))
+        self.write("cut.toml", identification())
+        said = self.run_program("check", "cut.toml").stdout
+        for part in ("800 samples, 0.899 s, unevenly sampled",
+                     "about 13.1 revolutions at the stated 875 rpm",
+                     "time from column time_s", "warning [time_gap]: ", "0.399 s to 0.5 s"):
+            self.assertIn(part, said)
 
 
 class Killed(InFolder):

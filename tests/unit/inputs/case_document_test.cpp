@@ -75,6 +75,14 @@ TEST(CaseDocument, WindowsLineEndsAndByteOrderMark) {
   EXPECT_EQ(CaseFolder().problems(text), "");
 }
 
+TEST(CaseDocument, ATextWithoutQuotes) {
+  const CaseFolder folder;
+  const std::string said =
+      refusal(folder.write("a.toml", "[tool]\nshape = cylinder\n"));
+  EXPECT_TRUE(said.starts_with(":2:9: not valid TOML: ")) << said;
+  EXPECT_TRUE(said.ends_with("; a text needs quotes: key = \"value\"\n")) << said;
+}
+
 TEST(CaseFindings, NearNames) {
   const std::vector<std::string> names = {"helix_deg", "diameter_mm", "teeth"};
   EXPECT_EQ(nearest("helx_deg", names), "helix_deg");

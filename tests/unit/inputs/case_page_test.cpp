@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <vector>
 
 namespace trochoid::inputs {
 namespace {
@@ -66,6 +67,68 @@ TEST(CasePage, EveryLineOfANewCaseIsExplained) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;
     }
   }
+}
+
+/// A new case with one of its lines behind a # in force.
+std::string with_line(const std::string& text, std::size_t at) {
+  std::string out = text;
+  out.erase(at, 2);
+  return out;
+}
+
+/// Where lines stand that are keys or tables behind a #.
+std::vector<std::size_t> hidden_lines(const std::string& text) {
+  std::vector<std::size_t> out;
+  for (std::size_t at = text.find("\n# "); at != std::string::npos;
+       at = text.find("\n# ", at + 1)) {
+    const std::string line = text.substr(at + 3, text.find('\n', at + 1) - at - 3);
+    if (line.find(" = ") < line.find(" #") || line.starts_with("[[")) {
+      out.push_back(at + 1);
+    }
+  }
+  return out;
+}
+
+TEST(CasePage, WhatIsHiddenInANewCaseIsValidTomlWithoutTheHash) {
+  const CaseFolder folder;
+  static_cast<void>(folder.write("record.csv", "x"));
+  static_cast<void>(folder.write("record2.csv", "x"));
+  for (const Command command :
+       {Command::simulate, Command::identify, Command::surface, Command::calibrate}) {
+    const std::string text = new_case(command);
+    const auto hidden = hidden_lines(text);
+    EXPECT_GT(hidden.size(), 10U);
+    for (const std::size_t at : hidden) {
+      const std::string changed = with_line(text, at);
+      const std::string problems = folder.problems(changed, command);
+      const std::string name = text.substr(at, 6);
+      const bool twice = name == "# axes" || name == "# file";  // in force as well
+      EXPECT_TRUE(twice || problems.find("not valid TOML") == std::string::npos)
+          << changed.substr(at, 80) << problems;
+    }
+    if (command == Command::surface || command == Command::calibrate) continue;
+    for (const std::string key : {"pitch_deg", "columns", "cut", "feed_rate_mm_per_min",
+                                  "sample_rate_Hz", "sweep_um", "angles_deg"}) {
+      const auto at = text.find("\n# " + key + " = ");
+      if (at != std::string::npos) {
+        EXPECT_EQ(folder.problems(with_line(text, at + 1), command), "") << key;
+      }
+    }
+  }
+}
+
+TEST(CasePage, NewIdentifyShowsASecondRecordAndAxesFoundFromTheRecord) {
+  const CaseFolder folder;
+  static_cast<void>(folder.write("record.csv", "x"));
+  static_cast<void>(folder.write("record2.csv", "x"));
+  std::string text = new_case(Command::identify);
+  EXPECT_NE(text.find("\naxes = \"auto\""), std::string::npos);
+  const auto second = text.find("# [[measurement]]");
+  ASSERT_NE(second, std::string::npos);
+  for (int line = 0; line < 3; ++line) {
+    text.erase(text.find("\n# ", second - 2) + 1, 2);
+  }
+  EXPECT_EQ(folder.read(text, Command::identify).measurements.size(), 2U);
 }
 
 }  // namespace

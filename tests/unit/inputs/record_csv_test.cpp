@@ -4,6 +4,7 @@
 #include <trochoid/inputs/record_file.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <numbers>
 #include <sstream>
@@ -191,10 +192,45 @@ TEST(RecordCsv, KnowsTheRateOfEvenTimesOnly) {
 
 TEST(RecordCsv, ShowsAtMostFiftyProblemsAndCountsTheRest) {
   std::string text = "angle_deg,Fx_N,Fy_N,Fz_N\n";
-  for (int i = 0; i < 70; ++i) text += "0,1,2\n";
+  for (int i = 0; i < 70; ++i) text += "0,1,2,x" + std::to_string(i) + "\n";
   const auto said = refusal(text);
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 51);
   EXPECT_NE(said.find("and 20 more\n"), std::string::npos);
+}
+
+TEST(RecordCsv, ShowsEqualProblemsFiveTimes) {
+  std::string text = "angle_deg,Fx_N,Fy_N,Fz_N\n";
+  for (int i = 0; i < 70; ++i) text += i == 60 ? "0,1,2,x\n" : "0,1,2\n";
+  const auto said = refusal(text);
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 7);
+  EXPECT_NE(said.find("r.csv:6:1: the row has 3 fields"), std::string::npos);
+  EXPECT_EQ(said.find("r.csv:7:1: "), std::string::npos);
+  EXPECT_NE(said.find("r.csv:62:7: "), std::string::npos)
+      << "another one is not hidden";
+  EXPECT_NE(said.find("and 64 more\n"), std::string::npos);
+}
+
+TEST(RecordCsv, SaysWhereTheTimesHaveAGap) {
+  std::string text = "time_s,Fx_N,Fy_N,Fz_N\n";
+  const auto add = [&](double t) { text += std::to_string(t) + ",1,2,3\n"; };
+  for (int i = 0; i < 50; ++i) add(0.01 * i + (i % 2 == 0 ? 0.0 : 0.003));
+  EXPECT_TRUE(read(text).notes.empty()) << "uneven, but nothing is missing";
+  add(0.80);
+  add(0.81);
+  const auto record = read(text);
+  ASSERT_EQ(record.notes.size(), 1u);
+  EXPECT_EQ(record.notes[0].code, "time_gap");
+  EXPECT_NE(record.notes[0].message.find("1 gap: "), std::string::npos);
+  EXPECT_NE(record.notes[0].message.find("0.493 s to 0.8 s"), std::string::npos)
+      << record.notes[0].message;
+}
+
+TEST(RecordCsv, RemembersWhichColumnsItTook) {
+  const auto record = read("t_s;Fz_N;Fy_N;Fx_N\n0;1;2;3\n1;1;2;3\n");
+  EXPECT_EQ(record.channel_column,
+            (std::array<std::string, 3>{"Fx_N", "Fy_N", "Fz_N"}));
+  EXPECT_EQ(record.time_column, "t_s");
+  EXPECT_EQ(record.angle_column, "");
 }
 
 /// Gives one endless line and counts what is taken of it.

@@ -73,10 +73,23 @@ TEST(RecordDynoWare, ReadsAWholeRecordWithoutANote) {
 
 TEST(RecordDynoWare, RefusesARecordThatWasCutOff) {
   EXPECT_NE(refusal(text({.first = 0.0})).find("it was cut off"), std::string::npos);
-  EXPECT_NE(refusal(text({.end = ""})).find("it was cut off"), std::string::npos);
   EXPECT_EQ(refusal(text({.first = 0.0, .samples = 20, .end = ""})), "");
   EXPECT_NE(refusal(text({.samples = 19})).find("19 samples, but 20 rows"),
             std::string::npos);
+}
+
+TEST(RecordDynoWare, LeavesOutALastRowWithoutALineEnd) {
+  // Its last number may be cut off: 3.5 of 3.57.
+  const auto part = read(text({.end = ""}));
+  EXPECT_EQ(part.size(), 19u);
+  EXPECT_EQ(part.time.size(), 19u);
+  ASSERT_EQ(part.notes.size(), 2u);
+  EXPECT_EQ(part.notes[0].code, "last_row_left_out");
+  EXPECT_EQ(part.notes[1].code, "part_of_record");
+  // A whole record has all its rows.
+  const auto whole = read(text({.first = 0.0, .samples = 20, .end = ""}));
+  EXPECT_EQ(whole.size(), 20u);
+  EXPECT_TRUE(whole.notes.empty());
 }
 
 TEST(RecordDynoWare, TakesOtherSeparatorsAndNoTimes) {
