@@ -35,7 +35,7 @@ class Worked(unittest.TestCase):
     def test_every_kind_is_known(self):
         self.assertLessEqual({c["kind"] for c in worked.read()}, KINDS)
 
-    def test_cutter(self):
+    def test_cutter(self):  # [B-1] [B-2]
         for c, g, want in self.each("cutter_compliance"):
             cutter = worked.cutter(g["tool"])
             pairs = list(zip(g["z_obs"], g["z_load"]))
@@ -44,7 +44,7 @@ class Worked(unittest.TestCase):
                 if max(h, F_z) <= cutter.flute_length:
                     self.near(c, st.cutter_by_parts(cutter, h, F_z), G, "by parts")
 
-    def test_plates(self):
+    def test_plates(self):  # [B-3] [B-4] [B-7]
         for c, g, want in self.each("plate_uniform"):
             a, b, nu = g["length"], g["height"], g["nu"]
             plate = st.Plate(st.Wall(a, b, 1.0, 12 * (1 - nu**2), nu))

@@ -1,8 +1,9 @@
 """Deflection that changes the cut it comes from, spec section 5.
 
 delta = G f(delta) at every phi, marched tooth by tooth until the turn repeats.
-    entry         the edge cuts only where it reaches into the stock: R + sigma R_i cos(theta)
-                  + delta <= a_e
+    entry         the edge cuts only where it reaches into the stock: R + sigma R cos(theta)
+                  + delta <= a_e; with `entry_by_tooth` R_i cos(theta), as the spec writes it
+                  (its numbers, and "none" as the limit of a stiff cutter, go with R)
     regenerative  entry; and the chip is that between this path and the marks before, both bent
     direct        entry; and the chip is that between this path, bent, and marks unbent
 Only phi and phi - 2 pi m/N see one another, so any set of phi in one pitch is marched at once.
@@ -36,7 +37,7 @@ def enter(pieces, delta):
 
     def reach(s):
         z, theta = pieces.place(s)
-        R = m.radius(pieces.tooth, z)
+        R = m.radius(pieces.tooth, z) if m.entry_by_tooth else m.R
         return m.ae - (m.R + m.sigma * R * np.cos(theta) + between(delta, s))
 
     lo, hi = pieces.s_from, pieces.s_to
@@ -99,7 +100,7 @@ def balance(evaluate, G, delta, tolerance=1e-12):
         miss = delta - f @ G.T
         worst = np.abs(miss).max(axis=1)
         if worst.max() < tolerance:
-            break
+            return delta, f, F_x
         J = np.eye(len(G)) - G @ slopes(evaluate, delta, f)
         step = np.linalg.solve(J, -miss[:, :, None])[:, :, 0]
         part = np.ones(len(delta))
@@ -110,7 +111,11 @@ def balance(evaluate, G, delta, tolerance=1e-12):
             if not (worse & (worst > tolerance)).any():
                 break
             part = np.where(worse, part / 2, part)
+        if part.min() < 1e-3 and not (part > 1e-3)[worst > tolerance].any():
+            break  # nothing gets better
         delta = trial
+    if worst.max() > 1e3 * tolerance:
+        raise ArithmeticError(f"no balance of force and deflection: {worst.max():.2g} mm left")
     return delta, f, F_x
 
 
