@@ -19,8 +19,4 @@ struct Candidate {
 /// @param span  phases tried for the first run: from -span/2 to span/2 [rad]; 2 pi: all
 std::vector<Candidate> scan(const Problem& problem, double span);
 
-/// @brief Runouts to start from, in the unknowns of the problem: the tool that runs
-/// true, patterns of an eccentricity both ways, single teeth, alternating teeth.
-std::vector<std::vector<double>> runout_starts(const Problem& problem);
-
 }  // namespace trochoid::identification

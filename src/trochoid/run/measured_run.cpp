@@ -21,6 +21,8 @@ using Warnings = std::vector<base::Warning>;
 
 /// A found speed that differs more than this from the stated one is worth a word.
 constexpr double speed_slack = 1e-3;
+/// Beyond this a percentage says less than a factor.
+constexpr double far_off = 0.5;
 
 std::vector<signal::Record> read_all(const inputs::Case& given) {
   std::vector<signal::Record> records;
@@ -39,15 +41,23 @@ std::vector<signal::Record> read_all(const inputs::Case& given) {
 }
 
 void compare_speed(const MeasuredRun& run, Warnings& warnings) {
-  if (std::abs(run.Omega / run.cut.Omega - 1) > speed_slack) {
-    warnings.push_back(
-        {"spindle_speed",
-         fmt::format("{}: the record turns at {:.2f} rpm, {:+.2f} % off the stated "
-                     "{:g} rpm. The found speed is used.",
-                     run.record.file, run.Omega / unit::rpm,
-                     100 * (run.Omega / run.cut.Omega - 1),
-                     run.cut.Omega / unit::rpm)});
+  const double ratio = run.Omega / run.cut.Omega;
+  const double off = std::abs(ratio - 1);
+  if (off <= speed_slack) {
+    return;
   }
+  const std::string how_far = off < far_off
+                                  ? fmt::format("{:+.2f} % off", 100 * (ratio - 1))
+                                  : fmt::format("{:.3g} times", ratio);
+  warnings.push_back(
+      {"spindle_speed",
+       fmt::format("{}: the record turns at {:.2f} rpm, {} the stated {:g} rpm. The "
+                   "found speed is used.{}",
+                   run.record.file, run.Omega / unit::rpm, how_far,
+                   run.cut.Omega / unit::rpm,
+                   off < far_off ? ""
+                                 : " Check spindle_rpm and the feed, or the times "
+                                   "and angles of the record.")});
 }
 
 /// Angle and speed of a run; false with the reason where it has none.

@@ -120,6 +120,19 @@ class ExitCode(InFolder):
             self.assertTrue(all(v is None for v in fit["coefficients"].values()))
             self.assertIsNone(fit["rms_N"])
 
+    def test_a_speed_far_off_is_a_factor_and_no_percentage(self):
+        rows = self.record().read_text().splitlines()
+        # 120 samples of 3 degrees in 0.12 s: 500 rpm
+        lines = ["time_s," + rows[0]] + [f"{0.001 * i:.3f},{r}" for i, r in enumerate(rows[1:])]
+        self.write("record.csv", "\n".join(lines) + "\n")
+        for stated, part in ((50, "500.00 rpm, 10 times the stated 50 rpm"),
+                             (480, "500.00 rpm, +4.17 % off the stated 480 rpm")):
+            self.write("cut.toml", identification(cut={"spindle_rpm": stated}))
+            self.run_program("identify", "cut.toml", "--no-report")
+            said, = [w["message"] for w in self.summary("cut.identify")["warnings"]
+                     if w["code"] == "spindle_speed"]
+            self.assertIn(part, said)
+
     def test_wrong_commands_are_2(self):
         self.write("cut.toml", simulation())
         before = self.everything()

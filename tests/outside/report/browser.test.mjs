@@ -74,7 +74,7 @@ async function check(name, options, plots) {
   return { page, canvases, close };
 }
 
-const plotsOf = { identify: 8, simulate: 7, failed: 0, other: 2 };
+const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -160,6 +160,42 @@ test('an idle tooth is named and hostile text stays text', async () => {
   assert.ok(text.includes('</script><b>&'));
   assert.ok((await page.title()).startsWith('Up milling with runout <b> & "quotes" µ – 刀'));
   assert.equal(await page.locator('h1 b, .warnings b').count(), 0);
+  await close();
+});
+
+test('numbers that must not be used are called so, and nothing is well known', async () => {
+  const { page, close } = await open('doubtful');
+  const lead = page.locator('.lead');
+  assert.ok((await lead.innerText()).startsWith('Do not use these numbers'));
+  const usual = await open('identify');
+  const background = (where) => where.evaluate((e) => getComputedStyle(e).backgroundColor);
+  assert.notEqual(await background(lead), await background(usual.page.locator('.lead')));
+  await usual.close();
+  const text = await page.locator('main').innerText();
+  assert.ok(!/(well|roughly|hardly): ±/.test(text), text);
+  assert.equal(await page.locator('.coefficients td:last-child', { hasText: 'do not use' }).count(), 5);
+  assert.equal(await page.locator('.meter .on').count(), 0);
+  await close();
+});
+
+test('how well a coefficient is known is not clipped on a narrow page', async () => {
+  for (const name of ['identify', 'doubtful']) {
+    const { page, close } = await open(name, { width: 480 });
+    const clipped = await page.$$eval('.scroll:has(.coefficients)', (all) =>
+      all.map((scroll) => scroll.scrollWidth - scroll.clientWidth));
+    assert.deepEqual(clipped, [0], name);
+    const right = await page.$$eval('.coefficients td:last-child', (cells) =>
+      Math.max(...cells.map((cell) => cell.getBoundingClientRect().right)));
+    assert.ok(right <= 480, `${name}: ends at ${right}`);
+    await close();
+  }
+});
+
+test('intervals are 95 % everywhere, by the factor of the fit', async () => {
+  const { page, close } = await open('identify');
+  const text = await page.locator('main').innerText();
+  assert.ok(!text.includes('standard error'), text);
+  assert.ok(text.includes('95 %: ± 0.5 µm') || text.includes('95 %: ± 0.49 µm'), text);
   await close();
 });
 

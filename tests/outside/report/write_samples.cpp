@@ -225,6 +225,21 @@ Answer failed() {
   return answer;
 }
 
+/// The same answer with numbers that must not be used.
+Answer doubtful() {
+  Answer answer = identify();
+  const std::string verdict =
+      "Do not use these numbers: 80 % of the force (rms) is not "
+      "explained.";
+  answer.message = verdict + " " + answer.message;
+  answer.warnings.insert(answer.warnings.begin(), {"do_not_use", verdict});
+  answer.warnings.push_back({"part_of_record", std::string(120, 'x')});
+  const auto end = answer.result.rfind('}');
+  answer.result = answer.result.substr(0, end) +
+                  R"(,"do_not_use": ["80 % of the force (rms) is not explained"]})";
+  return answer;
+}
+
 /// A command without a page of its own, with a table too long to be drawn whole.
 Answer other() {
   Answer answer;
@@ -258,7 +273,8 @@ int main(int argc, char** argv) {
   try {
     for (const auto& [name, answer] :
          {std::pair{"identify", identify()}, std::pair{"simulate", simulate()},
-          std::pair{"failed", failed()}, std::pair{"other", other()}}) {
+          std::pair{"failed", failed()}, std::pair{"doubtful", doubtful()},
+          std::pair{"other", other()}}) {
       const std::string summary = trochoid::results::summary_json(answer);
       trochoid::results::write_folder(root / name, answer,
                                       trochoid::report::html(answer, summary));

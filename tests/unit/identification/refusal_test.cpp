@@ -86,6 +86,33 @@ TEST(Refusal, CoefficientThatAChannelOffsetHides) {  // [I-6] [I-7]
   EXPECT_LT(fit.rms, 1e-5);
 }
 
+TEST(Refusal, CoefficientThatTheOffsetsOfSeveralRunsHide) {  // [I-6] [I-7]
+  // The same of two runs: the axial edge force and both offsets have no value, though a
+  // least-squares solution of smallest size gives them one.
+  force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
+  setup.chip.model = chip::Model::feed;
+  setup.runout.radial_offsets = {0.0, -8.0 * unit::um};
+  force::Setup faster = setup;
+  faster.cut.f_z = 70.0 * unit::um;
+  std::vector<Record> runs = {made_record(setup, steel(), {}),
+                              made_record(faster, steel(), {})};
+  for (auto& F : runs[1].force) F[2] += 30.0;
+  Options options;
+  options.chip_model = chip::Model::feed;
+  options.runout = RunoutUnknowns::fixed;
+  options.phase = 0.0;
+  options.fit_channel_offsets = true;
+  const Fit fit = identify(setup, steel(), runs, options);
+  ASSERT_TRUE(fit.ok) << fit.message;
+  EXPECT_FALSE(fit.coefficients[5].has_value());
+  for (const std::string name : {"K_ae_N_per_mm", "offset of channel 3 in run 1",
+                                 "offset of channel 3 in run 2"}) {
+    EXPECT_TRUE(refused(fit, name)) << name;
+  }
+  EXPECT_FALSE(refused(fit, "offset of channel 1 in run 1"));
+  EXPECT_FALSE(refused(fit, "drift of channel 3 in run 1"));
+}
+
 TEST(Refusal, NothingInCut) {  // [I-6]
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
   setup.cut.engagement = geometry::Band{1.0, 2.0};

@@ -75,9 +75,11 @@ function comparison(fit, fits) {
 
 const half = (entry) => (isNumber(entry?.high - entry?.low) ? (entry.high - entry.low) / 2 : null);
 
-/** Above this factor the correlation of the residuals is worth counting. */
-const muchWider = 1.2;
-const widening = (fit) => Math.max(1, fit?.se_correlation_factor || 1);
+/** By how much wider the correlation of the residuals makes the intervals; a little does not count. */
+function widening(fit) {
+  const factor = fit?.se_correlation_factor || 1;
+  return factor > 1.2 ? factor : 1;
+}
 
 /**
  * How well a coefficient is known: half of its interval against its value, wider where
@@ -119,7 +121,7 @@ function coefficientSection(fit, usable) {
     prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
-      widening(fit) > muchWider ? 'The intervals assume that what the fit leaves is white noise. It is not ' +
+      widening(fit) > 1 ? 'The intervals assume that what the fit leaves is white noise. It is not ' +
         `(correlation ${number(fit.residual_correlation, 2)}): “how well” counts them ` +
         `${number(widening(fit), 2)} times as wide.` : null),
     table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
