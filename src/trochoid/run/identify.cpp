@@ -188,7 +188,7 @@ void put_notes_last(std::vector<base::Warning>& warnings) {
 /// @return what speaks against that
 std::vector<std::string> judge(const inputs::Case& given, const std::vector<Fit>& fits,
                                const Fit& chosen, base::Answer& answer, Json& result) {
-  const auto reasons = reasons_against(chosen);
+  std::vector<std::string> reasons = reasons_against(chosen);
   result["do_not_use"] = reasons;
   add_fit_warnings(given, fits, chosen, answer.warnings);
   if (!reasons.empty()) {
