@@ -44,12 +44,17 @@ const geometry::EdgePosition& position(const Ray& ray, int m) noexcept {
   return ray.slice.teeth[static_cast<std::size_t>(k)];
 }
 
+/// The stock as the deflected cutter sees it.
+geometry::Band stock(const Ray& ray) noexcept {
+  return {ray.p.stock.y_lo - ray.slice.shift, ray.p.stock.y_hi - ray.slice.shift};
+}
+
 double back_angle(const Ray& ray, int m) noexcept {
   return ray.p.back[static_cast<std::size_t>(ray.j * ray.p.teeth + m - 1)];
 }
 
-/// R_j - L for the mark of the m-th tooth before; infinite where it left none.
-double above_mark(const Ray& ray, int m) noexcept {
+/// R_j - L of undeflected paths.
+double above_rigid_mark(const Ray& ray, int m) noexcept {
   const geometry::EdgePosition& own = position(ray, 0);
   const geometry::EdgePosition& other = position(ray, m);
   const double back = back_angle(ray, m);
@@ -76,14 +81,22 @@ double above_mark(const Ray& ray, int m) noexcept {
   }
 }
 
+/// R_j - L for the mark of the m-th tooth before; infinite where it left none.
+double above_mark(const Ray& ray, int m) noexcept {
+  const double above = above_rigid_mark(ray, m);
+  return ray.slice.advance.empty()
+             ? above
+             : above + ray.slice.advance[static_cast<std::size_t>(m - 1)];
+}
+
 double inner_radius(const Ray& ray, int inner) noexcept {
   switch (inner) {
     case Bounds::axis:
       return 0.0;
     case Bounds::low_inside:
-      return ray.p.stock.y_lo / ray.cosine;
+      return stock(ray).y_lo / ray.cosine;
     case Bounds::high_inside:
-      return ray.p.stock.y_hi / ray.cosine;
+      return stock(ray).y_hi / ray.cosine;
     default:
       return position(ray, 0).R - above_mark(ray, inner);
   }
@@ -92,9 +105,9 @@ double inner_radius(const Ray& ray, int inner) noexcept {
 double outer_radius(const Ray& ray, int outer) noexcept {
   switch (outer) {
     case Bounds::low_outside:
-      return ray.p.stock.y_lo / ray.cosine;
+      return stock(ray).y_lo / ray.cosine;
     case Bounds::high_outside:
-      return ray.p.stock.y_hi / ray.cosine;
+      return stock(ray).y_hi / ray.cosine;
     default:
       return position(ray, 0).R;
   }
@@ -103,8 +116,8 @@ double outer_radius(const Ray& ray, int outer) noexcept {
 /// How far the nominal edge point lies inside the window of the simple models.
 double inside_window(const Ray& ray) noexcept {
   const double y = ray.slice.r * ray.cosine;
-  return std::min(ray.slice.r * ray.sine,
-                  std::min(y - ray.p.stock.y_lo, ray.p.stock.y_hi - y));
+  const geometry::Band band = stock(ray);
+  return std::min(ray.slice.r * ray.sine, std::min(y - band.y_lo, band.y_hi - y));
 }
 
 struct Closest {
@@ -161,19 +174,19 @@ Chip exact_chip(const Ray& ray) noexcept {
       bounds.outer = which;
     }
   };
-  const geometry::Band& stock = ray.p.stock;
-  if (std::isfinite(stock.y_lo)) {
+  const geometry::Band band = stock(ray);
+  if (std::isfinite(band.y_lo)) {
     if (c > 0) {
-      clip_inner(stock.y_lo, Bounds::low_inside);
+      clip_inner(band.y_lo, Bounds::low_inside);
     } else {
-      clip_outer(stock.y_lo, Bounds::low_outside);
+      clip_outer(band.y_lo, Bounds::low_outside);
     }
   }
-  if (std::isfinite(stock.y_hi)) {
+  if (std::isfinite(band.y_hi)) {
     if (c < 0) {
-      clip_inner(stock.y_hi, Bounds::high_inside);
+      clip_inner(band.y_hi, Bounds::high_inside);
     } else {
-      clip_outer(stock.y_hi, Bounds::high_outside);
+      clip_outer(band.y_hi, Bounds::high_outside);
     }
   }
   const double margin = above - below;  // C-7
@@ -184,21 +197,21 @@ Chip exact_chip(const Ray& ray) noexcept {
 /// Sign of "there is material between these bounds", smooth through cos(theta) = 0.
 double opening(const Ray& ray, const Bounds& bounds) noexcept {
   const double own = position(ray, 0).R;
-  const geometry::Band& stock = ray.p.stock;
+  const geometry::Band band = stock(ray);
   if (bounds.outer == Bounds::window) {
     return inside_window(ray);
   }
-  if (bounds.outer == Bounds::low_outside && stock.y_lo >= 0) {
-    return ray.cosine * own - stock.y_lo;
+  if (bounds.outer == Bounds::low_outside && band.y_lo >= 0) {
+    return ray.cosine * own - band.y_lo;
   }
-  if (bounds.outer == Bounds::high_outside && stock.y_hi <= 0) {
-    return stock.y_hi - ray.cosine * own;
+  if (bounds.outer == Bounds::high_outside && band.y_hi <= 0) {
+    return band.y_hi - ray.cosine * own;
   }
   if (bounds.outer == Bounds::edge && bounds.inner == Bounds::low_inside) {
-    return ray.cosine * own - stock.y_lo;
+    return ray.cosine * own - band.y_lo;
   }
   if (bounds.outer == Bounds::edge && bounds.inner == Bounds::high_inside) {
-    return stock.y_hi - ray.cosine * own;
+    return band.y_hi - ray.cosine * own;
   }
   if (bounds.outer == Bounds::edge && bounds.inner != Bounds::axis) {
     return above_mark(ray, bounds.inner) - h_threshold;

@@ -34,6 +34,10 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
 struct Slice {
   double r = 0.0;                                 ///< nominal radius [m]
   std::span<const geometry::EdgePosition> teeth;  ///< shape (teeth)
+  double shift = 0.0;  ///< of the axis in y, by deflection [m]
+  /// How much farther out on the ray the axis stands than when the mark of the m-th
+  /// tooth before was left [m], shape (teeth), or empty: no deflection.
+  std::span<const double> advance = {};
 };
 
 /// @brief Chip at one edge point, and what bounds it.

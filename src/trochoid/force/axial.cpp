@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace trochoid::force {
@@ -46,42 +45,6 @@ double thickest_chip(const Edges& edges) {
              : previous;
 }
 
-/// Seeds near which a short cut along the edge can hide: the front of the tool and the
-/// edges of the stock, where the edge passes them.
-void add_seeds(const Edges& edges, double theta_tip, std::vector<double>& grid) {
-  constexpr double turn = 2 * std::numbers::pi;
-  std::array<double, 3> targets{std::numbers::pi / 2};
-  std::size_t count = 1;
-  for (const double y : {edges.passage.stock.y_lo, edges.passage.stock.y_hi}) {
-    const double x = 2 * y / edges.setup.cutter.profile.D;
-    if (std::abs(x) < 1) {
-      targets[count++] = std::acos(x);
-    }
-  }
-  const std::vector<double>& lags = edges.lag_at_ends;
-  const double last = lags.back();
-  if (last == 0) {
-    return;
-  }
-  for (std::size_t t = 0; t < count; ++t) {
-    // theta_tip - lag = target + k turn, lag in (0, last)
-    double lag = theta_tip - targets[t];
-    lag -= turn * std::floor(lag / turn);
-    const int windings = static_cast<int>(std::ceil((last - lag) / turn));
-    for (int k = 0; k < windings; ++k) {
-      const double at = lag + k * turn;
-      const auto above = std::upper_bound(lags.begin(), lags.end(), at);
-      if (above != lags.begin() && above != lags.end()) {
-        const auto i = static_cast<std::size_t>(above - lags.begin());
-        grid.push_back(edges.ends[i - 1] + (edges.ends[i] - edges.ends[i - 1]) *
-                                               (at - lags[i - 1]) /
-                                               (lags[i] - lags[i - 1]));
-      }
-    }
-  }
-  std::sort(grid.begin(), grid.end());
-}
-
 }  // namespace
 
 AxialForce::AxialForce(const Setup& setup, const Law& law, double tolerance)
@@ -115,7 +78,7 @@ void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
   for (std::size_t j = 0; j < edges_.psi.size(); ++j) {
     curve.stand_at(phi, j);
     grid = edges_.grid;
-    add_seeds(edges_, curve.theta_tip(), grid);
+    curve.add_seeds(grid);
     finder.find(grid, pieces);
     for (const auto& piece : pieces) {
       double from = piece.from;

@@ -1,7 +1,9 @@
 #include <trochoid/force/edge_curve.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace trochoid::force {
 
@@ -86,13 +88,55 @@ EdgePoint Edges::point(double s) const noexcept {
   return p;
 }
 
-chip::Slice EdgeCurve::slice(const EdgePoint& point) const noexcept {
+chip::Slice EdgeCurve::slice(const EdgePoint& point) const {
   geometry::edge_positions(edges_.setup.runout, edges_.psi, point.meridian.r, point.lag,
                            teeth_);
-  return {point.meridian.r, teeth_};
+  chip::Slice slice{point.meridian.r, teeth_};
+  if (bend_ != nullptr) {
+    slice.shift = bend_->shift(point.meridian.z);
+    if (bend_->advance) {
+      bend_->advance(point.meridian.z, tooth_, theta_tip_ - point.lag, advance_);
+      slice.advance = advance_;
+    }
+  }
+  return slice;
 }
 
-EdgeState EdgeCurve::state(const EdgePoint& point) const noexcept {
+void EdgeCurve::add_seeds(std::vector<double>& grid) const {
+  constexpr double turn = 2 * std::numbers::pi;
+  std::array<double, 3> targets{std::numbers::pi / 2};
+  std::size_t count = 1;
+  for (const double y : {edges_.passage.stock.y_lo, edges_.passage.stock.y_hi}) {
+    const double x = 2 * y / edges_.setup.cutter.profile.D;
+    if (std::abs(x) < 1) {
+      targets[count++] = std::acos(x);
+    }
+  }
+  const std::vector<double>& lags = edges_.lag_at_ends;
+  const double last = lags.back();
+  if (last == 0) {
+    return;
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    // theta_tip_ - lag = target + k turn, lag in (0, last)
+    double lag = theta_tip_ - targets[t];
+    lag -= turn * std::floor(lag / turn);
+    const int windings = static_cast<int>(std::ceil((last - lag) / turn));
+    for (int k = 0; k < windings; ++k) {
+      const double at = lag + k * turn;
+      const auto above = std::upper_bound(lags.begin(), lags.end(), at);
+      if (above != lags.begin() && above != lags.end()) {
+        const auto i = static_cast<std::size_t>(above - lags.begin());
+        grid.push_back(edges_.ends[i - 1] + (edges_.ends[i] - edges_.ends[i - 1]) *
+                                                (at - lags[i - 1]) /
+                                                (lags[i] - lags[i - 1]));
+      }
+    }
+  }
+  std::sort(grid.begin(), grid.end());
+}
+
+EdgeState EdgeCurve::state(const EdgePoint& point) const {
   const chip::Slice teeth = slice(point);
   const double theta = theta_tip_ - point.lag;
   const geometry::EdgePosition& own = teeth_[tooth_];
@@ -100,12 +144,11 @@ EdgeState EdgeCurve::state(const EdgePoint& point) const noexcept {
           theta + own.epsilon, own.R};
 }
 
-EdgeState EdgeCurve::state(double s) const noexcept {
+EdgeState EdgeCurve::state(double s) const {
   return state(edges_.point(s));
 }
 
-double EdgeCurve::boundary(double s, const EdgeState& a,
-                           const EdgeState& b) const noexcept {
+double EdgeCurve::boundary(double s, const EdgeState& a, const EdgeState& b) const {
   const EdgePoint point = edges_.point(s);
   return chip::boundary(edges_.passage, slice(point), static_cast<int>(tooth_),
                         theta_tip_ - point.lag, a.chip, b.chip);

@@ -4,6 +4,7 @@
 #include <trochoid/force/setup.h>
 #include <trochoid/geometry/edge.h>
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -42,10 +43,24 @@ struct Edges {
   std::vector<double> grid;         ///< ends and points between them [m], ascending
 };
 
+/// @brief How the axis of a bent cutter stands in y, at one spindle angle.
+struct Bend {
+  std::function<double(double z)> shift;  ///< of the axis in y at a height [m]
+  /// How much farther out on its ray a tooth stands than the teeth before it did when
+  /// they left their marks there [m], shape (teeth); empty: as far as they did.
+  std::function<void(double z, std::size_t tooth, double theta, std::span<double> out)>
+      advance;
+};
+
 /// @brief One edge at one spindle angle, as a curve over s for numerics::PieceFinder.
 class EdgeCurve {
  public:
-  explicit EdgeCurve(const Edges& edges) : edges_(edges), teeth_(edges.psi.size()) {}
+  /// @param bend  of the cutter, or none; must outlive this
+  explicit EdgeCurve(const Edges& edges, const Bend* bend = nullptr)
+      : edges_(edges),
+        bend_(bend),
+        teeth_(edges.psi.size()),
+        advance_(edges.psi.size()) {}
 
   /// @param phi  angle of the tip of tooth 1 [rad]
   void stand_at(double phi, std::size_t tooth) noexcept {
@@ -53,19 +68,23 @@ class EdgeCurve {
     theta_tip_ = phi - edges_.psi[tooth];
   }
 
-  [[nodiscard]] double theta_tip() const noexcept { return theta_tip_; }
-  [[nodiscard]] EdgeState state(double s) const noexcept;
-  [[nodiscard]] EdgeState state(const EdgePoint& point) const noexcept;
-  [[nodiscard]] double boundary(double s, const EdgeState& a,
-                                const EdgeState& b) const noexcept;
+  /// @brief Add the points near which a short cut along the edge can hide, and sort:
+  /// where the edge passes the front of the tool and the edges of the stock.
+  void add_seeds(std::vector<double>& grid) const;
+
+  [[nodiscard]] EdgeState state(double s) const;
+  [[nodiscard]] EdgeState state(const EdgePoint& point) const;
+  [[nodiscard]] double boundary(double s, const EdgeState& a, const EdgeState& b) const;
 
  private:
-  [[nodiscard]] chip::Slice slice(const EdgePoint& point) const noexcept;
+  [[nodiscard]] chip::Slice slice(const EdgePoint& point) const;
 
   const Edges& edges_;
+  const Bend* bend_;
   std::size_t tooth_ = 0;
   double theta_tip_ = 0.0;
   mutable std::vector<geometry::EdgePosition> teeth_;
+  mutable std::vector<double> advance_;
 };
 
 }  // namespace trochoid::force

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace trochoid::numerics {
+
+/// @brief Interpolation in Chebyshev points of the first kind on an interval.
+class LagrangeBasis {
+ public:
+  /// @param count  points, at least 1
+  LagrangeBasis(double from, double to, int count);
+
+  /// Where the values are taken, ascending, shape (count).
+  [[nodiscard]] const std::vector<double>& points() const noexcept { return points_; }
+  [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
+
+  /// @brief The values at x of the polynomials that are 1 in one point and 0 in the
+  /// others; also a little outside of the interval.
+  /// @param[out] out  shape (count)
+  void weights(double x, std::span<double> out) const noexcept;
+
+  /// @brief The polynomial through the values.
+  /// @param values  at the points, shape (count)
+  [[nodiscard]] double value(std::span<const double> values, double x) const noexcept;
+
+ private:
+  std::vector<double> points_;
+  std::vector<double> barycentric_;
+};
+
+}  // namespace trochoid::numerics

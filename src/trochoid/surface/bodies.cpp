@@ -1,0 +1,82 @@
+#include <trochoid/surface/bodies.h>
+
+#include <array>
+
+namespace trochoid::surface {
+
+namespace {
+
+/// Points over the axial depth: the influence is a cubic with a kink in its third
+/// derivative, and the force along an edge is smooth but for its ends.
+constexpr int basis_points = 16;
+
+}  // namespace
+
+Compliance::Compliance(const Bodies& bodies, double a_p, double x, Load load)
+    : bodies_(bodies), a_p_(a_p), x_(x), load_(load), basis_(0.0, a_p, basis_points) {}
+
+std::vector<double> Compliance::of_cutter(std::span<const double> heights,
+                                          std::span<const double> loads) const {
+  std::vector<double> G(heights.size() * loads.size());
+  if (bodies_.cutter) {
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      for (std::size_t k = 0; k < loads.size(); ++k) {
+        G[i * loads.size() + k] =
+            structure::compliance(*bodies_.cutter, heights[i], loads[k]);
+      }
+    }
+  }
+  return G;
+}
+
+std::vector<double> Compliance::of_wall(std::span<const double> heights,
+                                        std::span<const double> loads) const {
+  if (!bodies_.wall) {
+    return std::vector<double>(heights.size() * loads.size());
+  }
+  const double tip = bodies_.wall->height - a_p_;
+  std::vector<double> observed(heights.begin(), heights.end());
+  std::vector<double> loaded(loads.begin(), loads.end());
+  for (double& y : observed) {
+    y += tip;
+  }
+  for (double& y : loaded) {
+    y += tip;
+  }
+  return bodies_.wall->plate->influence(x_, observed, x_, loaded);
+}
+
+std::vector<double> Compliance::rows(std::span<const double> heights) const {
+  const std::size_t points = basis_.size();
+  std::vector<double> G(heights.size() * points);
+  if (load_ == Load::distributed) {
+    G = of_cutter(heights, basis_.points());
+    const std::vector<double> wall = of_wall(heights, basis_.points());
+    for (std::size_t i = 0; i < G.size(); ++i) {
+      G[i] += wall[i];  // E-5
+    }
+    return G;
+  }
+  const std::array<double, 1> middle = {a_p_ / 2};
+  std::vector<double> c = of_cutter(heights, middle);
+  if (bodies_.wall) {
+    const double top = bodies_.wall->height;
+    std::vector<double> observed(heights.begin(), heights.end());
+    for (double& y : observed) {
+      y += top - a_p_;
+    }
+    const std::vector<double> wall =
+        bodies_.wall->plate->line_load(x_, observed, x_, top - a_p_, top);
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      c[i] += wall[i];
+    }
+  }
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    for (std::size_t q = 0; q < points; ++q) {
+      G[i * points + q] = c[i];  // E-6, the moments add up to F_y
+    }
+  }
+  return G;
+}
+
+}  // namespace trochoid::surface

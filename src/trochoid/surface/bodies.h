@@ -1,0 +1,68 @@
+#pragma once
+
+#include <trochoid/numerics/lagrange.h>
+#include <trochoid/structure/cantilever.h>
+#include <trochoid/structure/plate.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trochoid::surface {
+
+/// The wall as the cutter meets it.
+struct Wall {
+  std::shared_ptr<const structure::PlateSolution> plate;
+  double height = 0.0;  ///< of the free edge above the clamping [m]
+};
+
+/// @brief What bends; what is absent is rigid.
+struct Bodies {
+  std::optional<structure::Cantilever> cutter;
+  std::optional<Wall> wall;
+};
+
+/// How the force is spread over the axial depth.
+enum class Load {
+  distributed,   ///< each piece of an edge at its own height
+  concentrated,  ///< on the cutter at a_p/2, on the wall evenly over a_p (the paper)
+};
+
+/// @brief Deflection along the cut, from the force along the cut.
+///
+/// The force per height enters by its moments m_q = integral of L_q(z) dF_y, with the
+/// polynomials L_q of `basis`: any smooth function of z, and so the influence, is its
+/// values at the points times these.
+///
+/// @eq E-5 u(h) = sum_q G(h, z_q) m_q, G = G_cutter + G_wall       (distributed)
+/// @eq E-6 u(h) = (G_cutter(h, a_p/2) + G_wall,line(h)) F_y          (concentrated)
+/// @src [wang2015] eq. 4 to 9; the distributed load: derived
+class Compliance {
+ public:
+  /// @param a_p  axial depth; the tip is at height - a_p on the wall [m]
+  /// @param x    of the cutter along the wall [m]
+  Compliance(const Bodies& bodies, double a_p, double x, Load load);
+
+  [[nodiscard]] const numerics::LagrangeBasis& basis() const noexcept { return basis_; }
+
+  /// @param heights  above the tip [m]
+  /// @return [m/N], row-major, shape (heights, basis points)
+  [[nodiscard]] std::vector<double> rows(std::span<const double> heights) const;
+
+  /// @brief Deflection per force at single points, of the cutter alone.
+  [[nodiscard]] std::vector<double> of_cutter(std::span<const double> heights,
+                                              std::span<const double> loads) const;
+  /// @brief The same of the wall alone; zero above the free edge's height.
+  [[nodiscard]] std::vector<double> of_wall(std::span<const double> heights,
+                                            std::span<const double> loads) const;
+
+ private:
+  Bodies bodies_;
+  double a_p_;
+  double x_;
+  Load load_;
+  numerics::LagrangeBasis basis_;
+};
+
+}  // namespace trochoid::surface

@@ -1,0 +1,63 @@
+#include <trochoid/surface/datum.h>
+
+#include <trochoid/numerics/student.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trochoid::surface {
+
+DatumColumns datum_columns(std::span<const Spot> spots, std::span<const Datum> datum) {
+  std::vector<std::vector<double>> parts;
+  for (std::size_t set = 0; set < datum.size(); ++set) {
+    double x_mean = 0.0;
+    double height_mean = 0.0;
+    double count = 0.0;
+    bool moves = false;
+    const Spot* first = nullptr;
+    for (const Spot& spot : spots) {
+      if (spot.set == set) {
+        first = first == nullptr ? &spot : first;
+        moves = moves || spot.x != first->x;
+        x_mean += spot.x;
+        height_mean += spot.height;
+        count += 1.0;
+      }
+    }
+    const auto add = [&](const auto& value) {
+      parts.emplace_back();
+      for (const Spot& spot : spots) {
+        parts.back().push_back(spot.set == set ? value(spot) : 0.0);
+      }
+    };
+    if (datum[set].offset) {
+      add([](const Spot&) { return 1.0; });
+    }
+    if (datum[set].tilt && moves) {
+      add([&](const Spot& spot) { return spot.x - x_mean / count; });
+    }
+    if (datum[set].tilt) {
+      add([&](const Spot& spot) { return spot.height - height_mean / count; });
+    }
+  }
+  DatumColumns result{.count = parts.size()};
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    for (const auto& column : parts) {
+      result.values.push_back(column[i]);
+    }
+  }
+  return result;
+}
+
+Estimate estimate(double value, double variance, int freedom) {
+  if (freedom < 1) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {value, unknown, unknown, unknown};
+  }
+  const double se = std::sqrt(std::max(variance, 0.0));
+  const double reach = numerics::student_t(0.975, freedom) * se;
+  return {value, se, value - reach, value + reach};
+}
+
+}  // namespace trochoid::surface

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <trochoid/force/edge_curve.h>
+#include <trochoid/force/law.h>
+#include <trochoid/numerics/lagrange.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace trochoid::surface {
+
+/// Coefficients that matter for the force across and along the wall: cutting t, cutting
+/// r, edge t, edge r. The axial ones do nothing there on a cylinder.
+inline constexpr std::size_t columns = 4;
+
+/// @brief Those coefficients of a law; a power law has no edge part.
+std::array<double, columns> wall_coefficients(const force::Law& law);
+
+/// @brief How the force along the edges is spread over the height, at a spindle angle.
+///
+/// @eq E-2 dF_y = (K_tc sin(theta) - K_rc cos(theta)) h dz + (K_te sin(theta) - K_re
+///         cos(theta)) dS,  dF_x = -(K_tc cos(theta) + K_rc sin(theta)) h dz - ...
+/// @eq E-3 m_q = integral of L_q(z) dF_y over all edges
+/// @src [wang2015] eq. 1 to 3; E-3 derived
+class EdgeMoments {
+ public:
+  EdgeMoments(const force::Setup& setup, const force::Law& law,
+              const numerics::LagrangeBasis& basis);
+
+  /// Values of one coefficient: the moments, then F_x, then F_y.
+  [[nodiscard]] std::size_t values() const noexcept { return basis_.size() + 2; }
+
+  /// @param[in]  phi   angle of the tip of tooth 1 [rad]
+  /// @param[in]  bend  of the cutter relative to the wall, or none
+  /// @param[out] out   per unit coefficient, row-major, shape (columns, values())
+  void at(double phi, const force::Bend* bend, std::span<double> out) const;
+
+  /// @brief Angles phi at which something switches at the tip or at the top of the cut,
+  /// where the force has a kink [rad].
+  [[nodiscard]] std::vector<double> kinks() const;
+
+  /// Do all teeth cut alike, so that everything repeats with every tooth?
+  [[nodiscard]] bool equal_teeth() const noexcept;
+
+  /// Angle from a tooth to the m-th tooth before it [rad], shape (teeth, teeth).
+  [[nodiscard]] std::span<const double> back() const noexcept {
+    return edges_.passage.back;
+  }
+
+  [[nodiscard]] const force::Setup& setup() const noexcept { return edges_.setup; }
+  [[nodiscard]] const numerics::LagrangeBasis& basis() const noexcept { return basis_; }
+
+ private:
+  force::Edges edges_;
+  force::Law law_;
+  numerics::LagrangeBasis basis_;
+};
+
+}  // namespace trochoid::surface

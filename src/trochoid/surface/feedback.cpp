@@ -1,0 +1,239 @@
+#include <trochoid/surface/feedback.h>
+
+#include <trochoid/surface/scale.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::surface {
+
+namespace {
+
+using Values = std::vector<double>;
+
+double largest_of(std::span<const double> v) {
+  double largest = 0.0;
+  for (const double x : v) {
+    largest = std::max(largest, std::abs(x));
+  }
+  return largest;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += a[i] * b[i];
+  }
+  return sum;
+}
+
+/// @brief u with image(u) = u, by Broyden's method from the Jacobian -1 of the
+/// residual.
+/// @src C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 7.3: only
+///      the steps are kept
+template <class Image>
+bool solve_fixed_point(const Image& image, Values& u, double allowed) {
+  constexpr int most_steps = 60;
+  Values r(u.size());
+  std::vector<Values> steps;
+  for (int k = 0; k < most_steps; ++k) {
+    image(u, r);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      r[i] -= u[i];
+    }
+    if (largest_of(r) <= allowed) {
+      return true;
+    }
+    Values z = r;
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+      const double part = dot(steps[n], z) / dot(steps[n], steps[n]);
+      const bool last = n + 1 == steps.size();
+      const double factor = last ? 1 / std::max(1 - part, 0.1) : 1.0;
+      for (std::size_t i = 0; i < z.size(); ++i) {
+        z[i] = last ? factor * z[i] : z[i] + part * steps[n + 1][i];
+      }
+    }
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      u[i] += z[i];
+    }
+    steps.push_back(std::move(z));
+  }
+  return false;
+}
+
+/// One passage over the turn, with the deflections of the passage before as the past.
+class Passage {
+ public:
+  Passage(const EdgeMoments& edges, std::span<const double, columns> K,
+          const Compliance& compliance, Feedback feedback)
+      : edges_(edges),
+        K_(K),
+        basis_(compliance.basis()),
+        G_(compliance.rows(compliance.basis().points())),
+        feedback_(feedback) {}
+
+  /// u at the basis points over the spindle angle, or none: as straight as now.
+  void remember(const numerics::PeriodicPieces* moments) {
+    past_ = moments == nullptr ? numerics::PeriodicPieces{} : bent(*moments);
+  }
+
+  /// Values of moments, F_x, F_y at phi; false where no state was found.
+  bool at(double phi, double allowed, std::span<double> out) const {
+    const std::size_t points = basis_.size();
+    Values u(points);
+    if (past_.functions() > 0) {
+      past_.value(phi, u);
+    }
+    Values unit(columns * edges_.values());
+    Values before(edges_.back().size() * points);
+    look_back(phi, before);
+    const auto image = [&](const Values& state, Values& result) {
+      forces(phi, state, before, unit, out);
+      apply(out, result);
+    };
+    return solve_fixed_point(image, u, allowed);
+  }
+
+  [[nodiscard]] double largest_bend(std::span<const double> moments) const {
+    Values u(basis_.size());
+    apply(moments, u);
+    return largest_of(u);
+  }
+
+  [[nodiscard]] numerics::PeriodicPieces bent(
+      const numerics::PeriodicPieces& moments) const {
+    const std::size_t points = basis_.size();
+    Values weights(points * moments.functions());
+    for (std::size_t p = 0; p < points; ++p) {
+      std::copy_n(
+          G_.begin() + static_cast<std::ptrdiff_t>(p * points), points,
+          weights.begin() + static_cast<std::ptrdiff_t>(p * moments.functions()));
+    }
+    return moments.combined(weights);
+  }
+
+ private:
+  void apply(std::span<const double> moments, Values& u) const {
+    const std::size_t points = basis_.size();
+    for (std::size_t p = 0; p < points; ++p) {
+      u[p] = dot(std::span(G_).subspan(p * points, points), moments.first(points));
+    }
+  }
+
+  /// Deflections when the teeth before each tooth left their marks: shape (teeth,
+  /// teeth, points).
+  void look_back(double phi, std::span<double> before) const {
+    if (feedback_ != Feedback::regenerative || past_.functions() == 0) {
+      return;
+    }
+    const std::span<const double> back = edges_.back();
+    for (std::size_t k = 0; k < back.size(); ++k) {
+      past_.value(phi - back[k], before.subspan(k * basis_.size(), basis_.size()));
+    }
+  }
+
+  void forces(double phi, const Values& u, const Values& before, Values& unit,
+              std::span<double> out) const {
+    force::Bend bend;
+    bend.shift = [&](double z) { return basis_.value(u, z); };
+    const bool chip_changes =
+        feedback_ == Feedback::direct ||
+        (feedback_ == Feedback::regenerative && past_.functions() > 0);
+    if (chip_changes) {
+      bend.advance = [&](double z, std::size_t tooth, double theta,
+                         std::span<double> gained) {
+        const double now = basis_.value(u, z);
+        const double cosine = std::cos(theta);
+        for (std::size_t m = 0; m < gained.size(); ++m) {
+          const std::size_t mark = tooth * gained.size() + m;
+          const double then = basis_.value(
+              std::span(before).subspan(mark * basis_.size(), basis_.size()), z);
+          gained[m] = cosine * (now - then);  // E-10
+        }
+      };
+    }
+    edges_.at(phi, &bend, unit);
+    const std::size_t n = edges_.values();
+    for (std::size_t q = 0; q < n; ++q) {
+      out[q] = 0.0;
+      for (std::size_t c = 0; c < columns; ++c) {
+        out[q] += K_[c] * unit[c * n + q];
+      }
+    }
+  }
+
+  const EdgeMoments& edges_;
+  std::span<const double, columns> K_;
+  const numerics::LagrangeBasis& basis_;
+  Values G_;  ///< deflection at the basis points from moments
+  Feedback feedback_;
+  numerics::PeriodicPieces past_;
+};
+
+/// Largest difference between two turns in the deflection, and the largest deflection.
+std::pair<double, double> difference(const Passage& passage,
+                                     const numerics::PeriodicPieces& a,
+                                     const numerics::PeriodicPieces& b) {
+  constexpr int samples = 180;
+  Values x(a.functions());
+  Values y(b.functions());
+  double change = 0.0;
+  double peak = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double phi = 2 * std::numbers::pi * (i + 0.5) / samples;
+    a.value(phi, x);
+    b.value(phi, y);
+    peak = std::max(peak, passage.largest_bend(x));
+    for (std::size_t q = 0; q < x.size(); ++q) {
+      x[q] -= y[q];
+    }
+    change = std::max(change, passage.largest_bend(x));
+  }
+  return {change, peak};
+}
+
+}  // namespace
+
+BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
+                   const Compliance& compliance, Feedback feedback, double tolerance) {
+  Passage passage(edges, K, compliance, feedback);
+  const auto rigid = [&](double phi, std::span<double> out) {
+    Values unit(columns * edges.values());
+    edges.at(phi, nullptr, unit);
+    std::fill(out.begin(), out.end(), 0.0);
+    for (std::size_t k = 0; k < unit.size(); ++k) {
+      out[k % edges.values()] += K[k / edges.values()] * unit[k];
+    }
+  };
+  const Values largest = largest_values(edges, 1, rigid);
+  numerics::PeriodicPieces::Options options =
+      panels_for(edges, edges.equal_teeth(), largest, tolerance);
+  const double allowed =
+      passage.largest_bend(Values(edges.values(), largest[0])) * 0.1 * tolerance;
+  std::atomic<bool> found = true;
+  const numerics::PeriodicPieces::Function f = [&](double phi, std::span<double> out) {
+    if (!passage.at(phi, allowed, out)) {
+      found = false;
+    }
+  };
+  const bool remembers = feedback == Feedback::regenerative && !edges.equal_teeth();
+  BentTurn turn{.moments = {f, options}, .turns = 1};
+  constexpr int most_turns = 200;
+  while (remembers && turn.turns < most_turns) {
+    passage.remember(&turn.moments);
+    numerics::PeriodicPieces next(f, options);
+    const auto [change, peak] = difference(passage, turn.moments, next);
+    turn.moments = std::move(next);
+    ++turn.turns;
+    turn.change = peak > 0 ? change / peak : 0.0;
+    if (turn.change <= tolerance) {
+      break;
+    }
+  }
+  turn.converged = found && (!remembers || turn.change <= tolerance);
+  return turn;
+}
+
+}  // namespace trochoid::surface

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <trochoid/numerics/periodic_pieces.h>
+#include <trochoid/surface/bodies.h>
+#include <trochoid/surface/edge_moments.h>
+
+#include <array>
+#include <span>
+#include <string>
+
+namespace trochoid::surface {
+
+/// What of the chip the deflection changes.
+enum class Feedback {
+  none,
+  entry,         ///< where an edge meets the stock
+  regenerative,  ///< entry and chip; earlier teeth were deflected as well
+  direct,        ///< entry and chip, as if earlier teeth had not been deflected
+};
+
+/// @brief A turn of the bent cutter.
+struct BentTurn {
+  numerics::PeriodicPieces moments;  ///< as of with_coefficients
+  bool converged = false;
+  int turns = 0;        ///< passes over the turn until it repeated
+  double change = 0.0;  ///< of the deflection in the last pass, relative to its peak
+};
+
+/// @brief The periodic state in which the deflection and the chip agree.
+///
+/// @eq E-10 u(phi, h) = sum_q G_q(h) m_q(phi; u): the stock is met at y + u, and the
+/// chip
+///          over the mark of the m-th tooth before grows by cos(theta) (u(phi) - u(phi
+///          - phi_m))
+/// @src [wang2015] section 5 in words; derived. Without runout the chip term cancels.
+/// @param K          wall_coefficients of the law
+/// @param tolerance  relative, of force and deflection
+BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
+                   const Compliance& compliance, Feedback feedback, double tolerance);
+
+}  // namespace trochoid::surface

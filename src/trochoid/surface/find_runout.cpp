@@ -1,0 +1,255 @@
+#include <trochoid/surface/find_runout.h>
+
+#include <trochoid/numerics/least_squares.h>
+#include <trochoid/numerics/levenberg_marquardt.h>
+#include <trochoid/surface/datum.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::surface {
+
+namespace {
+
+using Values = std::vector<double>;
+
+constexpr double um = 1e-6;    // scale of errors and runout
+constexpr double MN_m2 = 1e8;  // scale of coefficients
+constexpr double turn = 2 * std::numbers::pi;
+
+/// Which unknowns a fit has, scaled to about one: c, s, [start], [K_tc, K_rc, datum].
+struct Unknowns {
+  bool start = false;
+  bool all = false;
+  std::size_t datum = 0;
+
+  [[nodiscard]] std::size_t count() const {
+    return 2 + (start ? 1 : 0) + (all ? 2 + datum : 0);
+  }
+};
+
+struct State {
+  RunoutVector runout;
+  double start = 0.0;
+  std::array<double, columns> K{};
+  Values datum;
+};
+
+struct Problem {
+  const ToothModel& model;
+  std::span<const Reading> readings;
+  const DatumColumns& columns_of_datum;
+  double f_z;
+
+  [[nodiscard]] Values pack(const State& s, const Unknowns& u) const {
+    Values p = {s.runout.c / um, s.runout.s / um};
+    if (u.start) {
+      p.push_back(s.start / f_z);
+    }
+    if (u.all) {
+      p.push_back(s.K[0] / MN_m2);
+      p.push_back(s.K[1] / MN_m2);
+      for (const double d : s.datum) {
+        p.push_back(d / um);
+      }
+    }
+    return p;
+  }
+
+  [[nodiscard]] State unpack(std::span<const double> p, const Unknowns& u,
+                             State s) const {
+    std::size_t i = 0;
+    s.runout = {p[0] * um, p[1] * um};
+    i = 2;
+    if (u.start) {
+      s.start = p[i++] * f_z;
+    }
+    if (u.all) {
+      s.K[0] = p[i++] * MN_m2;
+      s.K[1] = p[i++] * MN_m2;
+      for (double& d : s.datum) {
+        d = p[i++] * um;
+      }
+    }
+    return s;
+  }
+
+  /// Predicted errors with the datum [m].
+  [[nodiscard]] Values errors(const State& s, const ToothModel::Forces& forces) const {
+    Values e = model.predict(forces, s.K, s.runout, s.start);
+    const std::size_t n = columns_of_datum.count;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      for (std::size_t k = 0; k < n; ++k) {
+        e[i] += columns_of_datum.values[i * n + k] * s.datum[k];
+      }
+    }
+    return e;
+  }
+
+  void residuals(const State& s, const ToothModel::Forces& forces,
+                 std::span<double> r) const {
+    const Values e = errors(s, forces);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      r[i] = (readings[i].error - e[i]) / um;
+    }
+  }
+};
+
+/// Residuals and their central differences; forces change with the runout only, and
+/// with `frozen` not even then.
+numerics::Residuals residuals_of(const Problem& problem, const Unknowns& u,
+                                 const State& about, const ToothModel::Forces* frozen) {
+  return [=, &problem](std::span<const double> p, std::span<double> r,
+                       std::span<double> jacobian) {
+    const State here = problem.unpack(p, u, about);
+    const auto forces_at = [&](const State& s) {
+      return frozen != nullptr ? *frozen : problem.model.forces(s.runout);
+    };
+    const ToothModel::Forces forces = forces_at(here);
+    problem.residuals(here, forces, r);
+    if (jacobian.empty()) {
+      return true;
+    }
+    Values q(p.begin(), p.end());
+    Values plus(r.size());
+    Values minus(r.size());
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      constexpr double step = 1e-3;
+      const auto at = [&](double value, Values& out) {
+        q[k] = value;
+        const State s = problem.unpack(q, u, about);
+        problem.residuals(s, k < 2 ? forces_at(s) : forces, out);
+      };
+      at(p[k] + step, plus);
+      at(p[k] - step, minus);
+      q[k] = p[k];
+      for (std::size_t i = 0; i < r.size(); ++i) {
+        jacobian[k * r.size() + i] = (plus[i] - minus[i]) / (2 * step);
+      }
+    }
+    return true;
+  };
+}
+
+/// The best of several starts, with the forces of a cutter without runout.
+State first_guess(const Problem& problem, const State& about, double amplitude) {
+  const ToothModel::Forces forces = problem.model.forces({});
+  const Unknowns u{.start = problem.model.has_phase()};
+  const int angles = 8;
+  const int starts = u.start ? 4 : 1;
+  State best = about;
+  double least = -1.0;
+  for (int i = 0; i < angles * starts; ++i) {
+    State s = about;
+    const double angle = turn * (i % angles) / angles;
+    s.runout = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
+    s.start = problem.f_z * (i / angles) / starts;
+    const auto found = numerics::levenberg_marquardt(
+        residuals_of(problem, u, about, &forces),
+        static_cast<int>(problem.readings.size()), problem.pack(s, u),
+        {.max_iterations = 15, .parameter_tolerance = 1e-5});
+    if (least < 0 || found.final_cost < least) {
+      least = found.final_cost;
+      best = problem.unpack(found.p, u, about);
+    }
+  }
+  return best;
+}
+
+/// Values and errors of the last fit.
+void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
+                  RunoutAnswer& answer) {
+  const std::size_t m = problem.readings.size();
+  const std::size_t n = u.count();
+  Values r(m);
+  Values J(m * n);
+  const Values p = problem.pack(best, u);
+  residuals_of(problem, u, best, nullptr)(p, r, J);
+  Values rows(m * n);
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      rows[i * n + k] = J[k * m + i];
+    }
+  }
+  const auto solved = numerics::least_squares(rows, static_cast<int>(n), r, 1e-7);
+  double sum = 0.0;
+  for (const double x : r) {
+    sum += x * x;
+  }
+  answer.rms = um * std::sqrt(sum / static_cast<double>(m));
+  if (solved.inverse_gram.empty()) {
+    answer.message = "the readings do not tell runout and coefficients apart";
+    return;
+  }
+  const int freedom = static_cast<int>(m) - static_cast<int>(n);
+  const double s2 = freedom > 0 ? sum / freedom : 0.0;
+  const auto G = [&](std::size_t i, std::size_t k) {
+    return s2 * solved.inverse_gram[i * n + k];
+  };
+  const double c = best.runout.c / um;
+  const double s = best.runout.s / um;
+  const double rho2 = std::max(c * c + s * s, 1e-30);
+  const double along = (c * c * G(0, 0) + 2 * c * s * G(0, 1) + s * s * G(1, 1)) / rho2;
+  const double across =
+      (s * s * G(0, 0) - 2 * c * s * G(0, 1) + c * c * G(1, 1)) / (rho2 * rho2);
+  answer.eccentricity = estimate(um * std::sqrt(rho2), um * um * along, freedom);
+  double angle = std::atan2(s, c);
+  angle += angle < 0 ? turn : 0.0;
+  answer.angle = estimate(angle, across, freedom);
+  const std::size_t k = u.start ? 3 : 2;
+  if (u.start) {
+    answer.start = estimate(best.start, problem.f_z * problem.f_z * G(2, 2), freedom);
+  }
+  answer.K_tc = estimate(best.K[0], MN_m2 * MN_m2 * G(k, k), freedom);
+  answer.K_rc = estimate(best.K[1], MN_m2 * MN_m2 * G(k + 1, k + 1), freedom);
+  answer.correlation = G(k, k + 1) / std::sqrt(G(k, k) * G(k + 1, k + 1));
+  answer.ok = true;
+  answer.message.clear();
+}
+
+}  // namespace
+
+RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readings,
+                         std::span<const Datum> datum, const Answer& start) {
+  RunoutAnswer answer;
+  const ToothModel model(setting, readings);
+  answer.labelled = model.labelled();
+  std::vector<Spot> spots;
+  for (const Reading& r : readings) {
+    spots.push_back({r.x, r.height, r.set});
+  }
+  const DatumColumns datum_part = datum_columns(spots, datum);
+  const Unknowns all{
+      .start = model.has_phase(), .all = true, .datum = datum_part.count};
+  if (!model.obstacle().empty() || readings.size() <= all.count()) {
+    answer.message = model.obstacle().empty()
+                         ? "too few readings for runout beside the coefficients"
+                         : model.obstacle();
+    return answer;
+  }
+  const Problem problem{model, readings, datum_part, setting.setup.cut.f_z};
+  State about{.K = wall_coefficients(setting.law)};
+  about.K[0] = start.K_tc.value;
+  about.K[1] = start.K_rc.value;
+  for (const Estimate& d : start.datum) {
+    about.datum.push_back(d.value);
+  }
+  Values r(readings.size());
+  problem.residuals(about, model.forces({}), r);
+  double sum = 0.0;
+  for (const double x : r) {
+    sum += x * x / static_cast<double>(r.size());
+  }
+  answer.rms_without = um * std::sqrt(sum);
+  State best = first_guess(problem, about, std::max(answer.rms_without, 0.1 * um));
+  const auto found = numerics::levenberg_marquardt(
+      residuals_of(problem, all, best, nullptr), static_cast<int>(readings.size()),
+      problem.pack(best, all), {.max_iterations = 30, .parameter_tolerance = 1e-9});
+  best = problem.unpack(found.p, all, best);
+  describe_fit(problem, all, best, answer);
+  answer.predicted = problem.errors(best, model.forces(best.runout));
+  return answer;
+}
+
+}  // namespace trochoid::surface

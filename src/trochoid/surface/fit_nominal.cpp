@@ -1,0 +1,201 @@
+#include <trochoid/surface/fit_nominal.h>
+
+#include <trochoid/numerics/least_squares.h>
+#include <trochoid/surface/datum.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trochoid::surface {
+
+namespace {
+
+using Values = std::vector<double>;
+
+double weight_of(const Nominal& nominal) {
+  return std::sqrt(static_cast<double>(nominal.readings.size()));
+}
+
+DatumColumns datum_of(const NominalFit& fit) {
+  std::vector<Spot> spots;
+  for (const Nominal& n : fit.nominal) {
+    spots.push_back({n.x, n.height, n.set});
+  }
+  return datum_columns(spots, fit.datum);
+}
+
+Values weighted_errors(const NominalFit& fit, const Prediction& at) {
+  Values b;
+  for (std::size_t i = 0; i < fit.nominal.size(); ++i) {
+    b.push_back(weight_of(fit.nominal[i]) * (fit.nominal[i].error - at.error[i]));
+  }
+  return b;
+}
+
+/// The one combination that is known where the two are not.
+void find_known_combination(const Values& D, const Values& b, int n,
+                            const numerics::LeastSquares& solved,
+                            std::array<double, columns> K, Answer& answer) {
+  const auto count = static_cast<std::size_t>(n);
+  if (solved.rank != n - 1 || solved.norms[0] == 0 || solved.norms[1] == 0) {
+    return;
+  }
+  double datum_part = 0.0;
+  for (std::size_t k = 2; k < count; ++k) {
+    datum_part = std::max(datum_part, std::abs(solved.null_space[k]));
+  }
+  if (datum_part > 0.1) {
+    return;
+  }
+  std::array<double, 2> blind = {solved.null_space[0] / solved.norms[0],
+                                 solved.null_space[1] / solved.norms[1]};
+  const double length = std::hypot(blind[0], blind[1]);
+  answer.known = {std::abs(blind[1]) / length,
+                  (blind[1] < 0 ? 1.0 : -1.0) * blind[0] / length};
+  Values reduced;
+  const std::size_t rows = D.size() / count;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double* row = D.data() + i * count;
+    reduced.push_back(answer.known[0] * row[0] + answer.known[1] * row[1]);
+    reduced.insert(reduced.end(), row + 2, row + count);
+  }
+  const auto once = numerics::least_squares(reduced, n - 1, b, 1e-12);
+  const int freedom = static_cast<int>(rows) - (n - 1);
+  const double variance = once.inverse_gram.empty() || freedom < 1
+                              ? 0.0
+                              : once.rss / freedom * once.inverse_gram[0];
+  answer.combination = estimate(
+      once.x[0] + answer.known[0] * K[0] + answer.known[1] * K[1], variance, freedom);
+}
+
+/// Sum of squares of b that the datum columns alone leave.
+double left_over(const Values& D, const Values& b, int n) {
+  const auto count = static_cast<std::size_t>(n);
+  if (n == 2) {
+    double sum = 0.0;
+    for (const double x : b) {
+      sum += x * x;
+    }
+    return sum;
+  }
+  Values datum;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    datum.insert(datum.end(), D.begin() + static_cast<std::ptrdiff_t>(i * count + 2),
+                 D.begin() + static_cast<std::ptrdiff_t>((i + 1) * count));
+  }
+  return numerics::least_squares(datum, n - 2, b, 1e-12).rss;
+}
+
+void describe_solution(const numerics::LeastSquares& solved, int n,
+                       const std::array<double, columns>& K, Answer& answer) {
+  const auto count = static_cast<std::size_t>(n);
+  const int freedom = static_cast<int>(answer.residual.size()) - n;
+  const double s2 = freedom > 0 ? solved.rss / freedom : 0.0;
+  const auto& G = solved.inverse_gram;
+  answer.K_tc = estimate(K[0], s2 * G[0], freedom);
+  answer.K_rc = estimate(K[1], s2 * G[count + 1], freedom);
+  answer.correlation = G[1] / std::sqrt(G[0] * G[count + 1]);
+  answer.datum.clear();
+  for (std::size_t k = 2; k < count; ++k) {
+    answer.datum.push_back(estimate(solved.x[k], s2 * G[k * count + k], freedom));
+  }
+}
+
+/// Residuals without weights, and their root mean square over the readings.
+void set_residuals(const NominalFit& fit, std::span<const double> weighted,
+                   Answer& answer) {
+  double sum = 0.0;
+  double count = 0.0;
+  answer.residual.clear();
+  answer.predicted.clear();
+  for (std::size_t i = 0; i < weighted.size(); ++i) {
+    const double r = weighted[i] / weight_of(fit.nominal[i]);
+    answer.residual.push_back(r);
+    answer.predicted.push_back(fit.nominal[i].error - r);
+    sum += weighted[i] * weighted[i];
+    count += static_cast<double>(fit.nominal[i].readings.size());
+  }
+  answer.rms = std::sqrt(sum / count);
+}
+
+}  // namespace
+
+Values weighted_columns(const NominalFit& fit, const Prediction& at) {
+  const DatumColumns datum = datum_of(fit);
+  Values D;
+  for (std::size_t i = 0; i < fit.nominal.size(); ++i) {
+    const double w = weight_of(fit.nominal[i]);
+    D.push_back(w * at.per_K[i * columns]);
+    D.push_back(w * at.per_K[i * columns + 1]);
+    for (std::size_t k = 0; k < datum.count; ++k) {
+      D.push_back(w * datum.values[i * datum.count + k]);
+    }
+  }
+  return D;
+}
+
+Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
+  constexpr int most_steps = 60;
+  constexpr double enough = 1e-9;
+  constexpr double negligible = 1e-3;  // of the variance: a step of 0.03 se
+  Answer answer;
+  std::array<double, columns> K = fit.K;
+  const int n = 2 + static_cast<int>(datum_of(fit).count);
+  answer.residual.assign(fit.nominal.size(), 0.0);
+  if (fit.nominal.size() < static_cast<std::size_t>(n)) {
+    answer.message =
+        fmt::format("{} means of readings for {} unknowns", fit.nominal.size(), n);
+    return answer;
+  }
+  std::array<double, 2> step{};
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most_steps; ++k) {
+    const Prediction at = predict(K);
+    if (!at.good) {
+      answer.message = "no state was found in which deflection and chip agree";
+      return answer;
+    }
+    const Values D = weighted_columns(fit, at);
+    const Values b = weighted_errors(fit, at);
+    const auto solved = numerics::least_squares(D, n, b, 1 / worst_condition);
+    answer.rank = solved.rank;
+    answer.condition = solved.condition;
+    if (solved.rank < n) {
+      answer.message = "the readings do not tell the coefficients apart";
+      find_known_combination(D, b, n, solved, K, answer);
+      return answer;
+    }
+    // What is left when only the datum may follow tells whether the step was good.
+    const double left = left_over(D, b, n);
+    if (left > best * (1 + 1e-9)) {
+      for (std::size_t q = 0; q < 2; ++q) {
+        step[q] *= 0.5;
+        K[q] -= step[q];
+      }
+      if (std::hypot(step[0], step[1]) > enough * std::hypot(K[0], K[1])) {
+        continue;
+      }
+    }
+    best = std::min(left, best);
+    const double size = std::hypot(K[0] + solved.x[0], K[1] + solved.x[1]);
+    const double move = std::hypot(solved.x[0], solved.x[1]);
+    describe_solution(solved, n, {K[0] + solved.x[0], K[1] + solved.x[1]}, answer);
+    const double s2 = solved.rss / std::max(1.0, static_cast<double>(b.size()) - n);
+    if (move <= enough * size || size == 0 || left - solved.rss <= negligible * s2) {
+      set_residuals(fit, solved.residual, answer);
+      answer.ok = true;
+      answer.message.clear();
+      return answer;
+    }
+    step = {solved.x[0], solved.x[1]};
+    K[0] += step[0];
+    K[1] += step[1];
+  }
+  answer.message = "the coefficients did not settle";
+  return answer;
+}
+
+}  // namespace trochoid::surface

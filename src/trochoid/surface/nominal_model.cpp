@@ -1,0 +1,226 @@
+#include <trochoid/surface/nominal_model.h>
+
+#include <trochoid/numerics/parallel.h>
+#include <trochoid/surface/envelope.h>
+#include <trochoid/surface/probe.h>
+#include <trochoid/surface/turn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::surface {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+/// Points of a tooth feed over which an envelope is averaged.
+constexpr std::size_t points_per_feed = 24;
+/// Slopes over the height are taken over this part of the axial depth.
+constexpr double slope_step = 0.01;
+
+force::Setup without_runout(force::Setup setup) {
+  setup.runout = {};
+  return setup;
+}
+
+std::vector<double> places(std::span<const Nominal> rows) {
+  std::vector<double> x;
+  for (const Nominal& row : rows) {
+    x.push_back(row.x);
+  }
+  return x;
+}
+
+/// Three for each row: below, at, and above its height.
+std::vector<double> heights_around(std::span<const Nominal> rows, double a_p) {
+  std::vector<double> heights;
+  for (const Nominal& row : rows) {
+    for (const int side : {-1, 0, 1}) {
+      heights.push_back(std::clamp(row.height + side * slope_step * a_p, 0.0, a_p));
+    }
+  }
+  return heights;
+}
+
+/// Coefficients first, then the sum with K: the search for the envelope wants the sum.
+numerics::PeriodicPieces with_sum(const numerics::PeriodicPieces& unit,
+                                  std::span<const double, columns> K) {
+  const std::size_t n = unit.functions() / columns;
+  std::vector<double> weights((columns + 1) * n * unit.functions());
+  for (std::size_t q = 0; q < n; ++q) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::size_t from = c * n + q;
+      weights[q * unit.functions() + from] = K[c];
+      weights[((c + 1) * n + q) * unit.functions() + from] = 1.0;
+    }
+  }
+  return unit.combined(weights);
+}
+
+}  // namespace
+
+double entry_angle(const force::Setup& setup) {
+  const auto* down = std::get_if<geometry::DownMilling>(&setup.cut.engagement);
+  return down == nullptr
+             ? 0.0
+             : std::numbers::pi -
+                   std::acos(1 - 2 * down->a_e / setup.cutter.profile.D);  // E-12
+}
+
+NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows)
+    : setting_(setting),
+      stations_(setting.bodies, places(rows),
+                heights_around(rows, setting.setup.cut.a_p), setting.setup.cut.a_p,
+                setting.load),
+      edges_(without_runout(setting.setup), setting.law, stations_.basis()),
+      unit_(unit_moments(edges_, setting.tolerance)) {
+  for (const Nominal& row : rows) {
+    const auto same = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) {
+      return kind.height == row.height && kind.travel == row.travel;
+    });
+    kind_of_row_.push_back(static_cast<std::size_t>(same - kinds_.begin()));
+    if (same == kinds_.end()) {
+      kinds_.push_back({row.height, row.travel, 3 * (kind_of_row_.size() - 1)});
+    }
+    weights_.push_back(stations_.weights(row.x));
+  }
+}
+
+NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments,
+                                         std::span<const double> row,
+                                         const Kind& kind) const {
+  const Side side = *side_of(setting_.setup.cut.engagement);
+  const geometry::Cutter& cutter = edges_.setup().cutter;
+  const double feed = cutter.teeth() * setting_.setup.cut.f_z;
+  const numerics::PeriodicPieces all = deflection(moments, row, side.sigma);
+  std::vector<double> values(all.functions());
+  Value value;
+  const auto add = [&](double phi, double share) {
+    all.value(phi, values);
+    for (std::size_t c = 0; c + 1 < values.size(); ++c) {
+      value.per_K[c] += share * values[c + 1];
+    }
+  };
+  const int cycles = edges_.equal_teeth() ? 1 : cutter.teeth();
+  if (setting_.model == Model::quasi_static) {
+    for (int g = 0; g < cycles; ++g) {
+      const double travel = kind.travel + g * setting_.setup.cut.f_z;
+      add(setting_.phase + turn * travel / feed, 1.0 / cycles);
+      value.error += values[0] / cycles;
+    }
+    return value;
+  }
+  std::vector<double> only_sum(all.functions());
+  only_sum[0] = 1.0;
+  const HeightCut cut{side,
+                      cutter.profile.D / 2,
+                      feed,
+                      0.0,
+                      edge_places(edges_.setup(), kind.height),
+                      all.combined(only_sum)};
+  if (setting_.model == Model::imprint) {
+    for (const SurfacePoint& point : imprint_errors(cut)) {
+      const double share = 1.0 / cutter.teeth();
+      value.error += share * point.error;
+      add(point.phi, share);
+    }
+    return value;
+  }
+  const std::size_t points = points_per_feed * static_cast<std::size_t>(cycles);
+  const auto share = 1.0 / static_cast<double>(points);
+  std::vector<double> profile(points);
+  const double step = setting_.setup.cut.f_z / points_per_feed;
+  for (std::size_t i = 0; i < points; ++i) {
+    const SurfacePoint point =
+        envelope_error(cut, (static_cast<double>(i) + 0.5) * step);
+    profile[i] = point.error;
+    add(point.phi, share);
+  }
+  if (setting_.probe_radius > 0) {
+    profile = probe_reading(profile, step, setting_.probe_radius);
+  }
+  for (const double e : profile) {
+    value.error += share * e;
+  }
+  return value;
+}
+
+NominalModel::Value NominalModel::value(const numerics::PeriodicPieces& moments,
+                                        std::size_t station, const Kind& kind) const {
+  Value value = at_row(moments, stations_.row(station, kind.row + 1), kind);
+  if (setting_.model == Model::envelope && setting_.probe_radius > 0) {
+    const double a_p = setting_.setup.cut.a_p;
+    Kind below = kind;
+    Kind above = kind;
+    below.height = std::max(0.0, kind.height - slope_step * a_p);
+    above.height = std::min(a_p, kind.height + slope_step * a_p);
+    const double rise =
+        at_row(moments, stations_.row(station, kind.row + 2), above).error -
+        at_row(moments, stations_.row(station, kind.row), below).error;
+    const double slope = rise / (above.height - below.height);
+    value.error += reading_on_slope(setting_.probe_radius, slope);
+  }
+  return value;
+}
+
+Prediction NominalModel::along_the_wall(const std::vector<Value>& grid) const {
+  const std::size_t rows = kind_of_row_.size();
+  Prediction result{std::vector<double>(rows), std::vector<double>(rows * columns),
+                    true};
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t s = 0; s < stations_.count(); ++s) {
+      const Value& value = grid[s * kinds_.size() + kind_of_row_[i]];
+      result.error[i] += weights_[i][s] * value.error;
+      for (std::size_t c = 0; c < columns; ++c) {
+        result.per_K[i * columns + c] += weights_[i][s] * value.per_K[c];
+      }
+    }
+  }
+  return result;
+}
+
+Prediction NominalModel::rigid(std::span<const double, columns> K) const {
+  const numerics::PeriodicPieces moments = with_sum(unit_, K);
+  std::vector<Value> grid(stations_.count() * kinds_.size());
+  numerics::for_each_index(grid.size(), [&](std::size_t i) {
+    grid[i] = value(moments, i / kinds_.size(), kinds_[i % kinds_.size()]);
+  });
+  return along_the_wall(grid);
+}
+
+Prediction NominalModel::bent_once(std::span<const double, columns> K,
+                                   Feedback feedback) const {
+  std::vector<Value> grid(stations_.count() * kinds_.size());
+  bool good = true;
+  for (std::size_t s = 0; s < stations_.count(); ++s) {
+    const BentTurn bent = bent_turn(edges_, K, stations_.compliance(s), feedback,
+                                    10 * setting_.tolerance);
+    good = good && bent.converged;
+    numerics::for_each_index(kinds_.size(), [&](std::size_t k) {
+      grid[s * kinds_.size() + k] = value(bent.moments, s, kinds_[k]);
+    });
+  }
+  Prediction result = along_the_wall(grid);
+  result.good = good;
+  return result;
+}
+
+Prediction NominalModel::bent(std::span<const double, columns> K,
+                              Feedback feedback) const {
+  Prediction result = bent_once(K, feedback);
+  const double step = 1e-3 * std::max(std::hypot(K[0], K[1]), 1e6);
+  for (std::size_t c = 0; c < 2; ++c) {
+    std::array<double, columns> moved{};
+    std::copy(K.begin(), K.end(), moved.begin());
+    moved[c] += step;
+    const Prediction there = bent_once(moved, feedback);
+    result.good = result.good && there.good;
+    for (std::size_t i = 0; i < result.error.size(); ++i) {
+      result.per_K[i * columns + c] = (there.error[i] - result.error[i]) / step;
+    }
+  }
+  return result;
+}
+
+}  // namespace trochoid::surface

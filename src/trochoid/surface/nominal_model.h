@@ -1,0 +1,62 @@
+#pragma once
+
+#include <trochoid/numerics/periodic_pieces.h>
+#include <trochoid/surface/setting.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace trochoid::surface {
+
+/// What a model says, and how it changes with the coefficients.
+struct Prediction {
+  std::vector<double> error;  ///< [m], shape (rows)
+  std::vector<double> per_K;  ///< by K_tc, K_rc, K_te, K_re, shape (rows, columns)
+  bool good = true;           ///< false: no periodic state was found
+};
+
+/// @brief Nominal errors as a model predicts them, without runout.
+class NominalModel {
+ public:
+  NominalModel(const Setting& setting, std::span<const Nominal> rows);
+
+  /// @brief As long as the deflection does not change the chip.
+  [[nodiscard]] Prediction rigid(std::span<const double, columns> K) const;
+
+  /// @brief With feedback of the deflection; `per_K` by differences, for K_tc and K_rc.
+  [[nodiscard]] Prediction bent(std::span<const double, columns> K,
+                                Feedback feedback) const;
+
+  [[nodiscard]] std::size_t stations() const noexcept { return stations_.count(); }
+
+ private:
+  /// Rows that differ in x only.
+  struct Kind {
+    double height = 0.0;
+    double travel = 0.0;
+    std::size_t row = 0;  ///< of the compliance
+  };
+  struct Value {
+    double error = 0.0;
+    std::array<double, columns> per_K{};
+  };
+
+  [[nodiscard]] Value value(const numerics::PeriodicPieces& moments,
+                            std::size_t station, const Kind& kind) const;
+  [[nodiscard]] Value at_row(const numerics::PeriodicPieces& moments,
+                             std::span<const double> row, const Kind& kind) const;
+  [[nodiscard]] Prediction bent_once(std::span<const double, columns> K,
+                                     Feedback feedback) const;
+  [[nodiscard]] Prediction along_the_wall(const std::vector<Value>& grid) const;
+
+  Setting setting_;
+  std::vector<Kind> kinds_;
+  std::vector<std::size_t> kind_of_row_;
+  std::vector<std::vector<double>> weights_;  ///< of the stations, shape (rows)
+  Stations stations_;
+  EdgeMoments edges_;
+  numerics::PeriodicPieces unit_;
+};
+
+}  // namespace trochoid::surface

@@ -1,0 +1,35 @@
+#include <trochoid/surface/probe.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace trochoid::surface {
+
+std::vector<double> probe_reading(std::span<const double> profile, double step,
+                                  double radius) {
+  const std::size_t n = profile.size();
+  const auto [low, high] = std::minmax_element(profile.begin(), profile.end());
+  // Farther out the sphere stands clear of the highest point.
+  const double depth = std::min(*high - *low, radius);
+  const double reach = std::sqrt(depth * (2 * radius - depth));
+  const auto steps = static_cast<std::size_t>(reach / step);
+  std::vector<double> reading(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    reading[i] = profile[i];
+    for (std::size_t k = 1; k <= steps; ++k) {
+      const double dx = static_cast<double>(k) * step;
+      const double rise = radius - std::sqrt(radius * radius - dx * dx);
+      const double beside =
+          std::max(profile[(i + k) % n], profile[(i + n - k % n) % n]);
+      reading[i] = std::max(reading[i], beside - rise);  // E-13
+    }
+  }
+  return reading;
+}
+
+double reading_on_slope(double radius, double slope) noexcept {
+  return radius * slope * slope / (std::sqrt(1 + slope * slope) + 1);  // E-14
+}
+
+}  // namespace trochoid::surface
