@@ -22,6 +22,8 @@ inline constexpr int our_bug = 3;
 
 int simulate(const Options& options);
 int identify(const Options& options);
+int surface(const Options& options);
+int calibrate(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

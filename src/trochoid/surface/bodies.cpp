@@ -1,5 +1,6 @@
 #include <trochoid/surface/bodies.h>
 
+#include <algorithm>
 #include <array>
 
 namespace trochoid::surface {
@@ -31,19 +32,25 @@ std::vector<double> Compliance::of_cutter(std::span<const double> heights,
 
 std::vector<double> Compliance::of_wall(std::span<const double> heights,
                                         std::span<const double> loads) const {
+  std::vector<double> G(heights.size() * loads.size());
   if (!bodies_.wall) {
-    return std::vector<double>(heights.size() * loads.size());
+    return G;
   }
   const double tip = bodies_.wall->height - a_p_;
-  std::vector<double> observed(heights.begin(), heights.end());
-  std::vector<double> loaded(loads.begin(), loads.end());
-  for (double& y : observed) {
-    y += tip;
+  const auto on_the_wall = [&](std::span<const double> from) {
+    std::vector<double> y;
+    for (const double height : from) {
+      y.push_back(std::min(height, a_p_) + tip);
+    }
+    return y;
+  };
+  G = bodies_.wall->plate->influence(x_, on_the_wall(heights), x_, on_the_wall(loads));
+  for (std::size_t i = 0; i < G.size(); ++i) {
+    if (heights[i / loads.size()] > a_p_ || loads[i % loads.size()] > a_p_) {
+      G[i] = 0.0;  // above the free edge there is no wall
+    }
   }
-  for (double& y : loaded) {
-    y += tip;
-  }
-  return bodies_.wall->plate->influence(x_, observed, x_, loaded);
+  return G;
 }
 
 std::vector<double> Compliance::rows(std::span<const double> heights) const {

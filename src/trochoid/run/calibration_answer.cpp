@@ -1,0 +1,250 @@
+#include <trochoid/run/calibration_answer.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/coefficient_names.h>
+#include <trochoid/run/wall_setting.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using surface::Answer;
+using surface::Estimate;
+
+/// null where a number is not known.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json estimate_json(const Estimate& e, double unit) {
+  return {{"value", number(e.value / unit)},
+          {"se", number(e.se / unit)},
+          {"low", number(e.low / unit)},
+          {"high", number(e.high / unit)}};
+}
+
+Json coefficients_json(const inputs::Case& given, const Estimate& K_tc,
+                       const Estimate& K_rc, bool known) {
+  const auto names = coefficient_names(given.law);
+  if (!known) {
+    return {{names[0].key, nullptr}, {names[1].key, nullptr}};
+  }
+  return {{names[0].key, estimate_json(K_tc, names[0].unit)},
+          {names[1].key, estimate_json(K_rc, names[1].unit)}};
+}
+
+Json answer_json(const inputs::Case& given, const Answer& answer) {
+  Json json{
+      {"model", model_name(answer.model)},
+      {"feedback", feedback_name(answer.feedback)},
+      {"coefficients", coefficients_json(given, answer.K_tc, answer.K_rc, answer.ok)},
+      {"correlation", answer.ok ? number(answer.correlation) : Json(nullptr)},
+      {"rank", answer.rank},
+      {"condition", number(answer.condition)},
+      {"rms_mm", answer.ok ? number(answer.rms / unit::mm) : Json(nullptr)}};
+  if (!answer.ok) {
+    json["message"] = answer.message;
+  }
+  if (answer.known[0] != 0 || answer.known[1] != 0) {
+    json["combination"] = {{"K_tc_weight", answer.known[0]},
+                           {"K_rc_weight", answer.known[1]},
+                           {"value_MPa", estimate_json(answer.combination, unit::MPa)}};
+  }
+  return json;
+}
+
+/// The parameters of each file's datum, in the order in which they were fitted.
+Json datum_json(const inputs::Case& given, const Answer& answer) {
+  Json all = Json::array();
+  std::size_t k = 0;
+  for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
+    Json one = Json::object();
+    if (m.datum_offset && k < answer.datum.size()) {
+      one["offset_mm"] = estimate_json(answer.datum[k++], unit::mm);
+    }
+    std::vector<Json> slopes;
+    while (m.datum_tilt && k < answer.datum.size() && slopes.size() < 2) {
+      slopes.push_back(estimate_json(answer.datum[k++], 1.0));
+    }
+    if (!slopes.empty()) {
+      one["slopes_mm_per_mm"] = slopes;
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+}  // namespace
+
+bool runout_is_seen(const surface::RunoutAnswer& runout) {
+  constexpr double clearly = 3.0;
+  return runout.ok && runout.eccentricity.value > clearly * runout.eccentricity.se;
+}
+
+Json calibration_json(const inputs::Case& given,
+                      const surface::Calibration& calibration) {
+  const Answer& chosen = calibration.answers[std::min(
+      calibration.chosen, calibration.answers.size() - 1)];
+  Json result = answer_json(given, chosen);
+  const bool offset = chosen.ok && !chosen.datum.empty() &&
+                      given.machine.surface_measurements.front().datum_offset;
+  result["offset_mm"] =
+      offset ? number(chosen.datum.front().value / unit::mm) : Json(nullptr);
+  if (chosen.ok && !chosen.datum.empty()) {
+    result["datum"] = datum_json(given, chosen);
+  }
+  result["noise_mm"] = chosen.ok ? number(calibration.noise / unit::mm) : Json(nullptr);
+  result["means"] = calibration.nominal.size();
+  Json answers = Json::array();
+  for (const Answer& answer : calibration.answers) {
+    answers.push_back(answer_json(given, answer));
+  }
+  result["answers"] = answers;
+  Json advice = Json::array();
+  for (const surface::Advice& a : calibration.advice) {
+    const auto names = coefficient_names(given.law);
+    advice.push_back({{"height_mm", a.height / unit::mm},
+                      {fmt::format("se_{}", names[0].key), a.se_K_tc / names[0].unit},
+                      {fmt::format("se_{}", names[1].key), a.se_K_rc / names[1].unit}});
+  }
+  result["ten_more_readings"] = advice;
+  return result;
+}
+
+void add_runout(const surface::RunoutAnswer& runout, const inputs::Case& given,
+                Json& result) {
+  if (!runout.ok) {
+    result["runout"] = {{"eccentricity_mm", nullptr},
+                        {"angle_deg", nullptr},
+                        {"identifiable", runout.message}};
+    return;
+  }
+  const double pitch = 360.0 / given.setup.cutter.teeth();
+  result["runout"] = {
+      {"eccentricity_mm", number(runout.eccentricity.value / unit::mm)},
+      {"eccentricity_se_mm", number(runout.eccentricity.se / unit::mm)},
+      {"angle_deg", number(runout.angle.value / unit::deg)},
+      {"angle_se_deg", number(runout.angle.se / unit::deg)},
+      {"angle_known_up_to_deg", runout.labelled ? Json(nullptr) : Json(pitch)},
+      {"coefficients", coefficients_json(given, runout.K_tc, runout.K_rc, true)},
+      {"correlation", number(runout.correlation)},
+      {"rms_without_mm", runout.rms_without / unit::mm},
+      {"rms_mm", runout.rms / unit::mm}};
+  if (given.machine.surface->model == inputs::SurfaceModel::envelope) {
+    result["runout"]["turn_begins_mm"] = number(runout.start.value / unit::mm);
+  }
+}
+
+std::string refusal(const inputs::Case& given, const Answer& answer) {
+  std::string text = answer.message;
+  if (answer.rank > 0 && answer.condition > surface::worst_condition) {
+    text += fmt::format(
+        " (condition {:.3g}; readings at more heights, or a wall that bends more, "
+        "would)",
+        answer.condition);
+  }
+  if (answer.known[0] != 0 || answer.known[1] != 0) {
+    const auto names = coefficient_names(given.law);
+    text += fmt::format("; what is known: {:.3g} {} + {:.3g} {} = {:.4g} MPa",
+                        answer.known[0], names[0].key, answer.known[1], names[1].key,
+                        answer.combination.value / unit::MPa);
+  }
+  return text;
+}
+
+std::string calibration_table(const inputs::Case& given,
+                              const surface::Calibration& calibration,
+                              const surface::RunoutAnswer& runout) {
+  const auto names = coefficient_names(given.law);
+  std::string text = fmt::format("  {:<26} {:>20} {:>20} {:>8} {:>10}\n",
+                                 "95 %: value +- half width", names[0].key,
+                                 names[1].key, "corr.", "rms um");
+  const auto pair = [](const Estimate& e, double unit) {
+    return std::isfinite(e.se)
+               ? fmt::format("{:.1f} +- {:.1f}", e.value / unit,
+                             (e.high - e.low) / 2 / unit)
+               : fmt::format("{:.1f} +- ?", e.value / unit);
+  };
+  for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
+    const Answer& a = calibration.answers[i];
+    const std::string name =
+        fmt::format("{} {}{}", i == calibration.chosen ? '*' : ' ', model_name(a.model),
+                    a.feedback == surface::Feedback::none
+                        ? ""
+                        : fmt::format(" + {}", feedback_name(a.feedback)));
+    if (!a.ok) {
+      text += fmt::format("{:<28} {}\n", name, a.message);
+      continue;
+    }
+    text += fmt::format("{:<28} {:>20} {:>20} {:>8.3f} {:>10.3f}\n", name,
+                        pair(a.K_tc, names[0].unit), pair(a.K_rc, names[1].unit),
+                        a.correlation, a.rms / unit::um);
+  }
+  if (!runout.ok) {
+    return text + fmt::format("runout: not known: {}\n", runout.message);
+  }
+  text += fmt::format("{:<28} {:>20} {:>20} {:>8.3f} {:>10.3f}\n",
+                      "  all readings, with runout", pair(runout.K_tc, names[0].unit),
+                      pair(runout.K_rc, names[1].unit), runout.correlation,
+                      runout.rms / unit::um);
+  text += fmt::format(
+      "runout {} um at {} deg{}\n", pair(runout.eccentricity, unit::um),
+      pair(runout.angle, unit::deg),
+      runout.labelled ? ""
+                      : fmt::format(" (or {:g} deg further: the teeth are not numbered)",
+                                    360.0 / given.setup.cutter.teeth()));
+  return text;
+}
+
+std::string calibrated_material(const inputs::Case& given,
+                                const surface::Calibration& calibration,
+                                const surface::RunoutAnswer& runout) {
+  const Answer& chosen = calibration.answers[calibration.chosen];
+  const auto names = coefficient_names(given.law);
+  const bool power = std::holds_alternative<force::Power>(given.law);
+  std::string text = fmt::format(
+      "# Found by trochoid calibrate ({}{}). Use it in another case with\n"
+      "#   include = \"<this file>\"\n\n[force]\nlaw = \"{}\"\n",
+      model_name(chosen.model),
+      chosen.feedback == surface::Feedback::none
+          ? ""
+          : fmt::format(", feedback {}", feedback_name(chosen.feedback)),
+      power ? "power" : "linear_edge");
+  const std::vector<double> known = force::coefficients(given.law);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    if (q < 2) {
+      const Estimate& e = q == 0 ? chosen.K_tc : chosen.K_rc;
+      text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
+                          e.value / names[q].unit, e.se / names[q].unit);
+    } else {
+      text += fmt::format("{} = {}  # as given: a wall does not show it\n",
+                          names[q].key, unit::in(known[q], names[q].unit));
+    }
+  }
+  if (const auto* law = std::get_if<force::Power>(&given.law)) {
+    text += fmt::format("m_t = {}\nm_r = {}\nm_a = {}\n", law->m_t, law->m_r, law->m_a);
+  } else {
+    text += fmt::format(
+        "edge_length = \"{}\"\n",
+        given.setup.edge_length == force::EdgeLength::axial ? "axial" : "true");
+  }
+  if (!runout_is_seen(runout)) {
+    return text + "\n# [runout]: not seen in the readings\n";
+  }
+  return text +
+         fmt::format("\n[runout]\neccentricity_mm = {}\nangle_deg = {}{}\n{}",
+                     runout.eccentricity.value / unit::mm,
+                     runout.angle.value / unit::deg,
+                     runout.labelled ? "" : "  # up to multiples of a pitch",
+                     given.setup.runout.order == geometry::EccentricityOrder::first
+                         ? "eccentricity_order = \"first\"\n"
+                         : "");
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,157 @@
+#include <trochoid/run/calibration_warnings.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/calibration_answer.h>
+#include <trochoid/run/coefficient_names.h>
+#include <trochoid/run/wall_setting.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using surface::Answer;
+using Warnings = std::vector<base::Warning>;
+
+/// A coefficient that is negative, or known worse than to half of itself.
+void judge_coefficients(const inputs::Case& given, const Answer& chosen,
+                        Warnings& warnings) {
+  const auto names = coefficient_names(given.law);
+  const surface::Estimate* both[] = {&chosen.K_tc, &chosen.K_rc};
+  for (std::size_t q = 0; q < 2; ++q) {
+    const surface::Estimate& e = *both[q];
+    if (e.value < 0) {
+      warnings.push_back(
+          {"negative_coefficient",
+           fmt::format("{} = {:.3g} is negative: the readings, their sign (positive "
+                       "must be material left) or the model do not fit the cut.",
+                       names[q].key, e.value / names[q].unit)});
+    } else if (std::isfinite(e.se) && e.high - e.low > std::abs(e.value)) {
+      warnings.push_back(
+          {"poorly_known",
+           fmt::format("{} is known to +- {:.0f} % only: more readings, at heights that "
+                       "the report names, would help.",
+                       names[q].key, 50 * (e.high - e.low) / std::abs(e.value))});
+    }
+  }
+  if (!std::isfinite(chosen.K_tc.se)) {
+    warnings.push_back({"no_spare_readings",
+                        "There are as many means as unknowns: nothing tells how well "
+                        "the coefficients are known."});
+  }
+}
+
+/// Readings of the profile that differ by more than their errors.
+void compare_answers(const inputs::Case& given, const surface::Calibration& calibration,
+                     Warnings& warnings) {
+  constexpr double visible = 0.05;
+  const auto names = coefficient_names(given.law);
+  const Answer& chosen = calibration.answers[calibration.chosen];
+  for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
+    const Answer& other = calibration.answers[i];
+    if (i == calibration.chosen || !other.ok) {
+      continue;
+    }
+    const double change =
+        std::max(std::abs(other.K_tc.value / chosen.K_tc.value - 1),
+                 std::abs(other.K_rc.value / chosen.K_rc.value - 1));
+    if (change < visible) {
+      continue;
+    }
+    const bool spring_back = other.model == surface::Model::imprint &&
+                             chosen.model == surface::Model::envelope;
+    warnings.push_back(
+        {"answers_differ",
+         fmt::format("Read as {}{}, the same readings give {} = {:.4g} and {} = {:.4g} "
+                     "MPa (chosen: {:.4g} and {:.4g}){}",
+                     model_name(other.model),
+                     other.feedback == surface::Feedback::none
+                         ? ""
+                         : fmt::format(" with feedback = \"{}\"",
+                                       feedback_name(other.feedback)),
+                     names[0].key, other.K_tc.value / names[0].unit, names[1].key,
+                     other.K_rc.value / names[1].unit,
+                     chosen.K_tc.value / names[0].unit,
+                     chosen.K_rc.value / names[1].unit,
+                     spring_back ? ": the linear reading leaves out that the wall "
+                                   "springs back under the next tooth."
+                                 : ".")});
+  }
+}
+
+void judge_means(const inputs::Case& given, const surface::Calibration& calibration,
+                 Warnings& warnings) {
+  const auto uneven = std::count_if(calibration.nominal.begin(),
+                                    calibration.nominal.end(),
+                                    [](const surface::Nominal& n) { return !n.whole; });
+  const bool single = std::all_of(
+      calibration.nominal.begin(), calibration.nominal.end(),
+      [](const surface::Nominal& n) { return n.readings.size() == 1; });
+  if (single && given.setup.cutter.teeth() > 1) {
+    warnings.push_back(
+        {"single_readings",
+         "There is one reading at each place: it counts as the mean over a turn of the "
+         "feed. If it is not, the runout is in it."});
+  } else if (uneven > 0) {
+    warnings.push_back(
+        {"uneven_readings",
+         fmt::format("{} of {} means are not over whole multiples of {} teeth: runout "
+                     "does not drop out of them.",
+                     uneven, calibration.nominal.size(),
+                     given.setup.cutter.teeth())});
+  }
+}
+
+void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout,
+                  Warnings& warnings) {
+  if (given.setup.runout.eccentricity != 0 ||
+      !given.setup.runout.radial_offsets.empty()) {
+    warnings.push_back({"runout_not_used",
+                        "[runout] is not used: calibrate looks for it itself."});
+  }
+  if (runout.ok && !runout_is_seen(runout)) {
+    warnings.push_back(
+        {"no_runout",
+         fmt::format("An eccentricity of {:.2g} +- {:.2g} um (one standard error) is "
+                     "not clearly different from none.",
+                     runout.eccentricity.value / unit::um,
+                     runout.eccentricity.se / unit::um)});
+  }
+  if (runout_is_seen(runout) &&
+      given.machine.surface->model == inputs::SurfaceModel::envelope) {
+    const double bias = runout.K_tc.value;
+    warnings.push_back(
+        {"runout_in_mean",
+         fmt::format("The mean of a real surface is not free of runout: fitted with "
+                     "it, K_tc is {:.4g} MPa.",
+                     bias / unit::MPa)});
+  }
+}
+
+}  // namespace
+
+void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wall,
+                              const surface::Calibration& calibration,
+                              const surface::RunoutAnswer& runout,
+                              std::vector<base::Warning>& warnings) {
+  const Answer& chosen = calibration.answers[calibration.chosen];
+  double largest = 0.0;
+  for (const surface::Reading& r : wall.readings) {
+    largest = std::max(largest, std::abs(r.error));
+  }
+  if (largest == 0) {
+    warnings.push_back({"all_zero", "All readings are zero: so are the coefficients."});
+    return;
+  }
+  judge_coefficients(given, chosen, warnings);
+  compare_answers(given, calibration, warnings);
+  judge_means(given, calibration, warnings);
+  judge_runout(given, runout, warnings);
+  add_bending_warnings(given, largest, warnings);
+}
+
+}  // namespace trochoid::run

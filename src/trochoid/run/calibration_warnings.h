@@ -1,0 +1,18 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/run/measured_wall.h>
+#include <trochoid/surface/find_runout.h>
+
+#include <vector>
+
+namespace trochoid::run {
+
+/// @brief What an engineer should know before trusting a calibration.
+void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wall,
+                              const surface::Calibration& calibration,
+                              const surface::RunoutAnswer& runout,
+                              std::vector<base::Warning>& warnings);
+
+}  // namespace trochoid::run

@@ -1,0 +1,56 @@
+#include <trochoid/run/measured_wall.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/surface_file.h>
+
+#include <string>
+
+namespace trochoid::run {
+
+namespace {
+
+/// Where the reading lies along the wall, and how far the tool has fed since the phase.
+void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
+               surface::Reading& reading) {
+  const double step =
+      given.setup.cutter.teeth() * given.setup.cut.f_z / given.sampling.samples_per_rev;
+  const double along = read.x ? *read.x : read.step.value_or(0.0) * step;
+  const bool pulse =
+      given.machine.surface->model == inputs::SurfaceModel::quasi_static;
+  const double position = given.machine.wall ? given.machine.wall->position : 0.0;
+  reading.x = pulse || !read.x ? position : along;
+  reading.travel = along + read.feed_offset.value_or(0.0);
+}
+
+}  // namespace
+
+MeasuredWall measured_wall(const inputs::Case& given) {
+  MeasuredWall wall;
+  std::vector<std::string> problems;
+  for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
+    std::vector<inputs::SurfaceReading> readings;
+    try {
+      readings = inputs::read_surface(m, given.setup.cutter.teeth());
+    } catch (const base::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      continue;
+    }
+    const auto misplaced = inputs::check_readings(readings, m.file, given);
+    problems.insert(problems.end(), misplaced.begin(), misplaced.end());
+    for (const inputs::SurfaceReading& read : readings) {
+      surface::Reading reading{.height = read.height,
+                               .error = read.error,
+                               .tooth = read.tooth - 1,
+                               .set = wall.datum.size()};
+      set_place(given, read, reading);
+      wall.readings.push_back(reading);
+    }
+    wall.datum.push_back({m.datum_offset, m.datum_tilt});
+  }
+  if (!problems.empty()) {
+    throw base::InputError(problems);
+  }
+  return wall;
+}
+
+}  // namespace trochoid::run
