@@ -38,6 +38,12 @@ constexpr Command commands[] = {
      "Cutting coefficients and runout from measured forces, with how well each is "
      "known",
      trochoid::cli::identify},
+    {"surface",
+     "The wall that a cut leaves: its errors over feed and height, from what bends",
+     trochoid::cli::surface},
+    {"calibrate",
+     "Cutting coefficients and runout from a measured wall, without a dynamometer",
+     trochoid::cli::calibrate},
     {"check", "Read a case file and its measurements and name every mistake in them",
      trochoid::cli::check}};
 

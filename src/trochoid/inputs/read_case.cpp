@@ -151,10 +151,21 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   return tables;
 }
 
+/// The simple chip models know no turn of a tooth by the runout: nor does a runout that
+/// calibrate looks for with one of them, unless the file says so.
+void settle_order(CaseTables& t, Command purpose, const Findings& findings) {
+  const bool simple = t.chip.model != chip::Model::trochoidal;
+  if (purpose == Command::calibrate && simple &&
+      findings.places.count("runout.eccentricity_order") == 0) {
+    t.runout.order = geometry::EccentricityOrder::first;
+  }
+}
+
 Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   Case c;
   c.title = t.title;
   c.setup.cutter = cutter_of(t.tool, findings);
+  settle_order(t, purpose, findings);
   check_runout(t.runout, t.tool, findings);
   c.setup.runout = t.runout;
   c.setup.cut = cut_of(t.cut, "cut", c.setup.cutter, findings);

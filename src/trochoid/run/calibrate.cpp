@@ -42,13 +42,11 @@ base::Table residual_table(const MeasuredWall& wall,
   }
   for (std::size_t i = 0; i < wall.readings.size(); ++i) {
     const surface::Reading& r = wall.readings[i];
-    const double row[] = {unit::in(r.x, unit::mm),
-                          unit::in(r.travel, unit::mm),
-                          unit::in(r.height, unit::mm),
-                          static_cast<double>(r.tooth + 1),
-                          unit::in(r.error, unit::mm),
-                          fitted[i] / unit::mm,
-                          (r.error - fitted[i]) / unit::mm};
+    const double row[] = {
+        unit::in(r.x, unit::mm),         unit::in(r.travel, unit::mm),
+        unit::in(r.height, unit::mm),    static_cast<double>(r.tooth + 1),
+        unit::in(r.error, unit::mm),     fitted[i] / unit::mm,
+        (r.error - fitted[i]) / unit::mm};
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       table.columns[c].values.push_back(row[c]);
     }
@@ -59,8 +57,11 @@ base::Table residual_table(const MeasuredWall& wall,
 /// The means and what each reading of the profile makes of them.
 base::Table fitted_table(const surface::Calibration& calibration) {
   base::Table table{"fitted.csv",
-                    {{"x_mm", {}}, {"feed_mm", {}}, {"height_mm", {}},
-                     {"readings", {}}, {"mean_mm", {}}}};
+                    {{"x_mm", {}},
+                     {"feed_mm", {}},
+                     {"height_mm", {}},
+                     {"readings", {}},
+                     {"mean_mm", {}}}};
   for (const surface::Answer& answer : calibration.answers) {
     if (answer.ok) {
       table.columns.push_back(
@@ -106,10 +107,10 @@ base::Answer calibrate(const inputs::Case& given, const Progress& progress) {
   if (progress) {
     progress("Fitting the coefficients");
   }
-  const surface::Calibration calibration = surface::calibrate(
-      setting, wall.readings, wall.datum, wall_feedback(given));
-  const surface::Answer& chosen = calibration.answers[std::min(
-      calibration.chosen, calibration.answers.size() - 1)];
+  const surface::Calibration calibration =
+      surface::calibrate(setting, wall.readings, wall.datum, wall_feedback(given));
+  const surface::Answer& chosen =
+      calibration.answers[std::min(calibration.chosen, calibration.answers.size() - 1)];
   Json result = calibration_json(given, calibration);
   const bool empty =
       std::all_of(wall.readings.begin(), wall.readings.end(),

@@ -1,6 +1,7 @@
 #include <trochoid/run/calibration_answer.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/force/forces.h>
 #include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/wall_setting.h>
 
@@ -89,8 +90,8 @@ bool runout_is_seen(const surface::RunoutAnswer& runout) {
 
 Json calibration_json(const inputs::Case& given,
                       const surface::Calibration& calibration) {
-  const Answer& chosen = calibration.answers[std::min(
-      calibration.chosen, calibration.answers.size() - 1)];
+  const Answer& chosen =
+      calibration.answers[std::min(calibration.chosen, calibration.answers.size() - 1)];
   Json result = answer_json(given, chosen);
   const bool offset = chosen.ok && !chosen.datum.empty() &&
                       given.machine.surface_measurements.front().datum_offset;
@@ -99,7 +100,7 @@ Json calibration_json(const inputs::Case& given,
   if (chosen.ok && !chosen.datum.empty()) {
     result["datum"] = datum_json(given, chosen);
   }
-  result["noise_mm"] = chosen.ok ? number(calibration.noise / unit::mm) : Json(nullptr);
+  result["noise_mm"] = chosen.ok ? number(chosen.noise / unit::mm) : Json(nullptr);
   result["means"] = calibration.nominal.size();
   Json answers = Json::array();
   for (const Answer& answer : calibration.answers) {
@@ -162,14 +163,13 @@ std::string calibration_table(const inputs::Case& given,
                               const surface::Calibration& calibration,
                               const surface::RunoutAnswer& runout) {
   const auto names = coefficient_names(given.law);
-  std::string text = fmt::format("  {:<26} {:>20} {:>20} {:>8} {:>10}\n",
-                                 "95 %: value +- half width", names[0].key,
-                                 names[1].key, "corr.", "rms um");
+  std::string text =
+      fmt::format("  {:<26} {:>20} {:>20} {:>8} {:>10}\n", "95 %: value +- half width",
+                  names[0].key, names[1].key, "corr.", "rms um");
   const auto pair = [](const Estimate& e, double unit) {
-    return std::isfinite(e.se)
-               ? fmt::format("{:.1f} +- {:.1f}", e.value / unit,
-                             (e.high - e.low) / 2 / unit)
-               : fmt::format("{:.1f} +- ?", e.value / unit);
+    return std::isfinite(e.se) ? fmt::format("{:.1f} +- {:.1f}", e.value / unit,
+                                             (e.high - e.low) / 2 / unit)
+                               : fmt::format("{:.1f} +- ?", e.value / unit);
   };
   for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
     const Answer& a = calibration.answers[i];
@@ -196,9 +196,10 @@ std::string calibration_table(const inputs::Case& given,
   text += fmt::format(
       "runout {} um at {} deg{}\n", pair(runout.eccentricity, unit::um),
       pair(runout.angle, unit::deg),
-      runout.labelled ? ""
-                      : fmt::format(" (or {:g} deg further: the teeth are not numbered)",
-                                    360.0 / given.setup.cutter.teeth()));
+      runout.labelled
+          ? ""
+          : fmt::format(" (or {:g} deg further: the teeth are not numbered)",
+                        360.0 / given.setup.cutter.teeth()));
   return text;
 }
 

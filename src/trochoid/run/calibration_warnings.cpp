@@ -33,9 +33,10 @@ void judge_coefficients(const inputs::Case& given, const Answer& chosen,
     } else if (std::isfinite(e.se) && e.high - e.low > std::abs(e.value)) {
       warnings.push_back(
           {"poorly_known",
-           fmt::format("{} is known to +- {:.0f} % only: more readings, at heights that "
-                       "the report names, would help.",
-                       names[q].key, 50 * (e.high - e.low) / std::abs(e.value))});
+           fmt::format(
+               "{} is known to +- {:.0f} % only: more readings, at heights that "
+               "the report names, would help.",
+               names[q].key, 50 * (e.high - e.low) / std::abs(e.value))});
     }
   }
   if (!std::isfinite(chosen.K_tc.se)) {
@@ -56,9 +57,8 @@ void compare_answers(const inputs::Case& given, const surface::Calibration& cali
     if (i == calibration.chosen || !other.ok) {
       continue;
     }
-    const double change =
-        std::max(std::abs(other.K_tc.value / chosen.K_tc.value - 1),
-                 std::abs(other.K_rc.value / chosen.K_rc.value - 1));
+    const double change = std::max(std::abs(other.K_tc.value / chosen.K_tc.value - 1),
+                                   std::abs(other.K_rc.value / chosen.K_rc.value - 1));
     if (change < visible) {
       continue;
     }
@@ -85,12 +85,12 @@ void compare_answers(const inputs::Case& given, const surface::Calibration& cali
 
 void judge_means(const inputs::Case& given, const surface::Calibration& calibration,
                  Warnings& warnings) {
-  const auto uneven = std::count_if(calibration.nominal.begin(),
-                                    calibration.nominal.end(),
-                                    [](const surface::Nominal& n) { return !n.whole; });
-  const bool single = std::all_of(
-      calibration.nominal.begin(), calibration.nominal.end(),
-      [](const surface::Nominal& n) { return n.readings.size() == 1; });
+  const auto uneven =
+      std::count_if(calibration.nominal.begin(), calibration.nominal.end(),
+                    [](const surface::Nominal& n) { return !n.whole; });
+  const bool single =
+      std::all_of(calibration.nominal.begin(), calibration.nominal.end(),
+                  [](const surface::Nominal& n) { return n.readings.size() == 1; });
   if (single && given.setup.cutter.teeth() > 1) {
     warnings.push_back(
         {"single_readings",
@@ -101,8 +101,7 @@ void judge_means(const inputs::Case& given, const surface::Calibration& calibrat
         {"uneven_readings",
          fmt::format("{} of {} means are not over whole multiples of {} teeth: runout "
                      "does not drop out of them.",
-                     uneven, calibration.nominal.size(),
-                     given.setup.cutter.teeth())});
+                     uneven, calibration.nominal.size(), given.setup.cutter.teeth())});
   }
 }
 
@@ -110,8 +109,8 @@ void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout
                   Warnings& warnings) {
   if (given.setup.runout.eccentricity != 0 ||
       !given.setup.runout.radial_offsets.empty()) {
-    warnings.push_back({"runout_not_used",
-                        "[runout] is not used: calibrate looks for it itself."});
+    warnings.push_back(
+        {"runout_not_used", "[runout] is not used: calibrate looks for it itself."});
   }
   if (runout.ok && !runout_is_seen(runout)) {
     warnings.push_back(

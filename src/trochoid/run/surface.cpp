@@ -17,9 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 base::Table surface_table(const SurfaceMap& map) {
-  base::Table table{
-      "surface.csv",
-      {{"x_mm", {}}, {"height_mm", {}}, {"error_mm", {}}, {"tooth", {}}}};
+  base::Table table{"surface.csv",
+                    {{"x_mm", {}}, {"height_mm", {}}, {"error_mm", {}}, {"tooth", {}}}};
   for (const MapRow& row : map.rows) {
     for (std::size_t i = 0; i < row.x.size(); ++i) {
       table.columns[0].values.push_back(unit::in(row.x[i], unit::mm));
@@ -49,9 +48,8 @@ base::Table force_table(const SurfaceMap& map) {
 }
 
 base::Table deflection_table(const SurfaceMap& map) {
-  base::Table table{
-      "deflection.csv",
-      {{"angle_deg", {}}, {"height_mm", {}}, {"deflection_mm", {}}}};
+  base::Table table{"deflection.csv",
+                    {{"angle_deg", {}}, {"height_mm", {}}, {"deflection_mm", {}}}};
   for (const MapRow& row : map.rows) {
     for (std::size_t i = 0; i < map.forces.size(); ++i) {
       table.columns[0].values.push_back(unit::in(map.forces[i].phi, unit::deg));
@@ -70,10 +68,8 @@ base::Table influence_table(const SurfaceMap& map) {
                      {"wall_mm_per_N", {}}}};
   const std::size_t n = map.influence_heights.size();
   for (std::size_t i = 0; i < n * n; ++i) {
-    table.columns[0].values.push_back(
-        unit::in(map.influence_heights[i / n], unit::mm));
-    table.columns[1].values.push_back(
-        unit::in(map.influence_heights[i % n], unit::mm));
+    table.columns[0].values.push_back(unit::in(map.influence_heights[i / n], unit::mm));
+    table.columns[1].values.push_back(unit::in(map.influence_heights[i % n], unit::mm));
     table.columns[2].values.push_back(map.of_cutter[i] / unit::mm);
     table.columns[3].values.push_back(map.of_wall[i] / unit::mm);
   }
@@ -111,7 +107,8 @@ Json height_json(const MapRow& row, int teeth) {
             {"max_error_mm", range.high / unit::mm},
             {"Ra_um", roughness / unit::um},
             {"Rt_um", (range.high - range.low) / unit::um},
-            {"share", share}};
+            {"share", share},
+            {"compliance_mm_per_N", row.compliance / unit::mm}};
   if (row.once_per_turn) {
     json["once_per_turn_um"] = *row.once_per_turn / unit::um;
     json["once_per_tooth_um"] = row.once_per_tooth / unit::um;
@@ -161,7 +158,8 @@ std::string short_table(const inputs::Case& given, const Json& result) {
       "cutter and wall apart)\n",
       number(F, "F_normal_mean_N"), number(F, "F_normal_min_N"),
       number(F, "F_normal_max_N"));
-  text += fmt::format("compliance at half the axial depth: {:.4g} um/N{}{}\n",
+  text += fmt::format("compliance at {:g} mm for the whole force: {:.4g} um/N{}{}\n",
+                      number(heights.front(), "height_mm"),
                       1e3 * number(result, "compliance_mm_per_N"),
                       given.machine.cutter_body ? "" : " (rigid cutter)",
                       given.machine.wall ? "" : " (rigid wall)");
@@ -215,7 +213,7 @@ base::Answer surface(const inputs::Case& given, const Progress& progress) {
   result["peak_error_mm"] = peak / unit::mm;
   result["min_error_mm"] = least / unit::mm;
   result["forces"] = force_json(map);
-  result["compliance_mm_per_N"] = map.compliance / unit::mm;
+  result["compliance_mm_per_N"] = map.rows.front().compliance / unit::mm;
   result["turns_to_repeat"] = map.turns;
   result["heights"] = heights;
   add_warnings(given, map, std::max(std::abs(peak), std::abs(least)), answer);

@@ -41,8 +41,8 @@ std::vector<double> heights_of(const inputs::Case& given) {
 double amplitude(const std::vector<double>& e, std::size_t cycles) {
   std::complex<double> sum = 0.0;
   for (std::size_t i = 0; i < e.size(); ++i) {
-    const double angle = turn * static_cast<double>(cycles * i) /
-                         static_cast<double>(e.size());
+    const double angle =
+        turn * static_cast<double>(cycles * i) / static_cast<double>(e.size());
     sum += e[i] * std::polar(1.0, -angle);
   }
   return 2 * std::abs(sum) / static_cast<double>(e.size());
@@ -157,8 +157,8 @@ numerics::PeriodicPieces moments_of(const inputs::Case& given,
   if (map.feedback == surface::Feedback::none) {
     return surface::with_coefficients(surface::unit_moments(edges, tolerance), K);
   }
-  surface::BentTurn bent = surface::bent_turn(edges, K, compliance, map.feedback,
-                                              setting.tolerance);
+  surface::BentTurn bent =
+      surface::bent_turn(edges, K, compliance, map.feedback, setting.tolerance);
   map.converged = bent.converged;
   map.turns = bent.turns;
   map.change = bent.change;
@@ -172,9 +172,8 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
   const force::Setup& setup = setting.setup;
   const double position = given.machine.wall ? given.machine.wall->position : 0.0;
   const surface::Side side = *surface::side_of(setup.cut.engagement);
-  SurfaceMap map{.model = setting.model,
-                 .feedback = wall_feedback(given),
-                 .sigma = side.sigma};
+  SurfaceMap map{
+      .model = setting.model, .feedback = wall_feedback(given), .sigma = side.sigma};
   if (progress) {
     progress("Solving the wall");
   }
@@ -183,12 +182,9 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
   if (progress) {
     progress("Cutting");
   }
-  const Pass pass{given,
-                  setting,
-                  side,
-                  setup.cutter.teeth() * setup.cut.f_z,
-                  position,
-                  moments_of(given, setting, compliance, map)};
+  const Pass pass{given,    setting,
+                  side,     setup.cutter.teeth() * setup.cut.f_z,
+                  position, moments_of(given, setting, compliance, map)};
   if (!map.converged) {
     return map;
   }
@@ -235,10 +231,12 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
                               : given.machine.surface->influence_heights;
   map.of_cutter = compliance.of_cutter(map.influence_heights, map.influence_heights);
   map.of_wall = compliance.of_wall(map.influence_heights, map.influence_heights);
-  const std::array<double, 1> first = {heights.front()};
   const surface::Compliance whole(setting.bodies(position), setup.cut.a_p, position,
                                   surface::Load::concentrated);
-  map.compliance = whole.rows(first).front();
+  const std::vector<double> concentrated = whole.rows(heights);
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    map.rows[i].compliance = concentrated[i * points];
+  }
   return map;
 }
 

@@ -23,6 +23,7 @@ struct MapRow {
   std::optional<double> once_per_turn;
   double once_per_tooth = 0.0;
   std::optional<std::array<double, 2>> per_K;  ///< imprint: error by K_tc, K_rc
+  double compliance = 0.0;  ///< for the whole force, concentrated [m/N]
 };
 
 struct ForceRow {
@@ -42,7 +43,6 @@ struct SurfaceMap {
   double change = 0.0;  ///< of the deflection in the last turn, relative
   std::vector<MapRow> rows;
   std::vector<ForceRow> forces;
-  double compliance = 0.0;  ///< for the whole force at a_p/2, at the first height [m/N]
   std::vector<double> influence_heights;  ///< [m]
   std::vector<double> of_cutter;          ///< shape (heights, heights) [m/N]
   std::vector<double> of_wall;            ///< shape (heights, heights) [m/N]

