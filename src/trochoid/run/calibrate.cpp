@@ -125,7 +125,7 @@ base::Answer calibrate(const inputs::Case& given, const Progress& progress) {
     if (progress) {
       progress("Looking for runout");
     }
-    runout = surface::find_runout(setting, wall.readings, wall.datum, chosen);
+    runout = surface::find_runout(setting, wall.readings, wall.datum, calibration);
   }
   add_runout(runout, given, result);
   add_calibration_warnings(given, wall, calibration, runout, answer.warnings);

@@ -33,7 +33,7 @@ surface::BodiesAt bodies_of(const inputs::MachineTables& machine, double a_p) {
                                    w.poisson_ratio};
       bodies.wall = surface::Wall{
           std::make_shared<structure::PlateSolution>(plate, x, plate_tolerance, a_p),
-          w.height};
+          w.height, w.length};
     }
     return bodies;
   };

@@ -15,6 +15,7 @@ namespace trochoid::surface {
 struct Wall {
   std::shared_ptr<const structure::PlateSolution> plate;
   double height = 0.0;  ///< of the free edge above the clamping [m]
+  double length = 0.0;  ///< along the feed [m]
 };
 
 /// @brief What bends; what is absent is rigid.

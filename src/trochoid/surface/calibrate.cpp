@@ -100,7 +100,8 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   if (setting.model == Model::envelope) {
     linear_setting.model = Model::imprint;
   }
-  const NominalModel linear(linear_setting, result.nominal);
+  result.stations = NominalModel::stations_for(setting, result.nominal);
+  const NominalModel linear(linear_setting, result.nominal, result.stations);
   const auto add = [&](const NominalModel& model, Model name, Feedback with) {
     const auto predict = [&](std::span<const double, columns> K) {
       return with == Feedback::none ? model.rigid(K) : model.bent(K, with);
@@ -120,7 +121,7 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   if (setting.model != Model::quasi_static) {
     finest.model = Model::envelope;
   }
-  const NominalModel rigorous(finest, result.nominal);
+  const NominalModel rigorous(finest, result.nominal, result.stations);
   if (setting.model != Model::quasi_static) {
     add(rigorous, Model::envelope, Feedback::none);
   }

@@ -53,9 +53,10 @@ struct Advice {
 
 struct Calibration {
   std::vector<Nominal> nominal;
-  std::vector<Answer> answers;  ///< linear, envelope, with feedback
-  std::size_t chosen = 0;       ///< the reading that the setting asks for
-  std::vector<Advice> advice;   ///< best first
+  std::vector<Answer> answers;               ///< linear, envelope, with feedback
+  std::size_t chosen = 0;                    ///< the reading that the setting asks for
+  std::vector<Advice> advice;                ///< best first
+  std::shared_ptr<const Stations> stations;  ///< for the heights of the readings
 };
 
 /// @brief Cutting coefficients, and runout where it shows, from a measured wall.

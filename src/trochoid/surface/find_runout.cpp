@@ -211,9 +211,10 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
 }  // namespace
 
 RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readings,
-                         std::span<const Datum> datum, const Answer& start) {
+                         std::span<const Datum> datum, const Calibration& found) {
   RunoutAnswer answer;
-  const ToothModel model(setting, readings);
+  const Answer& start = found.answers[found.chosen];
+  const ToothModel model(setting, readings, found.stations);
   answer.labelled = model.labelled();
   std::vector<Spot> spots;
   for (const Reading& r : readings) {
@@ -243,10 +244,10 @@ RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readin
   }
   answer.rms_without = um * std::sqrt(sum);
   State best = first_guess(problem, about, std::max(answer.rms_without, 0.1 * um));
-  const auto found = numerics::levenberg_marquardt(
+  const auto fitted = numerics::levenberg_marquardt(
       residuals_of(problem, all, best, nullptr), static_cast<int>(readings.size()),
       problem.pack(best, all), {.max_iterations = 30, .parameter_tolerance = 1e-9});
-  best = problem.unpack(found.p, all, best);
+  best = problem.unpack(fitted.p, all, best);
   describe_fit(problem, all, best, answer);
   answer.predicted = problem.errors(best, model.forces(best.runout));
   return answer;

@@ -32,15 +32,10 @@ std::vector<double> places(std::span<const Nominal> rows) {
   return x;
 }
 
-/// Three for each row: below, at, and above its height.
-std::vector<double> heights_around(std::span<const Nominal> rows, double a_p) {
-  std::vector<double> heights;
-  for (const Nominal& row : rows) {
-    for (const int side : {-1, 0, 1}) {
-      heights.push_back(std::clamp(row.height + side * slope_step * a_p, 0.0, a_p));
-    }
-  }
-  return heights;
+/// Just below a height, there, and just above it.
+std::array<double, 3> heights_around(double height, double a_p) {
+  return {std::max(0.0, height - slope_step * a_p), height,
+          std::min(a_p, height + slope_step * a_p)};
 }
 
 /// Coefficients first, then the sum with K: the search for the envelope wants the sum.
@@ -68,12 +63,26 @@ double entry_angle(const force::Setup& setup) {
                    std::acos(1 - 2 * down->a_e / setup.cutter.profile.D);  // E-12
 }
 
+std::shared_ptr<const Stations> NominalModel::stations_for(
+    const Setting& setting, std::span<const Nominal> rows) {
+  const double a_p = setting.setup.cut.a_p;
+  std::vector<double> heights;
+  for (const Nominal& row : rows) {
+    const auto around = heights_around(row.height, a_p);
+    heights.insert(heights.end(), around.begin(), around.end());
+  }
+  return std::make_shared<Stations>(setting.bodies, places(rows), heights, a_p,
+                                    setting.load);
+}
+
 NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows)
+    : NominalModel(setting, rows, stations_for(setting, rows)) {}
+
+NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows,
+                           std::shared_ptr<const Stations> stations)
     : setting_(setting),
-      stations_(setting.bodies, places(rows),
-                heights_around(rows, setting.setup.cut.a_p), setting.setup.cut.a_p,
-                setting.load),
-      edges_(without_runout(setting.setup), setting.law, stations_.basis()),
+      stations_(std::move(stations)),
+      edges_(without_runout(setting.setup), setting.law, stations_->basis()),
       unit_(unit_moments(edges_, setting.tolerance)) {
   for (const Nominal& row : rows) {
     const auto same = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) {
@@ -81,9 +90,14 @@ NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows
     });
     kind_of_row_.push_back(static_cast<std::size_t>(same - kinds_.begin()));
     if (same == kinds_.end()) {
-      kinds_.push_back({row.height, row.travel, 3 * (kind_of_row_.size() - 1)});
+      Kind kind{row.height, row.travel};
+      const auto around = heights_around(row.height, setting.setup.cut.a_p);
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        kind.rows[i] = stations_->height_index(around[i]);
+      }
+      kinds_.push_back(kind);
     }
-    weights_.push_back(stations_.weights(row.x));
+    weights_.push_back(stations_->weights(row.x));
   }
 }
 
@@ -148,16 +162,16 @@ NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments
 
 NominalModel::Value NominalModel::value(const numerics::PeriodicPieces& moments,
                                         std::size_t station, const Kind& kind) const {
-  Value value = at_row(moments, stations_.row(station, kind.row + 1), kind);
+  Value value = at_row(moments, stations_->row(station, kind.rows[1]), kind);
   if (setting_.model == Model::envelope && setting_.probe_radius > 0) {
-    const double a_p = setting_.setup.cut.a_p;
+    const auto around = heights_around(kind.height, setting_.setup.cut.a_p);
     Kind below = kind;
     Kind above = kind;
-    below.height = std::max(0.0, kind.height - slope_step * a_p);
-    above.height = std::min(a_p, kind.height + slope_step * a_p);
+    below.height = around[0];
+    above.height = around[2];
     const double rise =
-        at_row(moments, stations_.row(station, kind.row + 2), above).error -
-        at_row(moments, stations_.row(station, kind.row), below).error;
+        at_row(moments, stations_->row(station, kind.rows[2]), above).error -
+        at_row(moments, stations_->row(station, kind.rows[0]), below).error;
     const double slope = rise / (above.height - below.height);
     value.error += reading_on_slope(setting_.probe_radius, slope);
   }
@@ -169,7 +183,7 @@ Prediction NominalModel::along_the_wall(const std::vector<Value>& grid) const {
   Prediction result{std::vector<double>(rows), std::vector<double>(rows * columns),
                     true};
   for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t s = 0; s < stations_.count(); ++s) {
+    for (std::size_t s = 0; s < stations_->count(); ++s) {
       const Value& value = grid[s * kinds_.size() + kind_of_row_[i]];
       result.error[i] += weights_[i][s] * value.error;
       for (std::size_t c = 0; c < columns; ++c) {
@@ -182,7 +196,7 @@ Prediction NominalModel::along_the_wall(const std::vector<Value>& grid) const {
 
 Prediction NominalModel::rigid(std::span<const double, columns> K) const {
   const numerics::PeriodicPieces moments = with_sum(unit_, K);
-  std::vector<Value> grid(stations_.count() * kinds_.size());
+  std::vector<Value> grid(stations_->count() * kinds_.size());
   numerics::for_each_index(grid.size(), [&](std::size_t i) {
     grid[i] = value(moments, i / kinds_.size(), kinds_[i % kinds_.size()]);
   });
@@ -191,10 +205,10 @@ Prediction NominalModel::rigid(std::span<const double, columns> K) const {
 
 Prediction NominalModel::bent_once(std::span<const double, columns> K,
                                    Feedback feedback) const {
-  std::vector<Value> grid(stations_.count() * kinds_.size());
+  std::vector<Value> grid(stations_->count() * kinds_.size());
   bool good = true;
-  for (std::size_t s = 0; s < stations_.count(); ++s) {
-    const BentTurn bent = bent_turn(edges_, K, stations_.compliance(s), feedback,
+  for (std::size_t s = 0; s < stations_->count(); ++s) {
+    const BentTurn bent = bent_turn(edges_, K, stations_->compliance(s), feedback,
                                     10 * setting_.tolerance);
     good = good && bent.converged;
     numerics::for_each_index(kinds_.size(), [&](std::size_t k) {

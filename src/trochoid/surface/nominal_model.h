@@ -4,6 +4,7 @@
 #include <trochoid/surface/setting.h>
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,13 @@ struct Prediction {
 class NominalModel {
  public:
   NominalModel(const Setting& setting, std::span<const Nominal> rows);
+  /// @param stations  with the heights of stations_for; may serve several models
+  NominalModel(const Setting& setting, std::span<const Nominal> rows,
+               std::shared_ptr<const Stations> stations);
+
+  /// @brief The compliance that these rows need.
+  static std::shared_ptr<const Stations> stations_for(const Setting& setting,
+                                                      std::span<const Nominal> rows);
 
   /// @brief As long as the deflection does not change the chip.
   [[nodiscard]] Prediction rigid(std::span<const double, columns> K) const;
@@ -28,14 +36,14 @@ class NominalModel {
   [[nodiscard]] Prediction bent(std::span<const double, columns> K,
                                 Feedback feedback) const;
 
-  [[nodiscard]] std::size_t stations() const noexcept { return stations_.count(); }
+  [[nodiscard]] std::size_t stations() const noexcept { return stations_->count(); }
 
  private:
   /// Rows that differ in x only.
   struct Kind {
     double height = 0.0;
     double travel = 0.0;
-    std::size_t row = 0;  ///< of the compliance
+    std::array<std::size_t, 3> rows{};  ///< of the compliance: below, at, above
   };
   struct Value {
     double error = 0.0;
@@ -54,7 +62,7 @@ class NominalModel {
   std::vector<Kind> kinds_;
   std::vector<std::size_t> kind_of_row_;
   std::vector<std::vector<double>> weights_;  ///< of the stations, shape (rows)
-  Stations stations_;
+  std::shared_ptr<const Stations> stations_;
   EdgeMoments edges_;
   numerics::PeriodicPieces unit_;
 };

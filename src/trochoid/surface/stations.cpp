@@ -5,13 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 namespace trochoid::surface {
 
 namespace {
 
-/// More places than this are interpolated between as many Chebyshev points.
+/// Stations on a stretch as long as the wall, or as twice its height if that is less.
+constexpr double stations_per_wall = 10;
 constexpr std::size_t most_stations = 12;
+
+/// How many stations resolve a stretch: the compliance changes with the distance from
+/// the clamped ends, over lengths like the wall's own.
+std::size_t station_count(const std::optional<Wall>& wall, double stretch) {
+  if (!wall || stretch == 0) {
+    return 1;
+  }
+  const double size =
+      std::min(wall->length > 0 ? wall->length : 2 * wall->height, 2 * wall->height);
+  return std::min(
+      most_stations,
+      3 + static_cast<std::size_t>(std::ceil(stations_per_wall * stretch / size)));
+}
 
 std::vector<double> distinct(std::span<const double> x) {
   std::vector<double> sorted(x.begin(), x.end());
@@ -24,24 +39,34 @@ std::vector<double> distinct(std::span<const double> x) {
 
 Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
                    std::span<const double> heights, double a_p, Load load)
-    : x_(distinct(x)), along_(x_.front(), x_.back(), static_cast<int>(most_stations)) {
-  // A rigid wall is the same everywhere.
-  if (!bodies(x_.front()).wall) {
+    : x_(distinct(x)), heights_(distinct(heights)), along_(x_.front(), x_.back(), 1) {
+  const Bodies first = bodies(x_.front());
+  const std::size_t enough = station_count(first.wall, x_.back() - x_.front());
+  const double first_x = x_.front();
+  if (enough == 1) {
     x_.resize(1);
-  }
-  interpolated_ = x_.size() > most_stations;
-  if (interpolated_) {
+  } else if (x_.size() > enough) {
+    interpolated_ = true;
+    along_ = numerics::LagrangeBasis(x_.front(), x_.back(), static_cast<int>(enough));
     x_ = along_.points();
   }
   std::vector<std::optional<Compliance>> solved(x_.size());
   rows_.resize(x_.size());
   numerics::for_each_index(x_.size(), [&](std::size_t i) {
-    solved[i].emplace(bodies(x_[i]), a_p, x_[i], load);
-    rows_[i] = solved[i]->rows(heights);
+    solved[i].emplace(x_[i] == first_x ? first : bodies(x_[i]), a_p, x_[i], load);
+    rows_[i] = solved[i]->rows(heights_);
   });
   for (auto& compliance : solved) {
     compliances_.push_back(std::move(*compliance));
   }
+}
+
+std::size_t Stations::height_index(double height) const {
+  const auto found = std::lower_bound(heights_.begin(), heights_.end(), height);
+  if (found == heights_.end() || *found != height) {
+    throw std::out_of_range("no compliance was made for this height");
+  }
+  return static_cast<std::size_t>(found - heights_.begin());
 }
 
 std::vector<double> Stations::weights(double x) const {

@@ -15,11 +15,12 @@ using BodiesAt = std::function<Bodies(double x)>;
 /// @brief The compliance at some heights, anywhere along a stretch of the wall.
 ///
 /// A wall is solved where the readings are; where these are many, at Chebyshev points
-/// along the stretch, and what follows is interpolated between them.
+/// along the stretch, more on a longer one, and what follows is interpolated between
+/// them.
 class Stations {
  public:
   /// @param x        where the cutter comes along the wall [m], not empty
-  /// @param heights  above the tip [m]
+  /// @param heights  above the tip, in any order [m]
   Stations(const BodiesAt& bodies, std::span<const double> x,
            std::span<const double> heights, double a_p, Load load);
 
@@ -28,10 +29,13 @@ class Stations {
     return compliances_.front().basis();
   }
   [[nodiscard]] std::size_t count() const noexcept { return x_.size(); }
+  /// @brief Number of a height that was asked for at the start.
+  /// @throws std::out_of_range for any other
+  [[nodiscard]] std::size_t height_index(double height) const;
   [[nodiscard]] const Compliance& compliance(std::size_t station) const {
     return compliances_[station];
   }
-  /// @brief G_q of a height at a station [m/N], shape (basis points).
+  /// @brief G_q of a height, by its number, at a station [m/N], shape (basis points).
   [[nodiscard]] std::span<const double> row(std::size_t station,
                                             std::size_t height) const {
     const std::size_t points = basis().size();
@@ -43,6 +47,7 @@ class Stations {
  private:
   std::vector<double> x_;
   bool interpolated_ = false;
+  std::vector<double> heights_;  ///< ascending [m]
   numerics::LagrangeBasis along_;
   std::vector<Compliance> compliances_;
   std::vector<std::vector<double>> rows_;  ///< shape (stations)(heights, points)

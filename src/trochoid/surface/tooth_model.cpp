@@ -40,17 +40,26 @@ std::vector<double> places_along(std::span<const Reading> readings) {
 }  // namespace
 
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings)
+    : ToothModel(setting, readings,
+                 std::make_shared<Stations>(setting.bodies, places_along(readings),
+                                            distinct_heights(readings),
+                                            setting.setup.cut.a_p, setting.load)) {}
+
+ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings,
+                       std::shared_ptr<const Stations> stations)
     : setting_(setting),
       readings_(readings.begin(), readings.end()),
       heights_(distinct_heights(readings)),
-      stations_(setting.bodies, places_along(readings), heights_, setting.setup.cut.a_p,
-                setting.load) {
+      stations_(std::move(stations)) {
   const double feed = setting.setup.cutter.teeth() * setting.setup.cut.f_z;
   for (const Reading& r : readings_) {
     const auto height = std::lower_bound(heights_.begin(), heights_.end(), r.height);
     places_.push_back({.phi = setting.phase + turn * r.travel / feed,
                        .height = static_cast<std::size_t>(height - heights_.begin()),
-                       .weights = stations_.weights(r.x)});
+                       .weights = stations_->weights(r.x)});
+  }
+  for (const double height : heights_) {
+    rows_.push_back(stations_->height_index(height));
   }
   find_teeth();
 }
@@ -117,7 +126,7 @@ double ToothModel::angle_of(const Place& place, const force::Setup& setup) const
 
 ToothModel::Forces ToothModel::forces(RunoutVector runout) const {
   const force::Setup setup = with(runout);
-  const EdgeMoments edges(setup, setting_.law, stations_.basis());
+  const EdgeMoments edges(setup, setting_.law, stations_->basis());
   Forces result{.runout = runout};
   if (setting_.model == Model::envelope) {
     result.table = unit_moments(edges, 10 * setting_.tolerance);
@@ -140,7 +149,7 @@ ToothModel::Forces ToothModel::forces(RunoutVector runout) const {
 /// delta at the angle of a place from single values of the force.
 double ToothModel::bent(const Forces& forces, std::span<const double, columns> K,
                         const Place& place) const {
-  const std::size_t points = stations_.basis().size();
+  const std::size_t points = stations_->basis().size();
   const std::size_t n = points + 2;
   const force::Setup setup = with(forces.runout);
   const double phi = angle_of(place, setup);
@@ -149,8 +158,8 @@ double ToothModel::bent(const Forces& forces, std::span<const double, columns> K
       forces.angles.begin());
   const double* m = forces.values.data() + at * columns * n;
   double sum = 0.0;
-  for (std::size_t s = 0; s < stations_.count(); ++s) {
-    const auto row = stations_.row(s, place.height);
+  for (std::size_t s = 0; s < stations_->count(); ++s) {
+    const auto row = stations_->row(s, rows_[place.height]);
     for (std::size_t c = 0; place.weights[s] != 0 && c < columns; ++c) {
       for (std::size_t q = 0; q < points; ++q) {
         sum += place.weights[s] * K[c] * row[q] * m[c * n + q];  // E-4
@@ -194,10 +203,10 @@ std::vector<double> ToothModel::predict_envelope(const Forces& forces,
   const double feed = setup.cutter.teeth() * setup.cut.f_z;
   const double step = feed / static_cast<double>(n);
   const auto moments = with_coefficients(forces.table, K);
-  std::vector<std::vector<double>> profiles(stations_.count() * heights_.size());
+  std::vector<std::vector<double>> profiles(stations_->count() * heights_.size());
   numerics::for_each_index(profiles.size(), [&](std::size_t i) {
     const std::size_t h = i % heights_.size();
-    const auto row = stations_.row(i / heights_.size(), h);
+    const auto row = stations_->row(i / heights_.size(), rows_[h]);
     const HeightCut cut{
         side, setup.cutter.profile.D / 2,      feed,
         0.0,  edge_places(setup, heights_[h]), deflection(moments, row, side.sigma)};
@@ -214,7 +223,7 @@ std::vector<double> ToothModel::predict_envelope(const Forces& forces,
     const double at = (u - std::floor(u)) * static_cast<double>(n);
     const std::size_t k = std::min(static_cast<std::size_t>(at), n - 1);
     const double t = at - static_cast<double>(k);
-    for (std::size_t s = 0; s < stations_.count(); ++s) {
+    for (std::size_t s = 0; s < stations_->count(); ++s) {
       const auto& profile = profiles[s * heights_.size() + places_[i].height];
       errors[i] +=
           places_[i].weights[s] * ((1 - t) * profile[k] + t * profile[(k + 1) % n]);

@@ -3,7 +3,7 @@
 #include <trochoid/numerics/periodic_pieces.h>
 #include <trochoid/surface/setting.h>
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +22,9 @@ struct RunoutVector {
 /// order along the feed, envelope by where a turn begins along the wall.
 class ToothModel {
  public:
+  /// @param stations  that know the heights of the readings
+  ToothModel(const Setting& setting, std::span<const Reading> readings,
+             std::shared_ptr<const Stations> stations);
   ToothModel(const Setting& setting, std::span<const Reading> readings);
 
   /// Why the readings cannot show runout; empty: they can.
@@ -70,9 +73,10 @@ class ToothModel {
 
   Setting setting_;
   std::vector<Reading> readings_;
-  std::vector<double> heights_;  ///< distinct [m]
+  std::vector<double> heights_;    ///< distinct [m]
+  std::vector<std::size_t> rows_;  ///< of the stations, shape (heights)
   std::vector<Place> places_;
-  Stations stations_;
+  std::shared_ptr<const Stations> stations_;
   bool labelled_ = true;
   std::string obstacle_;
 };
