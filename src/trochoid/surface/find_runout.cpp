@@ -18,6 +18,14 @@ constexpr double um = 1e-6;    // scale of errors and runout
 constexpr double MN_m2 = 1e8;  // scale of coefficients
 constexpr double turn = 2 * std::numbers::pi;
 
+double sum_of_squares(std::span<const double> r) {
+  double sum = 0.0;
+  for (const double x : r) {
+    sum += x * x;
+  }
+  return sum;
+}
+
 /// Which unknowns a fit has, scaled to about one: c, s, [start], [K_tc, K_rc, datum].
 struct Unknowns {
   bool start = false;
@@ -96,59 +104,92 @@ struct Problem {
   }
 };
 
-/// Residuals and their central differences; forces change with the runout only, and
-/// with `frozen` not even then.
+/// Residuals and their differences; forces change with the runout only, and with
+/// `frozen` not even then.
 numerics::Residuals residuals_of(const Problem& problem, const Unknowns& u,
                                  const State& about, const ToothModel::Forces* frozen) {
   return [=, &problem](std::span<const double> p, std::span<double> r,
                        std::span<double> jacobian) {
-    const State here = problem.unpack(p, u, about);
+    constexpr double step = 1e-3;
     const auto forces_at = [&](const State& s) {
       return frozen != nullptr ? *frozen : problem.model.forces(s.runout);
     };
+    const State here = problem.unpack(p, u, about);
     const ToothModel::Forces forces = forces_at(here);
     problem.residuals(here, forces, r);
-    if (jacobian.empty()) {
-      return true;
-    }
     Values q(p.begin(), p.end());
-    Values plus(r.size());
-    Values minus(r.size());
-    for (std::size_t k = 0; k < q.size(); ++k) {
-      constexpr double step = 1e-3;
-      const auto at = [&](double value, Values& out) {
-        q[k] = value;
-        const State s = problem.unpack(q, u, about);
-        problem.residuals(s, k < 2 ? forces_at(s) : forces, out);
-      };
-      at(p[k] + step, plus);
-      at(p[k] - step, minus);
+    Values moved(r.size());
+    for (std::size_t k = 0; !jacobian.empty() && k < q.size(); ++k) {
+      q[k] = p[k] + step;
+      const State s = problem.unpack(q, u, about);
+      problem.residuals(s, k < 2 ? forces_at(s) : forces, moved);
       q[k] = p[k];
       for (std::size_t i = 0; i < r.size(); ++i) {
-        jacobian[k * r.size() + i] = (plus[i] - minus[i]) / (2 * step);
+        jacobian[k * r.size() + i] = (moved[i] - r[i]) / step;
       }
     }
     return true;
   };
 }
 
-/// The best of several starts, with the forces of a cutter without runout.
+std::vector<Spot> spots_of(std::span<const Reading> readings) {
+  std::vector<Spot> spots;
+  for (const Reading& r : readings) {
+    spots.push_back({r.x, r.height, r.set});
+  }
+  return spots;
+}
+
+/// Readings at a few heights, as if all were taken at one place along the wall.
+std::vector<Reading> sample_of(std::span<const Reading> readings) {
+  constexpr std::size_t most_heights = 5;
+  Values heights;
+  double x = 0.0;
+  for (const Reading& r : readings) {
+    heights.push_back(r.height);
+    x += r.x / static_cast<double>(readings.size());
+  }
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  const std::size_t every = (heights.size() + most_heights - 1) / most_heights;
+  std::vector<Reading> sample;
+  for (Reading r : readings) {
+    const auto at = std::lower_bound(heights.begin(), heights.end(), r.height);
+    if (static_cast<std::size_t>(at - heights.begin()) % every == 0) {
+      r.x = x;
+      sample.push_back(r);
+    }
+  }
+  return sample;
+}
+
+/// The best of many starts, from a sample of the readings and with the forces of a
+/// cutter without runout.
 State first_guess(const Problem& problem, const State& about, double amplitude) {
+  constexpr int angles = 12;
+  constexpr std::size_t tried = 3;
   const ToothModel::Forces forces = problem.model.forces({});
   const Unknowns u{.start = problem.model.has_phase()};
-  const int angles = 8;
-  const int starts = u.start ? 4 : 1;
-  State best = about;
-  double least = -1.0;
+  const int starts = u.start ? 6 : 1;
+  Values r(problem.readings.size());
+  std::vector<std::pair<double, State>> guesses;
   for (int i = 0; i < angles * starts; ++i) {
     State s = about;
     const double angle = turn * (i % angles) / angles;
     s.runout = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
     s.start = problem.f_z * (i / angles) / starts;
+    problem.residuals(s, forces, r);
+    guesses.emplace_back(sum_of_squares(r), s);
+  }
+  std::sort(guesses.begin(), guesses.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  State best = about;
+  double least = -1.0;
+  for (std::size_t i = 0; i < tried; ++i) {
     const auto found = numerics::levenberg_marquardt(
-        residuals_of(problem, u, about, &forces),
-        static_cast<int>(problem.readings.size()), problem.pack(s, u),
-        {.max_iterations = 15, .parameter_tolerance = 1e-5});
+        residuals_of(problem, u, about, &forces), static_cast<int>(r.size()),
+        problem.pack(guesses[i].second, u),
+        {.max_iterations = 12, .parameter_tolerance = 1e-4});
     if (least < 0 || found.final_cost < least) {
       least = found.final_cost;
       best = problem.unpack(found.p, u, about);
@@ -173,10 +214,7 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
     }
   }
   const auto solved = numerics::least_squares(rows, static_cast<int>(n), r, 1e-7);
-  double sum = 0.0;
-  for (const double x : r) {
-    sum += x * x;
-  }
+  const double sum = sum_of_squares(r);
   answer.rms = um * std::sqrt(sum / static_cast<double>(m));
   if (solved.inverse_gram.empty()) {
     answer.message = "the readings do not tell runout and coefficients apart";
@@ -216,11 +254,7 @@ RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readin
   const Answer& start = found.answers[found.chosen];
   const ToothModel model(setting, readings, found.stations);
   answer.labelled = model.labelled();
-  std::vector<Spot> spots;
-  for (const Reading& r : readings) {
-    spots.push_back({r.x, r.height, r.set});
-  }
-  const DatumColumns datum_part = datum_columns(spots, datum);
+  const DatumColumns datum_part = datum_columns(spots_of(readings), datum);
   const Unknowns all{
       .start = model.has_phase(), .all = true, .datum = datum_part.count};
   if (!model.obstacle().empty() || readings.size() <= all.count()) {
@@ -238,12 +272,16 @@ RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readin
   }
   Values r(readings.size());
   problem.residuals(about, model.forces({}), r);
-  double sum = 0.0;
-  for (const double x : r) {
-    sum += x * x / static_cast<double>(r.size());
-  }
-  answer.rms_without = um * std::sqrt(sum);
-  State best = first_guess(problem, about, std::max(answer.rms_without, 0.1 * um));
+  answer.rms_without =
+      um * std::sqrt(sum_of_squares(r) / static_cast<double>(r.size()));
+  const std::vector<Reading> sample = sample_of(readings);
+  const ToothModel sampled(setting, sample);
+  const DatumColumns sampled_datum = datum_columns(spots_of(sample), datum);
+  const bool enough = sampled.obstacle().empty() && sample.size() > all.count() &&
+                      sampled_datum.count == datum_part.count;
+  const Problem part{sampled, sample, sampled_datum, problem.f_z};
+  State best = first_guess(enough ? part : problem, about,
+                           std::max(answer.rms_without, 0.1 * um));
   const auto fitted = numerics::levenberg_marquardt(
       residuals_of(problem, all, best, nullptr), static_cast<int>(readings.size()),
       problem.pack(best, all), {.max_iterations = 30, .parameter_tolerance = 1e-9});
