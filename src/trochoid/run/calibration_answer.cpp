@@ -88,6 +88,12 @@ bool runout_is_seen(const surface::RunoutAnswer& runout) {
   return runout.ok && runout.eccentricity.value > clearly * runout.eccentricity.se;
 }
 
+bool runout_counts(const inputs::Case& given, const surface::RunoutAnswer& runout) {
+  return runout_is_seen(runout) &&
+         given.machine.surface->model == inputs::SurfaceModel::envelope &&
+         given.machine.surface->feedback == inputs::Feedback::none;
+}
+
 Json calibration_json(const inputs::Case& given,
                       const surface::Calibration& calibration) {
   const Answer& chosen =
@@ -140,6 +146,12 @@ void add_runout(const surface::RunoutAnswer& runout, const inputs::Case& given,
   if (given.machine.surface->model == inputs::SurfaceModel::envelope) {
     result["runout"]["turn_begins_mm"] = number(runout.start.value / unit::mm);
   }
+  result["with_runout"] = runout_counts(given, runout);
+  if (runout_counts(given, runout)) {
+    for (const char* key : {"coefficients", "correlation", "rms_mm"}) {
+      result[key] = result["runout"][key];
+    }
+  }
 }
 
 std::string refusal(const inputs::Case& given, const Answer& answer) {
@@ -171,13 +183,14 @@ std::string calibration_table(const inputs::Case& given,
                                              (e.high - e.low) / 2 / unit)
                                : fmt::format("{:.1f} +- ?", e.value / unit);
   };
+  const bool joint = runout_counts(given, runout);
   for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
     const Answer& a = calibration.answers[i];
-    const std::string name =
-        fmt::format("{} {}{}", i == calibration.chosen ? '*' : ' ', model_name(a.model),
-                    a.feedback == surface::Feedback::none
-                        ? ""
-                        : fmt::format(" + {}", feedback_name(a.feedback)));
+    const std::string name = fmt::format(
+        "{} {}{}", i == calibration.chosen && !joint ? '*' : ' ', model_name(a.model),
+        a.feedback == surface::Feedback::none
+            ? ""
+            : fmt::format(" + {}", feedback_name(a.feedback)));
     if (!a.ok) {
       text += fmt::format("{:<28} {}\n", name, a.message);
       continue;
@@ -189,10 +202,11 @@ std::string calibration_table(const inputs::Case& given,
   if (!runout.ok) {
     return text + fmt::format("runout: not known: {}\n", runout.message);
   }
-  text += fmt::format("{:<28} {:>20} {:>20} {:>8.3f} {:>10.3f}\n",
-                      "  all readings, with runout", pair(runout.K_tc, names[0].unit),
-                      pair(runout.K_rc, names[1].unit), runout.correlation,
-                      runout.rms / unit::um);
+  text +=
+      fmt::format("{:<28} {:>20} {:>20} {:>8.3f} {:>10.3f}\n",
+                  joint ? "* all readings, with runout" : "  all readings, with runout",
+                  pair(runout.K_tc, names[0].unit), pair(runout.K_rc, names[1].unit),
+                  runout.correlation, runout.rms / unit::um);
   text += fmt::format(
       "runout {} um at {} deg{}\n", pair(runout.eccentricity, unit::um),
       pair(runout.angle, unit::deg),
@@ -209,6 +223,7 @@ std::string calibrated_material(const inputs::Case& given,
   const Answer& chosen = calibration.answers[calibration.chosen];
   const auto names = coefficient_names(given.law);
   const bool power = std::holds_alternative<force::Power>(given.law);
+  const bool joint = runout_counts(given, runout);
   std::string text = fmt::format(
       "# Found by trochoid calibrate ({}{}). Use it in another case with\n"
       "#   include = \"<this file>\"\n\n[force]\nlaw = \"{}\"\n",
@@ -220,7 +235,8 @@ std::string calibrated_material(const inputs::Case& given,
   const std::vector<double> known = force::coefficients(given.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     if (q < 2) {
-      const Estimate& e = q == 0 ? chosen.K_tc : chosen.K_rc;
+      const Estimate& e = joint ? (q == 0 ? runout.K_tc : runout.K_rc)
+                                : (q == 0 ? chosen.K_tc : chosen.K_rc);
       text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
                           e.value / names[q].unit, e.se / names[q].unit);
     } else {

@@ -33,4 +33,8 @@ std::string refusal(const inputs::Case& given, const surface::Answer& answer);
 /// Runout that stands out of its own uncertainty.
 bool runout_is_seen(const surface::RunoutAnswer& runout);
 
+/// Whether the coefficients are those that were fitted together with the runout: the
+/// mean of a real surface is not free of it.
+bool runout_counts(const inputs::Case& given, const surface::RunoutAnswer& runout);
+
 }  // namespace trochoid::run

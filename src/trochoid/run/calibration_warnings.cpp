@@ -120,14 +120,11 @@ void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout
                      runout.eccentricity.value / unit::um,
                      runout.eccentricity.se / unit::um)});
   }
-  if (runout_is_seen(runout) &&
-      given.machine.surface->model == inputs::SurfaceModel::envelope) {
-    const double bias = runout.K_tc.value;
+  if (runout_counts(given, runout)) {
     warnings.push_back(
         {"runout_in_mean",
-         fmt::format("The mean of a real surface is not free of runout: fitted with "
-                     "it, K_tc is {:.4g} MPa.",
-                     bias / unit::MPa)});
+         "The mean of a real surface is not free of runout: the coefficients are those "
+         "that were fitted together with it."});
   }
 }
 
@@ -146,7 +143,12 @@ void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wal
     warnings.push_back({"all_zero", "All readings are zero: so are the coefficients."});
     return;
   }
-  judge_coefficients(given, chosen, warnings);
+  Answer judged = chosen;
+  if (runout_counts(given, runout)) {
+    judged.K_tc = runout.K_tc;
+    judged.K_rc = runout.K_rc;
+  }
+  judge_coefficients(given, judged, warnings);
   compare_answers(given, calibration, warnings);
   judge_means(given, calibration, warnings);
   judge_runout(given, runout, warnings);

@@ -24,31 +24,49 @@ double first_value(const numerics::PeriodicPieces& f, double phi) noexcept {
 /// How many turns before and after the nearest one are looked at. A turn farther away
 /// stands feed^2/2R_e higher, which no deflection of a cut makes up for.
 constexpr int turns_around = 2;
+/// Farther from the wall than this a tooth does not make it [rad].
+constexpr double near_the_wall = 1.3;
 
-/// theta on a pass of a tooth where it is at x; none where it never is near the wall.
-bool angle_at(const HeightCut& cut, const EdgePlace& tooth, double at_wall, double x,
-              double& theta) noexcept {
-  // x = x_wall + feed (theta - theta_s)/turn + R sin(theta), by Newton's method
+/// theta - theta_s on a pass of a tooth where it is at x; none where it never is.
+///
+/// @param dx  x, from where this pass touches the wall squarely
+bool angle_at(const HeightCut& cut, double R, double dx, double& t) noexcept {
+  // dx = feed t/turn + slope R sin(t), by Newton's method
   const double slope = cut.side.sigma > 0 ? -1.0 : 1.0;
-  const double u = (x - at_wall) / tooth.R;
-  if (std::abs(u) > 0.9) {
+  const double along = cut.feed / turn;
+  if (std::abs(dx) > 0.9 * R) {
     return false;
   }
-  double t = std::asin(std::clamp(u, -1.0, 1.0)) * slope;  // theta - theta_s
+  t = dx / (along + slope * R);
   for (int i = 0; i < 8; ++i) {
-    const double value = cut.feed * t / turn + slope * tooth.R * std::sin(t);
-    const double rate = cut.feed / turn + slope * tooth.R * std::cos(t);
-    const double step = (x - at_wall - value) / rate;
+    const double sine = std::sin(t);
+    const double cosine = std::cos(t);
+    const double step =
+        (dx - along * t - slope * R * sine) / (along + slope * R * cosine);
     t += step;
-    if (std::abs(step) < 1e-13) {
+    if (std::abs(step) < 1e-9) {  // the next one would be its square
       break;
     }
   }
-  theta = cut.side.theta + t;
-  return std::abs(t) < 1.3;
+  return std::abs(t) < near_the_wall;
 }
 
 }  // namespace
+
+double least_deflection(const HeightCut& cut) {
+  constexpr int samples = 24;
+  double least = std::numeric_limits<double>::infinity();
+  for (const EdgePlace& tooth : cut.teeth) {
+    const double reach =
+        std::min(near_the_wall, 1.2 * (turns_around + 0.5) * cut.feed / tooth.R);
+    for (int i = 0; i <= samples; ++i) {
+      const double t = reach * (2.0 * i / samples - 1);
+      least = std::min(least,
+                       first_value(cut.deflection, cut.side.theta + t + tooth.behind));
+    }
+  }
+  return least;
+}
 
 std::size_t last_entered(std::span<const EdgePlace> tips, double entry,
                          double phi) noexcept {
@@ -83,23 +101,31 @@ std::vector<SurfacePoint> imprint_errors(const HeightCut& cut) {
 }
 
 SurfacePoint envelope_error(const HeightCut& cut, double x) noexcept {
+  // Between samples the deflection may be lower than `least` by a little.
+  const double bound = cut.least - 0.1 * std::abs(cut.least);
   SurfacePoint best{.error = std::numeric_limits<double>::infinity()};
-  for (std::size_t i = 0; i < cut.teeth.size(); ++i) {
-    const EdgePlace& tooth = cut.teeth[i];
-    const double phi_wall = cut.side.theta + tooth.behind;
-    const double first = cut.x_0 + cut.feed * phi_wall / turn;
-    const double nearest = std::round((x - first) / cut.feed);
-    for (int k = -turns_around; k <= turns_around; ++k) {
-      const double n = nearest + k;
-      double theta = 0.0;
-      if (!angle_at(cut, tooth, first + n * cut.feed, x, theta)) {
+  for (const int k : {0, -1, 1, -2, 2}) {
+    static_assert(turns_around == 2);
+    for (std::size_t i = 0; i < cut.teeth.size(); ++i) {
+      const EdgePlace& tooth = cut.teeth[i];
+      const double phi_wall = cut.side.theta + tooth.behind;
+      const double first = cut.x_0 + cut.feed * phi_wall / turn;
+      const double n = std::round((x - first) / cut.feed) + k;
+      const double dx = x - first - n * cut.feed;
+      // 1 - cos(t) >= sin(t)^2/2, and |dx| <= R |sin(t)| + feed |t|/turn.
+      const double sine = dx / (tooth.R + 1.35 * cut.feed / turn);
+      if (cut.R - tooth.R + 0.5 * tooth.R * sine * sine + bound > best.error) {
+        continue;
+      }
+      double t = 0.0;
+      if (!angle_at(cut, tooth.R, dx, t)) {
         continue;
       }
       // As R + sigma R_i cos(theta), without its cancellation.
-      const double s = std::sin(0.5 * (theta - cut.side.theta));
-      const double rigid = cut.R - tooth.R + 2 * tooth.R * s * s;
-      const double phi = theta + tooth.behind + n * turn;
-      const double error = rigid + first_value(cut.deflection, phi);  // E-9
+      const double s = std::sin(0.5 * t);
+      const double phi = phi_wall + t + n * turn;
+      const double error = cut.R - tooth.R + 2 * tooth.R * s * s +
+                           first_value(cut.deflection, phi);  // E-9
       if (error < best.error) {
         best = {error, static_cast<int>(i), phi};
       }
