@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace trochoid::numerics {
@@ -126,6 +127,21 @@ PeriodicPieces::PeriodicPieces(const Function& f, const Options& options)
     coefficients_.insert(coefficients_.end(), part.coefficients.begin(),
                          part.coefficients.end());
   }
+  find_lower_bounds();
+}
+
+void PeriodicPieces::find_lower_bounds() {
+  lower_bounds_.assign(functions_, std::numeric_limits<double>::infinity());
+  for (std::size_t panel = 0; panel < ends_.size(); ++panel) {
+    const double* c = coefficients_.data() + panel * nodes * functions_;
+    for (std::size_t q = 0; q < functions_; ++q) {
+      double least = c[q];
+      for (std::size_t k = 1; k < nodes; ++k) {
+        least -= std::abs(c[k * functions_ + q]);
+      }
+      lower_bounds_[q] = std::min(lower_bounds_[q], least);
+    }
+  }
 }
 
 PeriodicPieces::Place PeriodicPieces::place(double x) const noexcept {
@@ -170,6 +186,7 @@ PeriodicPieces PeriodicPieces::combined(std::span<const double> weights) const {
       result.coefficients_[i * result.functions_ + p] = sum;
     }
   }
+  result.find_lower_bounds();
   return result;
 }
 

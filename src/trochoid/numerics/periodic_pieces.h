@@ -38,6 +38,11 @@ class PeriodicPieces {
   /// @param[out] out  shape (functions)
   void value(double x, std::span<double> out) const noexcept;
 
+  /// @brief What a function never falls below, from the sizes of its series.
+  [[nodiscard]] double lower_bound(std::size_t function) const noexcept {
+    return lower_bounds_[function];
+  }
+
   /// @brief Linear combinations of the functions.
   /// @param weights  row-major, shape (rows, functions)
   [[nodiscard]] PeriodicPieces combined(std::span<const double> weights) const;
@@ -48,12 +53,14 @@ class PeriodicPieces {
     double t;  ///< in [-1, 1]
   };
   [[nodiscard]] Place place(double x) const noexcept;
+  void find_lower_bounds();
 
   std::size_t functions_ = 0;
   double start_ = 0.0;
   double period_ = 1.0;
   std::vector<double> ends_;
   std::vector<double> coefficients_;  ///< shape (panels, nodes, functions)
+  std::vector<double> lower_bounds_;  ///< shape (functions)
 };
 
 }  // namespace trochoid::numerics

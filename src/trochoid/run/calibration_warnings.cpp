@@ -107,8 +107,9 @@ void judge_means(const inputs::Case& given, const surface::Calibration& calibrat
 
 void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout,
                   Warnings& warnings) {
+  const auto& offsets = given.setup.runout.radial_offsets;
   if (given.setup.runout.eccentricity != 0 ||
-      !given.setup.runout.radial_offsets.empty()) {
+      std::any_of(offsets.begin(), offsets.end(), [](double r) { return r != 0; })) {
     warnings.push_back(
         {"runout_not_used", "[runout] is not used: calibrate looks for it itself."});
   }

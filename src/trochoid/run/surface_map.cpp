@@ -196,7 +196,7 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
   numerics::for_each_index(heights.size(), [&](std::size_t i) {
     MapRow& row = map.rows[i];
     row.height = heights[i];
-    surface::HeightCut cut{
+    const surface::HeightCut cut{
         side,
         setup.cutter.profile.D / 2,
         pass.feed,
@@ -204,7 +204,6 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
         surface::edge_places(setup, heights[i]),
         surface::deflection(pass.moments, std::span(rows).subspan(i * points, points),
                             side.sigma)};
-    cut.least = surface::least_deflection(cut);
     fill_errors(pass, cut, row);
     std::vector<double> value(1);
     for (const ForceRow& force : map.forces) {

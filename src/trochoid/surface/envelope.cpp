@@ -21,9 +21,6 @@ double first_value(const numerics::PeriodicPieces& f, double phi) noexcept {
   return values[0];
 }
 
-/// How many turns before and after the nearest one are looked at. A turn farther away
-/// stands feed^2/2R_e higher, which no deflection of a cut makes up for.
-constexpr int turns_around = 2;
 /// Farther from the wall than this a tooth does not make it [rad].
 constexpr double near_the_wall = 1.3;
 
@@ -52,21 +49,6 @@ bool angle_at(const HeightCut& cut, double R, double dx, double& t) noexcept {
 }
 
 }  // namespace
-
-double least_deflection(const HeightCut& cut) {
-  constexpr int samples = 24;
-  double least = std::numeric_limits<double>::infinity();
-  for (const EdgePlace& tooth : cut.teeth) {
-    const double reach =
-        std::min(near_the_wall, 1.2 * (turns_around + 0.5) * cut.feed / tooth.R);
-    for (int i = 0; i <= samples; ++i) {
-      const double t = reach * (2.0 * i / samples - 1);
-      least = std::min(least,
-                       first_value(cut.deflection, cut.side.theta + t + tooth.behind));
-    }
-  }
-  return least;
-}
 
 std::size_t last_entered(std::span<const EdgePlace> tips, double entry,
                          double phi) noexcept {
@@ -101,33 +83,40 @@ std::vector<SurfacePoint> imprint_errors(const HeightCut& cut) {
 }
 
 SurfacePoint envelope_error(const HeightCut& cut, double x) noexcept {
-  // Between samples the deflection may be lower than `least` by a little.
-  const double bound = cut.least - 0.1 * std::abs(cut.least);
+  const double lowest = cut.deflection.lower_bound(0);
   SurfacePoint best{.error = std::numeric_limits<double>::infinity()};
-  for (const int k : {0, -1, 1, -2, 2}) {
-    static_assert(turns_around == 2);
-    for (std::size_t i = 0; i < cut.teeth.size(); ++i) {
-      const EdgePlace& tooth = cut.teeth[i];
-      const double phi_wall = cut.side.theta + tooth.behind;
-      const double first = cut.x_0 + cut.feed * phi_wall / turn;
-      const double n = std::round((x - first) / cut.feed) + k;
-      const double dx = x - first - n * cut.feed;
-      // 1 - cos(t) >= sin(t)^2/2, and |dx| <= R |sin(t)| + feed |t|/turn.
-      const double sine = dx / (tooth.R + 1.35 * cut.feed / turn);
-      if (cut.R - tooth.R + 0.5 * tooth.R * sine * sine + bound > best.error) {
-        continue;
-      }
-      double t = 0.0;
-      if (!angle_at(cut, tooth.R, dx, t)) {
-        continue;
-      }
-      // As R + sigma R_i cos(theta), without its cancellation.
-      const double s = std::sin(0.5 * t);
-      const double phi = phi_wall + t + n * turn;
-      const double error = cut.R - tooth.R + 2 * tooth.R * s * s +
-                           first_value(cut.deflection, phi);  // E-9
-      if (error < best.error) {
-        best = {error, static_cast<int>(i), phi};
+  // Whether a pass so many turns after the one nearest to x may still reach lower.
+  const auto reaches = [&](std::size_t i, int turns) {
+    const EdgePlace& tooth = cut.teeth[i];
+    const double phi_wall = cut.side.theta + tooth.behind;
+    const double first = cut.x_0 + cut.feed * phi_wall / turn;
+    const double n = std::round((x - first) / cut.feed) + turns;
+    const double dx = x - first - n * cut.feed;
+    // 1 - cos(t) >= sin(t)^2/2, and |dx| <= R |sin(t)| + feed |t|/turn.
+    const double sine = dx / (tooth.R + 1.35 * cut.feed / turn);
+    if (cut.R - tooth.R + 0.5 * tooth.R * sine * sine + lowest >= best.error) {
+      return false;  // and the passes beyond stand higher still
+    }
+    double t = 0.0;
+    if (!angle_at(cut, tooth.R, dx, t)) {
+      return false;
+    }
+    // As R + sigma R_i cos(theta), without its cancellation.
+    const double s = std::sin(0.5 * t);
+    const double phi = phi_wall + t + n * turn;
+    const double error = cut.R - tooth.R + 2 * tooth.R * s * s +
+                         first_value(cut.deflection, phi);  // E-9
+    if (error < best.error) {
+      best = {error, static_cast<int>(i), phi};
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < cut.teeth.size(); ++i) {
+    reaches(i, 0);
+  }
+  for (std::size_t i = 0; i < cut.teeth.size(); ++i) {
+    for (const int side : {-1, 1}) {
+      for (int k = 1; reaches(i, side * k); ++k) {
       }
     }
   }

@@ -3,7 +3,6 @@
 #include <trochoid/numerics/periodic_pieces.h>
 #include <trochoid/surface/pass.h>
 
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,8 +23,6 @@ struct HeightCut {
   double x_0 = 0.0;                     ///< of the axis at phi = 0 [m]
   std::vector<EdgePlace> teeth;         ///< at this height
   numerics::PeriodicPieces deflection;  ///< delta(phi), the first function [m]
-  /// least_deflection; without it every pass is looked at [m]
-  double least = -std::numeric_limits<double>::infinity();
 };
 
 /// @brief The tooth whose tip entered the stock last, 0-based.
@@ -48,10 +45,6 @@ SurfacePoint quasi_static_error(const HeightCut& cut, std::size_t tooth,
 /// @src [wang2015] section 4; derived
 /// @return shape (teeth)
 std::vector<SurfacePoint> imprint_errors(const HeightCut& cut);
-
-/// @brief Least deflection while teeth are near the wall: passes that cannot reach
-/// below a found point with it need no look.
-double least_deflection(const HeightCut& cut);
 
 /// @brief The wall that all passes of all teeth leave: nothing stands above any path.
 /// @eq E-9 e(x, h) = min over passes of R + sigma R_i cos(theta) + delta(phi, h),

@@ -127,12 +127,12 @@ NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments
   }
   std::vector<double> only_sum(all.functions());
   only_sum[0] = 1.0;
-  HeightCut cut{side,
-                cutter.profile.D / 2,
-                feed,
-                0.0,
-                edge_places(edges_.setup(), kind.height),
-                all.combined(only_sum)};
+  const HeightCut cut{side,
+                      cutter.profile.D / 2,
+                      feed,
+                      0.0,
+                      edge_places(edges_.setup(), kind.height),
+                      all.combined(only_sum)};
   if (setting_.model == Model::imprint) {
     for (const SurfacePoint& point : imprint_errors(cut)) {
       const double share = 1.0 / cutter.teeth();
@@ -141,7 +141,6 @@ NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments
     }
     return value;
   }
-  cut.least = least_deflection(cut);
   const std::size_t points = points_per_feed * static_cast<std::size_t>(cycles);
   const auto share = 1.0 / static_cast<double>(points);
   std::vector<double> profile(points);

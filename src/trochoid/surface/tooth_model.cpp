@@ -207,10 +207,9 @@ std::vector<double> ToothModel::predict_envelope(const Forces& forces,
   numerics::for_each_index(profiles.size(), [&](std::size_t i) {
     const std::size_t h = i % heights_.size();
     const auto row = stations_->row(i / heights_.size(), rows_[h]);
-    HeightCut cut{
+    const HeightCut cut{
         side, setup.cutter.profile.D / 2,      feed,
         0.0,  edge_places(setup, heights_[h]), deflection(moments, row, side.sigma)};
-    cut.least = least_deflection(cut);
     for (std::size_t k = 0; k < n; ++k) {
       profiles[i].push_back(envelope_error(cut, static_cast<double>(k) * step).error);
     }
