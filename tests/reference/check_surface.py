@@ -65,7 +65,7 @@ class Worked(unittest.TestCase):
     def grid(self, m, g, count):
         return se.rotation(m, np.radians(g["phi0_deg"]), g["samples_per_tooth"], count)
 
-    def test_force(self):
+    def test_force(self):  # [E-2]
         for c, g, want in self.each("force"):
             m = worked.milling(g)
             phi = self.grid(m, g, g["n_samples"])
@@ -77,7 +77,7 @@ class Worked(unittest.TestCase):
                 closed = [sc.closed_form(m, p, g["KT"], g["KR"]) for p in phi]
                 self.near(c, closed, want["F_normal"], "closed form")
 
-    def test_quasi_static(self):
+    def test_quasi_static(self):  # [E-6] [E-7] [E-11]
         for c, g, want in self.each("surface_error_qs"):
             m, s, h = worked.milling(g), worked.structure(g), [g["height"]]
             K, load = (g["KT"], g["KR"]), worked.load(g)
@@ -92,7 +92,7 @@ class Worked(unittest.TestCase):
             if "c_paper" in want:
                 self.near(c, s.concentrated(h), [want["c_paper"]], "c")
 
-    def test_imprint(self):
+    def test_imprint(self):  # [E-5] [E-8]
         for c, g, want in self.each("imprint"):
             m, s, K = worked.milling(g), worked.structure(g), (g["KT"], g["KR"])
             plain = se.imprint_operator(replace(m, rho=0.0), s, g["heights"], worked.load(g))
@@ -100,7 +100,7 @@ class Worked(unittest.TestCase):
             e = se.imprint(m, s, g["heights"], K, worked.load(g))
             self.near(c, e, want["e_per_tooth"], "e")
 
-    def test_envelope(self):
+    def test_envelope(self):  # [E-9]
         for c, g, want in self.each("envelope"):
             m, s, K = worked.milling(g), worked.structure(g), (g["KT"], g["KR"])
             e, who = se.envelope(m, s, [g["height"]], K, worked.load(g))
@@ -109,7 +109,7 @@ class Worked(unittest.TestCase):
             share = [np.mean(who == i) for i in range(m.N)]
             self.near(c, share, want["share"], "share", c["tol"]["share_abs"], 0.0)
 
-    def test_flexible(self):
+    def test_flexible(self):  # [E-10]
         for c, g, want in self.each("flexible"):
             m, s, K = worked.milling(g, disks=60), worked.structure(g), (g["KT"], g["KR"])
             feedback = g["chip"] if g["chip"] in sf.FEEDBACKS else "entry"
@@ -130,7 +130,7 @@ class Worked(unittest.TestCase):
         turn = np.degrees(got["lam"]) - want["lambda_deg"]
         self.near(c, (turn + 180) % 360 - 180, 0.0, "lambda", tol["lambda_abs_deg"])
 
-    def test_calibration_of_quasi_static(self):
+    def test_calibration_of_quasi_static(self):  # [E-15] [E-17]
         for c, g, want in self.each("calibrate_qs"):
             m, e = worked.milling(g), worked.table(c)["deviation_mm"][:, None]
             got = cal.quasi_static(m, worked.structure(g), np.radians(g["phi0_deg"]),
@@ -148,7 +148,7 @@ class Worked(unittest.TestCase):
                       [want["joint"][f"se_{k}"] for k in ("KT", "KR", "rho", "lam")],
                       "se of the joint fit", 0.0, 0.01)
 
-    def test_calibration_of_imprints(self):
+    def test_calibration_of_imprints(self):  # [E-15] [E-17]
         for c, g, want in self.each("calibrate_kin"):
             t, m, load = worked.table(c), worked.milling(g, disks=120), worked.load(g)
             x, h, e = t["x_mm"], t["height_mm"], t["deviation_mm"]
@@ -164,7 +164,7 @@ class Worked(unittest.TestCase):
                                          one["K"][:2], load)
                 self.runout(c, got, want)
 
-    def test_calibration_of_envelopes(self):
+    def test_calibration_of_envelopes(self):  # [E-16]
         for c, g, want in self.each("calibrate_envelope"):
             t, m, load = worked.table(c), worked.milling(g, disks=120), worked.load(g)
             given = (t["x_mm"], t["height_mm"], t["deviation_mm"])

@@ -151,3 +151,21 @@ def envelope(m, structure, heights, K, load="distributed", points=1500, turn=Non
 def cusp_radius(m):
     """R_e of spec section 3"""
     return (m.R - m.sigma * m.N * m.fz / (2 * np.pi)) ** 2 / m.R
+
+
+def touched(x, e, radius, period):
+    """What a sphere of the radius reads along the feed of a surface that repeats [x]"""
+    at = np.concatenate([x + n * period for n in range(-1 - int(radius / period),
+                                                       2 + int(radius / period))])
+    level = np.tile(e, len(at) // len(e))
+    read = np.empty(len(x))
+    for k, place in enumerate(x):
+        off = at - place
+        near = np.abs(off) < radius
+        read[k] = np.max(level[near] - radius + np.sqrt(radius**2 - off[near] ** 2))
+    return read
+
+
+def leaning(slope, radius):
+    """What it reads too much where the surface leans by slope = de/dh"""
+    return radius * (np.sqrt(1 + slope**2) - 1)
