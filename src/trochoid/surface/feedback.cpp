@@ -214,15 +214,17 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
       passage.largest_bend(Values(edges.values(), largest[0])) * 0.1 * tolerance;
   std::atomic<bool> found = true;
   const numerics::PeriodicPieces::Function f = [&](double phi, std::span<double> out) {
-    if (!passage.at(phi, allowed, out)) {
+    // After the first failure nothing counts any more: flat tables end the search soon.
+    if (!found || !passage.at(phi, allowed, out)) {
       found = false;
+      std::fill(out.begin(), out.end(), 0.0);
     }
   };
   const bool remembers = feedback == Feedback::regenerative && !edges.equal_teeth();
   BentTurn turn{.moments = {f, options}, .turns = 1};
   constexpr int most_turns = 200;
   constexpr double settled = 10;  // the tables themselves are good to a few tolerances
-  while (remembers && turn.turns < most_turns) {
+  while (remembers && found && turn.turns < most_turns) {
     passage.remember(&turn.moments);
     numerics::PeriodicPieces next(f, options);
     const auto [change, peak] = difference(passage, turn.moments, next);
