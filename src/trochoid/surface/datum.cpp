@@ -8,6 +8,13 @@
 
 namespace trochoid::surface {
 
+namespace {
+
+/// Means of readings at one place differ by rounding only [m].
+constexpr double same_place = 1e-9;
+
+}  // namespace
+
 DatumColumns datum_columns(std::span<const Spot> spots, std::span<const Datum> datum) {
   std::vector<std::vector<double>> parts;
   for (std::size_t set = 0; set < datum.size(); ++set) {
@@ -19,7 +26,7 @@ DatumColumns datum_columns(std::span<const Spot> spots, std::span<const Datum> d
     for (const Spot& spot : spots) {
       if (spot.set == set) {
         first = first == nullptr ? &spot : first;
-        moves = moves || spot.x != first->x;
+        moves = moves || std::abs(spot.x - first->x) > same_place;
         x_mean += spot.x;
         height_mean += spot.height;
         count += 1.0;

@@ -132,6 +132,19 @@ numerics::Residuals residuals_of(const Problem& problem, const Unknowns& u,
   };
 }
 
+/// A reading counts where the mean that it belongs to lies, so that the datum has the
+/// same parameters as in the fit of the means.
+std::vector<Spot> spots_of(std::span<const Reading> readings,
+                           std::span<const Nominal> nominal) {
+  std::vector<Spot> spots(readings.size());
+  for (const Nominal& n : nominal) {
+    for (const std::size_t i : n.readings) {
+      spots[i] = {n.x, n.height, n.set};
+    }
+  }
+  return spots;
+}
+
 std::vector<Spot> spots_of(std::span<const Reading> readings) {
   std::vector<Spot> spots;
   for (const Reading& r : readings) {
@@ -254,7 +267,8 @@ RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readin
   const Answer& start = found.answers[found.chosen];
   const ToothModel model(setting, readings, found.stations);
   answer.labelled = model.labelled();
-  const DatumColumns datum_part = datum_columns(spots_of(readings), datum);
+  const DatumColumns datum_part =
+      datum_columns(spots_of(readings, found.nominal), datum);
   const Unknowns all{
       .start = model.has_phase(), .all = true, .datum = datum_part.count};
   if (!model.obstacle().empty() || readings.size() <= all.count()) {
