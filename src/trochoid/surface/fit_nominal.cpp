@@ -35,12 +35,32 @@ Values weighted_errors(const NominalFit& fit, const Prediction& at) {
   return b;
 }
 
+/// A coefficient that nothing shows but rounding gets a column of zeros.
+void clear_blind_columns(const Prediction& at, int n, std::span<const Nominal> nominal,
+                         Values& D) {
+  double weights = 0.0;
+  for (const Nominal& row : nominal) {
+    weights += static_cast<double>(row.readings.size());
+  }
+  for (std::size_t c = 0; c < 2; ++c) {
+    double sum = 0.0;
+    for (std::size_t i = c; i < D.size(); i += static_cast<std::size_t>(n)) {
+      sum += D[i] * D[i];
+    }
+    if (std::sqrt(sum / weights) <= at.blind) {
+      for (std::size_t i = c; i < D.size(); i += static_cast<std::size_t>(n)) {
+        D[i] = 0.0;
+      }
+    }
+  }
+}
+
 /// The one combination that is known where the two are not.
 void find_known_combination(const Values& D, const Values& b, int n,
                             const numerics::LeastSquares& solved,
                             std::array<double, columns> K, Answer& answer) {
   const auto count = static_cast<std::size_t>(n);
-  if (solved.rank != n - 1 || solved.norms[0] == 0 || solved.norms[1] == 0) {
+  if (solved.rank != n - 1) {
     return;
   }
   double datum_part = 0.0;
@@ -50,8 +70,12 @@ void find_known_combination(const Values& D, const Values& b, int n,
   if (datum_part > 0.1) {
     return;
   }
-  std::array<double, 2> blind = {solved.null_space[0] / solved.norms[0],
-                                 solved.null_space[1] / solved.norms[1]};
+  // A column of zeros is blind by itself.
+  const auto step = [&](std::size_t c) {
+    return solved.norms[c] > 0 ? solved.null_space[c] / solved.norms[c]
+                               : solved.null_space[c];
+  };
+  const std::array<double, 2> blind = {step(0), step(1)};
   const double length = std::hypot(blind[0], blind[1]);
   answer.known = {std::abs(blind[1]) / length,
                   (blind[1] < 0 ? 1.0 : -1.0) * blind[0] / length};
@@ -93,16 +117,18 @@ double left_over(const Values& D, const Values& b, int n) {
 /// @return how many there are
 int silence_rows(const Values& D, int n, Values& b) {
   constexpr double nothing = 1e-9;
-  double largest = 0.0;
-  for (const double d : D) {
-    largest = std::max(largest, std::abs(d));
+  const auto count = static_cast<std::size_t>(n);
+  Values largest(count);  // of each column: their units differ
+  for (std::size_t i = 0; i < D.size(); ++i) {
+    largest[i % count] = std::max(largest[i % count], std::abs(D[i]));
   }
   int silent = 0;
   for (std::size_t i = 0; i < b.size(); ++i) {
-    const auto row = std::span(D).subspan(i * static_cast<std::size_t>(n),
-                                          static_cast<std::size_t>(n));
-    if (std::all_of(row.begin(), row.end(),
-                    [&](double d) { return std::abs(d) <= nothing * largest; })) {
+    bool moves = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      moves = moves || std::abs(D[i * count + k]) > nothing * largest[k];
+    }
+    if (!moves) {
       b[i] = 0.0;
       ++silent;
     }
@@ -180,7 +206,8 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
       answer.message = "no state was found in which deflection and chip agree";
       return answer;
     }
-    const Values D = weighted_columns(fit, at);
+    Values D = weighted_columns(fit, at);
+    clear_blind_columns(at, n, fit.nominal, D);
     const Values all = weighted_errors(fit, at);
     Values b = all;
     const int silent = silence_rows(D, n, b);

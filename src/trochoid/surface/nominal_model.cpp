@@ -16,8 +16,6 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 /// Points of a tooth feed over which an envelope is averaged.
 constexpr std::size_t points_per_feed = 24;
-/// Slopes over the height are taken over this part of the axial depth.
-constexpr double slope_step = 0.01;
 
 force::Setup without_runout(force::Setup setup) {
   setup.runout = {};
@@ -32,11 +30,8 @@ std::vector<double> places(std::span<const Nominal> rows) {
   return x;
 }
 
-/// Just below a height, there, and just above it.
-std::array<double, 3> heights_around(double height, double a_p) {
-  return {std::max(0.0, height - slope_step * a_p), height,
-          std::min(a_p, height + slope_step * a_p)};
-}
+/// Forces are known to so many tolerances of their largest value.
+constexpr double uncertain = 3;
 
 /// Coefficients first, then the sum with K: the search for the envelope wants the sum.
 numerics::PeriodicPieces with_sum(const numerics::PeriodicPieces& unit,
@@ -101,6 +96,16 @@ NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows
   }
 }
 
+void NominalModel::add_largest(const numerics::PeriodicPieces& deflections,
+                               Value& value) const {
+  constexpr int samples = 24;
+  std::vector<double> values(deflections.functions());
+  for (int i = 0; i < samples && values.size() > columns; ++i) {
+    deflections.value(turn * (i + 0.3) / samples, values);
+    value.largest = std::max({value.largest, std::abs(values[1]), std::abs(values[2])});
+  }
+}
+
 NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments,
                                          std::span<const double> row,
                                          const Kind& kind) const {
@@ -110,6 +115,7 @@ NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments
   const numerics::PeriodicPieces all = deflection(moments, row, side.sigma);
   std::vector<double> values(all.functions());
   Value value;
+  add_largest(all, value);
   const auto add = [&](double phi, double share) {
     all.value(phi, values);
     for (std::size_t c = 0; c + 1 < values.size(); ++c) {
@@ -182,6 +188,10 @@ Prediction NominalModel::along_the_wall(const std::vector<Value>& grid) const {
   const std::size_t rows = kind_of_row_.size();
   Prediction result{std::vector<double>(rows), std::vector<double>(rows * columns),
                     true};
+  for (const Value& value : grid) {
+    result.blind =
+        std::max(result.blind, uncertain * setting_.tolerance * value.largest);
+  }
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t s = 0; s < stations_->count(); ++s) {
       const Value& value = grid[s * kinds_.size() + kind_of_row_[i]];

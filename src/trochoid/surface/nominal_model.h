@@ -15,6 +15,7 @@ struct Prediction {
   std::vector<double> error;  ///< [m], shape (rows)
   std::vector<double> per_K;  ///< by K_tc, K_rc, K_te, K_re, shape (rows, columns)
   bool good = true;           ///< false: no periodic state was found
+  double blind = 0.0;         ///< per_K below this is rounding [m per N/m^2]
 };
 
 /// @brief Nominal errors as a model predicts them, without runout.
@@ -48,10 +49,12 @@ class NominalModel {
   struct Value {
     double error = 0.0;
     std::array<double, columns> per_K{};
+    double largest = 0.0;  ///< by K_tc or K_rc anywhere in the turn [m per N/m^2]
   };
 
   [[nodiscard]] Value value(const numerics::PeriodicPieces& moments,
                             std::size_t station, const Kind& kind) const;
+  void add_largest(const numerics::PeriodicPieces& deflections, Value& value) const;
   [[nodiscard]] Value at_row(const numerics::PeriodicPieces& moments,
                              std::span<const double> row, const Kind& kind) const;
   [[nodiscard]] Prediction bent_once(std::span<const double, columns> K,

@@ -35,7 +35,15 @@ std::vector<double> distinct(std::span<const double> x) {
   return sorted;
 }
 
+/// Slopes over the height are taken over this part of the axial depth, both ways.
+constexpr double slope_step = 0.01;
+
 }  // namespace
+
+std::array<double, 3> heights_around(double height, double a_p) {
+  return {std::max(0.0, height - slope_step * a_p), height,
+          std::min(a_p, height + slope_step * a_p)};
+}
 
 Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
                    std::span<const double> heights, double a_p, Load load)

@@ -29,6 +29,16 @@ std::vector<double> distinct_heights(std::span<const Reading> readings) {
   return heights;
 }
 
+/// Those, and what slopes over the height need.
+std::vector<double> heights_and_around(std::span<const Reading> readings, double a_p) {
+  std::vector<double> heights;
+  for (const double height : distinct_heights(readings)) {
+    const auto around = heights_around(height, a_p);
+    heights.insert(heights.end(), around.begin(), around.end());
+  }
+  return heights;
+}
+
 std::vector<double> places_along(std::span<const Reading> readings) {
   std::vector<double> x;
   for (const Reading& r : readings) {
@@ -41,9 +51,10 @@ std::vector<double> places_along(std::span<const Reading> readings) {
 
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings)
     : ToothModel(setting, readings,
-                 std::make_shared<Stations>(setting.bodies, places_along(readings),
-                                            distinct_heights(readings),
-                                            setting.setup.cut.a_p, setting.load)) {}
+                 std::make_shared<Stations>(
+                     setting.bodies, places_along(readings),
+                     heights_and_around(readings, setting.setup.cut.a_p),
+                     setting.setup.cut.a_p, setting.load)) {}
 
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings,
                        std::shared_ptr<const Stations> stations)
@@ -194,6 +205,28 @@ std::vector<double> ToothModel::predict(const Forces& forces,
   return errors;
 }
 
+/// de/dh of the mean envelope at a height.
+double ToothModel::slope(const numerics::PeriodicPieces& moments, std::size_t station,
+                         double height, const force::Setup& setup) const {
+  constexpr int points = 6;  // of a tooth feed: the same above and below
+  const Side side = *side_of(setup.cut.engagement);
+  const double feed = setup.cutter.teeth() * setup.cut.f_z;
+  const int count = points * setup.cutter.teeth();
+  const auto around = heights_around(height, setup.cut.a_p);
+  const auto mean = [&](double at) {
+    const auto row = stations_->row(station, stations_->height_index(at));
+    const HeightCut cut{
+        side, setup.cutter.profile.D / 2, feed,
+        0.0,  edge_places(setup, at),     deflection(moments, row, side.sigma)};
+    double sum = 0.0;
+    for (int k = 0; k < count; ++k) {
+      sum += envelope_error(cut, feed * k / count).error / count;
+    }
+    return sum;
+  };
+  return (mean(around[2]) - mean(around[0])) / (around[2] - around[0]);
+}
+
 std::vector<double> ToothModel::predict_envelope(const Forces& forces,
                                                  std::span<const double, columns> K,
                                                  const force::Setup& setup,
@@ -215,6 +248,12 @@ std::vector<double> ToothModel::predict_envelope(const Forces& forces,
     }
     if (setting_.probe_radius > 0) {
       profiles[i] = probe_reading(profiles[i], step, setting_.probe_radius);
+      const double more =
+          reading_on_slope(setting_.probe_radius,
+                           slope(moments, i / heights_.size(), heights_[h], setup));
+      for (double& e : profiles[i]) {
+        e += more;
+      }
     }
   });
   std::vector<double> errors(places_.size());

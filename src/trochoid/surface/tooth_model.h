@@ -62,6 +62,9 @@ class ToothModel {
   };
 
   void find_teeth();
+  [[nodiscard]] double slope(const numerics::PeriodicPieces& moments,
+                             std::size_t station, double height,
+                             const force::Setup& setup) const;
   [[nodiscard]] force::Setup with(RunoutVector runout) const;
   [[nodiscard]] double angle_of(const Place& place, const force::Setup& setup) const;
   [[nodiscard]] double bent(const Forces& forces, std::span<const double, columns> K,
