@@ -73,7 +73,7 @@ inline BodiesAt with_wall(double thickness = 2e-3) {
       plate = std::make_shared<structure::PlateSolution>(
           structure::Plate{60e-3, 30e-3, thickness, 69e9, 0.33}, x, 1e-3);
     }
-    return Bodies{.cutter = made_cutter(), .wall = Wall{plate, 30e-3}};
+    return Bodies{.cutter = made_cutter(), .wall = Wall{plate, 30e-3, 60e-3}};
   };
 }
 
