@@ -31,8 +31,10 @@ inline std::vector<Reading> imprints(const Setting& s, Coefficients K,
                                      const Measured& at = {}) {
   std::vector<Reading> readings;
   for (const double x : at.places) {
-    for (const double h : at.heights) {
-      const auto points = imprint_errors(height_cut(s, K, h, x));
+    const auto cuts = height_cuts(s, K, at.heights, x);
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const double h = at.heights[k];
+      const auto points = imprint_errors(cuts[k]);
       for (std::size_t i = 0; i < points.size(); ++i) {
         readings.push_back({.x = x,
                             .travel = x + s.setup.cut.f_z * static_cast<double>(i),
@@ -52,8 +54,10 @@ inline std::vector<Reading> pulses(const Setting& s, Coefficients K,
   const auto tips = edge_places(s.setup, 0.0);
   const double f = s.setup.cut.f_z * s.setup.cutter.teeth();
   for (const double x : at.places) {
-    for (const double h : at.heights) {
-      const HeightCut cut = height_cut(s, K, h, x);
+    const auto cuts = height_cuts(s, K, at.heights, x);
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const double h = at.heights[i];
+      const HeightCut& cut = cuts[i];
       for (int k = 0; k < at.turns * at.per_tooth * s.setup.cutter.teeth(); ++k) {
         const double travel = s.setup.cut.f_z * k / at.per_tooth;
         const double phi = s.phase + 2 * pi * travel / f;
@@ -73,8 +77,10 @@ inline std::vector<Reading> profiles(const Setting& s, Coefficients K,
                                      const Measured& at) {
   std::vector<Reading> readings;
   for (const double x : at.places) {
-    for (const double h : at.heights) {
-      HeightCut cut = height_cut(s, K, h, x);
+    const auto cuts = height_cuts(s, K, at.heights, x);
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const double h = at.heights[i];
+      const HeightCut& cut = cuts[i];
       for (int k = 0; k < at.turns * at.per_tooth * s.setup.cutter.teeth(); ++k) {
         const double travel = s.setup.cut.f_z * (k + 0.5) / at.per_tooth;
         readings.push_back({.x = x,

@@ -149,19 +149,27 @@ inline double weighted_force(const MadeCut& s, Coefficients K, double phi,
   return sum;
 }
 
-/// Everything of a cut at one height and place, without feedback.
-inline HeightCut height_cut(const Setting& s, Coefficients K, double height,
-                            double x = 0.0) {
+/// Everything of a cut at one place and some heights, without feedback.
+inline std::vector<HeightCut> height_cuts(const Setting& s, Coefficients K,
+                                          const std::vector<double>& heights,
+                                          double x = 0.0) {
   const Compliance compliance(s.bodies(x), s.setup.cut.a_p, x, s.load);
   const EdgeMoments edges(s.setup, s.law, compliance.basis());
   const Side side = *side_of(s.setup.cut.engagement);
   const auto moments = with_coefficients(unit_moments(edges, s.tolerance), K);
-  return {side,
-          s.setup.cutter.profile.D / 2,
-          s.setup.cutter.teeth() * s.setup.cut.f_z,
-          0.0,
-          edge_places(s.setup, height),
-          deflection(moments, compliance.rows(std::array{height}), side.sigma)};
+  std::vector<HeightCut> cuts;
+  for (const double h : heights) {
+    cuts.push_back({side, s.setup.cutter.profile.D / 2,
+                    s.setup.cutter.teeth() * s.setup.cut.f_z, 0.0,
+                    edge_places(s.setup, h),
+                    deflection(moments, compliance.rows(std::array{h}), side.sigma)});
+  }
+  return cuts;
+}
+
+inline HeightCut height_cut(const Setting& s, Coefficients K, double height,
+                            double x = 0.0) {
+  return height_cuts(s, K, {height}, x).front();
 }
 
 /// Mean of an envelope over one turn of the cutter [m].

@@ -36,7 +36,7 @@ TEST_P(Teeth, LabelledImprintsShowTheirRunout) {  // [E-17]
   const Setting s =
       made_setting(Model::imprint,
                    with_runout(made_cut(k.down, k.teeth, k.helix_deg), k.rho, k.angle));
-  const RunoutAnswer r = found(s, imprints(s, K, {.heights = made_heights(7)}));
+  const RunoutAnswer r = found(s, imprints(s, K, {.heights = made_heights(5)}));
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_TRUE(r.labelled);
   EXPECT_NEAR(r.eccentricity.value, k.rho, 1e-5 * k.rho);
@@ -52,7 +52,7 @@ TEST_P(Teeth, WithoutLabelsTheAngleIsKnownUpToAPitch) {  // [E-17]
   const Setting s =
       made_setting(Model::imprint,
                    with_runout(made_cut(k.down, k.teeth, k.helix_deg), k.rho, k.angle));
-  auto readings = imprints(s, K, {.heights = made_heights(7), .labelled = false});
+  auto readings = imprints(s, K, {.heights = made_heights(5), .labelled = false});
   // the first reading is of tooth 2: the numbers are not those of the cutter
   for (Reading& r : readings) r.travel -= 2.0 * s.setup.cut.f_z;
   std::erase_if(readings, [&](const Reading& r) { return r.travel < 0; });
@@ -192,7 +192,7 @@ TEST(FindRunout, UnevenPitchesAreTaken) {  // [E-17]
   cut.cutter.pitch = {1.9, 2.2, 2 * pi - 4.1};
   for (const Model model : {Model::quasi_static, Model::imprint, Model::envelope}) {
     const Setting s = made_setting(model, cut);
-    const Measured at{.heights = made_heights(4), .per_tooth = 6};
+    const Measured at{.heights = made_heights(3), .per_tooth = 4};
     const auto readings = model == Model::quasi_static ? pulses(s, K, at)
                           : model == Model::imprint    ? imprints(s, K, at)
                                                        : profiles(s, K, at);
