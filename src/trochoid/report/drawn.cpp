@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 namespace trochoid::report {
 
@@ -53,6 +54,47 @@ std::vector<std::size_t> starts_of_runs(const base::Table& table) {
   return starts;
 }
 
+using Column = base::Table::Column;
+
+/// The column of that name, or null.
+const Column* column_named(const base::Table& table, const char* name) {
+  const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                   [&](const Column& c) { return c.name == name; });
+  return column == table.columns.end() ? nullptr : &*column;
+}
+
+/// Of a map, height by height: both ends, and the smallest and largest value of short
+/// stretches between.
+std::vector<std::size_t> rows_of_map(const Column& height, const Column& value,
+                                     std::size_t wanted) {
+  const std::size_t count = height.values.size();
+  std::vector<std::size_t> starts = {0};
+  for (std::size_t i = 1; i < count; ++i) {
+    if (height.values[i] != height.values[i - 1]) starts.push_back(i);
+  }
+  const std::size_t each = wanted / starts.size();
+  const std::size_t stretches = each > 4 ? (each - 2) / 2 : 1;
+  starts.push_back(count);
+  std::vector<std::size_t> rows;
+  for (std::size_t h = 0; h + 1 < starts.size(); ++h) {
+    const std::size_t length = starts[h + 1] - starts[h];
+    rows.push_back(starts[h]);
+    rows.push_back(starts[h + 1] - 1);
+    for (std::size_t s = 0; s < stretches; ++s) {
+      const std::size_t from = starts[h] + length * s / stretches;
+      const std::size_t to = starts[h] + length * (s + 1) / stretches;
+      if (from < to) append_extremes(value.values, from, to, rows);
+    }
+  }
+  return rows;
+}
+
+std::vector<std::size_t> ordered(std::vector<std::size_t> rows) {
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
 void append_table(std::string& text, const base::Table& table) {
   const std::size_t count =
       table.columns.empty() ? 0 : table.columns.front().values.size();
@@ -84,6 +126,11 @@ std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells)
     std::iota(rows.begin(), rows.end(), std::size_t{0});
     return rows;
   }
+  const Column* height = column_named(table, "height_mm");
+  const Column* error = column_named(table, "error_mm");
+  if (height != nullptr && error != nullptr) {
+    return ordered(rows_of_map(*height, *error, cells / columns));
+  }
   const auto starts = starts_of_runs(table);
   const std::size_t whole = cells / (4 * columns * starts.size());
   for (const std::size_t start : starts) {
@@ -101,9 +148,7 @@ std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells)
       append_extremes(column.values, from, to, rows);
     }
   }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
+  return ordered(std::move(rows));
 }
 
 std::string tables_json(const std::vector<base::Table>& tables) {

@@ -17,6 +17,12 @@ std::string_view parts_js();     ///< what several commands show
 std::string_view measured_js();  ///< measured against computed
 std::string_view simulate_js();
 std::string_view identify_js();
+std::string_view drawing_js();  ///< canvases drawn by hand
+std::string_view map_js();      ///< a quantity over two others
+std::string_view bent_js();     ///< cutter and wall
+std::string_view surface_js();
+std::string_view ellipse_js();  ///< two coefficients known together
+std::string_view calibrate_js();
 std::string_view any_js();  ///< every command without a page of its own
 std::string_view main_js();
 

@@ -71,8 +71,10 @@ std::string without_script(const base::Answer& answer) {
 
 std::string page_scripts() {
   std::string text;
-  for (const auto part : {text_js(), charts_js(), parts_js(), measured_js(),
-                          simulate_js(), identify_js(), any_js(), main_js()}) {
+  for (const auto part :
+       {text_js(), charts_js(), parts_js(), measured_js(), simulate_js(), identify_js(),
+        drawing_js(), map_js(), bent_js(), surface_js(), ellipse_js(), calibrate_js(),
+        any_js(), main_js()}) {
     text += part;
   }
   return text;

@@ -67,14 +67,14 @@ void compare_answers(const inputs::Case& given, const surface::Calibration& cali
     warnings.push_back(
         {"answers_differ",
          fmt::format("Read as {}{}, the same readings give {} = {:.4g} and {} = {:.4g} "
-                     "MPa (chosen: {:.4g} and {:.4g}){}",
+                     "MPa ({}: {:.4g} and {:.4g}){}",
                      model_name(other.model),
                      other.feedback == surface::Feedback::none
                          ? ""
                          : fmt::format(" with feedback = \"{}\"",
                                        feedback_name(other.feedback)),
                      names[0].key, other.K_tc.value / names[0].unit, names[1].key,
-                     other.K_rc.value / names[1].unit,
+                     other.K_rc.value / names[1].unit, model_name(chosen.model),
                      chosen.K_tc.value / names[0].unit,
                      chosen.K_rc.value / names[1].unit,
                      spring_back ? ": the linear reading leaves out that the wall "

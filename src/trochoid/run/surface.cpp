@@ -134,6 +134,29 @@ Json force_json(const SurfaceMap& map) {
           {"Fx_min_N", x.low},         {"Fx_max_N", x.high}};
 }
 
+/// What bent.csv shows, and the bodies that it is drawn on.
+Json bent_json(const inputs::Case& given, const Bent& bent) {
+  Json json{{"angle_deg", unit::in(bent.phi, unit::deg)},
+            {"F_normal_N", bent.F_normal},
+            {"cutter", nullptr},
+            {"wall", nullptr}};
+  if (given.machine.cutter_body) {
+    const inputs::CutterBody& b = *given.machine.cutter_body;
+    json["cutter"] = {
+        {"diameter_mm", unit::in(given.setup.cutter.profile.D, unit::mm)},
+        {"shank_diameter_mm", unit::in(b.shank_diameter.value_or(0.0), unit::mm)},
+        {"flute_length_mm", unit::in(b.flute_length.value_or(b.overhang), unit::mm)},
+        {"overhang_mm", unit::in(b.overhang, unit::mm)}};
+  }
+  if (given.machine.wall) {
+    const inputs::Wall& w = *given.machine.wall;
+    json["wall"] = {{"height_mm", unit::in(w.height, unit::mm)},
+                    {"thickness_mm", unit::in(w.thickness, unit::mm)},
+                    {"edge_height_mm", unit::in(given.setup.cut.a_p, unit::mm)}};
+  }
+  return json;
+}
+
 std::string short_table(const inputs::Case& given, const Json& result) {
   const auto number = [](const Json& value, const char* key) {
     return value[key].get<double>();
@@ -219,7 +242,14 @@ base::Answer surface(const inputs::Case& given, const Progress& progress) {
   add_warnings(given, map, std::max(std::abs(peak), std::abs(least)), answer);
   answer.tables = {surface_table(map), force_table(map), deflection_table(map),
                    influence_table(map)};
-  answer.message = fmt::format("{} heights.", map.rows.size());
+  if (map.bent) {
+    answer.tables.push_back(bent_table(*map.bent));
+    result["bent"] = bent_json(given, *map.bent);
+  }
+  answer.message = fmt::format(
+      "The error of the wall is {:.3g} um on average and {:.3g} um at most (positive: "
+      "material left).",
+      mean / unit::um, peak / unit::um);
   answer.short_table = short_table(given, result);
   answer.result = result.dump();
   return answer;

@@ -146,6 +146,20 @@ void fill_forces(const Pass& pass, SurfaceMap& map) {
   }
 }
 
+/// At the largest force of the rows.
+Bent bent_at_peak(const Pass& pass, const surface::Bodies& bodies,
+                  const SurfaceMap& map) {
+  const ForceRow& peak = *std::max_element(map.forces.begin(), map.forces.end(),
+                                           [](const ForceRow& a, const ForceRow& b) {
+                                             return std::abs(a.F_y) < std::abs(b.F_y);
+                                           });
+  std::vector<double> moments(pass.moments.functions());
+  pass.moments.value(peak.phi, moments);
+  Bent shape = bent(pass.given, bodies, moments, map.sigma);
+  shape.phi = peak.phi;
+  return shape;
+}
+
 /// Moments over a turn, with feedback if the case asks for it.
 numerics::PeriodicPieces moments_of(const inputs::Case& given,
                                     const surface::Setting& setting,
@@ -177,8 +191,8 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
   if (progress) {
     progress("Solving the wall");
   }
-  const surface::Compliance compliance(setting.bodies(position), setup.cut.a_p,
-                                       position, setting.load);
+  const surface::Bodies bodies = setting.bodies(position);
+  const surface::Compliance compliance(bodies, setup.cut.a_p, position, setting.load);
   if (progress) {
     progress("Cutting");
   }
@@ -226,12 +240,15 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
                            rigid.per_K[i * surface::columns + 1]};
     }
   }
+  if (bodies.cutter || bodies.wall) {
+    map.bent = bent_at_peak(pass, bodies, map);
+  }
   map.influence_heights = given.machine.surface->influence_heights.empty()
                               ? heights
                               : given.machine.surface->influence_heights;
   map.of_cutter = compliance.of_cutter(map.influence_heights, map.influence_heights);
   map.of_wall = compliance.of_wall(map.influence_heights, map.influence_heights);
-  const surface::Compliance whole(setting.bodies(position), setup.cut.a_p, position,
+  const surface::Compliance whole(bodies, setup.cut.a_p, position,
                                   surface::Load::concentrated);
   const std::vector<double> concentrated = whole.rows(heights);
   for (std::size_t i = 0; i < heights.size(); ++i) {

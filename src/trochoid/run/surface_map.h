@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/inputs/case.h>
+#include <trochoid/run/bent.h>
 #include <trochoid/run/progress.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
@@ -43,6 +44,7 @@ struct SurfaceMap {
   double change = 0.0;  ///< of the deflection in the last turn, relative
   std::vector<MapRow> rows;
   std::vector<ForceRow> forces;
+  std::optional<Bent> bent;               ///< of what bends, if anything does
   std::vector<double> influence_heights;  ///< [m]
   std::vector<double> of_cutter;          ///< shape (heights, heights) [m/N]
   std::vector<double> of_wall;            ///< shape (heights, heights) [m/N]

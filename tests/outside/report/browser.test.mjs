@@ -74,7 +74,8 @@ async function check(name, options, plots) {
   return { page, canvases, close };
 }
 
-const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2 };
+const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2,
+  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -83,6 +84,131 @@ for (const [name, plots] of Object.entries(plotsOf)) {
     });
   }
 }
+
+/** How many colours each drawing holds, and how many points of its canvas are painted. */
+const painted = (page) => page.$$eval('.drawing canvas', (canvases) => canvases.map((canvas) => {
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const colors = new Set();
+  let points = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    if (data[i + 3] !== 255) continue;
+    ++points;
+    colors.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+  }
+  return { colors: colors.size, points, width: canvas.clientWidth, text: canvas.toDataURL() };
+}));
+
+for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 1, teeth: 1 })) {
+  for (const width of [1200, 480]) {
+    test(`the drawings of ${name} are painted, ${width} px wide`, async () => {
+      const { page, close } = await open(name, { width });
+      const all = await painted(page);
+      assert.equal(all.length, drawings);
+      for (const { points } of all) assert.ok(points > 500, `${points} points`);
+      if (drawings > 1) {
+        assert.ok(all[0].colors > 100, `the map has ${all[0].colors} colours`);
+        assert.ok(all[0].points > 40000, `the map has ${all[0].points} points`);
+      }
+      await close();
+    });
+  }
+}
+
+test('the map tells values, and a click or the slider chooses the profile', async () => {
+  const { page, close } = await open('surface');
+  const chosen = () => page.locator('.slider output').innerText();
+  const profile = async () => JSON.stringify((await drawn(page))[0]);
+  assert.equal(await chosen(), '1.5 mm');
+  const before = await profile();
+  const map = page.locator('.drawing canvas').first();
+  await map.scrollIntoViewIfNeeded();
+  const box = await map.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height - 60);
+  assert.match(await page.locator('.readout').innerText(),
+    /x 30\.\d+ mm, height 0\.\d mm: [\d.]+ µm .* tooth [123]/);
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height - 50);
+  assert.equal(await chosen(), '0.3 mm');
+  assert.notEqual(await profile(), before);
+  await page.locator('.slider input').fill('4');
+  assert.equal(await chosen(), '1.5 mm');
+  assert.equal(await profile(), before);
+  await close();
+});
+
+test('the map shows the error, the marks and the teeth', async () => {
+  const { page, close } = await open('surface');
+  const seen = new Set();
+  for (const name of ['error', 'feed marks', 'tooth']) {
+    await page.getByRole('button', { name, exact: true }).click();
+    seen.add((await painted(page))[0].text);
+  }
+  assert.equal(seen.size, 3);
+  await close();
+});
+
+test('a wall says in words what it is, and what betrays runout', async () => {
+  const { page, close } = await open('surface');
+  const text = await page.locator('main').innerText();
+  for (const part of ['the profile that stays on the wall', 'betrays runout', 'Wall 1', 'at its free edge',
+    'feedback = "regenerative"']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  await close();
+  const pulse = await open('pulse');
+  const words = await pulse.page.locator('main').innerText();
+  assert.ok(words.includes('not a profile that a probe could find'));
+  assert.ok(!words.includes('Feed marks') && !words.includes('Roughness'));
+  await pulse.close();
+});
+
+test('a calibration says which answer counts, and why the others differ', async () => {
+  const { page, close } = await open('calibrate');
+  const text = await page.locator('main').innerText();
+  for (const part of ['with runout, all readings', 'the linear answer of a real profile is wrong',
+    'only one combination is known well', 'Ten more readings at', 'not numbered', 'µm high']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  assert.equal(await page.locator('.fits .chosen').first().innerText(), 'with runout, all readings');
+  await close();
+});
+
+test('the residuals of numbered teeth have their colours', async () => {
+  const { page, close } = await open('teeth');
+  const canvases = await drawn(page);
+  for (const name of ['--s1', '--s2', '--s3']) {
+    assert.ok(has(canvases[2], await colorOf(page, name)), name);
+  }
+  await page.getByRole('button', { name: 'the feed' }).click();
+  await page.waitForTimeout(100);
+  assert.notDeepEqual((await drawn(page))[2], canvases[2]);
+  await close();
+});
+
+test('readings that cannot tell give no coefficient, but what is known', async () => {
+  const { page, close } = await open('one_height');
+  assert.ok((await page.locator('.lead').innerText()).startsWith('No good answer'));
+  const text = await page.locator('main').innerText();
+  assert.ok(text.includes('one combination of them is known'), text);
+  assert.equal(await page.locator('.tile').count(), 0);
+  await close();
+});
+
+test('drawings follow the paper', async () => {
+  const { page, close } = await open('surface', { colorScheme: 'dark' });
+  const dark = await painted(page);
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  const paper = await painted(page);
+  paper.forEach((one, i) => {
+    assert.equal(one.width, 680);
+    assert.notEqual(one.text, dark[i].text);
+  });
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.deepEqual((await painted(page)).map(({ text }) => text), dark.map(({ text }) => text));
+  const pdf = await page.pdf({ format: 'A4', preferCSSPageSize: true,
+    path: path.join(pictures, 'surface.pdf') });
+  assert.ok(pdf.length > 50000);
+  await close();
+});
 
 test('dark pages draw the same', async () => {
   const { page, canvases, close } = await check('identify', { colorScheme: 'dark' }, 8);

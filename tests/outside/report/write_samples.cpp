@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sample_cut.h"
+#include "wall_samples.h"
 
 namespace {
 
@@ -270,11 +271,19 @@ Answer other() {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::filesystem::path root = argv[1];
+  const auto cases = root / "cases";
   try {
     for (const auto& [name, answer] :
          {std::pair{"identify", identify()}, std::pair{"simulate", simulate()},
           std::pair{"failed", failed()}, std::pair{"doubtful", doubtful()},
-          std::pair{"other", other()}}) {
+          std::pair{"other", other()},
+          std::pair{"surface", sample::wall("envelope", cases / "envelope")},
+          std::pair{"marks", sample::wall("imprint", cases / "imprint")},
+          std::pair{"pulse", sample::wall("quasi_static", cases / "pulse")},
+          std::pair{"calibrate",
+                    sample::calibration("envelope", false, cases / "calibrate")},
+          std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
+          std::pair{"one_height", sample::one_height(cases / "one_height")}}) {
       const std::string summary = trochoid::results::summary_json(answer);
       trochoid::results::write_folder(root / name, answer,
                                       trochoid::report::html(answer, summary));

@@ -69,6 +69,27 @@ TEST(Drawn, KeepPeaksBesideMissingNumbers) {
   EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 54'321U));
 }
 
+TEST(Drawn, KeepEveryHeightOfAMapWithItsEndsAndPeaks) {
+  constexpr std::size_t heights = 50;
+  constexpr std::size_t along = 2000;
+  base::Table map{"surface.csv", {{"x_mm", {}}, {"height_mm", {}}, {"error_mm", {}}}};
+  for (std::size_t i = 0; i < heights * along; ++i) {
+    map.columns[0].values.push_back(static_cast<double>(i % along));
+    map.columns[1].values.push_back(static_cast<double>(i / along));
+    map.columns[2].values.push_back(std::sin(0.02 * static_cast<double>(i % along)));
+  }
+  map.columns[2].values[7 * along + 1234] = 5.0;
+  const auto rows = drawn_rows(map, 30'000);
+  EXPECT_LE(rows.size() * map.columns.size(), 30'000U);
+  EXPECT_GT(rows.size() * map.columns.size(), 20'000U);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 7 * along + 1234));
+  for (std::size_t h = 0; h < heights; ++h) {
+    EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), h * along)) << h;
+    EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), (h + 1) * along - 1)) << h;
+  }
+}
+
 TEST(Drawn, BecomeJsonWithoutAnythingThatIsNoNumber) {
   const base::Table table{
       "chip \"1\".csv",

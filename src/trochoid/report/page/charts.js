@@ -36,9 +36,9 @@ function axes(options) {
 function legend(panel) {
   const values = panel.series.map(() => el('b', {}));
   const items = panel.series.map((series, i) => {
-    const key = el('i', { class: 'key' });
+    const key = el('i', { class: series.line === false ? 'key dot' : 'key' });
     key.style.setProperty('--key', `var(${series.color})`);
-    key.style.height = `${Math.max(2, series.width || 1.5)}px`;
+    if (series.line !== false) key.style.height = `${Math.max(2, series.width || 1.5)}px`;
     if (series.dash) key.classList.add('dashed');
     return el('span', {}, panel.series.length > 1 || series.name ? key : null, series.name, values[i]);
   });
@@ -102,7 +102,9 @@ function zeroLine(u) {
 function curve(series) {
   return {
     stroke: () => css(series.color), width: series.width || 1.5, dash: series.dash,
-    points: { show: false }, pxAlign: 0,
+    points: { show: Boolean(series.points), size: series.points || 6,
+      fill: () => css(series.color), width: 0 },
+    ...(series.line === false ? { paths: () => null } : {}), pxAlign: 0,
   };
 }
 
@@ -116,7 +118,8 @@ function plotOf(stack, panel, last) {
     width: 600, height: panel.height + (last ? 30 : 0),
     padding: [8, 12, last ? 0 : 4, 0],
     legend: { show: false },
-    scales: { x: { time: false }, y: { range: panel.range } },
+    scales: { x: { time: false, ...(stack.points ? { range: aroundPoints(stack.x) } : {}) },
+      y: { range: panel.range } },
     axes: axes({ showX: last, unit: stack.unit }),
     // The band first, so that curves lie above it.
     series: [{}, ...edges.map(() => ({ points: { show: false } })), ...panel.series.map(curve)],
@@ -134,6 +137,14 @@ function plotOf(stack, panel, last) {
   const data = [stack.x, ...edges, ...panel.series.map((series) => series.values)];
   return { element, place, make: () => new uPlot(options, data, place), panel, last };
 }
+
+/** Room at both ends of all, so that the first and the last points are whole. */
+const aroundPoints = (x) => (u, low, high) => {
+  const [first, last] = [x[0], x[x.length - 1]];
+  if (low > first || high < last) return [low, high];
+  const margin = 0.025 * (last - first || 1);
+  return [first - margin, last + margin];
+};
 
 /** Like uPlot's own range, but with a margin at both ends and never empty. */
 function paddedRange(u, low, high) {

@@ -1,6 +1,7 @@
 // Builds the page from the data that are embedded in it.
 
-const pages = { simulate: simulatePage, identify: identifyPage };
+const pages = { simulate: simulatePage, identify: identifyPage, surface: surfacePage,
+  calibrate: calibratePage };
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);

@@ -1,0 +1,327 @@
+// The page of `calibrate`.
+
+const calibrateKnown = ['model', 'feedback', 'coefficients', 'correlation', 'rank', 'condition', 'rms_mm',
+  'offset_mm', 'datum', 'noise_mm', 'means', 'answers', 'ten_more_readings', 'runout', 'with_runout',
+  'combination', 'message'];
+
+/** `envelope`, `entry` -> words of a heading. */
+const readingName = (model, feedback) => (errorModels[model]?.name || model) +
+  (feedback && feedback !== 'none' ? `, feedback ${feedback}` : '');
+const readingColors = { imprint: '--s2', quasi_static: '--s2', envelope: '--s1' };
+
+/** Every answer of the calibration in one shape; the chosen one marked. */
+function readingsOf(result) {
+  const pairOf = (coefficients) => Object.values(coefficients || {});
+  const answers = (result.answers || []).map((answer) => ({ ...answer,
+    name: readingName(answer.model, answer.feedback),
+    column: `${answer.model}${answer.feedback === 'none' ? '' : `_${answer.feedback}`}_mm`,
+    color: answer.feedback === 'none' ? readingColors[answer.model] : '--s3',
+    pair: pairOf(answer.coefficients),
+    chosen: !result.with_runout && answer.model === result.model && answer.feedback === result.feedback }));
+  const { runout } = result;
+  if (runout?.coefficients) {
+    answers.push({ ...runout, name: 'with runout, all readings', color: '--s4',
+      model: result.model, pair: pairOf(runout.coefficients), chosen: Boolean(result.with_runout) });
+  }
+  return answers;
+}
+
+function calibratePage(report) {
+  const { result } = report;
+  const readings = readingsOf(result);
+  const keys = Object.keys(result.coefficients || {});
+  const fitted = readings.some(({ pair }) => pair.some((entry) => isNumber(entry?.value)));
+  return [
+    { lead: fitted ? calibrateLead(report, readings, keys) : null },
+    { part: isEmpty(result.combination) ? null : combinationPart(result, keys) },
+    meansSection(report, readings),
+    readingResiduals(report),
+    { part: answersTable(result, readings, keys) },
+    fitted ? ellipseSection(readings, keys) : null,
+    { part: runoutPart(result, keys) },
+    adviceSection(result, keys, fitted),
+    { part: datumPart(result) },
+    { part: restSection(result, calibrateKnown) },
+  ];
+}
+
+function calibrateLead(report, readings, keys) {
+  const { result } = report;
+  const tile = (key) => {
+    const entry = result.coefficients[key];
+    const { name, unit } = nameAndUnit(key);
+    const width = half(entry);
+    return { label: [symbol(name), ` ${meanings[name] || ''}`], value: measured(entry?.value, width), unit,
+      note: isNumber(width) ? `95 %: ± ${measured(width, width)} (${
+        number(100 * Math.abs(width / entry.value), 2)} %)` : 'no interval: no readings to spare' };
+  };
+  return [
+    tiles([...keys.map(tile),
+      { label: 'Left by the fit', value: fixed(micro(result.rms_mm), 3), unit: 'µm rms',
+        note: result.with_runout ? 'of the single readings' : `of ${result.means} means` },
+      { label: 'Noise of a reading', value: isNumber(result.noise_mm) ?
+        fixed(micro(result.noise_mm), 2) : null, unit: 'µm', note: 'standard deviation' },
+      isNumber(result.runout?.eccentricity_mm) && { label: 'Runout',
+        value: measured(micro(result.runout.eccentricity_mm), micro(1.96 * result.runout.eccentricity_se_mm)),
+        unit: 'µm', note: `± ${number(micro(1.96 * result.runout.eccentricity_se_mm), 2)} µm, off centre` },
+    ]),
+    ...verdict(result, readings),
+  ];
+}
+
+const changeOf = (one, other) => one.pair.map((entry, i) => entry.value / other.pair[i].value - 1);
+const percent = (share) => `${number(Math.abs(100 * share), 2)} % ${share < 0 ? 'lower' : 'higher'}`;
+
+/** Whether the ways to read the profile agree, in words. */
+function verdict(result, readings) {
+  const chosen = readings.find((reading) => reading.chosen);
+  const others = readings.filter((reading) => reading !== chosen &&
+    reading.pair.every((entry) => isNumber(entry?.value)));
+  if (!chosen || !others.length) return [];
+  const visible = 0.02;
+  const far = others.filter((other) => changeOf(other, chosen).some((d) => Math.abs(d) > visible));
+  if (!far.length) {
+    return [prose(el('b', {}, 'All readings of the profile agree'), ` within ${100 * visible} %.`)];
+  }
+  const names = Object.keys(result.coefficients).map((key) => nameAndUnit(key).name);
+  const items = alike(far).map(({ of, names: also }) => {
+    const change = changeOf(of, chosen);
+    return el('li', {}, el('b', {}, sentence(also.join(', and the same: '))), ': ', symbol(names[0]), ` ${percent(change[0])}, `,
+      symbol(names[1]), ` ${percent(change[1])}. `, whyDifferent(of, chosen, result));
+  });
+  return [prose('The numbers are those of ', el('b', {}, chosen.name), '. Read in other ways, the same ' +
+    'profile gives other coefficients:'), el('ul', { class: 'reasons plain' }, items)];
+}
+
+/** Answers that give the same numbers, told once. */
+function alike(list) {
+  const told = [];
+  for (const other of list) {
+    const same = told.find(({ of }) => changeOf(other, of).every((d) => Math.abs(d) < 1e-3));
+    if (same) same.names.push(other.name); else told.push({ of: other, names: [other.name] });
+  }
+  return told;
+}
+
+function whyDifferent(other, chosen, result) {
+  if (other.model === 'imprint' && chosen.model === 'envelope') {
+    return 'The linear answer takes each point of the wall for the mark of one tooth. On a real wall the ' +
+      'cutter springs back and cuts part of it away later, so the linear answer of a real profile is wrong.';
+  }
+  if (other.model === 'envelope' && chosen.model === 'imprint') {
+    return 'A wall that was really machined is the envelope of many marks: if these readings come from one, ' +
+      'set model = "envelope".';
+  }
+  if (other.feedback && other.feedback !== 'none' && result.feedback === 'none') {
+    const counts = 'It counts that the deflection makes the cut smaller';
+    if (result.with_runout) return `${counts}, but no runout.`;
+    if (other.rms_mm > 1.5 * chosen.rms_mm) {
+      return `${counts}, and fits much worse: ${fixed(micro(other.rms_mm), 3)} against ${
+        fixed(micro(chosen.rms_mm), 3)} µm rms. The readings speak against it.`;
+    }
+    return `${counts}: on a wall that bends by a visible part of the radial depth, set feedback in the case.`;
+  }
+  if (result.with_runout) {
+    return 'It fits the means only, and the mean of a real wall is not free of runout.';
+  }
+  return other.eccentricity_mm !== undefined ? 'Runout was fitted along with the coefficients.' : '';
+}
+
+function combinationPart(result, keys) {
+  const { combination } = result;
+  const { value, low, high } = combination.value_MPa || {};
+  return section('combination', 'What is known all the same', 'Known',
+    prose('The two coefficients cannot be told apart, but one combination of them is known: ', el('b', {},
+      `${number(combination.K_tc_weight, 3)} `, symbol(nameAndUnit(keys[0] || 'K_tc').name),
+      ` + ${number(combination.K_rc_weight, 3)} `, symbol(nameAndUnit(keys[1] || 'K_rc').name),
+      ` = ${number(value, 4)} MPa`), isNumber(high - low) ?
+      ` (95 %: ${number(low, 4)} to ${number(high, 4)})` : '', '.'));
+}
+
+/** Rows in groups along the axis that tells more: means over the height, or over the feed. */
+function meansLayout(t) {
+  const feed = columnNamed(t, 'feed_mm');
+  const height = columnNamed(t, 'height_mm');
+  const count = (values) => new Set(values).size;
+  const tall = count(height) >= count(feed) || count(height) > 8;
+  const [along, by] = tall ? [height, feed] : [feed, height];
+  const groups = new Map();
+  by.forEach((v, i) => groups.set(v, [...(groups.get(v) || []), i]));
+  const useful = groups.size <= t.drawn / 3;
+  const lists = useful ? [...groups].sort((a, b) => a[0] - b[0]) : [[null, along.map((_, i) => i)]];
+  return { tall, along, groups: lists.map(([value, rows]) =>
+    ({ value, rows: rows.sort((a, b) => along[a] - along[b]) })) };
+}
+
+function meansSection(report, readings) {
+  const t = tableNamed(report, 'fitted.csv');
+  const mean = columnNamed(t, 'mean_mm');
+  if (!mean?.length) return null;
+  const { tall, along, groups } = meansLayout(t);
+  const of = (values, rows) => rows.map((i) => micro(values[i]));
+  const xOf = (group) => group.rows.map((i) => along[i]);
+  const fits = readings.filter((reading) => columnNamed(t, reading.column));
+  const chart = figure({ key: 'means', points: true, x: xOf(groups[0]), unit: 'mm', caption: zoomHint + thinned(t),
+    label: tall ? 'height above the tip' : 'travel along the feed' });
+  const state = { group: groups[0] };
+  const draw = (group = state.group) => {
+    state.group = group;
+    const few = group.rows.length < 80;
+    // Answers often lie on one another: the later ones are thinner and broken.
+    const curves = fits.map((fit, i) => ({ name: fit.name, color: fit.color, width: [3.4, 2.2, 1.4][i % 3],
+      dash: [undefined, [9, 5], [3, 4]][i % 3], values: of(columnNamed(t, fit.column), group.rows) }));
+    chart.draw([
+      { label: 'error', unit: 'µm', height: 250, series: [
+        { name: 'measured mean', color: '--ink', line: false, points: few ? 7 : 4,
+          values: of(mean, group.rows) }, ...curves] },
+      { label: 'measured less fitted', unit: 'µm', height: 130, series: curves.map((curve) => ({ ...curve,
+        points: few ? 5 : 3, width: 1,
+        values: curve.values.map((v, k) => micro(mean[group.rows[k]]) - v) })) },
+    ], xOf(group));
+  };
+  const text = tall ? 'Means over whole turns of the feed at each height, and what every reading of the ' +
+    'profile makes of them.' : 'Measured means along the feed, and what every reading makes of them.';
+  const place = tall ? 'Travel [mm]' : 'Height [mm]';
+  chart.controls.append(...[choice(place, groups.map((group) => ({ value: group,
+    text: number(group.value, 5) })), state.group, draw)].filter(Boolean));
+  const part = section('means', 'Measured and fitted', 'Fit', prose(text), chart.element);
+  return { part, draw: () => draw() };
+}
+
+/** Residuals of single readings, one colour a tooth. */
+function readingResiduals(report) {
+  const t = tableNamed(report, 'residual.csv');
+  const residual = columnNamed(t, 'residual_mm');
+  if (!residual?.length) return null;
+  const tooth = columnNamed(t, 'tooth') || residual.map(() => 0);
+  const teeth = [...new Set(tooth)].sort((a, b) => a - b);
+  const chart = figure({ key: 'readings', points: true, x: [0, 1], unit: 'mm', label: 'height, or travel along the feed',
+    caption: zoomHint + thinned(t) });
+  const draw = (column) => {
+    const along = columnNamed(t, column);
+    const order = along.map((_, i) => i).sort((a, b) => along[a] - along[b]);
+    const size = residual.length > 2000 ? 2.5 : residual.length > 300 ? 4 : 6;
+    const series = teeth.map((k) => ({ name: k > 0 ? `tooth ${k}` : 'tooth not known',
+      color: k > 0 ? seriesColor(k - 1) : '--s6', line: false, points: size,
+      values: order.map((i) => (tooth[i] === k ? micro(residual[i]) : null)) }));
+    chart.draw([{ label: 'measured less fitted', unit: 'µm', height: 220, series }],
+      order.map((i) => along[i]));
+    chart.element.querySelector('figcaption').firstChild.textContent =
+      column === 'height_mm' ? 'height above the tip [mm]' : 'travel along the feed [mm]';
+  };
+  const options = [['height_mm', 'the height'], ['feed_mm', 'the feed']]
+    .filter(([name]) => new Set(columnNamed(t, name)).size > 1);
+  const start = options[0]?.[0] || 'height_mm';
+  chart.controls.append(...[choice('Over', options.map(([value, text]) => ({ value, text })), start, draw)]
+    .filter(Boolean));
+  const joint = isNumber(report.result.runout?.eccentricity_mm);
+  const part = section('residuals', 'What stays unexplained', 'Residuals',
+    prose('Every reading less what the ', joint ? 'fit with runout' : 'chosen answer', ' expects there. ' +
+      'Only noise should be left: a slope or a bow over the height tells of a datum or of a wrong ' +
+      'stiffness, teeth that lie apart tell of runout', joint ? ' of another kind than off centre.' : '.'),
+    chart.element);
+  return { part, draw: () => draw(start) };
+}
+
+function answersTable(result, readings, keys) {
+  if (!readings.length) return null;
+  const rows = keys.map((key, k) => {
+    const { name, unit } = nameAndUnit(key);
+    return [[symbol(name), el('small', {}, unit)], ...readings.map(({ pair }) => {
+      if (!isNumber(pair[k]?.value)) return missing;
+      const width = half(pair[k]);
+      return [measured(pair[k].value, width), isNumber(width) ?
+        el('small', {}, `± ${measured(width, width)}`) : null];
+    })];
+  });
+  const row = (name, unit, value) => {
+    const cells = readings.map((reading) => value(reading) ?? missing);
+    if (cells.some((cell) => cell !== missing)) {
+      rows.push([[name, unit ? el('small', {}, unit) : null], ...cells]);
+    }
+  };
+  const answered = readings.filter(({ pair }) => pair.some((entry) => isNumber(entry?.value)));
+  row('correlation', '', ({ correlation }) => fixed(correlation, 3));
+  row('condition', '', ({ condition }) => (isNumber(condition) ? number(condition, 3) : null));
+  row('rank', '', ({ rank }) => (isNumber(rank) ? number(rank) : null));
+  const left = (rms) => (isNumber(rms) ? fixed(micro(rms), 3) : null);
+  row('left, means', 'µm rms', ({ rms_mm: rms, rank }) => (isNumber(rank) ? left(rms) : null));
+  row('left, all readings', 'µm rms', ({ rms_mm: rms, rank }) => (isNumber(rank) ? null : left(rms)));
+  const noted = readings.filter(({ message }) => message);
+  const best = readings.findIndex(({ chosen }) => chosen);
+  return section('answers', 'The answers side by side', 'Answers',
+    prose('The same readings, understood in every way', best >= 0 && answered.length ?
+      ['; the shaded column is the one that counts, ', el('b', {}, readings[best].name), '.'] : '.'),
+    table(['± 95 %', ...readings.map(({ name }) => name)], rows,
+      { class: 'fits', chosen: best >= 0 && answered.length ? 1 + best : undefined }),
+    noted.length ? el('ul', { class: 'reasons' }, noted.map(({ name, message }) =>
+      el('li', {}, el('b', {}, `${sentence(name)}: `), message))) : null);
+}
+
+function runoutPart(result, keys) {
+  const { runout } = result;
+  if (isEmpty(runout)) return null;
+  if (!isNumber(runout.eccentricity_mm)) {
+    return section('runout', 'Runout', 'Runout', prose('Not known: ', runout.identifiable || 'not fitted', '.'));
+  }
+  const width = micro(1.96 * runout.eccentricity_se_mm);
+  const turn = 1.96 * runout.angle_se_deg;
+  const seen = runout.eccentricity_mm > 3 * runout.eccentricity_se_mm;
+  const less = 100 * (1 - runout.rms_mm / runout.rms_without_mm);
+  const pitch = runout.angle_known_up_to_deg;
+  return section('runout', 'Runout', 'Runout',
+    prose(seen ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
+      el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
+      ' off its centre, at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
+      ' from the tip of tooth 1 towards tooth 2 (95 %).', isNumber(pitch) ?
+        ` As the teeth of the readings are not numbered, the angle may as well be any multiple of ${
+          number(pitch)}° further.` : ''),
+    prose(`All readings are left with ${fixed(micro(runout.rms_mm), 3)} µm rms with runout and ${
+      fixed(micro(runout.rms_without_mm), 3)} µm without: ${number(less, 2)} % less.`));
+}
+
+/** What ten more readings at each height would give. */
+function adviceSection(result, keys, fitted) {
+  const advice = (result.ten_more_readings || []).filter((entry) => isNumber(entry.height_mm));
+  if (!fitted || !advice.length) return null;
+  const chosen = result.answers.find((answer) =>
+    answer.model === result.model && answer.feedback === result.feedback);
+  const now = keys.map((key) => chosen?.coefficients?.[key]?.se);
+  const best = advice[0];
+  const sorted = [...advice].sort((a, b) => a.height_mm - b.height_mm);
+  const gains = keys.map((key, k) => sorted.map((entry) => 100 * (1 - entry[`se_${key}`] / now[k])));
+  const gain = keys.map((key, k) => 100 * (1 - best[`se_${key}`] / now[k]));
+  const chart = figure({ key: 'advice', points: true, x: sorted.map((entry) => entry.height_mm), unit: 'mm',
+    label: 'height above the tip', caption: zoomHint });
+  const series = keys.map((key, k) => ({ name: symbol(nameAndUnit(key).name), values: gains[k],
+    color: seriesColor(k), width: 1.8, points: 5, dash: k ? [6, 3] : undefined }));
+  const part = section('advice', 'Where further readings would help', 'Advice',
+    prose('Ten more readings at ', el('b', {}, `${number(best.height_mm, 3)} mm`), ' above the tip would do most: ' +
+      'the standard error of ', symbol(nameAndUnit(keys[0]).name), ` would fall from ${number(now[0], 3)} to ${
+        number(best[`se_${keys[0]}`], 3)} MPa (${number(gain[0], 2)} % less). `, gain[0] < 10 ?
+        'That is little: heights are covered well, and only many more readings, or a wall that bends more, ' +
+        'would tell more.' : ''), sorted.length > 2 ? chart.element : null);
+  const panel = { label: 'standard error less by', unit: '%', height: 170, series };
+  return { part, draw: sorted.length > 2 ? () => chart.draw([panel]) : undefined };
+}
+
+function datumPart(result) {
+  if (isEmpty(result.datum)) return null;
+  const files = result.datum.map((one, i) => {
+    const parts = [];
+    if (one.offset_mm) {
+      const width = micro(half(one.offset_mm));
+      parts.push(`all readings lie ${measured(micro(one.offset_mm.value), width)} ± ${
+        measured(width, width)} µm high`);
+    }
+    (one.slopes_mm_per_mm || []).forEach((slope, k) => {
+      const width = micro(half(slope));
+      parts.push(`they lean ${measured(micro(slope.value), width)} ± ${measured(width, width)} µm per mm ${
+        k ? 'over the height' : 'along the feed'}`);
+    });
+    return parts.length ? el('li', {}, result.datum.length > 1 ? `Measurement ${i + 1}: ` : '',
+      sentence(parts.join(', '))) : null;
+  });
+  return section('datum', 'Datum of the readings', 'Datum',
+    prose('Estimated along with the coefficients (95 %) and taken off:'), el('ul', { class: 'reasons' }, files));
+}

@@ -1,0 +1,135 @@
+#include "wall_samples.h"
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/run/calibrate.h>
+#include <trochoid/run/surface.h>
+
+#include <fstream>
+#include <string>
+
+#include "sample_cut.h"
+
+namespace sample {
+
+namespace {
+
+using trochoid::base::Answer;
+using trochoid::base::Table;
+namespace inputs = trochoid::inputs;
+
+const std::string cut = R"(title = "Thin wall <made up>"
+
+[tool]
+shape = "cylinder"
+teeth = 3
+diameter_mm = 12
+helix_deg = 45
+
+[cut]
+engagement = "down"
+radial_depth_mm = 1
+axial_depth_mm = 3
+feed_per_tooth_mm = 0.2
+spindle_rpm = 1000
+
+[chip]
+model = "radial"
+
+[cutter_body]
+overhang_mm = 83
+flute_length_mm = 45
+shank_diameter_mm = 12
+equivalent_diameter_mm = 9.6
+youngs_modulus_GPa = 206
+
+[sampling]
+samples_per_rev = 60
+revolutions = 2
+
+)";
+
+const std::string wall_table = R"([wall]
+length_mm = 60
+height_mm = 30
+thickness_mm = 2
+youngs_modulus_GPa = 69
+poisson_ratio = 0.33
+)";
+
+const std::string material = R"([runout]
+eccentricity_mm = 0.003
+angle_deg = 71
+
+[force]
+law = "linear_edge"
+K_tc_MPa = 400
+K_rc_MPa = 200
+K_ac_MPa = 0
+K_te_N_per_mm = 0
+K_re_N_per_mm = 0
+K_ae_N_per_mm = 0
+
+)";
+
+std::string surface_table(const std::string& model) {
+  return "\n[surface]\nmodel = \"" + model +
+         "\"\nheights_mm = [0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.4, 2.7]\n";
+}
+
+std::filesystem::path written(const std::filesystem::path& file,
+                              const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+  return file;
+}
+
+/// The wall of surface.csv as a probe would tell it.
+void write_readings(const Table& surface, const std::filesystem::path& file,
+                    bool number_teeth, double highest) {
+  std::ofstream out(file);
+  out << (number_teeth ? "x_mm,height_mm,error_mm,tooth\n"
+                       : "x_mm,height_mm,error_mm\n");
+  std::uint32_t state = 20261121;
+  for (std::size_t i = 0; i < surface.columns[0].values.size(); ++i) {
+    const double height = surface.columns[1].values[i];
+    if (height > highest) continue;
+    const double noise = 1e-3 * (scatter(state) + scatter(state) + scatter(state));
+    out << surface.columns[0].values[i] << ',' << height << ','
+        << surface.columns[2].values[i] + noise + (number_teeth ? 0.0 : 0.0033);
+    if (number_teeth) out << ',' << surface.columns[3].values[i];
+    out << '\n';
+  }
+}
+
+Answer calibrated(const std::string& model, bool number_teeth, double highest,
+                  const std::filesystem::path& folder) {
+  const Answer made = wall(model.c_str(), folder);
+  write_readings(made.tables.front(), folder / "wall.csv", number_teeth, highest);
+  const auto file =
+      written(folder / "calibrate.toml",
+              cut + wall_table + surface_table(model) +
+                  "\n[[surface_measurement]]\nfile = \"wall.csv\"\ndatum_offset = " +
+                  (number_teeth ? "false\n" : "true\n"));
+  return trochoid::run::calibrate(inputs::read_case(file, inputs::Command::calibrate),
+                                  {});
+}
+
+}  // namespace
+
+Answer wall(const char* model, const std::filesystem::path& folder) {
+  const auto file =
+      written(folder / "surface.toml", cut + material + wall_table +
+                                           "position_mm = 30\n" + surface_table(model));
+  return trochoid::run::surface(inputs::read_case(file, inputs::Command::surface), {});
+}
+
+Answer calibration(const char* model, bool number_teeth,
+                   const std::filesystem::path& folder) {
+  return calibrated(model, number_teeth, 3.0, folder);
+}
+
+Answer one_height(const std::filesystem::path& folder) {
+  return calibrated("imprint", true, 0.4, folder);
+}
+
+}  // namespace sample
