@@ -243,6 +243,15 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
   return p;
 }
 
+int mark_of(const Chip& chip) noexcept {
+  const int inner = Bounds::of(chip.bounds).inner;
+  return inner < Bounds::low_inside ? inner : 0;
+}
+
+bool ends_at_edge(const Chip& chip) noexcept {
+  return Bounds::of(chip.bounds).outer == Bounds::edge;
+}
+
 Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
              double theta) noexcept {
   const Ray ray = ray_at(passage, slice, tooth, theta);

@@ -53,6 +53,12 @@ struct Chip {
   bool in_cut = false;
 };
 
+/// Which tooth before left the inner end of a chip: 1 ... teeth; 0: the stock, or none.
+int mark_of(const Chip& chip) noexcept;
+
+/// Whether the outer end of a chip is the edge itself, not that of the stock.
+bool ends_at_edge(const Chip& chip) noexcept;
+
 /// @brief Uncut chip thickness along the horizontal ray.
 ///
 /// @eq C-2 h = f_1 sin(theta)                             (none)

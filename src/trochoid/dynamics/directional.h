@@ -1,0 +1,56 @@
+#pragma once
+
+#include <trochoid/dynamics/gradient.h>
+#include <trochoid/force/law.h>
+#include <trochoid/force/setup.h>
+
+#include <memory>
+#include <vector>
+
+namespace trochoid::dynamics {
+
+/// Degree of the polynomials by which a directional matrix is given.
+inline constexpr int directional_degree = 20;
+
+/// @brief An interval of the spindle angle in which nothing switches on or off.
+struct DirectionalElement {
+  double from = 0.0;  ///< [rad]
+  double to = 0.0;    ///< [rad]
+  /// At the nodes of directional_degree, shape (1 + delays, nodes) [N/m]: first what
+  /// acts on q(phi), then what acts on q(phi - delay). Empty: zero.
+  std::vector<std::vector<Matrix2>> matrices;
+};
+
+/// @brief The linearised cutting force, periodic in the spindle angle.
+///
+/// @eq D-8 dF(phi) = A_0(phi) q(phi) - sum over delays d of A_d(phi) q(phi - d)
+/// @src [diez2010] eq. 14 for every tooth, height and mark
+struct Directional {
+  double period = 0.0;         ///< pitch of equal teeth, else a turn [rad]
+  std::vector<double> delays;  ///< [rad], ascending, at most the period
+  std::vector<DirectionalElement> elements;  ///< ascending, one period without gaps
+};
+
+/// @brief Makes D-8 of a cut for any axial depth.
+///
+/// @eq D-9 A_d(phi) = sum over teeth and pieces with that delay of the integral of g
+/// along
+///         the edge
+/// @src derived; on constant-lead cylinders as F-5
+/// @note The normal of a mark is taken along the ray: good to f/R.
+class DirectionalModel {
+ public:
+  /// @param h_floor    least chip of the gradient of a power law [m], positive
+  /// @param tolerance  of the matrices, relative to their largest entry
+  DirectionalModel(const force::Setup& setup, const force::Law& law, double h_floor,
+                   double tolerance);
+
+  /// @param a_p  axial depth [m], positive
+  [[nodiscard]] Directional at_depth(double a_p) const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace trochoid::dynamics

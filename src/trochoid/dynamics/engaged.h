@@ -1,0 +1,89 @@
+#pragma once
+
+#include <trochoid/chip/chip.h>
+#include <trochoid/dynamics/gradient.h>
+#include <trochoid/force/edge_curve.h>
+#include <trochoid/force/setup.h>
+#include <trochoid/numerics/piecewise_integral.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+/// Where the teeth cut, and which pass left what they meet: the two ways to D-9.
+namespace trochoid::dynamics {
+
+/// @brief Which periods and delays a cutter has.
+struct Passes {
+  bool equal = false;          ///< all teeth do the same, a pitch apart
+  double period = 0.0;         ///< [rad]
+  std::vector<double> delays;  ///< [rad], ascending
+  std::vector<double> psi;     ///< [rad]
+
+  /// Channel of D-8 of the tooth `mark` teeth before; 0: no such tooth.
+  [[nodiscard]] std::size_t channel(const chip::Passage& passage, std::size_t tooth,
+                                    int mark) const noexcept;
+};
+
+Passes passes_of(const force::Setup& setup);
+
+double largest_entry(const Matrix2& m) noexcept;
+
+/// Whether the teeth of a setup keep their radius and angle along the edge.
+bool is_cylinder(const force::Setup& setup) noexcept;
+
+/// An arc of theta in which one pass left the surface.
+struct PassArc {
+  double from = 0.0;        ///< [rad]
+  double to = 0.0;          ///< [rad]
+  std::size_t channel = 0;  ///< of the mark; 0: the stock stands still
+  bool own = true;          ///< the edge itself moves the outer end
+};
+
+/// @brief Arcs and gradients of a constant-lead cylinder, for any depth.
+struct CylinderArcs {
+  Passes passes;
+  chip::Passage passage;
+  force::Law law;
+  double h_floor = 0.0;         ///< [m]
+  double r = 0.0;               ///< [m]
+  double lag_per_height = 0.0;  ///< [rad/m]
+  double largest = 0.0;         ///< entry of g, over all teeth [N/m^2]
+  std::vector<geometry::EdgePosition> teeth;
+  std::vector<std::vector<PassArc>>
+      arcs;  ///< of each tooth, or of one if all are equal
+  /// Antiderivative of g over theta for each of those teeth and each channel; empty
+  /// without helix.
+  std::vector<std::vector<std::optional<numerics::PiecewiseIntegral<4>>>> tables;
+
+  [[nodiscard]] std::vector<double> breaks(double lag) const;
+  [[nodiscard]] Matrix2 gradient(std::size_t tooth, double theta) const noexcept;
+  /// Add the integral over an edge whose tip is at theta [N/m^2 rad].
+  void add_edge(std::size_t tooth, double theta, double lag,
+                std::vector<Matrix2>& out) const noexcept;
+  /// Add g at theta, by the arc that holds `middle`.
+  void add_point(std::size_t tooth, double theta, double middle,
+                 std::vector<Matrix2>& out) const noexcept;
+};
+
+CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Law& law,
+                           double h_floor, double tolerance);
+
+/// @brief The same for any cutter at one depth, by quadrature along the edges.
+struct AxialArcs {
+  Passes passes;
+  std::vector<double> breaks;  ///< spindle angles [rad]
+  std::shared_ptr<const force::Edges> edges;
+  force::Law law;
+  double h_floor = 0.0;  ///< [m]
+  double largest = 0.0;  ///< entry of the matrices [N/m]
+  double tolerance = 0.0;
+
+  /// Add the matrices at phi [N/m].
+  void add(double phi, std::vector<Matrix2>& out) const;
+};
+
+AxialArcs axial_arcs(const force::Setup& setup, const force::Law& law, double h_floor,
+                     double a_p, double tolerance);
+
+}  // namespace trochoid::dynamics

@@ -1,0 +1,92 @@
+#include <trochoid/dynamics/nodes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+
+namespace trochoid::dynamics {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Positive Gauss-Legendre nodes of eight and their weights.
+constexpr std::array<double, 4> legendre_t = {0.1834346424956498, 0.5255324099163290,
+                                              0.7966664774136267, 0.9602898564975363};
+constexpr std::array<double, 4> legendre_w = {0.3626837833783620, 0.3137066458778873,
+                                              0.2223810344533745, 0.1012285362903763};
+
+ElementNodes make_nodes(int n) {
+  ElementNodes nodes;
+  const auto count = static_cast<std::size_t>(n) + 1;
+  for (int i = 0; i <= n; ++i) {
+    // sin keeps the nodes exactly symmetric
+    nodes.t.push_back(std::sin(pi * (2 * i - n) / (2 * n)));
+    nodes.weights.push_back((i % 2 == 0 ? 1.0 : -1.0) * (i == 0 || i == n ? 0.5 : 1.0));
+  }
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double half = 0.5 * (nodes.t[i + 1] - nodes.t[i]);
+    const double middle = 0.5 * (nodes.t[i + 1] + nodes.t[i]);
+    for (std::size_t g = 0; g < gauss_count; ++g) {
+      const std::size_t k = g < 4 ? 3 - g : g - 4;
+      nodes.gauss_t.push_back(middle + (g < 4 ? -1.0 : 1.0) * half * legendre_t[k]);
+      nodes.gauss_w.push_back(half * legendre_w[k]);
+    }
+  }
+  nodes.at_gauss.resize(nodes.gauss_t.size() * count);
+  for (std::size_t g = 0; g < nodes.gauss_t.size(); ++g) {
+    lagrange_row(nodes, nodes.gauss_t[g],
+                 std::span(nodes.at_gauss).subspan(g * count, count));
+  }
+  return nodes;
+}
+
+}  // namespace
+
+const ElementNodes& element_nodes(int n) {
+  static std::array<std::once_flag, largest_degree + 1> made;
+  static std::array<std::unique_ptr<const ElementNodes>, largest_degree + 1> all;
+  const auto i = static_cast<std::size_t>(std::clamp(n, 1, largest_degree));
+  std::call_once(made[i], [&] {
+    all[i] = std::make_unique<const ElementNodes>(make_nodes(static_cast<int>(i)));
+  });
+  return *all[i];
+}
+
+void lagrange_row(const ElementNodes& nodes, double t, std::span<double> row) noexcept {
+  constexpr double same = 1e-14;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const double away = t - nodes.t[i];
+    if (std::abs(away) < same) {
+      std::fill(row.begin(), row.end(), 0.0);
+      row[i] = 1.0;
+      return;
+    }
+    row[i] = nodes.weights[i] / away;
+    sum += row[i];
+  }
+  for (double& value : row) {
+    value /= sum;
+  }
+}
+
+double chebyshev_tail(std::span<const double> values) noexcept {
+  const std::size_t n = values.size() - 1;
+  double tail = 0.0;
+  for (const std::size_t k : {n - 1, n}) {
+    double c = 0.0;
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double end = i == 0 || i == n ? 0.5 : 1.0;
+      c += end * values[i] *
+           std::cos(pi * static_cast<double>(k * (n - i)) / static_cast<double>(n));
+    }
+    tail = std::max(tail, std::abs(c) * (k == n ? 1.0 : 2.0) / static_cast<double>(n));
+  }
+  return tail;
+}
+
+}  // namespace trochoid::dynamics

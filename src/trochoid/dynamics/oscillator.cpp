@@ -1,0 +1,63 @@
+#include <trochoid/dynamics/oscillator.h>
+
+#include <trochoid/dynamics/nodes.h>
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace trochoid::dynamics {
+
+std::array<double, 4> free_motion(const ChipMode& mode, double t) noexcept {
+  const double sigma = 0.5 * mode.damping / mode.mass;
+  const double square = mode.stiffness / mode.mass;  // omega_0^2
+  const double rest = square - sigma * sigma;
+  const double root = std::sqrt(std::abs(rest));
+  double C = 0.0;  // both with the decay
+  double S = 0.0;
+  if (root * t < 1e-6) {
+    C = std::exp(-sigma * t);
+    S = C * t;
+  } else if (rest > 0) {
+    const double decay = std::exp(-sigma * t);
+    C = decay * std::cos(root * t);
+    S = decay * std::sin(root * t) / root;
+  } else {
+    const double slow = std::exp((root - sigma) * t);
+    const double fast = std::exp(-(root + sigma) * t);
+    C = 0.5 * (slow + fast);
+    S = 0.5 * (slow - fast) / root;
+  }
+  return {C + sigma * S, S, -square * S, C - sigma * S};  // D-3
+}
+
+DrivenMotion driven_motion(const ChipMode& mode, int n, double duration) {
+  const ElementNodes& nodes = element_nodes(n);
+  const std::size_t count = nodes.t.size();
+  const double half = 0.5 * duration;
+  DrivenMotion motion{
+      std::vector<double>(count * count), std::vector<double>(count), {}};
+  motion.free.push_back({1.0, 0.0, 0.0, 1.0});
+  const auto columns = static_cast<Eigen::Index>(count);
+  using Row = Eigen::Map<Eigen::VectorXd>;
+  Row velocity(motion.end_velocity.data(), columns);
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double to = nodes.t[i + 1];
+    const auto step = free_motion(mode, half * (to - nodes.t[i]));
+    const Row before(&motion.eta[i * count], columns);
+    Row after(&motion.eta[(i + 1) * count], columns);
+    after = step[0] * before + step[1] * velocity;
+    velocity = step[2] * before + step[3] * velocity;
+    for (std::size_t g = i * gauss_count; g < (i + 1) * gauss_count; ++g) {
+      const Eigen::Map<const Eigen::VectorXd> row(&nodes.at_gauss[g * count], columns);
+      const auto kernel = free_motion(mode, half * (to - nodes.gauss_t[g]));
+      const double weight = half * nodes.gauss_w[g] / mode.mass;
+      after += weight * kernel[1] * row;  // D-4
+      velocity += weight * kernel[3] * row;
+    }
+    motion.free.push_back(free_motion(mode, half * (to + 1)));
+  }
+  return motion;
+}
+
+}  // namespace trochoid::dynamics

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <trochoid/dynamics/directional.h>
+#include <trochoid/dynamics/system.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace trochoid::dynamics {
+
+/// How finely a period is resolved.
+struct Resolution {
+  double factor = 1.0;        ///< of the number of nodes
+  bool whole_period = false;  ///< nodes in the air too, where nothing else needs them
+};
+
+/// @brief What one period of cutting makes of a small disturbance.
+///
+/// The period is cut into elements. In each, q at the nodes follows from the state of
+/// the modes at its start and from the forces at its nodes, which depend on q there and
+/// on q one delay before: interpolated on the element that held it.
+///
+/// @eq  D-11 (I - G A_0) q = sum over modes of (x, y) Phi state(a) - G sum over d of
+/// A_d
+///           q(t - d), G = sum over modes of (x, y)(x, y)^T and the kernels of D-4
+/// @src derived: spectral elements (Bayly; Khasawneh and Mann), in integral form
+class PeriodMap {
+ public:
+  /// @param Omega  spindle speed [rad/s], positive
+  PeriodMap(const Directional& directional, const System& system, double Omega,
+            const Resolution& resolution);
+  ~PeriodMap();
+  PeriodMap(PeriodMap&&) noexcept;
+  PeriodMap& operator=(PeriodMap&&) noexcept;
+
+  /// @brief Length of a disturbance: q at the nodes of a period, states at its end.
+  [[nodiscard]] std::size_t size() const noexcept;
+  /// Nodes over a period.
+  [[nodiscard]] std::size_t nodes() const noexcept;
+  /// @param[in]  in   shape (size)
+  /// @param[out] out  one period later, shape (size)
+  void apply(std::span<const double> in, std::span<double> out) const;
+
+  /// A node of a disturbance.
+  struct Node {
+    double t = 0.0;         ///< since the start of the period [s]
+    double weight = 0.0;    ///< of an integral over the period [s]
+    std::size_t first = 0;  ///< place of its q in a disturbance
+    std::size_t step = 0;   ///< from one component of q to the next
+  };
+  [[nodiscard]] std::vector<Node> disturbance_nodes() const;
+  /// Components of q: 1 where all modes move along one line, else 2.
+  [[nodiscard]] std::size_t components() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
+
+}  // namespace trochoid::dynamics
