@@ -1,0 +1,37 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace trochoid::structure {
+
+/// What moves, over the force that moves it.
+enum class ResponseKind {
+  receptance,   ///< displacement over force [m/N]
+  mobility,     ///< velocity over force [m/(s N)]
+  accelerance,  ///< acceleration over force [m/(s^2 N)]
+};
+
+/// A measured frequency response, of one point to a force at that point.
+struct FrequencyResponse {
+  ResponseKind kind = ResponseKind::receptance;
+  std::vector<double> omega;            ///< [rad/s], increasing, at least 0, shape (n)
+  std::vector<std::complex<double>> H;  ///< in SI, shape (n)
+};
+
+/// @brief What a receptance is multiplied with.
+/// @eq  M-4  H_v = i omega H,  H_a = -omega^2 H
+/// @src derived: time derivatives of e^{i omega t}
+inline std::complex<double> factor(ResponseKind kind, double omega) noexcept {
+  switch (kind) {
+    case ResponseKind::mobility:
+      return {0.0, omega};
+    case ResponseKind::accelerance:
+      return {-omega * omega, 0.0};
+    case ResponseKind::receptance:
+      break;
+  }
+  return {1.0, 0.0};
+}
+
+}  // namespace trochoid::structure

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <trochoid/structure/frequency_response.h>
+#include <trochoid/structure/mode.h>
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trochoid::structure {
+
+struct ModesOptions {
+  int count = 0;  ///< modes to fit; 0: chosen
+  /// Stand for the modes below and above the band; absent: chosen.
+  std::optional<bool> residual_terms;
+  double from = 0.0;  ///< lowest line [rad/s]
+  double to = 0.0;    ///< highest line [rad/s]; 0: all
+};
+
+/// One mode of a fit; the standard errors take the residuals as white.
+struct FittedMode {
+  Mode mode;
+  double omega = 0.0;  ///< natural frequency [rad/s]
+  double zeta = 0.0;
+  double omega_se = 0.0;
+  double zeta_se = 0.0;
+  double mass_se = 0.0;
+  double stiffness_se = 0.0;
+  double damping_se = 0.0;
+  int lines_in_peak = 0;  ///< between the half-power points
+};
+
+struct ModesFit {
+  bool ok = false;
+  std::string reason;             ///< when not ok
+  std::vector<FittedMode> modes;  ///< by frequency; empty when not ok
+  bool residual_terms = false;
+  double below = 0.0;                   ///< L: stands for modes below the band [1/kg]
+  double above = 0.0;                   ///< U: stands for modes above the band [m/N]
+  std::vector<double> omega;            ///< of the lines fitted
+  std::vector<std::complex<double>> H;  ///< as measured
+  std::vector<std::complex<double>> fitted;  ///< in the same kind
+  double explained = 0.0;                    ///< 1 - sum |residual|^2 / sum |H|^2
+  double rms = 0.0;  ///< sqrt(mean |residual|^2), in the unit of H
+};
+
+/// @brief Modal parameters of a measured response.
+///
+/// @eq  M-6  H(omega) = sum_r A_r/(omega_r^2 - omega^2 + 2 i zeta_r omega_r omega)
+///           + U - L/omega^2,  m_r = 1/A_r, k_r = omega_r^2/A_r, c_r = 2 zeta_r
+///           omega_r/A_r
+/// @eq  M-7  min over omega_r, zeta_r, A_r, U, L of sum |f (H_model - H)|^2; start from
+///           M-5; standard errors from s^2 (J^T J)^-1, s^2 = rss/(2 n - p)
+/// @src spec: modes are real; residual terms optional
+///
+/// A number of modes that is not given is the one with the least
+/// 2 n ln(rss) + p ln(2 n) among the fits whose modes are all resonances: inside the
+/// band with their half-power points, below half the critical damping, with a positive
+/// mass that is known to a fifth.
+/// @param response  any kind; lines at 0 Hz and outside the band are left out
+ModesFit identify_modes(const FrequencyResponse& response, const ModesOptions& options);
+
+/// @brief The model M-6 of a fit at an angular frequency, as a receptance.
+std::complex<double> modelled(const ModesFit& fit, double omega);
+
+}  // namespace trochoid::structure

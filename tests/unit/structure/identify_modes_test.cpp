@@ -1,0 +1,215 @@
+#include <gtest/gtest.h>
+#include <trochoid/structure/identify_modes.h>
+#include <trochoid/structure/pole_search.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace trochoid::structure;
+
+constexpr double Hz = 2 * std::numbers::pi;
+
+struct Band {
+  double from = 0.0;  // [Hz]
+  double to = 0.0;
+  double step = 0.0;
+};
+
+FrequencyResponse made(const std::vector<Mode>& modes, ResponseKind kind, Band band,
+                       double noise = 0.0, double above = 0.0, double below = 0.0) {
+  FrequencyResponse out{.kind = kind};
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  double largest = 0.0;
+  for (double f = band.from; f <= band.to * (1 + 1e-12); f += band.step) {
+    const double w = f * Hz;
+    std::complex<double> H = above;
+    if (below != 0) H -= below / (w * w);
+    for (const Mode& mode : modes) H += receptance(mode, w);
+    out.omega.push_back(w);
+    out.H.push_back(H * factor(kind, w));
+    largest = std::max(largest, std::abs(out.H.back()));
+  }
+  for (auto& H : out.H) {
+    const double re = normal(random);
+    H += noise * largest * std::complex<double>(re, normal(random));
+  }
+  return out;
+}
+
+Mode mode_of(double frequency, double zeta, double mass) {
+  return completed({.mass = mass, .frequency = frequency, .damping_ratio = zeta});
+}
+
+void expect_mode(const FittedMode& found, const Mode& truth, double tolerance) {
+  EXPECT_NEAR(found.mode.mass / truth.mass, 1, tolerance);
+  EXPECT_NEAR(found.mode.stiffness / truth.stiffness, 1, tolerance);
+  EXPECT_NEAR(found.mode.damping / truth.damping, 1, tolerance);
+}
+
+TEST(IdentifyModes, FindsAModeExactlyInEachKind) {  // [M-6]
+  const Mode truth = mode_of(900, 0.03, 0.6);
+  for (const auto kind :
+       {ResponseKind::receptance, ResponseKind::mobility, ResponseKind::accelerance}) {
+    const auto fit = identify_modes(made({truth}, kind, {200, 2000, 2}), {});
+    ASSERT_TRUE(fit.ok) << fit.reason;
+    ASSERT_EQ(fit.modes.size(), 1U);
+    expect_mode(fit.modes[0], truth, 1e-8);
+    EXPECT_NEAR(fit.modes[0].omega, 900 * Hz, 1e-4);
+    EXPECT_NEAR(fit.explained, 1.0, 1e-12);
+    const double w = fit.omega[100];
+    EXPECT_NEAR(std::abs(modelled(fit, w) * factor(kind, w) - fit.fitted[100]), 0.0,
+                1e-12 * std::abs(fit.fitted[100]));
+  }
+}
+
+TEST(IdentifyModes, FreePolesFindThemselvesOnTheWayThere) {  // [M-5]
+  const Mode low = mode_of(400, 0.02, 1.0);
+  const Mode high = mode_of(1100, 0.01, 0.3);
+  const auto poles =
+      find_poles(made({low, high}, ResponseKind::mobility, {50, 2000, 1}), 2, false);
+  ASSERT_EQ(poles.pairs.size(), 2U);
+  EXPECT_NEAR(poles.explained, 1.0, 1e-12);
+  for (const Pole& pole : poles.pairs) {
+    const bool is_low = std::abs(pole.p) < 700 * Hz;
+    const Mode& truth = is_low ? low : high;
+    const double w = natural_frequency(truth);
+    const double zeta = damping_ratio(truth);
+    EXPECT_NEAR(pole.p.real() / (-zeta * w), 1.0, 1e-6);
+    EXPECT_NEAR(pole.p.imag() / (w * std::sqrt(1 - zeta * zeta)), 1.0, 1e-8);
+    const double R = 1 / (2 * truth.mass * w * std::sqrt(1 - zeta * zeta));
+    EXPECT_NEAR(std::abs(pole.R - std::complex<double>(0, -R)), 0.0, 1e-6 * R);
+  }
+}
+
+TEST(IdentifyModes, ChoosesTheirNumberInNoise) {
+  const std::vector<Mode> truth = {mode_of(420, 0.025, 1.1), mode_of(640, 0.015, 0.9),
+                                   mode_of(1490, 0.02, 0.2)};
+  const auto fit =
+      identify_modes(made(truth, ResponseKind::receptance, {50, 2500, 2.5}, 0.004), {});
+  ASSERT_TRUE(fit.ok) << fit.reason;
+  ASSERT_EQ(fit.modes.size(), 3U);
+  for (std::size_t r = 0; r < 3; ++r) {
+    expect_mode(fit.modes[r], truth[r], 0.03);
+  }
+}
+
+TEST(IdentifyModes, ResidualTermsStandForModesOutsideOfTheBand) {  // [M-6]
+  const Mode truth = mode_of(900, 0.02, 0.5);
+  const auto record =
+      made({truth}, ResponseKind::receptance, {500, 1500, 1}, 0.0, 2e-8, 0.2);
+  const auto with = identify_modes(record, {});
+  ASSERT_TRUE(with.ok) << with.reason;
+  EXPECT_TRUE(with.residual_terms);
+  expect_mode(with.modes[0], truth, 1e-7);
+  EXPECT_NEAR(with.above, 2e-8, 1e-14);
+  EXPECT_NEAR(with.below, 0.2, 1e-7);
+  const auto without = identify_modes(record, {.count = 1, .residual_terms = false});
+  ASSERT_TRUE(without.ok) << without.reason;
+  EXPECT_GT(without.rms, 1e3 * with.rms);
+}
+
+TEST(IdentifyModes, StandardErrorsAreTheScatterOfManyFits) {  // [M-7]
+  const Mode truth = mode_of(500, 0.02, 1.0);
+  auto clean = made({truth}, ResponseKind::receptance, {300, 800, 2});
+  const double sigma = 0.01 / (truth.damping * 500 * Hz);
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal(0.0, sigma);
+  constexpr int runs = 200;
+  double mass = 0.0;
+  double damping = 0.0;
+  double frequency = 0.0;
+  FittedMode last;
+  for (int i = 0; i < runs; ++i) {
+    auto noisy = clean;
+    for (auto& H : noisy.H) {
+      const double re = normal(random);
+      H += std::complex<double>(re, normal(random));
+    }
+    const auto fit = identify_modes(noisy, {.count = 1, .residual_terms = false});
+    ASSERT_TRUE(fit.ok) << fit.reason;
+    last = fit.modes[0];
+    mass += std::pow(last.mode.mass - truth.mass, 2) / runs;
+    damping += std::pow(last.mode.damping - truth.damping, 2) / runs;
+    frequency += std::pow(last.omega - 500 * Hz, 2) / runs;
+  }
+  // 200 runs tell a standard deviation to 5 %: three of that
+  EXPECT_NEAR(last.mass_se / std::sqrt(mass), 1.0, 0.15);
+  EXPECT_NEAR(last.damping_se / std::sqrt(damping), 1.0, 0.15);
+  EXPECT_NEAR(last.omega_se / std::sqrt(frequency), 1.0, 0.15);
+}
+
+void expect_refused(const FrequencyResponse& record, const ModesOptions& options,
+                    const std::string& words) {
+  const auto fit = identify_modes(record, options);
+  EXPECT_FALSE(fit.ok);
+  EXPECT_TRUE(fit.modes.empty());
+  EXPECT_NE(fit.reason.find(words), std::string::npos) << fit.reason;
+}
+
+TEST(IdentifyModes, RefusesWhereNoResonanceLiesInTheBand) {
+  const Mode truth = mode_of(900, 0.02, 0.5);
+  const auto clean = made({truth}, ResponseKind::receptance, {100, 600, 2}, 1e-4);
+  expect_refused(clean, {}, "no resonance lies in the band from 100 Hz to 600 Hz");
+  const auto whole = made({truth}, ResponseKind::receptance, {100, 2000, 2});
+  expect_refused(whole, {.from = 1100 * Hz}, "no resonance");
+}
+
+TEST(IdentifyModes, RefusesNoise) {
+  const auto noise = made({}, ResponseKind::receptance, {100, 1000, 2}, 0.0);
+  expect_refused(noise, {}, "zero");
+  auto flat = noise;
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0.0, 1e-8);
+  for (auto& H : flat.H) {
+    const double re = normal(random);
+    H = {re, normal(random)};
+  }
+  const auto fit = identify_modes(flat, {});
+  EXPECT_FALSE(fit.ok);
+}
+
+TEST(IdentifyModes, RefusesAPeakThatIsCutOff) {
+  const Mode truth = mode_of(900, 0.02, 0.5);
+  expect_refused(made({truth}, ResponseKind::receptance, {300, 905, 1}), {},
+                 "half-power points");
+}
+
+TEST(IdentifyModes, RefusesAPeakBetweenTwoLines) {
+  const Mode truth = mode_of(905, 0.001, 0.5);
+  expect_refused(made({truth}, ResponseKind::receptance, {300, 1500, 10}), {},
+                 "measure longer");
+}
+
+TEST(IdentifyModes, SaysWhichKindAResponseLooksLike) {
+  const Mode truth = mode_of(900, 0.02, 0.5);
+  auto record = made({truth}, ResponseKind::mobility, {300, 1500, 1}, 1e-3);
+  record.kind = ResponseKind::receptance;
+  expect_refused(record, {}, "turns like a mobility");
+  record.kind = ResponseKind::accelerance;
+  expect_refused(record, {}, "turns like a mobility");
+  record = made({truth}, ResponseKind::accelerance, {300, 1500, 1}, 1e-3);
+  record.kind = ResponseKind::receptance;
+  expect_refused(record, {}, "turns like an accelerance");
+}
+
+TEST(IdentifyModes, RefusesTooFewLines) {
+  const Mode truth = mode_of(900, 0.02, 0.5);
+  expect_refused(made({truth}, ResponseKind::receptance, {880, 920, 10}), {}, "lines");
+}
+
+TEST(IdentifyModes, LeavesOutTheLineAtZero) {
+  const Mode truth = mode_of(90, 0.02, 0.5);
+  const auto fit =
+      identify_modes(made({truth}, ResponseKind::accelerance, {0, 300, 0.5}), {});
+  ASSERT_TRUE(fit.ok) << fit.reason;
+  EXPECT_EQ(fit.omega.size(), 600U);
+  expect_mode(fit.modes[0], truth, 1e-7);
+}
+
+}  // namespace
