@@ -136,13 +136,29 @@ test('the map tells values, and a click or the slider chooses the profile', asyn
 });
 
 test('the map shows the error, the marks and the teeth', async () => {
-  const { page, close } = await open('surface');
+  const { page, seen: told, close } = await open('surface');
   const seen = new Set();
+  const teeth = await Promise.all(['--s1', '--s2', '--s3'].map((name) => colorOf(page, name)));
   for (const name of ['error', 'feed marks', 'tooth']) {
     await page.getByRole('button', { name, exact: true }).click();
-    seen.add((await painted(page))[0].text);
+    const [{ text, points }] = await painted(page);
+    assert.ok(points > 40000, `${name}: ${points} points`);
+    seen.add(text);
   }
   assert.equal(seen.size, 3);
+  const counts = await page.locator('.drawing canvas').first().evaluate((canvas, colors) => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    return colors.map((color) => {
+      let n = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        if (((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]) === color) ++n;
+      }
+      return n;
+    });
+  }, teeth);
+  assert.ok(counts.every((n) => n > 1000), `pixels of each tooth: ${counts}`);
+  // The browser would rather read canvases back in another way.
+  assert.deepEqual(told.complaints.filter((text) => !text.startsWith('Canvas2D')), []);
   await close();
 });
 

@@ -69,7 +69,7 @@ function bentSection(report) {
   const how = bodies.map((body) => `${body.name} ${number(1000 * body.largest, 3)} µm ${body.place}`);
   const part = section('bent', 'How cutter and wall bend', 'Bending',
     prose('Seen along the feed, at the spindle angle of the largest force across the wall: ',
-      el('b', {}, `${number(bent.F_normal_N, 4)} N at ${number(bent.angle_deg, 4)}°`),
+      el('b', {}, `${number(bent.F_normal_N, 4)}\u00a0N at ${number(bent.angle_deg, 4)}°`),
       `. ${sentence(how.join(', '))}. Bodies to scale, their bending enlarged; broken lines: unbent.`),
     chart.element);
   return { part, draw: () => chart.resize() };

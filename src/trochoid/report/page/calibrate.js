@@ -138,6 +138,17 @@ function combinationPart(result, keys) {
       ` (95 %: ${number(low, 4)} to ${number(high, 4)})` : '', '.'));
 }
 
+/** The first of every place, the second of every place, and so on. */
+function inTurn(along, by) {
+  const places = new Map();
+  const order = by.map((_, i) => i).sort((a, b) => by[a] - by[b]);
+  for (const i of order) places.set(along[i], [...(places.get(along[i]) || []), i]);
+  const most = Math.max(...[...places.values()].map((rows) => rows.length));
+  if (most > places.size) return [[1, order]];
+  return Array.from({ length: most }, (_, k) => [k + 1,
+    [...places.values()].map((rows) => rows[k]).filter((i) => i !== undefined)]);
+}
+
 /** Rows in groups along the axis that tells more: means over the height, or over the feed. */
 function meansLayout(t) {
   const feed = columnNamed(t, 'feed_mm');
@@ -148,8 +159,8 @@ function meansLayout(t) {
   const groups = new Map();
   by.forEach((v, i) => groups.set(v, [...(groups.get(v) || []), i]));
   const useful = groups.size <= t.drawn / 3;
-  const lists = useful ? [...groups].sort((a, b) => a[0] - b[0]) : [[null, along.map((_, i) => i)]];
-  return { tall, along, groups: lists.map(([value, rows]) =>
+  const lists = useful ? [...groups].sort((a, b) => a[0] - b[0]) : inTurn(along, by);
+  return { tall, along, numbered: !useful, groups: lists.map(([value, rows]) =>
     ({ value, rows: rows.sort((a, b) => along[a] - along[b]) })) };
 }
 
@@ -157,7 +168,7 @@ function meansSection(report, readings) {
   const t = tableNamed(report, 'fitted.csv');
   const mean = columnNamed(t, 'mean_mm');
   if (!mean?.length) return null;
-  const { tall, along, groups } = meansLayout(t);
+  const { tall, along, groups, numbered } = meansLayout(t);
   const of = (values, rows) => rows.map((i) => micro(values[i]));
   const xOf = (group) => group.rows.map((i) => along[i]);
   const fits = readings.filter((reading) => columnNamed(t, reading.column));
@@ -181,10 +192,12 @@ function meansSection(report, readings) {
   };
   const text = tall ? 'Means over whole turns of the feed at each height, and what every reading of the ' +
     'profile makes of them.' : 'Measured means along the feed, and what every reading makes of them.';
-  const place = tall ? 'Travel [mm]' : 'Height [mm]';
+  const place = numbered ? 'Mean' : tall ? 'Travel [mm]' : 'Height [mm]';
   chart.controls.append(...[choice(place, groups.map((group) => ({ value: group,
     text: number(group.value, 5) })), state.group, draw)].filter(Boolean));
-  const part = section('means', 'Measured and fitted', 'Fit', prose(text), chart.element);
+  const part = section('means', 'Measured and fitted', 'Fit', prose(text, report.result.with_runout ?
+    ' The answer that counts, with runout, is a fit to single readings: see what it leaves below.' : null),
+  chart.element);
   return { part, draw: () => draw() };
 }
 

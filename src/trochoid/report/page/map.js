@@ -61,10 +61,11 @@ function imageOf(values, view) {
   const image = new ImageData(columns, lines);
   const [low, high] = view.range;
   const level = (v) => Math.floor(v / view.step);
-  const shade = Array.from({ length: 1025 }, (_, i) => colorAt(view.colors, i / 1024));
+  const shade = view.teeth ? view.teeth.map((tooth) => rgbOf(seriesColor(tooth - 1))) :
+    Array.from({ length: 1025 }, (_, i) => colorAt(view.colors, i / 1024));
   values.forEach((row, k) => row.forEach((v, i) => {
     const share = (v - low) / (high - low || 1);
-    let color = view.colorOf ? view.colorOf(v) :
+    let color = view.teeth ? shade[view.teeth.indexOf(v)] :
       shade[Math.round(1024 * Math.min(1, Math.max(0, share)))];
     const edge = view.step && ((i + 1 < columns && level(row[i + 1]) !== level(v)) ||
       (k + 1 < lines && level(values[k + 1][i]) !== level(v)));
@@ -88,14 +89,13 @@ function colorBar(c, view, left, width) {
   }
 }
 
-function toothBar(c, view, left) {
-  let at = left;
-  for (const tooth of view.teeth) {
+function toothBar(c, view, left, width) {
+  const step = Math.min(100, width / view.teeth.length);
+  view.teeth.forEach((tooth, i) => {
     c.fillStyle = css(seriesColor(tooth - 1));
-    c.fillRect(at, 18, 22, 12);
-    write(c, `tooth ${tooth}`, at + 28, 24);
-    at += 100;
-  }
+    c.fillRect(left + i * step, 18, step > 75 ? 22 : 12, 12);
+    write(c, step > 75 ? `tooth ${tooth}` : String(tooth), left + i * step + (step > 75 ? 28 : 16), 24);
+  });
 }
 
 /** Words on the lines where a value is round, next to the left edge. */
@@ -139,7 +139,7 @@ function heatMap(map) {
       xLabel: map.xLabel, yLabel: map.yLabel };
     state.frame = frame;
     write(c, view.label, 0, 8, { color: '--ink' });
-    if (view.teeth) toothBar(c, view, frame.left);
+    if (view.teeth) toothBar(c, view, frame.left, frame.width);
     else colorBar(c, view, frame.left, frame.width);
     const values = pictureOf(rows, view, x, heights, Math.round(frame.width * devicePixelRatio),
       Math.round(frame.height * devicePixelRatio));

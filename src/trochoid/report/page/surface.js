@@ -68,7 +68,7 @@ function surfaceLead(result, heights) {
   return [
     tiles([
       { label: 'Mean error of the wall', value: fixed(micro(result.mean_error_mm), 3), unit: 'µm',
-        note: 'positive: material is left' },
+        note: result.mean_error_mm < 0 ? 'negative: cut too deep' : 'positive: material is left' },
       { label: 'Largest error', value: fixed(micro(result.peak_error_mm), 3), unit: 'µm',
         note: `${number(top.height_mm, 3)} mm above the tip` },
       { label: 'Smallest error', value: fixed(micro(result.min_error_mm), 3), unit: 'µm',
@@ -110,7 +110,8 @@ function markWords(result, heights) {
     amounts}, the part that repeats once a tooth ${other}. `, ratio > 1 ?
     'A mark a turn that outweighs the mark a tooth betrays runout: ' : 'The mark a turn comes from runout: ',
   `tooth ${share.indexOf(Math.max(...share)) + 1} makes ${number(100 * Math.max(...share), 2)} % of the wall`,
-  idle.length ? `, tooth ${idle.join(' and ')} none of it.` : '.');
+  idle.length ? `, ${idle.length > 1 ? `teeth ${idle.slice(0, -1).join(', ')} and` : 'tooth'} ${
+    idle[idle.length - 1]} none of it.` : '.');
 }
 
 function mapSection(report, rows, section_, pick) {
@@ -121,15 +122,16 @@ function mapSection(report, rows, section_, pick) {
   const [low, high] = ends('error');
   const deepest = Math.max(...ends('marks').map(Math.abs)) || 1;
   const smooth = model !== 'imprint';
+  const lines = model === 'envelope';
   const teeth = [...new Set(rows.flatMap((row) => row.tooth))].sort((a, b) => a - b);
   const views = [
     { name: 'error', label: 'error [µm], positive: material left', key: 'error', colors: rising,
-      range: [low, high], step: smooth && high > low ? niceStep((high - low) / 10) : 0, smooth },
+      range: [low, high], step: lines && high > low ? niceStep((high - low) / 10) : 0, smooth },
     model !== 'quasi_static' && { name: 'feed marks', key: 'marks', colors: aroundZero, smooth,
       label: 'error less the mean of its height [µm]', range: [-deepest, deepest] },
     teeth.length > 1 && { name: 'tooth', label: model === 'quasi_static' ?
       'tooth that entered last' : 'tooth that made each point', key: 'tooth', teeth,
-    range: [0, 1], smooth: false, colorOf: (tooth) => rgbOf(seriesColor(tooth - 1)) },
+    range: [0, 1], smooth: false },
   ].filter(Boolean);
   const chart = heatMap({
     rows, views, xLabel: 'x, along the feed [mm]', yLabel: 'height above the tip [mm]', pick,
@@ -140,9 +142,11 @@ function mapSection(report, rows, section_, pick) {
         number(row.marks[i], 3)} µm from the mean of this height), tooth ${row.tooth[i]}`],
   });
   section_.listeners.push(() => chart.redraw());
-  const part = section('map', 'The wall, as it is left', 'Map',
-    prose('Error over the feed and the height. The feed runs to the right, the tip of the tool is at the ' +
-      'bottom. ', smooth ? 'Lines join equal errors.' : 'One field for every mark of a tooth.'),
+  const part = section('map', smooth && !lines ? 'The deflection over feed and height' :
+    'The wall, as it is left', 'Map',
+  prose('Error over the feed and the height. The feed runs to the right, the tip of the tool is at the ' +
+      'bottom.', lines ? ' Lines join equal errors.' : '', smooth ? ` Computed at ${rows.length} heights, straight ` +
+      'between them.' : ' One field for every mark of a tooth.'),
     chart.element);
   return { part, draw: () => chart.resize() };
 }
@@ -259,21 +263,23 @@ function wallForces(report, section_) {
   return { part, draw };
 }
 
+const hundredths = (um) => (isNumber(um) ? um.toFixed(2).replace('-', '−') : missing);
+
 function marksTable(heights) {
   if (!heights.length) return null;
   const teeth = heights[0].share?.length || 0;
   const marks = heights.some((h) => isNumber(h.once_per_turn_um));
   const head = ['height, mm', 'mean', 'smallest', 'largest', 'Ra', 'Rt',
     ...(marks ? ['once a turn', 'once a tooth'] : []),
-    ...Array.from({ length: teeth }, (_, k) => `tooth ${k + 1}`), 'compliance'];
+    ...(teeth > 1 ? [`teeth 1 to ${teeth}, %`] : []), 'µm/N'];
   const rows = heights.map((h) => [number(h.height_mm, 4),
-    ...['mean_error_mm', 'min_error_mm', 'max_error_mm'].map((key) => fixed(micro(h[key]), 3)),
-    fixed(h.Ra_um, 3), fixed(h.Rt_um, 3),
-    ...(marks ? [fixed(h.once_per_turn_um, 3), fixed(h.once_per_tooth_um, 3)] : []),
-    ...Array.from({ length: teeth }, (_, k) => `${number(100 * h.share[k], 2)} %`),
+    ...['mean_error_mm', 'min_error_mm', 'max_error_mm'].map((key) => hundredths(micro(h[key]))),
+    hundredths(h.Ra_um), hundredths(h.Rt_um),
+    ...(marks ? [hundredths(h.once_per_turn_um), hundredths(h.once_per_tooth_um)] : []),
+    ...(teeth > 1 ? [h.share.map((s) => Math.round(100 * s)).join(' · ')] : []),
     fixed(micro(h.compliance_mm_per_N), 3)]);
   return section('numbers', 'Every height in numbers', 'Numbers',
-    prose('Errors, roughness and amplitudes in µm; the part of the profile that each tooth made; the ' +
-      'deflection of cutter and wall in µm for 1 N spread over the cut.'),
+    prose('Errors, roughness and amplitudes of the marks in µm; how much of the profile each tooth made; what ' +
+      'cutter and wall give way for each newton of the whole force.'),
     table(head, rows, { class: 'rows' }));
 }
