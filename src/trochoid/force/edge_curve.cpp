@@ -1,7 +1,6 @@
 #include <trochoid/force/edge_curve.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -102,37 +101,55 @@ chip::Slice EdgeCurve::slice(const EdgePoint& point) const {
   return slice;
 }
 
-void EdgeCurve::add_seeds(std::vector<double>& grid) const {
+void EdgeCurve::add_passages(double target, std::vector<double>& grid) const {
   constexpr double turn = 2 * std::numbers::pi;
-  std::array<double, 3> targets{std::numbers::pi / 2};
-  std::size_t count = 1;
-  for (const double y : {edges_.passage.stock.y_lo, edges_.passage.stock.y_hi}) {
-    const double x = 2 * y / edges_.setup.cutter.profile.D;
-    if (std::abs(x) < 1) {
-      targets[count++] = std::acos(x);
+  const std::vector<double>& lags = edges_.lag_at_ends;
+  // theta_tip_ - lag = target + k turn, lag in (0, last)
+  double lag = theta_tip_ - target;
+  lag -= turn * std::floor(lag / turn);
+  const int windings = static_cast<int>(std::ceil((lags.back() - lag) / turn));
+  for (int k = 0; k < windings; ++k) {
+    const double at = lag + k * turn;
+    const auto above = std::upper_bound(lags.begin(), lags.end(), at);
+    if (above != lags.begin() && above != lags.end()) {
+      const auto i = static_cast<std::size_t>(above - lags.begin());
+      grid.push_back(edges_.ends[i - 1] + (edges_.ends[i] - edges_.ends[i - 1]) *
+                                              (at - lags[i - 1]) /
+                                              (lags[i] - lags[i - 1]));
     }
   }
-  const std::vector<double>& lags = edges_.lag_at_ends;
-  const double last = lags.back();
-  if (last == 0) {
+}
+
+void EdgeCurve::add_stock_edge(double y, std::vector<double>& grid) const {
+  const double R = edges_.setup.cutter.profile.D / 2;
+  if (std::abs(y) < R) {
+    add_passages(std::acos(y / R), grid);
+  }
+  if (bend_ == nullptr || !std::isfinite(y)) {
     return;
   }
-  for (std::size_t t = 0; t < count; ++t) {
-    // theta_tip_ - lag = target + k turn, lag in (0, last)
-    double lag = theta_tip_ - targets[t];
-    lag -= turn * std::floor(lag / turn);
-    const int windings = static_cast<int>(std::ceil((last - lag) / turn));
-    for (int k = 0; k < windings; ++k) {
-      const double at = lag + k * turn;
-      const auto above = std::upper_bound(lags.begin(), lags.end(), at);
-      if (above != lags.begin() && above != lags.end()) {
-        const auto i = static_cast<std::size_t>(above - lags.begin());
-        grid.push_back(edges_.ends[i - 1] + (edges_.ends[i] - edges_.ends[i - 1]) *
-                                                (at - lags[i - 1]) /
-                                                (lags[i] - lags[i - 1]));
+  // A bent cutter meets it elsewhere: where exactly, follows from the shift there.
+  std::vector<double> here = {edges_.ends.front(), edges_.ends.back()};
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> there;
+    for (const double s : here) {
+      const double met = y - bend_->shift(edges_.point(s).meridian.z);
+      if (std::abs(met) < R) {
+        add_passages(std::acos(met / R), there);
       }
     }
+    grid.insert(grid.end(), there.begin(), there.end());
+    here = there;
   }
+}
+
+void EdgeCurve::add_seeds(std::vector<double>& grid) const {
+  if (edges_.lag_at_ends.back() == 0) {
+    return;
+  }
+  add_passages(std::numbers::pi / 2, grid);
+  add_stock_edge(edges_.passage.stock.y_lo, grid);
+  add_stock_edge(edges_.passage.stock.y_hi, grid);
   std::sort(grid.begin(), grid.end());
 }
 

@@ -78,6 +78,9 @@ class EdgeCurve {
 
  private:
   [[nodiscard]] chip::Slice slice(const EdgePoint& point) const;
+  /// Where the edge passes an angle.
+  void add_passages(double target, std::vector<double>& grid) const;
+  void add_stock_edge(double y, std::vector<double>& grid) const;
 
   const Edges& edges_;
   const Bend* bend_;

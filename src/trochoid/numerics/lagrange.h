@@ -24,7 +24,27 @@ class LagrangeBasis {
   /// @param values  at the points, shape (count)
   [[nodiscard]] double value(std::span<const double> values, double x) const noexcept;
 
+  /// @brief The same as a Chebyshev series, which is faster to evaluate.
+  /// @param[out] out  shape (count)
+  void series(std::span<const double> values, std::span<double> out) const noexcept;
+  /// @brief Value of a series at x.
+  [[nodiscard]] double series_value(std::span<const double> series,
+                                    double x) const noexcept {
+    const double t = (x - middle_) * per_half_;
+    double next = 0.0;
+    double after = 0.0;
+    for (std::size_t k = series.size(); k-- > 1;) {
+      const double b = series[k] + 2 * t * next - after;
+      after = next;
+      next = b;
+    }
+    return series[0] + t * next - after;
+  }
+
  private:
+  std::vector<double> to_series_;  ///< shape (count, count)
+  double middle_ = 0.0;
+  double per_half_ = 0.0;
   std::vector<double> points_;
   std::vector<double> barycentric_;
 };

@@ -214,10 +214,14 @@ base::Answer surface(const inputs::Case& given, const Progress& progress) {
               {"feedback", feedback_name(map.feedback)}};
   if (!map.converged) {
     answer.ok = false;
-    answer.message = fmt::format(
-        "after {} turns the deflection still changed by {:.2g} % from turn to turn: no "
-        "state was found that repeats",
-        map.turns, 100 * map.change);
+    answer.message =
+        map.found ? fmt::format(
+                        "after {} turns the deflection still changed by {:.2g} % from "
+                        "turn to turn: no state was found that repeats",
+                        map.turns, 100 * map.change)
+                  : "no deflection agrees with the chip that it makes: the force pulls "
+                    "cutter "
+                    "and wall together faster than they resist";
     answer.result = result.dump();
     return answer;
   }

@@ -174,6 +174,7 @@ numerics::PeriodicPieces moments_of(const inputs::Case& given,
   surface::BentTurn bent =
       surface::bent_turn(edges, K, compliance, map.feedback, setting.tolerance);
   map.converged = bent.converged;
+  map.found = bent.found;
   map.turns = bent.turns;
   map.change = bent.change;
   return std::move(bent.moments);

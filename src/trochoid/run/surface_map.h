@@ -40,6 +40,7 @@ struct SurfaceMap {
   surface::Feedback feedback = surface::Feedback::none;
   double sigma = 1.0;  ///< F_normal = sigma F_y
   bool converged = true;
+  bool found = true;    ///< false: no deflection agrees with the chip it makes
   int turns = 1;        ///< until the deflection repeated
   double change = 0.0;  ///< of the deflection in the last turn, relative
   std::vector<MapRow> rows;

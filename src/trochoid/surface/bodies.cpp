@@ -40,7 +40,7 @@ std::vector<double> Compliance::of_wall(std::span<const double> heights,
   const auto on_the_wall = [&](std::span<const double> from) {
     std::vector<double> y;
     for (const double height : from) {
-      y.push_back(std::min(height, a_p_) + tip);
+      y.push_back(std::min(std::min(height, a_p_) + tip, bodies_.wall->height));
     }
     return y;
   };
@@ -70,7 +70,7 @@ std::vector<double> Compliance::rows(std::span<const double> heights) const {
     const double top = bodies_.wall->height;
     std::vector<double> observed(heights.begin(), heights.end());
     for (double& y : observed) {
-      y += top - a_p_;
+      y = std::min(y + top - a_p_, top);
     }
     const std::vector<double> wall =
         bodies_.wall->plate->line_load(x_, observed, x_, top - a_p_, top);

@@ -1,5 +1,6 @@
 #include <trochoid/surface/feedback.h>
 
+#include <trochoid/numerics/least_squares.h>
 #include <trochoid/surface/scale.h>
 
 #include <algorithm>
@@ -29,12 +30,21 @@ double dot(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
+/// What a solution must reach, and beyond what there is none.
+struct Limits {
+  double allowed = 0.0;  ///< of the residual [m]
+  double largest = 0.0;  ///< deflection [m]
+};
+
+/// Steps on the way may overshoot the largest deflection by this.
+constexpr double lost = 50;
+
 /// @brief u with image(u) = u, by Broyden's method from the Jacobian -1 of the
 /// residual.
 /// @src C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 7.3: only
 ///      the steps are kept
 template <class Image>
-bool solve_fixed_point(const Image& image, Values& u, double allowed) {
+bool solve_fixed_point(const Image& image, Values& u, const Limits& limits) {
   constexpr int most_steps = 60;
   Values r(u.size());
   std::vector<Values> steps;
@@ -43,8 +53,11 @@ bool solve_fixed_point(const Image& image, Values& u, double allowed) {
     for (std::size_t i = 0; i < u.size(); ++i) {
       r[i] -= u[i];
     }
-    if (largest_of(r) <= allowed) {
-      return true;
+    if (largest_of(r) <= limits.allowed) {
+      return largest_of(u) <= limits.largest;
+    }
+    if (largest_of(u) > lost * limits.largest) {
+      return false;
     }
     Values z = r;
     for (std::size_t n = 0; n < steps.size(); ++n) {
@@ -61,6 +74,56 @@ bool solve_fixed_point(const Image& image, Values& u, double allowed) {
     steps.push_back(std::move(z));
   }
   return false;
+}
+
+/// u with image(u) = u, by Newton's method with differences and shortened steps: slow,
+/// and sure where Broyden's method loses its way.
+template <class Image>
+bool solve_by_newton(const Image& image, Values& u, const Limits& limits) {
+  constexpr int most_steps = 40;
+  const std::size_t n = u.size();
+  Values r(n);
+  Values moved(n);
+  const auto residual = [&](const Values& at, Values& out) {
+    image(at, out);
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] -= at[i];
+    }
+  };
+  residual(u, r);
+  for (int k = 0; k < most_steps && largest_of(r) > limits.allowed; ++k) {
+    if (largest_of(u) > limits.largest) {
+      return false;
+    }
+    const double h = std::max(10 * limits.allowed, 1e-4 * largest_of(u));
+    Values J(n * n);
+    for (std::size_t c = 0; c < n; ++c) {
+      Values there = u;
+      there[c] += h;
+      residual(there, moved);
+      for (std::size_t i = 0; i < n; ++i) {
+        J[i * n + c] = (r[i] - moved[i]) / h;
+      }
+    }
+    const Values step = numerics::least_squares(J, static_cast<int>(n), r, 1e-13).x;
+    double share = 1.0;
+    for (; share > 1e-4; share *= 0.5) {
+      Values there = u;
+      for (std::size_t i = 0; i < n; ++i) {
+        there[i] += share * step[i];
+      }
+      residual(there, moved);
+      if (dot(moved, moved) < (1 - 0.2 * share) * dot(r, r)) {
+        u = there;
+        r = moved;
+        break;
+      }
+    }
+    if (share <= 1e-4) {
+      return false;
+    }
+  }
+  return largest_of(r) <= limits.allowed && largest_of(u) <= limits.largest;
 }
 
 /// One passage over the turn, with the deflections of the passage before as the past.
@@ -80,7 +143,7 @@ class Passage {
   }
 
   /// Values of moments, F_x, F_y at phi; false where no state was found.
-  bool at(double phi, double allowed, std::span<double> out) const {
+  bool at(double phi, const Limits& limits, std::span<double> out) const {
     const std::size_t points = basis_.size();
     Values u(points);
     if (past_.functions() > 0) {
@@ -93,7 +156,16 @@ class Passage {
       forces(phi, state, before, unit, out);
       apply(out, result);
     };
-    return solve_fixed_point(image, u, allowed);
+    const Values start = u;
+    if (solve_fixed_point(image, u, limits)) {
+      return true;
+    }
+    u = start;
+    if (solve_by_newton(image, u, limits)) {
+      return true;
+    }
+    u.assign(points, 0.0);
+    return solve_by_newton(image, u, limits);
   }
 
   [[nodiscard]] double largest_bend(std::span<const double> moments) const {
@@ -122,33 +194,37 @@ class Passage {
     }
   }
 
-  /// Deflections when the teeth before each tooth left their marks: shape (teeth,
-  /// teeth, points).
+  /// Deflections when the teeth before each tooth left their marks, as series over the
+  /// height: shape (teeth, teeth, points).
   void look_back(double phi, std::span<double> before) const {
     if (feedback_ != Feedback::regenerative || past_.functions() == 0) {
       return;
     }
     const std::span<const double> back = edges_.back();
+    Values values(basis_.size());
     for (std::size_t k = 0; k < back.size(); ++k) {
-      past_.value(phi - back[k], before.subspan(k * basis_.size(), basis_.size()));
+      past_.value(phi - back[k], values);
+      basis_.series(values, before.subspan(k * basis_.size(), basis_.size()));
     }
   }
 
   void forces(double phi, const Values& u, const Values& before, Values& unit,
               std::span<double> out) const {
+    Values series(basis_.size());
+    basis_.series(u, series);
     force::Bend bend;
-    bend.shift = [&](double z) { return basis_.value(u, z); };
+    bend.shift = [&](double z) { return basis_.series_value(series, z); };
     const bool chip_changes =
         feedback_ == Feedback::direct ||
         (feedback_ == Feedback::regenerative && past_.functions() > 0);
     if (chip_changes) {
       bend.advance = [&](double z, std::size_t tooth, double theta,
                          std::span<double> gained) {
-        const double now = basis_.value(u, z);
+        const double now = basis_.series_value(series, z);
         const double cosine = std::cos(theta);
         for (std::size_t m = 0; m < gained.size(); ++m) {
           const std::size_t mark = tooth * gained.size() + m;
-          const double then = basis_.value(
+          const double then = basis_.series_value(
               std::span(before).subspan(mark * basis_.size(), basis_.size()), z);
           gained[m] = cosine * (now - then);  // E-10
         }
@@ -210,12 +286,13 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
   const Values largest = largest_values(edges, 1, rigid);
   numerics::PeriodicPieces::Options options =
       panels_for(edges, edges.equal_teeth(), largest, tolerance);
-  const double allowed =
-      passage.largest_bend(Values(edges.values(), largest[0])) * 0.1 * tolerance;
+  const double rigid_bend = passage.largest_bend(Values(edges.values(), largest[0]));
+  // A cutter that pulls itself in bends far beyond what a straight one would.
+  const Limits limits{0.1 * tolerance * rigid_bend, 20 * rigid_bend};
   std::atomic<bool> found = true;
   const numerics::PeriodicPieces::Function f = [&](double phi, std::span<double> out) {
     // After the first failure nothing counts any more: flat tables end the search soon.
-    if (!found || !passage.at(phi, allowed, out)) {
+    if (!found || !passage.at(phi, limits, out)) {
       found = false;
       std::fill(out.begin(), out.end(), 0.0);
     }
@@ -235,6 +312,7 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
       break;
     }
   }
+  turn.found = found;
   turn.converged = found && (!remembers || turn.change <= settled * tolerance);
   return turn;
 }

@@ -211,6 +211,19 @@ State first_guess(const Problem& problem, const State& about, double amplitude) 
   return best;
 }
 
+/// Of all readings about the means that an answer without runout predicts [m].
+double answer_rms(const Calibration& found, std::span<const Reading> readings) {
+  const Answer& answer = found.answers[found.chosen];
+  double sum = 0.0;
+  for (std::size_t i = 0; i < found.nominal.size(); ++i) {
+    for (const std::size_t k : found.nominal[i].readings) {
+      const double r = readings[k].error - answer.predicted[i];
+      sum += r * r;
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(readings.size()));
+}
+
 /// Values and errors of the last fit.
 void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
                   RunoutAnswer& answer) {
@@ -301,6 +314,11 @@ RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readin
       problem.pack(best, all), {.max_iterations = 30, .parameter_tolerance = 1e-9});
   best = problem.unpack(fitted.p, all, best);
   describe_fit(problem, all, best, answer);
+  if (answer.ok && answer.rms > answer_rms(found, readings)) {
+    answer.ok = false;
+    answer.message = "no runout was found that explains the readings better than none";
+    return answer;
+  }
   answer.predicted = problem.errors(best, model.forces(best.runout));
   return answer;
 }
