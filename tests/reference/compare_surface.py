@@ -65,9 +65,8 @@ class Surface(unittest.TestCase):
     def run_program(self, name, tables, answered=True):
         text = program.case_text(name, tables)
         answer = program.run("surface", text, self.folder.name, name, 30)
-        self.assertIn(answer.code, (0, 1), f"{name}: {answer.stderr}\n{text}")
-        if (answer.code == 0) != answered:
-            self.fail(f"{name}: exit {answer.code} {answer.stderr}\n{text}")
+        self.assertEqual(answer.code, 0 if answered else 1,
+                         f"{name}: exit {answer.code} {answer.stderr}\n{text}")
         return answer
 
     def near(self, got, want, t, what, scale):
