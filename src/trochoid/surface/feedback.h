@@ -22,7 +22,7 @@ enum class Feedback {
 struct BentTurn {
   numerics::PeriodicPieces moments;  ///< as of with_coefficients
   bool converged = false;
-  bool found = true;  ///< false: at some angle no deflection agrees with its chip
+  bool found = true;    ///< false: at some angle no deflection agrees with its chip
   int turns = 0;        ///< passes over the turn until it repeated
   double change = 0.0;  ///< of the deflection in the last pass, relative to its peak
 };
