@@ -61,17 +61,17 @@ Json answer_json(const inputs::Case& given, const Answer& answer) {
 }
 
 /// The parameters of each file's datum, in the order in which they were fitted.
-Json datum_json(const inputs::Case& given, const Answer& answer) {
+Json datum_json(const inputs::Case& given, const std::vector<Estimate>& datum) {
   Json all = Json::array();
   std::size_t k = 0;
   for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
     Json one = Json::object();
-    if (m.datum_offset && k < answer.datum.size()) {
-      one["offset_mm"] = estimate_json(answer.datum[k++], unit::mm);
+    if (m.datum_offset && k < datum.size()) {
+      one["offset_mm"] = estimate_json(datum[k++], unit::mm);
     }
     std::vector<Json> slopes;
-    while (m.datum_tilt && k < answer.datum.size() && slopes.size() < 2) {
-      slopes.push_back(estimate_json(answer.datum[k++], 1.0));
+    while (m.datum_tilt && k < datum.size() && slopes.size() < 2) {
+      slopes.push_back(estimate_json(datum[k++], 1.0));
     }
     if (!slopes.empty()) {
       one["slopes_mm_per_mm"] = slopes;
@@ -79,6 +79,17 @@ Json datum_json(const inputs::Case& given, const Answer& answer) {
     all.push_back(one);
   }
   return all;
+}
+
+/// `offset_mm` of the first file, and `datum` of all.
+void put_datum(const inputs::Case& given, const std::vector<Estimate>& datum,
+               Json& result) {
+  const bool offset =
+      !datum.empty() && given.machine.surface_measurements.front().datum_offset;
+  result["offset_mm"] = offset ? number(datum.front().value / unit::mm) : Json(nullptr);
+  if (!datum.empty()) {
+    result["datum"] = datum_json(given, datum);
+  }
 }
 
 }  // namespace
@@ -99,13 +110,7 @@ Json calibration_json(const inputs::Case& given,
   const Answer& chosen =
       calibration.answers[std::min(calibration.chosen, calibration.answers.size() - 1)];
   Json result = answer_json(given, chosen);
-  const bool offset = chosen.ok && !chosen.datum.empty() &&
-                      given.machine.surface_measurements.front().datum_offset;
-  result["offset_mm"] =
-      offset ? number(chosen.datum.front().value / unit::mm) : Json(nullptr);
-  if (chosen.ok && !chosen.datum.empty()) {
-    result["datum"] = datum_json(given, chosen);
-  }
+  put_datum(given, chosen.ok ? chosen.datum : std::vector<Estimate>{}, result);
   result["noise_mm"] = chosen.ok ? number(chosen.noise / unit::mm) : Json(nullptr);
   result["means"] = calibration.nominal.size();
   Json answers = Json::array();
@@ -151,6 +156,7 @@ void add_runout(const surface::RunoutAnswer& runout, const inputs::Case& given,
     for (const char* key : {"coefficients", "correlation", "rms_mm"}) {
       result[key] = result["runout"][key];
     }
+    put_datum(given, runout.datum, result);
   }
 }
 
@@ -207,6 +213,10 @@ std::string calibration_table(const inputs::Case& given,
                   joint ? "* all readings, with runout" : "  all readings, with runout",
                   pair(runout.K_tc, names[0].unit), pair(runout.K_rc, names[1].unit),
                   runout.correlation, runout.rms / unit::um);
+  if (!runout_is_seen(runout)) {
+    return text + fmt::format("runout {} um: not clearly different from none\n",
+                              pair(runout.eccentricity, unit::um));
+  }
   text += fmt::format(
       "runout {} um at {} deg{}\n", pair(runout.eccentricity, unit::um),
       pair(runout.angle, unit::deg),

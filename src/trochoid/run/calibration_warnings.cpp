@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace trochoid::run {
 
@@ -46,6 +47,13 @@ void judge_coefficients(const inputs::Case& given, const Answer& chosen,
   }
 }
 
+std::string name_of(const Answer& answer) {
+  return answer.feedback == surface::Feedback::none
+             ? model_name(answer.model)
+             : fmt::format("{} with feedback = \"{}\"", model_name(answer.model),
+                           feedback_name(answer.feedback));
+}
+
 /// Readings of the profile that differ by more than their errors.
 void compare_answers(const inputs::Case& given, const surface::Calibration& calibration,
                      Warnings& warnings) {
@@ -66,15 +74,10 @@ void compare_answers(const inputs::Case& given, const surface::Calibration& cali
                              chosen.model == surface::Model::envelope;
     warnings.push_back(
         {"answers_differ",
-         fmt::format("Read as {}{}, the same readings give {} = {:.4g} and {} = {:.4g} "
-                     "MPa ({}: {:.4g} and {:.4g}){}",
-                     model_name(other.model),
-                     other.feedback == surface::Feedback::none
-                         ? ""
-                         : fmt::format(" with feedback = \"{}\"",
-                                       feedback_name(other.feedback)),
-                     names[0].key, other.K_tc.value / names[0].unit, names[1].key,
-                     other.K_rc.value / names[1].unit, model_name(chosen.model),
+         fmt::format("Read as {}, the same means give {} = {:.4g} and {} = {:.4g} "
+                     "MPa (as {}: {:.4g} and {:.4g}){}",
+                     name_of(other), names[0].key, other.K_tc.value / names[0].unit,
+                     names[1].key, other.K_rc.value / names[1].unit, name_of(chosen),
                      chosen.K_tc.value / names[0].unit,
                      chosen.K_rc.value / names[1].unit,
                      spring_back ? ": the linear reading leaves out that the wall "

@@ -175,12 +175,14 @@ std::string short_table(const inputs::Case& given, const Json& result) {
                         1e3 * number(h, "min_error_mm"),
                         1e3 * number(h, "max_error_mm"), number(h, "Ra_um"));
   }
-  const Json& F = result["forces"];
+  const auto newtons = [&](const char* key) {
+    const double x = number(result["forces"], key);
+    return std::abs(x) < 0.005 ? 0.0 : x;  // else it might print as -0.00
+  };
   text += fmt::format(
       "force across the wall: {:.2f} N mean, {:.2f} to {:.2f} N (positive: pushes "
       "cutter and wall apart)\n",
-      number(F, "F_normal_mean_N"), number(F, "F_normal_min_N"),
-      number(F, "F_normal_max_N"));
+      newtons("F_normal_mean_N"), newtons("F_normal_min_N"), newtons("F_normal_max_N"));
   text += fmt::format("compliance at {:g} mm for the whole force: {:.4g} um/N{}{}\n",
                       number(heights.front(), "height_mm"),
                       1e3 * number(result, "compliance_mm_per_N"),

@@ -106,23 +106,20 @@ void fill_errors(const Pass& pass, const surface::HeightCut& cut, MapRow& row) {
 
 /// A probe reads more where the wall leans over the height.
 void add_slopes(std::vector<MapRow>& rows, double radius) {
+  std::vector<double> heights;
   std::vector<double> mean;
   for (const MapRow& row : rows) {
     double sum = 0.0;
     for (const double e : row.error) {
       sum += e / static_cast<double>(row.error.size());
     }
+    heights.push_back(row.height);
     mean.push_back(sum);
   }
+  const std::vector<double> more = surface::readings_on_slopes(radius, heights, mean);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::size_t a = i == 0 ? 0 : i - 1;
-    const std::size_t b = std::min(i + 1, rows.size() - 1);
-    if (rows[b].height == rows[a].height) {
-      continue;
-    }
-    const double slope = (mean[b] - mean[a]) / (rows[b].height - rows[a].height);
     for (double& e : rows[i].error) {
-      e += surface::reading_on_slope(radius, slope);
+      e += more[i];
     }
   }
 }

@@ -267,6 +267,10 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
   }
   answer.K_tc = estimate(best.K[0], MN_m2 * MN_m2 * G(k, k), freedom);
   answer.K_rc = estimate(best.K[1], MN_m2 * MN_m2 * G(k + 1, k + 1), freedom);
+  for (std::size_t d = 0; d < best.datum.size(); ++d) {
+    answer.datum.push_back(
+        estimate(best.datum[d], um * um * G(k + 2 + d, k + 2 + d), freedom));
+  }
   answer.correlation = G(k, k + 1) / std::sqrt(G(k, k) * G(k + 1, k + 1));
   answer.ok = true;
   answer.message.clear();

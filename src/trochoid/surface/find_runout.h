@@ -16,8 +16,9 @@ struct RunoutAnswer {
   Estimate K_tc;             ///< fitted together with the runout [N/m^2]
   Estimate K_rc;             ///< [N/m^2]
   double correlation = 0.0;  ///< of the two
-  double rms_without = 0.0;  ///< of all readings, runout left out [m]
-  double rms = 0.0;          ///< [m]
+  std::vector<Estimate> datum;    ///< as of Answer
+  double rms_without = 0.0;       ///< of all readings, runout left out [m]
+  double rms = 0.0;               ///< [m]
   std::vector<double> predicted;  ///< shape (readings), datum included [m]
 };
 

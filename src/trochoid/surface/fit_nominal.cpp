@@ -95,22 +95,28 @@ void find_known_combination(const Values& D, const Values& b, int n,
       once.x[0] + answer.known[0] * K[0] + answer.known[1] * K[1], variance, freedom);
 }
 
-/// Sum of squares of b that the datum columns alone leave.
-double left_over(const Values& D, const Values& b, int n) {
+/// What the datum columns alone make of b, with the coefficients where they are.
+numerics::LeastSquares datum_only(const Values& D, const Values& b, int n) {
   const auto count = static_cast<std::size_t>(n);
+  numerics::LeastSquares all;
+  all.x.resize(count);
+  all.residual = b;
   if (n == 2) {
-    double sum = 0.0;
     for (const double x : b) {
-      sum += x * x;
+      all.rss += x * x;
     }
-    return sum;
+    return all;
   }
   Values datum;
   for (std::size_t i = 0; i < b.size(); ++i) {
     datum.insert(datum.end(), D.begin() + static_cast<std::ptrdiff_t>(i * count + 2),
                  D.begin() + static_cast<std::ptrdiff_t>((i + 1) * count));
   }
-  return numerics::least_squares(datum, n - 2, b, 1e-12).rss;
+  const auto part = numerics::least_squares(datum, n - 2, b, 1e-12);
+  std::copy(part.x.begin(), part.x.end(), all.x.begin() + 2);
+  all.residual = part.residual;
+  all.rss = part.rss;
+  return all;
 }
 
 /// Rows that nothing unknown moves say nothing, and do not count: their b becomes 0.
@@ -169,6 +175,36 @@ void set_residuals(const NominalFit& fit, std::span<const double> weighted,
   answer.rms = std::sqrt(sum / count);
 }
 
+/// @param all  errors of all rows, weighted
+/// @param b    the same without the rows that say nothing
+void accept(const NominalFit& fit, const numerics::LeastSquares& solved,
+            const Values& all, const Values& b, Answer& answer) {
+  Values left = solved.residual;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    left[i] += all[i] - b[i];
+  }
+  set_residuals(fit, left, answer);
+  answer.ok = true;
+  answer.message.clear();
+}
+
+/// Half of the last step back. @return whether that still makes a difference
+bool step_back(std::array<double, 2>& step, std::array<double, columns>& K) {
+  constexpr double no_step = 1e-6;
+  for (std::size_t q = 0; q < 2; ++q) {
+    step[q] *= 0.5;
+    K[q] -= step[q];
+  }
+  return std::hypot(step[0], step[1]) > no_step * std::hypot(K[0], K[1]);
+}
+
+/// No step in the direction of an approximate derivative makes it better.
+void stay_there(const numerics::LeastSquares& stay, numerics::LeastSquares& solved) {
+  solved.x = stay.x;
+  solved.residual = stay.residual;
+  solved.rss = stay.rss;
+}
+
 }  // namespace
 
 Values weighted_columns(const NominalFit& fit, const Prediction& at) {
@@ -211,7 +247,7 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
     const Values all = weighted_errors(fit, at);
     Values b = all;
     const int silent = silence_rows(D, n, b);
-    const auto solved = numerics::least_squares(D, n, b, 1 / worst_condition);
+    auto solved = numerics::least_squares(D, n, b, 1 / worst_condition);
     answer.rank = solved.rank;
     answer.condition = solved.condition;
     if (solved.rank < n) {
@@ -220,31 +256,24 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
       return answer;
     }
     // What is left when only the datum may follow tells whether the step was good.
-    const double left = left_over(D, b, n);
-    if (left > best * (1 + 1e-9)) {
-      for (std::size_t q = 0; q < 2; ++q) {
-        step[q] *= 0.5;
-        K[q] -= step[q];
-      }
-      if (std::hypot(step[0], step[1]) > enough * std::hypot(K[0], K[1])) {
-        continue;
-      }
+    const auto stay = datum_only(D, b, n);
+    const bool stuck = stay.rss > best * (1 + 1e-9);
+    if (stuck && step_back(step, K)) {
+      continue;
     }
-    best = std::min(left, best);
+    if (stuck) {
+      stay_there(stay, solved);
+    }
+    best = std::min(stay.rss, best);
     const double size = std::hypot(K[0] + solved.x[0], K[1] + solved.x[1]);
     const double move = std::hypot(solved.x[0], solved.x[1]);
     describe_solution(solved, n, silent, {K[0] + solved.x[0], K[1] + solved.x[1]},
                       answer);
     const double s2 =
         solved.rss / std::max(1.0, static_cast<double>(b.size()) - n - silent);
-    if (move <= enough * size || size == 0 || left - solved.rss <= negligible * s2) {
-      Values left_of_all = solved.residual;
-      for (std::size_t i = 0; i < b.size(); ++i) {
-        left_of_all[i] += all[i] - b[i];
-      }
-      set_residuals(fit, left_of_all, answer);
-      answer.ok = true;
-      answer.message.clear();
+    if (stuck || move <= enough * size || size == 0 ||
+        stay.rss - solved.rss <= negligible * s2) {
+      accept(fit, solved, all, b, answer);
       return answer;
     }
     step = {solved.x[0], solved.x[1]};

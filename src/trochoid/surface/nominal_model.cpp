@@ -175,11 +175,16 @@ NominalModel::Value NominalModel::value(const numerics::PeriodicPieces& moments,
     Kind above = kind;
     below.height = around[0];
     above.height = around[2];
-    const double rise =
-        at_row(moments, stations_->row(station, kind.rows[2]), above).error -
-        at_row(moments, stations_->row(station, kind.rows[0]), below).error;
-    const double slope = rise / (above.height - below.height);
-    value.error += reading_on_slope(setting_.probe_radius, slope);
+    const Value low = at_row(moments, stations_->row(station, kind.rows[0]), below);
+    const Value high = at_row(moments, stations_->row(station, kind.rows[2]), above);
+    const double dz = above.height - below.height;
+    const double r = setting_.probe_radius;
+    const double slope = (high.error - low.error) / dz;
+    value.error += reading_on_slope(r, slope);
+    for (std::size_t c = 0; c < columns; ++c) {
+      value.per_K[c] +=
+          r * slope / std::hypot(1.0, slope) * (high.per_K[c] - low.per_K[c]) / dz;
+    }
   }
   return value;
 }

@@ -32,4 +32,23 @@ double reading_on_slope(double radius, double slope) noexcept {
   return radius * slope * slope / (std::sqrt(1 + slope * slope) + 1);  // E-14
 }
 
+std::vector<double> readings_on_slopes(double radius, std::span<const double> heights,
+                                       std::span<const double> mean) {
+  const std::size_t n = heights.size();
+  std::vector<double> more(n);
+  for (std::size_t i = 0; n > 1 && i < n; ++i) {
+    const std::size_t b = n == 2 ? 0 : std::clamp<std::size_t>(i, 1, n - 2) - 1;
+    const auto chord = [&](std::size_t k, std::size_t l) {
+      return (mean[l] - mean[k]) / (heights[l] - heights[k]);
+    };
+    double slope = chord(b, b + 1);
+    if (n > 2) {
+      const double bend = (chord(b + 1, b + 2) - slope) / (heights[b + 2] - heights[b]);
+      slope += bend * (2 * heights[i] - heights[b] - heights[b + 1]);
+    }
+    more[i] = reading_on_slope(radius, slope);
+  }
+  return more;
+}
+
 }  // namespace trochoid::surface

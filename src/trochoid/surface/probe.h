@@ -23,4 +23,13 @@ std::vector<double> probe_reading(std::span<const double> profile, double step,
 /// @param slope  de/dh, per unit
 double reading_on_slope(double radius, double slope) noexcept;
 
+/// @brief What a sphere reads more at each of some heights.
+/// @eq E-14 with the slope of the parabola through a height and its two nearest; of
+///          one height alone the slope is not known and counts as none
+/// @param heights  above the tip, all different [m]
+/// @param mean     error of the wall at each, along the feed [m]
+/// @return shape of heights [m]
+std::vector<double> readings_on_slopes(double radius, std::span<const double> heights,
+                                       std::span<const double> mean);
+
 }  // namespace trochoid::surface
