@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Run the console blocks of README.md and docs/guide and compare what they print.
+"""Run the console blocks of README.md, docs/guide and examples, compare what they print.
 
 In a block ```console, lines after `$ ` are commands (a trailing backslash continues them),
 all others are their output; `...` stands for anything. The commands of one page share one
@@ -23,7 +23,8 @@ RULES = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 def scratch_clone(top, folder):
     (folder / "run").symlink_to(top / "run")
-    ours = shutil.ignore_patterns("*.identify", "*.simulate", "*.check")
+    ours = shutil.ignore_patterns("*.identify", "*.simulate", "*.check",
+                                  "*.surface", "*.calibrate")
     shutil.copytree(top / "examples", folder / "examples", ignore=ours)
 
 
@@ -52,7 +53,7 @@ def differences(top, page, renew):
                 yield (f"{page}:{line}: $ {step[1]}--- the page says\n{step[2]}"
                        f"--- printed\n{printed}")
                 changes.append((step.start(2), step.end(2), printed))
-    print(f"{page.name}: {count} commands")
+    print(f"{page.relative_to(top)}: {count} commands")
     if count == 0:
         yield f"{page}:1: no console block, so nothing was checked"
     for start, end, printed in reversed(changes if renew else []):
@@ -63,7 +64,8 @@ def differences(top, page, renew):
 def main():
     top = pathlib.Path(sys.argv[-1]).resolve()
     pages = [top / "README.md"]
-    pages += [p for p in sorted(top.glob("docs/guide/*.md")) if BLOCK.search(p.read_text())]
+    more = [*sorted(top.glob("docs/guide/*.md")), *sorted(top.glob("examples/*/README.md"))]
+    pages += [page for page in more if BLOCK.search(page.read_text())]
     found = [text for page in pages for text in differences(top, page, "--renew" in sys.argv)]
     print("\n".join(found))
     return 1 if found else 0
