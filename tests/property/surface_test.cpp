@@ -434,6 +434,7 @@ TEST(Intervals, OfRunoutHoldTheTruth) {  // [E-17]
   const Setting s = made_setting(Model::imprint, with_runout(made_cut(), rho, angle));
   const Setting blind = made_setting(Model::imprint);
   const auto clean = imprints(s, truth, {.heights = made_heights(4)});
+  const Calibration begin = calibrated(blind, clean);
   int held = 0;
   double off = 0.0;
   double stated = 0.0;

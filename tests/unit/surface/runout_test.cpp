@@ -87,8 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(FindRunout, RealProfilesShowIt) {  // [E-17]
   const Setting s =
       made_setting(Model::envelope, with_runout(made_cut(), 2e-6, 200 * unit::deg));
-  const auto readings =
-      profiles(s, K, {.heights = made_heights(5), .per_tooth = 8, .turns = 2});
+  const auto readings = profiles(s, K, {.heights = made_heights(4), .per_tooth = 8});
   const RunoutAnswer r = found(s, readings);
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_FALSE(r.labelled);
@@ -192,7 +191,7 @@ TEST(FindRunout, UnevenPitchesAreTaken) {  // [E-17]
   cut.cutter.pitch = {1.9, 2.2, 2 * pi - 4.1};
   for (const Model model : {Model::quasi_static, Model::imprint, Model::envelope}) {
     const Setting s = made_setting(model, cut);
-    const Measured at{.heights = made_heights(3), .per_tooth = 4};
+    const Measured at{.heights = made_heights(3), .per_tooth = 3};
     const auto readings = model == Model::quasi_static ? pulses(s, K, at)
                           : model == Model::imprint    ? imprints(s, K, at)
                                                        : profiles(s, K, at);
