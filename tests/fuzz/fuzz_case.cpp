@@ -37,8 +37,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
-  for (const auto command : {Command::check, Command::simulate, Command::identify,
-                             Command::surface, Command::calibrate}) {
+  for (const auto command :
+       {Command::check, Command::simulate, Command::identify, Command::surface,
+        Command::calibrate, Command::stability}) {
     read(file, command);
   }
   std::filesystem::remove_all(folder());

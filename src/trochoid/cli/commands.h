@@ -24,6 +24,7 @@ int simulate(const Options& options);
 int identify(const Options& options);
 int surface(const Options& options);
 int calibrate(const Options& options);
+int stability(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

@@ -44,6 +44,10 @@ constexpr Command commands[] = {
     {"calibrate",
      "Cutting coefficients and runout from a measured wall, without a dynamometer",
      trochoid::cli::calibrate},
+    {"stability",
+     "Whether a small vibration grows at the case, and at every speed and depth around "
+     "it",
+     trochoid::cli::stability},
     {"check", "Read a case file and its measurements and name every mistake in them",
      trochoid::cli::check}};
 
@@ -102,9 +106,13 @@ int run(int argc, char** argv) {
   std::string wanted;
   CLI::App* fresh =
       app.add_subcommand("new", "Write a commented case file to start from");
-  fresh->add_option("COMMAND", wanted, "simulate, identify, surface or calibrate")
+  fresh
+      ->add_option("COMMAND", wanted,
+                   "simulate, identify, surface, calibrate or "
+                   "stability")
       ->required()
-      ->check(CLI::IsMember({"simulate", "identify", "surface", "calibrate"}));
+      ->check(
+          CLI::IsMember({"simulate", "identify", "surface", "calibrate", "stability"}));
   fresh->add_option("FILE", options.file, "Where (default: print it)");
   fresh->callback(
       [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });

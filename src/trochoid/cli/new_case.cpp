@@ -15,6 +15,7 @@ inputs::Command command_named(const std::string& name) {
   return name == "identify"    ? inputs::Command::identify
          : name == "surface"   ? inputs::Command::surface
          : name == "calibrate" ? inputs::Command::calibrate
+         : name == "stability" ? inputs::Command::stability
                                : inputs::Command::simulate;
 }
 

@@ -85,7 +85,7 @@ struct Case {
 };
 
 /// Commands differ in the tables that they need.
-enum class Command { check, simulate, identify, surface, calibrate };
+enum class Command { check, simulate, identify, surface, calibrate, stability };
 
 /// @brief Read a case file with all that it includes.
 /// @param result_folder  where `as_understood` will be written: the relative names of

@@ -93,6 +93,16 @@ struct Correction {
   CorrectionStrategy strategy = CorrectionStrategy::inverse;
 };
 
+/// [stability]
+struct Stability {
+  /// First, last and number, the last in the unit of the others; as the file has them.
+  std::vector<double> spindle_speed;  ///< [rad/s]
+  std::vector<double> axial_depth;    ///< [m]
+  double tolerance = 1e-6;            ///< of the multiplier
+  double margin = 0.01;      ///< within this of 1 a multiplier is called marginal
+  double chip_floor = 2e-6;  ///< least chip of the gradient of a power law [m]
+};
+
 struct MachineTables {
   std::optional<CutterBody> cutter_body;
   std::optional<Wall> wall;
@@ -102,6 +112,7 @@ struct MachineTables {
   std::optional<Actuator> actuator;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
+  std::optional<Stability> stability;
 };
 
 }  // namespace trochoid::inputs

@@ -94,6 +94,31 @@ CaseTables calibrate_example() {
   return t;
 }
 
+/// The benchmark of the literature: one mode of 922 Hz along the feed.
+CaseTables stability_example() {
+  CaseTables t;
+  t.title = "Slot with a slender tool";
+  t.tool.teeth = 2;
+  t.tool.diameter = 10 * unit::mm;
+  t.cut.axial_depth = 0.5 * unit::mm;
+  t.cut.feed_per_tooth = 0.05 * unit::mm;
+  t.cut.spindle_speed = 10000 * unit::rpm;
+  t.force.K_tc = 600 * unit::MPa;
+  t.force.K_rc = 200 * unit::MPa;
+  t.force.K_ac = 0.0;
+  t.force.K_te = 0.0;
+  t.force.K_re = 0.0;
+  t.force.K_ae = 0.0;
+  Mode& mode = t.machine.modes.emplace_back();
+  mode.mass = 0.03993;
+  mode.frequency = 922.0;
+  mode.damping_ratio = 0.011;
+  Stability& lobes = t.machine.stability.emplace();
+  lobes.spindle_speed = {5000 * unit::rpm, 25000 * unit::rpm, 101 * unit::rpm};
+  lobes.axial_depth = {0.08 * unit::mm, 4 * unit::mm, 50 * unit::mm};
+  return t;
+}
+
 /// What a new case of a command shows.
 struct Template {
   std::string_view verb;
@@ -118,6 +143,10 @@ Template template_for(Command command) {
               calibrate_example(),
               {"tool", "cut", "chip", "cutter_body", "wall", "surface",
                "surface_measurement"}};
+    case Command::stability:
+      return {"stability",
+              stability_example(),
+              {"tool", "runout", "cut", "chip", "force", "mode", "stability"}};
     default:
       return {"simulate",
               simulate_example(),

@@ -30,6 +30,9 @@ Command purpose_of(Command command, const Node& root) {
   if (has("surface_measurement")) {
     return Command::calibrate;
   }
+  if (has("stability")) {
+    return Command::stability;
+  }
   return has("surface") || has("wall") || has("cutter_body") ? Command::surface
                                                              : Command::simulate;
 }
@@ -42,6 +45,8 @@ std::string_view verb(Command purpose) {
       return "surface";
     case Command::calibrate:
       return "calibrate";
+    case Command::stability:
+      return "stability";
     default:
       return "simulate";
   }
@@ -122,8 +127,9 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   const Node* cut = find(root, "cut");
   const std::string_view wanted = verb(purpose);
   const Reading reading{
-      .coefficients_needed =
-          purpose == Command::simulate || purpose == Command::surface,
+      .coefficients_needed = purpose == Command::simulate ||
+                             purpose == Command::surface ||
+                             purpose == Command::stability,
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(
@@ -195,6 +201,9 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
     check_wall_cut(t, verb(purpose), findings);
   }
   check_surface(t, findings);
+  if (purpose == Command::stability) {
+    check_stability(t, findings);
+  }
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
     settle_surface_file(c.machine.surface_measurements[i], i + 1, findings);

@@ -38,6 +38,10 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
 /// @brief Heights, cut, flutes and wall against one another.
 void check_surface(CaseTables& tables, Findings& findings);
 
+/// @brief Modes that the chip can feel, and the ranges of the lobes; fills in
+/// [stability].
+void check_stability(CaseTables& tables, Findings& findings);
+
 /// @param number  1, 2 ... of the [[surface_measurement]]
 void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings);

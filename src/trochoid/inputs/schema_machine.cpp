@@ -133,12 +133,16 @@ void describe(const Visitor& v, Mode& t) {
   v({.name = "axis", .meaning = "in which direction", .need = Need::always},
     choice(t.axis, axes));
   v({.name = "mass_kg", .meaning = "modal mass", .range = above(0)}, &t.mass);
-  v({.name = "stiffness_N_per_m", .meaning = "modal stiffness", .range = above(0)},
+  v({.name = "stiffness_N_per_m",
+     .meaning = "modal stiffness; may stand in place of the mass or the frequency",
+     .range = above(0),
+     .example = "1340000"},
     &t.stiffness);
   v({.name = "damping_Ns_per_m",
-     .meaning = "modal damping",
+     .meaning = "modal damping; may stand in place of damping_ratio",
      .range = at_least(0),
-     .rival = "damping_ratio"},
+     .rival = "damping_ratio",
+     .example = "5.1"},
     &t.damping);
   v({.name = "frequency_Hz", .meaning = "natural frequency", .range = above(0)},
     &t.frequency);
@@ -194,6 +198,37 @@ void describe(const Visitor& v, Correction& t) {
     choice(t.target, targets));
   v({.name = "strategy", .meaning = "how the command is found"},
     choice(t.strategy, strategies));
+}
+
+void describe(const Visitor& v, Stability& t) {
+  v({.name = "spindle_rpm",
+     .meaning = "first, last and number of the spindle speeds of the lobes",
+     .range = above_up_to(0, 1e6),
+     .count = 3,
+     .standard = "from half to one and a half of that of [cut]",
+     .example = "[5000, 25000, 200]"},
+    &t.spindle_speed);
+  v({.name = "axial_depth_mm",
+     .meaning = "first, last and number of the axial depths of the lobes",
+     .range = above_up_to(0, longest_mm),
+     .count = 3,
+     .standard = "up to twice that of [cut]",
+     .example = "[0.05, 5, 100]"},
+    &t.axial_depth);
+  v({.name = "tolerance",
+     .meaning = "error allowed in the multiplier of the case",
+     .range = between(1e-10, 1e-2)},
+    &t.tolerance);
+  v({.name = "margin",
+     .meaning = "a multiplier this close to 1 is called marginal",
+     .range = from_below(0, 1)},
+    &t.margin);
+  v({.name = "chip_floor_um",
+     .meaning =
+         "in a power law: the slope of the force is taken at no thinner chip, for "
+         "example the radius of the edge",
+     .range = above_up_to(0, 1000)},
+    &t.chip_floor);
 }
 
 }  // namespace trochoid::inputs

@@ -13,5 +13,6 @@ void describe(const Visitor& v, Mode& t);
 void describe(const Visitor& v, Actuator& t);
 void describe(const Visitor& v, ImposedCommand& t);
 void describe(const Visitor& v, Correction& t);
+void describe(const Visitor& v, Stability& t);
 
 }  // namespace trochoid::inputs

@@ -27,7 +27,8 @@ Command command_of(const std::string& text) {
   using Named = std::pair<std::string_view, Command>;
   for (const auto& [name, command] :
        {Named{"check", Command::check}, Named{"identify", Command::identify},
-        Named{"surface", Command::surface}, Named{"calibrate", Command::calibrate}}) {
+        Named{"surface", Command::surface}, Named{"calibrate", Command::calibrate},
+        Named{"stability", Command::stability}}) {
     if (text.starts_with("# command: " + std::string(name) + "\n")) {
       return command;
     }

@@ -59,9 +59,17 @@ TEST(CasePage, NewCalibrateLacksOnlyItsSurface) {
   EXPECT_EQ(folder.problems(text, Command::check), "");
 }
 
+TEST(CasePage, NewStabilityIsAValidCase) {
+  const CaseFolder folder;
+  const std::string text = new_case(Command::stability);
+  EXPECT_EQ(folder.problems(text, Command::stability), "");
+  EXPECT_EQ(folder.problems(text, Command::check), "");
+  EXPECT_EQ(folder.problems(text, Command::simulate), "");
+}
+
 TEST(CasePage, EveryLineOfANewCaseIsExplained) {
-  for (const Command command :
-       {Command::simulate, Command::identify, Command::surface, Command::calibrate}) {
+  for (const Command command : {Command::simulate, Command::identify, Command::surface,
+                                Command::calibrate, Command::stability}) {
     std::istringstream lines(new_case(command));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;
@@ -93,8 +101,8 @@ TEST(CasePage, WhatIsHiddenInANewCaseIsValidTomlWithoutTheHash) {
   const CaseFolder folder;
   static_cast<void>(folder.write("record.csv", "x"));
   static_cast<void>(folder.write("record2.csv", "x"));
-  for (const Command command :
-       {Command::simulate, Command::identify, Command::surface, Command::calibrate}) {
+  for (const Command command : {Command::simulate, Command::identify, Command::surface,
+                                Command::calibrate, Command::stability}) {
     const std::string text = new_case(command);
     const auto hidden = hidden_lines(text);
     EXPECT_GT(hidden.size(), 10U);
@@ -106,7 +114,7 @@ TEST(CasePage, WhatIsHiddenInANewCaseIsValidTomlWithoutTheHash) {
       EXPECT_TRUE(twice || problems.find("not valid TOML") == std::string::npos)
           << changed.substr(at, 80) << problems;
     }
-    if (command == Command::surface || command == Command::calibrate) continue;
+    if (command != Command::simulate && command != Command::identify) continue;
     for (const std::string key : {"pitch_deg", "columns", "cut", "feed_rate_mm_per_min",
                                   "sample_rate_Hz", "sweep_um", "angles_deg"}) {
       const auto at = text.find("\n# " + key + " = ");

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <trochoid/dynamics/multiplier.h>
+
+#include <complex>
+#include <vector>
+
+namespace trochoid::dynamics {
+
+/// How a cut becomes unstable.
+enum class Bifurcation {
+  hopf,             ///< a vibration of its own frequency
+  period_doubling,  ///< every second period alike
+  period_one,       ///< every period alike
+};
+
+Bifurcation bifurcation_of(std::complex<double> multiplier) noexcept;
+
+/// One line of the spectrum of a growing or decaying disturbance.
+struct ChatterLine {
+  double frequency = 0.0;  ///< [Hz]
+  double share = 0.0;      ///< amplitude of q, of the strongest line
+};
+
+/// @brief With which frequencies the least stable disturbance vibrates.
+///
+/// @eq D-12 f_k = |arg(mu) + 2 pi k| / (2 pi P), P the period [s]; amplitude the k-th
+///          Fourier coefficient of q(t) mu^(-t/P)
+/// @src Insperger and others, Multiple chatter frequencies in milling processes (2003)
+/// @param least  lines with less than this share are left out
+/// @return strongest first
+std::vector<ChatterLine> chatter_lines(const Directional& directional,
+                                       const System& system, double Omega,
+                                       double factor, double least);
+
+}  // namespace trochoid::dynamics

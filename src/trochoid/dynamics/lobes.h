@@ -1,0 +1,59 @@
+#pragma once
+
+#include <trochoid/dynamics/directional.h>
+#include <trochoid/dynamics/multiplier.h>
+#include <trochoid/dynamics/system.h>
+
+#include <complex>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trochoid::dynamics {
+
+/// Told how much of a diagram is done, from 0 to 1; may be empty.
+using LobeProgress = std::function<void(double share)>;
+
+/// Multipliers over speed and depth.
+struct LobeGrid {
+  std::vector<double> Omega;                     ///< [rad/s], ascending
+  std::vector<double> depth;                     ///< [m], ascending
+  std::vector<std::complex<double>> multiplier;  ///< shape (speeds, depths)
+  std::vector<double> factor;                    ///< of the nodes, for each speed
+};
+
+/// @brief Multipliers on a grid; for each speed with the nodes that its deepest cut
+/// needs.
+/// @param tolerance  of |mu| there
+LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
+                   std::span<const double> Omega, std::span<const double> depth,
+                   double tolerance, const LobeProgress& progress);
+
+/// Least axial depth at which a cut becomes unstable.
+struct Limit {
+  double Omega = 0.0;                 ///< [rad/s]
+  double depth = 0.0;                 ///< [m]
+  std::complex<double> multiplier{};  ///< there
+  double factor = 1.0;                ///< of the nodes that were enough
+};
+
+/// @brief The least depth with |mu| = 1 among depths looked at.
+///
+/// @eq D-13 |mu(a_p)| = 1, stable at every depth looked at below
+/// @src definition
+/// @param depth      depths to look at [m], ascending, positive; a range of unstable
+///                   depths that lies between two of them is not seen
+/// @param tolerance  of the depth, relative
+/// @return absent where all of them are stable
+std::optional<Limit> limit_depth(const DirectionalModel& model, const System& system,
+                                 double Omega, std::span<const double> depth,
+                                 double tolerance);
+
+/// @brief The limit over the speed, with further speeds where it bends.
+/// @return ascending in Omega; speeds without a limit are left out
+std::vector<Limit> limit_curve(const DirectionalModel& model, const System& system,
+                               const LobeGrid& grid, double tolerance,
+                               const LobeProgress& progress);
+
+}  // namespace trochoid::dynamics
