@@ -96,6 +96,14 @@ class Calibrated(Example):
         for answer in result["answers"][:2]:
             self.assertLess(answer["coefficients"]["K_tc_MPa"]["high"], 800)
 
+    def test_feedback_does_not_hide_that_runout_was_left_out(self):
+        text = self.case.replace('[surface]\n', '[surface]\nfeedback = "entry"\n')
+        answer = self.answer("calibrate", text, self.example)
+        self.assertFalse(answer.result["with_runout"])
+        said = {w["code"]: w["message"] for w in answer.summary["warnings"]}
+        fitted = answer.result["runout"]["coefficients"]["K_tc_MPa"]["value"]
+        self.assertIn(f"K_tc_MPa = {fitted:.4g}", said["runout_in_mean"])
+
     def test_material_toml_is_what_was_found_and_is_taken_in(self):
         answer = self.answer("calibrate", self.case, self.example)
         now, then = (tomllib.loads(p.read_text())

@@ -129,6 +129,32 @@ void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout
         {"runout_in_mean",
          "The mean of a real surface is not free of runout: the coefficients are those "
          "that were fitted together with it."});
+  } else if (runout_is_seen(runout) &&
+             given.machine.surface->model == inputs::SurfaceModel::envelope) {
+    const auto names = coefficient_names(given.law);
+    warnings.push_back(
+        {"runout_in_mean",
+         fmt::format("The answer with feedback is one of means, and the mean of a real "
+                     "surface is not free of runout: fitted together with it, without "
+                     "feedback, {} = {:.4g} and {} = {:.4g}.",
+                     names[0].key, runout.K_tc.value / names[0].unit, names[1].key,
+                     runout.K_rc.value / names[1].unit)});
+  }
+}
+
+/// What is said of feedback in general does not help a fit that cannot take it in.
+void judge_bending(const inputs::Case& given, const surface::RunoutAnswer& runout,
+                   double largest, Warnings& warnings) {
+  Warnings bending;
+  add_bending_warnings(given, largest, bending);
+  for (base::Warning& warning : bending) {
+    if (warning.code == "feedback" && runout_counts(given, runout)) {
+      warning.message =
+          "The deflection is large enough to even out the teeth, which the fit with "
+          "runout leaves out: the cutter may run out more than found, and the "
+          "coefficients may be off by some per cent.";
+    }
+    warnings.push_back(warning);
   }
 }
 
@@ -156,7 +182,7 @@ void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wal
   compare_answers(given, calibration, warnings);
   judge_means(given, calibration, warnings);
   judge_runout(given, runout, warnings);
-  add_bending_warnings(given, largest, warnings);
+  judge_bending(given, runout, largest, warnings);
 }
 
 }  // namespace trochoid::run
