@@ -152,6 +152,40 @@ class Predicted(Example):
         self.assertLess(found, 1.01 * best)
 
 
+class Stability(Example):
+    """Converged multipliers of the benchmark, made by another collocation."""
+
+    WANTED = {0.2: 0.8197427843, 0.5: 1.0739755867, 1.0: 1.4064735254, 2.0: 1.7606359579}
+
+    def test_the_multiplier_at_four_depths(self):
+        text = (EXAMPLES / "stability_922Hz/case.toml").read_text()
+        text = text.replace("[5000, 25000, 101]", "[5000, 6000, 2]")
+        for depth, wanted in self.WANTED.items():
+            case = text.replace("axial_depth_mm = 0.5", f"axial_depth_mm = {depth}")
+            answer = program.run("stability", case, self.folder, f"depth_{depth}")
+            self.assertEqual(answer.code, 0, answer.stderr)
+            mu = answer.result["multiplier"]
+            self.assertAlmostEqual(mu["absolute"], wanted, delta=1e-6)
+            self.assertEqual(mu["period"], "tooth")
+            self.assertEqual(answer.result["stable"], wanted < 1)
+
+    def test_the_limit_is_that_of_the_lobes(self):
+        answer = self.answer("stability", "stability_922Hz")
+        self.assertEqual(answer.code, 0, answer.stderr)
+        limits = answer.columns("limit.csv")
+        self.assertEqual(limits["spindle_rpm"][0], 5000)
+        self.assertAlmostEqual(answer.result["limit_depth_mm"], limits["limit_depth_mm"][0],
+                               delta=2e-5 * limits["limit_depth_mm"][0])
+        lobes = answer.columns("lobes.csv")
+        self.assertEqual(len(lobes["multiplier"]), 101 * 50)
+        limit_at = dict(zip(limits["spindle_rpm"], limits["limit_depth_mm"]))
+        below = [m for n, d, m in zip(*lobes.values()) if n in limit_at and d < limit_at[n]]
+        self.assertGreater(len(below), 1000)
+        self.assertLess(max(below), 1.0)
+        chatter = limits["chatter_frequency_Hz"][0]
+        self.assertTrue(922 < chatter < 1.1 * 922, chatter)
+
+
 class Simulated(Example):
     """Against the transcription."""
 

@@ -1,0 +1,124 @@
+"""`trochoid stability` against the transcription: several modes, helix, pitch, runout, laws.
+
+Angles are chosen so that entry, exit and changes of mark fall on whole steps of the
+semi-discretisation, whose error then falls with the square of the step.
+"""
+import math
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import program
+import stability as st
+
+
+def mode(body, axis, mass, hertz, ratio):
+    """As the file has it, and as the transcription wants it."""
+    omega = 2 * np.pi * hertz
+    sign = 1 if body == "tool" else -1
+    return ({"body": body, "axis": axis, "mass_kg": mass, "frequency_Hz": hertz,
+             "damping_ratio": ratio},
+            (mass, 2 * ratio * omega * mass, mass * omega**2,
+             sign * (axis == "x"), sign * (axis == "y")))
+
+
+X = mode("tool", "x", 0.03993, 922, 0.011)
+Y = mode("tool", "y", 0.04, 1010, 0.02)
+TABLE = mode("table", "x", 0.194, 1490, 0.0213)
+HIGH = mode("tool", "y", 0.01, 2300, 0.015)
+
+
+def tables(mill, engagement):
+    out = {
+        "tool": {"teeth": mill.teeth, "diameter_mm": 1e3 * mill.diameter,
+                 "helix_deg": math.degrees(mill.helix)},
+        "cut": {**engagement, "axial_depth_mm": 1e3 * mill.depth,
+                "feed_per_tooth_mm": 1e3 * mill.feed, "spindle_rpm": mill.rpm},
+        "chip": {"model": "radial"},
+        "stability": {"spindle_rpm": [mill.rpm, 1.1 * mill.rpm, 2],
+                      "axial_depth_mm": [1e3 * mill.depth, 1.1e3 * mill.depth, 2],
+                      "tolerance": 1e-8}}
+    if mill.pitch:
+        out["tool"]["pitch_deg"] = [math.degrees(p) for p in mill.pitch]
+    if mill.offsets:
+        out["runout"] = {"radial_offsets_mm": [1e3 * r for r in mill.offsets]}
+    out["force"] = {"K_tc_MPa": mill.K_t / 1e6, "K_rc_MPa": mill.K_r / 1e6, "K_ac_MPa": 0,
+                    "K_te_N_per_mm": 0, "K_re_N_per_mm": 0, "K_ae_N_per_mm": 0}
+    if mill.power:
+        m_t, m_r, floor = mill.power
+        out["force"] = {"law": "power", "K_t1_MPa": mill.K_t / 1e6, "m_t": m_t,
+                        "K_r1_MPa": mill.K_r / 1e6, "m_r": m_r, "K_a1_MPa": 0, "m_a": 0}
+        out["stability"]["chip_floor_um"] = 1e6 * floor
+    return out
+
+
+SLOT = ({"engagement": "slot"}, 0, np.pi)
+UP = ({"engagement": "up", "radial_depth_mm": 2.5}, 0, np.pi / 3)
+DOWN = ({"engagement": "down", "radial_depth_mm": 2.5}, 2 * np.pi / 3, np.pi)
+
+
+class Compared(unittest.TestCase):
+    def compare(self, modes, where, steps, **other):
+        engagement, entry, leave = where
+        mill = st.Mill(**{"teeth": 2, "K_t": 600e6, "K_r": 200e6, "entry": entry,
+                          "leave": leave, "depth": 0.5e-3, "rpm": 12000,
+                          "modes": [m[1] for m in modes], **other})
+        text = program.case_text("compared", tables(mill, engagement))
+        for given, _ in modes:
+            text += "\n[[mode]]\n" + "".join(
+                f"{k} = {program.toml(v)}\n" for k, v in given.items())
+        with tempfile.TemporaryDirectory() as folder:
+            answer = program.run("stability", text, folder, "case")
+        self.assertEqual(answer.code, 0, answer.stderr)
+        mu = answer.result["multiplier"]
+        turn = mu["absolute"] ** (mill.teeth if mu["period"] == "tooth" else 1)
+        want, change = st.limit(mill, steps)
+        # What the extrapolation leaves is a small part of what it takes away.
+        self.assertLess(abs(turn - want), 0.03 * change + 2e-6, f"{turn} {want} {change}")
+        self.assertLess(change, 0.02 * want)
+
+    def test_one_mode(self):  # [D-3] [D-4] [D-7] [D-11]
+        self.compare([X], SLOT, 120)
+        self.compare([X], UP, 120)
+        self.compare([X], DOWN, 120)
+
+    def test_tool_and_table(self):  # [D-1] [D-2]
+        self.compare([X, TABLE], SLOT, 120)
+        self.compare([X, Y, HIGH, TABLE], DOWN, 120)
+
+    def test_helix(self):  # [D-9]
+        self.compare([X, Y], SLOT, 120, helix=math.radians(40), depth=1e-3)
+        self.compare([X, Y], DOWN, 120, helix=math.radians(30), teeth=3, depth=2e-3)
+
+    def test_unequal_pitch(self):  # [D-8]
+        pitch = tuple(math.radians(p) for p in (168, 192))
+        self.compare([X, Y], SLOT, 120, pitch=pitch)
+        pitch = tuple(math.radians(p) for p in (114, 126, 120))
+        self.compare([X], DOWN, 120, pitch=pitch, teeth=3, depth=1e-3)
+
+    def test_runout(self):  # [D-8]
+        """Half the feed: the long tooth meets its own mark for 30 deg at either end."""
+        self.compare([X], SLOT, 120, offsets=(25e-6, 0.0))
+        self.compare([X, Y], SLOT, 120, offsets=(0.0, 25e-6))
+        self.compare([X], UP, 120, offsets=(25e-6, 0.0))
+        self.compare([X], SLOT, 120, offsets=(25e-6, 0.0), helix=math.radians(30))
+
+    def test_runout_that_keeps_teeth_out(self):  # [D-8]
+        """More than the feed: one tooth of two does all the work."""
+        self.compare([X], DOWN, 120, offsets=(60e-6, 0.0))
+
+    def test_power_law(self):  # [D-5] [D-6]
+        power = (0.3, 0.4, 25e-6)
+        self.compare([X], SLOT, 120, power=power, K_t=200e6, K_r=60e6)
+        self.compare([X, Y], UP, 120, power=power, K_t=200e6, K_r=60e6)
+
+    def test_the_transcription_itself(self):
+        """Its order is two: the change falls by four when the steps double."""
+        mill = st.Mill(2, 600e6, 200e6, 0, np.pi, 0.2e-3, 12000, [X[1]])
+        mu = [st.multiplier(mill, n) for n in (60, 120, 240)]
+        self.assertAlmostEqual((mu[1] - mu[0]) / (mu[2] - mu[1]), 4, delta=0.2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
