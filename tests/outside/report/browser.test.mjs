@@ -75,7 +75,7 @@ async function check(name, options, plots) {
 }
 
 const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2,
-  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0 };
+  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {

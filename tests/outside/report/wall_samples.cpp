@@ -2,6 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/calibrate.h>
+#include <trochoid/run/stability.h>
 #include <trochoid/run/surface.h>
 
 #include <fstream>
@@ -121,6 +122,13 @@ Answer wall(const char* model, const std::filesystem::path& folder) {
       written(folder / "surface.toml", cut + material + wall_table +
                                            "position_mm = 30\n" + surface_table(model));
   return trochoid::run::surface(inputs::read_case(file, inputs::Command::surface), {});
+}
+
+Answer lobes(const std::filesystem::path& folder) {
+  const auto file =
+      written(folder / "stability.toml", inputs::new_case(inputs::Command::stability));
+  return trochoid::run::stability(inputs::read_case(file, inputs::Command::stability),
+                                  {});
 }
 
 Answer calibration(const char* model, bool number_teeth,

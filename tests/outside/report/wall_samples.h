@@ -21,4 +21,7 @@ trochoid::base::Answer calibration(const char* model, bool number_teeth,
 /// @brief Readings at one height, which cannot tell the coefficients apart.
 trochoid::base::Answer one_height(const std::filesystem::path& folder);
 
+/// The lobes of a new case of `stability`.
+trochoid::base::Answer lobes(const std::filesystem::path& folder);
+
 }  // namespace sample

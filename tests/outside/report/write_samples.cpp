@@ -282,6 +282,7 @@ int main(int argc, char** argv) {
           std::pair{"pulse", sample::wall("quasi_static", cases / "pulse")},
           std::pair{"calibrate",
                     sample::calibration("envelope", false, cases / "calibrate")},
+          std::pair{"stability", sample::lobes(cases / "stability")},
           std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
           std::pair{"one_height", sample::one_height(cases / "one_height")}}) {
       const std::string summary = trochoid::results::summary_json(answer);

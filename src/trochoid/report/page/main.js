@@ -1,7 +1,7 @@
 // Builds the page from the data that are embedded in it.
 
 const pages = { simulate: simulatePage, identify: identifyPage, surface: surfacePage,
-  calibrate: calibratePage };
+  calibrate: calibratePage, stability: stabilityPage };
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);

@@ -1,0 +1,145 @@
+// The page of `stability`.
+
+const stabilityKnown = ['multiplier', 'stable', 'verdict', 'limit_depth_mm', 'limit', 'chip_floor',
+  'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes'];
+
+const bifurcations = {
+  hopf: 'a vibration with a frequency of its own',
+  period_doubling: 'a vibration that repeats after two periods',
+  period_one: 'a vibration that repeats with every period',
+};
+
+function stabilityPage(report) {
+  return [
+    { lead: stabilityLead(report.result) },
+    lobesSection(report),
+    limitSection(report),
+    { part: modesSection(report.result.modes) },
+    { part: restSection(report.result, stabilityKnown) },
+  ];
+}
+
+function stabilityLead(result) {
+  const mu = result.multiplier || {};
+  const [strongest] = mu.chatter_frequencies_Hz || [];
+  return [
+    tiles([
+      { label: 'The cut is', value: result.verdict,
+        note: `${number(result.spindle_rpm, 6)} rpm, ${number(result.axial_depth_mm)} mm deep` },
+      { label: `Multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
+        note: 'below 1: a small vibration fades' },
+      { label: 'Least unstable depth at this speed', value: isNumber(result.limit_depth_mm) ?
+        number(result.limit_depth_mm) : 'none', unit: isNumber(result.limit_depth_mm) && 'mm',
+      note: isNumber(result.limit_depth_mm) ? null : `up to ${number(result.greatest_depth_mm)} mm` },
+      { label: 'Strongest frequency', value: isNumber(strongest) ? number(strongest, 5) : null,
+        unit: 'Hz', note: bifurcations[mu.type] },
+    ]),
+    result.chip_floor && prose('A power law has no slope where the chip begins. With a chip floor of ',
+      number(0.5 * result.chip_floor.chip_floor_um), ' and ', number(2 * result.chip_floor.chip_floor_um),
+      ' µm the multiplier is ', number(result.chip_floor.multiplier_at_half, 6), ' and ',
+      number(result.chip_floor.multiplier_at_twice, 6), '.'),
+  ];
+}
+
+/** lobes.csv as rows of equal depth, ascending; null if it is no whole grid. */
+function lobeRows(t) {
+  const [speed, depth, mu] = ['spindle_rpm', 'axial_depth_mm', 'multiplier']
+    .map((name) => columnNamed(t, name));
+  if (!speed?.length || t.drawn !== t.rows) return null;
+  const depths = depth.findIndex((d, i) => i > 0 && d <= depth[i - 1]);
+  if (depths < 2 || speed.length < 2 * depths || speed.length % depths) return null;
+  const x = speed.filter((_, i) => i % depths === 0);
+  return Array.from({ length: depths }, (_, k) => ({
+    height: depth[k], x, mu: x.map((_, i) => mu[i * depths + k]),
+  }));
+}
+
+function lobesSection(report) {
+  const rows = lobeRows(tableNamed(report, 'lobes.csv'));
+  if (!rows) return null;
+  const { result } = report;
+  const limit = tableNamed(report, 'limit.csv');
+  const speeds = columnNamed(limit, 'spindle_rpm') || [];
+  const limits = columnNamed(limit, 'limit_depth_mm') || [];
+  const x = [rows[0].x[0], rows[0].x[rows[0].x.length - 1]];
+  const heights = [rows[0].height, rows[rows.length - 1].height];
+  const view = { label: '|μ|, the multiplier: blue is stable, red is not; the line is the limit',
+    key: 'mu', colors: aroundZero, range: [0.5, 1.5], step: 0, smooth: true };
+  let frame = null;
+  const paint = (c, width, height) => {
+    frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, x, y: heights,
+      xLabel: 'spindle speed [rpm]', yLabel: 'axial depth [mm]' };
+    write(c, view.label, 0, 8, { color: '--ink' });
+    colorBar(c, view, frame.left, frame.width);
+    const values = pictureOf(rows, view, x, heights, Math.round(frame.width * devicePixelRatio),
+      Math.round(frame.height * devicePixelRatio));
+    c.putImageData(imageOf(values, view), Math.round(frame.left * devicePixelRatio),
+      Math.round(frame.top * devicePixelRatio));
+    const { px, py } = plane(c, frame, { grid: false });
+    c.save();
+    c.beginPath();
+    c.rect(frame.left, frame.top, frame.width, frame.height);
+    c.clip();
+    line(c, speeds.map((v, i) => [px(v), py(limits[i])]), '#17212b', 1.8);
+    c.restore();
+    const at = [px(result.spindle_rpm), py(result.axial_depth_mm)];
+    for (const [color, wide] of [['#ffffff', 5], ['#17212b', 2.2]]) {
+      line(c, [[at[0] - 8, at[1]], [at[0] + 8, at[1]]], color, wide);
+      line(c, [[at[0], at[1] - 8], [at[0], at[1] + 8]], color, wide);
+    }
+  };
+  const hint = 'Point at the map for values. The cross is the case.';
+  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, hint);
+  const chart = drawing({ label: 'Map of the multiplier over spindle speed and axial depth', paint,
+    height: (width) => Math.round(Math.min(480, Math.max(330, 0.5 * width))) });
+  chart.canvas.addEventListener('pointermove', (event) => {
+    const box = chart.canvas.getBoundingClientRect();
+    const share = (v, from, size) => Math.min(1, Math.max(0, (v - from) / size));
+    const n = x[0] + (x[1] - x[0]) * share(event.clientX - box.left, frame.left, frame.width);
+    const d = heights[1] - (heights[1] - heights[0]) *
+      share(event.clientY - box.top, frame.top, frame.height);
+    const row = rows[nearest(rows.map((one) => one.height), d)];
+    const i = nearest(row.x, n);
+    readout.replaceChildren(`${number(row.x[i], 6)} rpm, ${number(row.height)} mm: |μ| = `,
+      el('b', {}, number(row.mu[i], 5)));
+  });
+  chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(hint));
+  chart.element.append(readout);
+  const part = section('lobes', 'Stability over speed and depth', 'Lobes',
+    prose('By how much a small vibration grows in a period of the cut, for every spindle speed and ' +
+      'axial depth; everything else as in the case.'), chart.element);
+  return { part, draw: () => chart.resize() };
+}
+
+function limitSection(report) {
+  const t = tableNamed(report, 'limit.csv');
+  const x = columnNamed(t, 'spindle_rpm');
+  if (!x || x.length < 2) return null;
+  const { result } = report;
+  const markers = [{ x: result.spindle_rpm, text: 'the case' }];
+  const chart = figure({ key: 'limit', x, label: 'spindle speed', unit: 'rpm',
+    caption: zoomHint + thinned(t) });
+  const panels = [
+    { label: 'least unstable axial depth', unit: 'mm', height: 200, markers, series: [
+      { name: 'limit', values: columnNamed(t, 'limit_depth_mm'), color: '--s1', width: 1.8 },
+      { name: 'depth of the case', values: x.map(() => result.axial_depth_mm), color: '--s2',
+        dash: [6, 3] }] },
+    { label: 'chatter frequency there', unit: 'Hz', height: 150, markers, series: [
+      { name: '', values: columnNamed(t, 'chatter_frequency_Hz'), color: '--s3' }] },
+  ];
+  const part = section('limit', 'The limit and its frequency', 'Limit',
+    prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
+      'The frequency is the strongest of the vibration that appears at the limit.'), chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+function modesSection(modes) {
+  if (!modes?.length) return null;
+  const rows = modes.map((mode) => [
+    ['x', 'y'].map((axis, i) => (mode.direction[i] ? (mode.direction[i] < 0 ? '−' : '') + axis : ''))
+      .join(' '), number(mode.frequency_Hz, 6), number(100 * mode.damping_ratio, 4),
+    number(mode.mass_kg, 5), number(mode.stiffness_N_per_m, 5)]);
+  return section('modes', 'What vibrates', 'Modes',
+    prose('Directions of the tool relative to the work: a mode of the table moves against it.'),
+    table(['direction', 'frequency, Hz', 'damping, %', 'mass, kg', 'stiffness, N/m'], rows));
+}
