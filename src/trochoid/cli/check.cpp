@@ -1,13 +1,39 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/commands.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/inputs/frf_file.h>
 #include <trochoid/inputs/record_file.h>
+#include <trochoid/inputs/step_file.h>
 #include <trochoid/inputs/surface_file.h>
+#include <trochoid/run/actuator.h>
 #include <trochoid/run/describe_record.h>
+#include <trochoid/run/modes.h>
 
 #include <fmt/core.h>
 
 namespace trochoid::cli {
+
+namespace {
+
+/// The frequency response and the step that a case names.
+void check_machine_files(const inputs::Case& given,
+                         std::vector<std::string>& problems) {
+  const auto look = [&](const auto& read) {
+    try {
+      read();
+    } catch (const base::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  };
+  if (given.machine.frf) {
+    look([&] { inputs::read_frf(run::frf_source(*given.machine.frf)); });
+  }
+  if (given.machine.step) {
+    look([&] { inputs::read_step(run::step_source(*given.machine.step)); });
+  }
+}
+
+}  // namespace
 
 int check(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::check);
@@ -36,6 +62,7 @@ int check(const Options& options) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
+  check_machine_files(given, problems);
   if (!problems.empty()) {
     throw base::InputError(std::move(problems));
   }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace trochoid::cli {
 
@@ -12,6 +14,14 @@ struct Options {
   bool json = false;
   bool quiet = false;
   bool no_report = false;
+
+  // Of a bare data file, which has no case to say them.
+  std::string kind;               ///< of a frequency response; empty: the file says it
+  int modes = 0;                  ///< 0: chosen
+  int dataset = 0;                ///< 0: the only one
+  std::vector<double> band;       ///< lowest and highest frequency [Hz]; empty: all
+  std::optional<double> step_um;  ///< height of a step
+  std::optional<double> start_s;  ///< time of a step
 };
 
 /// Exit codes (DESIGN section 4).
@@ -25,6 +35,8 @@ int identify(const Options& options);
 int surface(const Options& options);
 int calibrate(const Options& options);
 int stability(const Options& options);
+int modes(const Options& options);
+int actuator(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

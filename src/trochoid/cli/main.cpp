@@ -48,6 +48,11 @@ constexpr Command commands[] = {
      "Whether a small vibration grows at the case, and at every speed and depth around "
      "it",
      trochoid::cli::stability},
+    {"modes",
+     "Modal masses, stiffnesses and dampings from a measured frequency response",
+     trochoid::cli::modes},
+    {"actuator", "Gain and dynamics of an actuator from a measured step",
+     trochoid::cli::actuator},
     {"check", "Read a case file and its measurements and name every mistake in them",
      trochoid::cli::check}};
 
@@ -63,6 +68,35 @@ void add_output(CLI::App& app, Options& options) {
                  "Folder for the results (default: CASE.COMMAND beside the case)");
   app.add_flag("--json", options.json, "Print summary.json instead of the table");
   app.add_flag("--no-report", options.no_report, "Do not write report.html");
+}
+
+/// What a bare data file does not say by itself.
+void add_data_options(CLI::App& app, const std::string& command, Options& options) {
+  if (command == "modes") {
+    app.get_option("CASE.toml")
+        ->description(
+            "The measured frequency response (UFF58, or a table), or a case with "
+            "[frf]");
+    app.add_option("--kind", options.kind,
+                   "What was measured, if the file does not say it by its unit")
+        ->check(CLI::IsMember({"receptance", "mobility", "accelerance"}));
+    app.add_option("--modes", options.modes,
+                   "How many modes to fit (default: their number is chosen)")
+        ->check(CLI::Range(1, 20));
+    app.add_option("--band", options.band, "Lowest and highest frequency used, in Hz")
+        ->expected(2);
+    app.add_option("--dataset", options.dataset,
+                   "Which frequency response of a universal file, from 1")
+        ->check(CLI::Range(1, 100000));
+  }
+  if (command == "actuator") {
+    app.get_option("CASE.toml")
+        ->description("The record of the step (CSV), or a case with [step]");
+    app.add_option("--step-um", options.step_um,
+                   "Height of the commanded step (default: from its column)");
+    app.add_option("--start-s", options.start_s,
+                   "When the step was commanded (default: fitted)");
+  }
 }
 
 /// TROCHOID_THREADS limits the threads; anything but a positive number is an error.
@@ -101,18 +135,19 @@ int run(int argc, char** argv) {
     if (std::string(command.name) != "check") {
       add_output(*sub, options);
     }
+    add_data_options(*sub, command.name, options);
     sub->callback([&] { chosen = [&] { return command.run(options); }; });
   }
   std::string wanted;
   CLI::App* fresh =
       app.add_subcommand("new", "Write a commented case file to start from");
   fresh
-      ->add_option("COMMAND", wanted,
-                   "simulate, identify, surface, calibrate or "
-                   "stability")
+      ->add_option(
+          "COMMAND", wanted,
+          "simulate, identify, surface, calibrate, stability, modes or actuator")
       ->required()
-      ->check(
-          CLI::IsMember({"simulate", "identify", "surface", "calibrate", "stability"}));
+      ->check(CLI::IsMember({"simulate", "identify", "surface", "calibrate",
+                             "stability", "modes", "actuator"}));
   fresh->add_option("FILE", options.file, "Where (default: print it)");
   fresh->callback(
       [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });

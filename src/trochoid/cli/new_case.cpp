@@ -16,6 +16,8 @@ inputs::Command command_named(const std::string& name) {
          : name == "surface"   ? inputs::Command::surface
          : name == "calibrate" ? inputs::Command::calibrate
          : name == "stability" ? inputs::Command::stability
+         : name == "modes"     ? inputs::Command::modes
+         : name == "actuator"  ? inputs::Command::actuator
                                : inputs::Command::simulate;
 }
 

@@ -85,13 +85,28 @@ struct Case {
 };
 
 /// Commands differ in the tables that they need.
-enum class Command { check, simulate, identify, surface, calibrate, stability };
+enum class Command {
+  check,
+  simulate,
+  identify,
+  surface,
+  calibrate,
+  stability,
+  modes,
+  actuator
+};
 
 /// @brief Read a case file with all that it includes.
 /// @param result_folder  where `as_understood` will be written: the relative names of
 ///                       files in it count from there; empty: they become absolute
 /// @throws base::InputError with every problem of the file
 Case read_case(const std::filesystem::path& file, Command command,
+               const std::filesystem::path& result_folder = {});
+
+/// @brief The case of a bare data file: [frf] or [step] and nothing else.
+/// @param machine  with `frf` for modes, or `step` for actuator; its `file` is relative
+///                 to where we run
+Case bare_case(const MachineTables& machine, Command command,
                const std::filesystem::path& result_folder = {});
 
 /// @brief A commented case file to start from.

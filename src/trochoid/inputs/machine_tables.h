@@ -50,6 +50,10 @@ struct SurfaceMeasurement {
   std::string location;       ///< file:line:col of its `file` key
 };
 
+/// `detect`: the file says it.
+enum class FrfKind { detect, receptance, mobility, accelerance };
+enum class ResidualTerms { choose, yes, no };
+
 enum class ModeBody { tool, table };
 enum class Axis { x, y, z };
 
@@ -103,6 +107,27 @@ struct Stability {
   double chip_floor = 2e-6;  ///< least chip of the gradient of a power law [m]
 };
 
+/// [frf]: a measured frequency response.
+struct FrfTables {
+  std::string file;      ///< absolute, or relative to where we run
+  std::string location;  ///< file:line:col of its `file` key
+  FrfKind kind = FrfKind::detect;
+  int dataset = 0;           ///< of a universal file, from 1; 0: the only one
+  int modes = 0;             ///< 0: their number is chosen
+  std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
+  ResidualTerms residual_terms = ResidualTerms::choose;
+  ModeBody body = ModeBody::tool;
+  Axis axis = Axis::x;
+};
+
+/// [step]: a measured step of the actuator.
+struct StepTables {
+  std::string file;             ///< absolute, or relative to where we run
+  std::string location;         ///< file:line:col of its `file` key
+  std::optional<double> step;   ///< height of the commanded step [m]
+  std::optional<double> start;  ///< when it was commanded [s]
+};
+
 struct MachineTables {
   std::optional<CutterBody> cutter_body;
   std::optional<Wall> wall;
@@ -110,6 +135,8 @@ struct MachineTables {
   std::vector<SurfaceMeasurement> surface_measurements;
   std::vector<Mode> modes;
   std::optional<Actuator> actuator;
+  std::optional<FrfTables> frf;
+  std::optional<StepTables> step;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
   std::optional<Stability> stability;

@@ -119,6 +119,20 @@ CaseTables stability_example() {
   return t;
 }
 
+CaseTables modes_example() {
+  CaseTables t;
+  t.title = "Tip of the tool, along x";
+  t.machine.frf.emplace().file = "tip_x.csv";
+  return t;
+}
+
+CaseTables actuator_example() {
+  CaseTables t;
+  t.title = "Step of the actuator";
+  t.machine.step.emplace().file = "step.csv";
+  return t;
+}
+
 /// What a new case of a command shows.
 struct Template {
   std::string_view verb;
@@ -147,6 +161,10 @@ Template template_for(Command command) {
       return {"stability",
               stability_example(),
               {"tool", "runout", "cut", "chip", "force", "mode", "stability"}};
+    case Command::modes:
+      return {"modes", modes_example(), {"frf"}};
+    case Command::actuator:
+      return {"actuator", actuator_example(), {"step"}};
     default:
       return {"simulate",
               simulate_example(),

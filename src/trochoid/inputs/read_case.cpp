@@ -33,6 +33,9 @@ Command purpose_of(Command command, const Node& root) {
   if (has("stability")) {
     return Command::stability;
   }
+  if (!has("tool") && (has("frf") || has("step"))) {
+    return has("frf") ? Command::modes : Command::actuator;
+  }
   return has("surface") || has("wall") || has("cutter_body") ? Command::surface
                                                              : Command::simulate;
 }
@@ -47,6 +50,10 @@ std::string_view verb(Command purpose) {
       return "calibrate";
     case Command::stability:
       return "stability";
+    case Command::modes:
+      return "modes";
+    case Command::actuator:
+      return "actuator";
     default:
       return "simulate";
   }
@@ -204,10 +211,21 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   if (purpose == Command::stability) {
     check_stability(t, findings);
   }
+  settle_machine_files(t.machine, findings);
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
     settle_surface_file(c.machine.surface_measurements[i], i + 1, findings);
   }
+  return c;
+}
+
+/// A case about a machine without a cut: modes and actuator need none.
+Case assemble_machine(CaseTables& t, Findings& findings) {
+  Case c;
+  c.title = t.title;
+  check_machine(t.machine, t.tool, findings);
+  settle_machine_files(t.machine, findings);
+  c.machine = t.machine;
   return c;
 }
 
@@ -224,6 +242,15 @@ std::string renamed(const std::string& name, const fs::path& file,
                    .string();
 }
 
+void rename_machine_files(MachineTables& machine, const fs::path& folder) {
+  if (machine.frf) {
+    machine.frf->file = renamed(machine.frf->file, machine.frf->file, folder);
+  }
+  if (machine.step) {
+    machine.step->file = renamed(machine.step->file, machine.step->file, folder);
+  }
+}
+
 }  // namespace
 
 Case read_case(const fs::path& file, Command command, const fs::path& result_folder) {
@@ -231,7 +258,10 @@ Case read_case(const fs::path& file, Command command, const fs::path& result_fol
   Findings findings{.file = file.string()};
   const Command purpose = purpose_of(command, root);
   CaseTables tables = read_tables(root, purpose, findings);
-  Case c = assemble(tables, purpose, findings);
+  const bool no_cut = (purpose == Command::modes || purpose == Command::actuator) &&
+                      find(root, "tool") == nullptr && find(root, "cut") == nullptr;
+  Case c =
+      no_cut ? assemble_machine(tables, findings) : assemble(tables, purpose, findings);
   if (!findings.problems.empty()) {
     throw base::InputError(lines(findings));
   }
@@ -244,7 +274,28 @@ Case read_case(const fs::path& file, Command command, const fs::path& result_fol
     auto& name = tables.machine.surface_measurements[i].file;
     name = renamed(name, c.machine.surface_measurements[i].file, result_folder);
   }
-  c.as_understood = write_case(tables);
+  rename_machine_files(tables.machine, result_folder);
+  c.as_understood = no_cut ? write_machine_case(tables) : write_case(tables);
+  return c;
+}
+
+Case bare_case(const MachineTables& machine, Command command,
+               const fs::path& result_folder) {
+  const bool modes = command == Command::modes;
+  Findings findings{.file = modes ? machine.frf->file : machine.step->file};
+  CaseTables tables;
+  tables.machine = machine;
+  tables.title = fs::path(findings.file).filename().string();
+  check_machine(tables.machine, tables.tool, findings);
+  if (!findings.problems.empty()) {
+    throw base::InputError(lines(findings));
+  }
+  Case c;
+  c.file = findings.file;
+  c.title = tables.title;
+  c.machine = tables.machine;
+  rename_machine_files(tables.machine, result_folder);
+  c.as_understood = write_machine_case(tables);
   return c;
 }
 

@@ -46,6 +46,9 @@ void check_stability(CaseTables& tables, Findings& findings);
 void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings);
 
+/// @brief The same for [frf] and [step].
+void settle_machine_files(MachineTables& machine, Findings& findings);
+
 /// @brief Report a file that is not there or that cannot be a measurement.
 /// @param shown  its name as the case has it
 /// @param what   it must be, in words

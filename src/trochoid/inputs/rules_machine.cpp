@@ -88,7 +88,48 @@ void settle_body(CutterBody& body, const ToolTable& tool, Findings& findings) {
   }
 }
 
+void settle_file(const std::string& key, std::string_view what, std::string& file,
+                 std::string& location, Findings& findings) {
+  const Location named_at = place_of(findings, key);
+  const std::string shown = file;
+  const auto whole = resolved(shown, named_at);
+  if (sound(findings, {key})) {
+    check_file(whole, key, shown, what, findings);
+  }
+  file = whole.string();
+  location = to_string(named_at);
+}
+
+void check_band(const FrfTables& frf, Findings& findings) {
+  if (frf.band.size() == 2 && sound(findings, {"frf.band_Hz"}) &&
+      frf.band[0] >= frf.band[1]) {
+    report(findings, "frf.band_Hz",
+           fmt::format("frf.band_Hz = [{}, {}]: not in order; must be the lowest, then "
+                       "the highest frequency",
+                       frf.band[0], frf.band[1]));
+  }
+}
+
+void check_step(const StepTables& step, Findings& findings) {
+  if (step.step && *step.step == 0 && sound(findings, {"step.step_um"})) {
+    report(findings, "step.step_um",
+           "step.step_um = 0: no step at all; must not be 0 (height of the commanded "
+           "step)");
+  }
+}
+
 }  // namespace
+
+void settle_machine_files(MachineTables& machine, Findings& findings) {
+  if (machine.frf) {
+    settle_file("frf.file", "a frequency response (csv, text or uff)",
+                machine.frf->file, machine.frf->location, findings);
+  }
+  if (machine.step) {
+    settle_file("step.file", "the record of a step (csv)", machine.step->file,
+                machine.step->location, findings);
+  }
+}
 
 void check_machine(MachineTables& machine, const ToolTable& tool, Findings& findings) {
   if (machine.cutter_body) {
@@ -99,6 +140,12 @@ void check_machine(MachineTables& machine, const ToolTable& tool, Findings& find
   }
   if (machine.actuator) {
     check_actuator(*machine.actuator, findings);
+  }
+  if (machine.frf) {
+    check_band(*machine.frf, findings);
+  }
+  if (machine.step) {
+    check_step(*machine.step, findings);
   }
   if (machine.wall) {
     settle_wall(*machine.wall, findings);

@@ -12,6 +12,8 @@ constexpr Names loads[] = {"distributed", "concentrated"};
 constexpr Names feedbacks[] = {"none", "entry", "regenerative", "direct"};
 constexpr Names bodies[] = {"tool", "table"};
 constexpr Names axes[] = {"x", "y", "z"};
+constexpr Names frf_kinds[] = {"detect", "receptance", "mobility", "accelerance"};
+constexpr Names residual_terms[] = {"choose", "yes", "no"};
 constexpr Names command_shapes[] = {"sine", "square", "trapezoid", "table"};
 constexpr Names targets[] = {"peak_force", "chip_area", "least_squares"};
 constexpr Names strategies[] = {"plain", "lead", "inverse", "learning"};
@@ -180,6 +182,57 @@ void describe(const Visitor& v, Actuator& t) {
      .standard = "that of the table's mode"},
     &t.coupling_stiffness);
   v({.name = "slew_um_per_s", .meaning = "greatest speed", .range = above(0)}, &t.slew);
+}
+
+void describe(const Visitor& v, FrfTables& t) {
+  v({.name = "file",
+     .meaning = "the measured frequency response, relative to the file that names it",
+     .need = Need::always},
+    &t.file);
+  v({.name = "kind",
+     .meaning = "displacement, velocity or acceleration over force; needed where the "
+                "file does not say it by its unit"},
+    choice(t.kind, frf_kinds));
+  v({.name = "dataset",
+     .meaning = "which of the frequency responses of a universal file, from 1; 0: the "
+                "only one",
+     .range = between(0, 100000)},
+    &t.dataset);
+  v({.name = "modes",
+     .meaning = "how many modes are fitted; 0: their number is chosen",
+     .range = between(0, 20)},
+    &t.modes);
+  v({.name = "band_Hz",
+     .meaning = "lowest and highest frequency that is used",
+     .range = at_least(0),
+     .count = 2,
+     .standard = "the whole record",
+     .example = "[200, 4000]"},
+    &t.band);
+  v({.name = "residual_terms",
+     .meaning = "two terms that stand for the modes below and above the band"},
+    choice(t.residual_terms, residual_terms));
+  v({.name = "body", .meaning = "what vibrates, for modes.toml"},
+    choice(t.body, bodies));
+  v({.name = "axis", .meaning = "in which direction, for modes.toml"},
+    choice(t.axis, axes));
+}
+
+void describe(const Visitor& v, StepTables& t) {
+  v({.name = "file",
+     .meaning = "the record of the step, relative to the file that names it",
+     .need = Need::always},
+    &t.file);
+  v({.name = "step_um",
+     .meaning = "height of the commanded step",
+     .standard = "from the column command",
+     .example = "6"},
+    &t.step);
+  v({.name = "start_s",
+     .meaning = "when the step was commanded",
+     .standard = "fitted",
+     .example = "0.001"},
+    &t.start);
 }
 
 void describe(const Visitor& v, ImposedCommand& t) {

@@ -11,6 +11,8 @@ void describe(const Visitor& v, Surface& t);
 void describe(const Visitor& v, SurfaceMeasurement& t);
 void describe(const Visitor& v, Mode& t);
 void describe(const Visitor& v, Actuator& t);
+void describe(const Visitor& v, FrfTables& t);
+void describe(const Visitor& v, StepTables& t);
 void describe(const Visitor& v, ImposedCommand& t);
 void describe(const Visitor& v, Correction& t);
 void describe(const Visitor& v, Stability& t);

@@ -20,9 +20,10 @@ TableEntry one(std::string_view name, std::string_view meaning, Table& table,
 
 template <class Table>
 TableEntry perhaps(std::string_view name, std::string_view meaning,
-                   std::optional<Table>& table) {
+                   std::optional<Table>& table, const Commands& needed_by = {}) {
   return {.name = name,
           .meaning = meaning,
+          .needed_by = needed_by,
           .count = [&table] { return std::size_t{table ? 1U : 0U}; },
           .add = [&table] { table.emplace(); },
           .describe = [&table](std::size_t, const Visitor& v) { describe(v, *table); }};
@@ -68,6 +69,10 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
               t.machine.surface_measurements, {"calibrate"}),
       several("mode", "a mode of vibration", t.machine.modes, {"stability"}),
       perhaps("actuator", "the actuator that moves the table", t.machine.actuator),
+      perhaps("frf", "a measured frequency response, from which modes are found",
+              t.machine.frf, {"modes"}),
+      perhaps("step", "a measured step, from which the actuator is found",
+              t.machine.step, {"actuator"}),
       perhaps("command", "an imposed command of the actuator", t.machine.command),
       perhaps("correct", "how runout is to be cancelled", t.machine.correct),
       perhaps("stability", "where stability is looked at, and how exactly",

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace trochoid::inputs {
 
 namespace {
@@ -18,9 +21,14 @@ std::string inline_table(CutTable& cut) {
   return fmt::format("{{ {} }}", text);
 }
 
-}  // namespace
+/// What every cut has, in any case.
+bool is_of_a_cut(std::string_view table) {
+  constexpr std::string_view names[] = {"tool", "runout", "cut",
+                                        "chip", "force",  "sampling"};
+  return std::find(std::begin(names), std::end(names), table) != std::end(names);
+}
 
-std::string write_case(CaseTables& tables) {
+std::string written(CaseTables& tables, bool with_cut) {
   std::string text;
   const Visitor key_line = [&text](const Key& key, const Field& field) {
     CutTable* const* cut = std::get_if<CutTable*>(&field);
@@ -31,6 +39,9 @@ std::string write_case(CaseTables& tables) {
   };
   describe(key_line, tables);
   for (const TableEntry& table : tables_of(tables)) {
+    if (!with_cut && is_of_a_cut(table.name)) {
+      continue;
+    }
     for (std::size_t i = 0; i < table.count(); ++i) {
       text += text.empty() ? "" : "\n";
       text += heading(table) + '\n';
@@ -38,6 +49,16 @@ std::string write_case(CaseTables& tables) {
     }
   }
   return text;
+}
+
+}  // namespace
+
+std::string write_case(CaseTables& tables) {
+  return written(tables, true);
+}
+
+std::string write_machine_case(CaseTables& tables) {
+  return written(tables, false);
 }
 
 }  // namespace trochoid::inputs

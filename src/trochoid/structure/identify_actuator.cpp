@@ -218,7 +218,7 @@ void add_errors(const std::vector<double>& C, std::size_t n, double tau,
             : fmt::format(
                   "the damping ratio, {:.5g} +- {:.1g}, is too near to 1: only "
                   "the sum and the product of the time constants are known",
-                  zeta, 2 * fit.damping_ratio_se);
+                  zeta, 1.96 * fit.damping_ratio_se);
     return;
   }
   const auto T = time_constants(fit.dynamics);

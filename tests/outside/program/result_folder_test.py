@@ -157,7 +157,7 @@ class NewCase(InFolder):
         self.run_program("check", "fresh.toml")
 
     def test_it_is_printed_where_no_file_is_named(self):
-        for command in ("simulate", "identify", "surface", "calibrate"):
+        for command in ("simulate", "identify", "surface", "calibrate", "modes", "actuator"):
             text = self.run_program("new", command).stdout
             self.run_program("new", command, f"{command}.toml")
             self.assertEqual((self.folder / f"{command}.toml").read_text(), text)

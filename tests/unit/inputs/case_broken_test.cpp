@@ -28,7 +28,8 @@ Command command_of(const std::string& text) {
   for (const auto& [name, command] :
        {Named{"check", Command::check}, Named{"identify", Command::identify},
         Named{"surface", Command::surface}, Named{"calibrate", Command::calibrate},
-        Named{"stability", Command::stability}}) {
+        Named{"stability", Command::stability}, Named{"modes", Command::modes},
+        Named{"actuator", Command::actuator}}) {
     if (text.starts_with("# command: " + std::string(name) + "\n")) {
       return command;
     }

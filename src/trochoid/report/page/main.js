@@ -1,7 +1,7 @@
 // Builds the page from the data that are embedded in it.
 
 const pages = { simulate: simulatePage, identify: identifyPage, surface: surfacePage,
-  calibrate: calibratePage, stability: stabilityPage };
+  calibrate: calibratePage, stability: stabilityPage, modes: modesPage, actuator: actuatorPage };
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);

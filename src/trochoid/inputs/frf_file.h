@@ -1,0 +1,53 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/structure/frequency_response.h>
+
+#include <filesystem>
+#include <istream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trochoid::inputs {
+
+/// Which frequency response is meant.
+struct FrfSource {
+  std::filesystem::path file;  ///< absolute, or relative to where we run
+  std::string location;        ///< file:line:col of its name in a case; empty: none
+  /// Needed where the file does not say it.
+  std::optional<structure::ResponseKind> kind;
+  int dataset = 0;  ///< of the frequency responses of a universal file, from 1; 0: the
+                    ///< only one
+};
+
+struct FrfFile {
+  structure::FrequencyResponse response;  ///< in SI
+  std::string description;  ///< what it is, in words, where the file says it
+  std::vector<base::Warning> notes;
+};
+
+/// @brief Read a measured frequency response.
+///
+/// Three forms, told apart by their content: a universal file with sets 58 or 58b; a
+/// table with a row of names (`freq_Hz`, and `re` and `im` or `mag` and `phase_deg`,
+/// the unit in the name); rows of three numbers, frequency in Hz, real and imaginary
+/// part, in SI.
+/// @throws base::InputError with every problem of the file
+FrfFile read_frf(const FrfSource& source);
+
+/// @brief The same from text.
+/// @param name  of the file, for messages
+FrfFile read_frf(const std::string& text, const std::string& name,
+                 const FrfSource& source);
+
+/// A unit of a response, and what it measures.
+struct ResponseUnit {
+  structure::ResponseKind kind = structure::ResponseKind::receptance;
+  double factor = 1.0;  ///< to SI
+};
+
+/// @brief `m/N`, `mm/s/N`, `(m/s^2)/N`, `g/N` ...; none when it is no such unit.
+std::optional<ResponseUnit> response_unit(std::string_view text);
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,144 @@
+// The pages of `modes` and `actuator`: what was measured, with the fit through it.
+
+const modesKnown = ['kind', 'modes', 'lines', 'band_Hz', 'explained', 'description'];
+const actuatorKnown = ['gain', 'frequency_Hz', 'damping_ratio', 'time_constants_s', 'se',
+  'identifiable', 'sum_s', 'product_s2'];
+const kindLabels = { receptance: 'displacement over force', mobility: 'velocity over force',
+  accelerance: 'acceleration over force' };
+
+/** A value and half of its 95 % interval, to the digits that the interval leaves. */
+const withError = (value, se) => (isNumber(value)
+  ? [measured(value, 1.96 * se), isNumber(se) ? el('small', {}, ` ± ${number(1.96 * se, 2)}`) : null]
+  : missing);
+
+function modesPage(report) {
+  const { result } = report;
+  const modes = Array.isArray(result.modes) ? result.modes : [];
+  return [
+    { part: null, lead: tiles([
+      ...modes.slice(0, 4).map((mode, i) => ({ label: `Mode ${i + 1}`,
+        value: mode.frequency_Hz, unit: 'Hz',
+        note: `damping ratio ${number(mode.damping_ratio, 3)}` })),
+      isNumber(result.explained) && { label: 'Explained by the fit',
+        value: `${number(100 * result.explained, 4)}`, unit: '%' },
+    ]) },
+    { part: modesTable(modes) },
+    responseSection(report),
+    { part: restSection(result, modesKnown) },
+  ];
+}
+
+function modesTable(modes) {
+  if (!modes.length) return null;
+  const keys = ['frequency_Hz', 'damping_ratio', 'mass_kg', 'stiffness_N_per_m',
+    'damping_Ns_per_m'];
+  const rows = modes.map((mode, i) => [`${i + 1}`,
+    ...keys.map((key) => withError(mode[key], mode.se?.[key]))]);
+  return section('modes', 'The modes', 'Modes',
+    table(['', 'frequency, Hz', 'damping ratio', 'mass, kg', 'stiffness, N/m',
+      'damping, N s/m'], rows, { class: 'fits' }),
+    prose('± half of a 95 % interval, if what the fit leaves is noise. What a wrong calibration ' +
+      'of hammer or sensor does is not in it.'));
+}
+
+/** Magnitude in dB, phase in degrees, real and imaginary part of one response. */
+function polar(re, im) {
+  return {
+    magnitude: re.map((a, i) => (Math.hypot(a, im[i]) > 0
+      ? 20 * Math.log10(Math.hypot(a, im[i])) : null)),
+    phase: re.map((a, i) => Math.atan2(im[i], a) * 180 / Math.PI),
+  };
+}
+
+function responseSection(report) {
+  const t = tableNamed(report, 'fitted.csv');
+  const x = columnNamed(t, 'frequency_Hz');
+  if (!x?.length) return null;
+  const part = (prefix) => t.columns.find((column) => column.name.startsWith(prefix))?.values;
+  const re = part('re_');
+  const im = part('im_');
+  const fittedRe = part('fitted_re_');
+  const fittedIm = part('fitted_im_');
+  const unit = { receptance: 'm/N', mobility: 'm/s/N', accelerance: 'm/s²/N' }[
+    report.result.kind] || '';
+  const of = polar(re, im);
+  const fit = fittedRe ? polar(fittedRe, fittedIm) : null;
+  const both = (values, fitted) => [
+    { name: 'measured', values, color: '--measured', width: 2.2 },
+    fitted && { name: 'fit', values: fitted, color: '--s1', width: 1.6 },
+  ].filter(Boolean);
+  const marks = (report.result.modes || []).map((mode, i) => ({ x: mode.frequency_Hz,
+    text: `${i + 1}`, color: '--soft' }));
+  const chart = figure({ key: 'frequency', x, label: 'frequency', unit: 'Hz',
+    caption: zoomHint + thinned(t) });
+  const panels = [
+    { label: '|H|', unit: `dB re 1 ${unit}`, height: 190,
+      series: both(of.magnitude, fit?.magnitude), markers: marks },
+    { label: 'phase', unit: '°', height: 120, series: both(of.phase, fit?.phase) },
+    { label: 'real part', unit, height: 130, series: both(re, fittedRe) },
+    { label: 'imaginary part', unit, height: 130, series: both(im, fittedIm) },
+  ];
+  return { part: section('response', 'Frequency response', 'Response',
+    prose(sentence(kindLabels[report.result.kind] || 'the response'),
+      report.result.description ? `: ${report.result.description}. ` : '. ',
+      fit ? 'Grey is what was measured, blue the modes together.' : 'Grey is what was measured.'),
+    chart.element), draw: () => chart.draw(panels) };
+}
+
+function actuatorPage(report) {
+  const { result } = report;
+  const T = result.time_constants_s;
+  return [
+    { part: null, lead: tiles([
+      { label: 'Gain', value: result.gain },
+      { label: 'Natural frequency', value: result.frequency_Hz, unit: 'Hz' },
+      { label: 'Damping ratio', value: result.damping_ratio,
+        note: Array.isArray(T) ? `time constants ${T.map((t) => number(1000 * t, 4)).join(' and ')} ms` : '' },
+      { label: 'Gain down by 3 dB', value: result.half_power_frequency_Hz, unit: 'Hz' },
+    ]) },
+    { part: actuatorTable(result) },
+    stepSection(report),
+    { part: restSection(result, actuatorKnown) },
+  ];
+}
+
+function actuatorTable(result) {
+  if (!isNumber(result.gain)) return null;
+  const se = result.se || {};
+  const T = result.time_constants_s;
+  const rows = [
+    ['gain', withError(result.gain, se.gain)],
+    ['natural frequency, Hz', withError(result.frequency_Hz, se.frequency_Hz)],
+    ['damping ratio', withError(result.damping_ratio, se.damping_ratio)],
+    ['sum of the time constants, s', withError(result.sum_s, se.sum_s)],
+    ['product of the time constants, s²', withError(result.product_s2, se.product_s2)],
+    ...(Array.isArray(T) ? T.map((t, i) => [`${i ? 'shorter' : 'longer'} time constant, s`,
+      withError(t, se.time_constants_s?.[i])]) : []),
+  ];
+  const why = result.identifiable?.time_constants_s;
+  return section('actuator', 'The actuator', 'Actuator',
+    table(['', 'value ± half of its 95 % interval'], rows, { class: 'fits' }),
+    why ? prose(`No single time constants: ${why}.`) : null);
+}
+
+function stepSection(report) {
+  const t = tableNamed(report, 'fitted.csv');
+  const x = columnNamed(t, 'time_s');
+  const position = columnNamed(t, 'position_um');
+  if (!x?.length || !position) return null;
+  const fitted = columnNamed(t, 'fitted_um');
+  const command = columnNamed(t, 'command_um');
+  const chart = figure({ key: 'time', x, label: 'time', unit: 's',
+    caption: zoomHint + thinned(t) });
+  const panels = [{ label: 'position', unit: 'µm', height: 240, series: [
+    command && { name: 'command', values: command, color: '--soft', dash: [6, 3] },
+    { name: 'measured', values: position, color: '--measured', width: 2.2 },
+    fitted && { name: 'fit', values: fitted, color: '--s1', width: 1.6 },
+  ].filter(Boolean) }];
+  if (fitted) {
+    panels.push({ label: 'measured less fit', unit: 'µm', height: 110, series: [
+      { name: '', values: position.map((y, i) => y - fitted[i]), color: '--s1' }] });
+  }
+  return { part: section('step', 'The step', 'Step', chart.element),
+    draw: () => chart.draw(panels) };
+}

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/step_file.h>
+
+namespace trochoid::run {
+
+/// @brief Which step [step] means.
+inputs::StepSource step_source(const inputs::StepTables& step);
+
+/// @brief Gain and dynamics of an actuator from the step of a case.
+/// @param given  with [step]
+/// @throws base::InputError when the file cannot be read
+base::Answer actuator(const inputs::Case& given);
+
+}  // namespace trochoid::run
