@@ -69,6 +69,19 @@ TEST(Lagrange, AValueInAPointIsThatValueExactly) {
   }
 }
 
+TEST(Lagrange, ItsSeriesIsTheSamePolynomial) {
+  const LagrangeBasis basis(-1.0, 2.5, 9);
+  const auto values = at_points(basis, [](double x) { return std::exp(-x); });
+  std::vector<double> series(9);
+  basis.series(values, series);
+  for (double x = -1.1; x < 2.6; x += 0.0917) {
+    EXPECT_NEAR(basis.series_value(series, x), basis.value(values, x), 1e-13) << x;
+  }
+  const LagrangeBasis one(0.0, 2.0, 1);
+  one.series(std::vector{5.0}, std::span(series).first(1));
+  EXPECT_DOUBLE_EQ(one.series_value(std::span(series).first(1), 0.7), 5.0);
+}
+
 TEST(Lagrange, OnePointIsAConstant) {
   const LagrangeBasis basis(0.0, 2.0, 1);
   const std::vector<double> values = {5.0};
