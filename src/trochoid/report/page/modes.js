@@ -3,6 +3,7 @@
 const modesKnown = ['kind', 'modes', 'lines', 'band_Hz', 'explained', 'description'];
 const actuatorKnown = ['gain', 'frequency_Hz', 'damping_ratio', 'time_constants_s', 'se',
   'identifiable', 'sum_s', 'product_s2'];
+const unitOfKind = { receptance: 'm/N', mobility: 'm/s/N', accelerance: 'm/s²/N' };
 const kindLabels = { receptance: 'displacement over force', mobility: 'velocity over force',
   accelerance: 'acceleration over force' };
 
@@ -14,17 +15,19 @@ const withError = (value, se) => (isNumber(value)
 function modesPage(report) {
   const { result } = report;
   const modes = Array.isArray(result.modes) ? result.modes : [];
+  const rms = Object.entries(result).find(([key]) => key.startsWith('rms_'));
   return [
     { part: null, lead: tiles([
       ...modes.slice(0, 4).map((mode, i) => ({ label: `Mode ${i + 1}`,
         value: mode.frequency_Hz, unit: 'Hz',
         note: `damping ratio ${number(mode.damping_ratio, 3)}` })),
       isNumber(result.explained) && { label: 'Explained by the fit',
-        value: `${number(100 * result.explained, 4)}`, unit: '%' },
+        value: `${number(100 * result.explained, 4)}`, unit: '%',
+        note: rms && `it leaves ${number(rms[1], 3)} ${unitOfKind[result.kind]} (rms)` },
     ]) },
     { part: modesTable(modes) },
     responseSection(report),
-    { part: restSection(result, modesKnown) },
+    { part: restSection(result, [...modesKnown, rms?.[0]]) },
   ];
 }
 
@@ -41,12 +44,16 @@ function modesTable(modes) {
       'of hammer or sensor does is not in it.'));
 }
 
-/** Magnitude in dB, phase in degrees, real and imaginary part of one response. */
-function polar(re, im) {
+/** Where the phase is cut open: half a turn from the middle of the phases of a mode. */
+const middleOfPhase = { receptance: -90, mobility: 0, accelerance: 90 };
+
+/** Magnitude in dB and phase in degrees of one response. */
+function polar(re, im, middle) {
+  const turned = (angle) => middle + (((angle - middle + 180) % 360) + 360) % 360 - 180;
   return {
     magnitude: re.map((a, i) => (Math.hypot(a, im[i]) > 0
       ? 20 * Math.log10(Math.hypot(a, im[i])) : null)),
-    phase: re.map((a, i) => Math.atan2(im[i], a) * 180 / Math.PI),
+    phase: re.map((a, i) => turned(Math.atan2(im[i], a) * 180 / Math.PI)),
   };
 }
 
@@ -59,10 +66,10 @@ function responseSection(report) {
   const im = part('im_');
   const fittedRe = part('fitted_re_');
   const fittedIm = part('fitted_im_');
-  const unit = { receptance: 'm/N', mobility: 'm/s/N', accelerance: 'm/s²/N' }[
-    report.result.kind] || '';
-  const of = polar(re, im);
-  const fit = fittedRe ? polar(fittedRe, fittedIm) : null;
+  const unit = unitOfKind[report.result.kind] || '';
+  const middle = middleOfPhase[report.result.kind] || 0;
+  const of = polar(re, im, middle);
+  const fit = fittedRe ? polar(fittedRe, fittedIm, middle) : null;
   const both = (values, fitted) => [
     { name: 'measured', values, color: '--measured', width: 2.2 },
     fitted && { name: 'fit', values: fitted, color: '--s1', width: 1.6 },
@@ -118,7 +125,7 @@ function actuatorTable(result) {
   const why = result.identifiable?.time_constants_s;
   return section('actuator', 'The actuator', 'Actuator',
     table(['', 'value ± half of its 95 % interval'], rows, { class: 'fits' }),
-    why ? prose(`No single time constants: ${why}.`) : null);
+    why ? prose(`No single time constants: ${why.replace('+-', '±')}.`) : null);
 }
 
 function stepSection(report) {

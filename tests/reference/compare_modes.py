@@ -1,0 +1,61 @@
+"""modes and actuator of the program against the fits of the transcription, on the example."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import tomllib
+import unittest
+
+import numpy as np
+
+import modes
+
+EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples/tap_test"
+TRUTH = tomllib.loads((EXAMPLE / "truth.toml").read_text())
+KEYS = ("mass_kg", "stiffness_N_per_m", "damping_Ns_per_m")
+
+
+def answer(*arguments):
+    with tempfile.TemporaryDirectory(prefix="trochoid_") as folder:
+        out = pathlib.Path(folder) / "out"
+        subprocess.run([os.environ["TROCHOID"], *map(str, arguments), "-o", out, "--quiet",
+                        "--no-report"], check=True)
+        return json.loads((out / "summary.json").read_text())["result"]
+
+
+class Compared(unittest.TestCase):
+    def near(self, ours, theirs, rel):
+        np.testing.assert_allclose(ours, theirs, rtol=rel)
+
+    def test_modes(self):  # [M-6] [M-7]
+        f, re, im = np.loadtxt(EXAMPLE / "tip_x.csv", delimiter=",", skiprows=2).T
+        band = f >= 200
+        truth = [[mode[key] for key in KEYS] for mode in TRUTH["mode"]]
+        expected, se = modes.fit_accelerance(f[band], (re + 1j * im)[band], truth)
+        found = answer("modes", EXAMPLE / "case.toml")["modes"]
+        self.assertEqual(len(found), 2)
+        self.near([[m[key] for key in KEYS] for m in found], expected, 1e-6)
+        self.near([[m["se"][key] for key in KEYS] for m in found], se, 1e-4)
+        # the noise is not white: the strong mode is noisier, and the soft one suffers
+        self.near([m["stiffness_N_per_m"] for m in found], [t[1] for t in truth], 0.03)
+        self.assertLess(np.max(np.abs(expected - truth) / se), 10)
+
+    def test_actuator(self):  # [M-13]
+        t, _, y = np.loadtxt(EXAMPLE / "step.csv", delimiter=",", skiprows=2).T
+        a, s = TRUTH["actuator"], TRUTH["step"]
+        wn = 2 * np.pi * a["frequency_Hz"]
+        truth = np.array([a["gain"], 2 * a["damping_ratio"] / wn, 1 / wn**2])
+        expected, se = modes.fit_step(t, y, s["step_um"], s["start_s"], truth)
+        found = answer("actuator", EXAMPLE / "step.csv", "--start-s", s["start_s"])
+        ours = [found["gain"], found["sum_s"], found["product_s2"]]
+        self.near(ours, expected, 1e-6)
+        self.near([found["se"][key] for key in ("gain", "sum_s", "product_s2")], se, 1e-4)
+        self.assertLess(np.max(np.abs(expected - truth) / se), 4)
+        self.assertIsNone(found["time_constants_s"])
+        free = answer("actuator", EXAMPLE / "case.toml")
+        self.assertLess(abs(free["start_s"] - s["start_s"]), 4 * free["se"]["start_s"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,53 @@
+"""Make the simulated tap test and step of examples/tap_test.
+
+The response is that of two modes with noise, as a hammer and an accelerometer would give it;
+the step that of a second-order actuator with the noise of a capacitive sensor.
+Usage: make_tap_test.py
+"""
+import pathlib
+import tomllib
+
+import numpy as np
+
+EXAMPLE = pathlib.Path(__file__).resolve().parent.parent / "examples/tap_test"
+
+
+def response(truth, f):
+    w = 2 * np.pi * f
+    H = sum(1 / (m["stiffness_N_per_m"] - m["mass_kg"] * w**2
+                 + 1j * m["damping_Ns_per_m"] * w) for m in truth["mode"])
+    return -w**2 * H
+
+
+def step(truth, t):
+    a = truth["actuator"]
+    wn = 2 * np.pi * a["frequency_Hz"]
+    zeta = a["damping_ratio"]
+    wd = wn * np.sqrt(1 - zeta**2)
+    s = np.clip(t - truth["step"]["start_s"], 0, None)
+    y = 1 - np.exp(-zeta * wn * s) * (np.cos(wd * s) + zeta * wn / wd * np.sin(wd * s))
+    return truth["step"]["step_um"] * a["gain"] * y
+
+
+def main():
+    truth = tomllib.loads((EXAMPLE / "truth.toml").read_text())
+    random = np.random.default_rng(20)
+    f = np.arange(100.0, 4000.1, 5.0)
+    H = response(truth, f)
+    noise = random.standard_normal((2, f.size))
+    H = H * (1 + 0.01 * noise[0]) + 0.3 * (noise[1] + 1j * random.standard_normal(f.size))
+    rows = [f"{x:g},{h.real:.6g},{h.imag:.6g}" for x, h in zip(f, H)]
+    (EXAMPLE / "tip_x.csv").write_text("\n".join(
+        ["# simulated: two modes and noise (tools/make_tap_test.py)",
+         "freq_Hz,re_(m/s^2)/N,im_(m/s^2)/N", *rows]) + "\n")
+    t = np.arange(0, 0.03, 5e-5)
+    y = step(truth, t) + 0.02 * random.standard_normal(t.size)
+    command = np.where(t < truth["step"]["start_s"] - 1e-12, 0, truth["step"]["step_um"])
+    rows = [f"{x:.6g},{u:g},{p:.5f}" for x, u, p in zip(t, command, y)]
+    (EXAMPLE / "step.csv").write_text("\n".join(
+        ["# simulated: two poles and noise (tools/make_tap_test.py)",
+         "time_s,command_um,position_um", *rows]) + "\n")
+
+
+if __name__ == "__main__":
+    main()
