@@ -264,6 +264,11 @@ Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
   return passage.model.model == Model::trochoidal ? exact_chip(ray) : simple_chip(ray);
 }
 
+double chip_over_mark(const Passage& passage, const Slice& slice, int tooth,
+                      double theta, int mark) noexcept {
+  return above_mark(ray_at(passage, slice, tooth, theta), mark);
+}
+
 double boundary(const Passage& passage, const Slice& slice, int tooth, double theta,
                 const Chip& a, const Chip& b) noexcept {
   const Ray ray = ray_at(passage, slice, tooth, theta);

@@ -72,6 +72,14 @@ bool ends_at_edge(const Chip& chip) noexcept;
 Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
              double theta) noexcept;
 
+/// @brief Chip thickness over the mark of one earlier tooth alone, whatever the stock.
+///
+/// What min over m of C-2 to C-7 is taken of.
+/// @param mark  m, from 1: how many teeth before
+/// @return [m], may be negative; infinite where that tooth left no mark
+double chip_over_mark(const Passage& passage, const Slice& slice, int tooth,
+                      double theta, int mark) noexcept;
+
 /// @brief A continuous function whose sign changes where the bounds change from those
 /// of `a` to those of `b` (one of which is in cut).
 double boundary(const Passage& passage, const Slice& slice, int tooth, double theta,

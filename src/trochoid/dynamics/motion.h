@@ -1,0 +1,73 @@
+#pragma once
+
+#include <trochoid/dynamics/engaged_grid.h>
+#include <trochoid/dynamics/system.h>
+#include <trochoid/force/law.h>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trochoid::dynamics {
+
+/// @brief A piezo actuator that pushes a table mode through a spring.
+/// @eq T-2 a_2 p'' + a_1 p' + a_0 p = x_com;  force on the table: k_s p + c_s p'
+/// @src [diez] eq. 13, 15, 16 with the poles at -1/T
+struct Drive {
+  std::size_t mode = 0;  ///< of the system: the table along the feed
+  double a_0 = 1.0;      ///< 1/gain
+  double a_1 = 0.0;      ///< [s]
+  double a_2 = 0.0;      ///< [s^2]
+  double k_s = 0.0;      ///< [N/m]
+  double c_s = 0.0;      ///< [N s/m]
+};
+
+/// @brief What moves, what cuts, and for how long.
+struct MotionProblem {
+  force::Setup setup;
+  force::Law law;
+  System system;
+  std::optional<Drive> drive;
+  std::function<double(double t)> command;  ///< x_com [m]; empty: none
+  GridOptions grid;
+  int revolutions = 20;
+  int kept = 1;               ///< last revolutions that are returned
+  int samples_per_rev = 720;  ///< of what is returned
+};
+
+/// One flute in the last revolution.
+struct FluteMotion {
+  double peak_x = 0.0;     ///< largest |F_x| while its tip is in the stock [N]
+  double peak_y = 0.0;     ///< largest |F_y| [N]
+  double chip_area = 0.0;  ///< integral of h over its angle, at the tip's slice [m rad]
+  double peak_chip = 0.0;  ///< [m]
+};
+
+/// @brief Motion in time. Vectors have one value a sample of the kept revolutions.
+struct Motion {
+  std::vector<double> time;                  ///< from the start of the simulation [s]
+  std::vector<double> angle;                 ///< of the tip of tooth 1 [rad]
+  std::vector<std::array<double, 3>> force;  ///< on the tool [N]
+  std::vector<std::vector<double>> mode;     ///< displacement of each mode [m]
+  std::vector<double> actuator;              ///< p [m]
+  std::vector<double> command;               ///< x_com [m]
+  std::vector<std::array<double, 2>> once;   ///< q at the start of every revolution [m]
+  std::vector<FluteMotion> flutes;
+  bool finite = true;        ///< false: it grew beyond all bounds
+  double last_change = 0.0;  ///< largest change of the force from turn to turn [N]
+  double growth = 1.0;       ///< of the change of q, from turn to turn
+  int turns_done = 0;
+};
+
+/// @brief Motion of cutter, table and actuator while the cut goes on.
+///
+/// @eq T-4 m_r q_r'' + c_r q_r' + k_r q_r = (x_r, y_r) . F(t, q(t), q(t - t_m))
+/// @src [diez] eq. 8 to 13, each body in the axes of the workpiece
+/// Second order in the step: exact for a force that is linear over a step, with the
+/// forces on both sides of every entry and exit.
+/// @throws std::invalid_argument where engaged_grid does
+Motion motion(const MotionProblem& problem);
+
+}  // namespace trochoid::dynamics
