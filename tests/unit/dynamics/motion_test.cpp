@@ -1,0 +1,195 @@
+#include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/motion.h>
+#include <trochoid/dynamics/propagator.h>
+#include <trochoid/dynamics/stepper.h>
+#include <trochoid/force/forces.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace trochoid::dynamics {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/// The small tool of the paper on runout correction: 8 mm, two teeth, 26 um apart.
+MotionProblem small_tool() {
+  MotionProblem p;
+  p.setup.cutter = {.profile = geometry::cylinder(8e-3),
+                    .pitch = geometry::equal_pitch(2),
+                    .lag_diameter = 8e-3};
+  p.setup.runout.radial_offsets = {13e-6, -13e-6};
+  p.setup.cut = {geometry::Slot{}, 1e-3, 0.05e-3, 20 * turn};
+  p.setup.chip.model = chip::Model::radial;
+  p.law = force::LinearEdge{.K_tc = 800e6, .K_rc = 300e6, .K_te = 5e3, .K_re = 3e3};
+  p.system.modes = {{0.0324, 25.5, 8e6, 1, 0},
+                    {0.0324, 25.5, 8e6, 0, 1},
+                    {0.194, 77.3, 1.7e7, -1, 0}};
+  p.revolutions = 6;
+  p.grid.steps_per_tooth = 500;
+  return p;
+}
+
+MotionProblem without_cutting() {
+  MotionProblem p = small_tool();
+  p.law = force::LinearEdge{};
+  return p;
+}
+
+}  // namespace
+
+TEST(Propagator, FollowsALinearForceExactly) {  // [T-3]
+  const double m = 0.2;
+  const double c = 80.0;
+  const double k = 2e7;
+  const std::array<double, 4> A = {0, 1, -k / m, -c / m};
+  const std::array<double, 2> B = {0, 1 / m};
+  constexpr double dt = 3e-4;
+  const Propagator p = propagator(A, B, 2, dt);
+  // z = (a + b t, b) solves m x'' + c x' + k x = f with f = c b + k (a + b t).
+  const double a = 2e-6;
+  const double b = 0.01;
+  const double f_0 = c * b + k * a;
+  const double f_1 = f_0 + k * b * dt;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double got =
+        p.Phi[2 * i] * a + p.Phi[2 * i + 1] * b + p.G_0[i] * f_0 + p.G_1[i] * f_1;
+    EXPECT_NEAR(got, i == 0 ? a + b * dt : b, i == 0 ? 1e-15 : 1e-10) << i;
+  }
+}
+
+TEST(Motion, WithoutCuttingTheActuatorStepsAsItsPolesSay) {  // [T-2]
+  MotionProblem p = without_cutting();
+  const double K_0 = 0.99536;
+  const double T = 1.134e-3;  // twice the same, a little above the paper's pair
+  p.drive = Drive{2, 1 / K_0, 2 * T / K_0, T * T / K_0, 1.7e7, 77.3};
+  p.command = [](double) { return 6e-6; };
+  p.kept = 6;
+  const Motion m = motion(p);
+  ASSERT_EQ(m.time.size(), 6U * 720U);
+  for (std::size_t i = 0; i < m.time.size(); i += 37) {
+    const double u = m.time[i] / T;
+    EXPECT_NEAR(m.actuator[i], 6e-6 * K_0 * (1 - (1 + u) * std::exp(-u)), 2e-11) << i;
+  }
+  // The table is a stiff follower: in the end it stands where the actuator stands.
+  EXPECT_NEAR(m.mode[2].back(), 6e-6 * K_0, 1e-11);
+}
+
+TEST(Motion, StiffStructureGivesTheForcesOfSimulate) {  // [T-1] [T-4]
+  for (const int model : {1, 2, 3}) {
+    MotionProblem p = small_tool();
+    p.setup.chip.model = static_cast<chip::Model>(model);
+    for (ChipMode& mode : p.system.modes) {
+      mode.stiffness *= 1e8;
+      mode.damping *= 1e4;
+    }
+    p.samples_per_rev = 90;
+    const Motion m = motion(p);
+    const auto want = force::forces(p.setup, p.law, m.angle, 1e-9);
+    for (std::size_t i = 0; i < want.size(); ++i) {
+      const double theta = std::fmod(m.angle[i], turn / 2);
+      if (theta < 0.01 || theta > turn / 2 - 0.01) {
+        continue;  // the window of motion is the nominal one
+      }
+      EXPECT_NEAR(m.force[i][0], want[i][0], 2e-3) << model << ' ' << i;
+      EXPECT_NEAR(m.force[i][1], want[i][1], 2e-3) << model << ' ' << i;
+    }
+  }
+}
+
+TEST(Motion, HelixIsSummedOverItsSlices) {  // [T-1]
+  MotionProblem p = small_tool();
+  p.setup.cutter.helix = 0.5;
+  p.setup.cut.a_p = 3e-3;
+  p.grid.slices = 60;
+  for (ChipMode& mode : p.system.modes) {
+    mode.stiffness *= 1e8;
+    mode.damping *= 1e4;
+  }
+  p.samples_per_rev = 60;
+  const Motion m = motion(p);
+  const auto want = force::forces(p.setup, p.law, m.angle, 1e-9);
+  double peak = 0.0;
+  double off = 0.0;
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    peak = std::max(peak, std::abs(want[i][1]));
+    off = std::max(off, std::abs(m.force[i][1] - want[i][1]));
+  }
+  EXPECT_LT(off, 0.02 * peak);  // slices enter one by one
+}
+
+TEST(Motion, TheStepIsOfSecondOrder) {  // [T-3]
+  const auto motion_with = [](int steps) {
+    MotionProblem p = small_tool();
+    p.law = force::LinearEdge{.K_tc = 800e6, .K_rc = 300e6};
+    p.grid.steps_per_tooth = steps;
+    p.samples_per_rev = 60;
+    return motion(p).mode;
+  };
+  const auto fine = motion_with(6400);
+  const auto off = [&](int steps) {
+    const auto got = motion_with(steps);
+    double largest = 0.0;
+    for (std::size_t r = 0; r < got.size(); ++r) {
+      for (std::size_t i = 0; i < got[r].size(); ++i) {
+        largest = std::max(largest, std::abs(got[r][i] - fine[r][i]));
+      }
+    }
+    return largest;
+  };
+  const double a = off(200);
+  EXPECT_LT(off(400), 0.4 * a);
+  EXPECT_LT(off(800), 0.12 * a);
+}
+
+TEST(Motion, APushInwardMakesTheChipThinner) {  // [T-1]
+  const MotionProblem p = small_tool();
+  const EngagedGrid grid = engaged_grid(p.setup, {.steps_per_tooth = 100});
+  CutForce cut(p.law, grid);
+  const std::vector<double> still(grid.lookback * grid.nodes + 1, 0.0);
+  const History past{still.data() + still.size() - 1, still.data() + still.size() - 1};
+  const std::size_t middle = grid.nodes / 2;  // theta is 90 degrees: outward is +x
+  ASSERT_NEAR(grid.angle[middle], turn / 4, 0.05);
+  cut.prepare(grid.after[middle], past);
+  EXPECT_LT(cut.chips(-1e-6, 0)[0].second, cut.chips(0, 0)[0].second);
+  EXPECT_GT(cut.force(-1e-6, 0)[0], cut.force(0, 0)[0]);  // less push, F_x is negative
+}
+
+TEST(Motion, SoftToolChattersAndIsSaidTo) {
+  MotionProblem p = small_tool();
+  p.setup.cut.a_p = 3e-3;
+  for (ChipMode& mode : p.system.modes) {
+    mode.stiffness /= 40;
+  }
+  p.revolutions = 30;
+  const Motion m = motion(p);
+  EXPECT_TRUE(!m.finite || m.last_change > 1.0);
+}
+
+TEST(Motion, TheLongFluteTakesWhatTheShortOneLeaves) {  // [T-1]
+  MotionProblem p = small_tool();
+  for (ChipMode& mode : p.system.modes) {
+    mode.stiffness *= 1e8;
+    mode.damping *= 1e4;
+  }
+  const Motion m = motion(p);
+  ASSERT_EQ(m.flutes.size(), 2U);
+  const double both = m.flutes[0].chip_area + m.flutes[1].chip_area;
+  EXPECT_NEAR(both, 4 * 0.05e-3, 1e-3 * both);  // all that there is
+  EXPECT_GT(m.flutes[0].chip_area, 3 * m.flutes[1].chip_area);
+}
+
+TEST(EngagedGrid, RefusesWhatItCannotShift) {
+  MotionProblem p = small_tool();
+  p.setup.cutter.pitch = {3.0, turn - 3.0};
+  EXPECT_THROW(engaged_grid(p.setup, {}), std::invalid_argument);
+  p = small_tool();
+  p.setup.cutter.profile = geometry::ball(8e-3);
+  EXPECT_THROW(engaged_grid(p.setup, {}), std::invalid_argument);
+}
+
+}  // namespace trochoid::dynamics
