@@ -37,6 +37,7 @@ int calibrate(const Options& options);
 int stability(const Options& options);
 int modes(const Options& options);
 int actuator(const Options& options);
+int dynamics(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

@@ -53,6 +53,9 @@ constexpr Command commands[] = {
      trochoid::cli::modes},
     {"actuator", "Gain and dynamics of an actuator from a measured step",
      trochoid::cli::actuator},
+    {"dynamics",
+     "Motion of cutter, table and actuator in time while they cut, with runout",
+     trochoid::cli::dynamics},
     {"check", "Read a case file and its measurements and name every mistake in them",
      trochoid::cli::check}};
 

@@ -93,7 +93,8 @@ enum class Command {
   calibrate,
   stability,
   modes,
-  actuator
+  actuator,
+  dynamics
 };
 
 /// @brief Read a case file with all that it includes.

@@ -54,6 +54,8 @@ std::string_view verb(Command purpose) {
       return "modes";
     case Command::actuator:
       return "actuator";
+    case Command::dynamics:
+      return "dynamics";
     default:
       return "simulate";
   }
@@ -134,9 +136,9 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   const Node* cut = find(root, "cut");
   const std::string_view wanted = verb(purpose);
   const Reading reading{
-      .coefficients_needed = purpose == Command::simulate ||
-                             purpose == Command::surface ||
-                             purpose == Command::stability,
+      .coefficients_needed =
+          purpose == Command::simulate || purpose == Command::surface ||
+          purpose == Command::stability || purpose == Command::dynamics,
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(
@@ -186,6 +188,11 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
   c.gauge_length = t.tool.gauge_length;
+  if (purpose == Command::dynamics &&
+      findings.places.count("sampling.revolutions") == 0) {
+    constexpr double until_it_settles = 20;
+    t.sampling.revolutions = until_it_settles;
+  }
   check_sampling(t.sampling, findings);
   c.sampling = t.sampling;
   const bool to_fit = purpose == Command::identify || !t.measurements.empty();
@@ -212,6 +219,9 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
     check_stability(t, findings);
   }
   settle_machine_files(t.machine, findings);
+  if (purpose == Command::dynamics) {
+    check_dynamics(t, findings);
+  }
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
     settle_surface_file(c.machine.surface_measurements[i], i + 1, findings);

@@ -42,6 +42,10 @@ void check_surface(CaseTables& tables, Findings& findings);
 /// [stability].
 void check_stability(CaseTables& tables, Findings& findings);
 
+/// @brief What motion in time needs: a cylinder of equal pitch, modes along x or y,
+/// whole revolutions, and a table along x for an actuator.
+void check_dynamics(const CaseTables& tables, Findings& findings);
+
 /// @param number  1, 2 ... of the [[surface_measurement]]
 void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings);

@@ -44,15 +44,15 @@ TableEntry several(std::string_view name, std::string_view meaning,
 }  // namespace
 
 std::vector<TableEntry> tables_of(CaseTables& t) {
-  const Commands all_commands{"simulate", "identify", "surface", "calibrate",
-                              "stability"};
+  const Commands all_commands{"simulate",  "identify",  "surface",
+                              "calibrate", "stability", "dynamics"};
   return {
       one("tool", "the cutter", t.tool, all_commands),
       one("runout", "how the teeth stand out; left out: no runout", t.runout),
       one("cut", "the cut; the tool feeds along +x", t.cut, all_commands),
       one("chip", "the model of the uncut chip thickness", t.chip),
       one("force", "the force law and its coefficients, as forces on the tool", t.force,
-          {"simulate", "surface", "stability"}),
+          {"simulate", "surface", "stability", "dynamics"}),
       one("sampling", "where a simulation is evaluated, and how exactly", t.sampling),
       perhaps("dynamometer", "what the channels read; left out: x, y, z",
               t.dynamometer),
@@ -67,7 +67,8 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       perhaps("surface", "how the machined surface is computed", t.machine.surface),
       several("surface_measurement", "a measured surface; several are fitted together",
               t.machine.surface_measurements, {"calibrate"}),
-      several("mode", "a mode of vibration", t.machine.modes, {"stability"}),
+      several("mode", "a mode of vibration", t.machine.modes,
+              {"stability", "dynamics"}),
       perhaps("actuator", "the actuator that moves the table", t.machine.actuator),
       perhaps("frf", "a measured frequency response, from which modes are found",
               t.machine.frf, {"modes"}),

@@ -1,0 +1,72 @@
+#include <trochoid/inputs/number_text.h>
+#include <trochoid/inputs/rules.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::inputs {
+
+namespace {
+
+void check_modes(const MachineTables& machine, Findings& findings) {
+  const auto along = [&](ModeBody body, Axis axis) {
+    return std::any_of(
+        machine.modes.begin(), machine.modes.end(),
+        [&](const Mode& mode) { return mode.body == body && mode.axis == axis; });
+  };
+  const auto only_z = [](const Mode& mode) { return mode.axis == Axis::z; };
+  if (!machine.modes.empty() &&
+      std::all_of(machine.modes.begin(), machine.modes.end(), only_z) &&
+      sound(findings, {"mode[1].axis"})) {
+    report(findings, "mode[1].axis",
+           "mode[1].axis = \"z\": no mode along x or y, which is what the chip feels; "
+           "dynamics needs one");
+  }
+  if (machine.actuator && !along(ModeBody::table, Axis::x) &&
+      sound(findings, {"actuator", "mode"})) {
+    report(
+        findings, "actuator",
+        "[actuator]: there is no [[mode]] with body = \"table\" and axis = \"x\" for "
+        "it to push");
+  }
+  if (machine.command && !machine.actuator) {
+    report(findings, "command",
+           "[command]: there is no [actuator] that could follow it");
+  }
+  if (machine.command && machine.command->shape == CommandShape::table) {
+    report(findings, "command.shape",
+           "command.shape = \"table\": not read by dynamics yet; must be \"sine\", "
+           "\"square\" or \"trapezoid\"");
+  }
+}
+
+}  // namespace
+
+void check_dynamics(const CaseTables& t, Findings& findings) {
+  if (t.tool.shape != Shape::cylinder && sound(findings, {"tool.shape"})) {
+    report(findings, "tool.shape",
+           "tool.shape: motion in time is computed for a cylinder only");
+  }
+  const auto& pitch = t.tool.pitch;
+  if (!pitch.empty() && sound(findings, {"tool.pitch_deg"}) &&
+      std::any_of(pitch.begin(), pitch.end(),
+                  [&](double p) { return std::abs(p - pitch.front()) > 1e-9; })) {
+    report(findings, "tool.pitch_deg",
+           "tool.pitch_deg: motion in time is computed for equal pitches only "
+           "(stability takes others)");
+  }
+  const double turns = t.sampling.revolutions;
+  if ((turns != std::floor(turns) || turns < 1) &&
+      sound(findings, {"sampling.revolutions"})) {
+    report(
+        findings, "sampling.revolutions",
+        fmt::format("sampling.revolutions = {}: must be a whole number of at least 1, "
+                    "from the start of the motion",
+                    number_text(turns)));
+  }
+  check_modes(t.machine, findings);
+}
+
+}  // namespace trochoid::inputs
