@@ -73,8 +73,6 @@ std::vector<std::string> unused_tables(const inputs::Case& given) {
       names.emplace_back(name);
     }
   };
-  add(machine.actuator.has_value(), "[actuator]");
-  add(machine.command.has_value(), "[command]");
   add(machine.correct.has_value(), "[correct]");
   return names;
 }

@@ -172,9 +172,8 @@ class ExitCode(InFolder):
 
     def test_check_says_what_it_read(self):
         self.record()
-        modes = "\n[[mode]]\nbody = \"tool\"\naxis = \"x\"\nmass_kg = 0.03\n" \
-            "stiffness_N_per_m = 8e6\ndamping_ratio = 0.03\n"
-        self.write("cut.toml", identification() + modes)
+        correct = "\n[correct]\nstrategy = \"inverse\"\n"
+        self.write("cut.toml", identification() + correct)
         said = self.run_program("check", "cut.toml").stdout
         rows = [[float(v) for v in line.split(",")] for line in
                 (self.folder / "record.csv").read_text().splitlines()[1:]]
@@ -182,7 +181,7 @@ class ExitCode(InFolder):
         for part in ("cut.toml: no mistakes found", "record.csv: 120 samples",
                      "0.99 revolutions by their angles", "angle from column angle_deg",
                      f"channel 1 from column Fx_N: {low:.1f} to {high:.1f} N",
-                     "[[mode]] is checked, but no command"):
+                     "[correct] is checked, but no command"):
             self.assertIn(part, said)
         self.assertFalse(list(self.folder.glob("cut.*/")))
         self.assertEqual(self.run_program("check", "cut.toml", "-q").stdout, "")
