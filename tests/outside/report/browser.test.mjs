@@ -180,11 +180,11 @@ test('a wall says in words what it is, and what betrays runout', async () => {
 test('a calibration says which answer counts, and why the others differ', async () => {
   const { page, close } = await open('calibrate');
   const text = await page.locator('main').innerText();
-  for (const part of ['with runout, all readings', 'the linear answer of a real profile is wrong',
+  for (const part of ['all readings, with runout', 'the linear answer of a real profile is wrong',
     'only one combination is known well', 'Ten more readings at', 'not numbered', 'µm high']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }
-  assert.equal(await page.locator('.fits .chosen').first().innerText(), 'with runout, all readings');
+  assert.equal(await page.locator('.fits .chosen').first().innerText(), 'all readings, with runout');
   await close();
 });
 

@@ -20,7 +20,7 @@ function readingsOf(result) {
     chosen: !result.with_runout && answer.model === result.model && answer.feedback === result.feedback }));
   const { runout } = result;
   if (runout?.coefficients) {
-    answers.push({ ...runout, name: 'with runout, all readings', color: '--s4',
+    answers.push({ ...runout, name: 'all readings, with runout', color: '--s4',
       model: result.model, pair: pairOf(runout.coefficients), chosen: Boolean(result.with_runout) });
   }
   return answers;
@@ -38,7 +38,7 @@ function calibratePage(report) {
     readingResiduals(report),
     { part: answersTable(result, readings, keys) },
     fitted ? ellipseSection(readings, keys) : null,
-    { part: runoutPart(result, keys) },
+    { part: runoutPart(result) },
     adviceSection(result, keys, fitted),
     { part: datumPart(result) },
     { part: restSection(result, calibrateKnown) },
@@ -63,7 +63,8 @@ function calibrateLead(report, readings, keys) {
         fixed(micro(result.noise_mm), 2) : null, unit: 'µm', note: 'standard deviation' },
       isNumber(result.runout?.eccentricity_mm) && { label: 'Runout',
         value: measured(micro(result.runout.eccentricity_mm), micro(1.96 * result.runout.eccentricity_se_mm)),
-        unit: 'µm', note: `± ${number(micro(1.96 * result.runout.eccentricity_se_mm), 2)} µm, off centre` },
+        unit: 'µm', note: `± ${number(micro(1.96 * result.runout.eccentricity_se_mm), 2)} µm${
+          runoutSeen(result.runout) ? ', off centre' : ': none stands out'}` },
     ]),
     ...verdict(result, readings),
   ];
@@ -86,7 +87,7 @@ function verdict(result, readings) {
   const names = Object.keys(result.coefficients).map((key) => nameAndUnit(key).name);
   const items = alike(far).map(({ of, names: also }) => {
     const change = changeOf(of, chosen);
-    return el('li', {}, el('b', {}, sentence(also.join(', and the same: '))), ': ', symbol(names[0]), ` ${percent(change[0])}, `,
+    return el('li', {}, el('b', {}, sentence(also.join('; the same numbers: '))), ': ', symbol(names[0]), ` ${percent(change[0])}, `,
       symbol(names[1]), ` ${percent(change[1])}. `, whyDifferent(of, chosen, result));
   });
   return [prose('The numbers are those of ', el('b', {}, chosen.name), '. Read in other ways, the same ' +
@@ -124,7 +125,10 @@ function whyDifferent(other, chosen, result) {
   if (result.with_runout) {
     return 'It fits the means only, and the mean of a real wall is not free of runout.';
   }
-  return other.eccentricity_mm !== undefined ? 'Runout was fitted along with the coefficients.' : '';
+  if (!isNumber(other.eccentricity_mm)) return '';
+  const counts = 'It counts runout, fitted along with the coefficients';
+  return chosen.feedback === 'none' ? `${counts}.` :
+    `${counts}, but no feedback; the mean of a real wall is not free of runout.`;
 }
 
 function combinationPart(result, keys) {
@@ -271,7 +275,10 @@ function answersTable(result, readings, keys) {
       el('li', {}, el('b', {}, `${sentence(name)}: `), message))) : null);
 }
 
-function runoutPart(result, keys) {
+/** As the program judges it: three standard errors from none. */
+const runoutSeen = (runout) => runout.eccentricity_mm > 3 * runout.eccentricity_se_mm;
+
+function runoutPart(result) {
   const { runout } = result;
   if (isEmpty(runout)) return null;
   if (!isNumber(runout.eccentricity_mm)) {
@@ -279,11 +286,10 @@ function runoutPart(result, keys) {
   }
   const width = micro(1.96 * runout.eccentricity_se_mm);
   const turn = 1.96 * runout.angle_se_deg;
-  const seen = runout.eccentricity_mm > 3 * runout.eccentricity_se_mm;
   const less = 100 * (1 - runout.rms_mm / runout.rms_without_mm);
   const pitch = runout.angle_known_up_to_deg;
   return section('runout', 'Runout', 'Runout',
-    prose(seen ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
+    prose(runoutSeen(runout) ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
       el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
       ' off its centre, at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
       ' from the tip of tooth 1 towards tooth 2 (95 %).', isNumber(pitch) ?
