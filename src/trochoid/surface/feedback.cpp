@@ -106,20 +106,21 @@ bool solve_by_newton(const Image& image, Values& u, const Limits& limits) {
       }
     }
     const Values step = numerics::least_squares(J, static_cast<int>(n), r, 1e-13).x;
-    double share = 1.0;
-    for (; share > 1e-4; share *= 0.5) {
+    bool better = false;
+    for (int halvings = 0; halvings <= 13 && !better; ++halvings) {
+      const double share = std::ldexp(1.0, -halvings);
       Values there = u;
       for (std::size_t i = 0; i < n; ++i) {
         there[i] += share * step[i];
       }
       residual(there, moved);
-      if (dot(moved, moved) < (1 - 0.2 * share) * dot(r, r)) {
+      better = dot(moved, moved) < (1 - 0.2 * share) * dot(r, r);
+      if (better) {
         u = there;
         r = moved;
-        break;
       }
     }
-    if (share <= 1e-4) {
+    if (!better) {
       return false;
     }
   }

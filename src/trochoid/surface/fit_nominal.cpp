@@ -35,11 +35,11 @@ Values weighted_errors(const NominalFit& fit, const Prediction& at) {
   return b;
 }
 
-/// A coefficient that nothing shows but rounding gets a column of zeros.
-void clear_blind_columns(const Prediction& at, int n, std::span<const Nominal> nominal,
-                         Values& D) {
+/// The weighted columns; zeros for a coefficient that nothing shows but rounding.
+Values seen_columns(const NominalFit& fit, const Prediction& at, int n) {
+  Values D = weighted_columns(fit, at);
   double weights = 0.0;
-  for (const Nominal& row : nominal) {
+  for (const Nominal& row : fit.nominal) {
     weights += static_cast<double>(row.readings.size());
   }
   for (std::size_t c = 0; c < 2; ++c) {
@@ -53,6 +53,7 @@ void clear_blind_columns(const Prediction& at, int n, std::span<const Nominal> n
       }
     }
   }
+  return D;
 }
 
 /// The one combination that is known where the two are not.
@@ -242,8 +243,7 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
       answer.message = "no state was found in which deflection and chip agree";
       return answer;
     }
-    Values D = weighted_columns(fit, at);
-    clear_blind_columns(at, n, fit.nominal, D);
+    const Values D = seen_columns(fit, at, n);
     const Values all = weighted_errors(fit, at);
     Values b = all;
     const int silent = silence_rows(D, n, b);
