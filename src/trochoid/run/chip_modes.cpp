@@ -1,7 +1,6 @@
 #include <trochoid/run/chip_modes.h>
 
-#include <cmath>
-#include <numbers>
+#include <trochoid/structure/mode.h>
 
 namespace trochoid::run {
 
@@ -11,13 +10,9 @@ dynamics::System chip_modes(std::span<const inputs::Mode> modes) {
     if (mode.axis == inputs::Axis::z) {
       continue;
     }
-    dynamics::ChipMode m;
-    const double omega = 2 * std::numbers::pi * mode.frequency.value_or(0.0);
-    m.mass = mode.mass ? *mode.mass : *mode.stiffness / (omega * omega);
-    m.stiffness = mode.stiffness ? *mode.stiffness : *mode.mass * omega * omega;
-    m.damping = mode.damping
-                    ? *mode.damping
-                    : 2 * *mode.damping_ratio * std::sqrt(m.mass * m.stiffness);
+    const structure::Mode whole = structure::completed(
+        {mode.mass, mode.stiffness, mode.damping, mode.frequency, mode.damping_ratio});
+    dynamics::ChipMode m{whole.mass, whole.damping, whole.stiffness};
     const double sign = mode.body == inputs::ModeBody::table ? -1.0 : 1.0;
     m.x = mode.axis == inputs::Axis::x ? sign : 0.0;
     m.y = mode.axis == inputs::Axis::y ? sign : 0.0;
