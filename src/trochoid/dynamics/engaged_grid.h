@@ -31,7 +31,7 @@ struct Contacts {
 ///
 /// @eq T-1 h_j = max(0, min_m [a_jm(phi) + (q(t) - q(t - t_m)) . n_j]), n = (sin, cos);
 ///         a_jm: chip over the mark of the m-th tooth before, without vibration
-/// @src [diez] eq. 14 with the memory of the surface; derived from C-2 to C-7
+/// @src [diez2010] eq. 14 with the memory of the surface; derived from C-2 to C-7
 struct EngagedGrid {
   std::size_t lookback = 0;   ///< how many teeth before are looked at
   std::size_t nodes = 0;      ///< of one pitch

@@ -14,7 +14,7 @@ namespace trochoid::dynamics {
 
 /// @brief A piezo actuator that pushes a table mode through a spring.
 /// @eq T-2 a_2 p'' + a_1 p' + a_0 p = x_com;  force on the table: k_s p + c_s p'
-/// @src [diez] eq. 13, 15, 16 with the poles at -1/T
+/// @src [diez2010] eq. 13, 15, 16 with the poles at -1/T
 struct Drive {
   std::size_t mode = 0;  ///< of the system: the table along the feed
   double a_0 = 1.0;      ///< 1/gain
@@ -64,7 +64,7 @@ struct Motion {
 /// @brief Motion of cutter, table and actuator while the cut goes on.
 ///
 /// @eq T-4 m_r q_r'' + c_r q_r' + k_r q_r = (x_r, y_r) . F(t, q(t), q(t - t_m))
-/// @src [diez] eq. 8 to 13, each body in the axes of the workpiece
+/// @src [diez2010] eq. 8 to 13, each body in the axes of the workpiece
 /// Second order in the step: exact for a force that is linear over a step, with the
 /// forces on both sides of every entry and exit.
 /// @throws std::invalid_argument where engaged_grid does

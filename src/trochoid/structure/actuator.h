@@ -18,7 +18,7 @@ struct ActuatorDynamics {
 
 /// @brief From two first-order lags in a row.
 /// @eq  M-8  G(s) = K_0/((1 + T_1 s)(1 + T_2 s)) = K_0/(1 + S s + P s^2)
-/// @src [diez2012] eq. (15), signs repaired
+/// @src [diez2010] eq. (15), signs repaired
 ActuatorDynamics from_time_constants(double gain, double T1, double T2) noexcept;
 
 /// @brief From the natural frequency and the damping ratio.
@@ -31,13 +31,13 @@ double damping_ratio(const ActuatorDynamics& actuator) noexcept;
 /// @brief The two real time constants, the longer one first; none below the critical
 /// damping.
 /// @eq  M-9  T_{1,2} = (S +- sqrt(S^2 - 4 P))/2
-/// @src [diez2012] eq. (16), reconstructed
+/// @src [diez2010] eq. (16), reconstructed
 std::optional<std::array<double, 2>> time_constants(
     const ActuatorDynamics& actuator) noexcept;
 
 /// @brief The coefficients a0, a1, a2 of a2 y'' + a1 y' + a0 y = u.
 /// @eq  M-10  a_0 = 1/K_0,  a_1 = S/K_0,  a_2 = P/K_0
-/// @src [diez2012] eq. (16), reconstructed
+/// @src [diez2010] eq. (16), reconstructed
 std::array<double, 3> equation_coefficients(const ActuatorDynamics& actuator) noexcept;
 
 /// @brief Motion over command at an angular frequency (M-8).

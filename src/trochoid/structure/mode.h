@@ -30,7 +30,7 @@ struct Motion {
 /// @brief Undamped natural angular frequency [rad/s].
 /// @eq  M-1  omega_n = sqrt(k/m),  zeta = c/(2 sqrt(k m)),  omega_d = omega_n
 ///           sqrt(1-zeta^2)
-/// @src [diez2012] eq. (8) to (10), reconstructed
+/// @src [diez2010] eq. (8) to (10), reconstructed
 double natural_frequency(const Mode& mode) noexcept;
 
 /// @brief Damping as a part of the critical one (M-1).
@@ -52,7 +52,7 @@ Motion free_vibration(const Mode& mode, Motion start, double t) noexcept;
 
 /// @brief Displacement for a force of 1 N at the angular frequency omega [m/N].
 /// @eq  M-3  H(omega) = 1/(k - m omega^2 + i c omega)
-/// @src [diez2012] eq. (11), reconstructed
+/// @src [diez2010] eq. (11), reconstructed
 std::complex<double> receptance(const Mode& mode, double omega) noexcept;
 
 }  // namespace trochoid::structure
