@@ -67,7 +67,6 @@ class Run {
     motion_.flutes.resize(static_cast<std::size_t>(problem.setup.cutter.teeth()));
     motion_.mode.resize(problem.system.modes.size());
     last_turn_.resize(grid_.angle.size());
-    command_ = command_at(0.0);
   }
 
   Motion go() {
@@ -84,16 +83,13 @@ class Run {
       ++motion_.turns_done;
     }
     motion_.growth = growth();
+    add_command();
     return std::move(motion_);
   }
 
  private:
   [[nodiscard]] History past(std::size_t at) const {
     return {q_x_.data() + at, q_y_.data() + at};
-  }
-
-  [[nodiscard]] double command_at(double t) const {
-    return problem_.command ? problem_.command(t) : 0.0;
   }
 
   /// @return the force at the start of the next step
@@ -105,12 +101,16 @@ class Run {
     if (n + 1 == problem_.revolutions) {
       watch_flutes(i, F);
     }
-    const double command = command_at(phi / omega_ + dt_[node]);
+    if (problem_.observe) {
+      problem_.observe(phi / omega_, F, stepper_.table());
+    }
+    const double middle = phi / omega_ + 0.5 * dt_[node];
+    const double command = problem_.command ? problem_.command(middle) : 0.0;
     if (kept) {
       start_ = stepper_.snapshot();
+      commands_.push_back({middle, command});
     }
-    stepper_.begin(node, F, {command_, command});
-    command_ = command;
+    stepper_.begin(node, F, command);
     cut_.prepare(grid_.before[next], past(index_ + 1));
     const Force end = force_at_end(F);
     stepper_.accept(end);
@@ -176,7 +176,23 @@ class Run {
       }
       motion_.actuator.push_back(
           problem_.drive ? between(start_.back(), end.back(), dt, t) : 0.0);
-      motion_.command.push_back(command_at(motion_.time.back()));
+    }
+  }
+
+  /// The command at the samples, from what it was in the middle of the steps.
+  void add_command() {
+    if (commands_.size() < 2) {  // it ran away as soon as it was kept
+      motion_.command.assign(motion_.time.size(), 0.0);
+      return;
+    }
+    std::size_t i = 1;
+    for (const double t : motion_.time) {
+      while (i + 1 < commands_.size() && commands_[i].first < t) {
+        ++i;
+      }
+      const auto& [t_0, c_0] = commands_[i - 1];
+      const auto& [t_1, c_1] = commands_[i];
+      motion_.command.push_back(c_0 + (c_1 - c_0) * (t - t_0) / (t_1 - t_0));
     }
   }
 
@@ -221,8 +237,8 @@ class Run {
   std::vector<double> q_x_;
   std::vector<double> q_y_;
   std::vector<Force> last_turn_;
-  Force before_{};  ///< force one step earlier
-  double command_ = 0.0;
+  Force before_{};                                   ///< force one step earlier
+  std::vector<std::pair<double, double>> commands_;  ///< kept: time and value
   double contraction_ = 1.0;
   Snapshot start_;
   Motion motion_;

@@ -30,7 +30,15 @@ struct MotionProblem {
   force::Law law;
   System system;
   std::optional<Drive> drive;
-  std::function<double(double t)> command;  ///< x_com [m]; empty: none
+  /// x_com [m] at t [s]; empty: none. Called once a step, at the middle of the step,
+  /// and so in increasing order of t: it may keep a state, as a sampled controller
+  /// does. A jump acts from the node that is next to it.
+  std::function<double(double t)> command;
+  /// Called at the start of every step, before `command` is asked about it: time [s],
+  /// force on the tool [N], place of the driven mode [m] (0 without a drive). Where the
+  /// force jumps it is the one just after.
+  std::function<void(double t, const std::array<double, 3>& force, double table)>
+      observe;
   GridOptions grid;
   int revolutions = 20;
   int kept = 1;               ///< last revolutions that are returned

@@ -79,8 +79,7 @@ Stepper::Stepper(const MotionProblem& problem, std::span<const double> steps)
   }
 }
 
-void Stepper::begin(std::size_t step, const Force& F,
-                    std::array<double, 2> command) noexcept {
+void Stepper::begin(std::size_t step, const Force& F, double command) noexcept {
   now_ = &lengths_[length_of_step_[step]];
   per_F_ = now_->per_F;
   base_q_ = {};
@@ -97,8 +96,7 @@ void Stepper::begin(std::size_t step, const Force& F,
     const TableStep& s = now_->table;
     const double f = table_x_ * F[0] + table_y_ * F[1];
     for (std::size_t i = 0; i < 4; ++i) {
-      double sum = s.G_0[2 * i] * f + s.G_0[2 * i + 1] * command[0] +
-                   s.G_1[2 * i + 1] * command[1];
+      double sum = s.G_0[2 * i] * f + (s.G_0[2 * i + 1] + s.G_1[2 * i + 1]) * command;
       for (std::size_t k = 0; k < 4; ++k) {
         sum += s.Phi[4 * i + k] * table_.z[k];
       }

@@ -26,8 +26,8 @@ class Stepper {
   /// @brief All of the end of a step that does not depend on the force there.
   /// @param step     its number in `steps`
   /// @param F        force at its start [N]
-  /// @param command  x_com at its start and at its end [m]
-  void begin(std::size_t step, const Force& F, std::array<double, 2> command) noexcept;
+  /// @param command  x_com during the step [m]
+  void begin(std::size_t step, const Force& F, double command) noexcept;
 
   /// @brief q at the end of the step if the force there is F [m].
   [[nodiscard]] std::array<double, 2> end(const Force& F) const noexcept {
@@ -39,6 +39,9 @@ class Stepper {
   void accept(const Force& F) noexcept;
 
   [[nodiscard]] Snapshot snapshot() const;
+
+  /// Place of the driven mode [m]; 0 where none is driven.
+  [[nodiscard]] double table() const noexcept { return table_.z[0]; }
 
  private:
   struct Oscillator {

@@ -79,6 +79,58 @@ TEST(Motion, WithoutCuttingTheActuatorStepsAsItsPolesSay) {  // [T-2]
   EXPECT_NEAR(m.mode[2].back(), 6e-6 * K_0, 1e-11);
 }
 
+TEST(Motion, AControllerSeesEveryStepInOrderAndIsAskedOnce) {
+  MotionProblem p = small_tool();
+  p.drive = Drive{2, 1.0, 2e-3, 1e-6, 1.7e7, 77.3};
+  p.revolutions = 3;
+  std::vector<double> asked;
+  std::vector<double> seen;
+  std::vector<double> tables;
+  std::vector<Force> forces;
+  p.command = [&](double t) {
+    asked.push_back(t);
+    return 5e-6;
+  };
+  p.observe = [&](double t, const Force& F, double table) {
+    seen.push_back(t);
+    forces.push_back(F);
+    tables.push_back(table);
+  };
+  const Motion m = motion(p);
+  ASSERT_EQ(asked.size(), seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_LT(seen[i], asked[i]);
+    if (i > 0) {
+      EXPECT_LT(asked[i - 1], seen[i]);
+    }
+  }
+  EXPECT_EQ(seen.front(), 0.0);
+  EXPECT_EQ(tables.front(), 0.0);
+  EXPECT_GT(tables.back(), 1e-6);
+  const auto turns = static_cast<std::size_t>(p.revolutions);
+  ASSERT_EQ(seen.size() % turns, 0U);
+  const std::size_t last_turn = seen.size() / turns * (turns - 1);
+  EXPECT_NEAR(tables[last_turn], m.mode[2].front(), 1e-12);
+  EXPECT_NEAR(forces[last_turn][1], m.force.front()[1], 1e-9);
+  for (const double c : m.command) {
+    EXPECT_NEAR(c, 5e-6, 1e-20);
+  }
+}
+
+TEST(Motion, ACommandThatJumpsAtANodeActsFromThere) {  // [T-2]
+  MotionProblem p = without_cutting();
+  const double T = 1.2e-3;
+  p.drive = Drive{2, 1.0, 2 * T, T * T, 1.7e7, 77.3};
+  p.revolutions = 1;
+  const double half = 0.025;  // a node: half a turn
+  p.command = [half](double t) { return t < half ? 0.0 : 6e-6; };
+  const Motion m = motion(p);
+  for (std::size_t i = 0; i < m.time.size(); i += 7) {
+    const double u = std::max(0.0, (m.time[i] - half) / T);
+    EXPECT_NEAR(m.actuator[i], 6e-6 * (1 - (1 + u) * std::exp(-u)), 2e-12) << i;
+  }
+}
+
 TEST(Motion, StiffStructureGivesTheForcesOfSimulate) {  // [T-1] [T-4]
   for (const int model : {1, 2, 3}) {
     MotionProblem p = small_tool();
