@@ -48,10 +48,10 @@ std::optional<Found> column(const FrfTable& table,
     std::string text = table.names[i];
     std::transform(text.begin(), text.end(), text.begin(), small);
     for (const std::string_view name : names) {
-      const bool begins = text.substr(0, name.size()) == name;
+      if (text.substr(0, name.size()) != name) continue;
       const bool ends = text.size() == name.size() ||
                         " _[(/"sv.find(text[name.size()]) != std::string_view::npos;
-      if (!begins || !ends) continue;
+      if (!ends) continue;
       if (found) {
         problems.add(table.names_line, table.name_columns[i],
                      fmt::format("columns {} and {} could both be {}: leave out, or "
