@@ -1,4 +1,5 @@
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/online.h>
 
 #include <benchmark/benchmark.h>
 
@@ -58,8 +59,31 @@ void controller_step(benchmark::State& state) {
   state.counters["running"] = static_cast<double>(running) / steps;
 }
 
+/// One revolution at 1200 rpm and 10 kHz: 500 samples, and the gain is adapted.
+void online_revolution(benchmark::State& state) {
+  TrochoidOnlineConfig config;
+  trochoid_online_defaults(&config);
+  config.wait_turns = 0;
+  config.deadband = 0.0;
+  TrochoidOnline online;
+  trochoid_online_init(&online, &config);
+  std::vector<double> angle(500);
+  std::vector<double> force(500);
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    angle[i] = static_cast<double>(i) / 500.0;
+    force[i] = (i < 250 ? 60.0 : 30.0) * std::sin(2.0 * std::numbers::pi * angle[i]);
+  }
+  for (auto _ : state) {
+    const auto result =
+        trochoid_online_batch(&online, angle.data(), force.data(), 500, 1);
+    benchmark::DoNotOptimize(result.gain);
+  }
+  state.counters["learnt"] = online.result.learnt;
+}
+
 }  // namespace
 
 BENCHMARK(controller_step)->Unit(benchmark::kMicrosecond);
+BENCHMARK(online_revolution)->Unit(benchmark::kMicrosecond);
 
 }  // namespace trochoid::benchmarks

@@ -94,7 +94,7 @@ void trochoid_controller_defaults(TrochoidControllerConfig* config) {
   config->slew_m_per_s = 0.02;
   config->fade_s = 0.3;
   config->ramp_s = 0.2;
-  config->gain_time_s = 0.05;
+  config->gain_time_s = 0.02;
   config->filter_rev = 0.25;
   config->min_speed_rps = 1.0;
   config->max_speed_rps = 100.0;

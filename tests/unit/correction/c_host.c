@@ -32,5 +32,6 @@ int main(void) {
     }
   }
   printf("%s, up to %d nm\n", trochoid_state_name(result.state), largest);
-  return result.state == TROCHOID_RUNNING && largest > 39000 && largest <= 40000 ? 0 : 1;
+  return result.state == TROCHOID_RUNNING && largest > 39000 && largest <= 40000 ? 0
+                                                                                 : 1;
 }
