@@ -1,0 +1,47 @@
+#pragma once
+
+#include <trochoid/correction/command.h>
+#include <trochoid/correction/rigid_cut.h>
+
+#include <string>
+#include <vector>
+
+namespace trochoid::correction {
+
+enum class LimitKind { stroke, slew, push, pull, resonance, speed };
+
+/// @brief One limit: value and limit are in SI, a frequency in Hz, a speed in rad/s.
+struct Limit {
+  LimitKind kind = LimitKind::stroke;
+  double value = 0.0;
+  double limit = 0.0;
+  double margin = 0.0;  ///< limit minus value; negative: broken
+  bool known = true;    ///< false: no limit was given
+  bool ok = true;
+  std::string reason;  ///< in words, with numbers
+};
+
+/// The limits of a command, and where it must stand in the stroke.
+struct LimitReport {
+  std::vector<Limit> limits;
+  double offset = 0.0;  ///< to add to the wave: its middle comes to mid-stroke [m]
+  bool ok = true;       ///< all that are known
+};
+
+/// @brief Every limit of a command at a speed.
+///
+/// @eq R-18 stroke: max u - min u; slew: Omega max |u'|; push, pull: extremes of m X''
+/// +
+///          (c - c_s) X' + (k - k_s) X + F_x, the force through the spring, X = R-11 of
+///          the command, F_x of the rigid cut with it; resonance: n_max Omega/2 pi
+/// @src derived from T-2, T-4
+LimitReport check_limits(const Command& command, const Plant& plant, double Omega,
+                         const ActuatorLimits& limits, const RigidCut& cut);
+
+/// @brief Highest spindle speed at which the inverse command of a motion's first n_max
+/// harmonics stays in the stroke [rad/s].
+/// @param highest  where the search ends; returned if all is well up to there [rad/s]
+double stroke_speed(const PeriodicMotion& motion, const Plant& plant,
+                    const ActuatorLimits& limits, int n_max, double highest);
+
+}  // namespace trochoid::correction

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <trochoid/chip/chip.h>
+#include <trochoid/chip/intervals.h>
+#include <trochoid/correction/periodic_motion.h>
+#include <trochoid/force/law.h>
+#include <trochoid/force/setup.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace trochoid::correction {
+
+/// @brief What a flute cuts in a turn.
+///
+/// Its force is the whole force on the tool while this tooth is the one nearest to the
+/// middle of the arc of cut: what a dynamometer shows.
+struct Flute {
+  double peak_x = 0.0;        ///< largest |F_x| [N]
+  double peak_y = 0.0;        ///< largest |F_y| [N]
+  double peak_y_angle = 0.0;  ///< theta of the tooth there [rad]
+  double chip_area = 0.0;     ///< integral of h over the angle, at the tip [m rad]
+  double peak_chip = 0.0;     ///< thickest chip at the tip [m]
+};
+
+/// @brief (largest - smallest)/largest peak of |F_y|; 0 without force.
+double peak_difference(std::span<const Flute> flutes) noexcept;
+/// @brief (largest - smallest)/largest chip area.
+double area_difference(std::span<const Flute> flutes) noexcept;
+
+/// @brief Forces and chips over a turn, at equally spaced spindle angles from 0.
+struct Prediction {
+  std::vector<double> angle;                 ///< of the tip of tooth 1 [rad]
+  std::vector<double> table;                 ///< X [m]
+  std::vector<std::array<double, 3>> force;  ///< on the tool [N]
+  /// Of each tooth, shape (teeth, angles).
+  std::vector<std::vector<std::array<double, 3>>> flute_force;
+  std::vector<std::vector<double>> chip;  ///< at the tip, shape (teeth, angles) [m]
+  std::vector<Flute> flutes;
+};
+
+/// @brief A rigid tool in a table that moves along the feed.
+///
+/// @eq R-1 h_j = max(0, min_m [a_jm(phi) - (X(phi) - X(phi - back_jm)) sin(theta_j)]),
+///         a_jm: chip over the mark of the m-th tooth before with the table at rest
+/// @src [diez2010] eq. 1, 2 and 14 with the memory of the surface; T-1 with x = y = 0
+/// @note Windows of cut are those of the nominal radius, as for all simple chips.
+class RigidCut {
+ public:
+  /// @param setup   a cylinder; any pitch
+  /// @param slices  over the axial depth; helix needs many
+  /// @throws std::invalid_argument for another cutter
+  RigidCut(const force::Setup& setup, const force::Law& law, int slices = 1);
+
+  [[nodiscard]] int teeth() const noexcept;
+  [[nodiscard]] const std::vector<double>& psi() const noexcept { return psi_; }
+  [[nodiscard]] const std::vector<double>& pitch() const noexcept { return pitch_; }
+  /// Where a tip enters and leaves the stock [rad].
+  [[nodiscard]] chip::Arc arc() const noexcept { return arc_; }
+  /// Offsets of the tips from the axis of rotation [m], mean 0.
+  [[nodiscard]] std::vector<double> offsets() const;
+
+  /// Which tooth is the one nearest to the middle of the arc of cut.
+  [[nodiscard]] std::size_t turn_of(double phi) const noexcept;
+
+  /// Chip at the tip of a tooth, and whose mark bounds it.
+  struct TipChip {
+    double h = 0.0;       ///< [m]
+    int mark = 0;         ///< teeth before; 0: not in cut
+    double margin = 0.0;  ///< h, below 0 where the tooth passes above the mark [m];
+                          ///< 0 outside of the stock
+  };
+  [[nodiscard]] TipChip chip(const PeriodicMotion& X, int tooth, double phi) const;
+
+  /// Force on the tool [N].
+  [[nodiscard]] std::array<double, 3> force(const PeriodicMotion& X, double phi) const;
+
+  /// @brief Peaks of the flutes, their chip areas left out.
+  [[nodiscard]] std::vector<Flute> peaks(const PeriodicMotion& X) const;
+  /// @brief Peaks and chip areas.
+  [[nodiscard]] std::vector<Flute> flutes(const PeriodicMotion& X) const;
+  /// @param samples  of a turn
+  [[nodiscard]] Prediction predict(const PeriodicMotion& X, int samples) const;
+
+ private:
+  struct Disk {
+    double lag = 0.0;
+    double width = 0.0;
+    double dS = 0.0;  ///< edge length per height
+    std::vector<geometry::EdgePosition> teeth;
+  };
+  struct Contact {
+    double h = 0.0;
+    int mark = 0;
+    double margin = 0.0;
+    double theta = 0.0;  ///< of the force, effective [rad]
+  };
+  struct Nodes;
+
+  [[nodiscard]] Contact contact(const PeriodicMotion& X, const Disk& disk,
+                                std::size_t j, double phi) const;
+  void add_force(const Disk& disk, const Contact& c,
+                 std::array<double, 3>& F) const noexcept;
+  [[nodiscard]] std::vector<double> panels(const PeriodicMotion& X) const;
+  [[nodiscard]] Nodes nodes(const PeriodicMotion& X) const;
+  [[nodiscard]] double chip_area(const PeriodicMotion& X, std::size_t j,
+                                 std::span<const double> panels) const;
+
+  force::Law law_;
+  std::vector<double> K_;
+  double D_ = 0.0;
+  chip::Passage passage_;
+  std::vector<double> psi_;
+  std::vector<double> pitch_;
+  std::vector<Disk> disks_;
+  chip::Arc arc_;
+};
+
+/// @brief Where a tooth of its own radius enters and leaves a stock.
+///
+/// @eq R-2 cos(theta_st) = y_hi/R_j, cos(theta_ex) = y_lo/R_j, within [0, pi]
+/// @src [diez2010], reconstructed; G-11 with the radius of the tooth
+/// @param D    nominal diameter, to which the radial depth refers [m]
+/// @param R_j  [m], positive
+chip::Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j);
+
+}  // namespace trochoid::correction
