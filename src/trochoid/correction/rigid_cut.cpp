@@ -172,7 +172,8 @@ std::array<double, 3> RigidCut::force(const PeriodicMotion& X, double phi) const
   return F;
 }
 
-/// Ends of the stretches in which no tip enters or leaves and no motion breaks.
+/// Ends of the stretches in which no tip enters or leaves, no motion breaks, and one
+/// tooth is nearest to the middle.
 std::vector<double> RigidCut::panels(const PeriodicMotion& X) const {
   std::vector<double> ends = {0.0, turn};
   const std::vector<double> breaks = breaks_of(X);
@@ -180,6 +181,8 @@ std::vector<double> RigidCut::panels(const PeriodicMotion& X) const {
     const double lag = disks_.front().lag;
     ends.push_back(wrapped(psi_[j] + lag + arc_.from));
     ends.push_back(wrapped(psi_[j] + lag + arc_.to));
+    const double before = pitch_[(j + psi_.size() - 1) % psi_.size()];
+    ends.push_back(wrapped(psi_[j] + (arc_.from + arc_.to - before) / 2));
     for (int m = 1; m <= passage_.teeth; ++m) {
       for (const double at : breaks) {
         ends.push_back(wrapped(

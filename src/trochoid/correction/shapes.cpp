@@ -14,8 +14,8 @@ constexpr double turn = 2 * std::numbers::pi;
 constexpr double rank_tolerance = 1e-9;
 /// Angles of an arc of cut at which chips are compared.
 constexpr int angles_of_arc = 181;
-/// Relative ridge that chooses the smaller motion where two serve alike.
-constexpr double ridge = 1e-12;
+/// Levels that a sine meets with one phase only: two teeth.
+constexpr double degenerate = 1e-9;
 
 double middle_of(const RigidCut& cut) {
   return (cut.arc().from + cut.arc().to) / 2;
@@ -89,9 +89,12 @@ Harmonics sine(const RigidCut& cut) {
     sx += s * x[j];
     cx += c * x[j];
   }
-  ss += ridge * static_cast<double>(x.size());
-  cc += ridge * static_cast<double>(x.size());
+  const double trace = ss + cc;
   const double determinant = ss * cc - sc * sc;
+  if (determinant <
+      degenerate * trace * trace) {  // along one direction: the smaller one
+    return {0.0, {{cx / trace, -sx / trace}}};
+  }
   const double a = (cc * sx - sc * cx) / determinant;
   const double b = (ss * cx - sc * sx) / determinant;
   return {0.0, {{b, -a}}};

@@ -1,0 +1,118 @@
+// What the library says of the cases that compare_correction.py sends, as JSON.
+#include <trochoid/base/units.h>
+#include <trochoid/correction/command.h>
+#include <trochoid/correction/ratio.h>
+#include <trochoid/correction/rigid_cut.h>
+#include <trochoid/correction/shapes.h>
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <numbers>
+
+namespace {
+
+using Json = nlohmann::json;
+using namespace trochoid;
+
+constexpr double turn = 2 * std::numbers::pi;
+
+force::Setup setup_of(const Json& in) {
+  force::Setup setup;
+  setup.cutter = {.profile = geometry::cylinder(2 * in["R"].get<double>() * unit::mm),
+                  .pitch = geometry::equal_pitch(static_cast<int>(in["rho"].size())),
+                  .lag_diameter = 2 * in["R"].get<double>() * unit::mm};
+  const double a_e = in["ae"].get<double>() * unit::mm;
+  const std::string way = in["engagement"];
+  geometry::Engagement engagement = geometry::Slot{};
+  if (way == "up") {
+    engagement = geometry::UpMilling{a_e};
+  } else if (way == "down") {
+    engagement = geometry::DownMilling{a_e};
+  }
+  setup.cut = {engagement, in["ap"].get<double>() * unit::mm,
+               in["ft"].get<double>() * unit::mm, in["Omega"]};
+  for (const double rho : in["rho"].get<std::vector<double>>()) {
+    setup.runout.radial_offsets.push_back(rho * unit::mm);
+  }
+  setup.chip = {chip::Model::radial, in["marks"].get<std::size_t>() == 1
+                                         ? chip::Lookback::previous
+                                         : chip::Lookback::all};
+  return setup;
+}
+
+force::Power law_of(const Json& law) {
+  return {.K_t1 = law["kt"].get<double>() * unit::MPa,
+          .K_r1 = law["kr"].get<double>() * unit::MPa,
+          .K_a1 = law["ka"].get<double>() * unit::MPa,
+          .m_t = law["mt"],
+          .m_r = law["mr"],
+          .m_a = law["ma"]};
+}
+
+correction::PeriodicMotion motion_of(const correction::RigidCut& cut, const Json& in) {
+  using correction::Shape;
+  const std::string name = in["shape"];
+  if (name == "none") {
+    return correction::Harmonics{};
+  }
+  const Shape shape = name == "square" ? Shape::square
+                      : name == "sine" ? Shape::sine
+                                       : Shape::quintic;
+  return correction::scaled(table_motion(cut, shape, {.transition = in["width"]}),
+                            in["factor"]);
+}
+
+Json complex_pair(const std::complex<double>& c) {
+  return {c.real() / unit::mm, c.imag() / unit::mm};
+}
+
+Json numbers_of(const Json& in) {
+  const force::Setup setup = setup_of(in);
+  const correction::RigidCut cut(setup, law_of(in["law"]));
+  const correction::PeriodicMotion X = motion_of(cut, in);
+  Json out;
+  for (const correction::Flute& f : cut.flutes(X)) {
+    out["flutes"].push_back({f.peak_y, f.chip_area / unit::mm});
+  }
+  for (const double phi : in["phi"].get<std::vector<double>>()) {
+    out["force"].push_back(cut.force(X, phi));
+    out["table"].push_back(correction::place_at(X, phi) / unit::mm);
+  }
+  for (const auto& c : correction::harmonics_of(X, 9).c) {
+    out["harmonics"].push_back(complex_pair(c));
+  }
+  const Json& act = in["act"];
+  const Json& table = in["table"];
+  const correction::Plant plant{
+      structure::from_time_constants(act["K0"], act["T1"], act["T2"]),
+      {.mass = table["m"], .stiffness = table["k"], .damping = table["c"]},
+      in["ks"],
+      in["cs"]};
+  const double Omega = setup.cut.Omega;
+  const correction::CommandOptions options{.sample_time = in["Ts"], .n_max = 9};
+  const auto inverse =
+      command_for(X, correction::Method::inverse, plant, Omega, options);
+  for (const auto& c : std::get<correction::Harmonics>(inverse.wave).c) {
+    out["inverse"].push_back(complex_pair(c));
+  }
+  out["lead"] = command_for(X, correction::Method::lead, plant, Omega, options).lead;
+  const auto in_time =
+      command_for(X, correction::Method::inverse_in_time, plant, Omega);
+  if (in_time.ok) {
+    for (const double phi : in["phi"].get<std::vector<double>>()) {
+      out["in_time"].push_back(correction::place_at(in_time.wave, phi) / unit::mm);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+int main() {
+  Json out;
+  for (const Json& in : Json::parse(std::cin)) {
+    out.push_back(numbers_of(in));
+  }
+  std::cout << out.dump() << '\n';
+}
