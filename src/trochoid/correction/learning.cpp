@@ -1,5 +1,6 @@
 #include <trochoid/correction/learning.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace trochoid::correction {
@@ -53,6 +54,15 @@ std::vector<double> learning_factors(const Plant& real, const Plant& model,
                                          response(model, n * Omega)));
   }
   return factors;
+}
+
+std::optional<int> iterations_needed(std::span<const double> factors, double part) {
+  const double largest = *std::max_element(factors.begin(), factors.end());
+  if (!(largest < 1)) {
+    return std::nullopt;
+  }
+  return largest > 0 ? static_cast<int>(std::ceil(std::log(part) / std::log(largest)))
+                     : 1;
 }
 
 double phase_error_allowed(double gain) noexcept {

@@ -3,6 +3,8 @@
 #include <trochoid/correction/command.h>
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace trochoid::correction {
@@ -44,6 +46,10 @@ Learned learn(const PeriodicMotion& motion, const Harmonics& start, const Plant&
 /// @return one number a harmonic, 1 to n_max
 std::vector<double> learning_factors(const Plant& real, const Plant& model,
                                      double Omega, double gain, int n_max);
+
+/// @brief Iterations after which the error is down to a part of what it was.
+/// @return absent where learning does not converge
+std::optional<int> iterations_needed(std::span<const double> factors, double part);
 
 /// @brief How far off the plant may be at each harmonic: any P with |P/P_model -
 /// 1/gamma| < 1/gamma converges; this is the largest phase error allowed for the

@@ -16,6 +16,8 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 /// Harmonics of a command by segments that are followed to the table.
 constexpr int harmonics_followed = 60;
+/// How far above the speed of the case its limit is looked for.
+constexpr double speeds_searched = 50;
 
 Limit limit_of(LimitKind kind, double value, double limit, std::string reason) {
   return {kind, value, limit, limit - value, true, value <= limit, std::move(reason)};
@@ -120,7 +122,7 @@ double stroke_speed(const PeriodicMotion& motion, const Plant& plant,
         command_for(motion, Method::inverse, plant, Omega, {.n_max = n_max});
     return range_of(c.wave).peak_to_peak() - stroke;
   };
-  constexpr int steps = 200;
+  constexpr int steps = 1000;
   double low = highest / steps;
   if (over(low) > 0) {
     return 0.0;
@@ -137,6 +139,23 @@ double stroke_speed(const PeriodicMotion& motion, const Plant& plant,
     low = high;
   }
   return highest;
+}
+
+Limit speed_limit(const Command& command, const PeriodicMotion& motion,
+                  const Plant& plant, double Omega, const ActuatorLimits& limits) {
+  const double stroke = (limits.stroke_high - limits.stroke_low) / unit::um;
+  if (command.n_max == 0) {
+    return unknown(LimitKind::speed, Omega,
+                   "the range of this command does not grow with the speed");
+  }
+  const int n = command.n_max;
+  const double most =
+      stroke_speed(motion, plant, limits, n, speeds_searched * std::max(Omega, 100.0));
+  return limit_of(
+      LimitKind::speed, Omega, most,
+      fmt::format("the inverse of {} harmonics fills the stroke of {:.2f} um "
+                  "at {:.0f} rpm, the spindle turns at {:.0f} rpm",
+                  n, stroke, most / unit::rpm, Omega / unit::rpm));
 }
 
 }  // namespace trochoid::correction

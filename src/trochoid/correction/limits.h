@@ -30,11 +30,11 @@ struct LimitReport {
 
 /// @brief Every limit of a command at a speed.
 ///
-/// @eq R-18 stroke: max u - min u; slew: Omega max |u'|; push, pull: extremes of m X''
-/// +
-///          (c - c_s) X' + (k - k_s) X + F_x, the force through the spring, X = R-11 of
-///          the command, F_x of the rigid cut with it; resonance: n_max Omega/2 pi
+/// @eq R-18 F_s = m X'' + (c - c_s) X' + (k - k_s) X + F_x, the force through the
+///          spring: X = R-11 of the command, F_x of the rigid cut with it
 /// @src derived from T-2, T-4
+/// @note Stroke: max u - min u. Slew: Omega max |u'|. Push and pull: the extremes of
+///       F_s. Resonance: n_max Omega/2 pi.
 LimitReport check_limits(const Command& command, const Plant& plant, double Omega,
                          const ActuatorLimits& limits, const RigidCut& cut);
 
@@ -43,5 +43,9 @@ LimitReport check_limits(const Command& command, const Plant& plant, double Omeg
 /// @param highest  where the search ends; returned if all is well up to there [rad/s]
 double stroke_speed(const PeriodicMotion& motion, const Plant& plant,
                     const ActuatorLimits& limits, int n_max, double highest);
+
+/// @brief The spindle speed against stroke_speed().
+Limit speed_limit(const Command& command, const PeriodicMotion& motion,
+                  const Plant& plant, double Omega, const ActuatorLimits& limits);
 
 }  // namespace trochoid::correction

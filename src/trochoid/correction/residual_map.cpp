@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -20,9 +21,10 @@ constexpr int samples = 512;
 constexpr double negligible = 1e-7;
 
 Harmonics clipped(const PeriodicMotion& wave, double low, double high) {
-  std::vector<double> u;
+  std::vector<double> u(samples);
   for (int i = 0; i < samples; ++i) {
-    u.push_back(std::clamp(place_at(wave, turn * i / samples), low, high));
+    u[static_cast<std::size_t>(i)] =
+        std::clamp(place_at(wave, turn * i / samples), low, high);
   }
   return harmonics_of_samples(u, harmonics_followed);
 }
@@ -37,8 +39,11 @@ void drop_negligible(Harmonics& motion) {
   }
 }
 
+/// The table with a command, as learning meets it.
+using TableWith = std::function<Harmonics(const Harmonics& u)>;
+
 Command command_of(const RigidCut& cut, const Strategy& strategy,
-                   const MapSetting& setting, double Omega) {
+                   const MapSetting& setting, double Omega, const TableWith& table) {
   CommandOptions options = setting.command;
   if (strategy.method != Method::inverse && strategy.method != Method::learning) {
     return command_for(strategy.motion, strategy.method, setting.model, Omega, options);
@@ -49,51 +54,99 @@ Command command_of(const RigidCut& cut, const Strategy& strategy,
   Command command =
       command_for(wanted.motion, Method::inverse, setting.model, Omega, options);
   if (strategy.method == Method::learning) {
-    const auto table = [&](const Harmonics& u) {
-      return table_response(setting.real, u, Omega, harmonics_followed);
-    };
-    command.wave = learn(wanted.motion, std::get<Harmonics>(command.wave),
-                         setting.model, Omega, table)
-                       .command;
+    command.wave =
+        learn(wanted.motion, std::get<Harmonics>(command.wave), setting.model, Omega,
+              table, {.iterations = 15, .enough = 1e-3})
+            .command;
   }
   return command;
 }
 
-}  // namespace
-
-MapPoint residual_at(const RigidCut& cut, const Strategy& strategy,
-                     const MapSetting& setting, double Omega) {
-  const Command command = command_of(cut, strategy, setting, Omega);
+/// What reaches the actuator, and the point but for what the flutes then do.
+struct Sent {
+  PeriodicMotion wave;
   MapPoint point;
-  if (!command.ok) {
-    point.peak_difference = std::numeric_limits<double>::quiet_NaN();
-    return point;
-  }
+};
+
+Sent sent(const Command& command, const ActuatorLimits& limits) {
   const Range range = range_of(command.wave);
-  point.command_range = range.peak_to_peak();
-  point.n_max = command.n_max;
-  const double half = (setting.limits.stroke_high - setting.limits.stroke_low) / 2;
-  point.clipped = point.command_range > 2 * half * (1 + 1e-9);
-  const PeriodicMotion sent =
-      point.clipped
-          ? clipped(command.wave, range.middle() - half, range.middle() + half)
-          : command.wave;
-  Harmonics X = table_response(setting.real, sent, Omega, harmonics_followed);
-  drop_negligible(X);
-  point.peak_difference = peak_difference(cut.peaks(X));
+  Sent out{command.wave, {}};
+  out.point.command_range = range.peak_to_peak();
+  out.point.n_max = command.n_max;
+  const double half = (limits.stroke_high - limits.stroke_low) / 2;
+  out.point.clipped = out.point.command_range > 2 * half * (1 + 1e-9);
+  if (out.point.clipped) {
+    out.wave = clipped(command.wave, range.middle() - half, range.middle() + half);
+  }
+  return out;
+}
+
+MapPoint impossible() {
+  MapPoint point;
+  point.peak_difference = std::numeric_limits<double>::quiet_NaN();
   return point;
 }
 
-std::vector<MapPoint> residual_map(const RigidCut& cut,
-                                   std::span<const Strategy> strategies,
-                                   const MapSetting& setting,
-                                   std::span<const double> Omega) {
+/// residual_at over a grid, for either kind of cut.
+template <class Cut>
+std::vector<MapPoint> map_of(const Cut& cut, std::span<const Strategy> strategies,
+                             const MapSetting& setting, std::span<const double> Omega) {
   std::vector<MapPoint> map(strategies.size() * Omega.size());
   numerics::for_each_index(map.size(), [&](std::size_t i) {
     map[i] = residual_at(cut, strategies[i / Omega.size()], setting,
                          Omega[i % Omega.size()]);
   });
   return map;
+}
+
+}  // namespace
+
+MapPoint residual_at(const RigidCut& cut, const Strategy& strategy,
+                     const MapSetting& setting, double Omega) {
+  const auto table = [&](const Harmonics& u) {
+    return table_response(setting.real, u, Omega, harmonics_followed);
+  };
+  const Command command = command_of(cut, strategy, setting, Omega, table);
+  if (!command.ok) {
+    return impossible();
+  }
+  Sent out = sent(command, setting.limits);
+  Harmonics X = table_response(setting.real, out.wave, Omega, harmonics_followed);
+  drop_negligible(X);
+  out.point.peak_difference = peak_difference(cut.peaks(X));
+  return out.point;
+}
+
+MapPoint residual_at(const MovingCut& cut, const Strategy& strategy,
+                     const MapSetting& setting, double Omega) {
+  MovingCut moving = cut;
+  moving.plant = setting.real;
+  moving.setup.cut.Omega = Omega;
+  const auto table = [&](const Harmonics& u) { return moving_flutes(moving, u).table; };
+  const RigidCut rigid(cut.setup, cut.law);
+  const Command command = command_of(rigid, strategy, setting, Omega, table);
+  if (!command.ok) {
+    return impossible();
+  }
+  Sent out = sent(command, setting.limits);
+  const MovingFlutes flutes = moving_flutes(moving, out.wave);
+  out.point.peak_difference = peak_difference(flutes.flutes);
+  out.point.periodic = flutes.periodic;
+  return out.point;
+}
+
+std::vector<MapPoint> residual_map(const RigidCut& cut,
+                                   std::span<const Strategy> strategies,
+                                   const MapSetting& setting,
+                                   std::span<const double> Omega) {
+  return map_of(cut, strategies, setting, Omega);
+}
+
+std::vector<MapPoint> residual_map(const MovingCut& cut,
+                                   std::span<const Strategy> strategies,
+                                   const MapSetting& setting,
+                                   std::span<const double> Omega) {
+  return map_of(cut, strategies, setting, Omega);
 }
 
 double residual_speed(const RigidCut& cut, const Strategy& strategy,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/correction/command.h>
+#include <trochoid/correction/moving_cut.h>
 #include <trochoid/correction/rigid_cut.h>
 #include <trochoid/correction/shapes.h>
 
@@ -29,6 +30,7 @@ struct MapPoint {
   double command_range = 0.0;    ///< peak to peak before it is cut off [m]
   bool clipped = false;          ///< the stroke cuts the command off
   int n_max = 0;                 ///< harmonics of the command; 0: all
+  bool periodic = true;          ///< the forces repeated from turn to turn
 };
 
 /// @brief What a strategy leaves at one speed: command, stroke, plant, rigid cut.
@@ -43,12 +45,20 @@ std::vector<MapPoint> residual_map(const RigidCut& cut,
                                    const MapSetting& setting,
                                    std::span<const double> Omega);
 
+/// @brief The same points by simulation of a cut that gives way, with the plant `real`.
+MapPoint residual_at(const MovingCut& cut, const Strategy& strategy,
+                     const MapSetting& setting, double Omega);
+std::vector<MapPoint> residual_map(const MovingCut& cut,
+                                   std::span<const Strategy> strategies,
+                                   const MapSetting& setting,
+                                   std::span<const double> Omega);
+
 /// @brief Highest speed up to which a strategy leaves no more than a residual [rad/s].
 ///
 /// @eq R-19 smallest Omega with difference(Omega) = residual
 /// @src definition
-/// @param lowest, highest  searched range [rad/s]; the residual is looked at on 60
-///        speeds and the crossing refined
+/// @param range  lowest and highest speed [rad/s]; the residual is looked at on 60
+///               speeds between them and the crossing refined
 /// @return 0 if it is exceeded at once, `highest` if nowhere
 double residual_speed(const RigidCut& cut, const Strategy& strategy,
                       const MapSetting& setting, double residual,

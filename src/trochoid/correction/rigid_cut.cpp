@@ -3,7 +3,6 @@
 #include <trochoid/force/columns.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/geometry/edge.h>
-#include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,48 +15,18 @@ namespace trochoid::correction {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-/// Nodes of a turn among which peaks are looked for.
-constexpr double steps_per_turn = 1440;
-/// Inside a panel, off its ends [rad].
-constexpr double beside = 1e-9;
 
 double wrapped(double angle) noexcept {
   return angle - turn * std::floor(angle / turn);
 }
 
-double spread(std::span<const Flute> flutes, double Flute::*value) noexcept {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  for (const Flute& f : flutes) {
-    low = std::min(low, f.*value);
-    high = std::max(high, f.*value);
-  }
-  return high > 0 ? (high - low) / high : 0.0;
-}
-
 }  // namespace
-
-double peak_difference(std::span<const Flute> flutes) noexcept {
-  return spread(flutes, &Flute::peak_y);
-}
-
-double area_difference(std::span<const Flute> flutes) noexcept {
-  return spread(flutes, &Flute::chip_area);
-}
 
 chip::Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j) {
   const geometry::Band stock = geometry::stock_band(engagement, D);
   return {std::acos(std::clamp(stock.y_hi / R_j, -1.0, 1.0)),
           std::acos(std::clamp(stock.y_lo / R_j, -1.0, 1.0))};
 }
-
-/// The force over a turn, at nodes that avoid every jump.
-struct RigidCut::Nodes {
-  std::vector<double> angle;
-  std::vector<bool> inner;  ///< has neighbours at equal distance
-  std::vector<std::array<double, 3>> force;
-  std::vector<double> chip;  ///< shape (nodes, teeth)
-};
 
 RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
     : law_(law),
@@ -172,59 +141,6 @@ std::array<double, 3> RigidCut::force(const PeriodicMotion& X, double phi) const
   return F;
 }
 
-/// Ends of the stretches in which no tip enters or leaves, no motion breaks, and one
-/// tooth is nearest to the middle.
-std::vector<double> RigidCut::panels(const PeriodicMotion& X) const {
-  std::vector<double> ends = {0.0, turn};
-  const std::vector<double> breaks = breaks_of(X);
-  for (std::size_t j = 0; j < psi_.size(); ++j) {
-    const double lag = disks_.front().lag;
-    ends.push_back(wrapped(psi_[j] + lag + arc_.from));
-    ends.push_back(wrapped(psi_[j] + lag + arc_.to));
-    const double before = pitch_[(j + psi_.size() - 1) % psi_.size()];
-    ends.push_back(wrapped(psi_[j] + (arc_.from + arc_.to - before) / 2));
-    for (int m = 1; m <= passage_.teeth; ++m) {
-      for (const double at : breaks) {
-        ends.push_back(wrapped(
-            at + passage_.back[j * psi_.size() + static_cast<std::size_t>(m) - 1]));
-      }
-    }
-  }
-  std::sort(ends.begin(), ends.end());
-  const auto near = [](double a, double b) { return b - a < 100 * beside; };
-  ends.erase(std::unique(ends.begin(), ends.end(), near), ends.end());
-  ends.back() = turn;
-  return ends;
-}
-
-RigidCut::Nodes RigidCut::nodes(const PeriodicMotion& X) const {
-  Nodes nodes;
-  const std::vector<double> ends = panels(X);
-  for (std::size_t p = 0; p + 1 < ends.size(); ++p) {
-    const double from = ends[p] + beside;
-    const double length = ends[p + 1] - beside - from;
-    const auto steps =
-        std::max(2, static_cast<int>(std::ceil(length / turn * steps_per_turn)));
-    for (int i = 0; i <= steps; ++i) {
-      const double phi = from + length * i / steps;
-      std::array<double, 3> F{};
-      for (const Disk& disk : disks_) {
-        for (std::size_t j = 0; j < psi_.size(); ++j) {
-          const Contact c = contact(X, disk, j, phi);
-          add_force(disk, c, F);
-          if (&disk == &disks_.front()) {
-            nodes.chip.push_back(c.h);
-          }
-        }
-      }
-      nodes.angle.push_back(phi);
-      nodes.inner.push_back(i > 0 && i < steps);
-      nodes.force.push_back(F);
-    }
-  }
-  return nodes;
-}
-
 std::size_t RigidCut::turn_of(double phi) const noexcept {
   const double middle = (arc_.from + arc_.to) / 2;
   for (std::size_t j = 0; j < psi_.size(); ++j) {
@@ -235,101 +151,6 @@ std::size_t RigidCut::turn_of(double phi) const noexcept {
     }
   }
   return 0;
-}
-
-namespace {
-
-/// A largest value, and by how many steps the top of a parabola lies beside it.
-struct Top {
-  double value = 0.0;
-  double shift = 0.0;
-};
-
-Top top_of(double before, double here, double after) noexcept {
-  const double bend = before - 2 * here + after;
-  if (!(bend < 0)) {
-    return {here, 0.0};
-  }
-  const double shift = std::clamp((before - after) / (2 * bend), -0.5, 0.5);
-  return {here - (before - after) * shift / 4, shift};
-}
-
-}  // namespace
-
-std::vector<Flute> RigidCut::peaks(const PeriodicMotion& X) const {
-  const Nodes all = nodes(X);
-  const std::size_t count = psi_.size();
-  std::vector<Flute> flutes(count);
-  const auto top = [&](std::size_t i, const auto& value) {
-    return all.inner[i] ? top_of(value(i - 1), value(i), value(i + 1))
-                        : Top{value(i), 0.0};
-  };
-  for (std::size_t i = 0; i < all.angle.size(); ++i) {
-    const std::size_t j = turn_of(all.angle[i]);
-    Flute& f = flutes[j];
-    const auto F_x = [&](std::size_t k) { return std::abs(all.force[k][0]); };
-    const auto F_y = [&](std::size_t k) { return std::abs(all.force[k][1]); };
-    f.peak_x = std::max(f.peak_x, top(i, F_x).value);
-    const Top y = top(i, F_y);
-    if (y.value > f.peak_y) {
-      f.peak_y = y.value;
-      const double step = all.inner[i] ? all.angle[i + 1] - all.angle[i] : 0.0;
-      f.peak_y_angle = wrapped(all.angle[i] + y.shift * step - psi_[j]);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto h = [&](std::size_t n) { return all.chip[n * count + k]; };
-      flutes[k].peak_chip = std::max(flutes[k].peak_chip, top(i, h).value);
-    }
-  }
-  return flutes;
-}
-
-double RigidCut::chip_area(const PeriodicMotion& X, std::size_t j,
-                           std::span<const double> panels) const {
-  std::array<double, 1> area{};
-  const std::array<double, 1> allowed = {1e-12 * (passage_.feed * turn + 1e-6)};
-  const auto h = [&](double phi, double weight, std::array<double, 1>& sum) {
-    sum[0] += weight * contact(X, disks_.front(), j, phi).h;
-  };
-  for (std::size_t p = 0; p + 1 < panels.size(); ++p) {
-    numerics::add_integral<1>(panels[p], panels[p + 1], h, allowed, 1e-6, area);
-  }
-  return area[0];
-}
-
-std::vector<Flute> RigidCut::flutes(const PeriodicMotion& X) const {
-  std::vector<Flute> flutes = peaks(X);
-  const std::vector<double> ends = panels(X);
-  for (std::size_t j = 0; j < flutes.size(); ++j) {
-    flutes[j].chip_area = chip_area(X, j, ends);
-  }
-  return flutes;
-}
-
-Prediction RigidCut::predict(const PeriodicMotion& X, int samples) const {
-  const std::size_t count = psi_.size();
-  Prediction out;
-  out.flutes = flutes(X);
-  out.chip.resize(count);
-  out.flute_force.resize(count);
-  for (int i = 0; i < samples; ++i) {
-    const double phi = turn * i / samples;
-    out.angle.push_back(phi);
-    out.table.push_back(place_at(X, phi));
-    out.force.emplace_back();
-    for (std::size_t j = 0; j < count; ++j) {
-      std::array<double, 3> F{};
-      for (const Disk& disk : disks_) {
-        add_force(disk, contact(X, disk, j, phi), F);
-      }
-      for (std::size_t q = 0; q < 3; ++q) {
-        out.force.back()[q] += F[q];
-      }
-      out.flute_force[j].push_back(F);
-      out.chip[j].push_back(contact(X, disks_.front(), j, phi).h);
-    }
-  }
-  return out;
 }
 
 }  // namespace trochoid::correction

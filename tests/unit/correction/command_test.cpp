@@ -183,6 +183,28 @@ TEST(Learning, TakesOutWhatTheCuttingForceDoesToTheTable) {  // [R-16]
             2e-9);
 }
 
+TEST(Learning, TakesAsManyIterationsAsItsFactorSays) {
+  const RigidCut cut = paper_cut();
+  const PeriodicMotion x = table_motion(cut, Shape::sine, {});
+  const double Omega = 1200 * unit::rpm;
+  const Plant model = paper_plant();
+  const Plant real = off_by(1.03, 1.15, 1.10);
+  const Command start = command_for(x, Method::inverse, model, Omega, {.n_max = 1});
+  const auto table = [&](const Harmonics& u) {
+    return table_response(real, u, Omega, 1);
+  };
+  const Learned learned =
+      learn(x, std::get<Harmonics>(start.wave), model, Omega, table, {.enough = 1e-4});
+  const auto needed =
+      iterations_needed(learning_factors(real, model, Omega, 0.7, 1),
+                        1e-4 * 13e-6 / std::sqrt(2.0) / learned.error[0]);
+  ASSERT_TRUE(needed);
+  EXPECT_LE(learned.iterations, *needed);
+  EXPECT_GE(learned.iterations, *needed - 1);
+  EXPECT_FALSE(iterations_needed(std::array{0.4, 1.0}, 1e-3));
+  EXPECT_EQ(iterations_needed(std::array{0.5, 0.1}, 0.2), 3);
+}
+
 TEST(Learning, MoreGainAllowsLessPhaseError) {
   EXPECT_NEAR(phase_error_allowed(1.0), turn / 6, 1e-12);
   EXPECT_EQ(phase_error_allowed(2.0), 0.0);
@@ -230,6 +252,22 @@ TEST(Limits, InertiaAloneIsSmall) {  // [R-18]
       EXPECT_NEAR(l.value, 0.194 * 13e-6 * Omega * Omega, 1e-3);
     }
   }
+}
+
+TEST(Limits, SpeedIsWhereTheCommandFillsTheStroke) {
+  const Plant plant = paper_plant();
+  const double Omega = 1200 * unit::rpm;
+  const PeriodicMotion x = Harmonics{0.0, {{0.0, -13e-6}}};
+  const Command c = command_for(x, Method::inverse, plant, Omega, {.n_max = 1});
+  const Limit limit = speed_limit(c, x, plant, Omega, {});
+  EXPECT_TRUE(limit.ok);
+  EXPECT_EQ(limit.value, Omega);
+  const Command there =
+      command_for(x, Method::inverse, plant, limit.limit, {.n_max = 1});
+  EXPECT_NEAR(range_of(there.wave).peak_to_peak(), 60e-6, 1e-11);
+  const double fast = 1.01 * limit.limit;
+  const Command over = command_for(x, Method::inverse, plant, fast, {.n_max = 1});
+  EXPECT_FALSE(speed_limit(over, x, plant, fast, {}).ok);
 }
 
 TEST(Limits, BrokenOnesAreSaid) {
@@ -295,6 +333,28 @@ TEST(ResidualMap, LearningTakesBackWhatAWrongModelCosts) {  // [R-16]
   const MapPoint learned = residual_at(cut, {sine, Method::learning}, setting, Omega);
   EXPECT_NEAR(inverse.peak_difference, 0.05, 0.01);
   EXPECT_NEAR(learned.peak_difference, 0.0256, 0.001);
+}
+
+/// With a table that the cutting force moves: less is left after learning than before,
+/// as the force on the table is learnt away too.
+TEST(ResidualMap, OfACutThatGivesWay) {
+  const MovingCut moving = moving_case(26e-6);
+  const RigidCut cut = paper_cut();
+  const MapSetting setting{moving.plant, moving.plant, {}, {}};
+  const PeriodicMotion sine = table_motion(cut, Shape::sine, {});
+  const double Omega = 1200 * unit::rpm;
+  const MapPoint plain = residual_at(moving, {sine, Method::plain}, setting, Omega);
+  const MapPoint lead = residual_at(moving, {sine, Method::lead}, setting, Omega);
+  EXPECT_TRUE(plain.periodic);
+  EXPECT_NEAR(plain.peak_difference, 0.022, 0.005);
+  EXPECT_NEAR(lead.peak_difference, 0.0336, 0.001);
+  const MapPoint learned =
+      residual_at(moving, {sine, Method::learning}, setting, Omega);
+  EXPECT_TRUE(learned.periodic);
+  EXPECT_LT(learned.peak_difference, 0.05);
+  const auto map = residual_map(moving, std::vector<Strategy>{{sine, Method::lead}},
+                                setting, std::vector<double>{Omega});
+  EXPECT_EQ(map[0].peak_difference, lead.peak_difference);
 }
 
 TEST(ResidualMap, IsItsPoints) {

@@ -194,12 +194,13 @@ TEST(MovingCut, AgreesWithTheRigidCutWhereNothingGivesWay) {  // [R-1]
   MovingCut cut = moving_case(26e-6);
   for (dynamics::ChipMode& mode : cut.tool) {
     mode.stiffness *= 1e6;
-    mode.mass *= 1e2;
-    mode.damping *= 1e4;
+    mode.mass *= 1e5;
+    mode.damping *= 3e5;
   }
-  cut.plant.table = {.mass = 20.0, .stiffness = 1.7e13, .damping = 1e7};
+  cut.plant.table = {.mass = 2e4, .stiffness = 1.7e13, .damping = 3e8};
   cut.plant.k_s = 1.7e13;
-  cut.plant.c_s = 0.0;
+  cut.plant.c_s = 3e8;
+  cut.revolutions = 4;
   cut.plant.actuator = structure::from_time_constants(1.0, 1e-7, 1e-7);
   const RigidCut rigid(cut.setup, cut.law);
   for (const Shape shape : {Shape::sine, Shape::quintic}) {

@@ -260,22 +260,18 @@ TEST(RigidCut, TableAwayFromTheToolMakesTheChipThinner) {  // [R-1]
 
 TEST(RigidCut, AllMaterialIsCutWhateverTheTableDoes) {
   for (const auto& rho :
-       {std::vector<double>{13e-6, -13e-6}, std::vector<double>{12e-6, -3e-6, -9e-6}}) {
+       {std::vector<double>{13e-6, -13e-6}, std::vector<double>{40e-6, -30e-6},
+        std::vector<double>{12e-6, -3e-6, -9e-6}}) {
     const RigidCut cut(slot_with(rho), steep_law());
     for (const Shape shape : shapes) {
-      for (const double factor : {0.0, 0.5, 1.0}) {
+      for (const double factor : {0.0, 0.5, 1.0, 2.5}) {
         double sum = 0.0;
         for (const Flute& f :
              cut.flutes(scaled(table_motion(cut, shape, {}), factor))) {
           sum += f.chip_area;
         }
         const double all = 2 * static_cast<double>(rho.size()) * 50e-6;
-        if (shape != Shape::harmonics) {  // where it leaves the work, some is cut twice
-          EXPECT_NEAR(sum, all, 2e-2 * all) << static_cast<int>(shape) << ' ' << factor;
-        }
-        if (factor == 0.0) {
-          EXPECT_NEAR(sum, all, 1e-9 * all);
-        }
+        EXPECT_NEAR(sum, all, 1e-7 * all) << static_cast<int>(shape) << ' ' << factor;
       }
     }
   }
