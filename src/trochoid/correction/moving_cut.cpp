@@ -192,7 +192,9 @@ StaticFit reading(const MovingCut& cut, std::span<const double> rho,
     return fit;
   }
   if (near == nullptr) {
-    return static_fit(moving.setup, flutes.record, options, moving.law);
+    const auto* power = std::get_if<force::Power>(&moving.law);
+    return static_fit(moving.setup, flutes.record, options,
+                      power != nullptr ? std::optional(*power) : std::nullopt);
   }
   moving.setup.runout.radial_offsets.clear();
   for (const Value& value : near->rho) {

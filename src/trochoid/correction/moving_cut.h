@@ -15,7 +15,7 @@ namespace trochoid::correction {
 /// @brief A cut whose tool and table give way.
 struct MovingCut {
   force::Setup setup;
-  force::Power law;
+  force::Law law;
   std::vector<dynamics::ChipMode> tool;  ///< modes with +1 along their direction
   Plant plant;                           ///< its table moves along the feed
   dynamics::GridOptions grid;

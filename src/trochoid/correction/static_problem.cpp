@@ -19,6 +19,23 @@ constexpr double least_exponent = -0.5;
 constexpr double most_exponent = 0.98;
 constexpr double most_runout = 5.0;  ///< over the feed per tooth
 constexpr double most_offset = 1.0;  ///< [rad]
+/// Part of F_z that must go with the force in the plane.
+constexpr double axial_share = 0.25;
+
+/// Is F_z a force of the cut? Noise, or a channel that nothing is connected to, would
+/// pull K_a1 towards zero, where its exponent means nothing.
+bool axial_force(const std::vector<std::array<double, 3>>& force) {
+  double zz = 0.0;
+  double zp = 0.0;
+  double pp = 0.0;
+  for (const auto& F : force) {
+    const double plane = std::hypot(F[0], F[1]);
+    zz += F[2] * F[2];
+    zp += F[2] * plane;
+    pp += plane * plane;
+  }
+  return zp * zp > axial_share * zz * pp;
+}
 
 RigidCut cut_of(const StaticProblem& problem, const StaticParameters& at) {
   force::Setup setup = problem.setup;
@@ -165,17 +182,15 @@ StaticProblem static_problem(const force::Setup& setup, const ForceRecord& recor
   problem.teeth = static_cast<std::size_t>(setup.cutter.teeth());
   const RigidCut cut(setup, force::Power{}, 1);
   double square = 0.0;
-  double axial = 0.0;
   for (std::size_t i = 0; i < record.angle.size(); ++i) {
     const auto& F = record.force[i];
     if (!near_an_end(cut, record.angle[i], options.guard)) {
       problem.angle.push_back(record.angle[i]);
       problem.force.push_back(F);
       square += F[0] * F[0] + F[1] * F[1] + F[2] * F[2];
-      axial = std::max(axial, std::abs(F[2]));
     }
   }
-  problem.axes = options.axial && axial > 0 ? 3 : 2;
+  problem.axes = options.axial && axial_force(problem.force) ? 3 : 2;
   problem.size = std::sqrt(
       square / static_cast<double>(std::max<std::size_t>(3 * problem.angle.size(), 1)));
   return problem;
