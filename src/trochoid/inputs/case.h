@@ -94,7 +94,8 @@ enum class Command {
   stability,
   modes,
   actuator,
-  dynamics
+  dynamics,
+  correct
 };
 
 /// @brief Read a case file with all that it includes.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/base/units.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,6 +79,9 @@ struct Actuator {
   std::vector<double> stroke;                ///< lowest and highest [m]
   std::optional<double> coupling_stiffness;  ///< [N/m]
   std::optional<double> slew;                ///< [m/s]
+  double push = 2000.0;                      ///< [N]
+  double pull = 300.0;                       ///< [N]
+  std::optional<double> highest_frequency;   ///< of a command [Hz]
 };
 
 enum class CommandShape { sine, square, trapezoid, table };
@@ -89,12 +94,39 @@ struct ImposedCommand {
 };
 
 enum class CorrectionTarget { peak_force, chip_area, least_squares };
-enum class CorrectionStrategy { plain, lead, inverse, learning };
+enum class CorrectionStrategy { plain, lead, inverse, inverse_in_time, learning };
+enum class CorrectionShape { sine, square, trapezoid, quintic, harmonics };
+
+/// What the command is made for: the runout of the case, or of a [[measurement]], or
+/// what a static fit of the forces takes it for.
+enum class RunoutEstimate { known, static_fit };
 
 /// [correct]
 struct Correction {
   CorrectionTarget target = CorrectionTarget::peak_force;
   CorrectionStrategy strategy = CorrectionStrategy::inverse;
+  CorrectionShape shape = CorrectionShape::sine;
+  RunoutEstimate estimate = RunoutEstimate::known;
+  double transition = 80 * unit::deg;  ///< of trapezoid and quintic [rad]
+  int harmonics = 9;                   ///< highest of the command
+  std::optional<double> peak_to_peak;  ///< of the motion wanted [m]; absent: by target
+  double sample_rate = 0.0;            ///< of a held command [Hz]; 0: continuous
+  double learning_gain = 0.7;
+  double allowed_difference = 0.05;   ///< of the peaks, for the highest speed
+  std::vector<double> spindle_speed;  ///< first, last, number; as [stability] has it
+};
+
+/// [controller]: the real-time controller when it is simulated.
+struct Controller {
+  double rate = 4000.0;       ///< of the loop [Hz]
+  int counts = 4096;          ///< of the encoder, a turn
+  double jitter = 0.0;        ///< standard deviation of the loop's time [s]
+  double speed_ripple = 0.0;  ///< amplitude, part of the speed, once a turn
+  double fade = 0.2;          ///< [s]
+  double ramp = 0.05;         ///< to mid-stroke after a fault [s]
+  int turns = 40;             ///< that are simulated
+  int index_lost_at = 0;      ///< turn from which no index pulse comes; 0: never
+  bool adapt = false;         ///< the amplitude learns from the forces while it runs
 };
 
 /// [stability]
@@ -139,6 +171,7 @@ struct MachineTables {
   std::optional<StepTables> step;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
+  std::optional<Controller> controller;
   std::optional<Stability> stability;
 };
 

@@ -24,6 +24,9 @@ Command purpose_of(Command command, const Node& root) {
   if (command != Command::check) {
     return command;
   }
+  if (has("correct")) {
+    return Command::correct;
+  }
   if (has("measurement")) {
     return Command::identify;
   }
@@ -56,6 +59,8 @@ std::string_view verb(Command purpose) {
       return "actuator";
     case Command::dynamics:
       return "dynamics";
+    case Command::correct:
+      return "correct";
     default:
       return "simulate";
   }
@@ -138,7 +143,8 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   const Reading reading{
       .coefficients_needed =
           purpose == Command::simulate || purpose == Command::surface ||
-          purpose == Command::stability || purpose == Command::dynamics,
+          purpose == Command::stability || purpose == Command::dynamics ||
+          (purpose == Command::correct && find(root, "measurement") == nullptr),
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(
@@ -188,8 +194,8 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
   c.gauge_length = t.tool.gauge_length;
-  if (purpose == Command::dynamics &&
-      findings.places.count("sampling.revolutions") == 0) {
+  const bool in_time = purpose == Command::dynamics || purpose == Command::correct;
+  if (in_time && findings.places.count("sampling.revolutions") == 0) {
     constexpr double until_it_settles = 20;
     t.sampling.revolutions = until_it_settles;
   }
@@ -219,8 +225,11 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
     check_stability(t, findings);
   }
   settle_machine_files(t.machine, findings);
-  if (purpose == Command::dynamics) {
+  if (in_time) {
     check_dynamics(t, findings);
+  }
+  if (purpose == Command::correct) {
+    check_correct(t, findings);
   }
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {

@@ -46,6 +46,10 @@ void check_stability(CaseTables& tables, Findings& findings);
 /// whole revolutions, and a table along x for an actuator.
 void check_dynamics(const CaseTables& tables, Findings& findings);
 
+/// @brief What a correction needs: all of check_dynamics, an actuator with its table,
+/// and runout or a record to find it in; fills in [correct].
+void check_correct(CaseTables& tables, Findings& findings);
+
 /// @param number  1, 2 ... of the [[surface_measurement]]
 void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings);

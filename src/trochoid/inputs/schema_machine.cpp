@@ -15,8 +15,6 @@ constexpr Names axes[] = {"x", "y", "z"};
 constexpr Names frf_kinds[] = {"detect", "receptance", "mobility", "accelerance"};
 constexpr Names residual_terms[] = {"choose", "yes", "no"};
 constexpr Names command_shapes[] = {"sine", "square", "trapezoid", "table"};
-constexpr Names targets[] = {"peak_force", "chip_area", "least_squares"};
-constexpr Names strategies[] = {"plain", "lead", "inverse", "learning"};
 
 constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);
@@ -182,6 +180,17 @@ void describe(const Visitor& v, Actuator& t) {
      .standard = "that of the table's mode"},
     &t.coupling_stiffness);
   v({.name = "slew_um_per_s", .meaning = "greatest speed", .range = above(0)}, &t.slew);
+  v({.name = "push_N",
+     .meaning = "greatest force on the table along the feed",
+     .range = above(0)},
+    &t.push);
+  v({.name = "pull_N", .meaning = "and the other way", .range = above(0)}, &t.pull);
+  v({.name = "highest_frequency_Hz",
+     .meaning = "highest frequency that a command may hold",
+     .range = above(0),
+     .standard = "0.27 of the frequency of the table",
+     .example = "400"},
+    &t.highest_frequency);
 }
 
 void describe(const Visitor& v, FrfTables& t) {
@@ -244,13 +253,6 @@ void describe(const Visitor& v, ImposedCommand& t) {
      .need = Need::always},
     &t.peak_to_peak);
   v({.name = "lead_s", .meaning = "by how much the command comes early"}, &t.lead);
-}
-
-void describe(const Visitor& v, Correction& t) {
-  v({.name = "target", .meaning = "what is made equal from tooth to tooth"},
-    choice(t.target, targets));
-  v({.name = "strategy", .meaning = "how the command is found"},
-    choice(t.strategy, strategies));
 }
 
 void describe(const Visitor& v, Stability& t) {

@@ -44,8 +44,8 @@ TableEntry several(std::string_view name, std::string_view meaning,
 }  // namespace
 
 std::vector<TableEntry> tables_of(CaseTables& t) {
-  const Commands all_commands{"simulate",  "identify",  "surface",
-                              "calibrate", "stability", "dynamics"};
+  const Commands all_commands{"simulate",  "identify", "surface", "calibrate",
+                              "stability", "dynamics", "correct"};
   return {
       one("tool", "the cutter", t.tool, all_commands),
       one("runout", "how the teeth stand out; left out: no runout", t.runout),
@@ -68,14 +68,17 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       several("surface_measurement", "a measured surface; several are fitted together",
               t.machine.surface_measurements, {"calibrate"}),
       several("mode", "a mode of vibration", t.machine.modes,
-              {"stability", "dynamics"}),
-      perhaps("actuator", "the actuator that moves the table", t.machine.actuator),
+              {"stability", "dynamics", "correct"}),
+      perhaps("actuator", "the actuator that moves the table", t.machine.actuator,
+              {"correct"}),
       perhaps("frf", "a measured frequency response, from which modes are found",
               t.machine.frf, {"modes"}),
       perhaps("step", "a measured step, from which the actuator is found",
               t.machine.step, {"actuator"}),
       perhaps("command", "an imposed command of the actuator", t.machine.command),
       perhaps("correct", "how runout is to be cancelled", t.machine.correct),
+      perhaps("controller", "the real-time controller, when it is simulated",
+              t.machine.controller),
       perhaps("stability", "where stability is looked at, and how exactly",
               t.machine.stability),
   };

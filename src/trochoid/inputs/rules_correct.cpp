@@ -1,0 +1,98 @@
+#include <trochoid/inputs/number_text.h>
+#include <trochoid/inputs/rules.h>
+
+#include <trochoid/base/units.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::inputs {
+
+namespace {
+
+constexpr double most_speeds = 2000;
+
+void check_speeds(const std::vector<double>& speeds, Findings& findings) {
+  if (speeds.size() != 3 || !sound(findings, {"correct.spindle_rpm"})) {
+    return;
+  }
+  const double count = speeds[2] / unit::rpm;
+  if (speeds[0] >= speeds[1] || std::abs(count - std::round(count)) > 1e-9 * count ||
+      std::round(count) < 2 || std::round(count) > most_speeds) {
+    report(findings, "correct.spindle_rpm",
+           fmt::format(
+               "correct.spindle_rpm = [{}, {}, {}]: no range; must be first < last, "
+               "then a whole number of speeds from 2 to {:.0f}",
+               number_text(speeds[0], unit::rpm), number_text(speeds[1], unit::rpm),
+               number_text(count), most_speeds));
+  }
+}
+
+void check_shape(const Correction& c, Findings& findings) {
+  const bool in_time = c.strategy == CorrectionStrategy::inverse_in_time;
+  if (in_time && c.shape != CorrectionShape::sine &&
+      c.shape != CorrectionShape::quintic && c.shape != CorrectionShape::harmonics) {
+    report(findings, "correct.strategy",
+           "correct.strategy = \"inverse_in_time\": needs a motion without corners; "
+           "must go with shape = \"quintic\", \"sine\" or \"harmonics\"");
+  }
+}
+
+void check_runout_known(const CaseTables& t, Findings& findings) {
+  const geometry::Runout& r = t.runout;
+  const bool none =
+      r.eccentricity == 0 &&
+      std::all_of(r.radial_offsets.begin(), r.radial_offsets.end(),
+                  [&](double offset) { return offset == r.radial_offsets.front(); });
+  if (none && t.measurements.empty() &&
+      sound(findings, {"runout", "runout.radial_offsets_mm", "runout.eccentricity_mm",
+                       "measurement"})) {
+    report(findings, "runout",
+           "[runout]: there is none, so that nothing is to be corrected; give "
+           "radial_offsets_mm or eccentricity_mm, or a [[measurement]] of the forces");
+  }
+}
+
+}  // namespace
+
+void check_correct(CaseTables& t, Findings& findings) {
+  if (!t.machine.correct) {
+    t.machine.correct.emplace();
+  }
+  Correction& c = *t.machine.correct;
+  if (c.spindle_speed.empty()) {
+    c.spindle_speed = {200 * unit::rpm, 10000 * unit::rpm, 50 * unit::rpm};
+  }
+  check_speeds(c.spindle_speed, findings);
+  check_shape(c, findings);
+  if (t.tool.teeth < 2 && sound(findings, {"tool.teeth"})) {
+    report(findings, "tool.teeth",
+           fmt::format("tool.teeth = {}: one tooth follows itself and feels no runout; "
+                       "correct needs 2 or more",
+                       t.tool.teeth));
+  }
+  if (t.measurements.size() > 1) {
+    report(findings, "measurement[2].file",
+           "[[measurement]]: correct takes one record; must not be given twice");
+  }
+  if (!t.measurements.empty() && t.force.law != LawKind::power &&
+      sound(findings, {"force.law"})) {
+    report(findings, "force.law",
+           "force.law: correct finds the runout in a record with a power law; must be "
+           "\"power\" with a [[measurement]] (without one, any law)");
+  }
+  check_runout_known(t, findings);
+  if (t.machine.controller && t.machine.controller->index_lost_at > 0 &&
+      t.machine.controller->index_lost_at >= t.machine.controller->turns &&
+      sound(findings, {"controller.turns", "controller.index_lost_at_turn"})) {
+    report(
+        findings, "controller.index_lost_at_turn",
+        fmt::format("controller.index_lost_at_turn = {}: after the last of {} turns; "
+                    "must be one of them",
+                    t.machine.controller->index_lost_at, t.machine.controller->turns));
+  }
+}
+
+}  // namespace trochoid::inputs

@@ -1,0 +1,108 @@
+#include <trochoid/inputs/schema_choice.h>
+#include <trochoid/inputs/schema_machine.h>
+
+namespace trochoid::inputs {
+
+namespace {
+
+using Names = std::string_view;
+
+constexpr Names targets[] = {"peak_force", "chip_area", "least_squares"};
+constexpr Names strategies[] = {"plain", "lead", "inverse", "inverse_in_time",
+                                "learning"};
+constexpr Names shapes[] = {"sine", "square", "trapezoid", "quintic", "harmonics"};
+constexpr Names estimates[] = {"known", "static_fit"};
+
+}  // namespace
+
+void describe(const Visitor& v, Correction& t) {
+  v({.name = "target",
+     .meaning = "what is made equal from tooth to tooth; least_squares: the chips over "
+                "the whole cut, as nearly as possible"},
+    choice(t.target, targets));
+  v({.name = "strategy",
+     .meaning = "plain: the command is the motion wanted; lead: earlier by what the "
+                "actuator is late; inverse: each harmonic through the inverse of "
+                "actuator and table; inverse_in_time: the same for smooth shapes, by "
+                "derivatives; learning: inverse, then improved on the table"},
+    choice(t.strategy, strategies));
+  v({.name = "shape", .meaning = "how the table moves over a turn"},
+    choice(t.shape, shapes));
+  v({.name = "estimate",
+     .meaning = "known: the command is made for the runout as it is; static_fit: for "
+                "what a rigid model reads from the forces, which is less"},
+    choice(t.estimate, estimates));
+  v({.name = "transition_deg",
+     .meaning = "width of a change of level of trapezoid and quintic",
+     .range = above_up_to(0, 360)},
+    &t.transition);
+  v({.name = "harmonics",
+     .meaning = "highest harmonic of the spindle in the command",
+     .range = between(1, 100)},
+    &t.harmonics);
+  v({.name = "peak_to_peak_um",
+     .meaning = "motion of the table, instead of what the target asks",
+     .range = above(0),
+     .standard = "from the target",
+     .example = "26"},
+    &t.peak_to_peak);
+  v({.name = "sample_rate_Hz",
+     .meaning = "rate of a command that is held between samples; 0: continuous",
+     .range = at_least(0)},
+    &t.sample_rate);
+  v({.name = "learning_gain",
+     .meaning = "part of the error that each iteration takes away",
+     .range = inside(0, 2)},
+    &t.learning_gain);
+  v({.name = "allowed_difference",
+     .meaning = "of the peaks of force, for the highest speed that keeps it",
+     .range = inside(0, 1)},
+    &t.allowed_difference);
+  v({.name = "spindle_rpm",
+     .meaning = "first, last and number of the spindle speeds of the map",
+     .range = above_up_to(0, 1e6),
+     .count = 3,
+     .standard = "up to 10000",
+     .example = "[200, 10000, 99]"},
+    &t.spindle_speed);
+}
+
+void describe(const Visitor& v, Controller& t) {
+  v({.name = "loop_rate_Hz",
+     .meaning = "how often the controller runs",
+     .range = between(100, 100000)},
+    &t.rate);
+  v({.name = "encoder_counts",
+     .meaning = "of the spindle encoder, per turn",
+     .range = between(1, 10000000)},
+    &t.counts);
+  v({.name = "jitter_s",
+     .meaning = "standard deviation of the time of a step",
+     .range = between(0, 0.01)},
+    &t.jitter);
+  v({.name = "speed_ripple",
+     .meaning = "once a turn, as a part of the speed",
+     .range = between(0, 0.5)},
+    &t.speed_ripple);
+  v({.name = "fade_s",
+     .meaning = "time to fade the command in and out",
+     .range = above_up_to(0, 10)},
+    &t.fade);
+  v({.name = "ramp_s",
+     .meaning = "time from the end of the stroke to its middle after a fault",
+     .range = above_up_to(0, 10)},
+    &t.ramp);
+  v({.name = "turns",
+     .meaning = "turns that are simulated",
+     .range = between(10, 10000)},
+    &t.turns);
+  v({.name = "index_lost_at_turn",
+     .meaning = "from this turn on there is no index pulse; 0: it is never lost",
+     .range = between(0, 10000)},
+    &t.index_lost_at);
+  v({.name = "adapt",
+     .meaning = "the amplitude learns from the forces while the controller runs"},
+    &t.adapt);
+}
+
+}  // namespace trochoid::inputs
