@@ -15,6 +15,8 @@ struct Options {
   bool quiet = false;
   bool no_report = false;
 
+  bool simulate_controller = false;  ///< of correct
+
   // Of a bare data file, which has no case to say them.
   std::string kind;               ///< of a frequency response; empty: the file says it
   int modes = 0;                  ///< 0: chosen
@@ -38,6 +40,7 @@ int stability(const Options& options);
 int modes(const Options& options);
 int actuator(const Options& options);
 int dynamics(const Options& options);
+int correct(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

@@ -56,6 +56,9 @@ constexpr Command commands[] = {
     {"dynamics",
      "Motion of cutter, table and actuator in time while they cut, with runout",
      trochoid::cli::dynamics},
+    {"correct",
+     "The motion of the table that makes the flutes cut alike, its command, its limits",
+     trochoid::cli::correct},
     {"check", "Read a case file and its measurements and name every mistake in them",
      trochoid::cli::check}};
 
@@ -91,6 +94,10 @@ void add_data_options(CLI::App& app, const std::string& command, Options& option
     app.add_option("--dataset", options.dataset,
                    "Which frequency response of a universal file, from 1")
         ->check(CLI::Range(1, 100000));
+  }
+  if (command == "correct") {
+    app.add_flag("--simulate-controller", options.simulate_controller,
+                 "Run the real-time controller in the loop ([controller])");
   }
   if (command == "actuator") {
     app.get_option("CASE.toml")

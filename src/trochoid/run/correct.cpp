@@ -1,0 +1,59 @@
+#include <trochoid/run/correct.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/controlled_answer.h>
+#include <trochoid/run/correction_answer.h>
+#include <trochoid/run/correction_plan.h>
+#include <trochoid/run/correction_tables.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace trochoid::run {
+
+base::Answer correct(const inputs::Case& given, bool controller,
+                     const Progress& progress) {
+  base::Answer answer{
+      .command = "correct", .title = given.title, .case_toml = given.as_understood};
+  const auto tell = [&](const char* what) {
+    if (progress) {
+      progress(what);
+    }
+  };
+  const auto fail = [&](const std::string& why) {
+    answer.ok = false;
+    answer.message = why;
+    answer.result = "{}";
+    return answer;
+  };
+  const inputs::Correction& wanted = *given.machine.correct;
+  std::string message;
+  const auto setting = correction_setting(given, progress, answer.warnings, message);
+  if (!setting) {
+    return fail(message);
+  }
+  tell("Finding the command");
+  const CorrectionPlan plan = correction_plan(*setting, wanted);
+  if (!plan.ok) {
+    return fail(plan.reason);
+  }
+  tell("Cutting before and after");
+  const BeforeAfter moved = before_after(*setting, plan.command);
+  if (const std::string why = chatter_in(moved); !why.empty()) {
+    return fail(why);
+  }
+  tell("Looking at other speeds");
+  const SpeedMap map = speed_map(*setting, plan, wanted);
+  CorrectionFindings findings{*setting, plan, moved, map, wanted};
+  fill_answer(findings, answer);
+  if (controller) {
+    tell("Running the controller");
+    add_controlled(
+        controlled_cut(*setting, plan,
+                       given.machine.controller.value_or(inputs::Controller{})),
+        answer);
+  }
+  return answer;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/run/progress.h>
+
+namespace trochoid::run {
+
+/// @brief The motion of the table that cancels runout, its command, and what the cut is
+/// like before and after.
+/// @param controller  simulate the real-time controller as well
+base::Answer correct(const inputs::Case& given, bool controller,
+                     const Progress& progress);
+
+}  // namespace trochoid::run

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <trochoid/base/answer.h>
+#include <trochoid/correction/shapes.h>
+#include <trochoid/run/correction_answer.h>
+
+#include <string>
+
+namespace trochoid::run {
+
+/// @brief What a person should know about a correction.
+void add_correction_warnings(const CorrectionFindings& f,
+                             const correction::AxisLimits& axes, base::Answer& answer);
+
+/// @brief The short table of correct.
+std::string correction_table(const CorrectionFindings& f);
+
+}  // namespace trochoid::run
