@@ -1,7 +1,8 @@
 // Builds the page from the data that are embedded in it.
 
 const pages = { simulate: simulatePage, identify: identifyPage, surface: surfacePage,
-  calibrate: calibratePage, stability: stabilityPage, modes: modesPage, actuator: actuatorPage };
+  calibrate: calibratePage, stability: stabilityPage, modes: modesPage, actuator: actuatorPage,
+  correct: correctPage };
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);

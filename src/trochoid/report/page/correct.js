@@ -1,0 +1,203 @@
+// The page of `correct`: the flutes before and after, the command, its limits.
+
+const correctKnown = ['runout', 'before', 'after', 'reduction', 'command', 'allowed_difference',
+  'max_rpm', 'axes', 'controller'];
+
+const strategyNames = { sine_plain: 'sine, plain', sine_lead: 'sine with lead',
+  sine_inverse: 'sine, inverse', square_lead: 'square with lead', this_case: 'this case' };
+
+function correctPage(report) {
+  return [
+    { lead: correctLead(report.result) },
+    flutesSection(report.result),
+    correctForcesSection(report),
+    commandSection(report),
+    controllerSection(report),
+    speedsSection(report),
+    { part: limitsSection(report.result.command) },
+    { part: correctRunoutSection(report.result) },
+    { part: restSection(report.result, correctKnown) },
+  ];
+}
+
+/** Two decimals, whatever the size: shares of about the same kind stand side by side. */
+const inPercent = (x) => (isNumber(x) ? (100 * x).toFixed(2) : null);
+
+function correctLead({ before, after, command, reduction, controller }) {
+  if (!after) return null;
+  return [tiles([
+    { label: 'Difference of the flutes, before', value: inPercent(before.difference), unit: '%',
+      note: 'of the larger peak of |Fy|' },
+    { label: 'With the command', value: inPercent(after.difference), unit: '%',
+      note: isNumber(reduction) && `${(100 * reduction).toFixed(1)} % less` },
+    { label: 'Command, peak to peak', value: number(command.peak_to_peak_um, 4), unit: 'µm',
+      note: isNumber(command.stroke_margin_um) &&
+        `${number(command.stroke_margin_um, 3)} µm of the stroke to spare` },
+    controller && { label: 'Under the controller', value: inPercent(controller.difference_running),
+      unit: '%', note: controller.fault ? `fault: ${controller.fault}` :
+        isNumber(controller.turns_to_3_percent) &&
+        `below 3 % from running turn ${controller.turns_to_3_percent} on` },
+  ])];
+}
+
+/** Bars of one quantity, a pair for each flute: before and after. */
+function flutesSection({ before, after }) {
+  if (!before?.flutes || !after?.flutes) return null;
+  const kinds = [
+    { name: 'peak of |Fy|, N', of: (f) => f.peak_Fy_N },
+    { name: 'chip area, mm rad', of: (f) => f.chip_area_mm_rad },
+    { name: 'thickest chip, µm', of: (f) => 1000 * f.peak_chip_mm },
+  ];
+  const rows = before.flutes.map((f, i) => [`${f.tooth}`,
+    ...kinds.flatMap(({ of }) => [number(of(f), 4), number(of(after.flutes[i]), 4)])]);
+  const paint = (c, width, height) => {
+    const each = width / kinds.length;
+    kinds.forEach((kind, k) => {
+      const most = Math.max(...before.flutes.map(kind.of), ...after.flutes.map(kind.of)) || 1;
+      write(c, kind.name, k * each + 4, 10, { color: '--ink' });
+      const n = before.flutes.length;
+      const slot = (each - 24) / n;
+      const floor = height - 22;
+      for (let j = 0; j < n; ++j) {
+        const x = k * each + 8 + j * slot;
+        [[before, '--s2', 0.08], [after, '--s1', 0.5]].forEach(([side, color, shift]) => {
+          const high = (floor - 26) * kind.of(side.flutes[j]) / most;
+          const x0 = x + shift * slot;
+          filled(c, [[x0, floor], [x0, floor - high], [x0 + 0.38 * slot, floor - high],
+            [x0 + 0.38 * slot, floor]], css(color));
+        });
+        write(c, `flute ${before.flutes[j].tooth}`, x + 0.48 * slot, height - 10,
+          { align: 'center' });
+      }
+    });
+  };
+  const chart = drawing({ label: 'Bars of every flute before and after', paint,
+    height: () => 220 });
+  const part = section('flutes', 'Flutes before and after', 'Flutes',
+    prose('Left bar: without the command. Right bar: with it. The peaks are those of the whole ' +
+      'force on the tool while a flute cuts; the chip area is what the flute takes at its tip. ' +
+      'Equal peaks are not equal chips.'), chart.element,
+    table(['flute', '|Fy| before, N', 'after', 'area before, mm rad', 'after',
+      'thickest chip before, µm', 'after'], rows));
+  return { part, draw: () => chart.resize() };
+}
+
+function correctForcesSection(report) {
+  const t = tableNamed(report, 'forces.csv');
+  const x = columnNamed(t, 'angle_deg');
+  if (!x || x.length < 3) return null;
+  const chart = figure({ key: 'phi', x, label: 'φ, spindle angle', unit: '°',
+    caption: zoomHint + thinned(t) });
+  const panels = axesOfForce.map((axis) => ({ label: forceName(axis), unit: 'N', height: 170,
+    series: [['before', '--s2', [6, 3]], ['after', '--s1']].map(([when, color, dash]) => ({
+      name: when, values: columnNamed(t, `F${axis}_${when}_N`), color, dash, width: 1.8 })) }))
+    .filter((panel) => panel.series.some((s) => s.values?.some((v) => v)));
+  const part = section('forces', 'Forces over a turn', 'Forces',
+    prose('Force on the tool in the last turn that was computed, with tool, table and actuator ' +
+      'moving, without and with the command.'), chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+function commandSection(report) {
+  const t = tableNamed(report, 'command.csv');
+  const x = columnNamed(t, 'angle_deg');
+  if (!x || x.length < 3) return null;
+  const forces = tableNamed(report, 'forces.csv');
+  const at = columnNamed(forces, 'angle_deg');
+  const moved = columnNamed(forces, 'table_after_um');
+  const { offset_um: middle = 0 } = report.result.command || {};
+  const there = at && moved && x.map((phi) => moved[nearest(at, phi)] + middle);
+  const chart = figure({ key: 'phi', x, label: 'φ, spindle angle', unit: '°',
+    caption: zoomHint + thinned(t) });
+  const panels = [{ label: 'position', unit: 'µm', height: 260, series: [
+    { name: 'command', values: columnNamed(t, 'command_um'), color: '--s1', width: 2 },
+    { name: 'table wanted', values: columnNamed(t, 'table_wanted_um'), color: '--s3',
+      dash: [6, 3] },
+    there && { name: 'table', values: there, color: '--s2' }].filter(Boolean) }];
+  const part = section('command', 'Command and table over a turn', 'Command',
+    prose('What the actuator is told, what the table should do, and what it does while it is cut ' +
+      'upon, cutting force and all. command.csv and command.h hold the command.'), chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+function controllerSection(report) {
+  const { controller } = report.result;
+  if (!controller?.turns?.length) return null;
+  const x = controller.turns.map((turn) => turn.turn);
+  const peaks = controller.turns[0].peaks_Fy_N.map((_, j) => ({ name: `flute ${j + 1}`,
+    values: controller.turns.map((turn) => turn.peaks_Fy_N[j]), color: seriesColor(j),
+    width: 1.8 }));
+  const t = tableNamed(report, 'controller.csv');
+  const time = columnNamed(t, 'time_s');
+  const state = (name) => controller.turns.findIndex((turn) => turn.state === name);
+  const markers = ['fading in', 'running', 'fault'].map((name) => [state(name), name])
+    .filter(([i]) => i >= 0).map(([i, text]) => ({ x: x[i], text }));
+  const turns = figure({ key: 'turn', x, label: 'turn of the spindle', unit: '',
+    caption: zoomHint });
+  const samples = time && figure({ key: 'time', x: time, label: 'time', unit: 's',
+    caption: zoomHint + thinned(t) });
+  const part = section('controller', 'The controller in the loop', 'Controller',
+    prose('The real-time core, step by step, on the model of the cut: peaks of |Fy| of each flute ' +
+      'in every turn, the gain of the command, and the command within the stroke.'),
+    turns.element, samples ? samples.element : null);
+  return { part, draw: () => {
+    turns.draw([{ label: 'peak of |Fy|', unit: 'N', height: 190, markers, series: peaks },
+      { label: 'difference', unit: '%', height: 130, markers, series: [{ name: '',
+        values: controller.turns.map((turn) => 100 * turn.difference), color: '--s3' }] }]);
+    samples?.draw([{ label: 'command', unit: 'µm', height: 170, series: [
+      { name: '', values: columnNamed(t, 'command_um'), color: '--s1' }] }]);
+  } };
+}
+
+function speedsSection(report) {
+  const t = tableNamed(report, 'speeds.csv');
+  const x = columnNamed(t, 'spindle_rpm');
+  if (!x || x.length < 2) return null;
+  const { max_rpm: highest = {}, allowed_difference: allowed } = report.result;
+  const names = Object.keys(strategyNames).filter((name) => columnNamed(t, `${name}_difference`));
+  const curves = (ending, factor) => names.map((name, i) => ({ name: strategyNames[name],
+    values: columnNamed(t, `${name}_${ending}`).map((v) => (isNumber(v) ? factor * v : null)),
+    color: seriesColor(i), dash: dashOf(i), width: name === 'this_case' ? 2.4 : 1.6 }));
+  const chart = figure({ key: 'rpm', x, label: 'spindle speed', unit: 'rpm',
+    caption: zoomHint + thinned(t) });
+  const limit = { name: 'allowed', values: x.map(() => 100 * allowed), color: '--soft',
+    dash: [2, 4] };
+  const part = section('speeds', 'Other speeds and other ways', 'Speeds',
+    prose('What is left of the difference at other spindle speeds, for a rigid tool: each motion is ' +
+      'sized to make the peaks equal when the table follows it exactly. Where the command would ' +
+      'leave the stroke it is cut off.'), chart.element,
+    table(['strategy', `highest speed for ${number(100 * allowed, 3)} %, rpm`],
+      names.map((name) => [strategyNames[name], highest[name] > 0 ? number(highest[name], 5) :
+        'none'])));
+  return { part, draw: () => chart.draw([
+    { label: 'difference of the peaks', unit: '%', height: 230,
+      series: [...curves('difference', 100), limit] },
+    { label: 'command, peak to peak', unit: 'µm', height: 150, series: curves('command_um', 1) }]) };
+}
+
+function limitsSection(command) {
+  if (!command?.limits?.length) return null;
+  const rows = command.limits.map((l) => [el('span', {}, l.reason),
+    l.ok === null ? 'not known' : l.ok ? 'within' : el('b', {}, 'beyond')]);
+  return section('limits', 'Limits of the actuator', 'Limits',
+    table(['what', 'limit'], rows),
+    command.learning ? prose(`Learning: ${command.learning.iterations} iterations, ` +
+      `${command.learning.converged ? 'converged' : 'not converged'}.`) : null);
+}
+
+function correctRunoutSection({ runout, axes }) {
+  if (!runout) return null;
+  const list = (values) => values?.map((v) => number(v, 4)).join(', ');
+  const rows = [
+    ['stands out by, µm (mean 0)', list(runout.radial_offsets_um)],
+    ['chip of each tooth above the feed, µm', list(runout.chip_difference_um)],
+    ['the command is made for, µm', list(runout.designed_for_um)],
+    runout.static_fit && ['a rigid model reads from the forces, µm',
+      runout.static_fit.chip_difference_um.map((v) => measured(v.value, 1.96 * v.se)).join(', ')],
+    runout.ratio_um && ['from the ratio of the peaks, µm', list(runout.ratio_um)],
+    axes && ['chip differences over the cut, µm (root mean square)',
+      `${number(axes.uncorrected_um, 3)} as it is, ${number(axes.one_axis_um, 3)} with this axis ` +
+      `at best, ${number(axes.two_axes_um, 3)} with a second one`],
+  ].filter(Boolean);
+  return section('runout', 'Runout', 'Runout', table(['', ''], rows));
+}
