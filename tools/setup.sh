@@ -23,6 +23,8 @@ libraries=(
 programs=(g++=g++ cmake=cmake ninja=ninja-build git=git)
 report_programs=(node=nodejs npm=npm)
 test_libraries=(libgtest-dev libbenchmark-dev python3-numpy python3-scipy)
+# What the tests can do without: where it is missing, theirs are skipped.
+optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make)
 test_programs=(clang-format=clang-format chromium=chromium)
 
 # One argument, one line.
@@ -86,6 +88,17 @@ install_packages() {
     "If the network was the reason, simply start the same command again."
 }
 
+# Packages that not every distribution has.
+install_optional() {
+  local wanted
+  mapfile -t wanted < <(missing_packages "$@")
+  [ ${#wanted[@]} = 0 ] && return
+  say "Installing for some of the tests: ${wanted[*]}"
+  apt_get install --no-install-recommends "${wanted[@]}" ||
+    { apt_get update && apt_get install --no-install-recommends "${wanted[@]}"; } ||
+    say "That did not work; the tests that need it are skipped."
+}
+
 # What node_modules must hold for "$1" (run or test): the lock file's packages.
 have_node_modules() {
   local stamp=$root/node_modules/.complete
@@ -120,6 +133,7 @@ setup() {
       "  npm ci --omit=dev && cmake --preset release && cmake --build --preset release"
   fi
   install_packages "${needs[@]}"
+  [ "$1" = test ] && install_optional "${optional_test_libraries[@]}"
   install_node_modules "$1"
   : >"$stamp"
 }
