@@ -24,7 +24,8 @@ RULES = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 def scratch_clone(top, folder):
     (folder / "run").symlink_to(top / "run")
     ours = shutil.ignore_patterns("*.identify", "*.simulate", "*.check",
-                                  "*.surface", "*.calibrate")
+                                  "*.surface", "*.calibrate", "*.stability", "*.modes",
+                                  "*.actuator", "*.dynamics", "*.correct")
     shutil.copytree(top / "examples", folder / "examples", ignore=ours)
 
 
