@@ -18,10 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double turn = 2 * std::numbers::pi;
-/// Steps of a tooth period at least, and of the fastest mode's period.
-constexpr int least_steps = 1000;
-constexpr double steps_of_fastest = 20;
-constexpr int slices_of_helix = 50;
 /// A force that changes by less than this part of its peak from turn to turn repeats.
 constexpr double repeats = 0.01;
 /// Growth from turn to turn beyond which a motion that does not repeat is chatter.
@@ -83,15 +79,7 @@ dynamics::MotionProblem problem_of(const inputs::Case& given) {
       return 0.5 * c.peak_to_peak * shape_at(c.shape, omega * (t + c.lead));
     };
   }
-  double fastest = 0.0;
-  for (const dynamics::ChipMode& mode : p.system.modes) {
-    fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / turn);
-  }
-  const double tooth_period = turn / (omega * given.setup.cutter.teeth());
-  p.grid.steps_per_tooth =
-      std::max(least_steps,
-               static_cast<int>(std::ceil(steps_of_fastest * fastest * tooth_period)));
-  p.grid.slices = given.setup.cutter.helix > 0 ? slices_of_helix : 1;
+  p.grid.steps_per_tooth = dynamics::steps_needed(p);
   p.revolutions = static_cast<int>(given.sampling.revolutions);
   p.kept = std::min(p.revolutions, 2);
   p.samples_per_rev = given.sampling.samples_per_rev;
