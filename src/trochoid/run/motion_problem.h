@@ -1,0 +1,13 @@
+#pragma once
+
+#include <trochoid/dynamics/motion.h>
+#include <trochoid/inputs/case.h>
+
+namespace trochoid::run {
+
+/// @brief A case of `dynamics` as the motion in time takes it.
+///
+/// At least 1000 steps a tooth, and 20 in a period of the fastest mode.
+dynamics::MotionProblem motion_problem(const inputs::Case& given);
+
+}  // namespace trochoid::run
