@@ -14,8 +14,6 @@ namespace trochoid::correction {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-/// Steps of the period of the fastest mode, at least.
-constexpr double steps_of_fastest = 20;
 constexpr int harmonics_of_table = 60;
 /// When the reading agrees, relative to the feed per tooth and in ln K and m.
 constexpr double agreed = 1e-5;
@@ -134,14 +132,8 @@ dynamics::MotionProblem problem_of(const MovingCut& cut,
   p.drive = drive_of(cut.plant, cut.tool.size());
   const double omega = cut.setup.cut.Omega;
   p.command = [command, omega](double t) { return place_at(command, omega * t); };
-  double fastest = 0.0;
-  for (const dynamics::ChipMode& mode : p.system.modes) {
-    fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / turn);
-  }
-  const double tooth_period = turn / (omega * cut.setup.cutter.teeth());
   p.grid.steps_per_tooth =
-      std::max(cut.grid.steps_per_tooth,
-               static_cast<int>(std::ceil(steps_of_fastest * fastest * tooth_period)));
+      std::max(cut.grid.steps_per_tooth, dynamics::steps_needed(p));
   p.revolutions = cut.revolutions;
   p.kept = 2;
   p.samples_per_rev = cut.samples_per_rev;
@@ -152,7 +144,7 @@ MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command,
                            double repeats) {
   const dynamics::Motion motion = dynamics::motion(problem_of(cut, command));
   MovingFlutes out;
-  if (!motion.finite) {
+  if (!motion.finite || !motion.solved) {
     out.periodic = false;
     out.last_change = motion.last_change;
     out.flutes.resize(static_cast<std::size_t>(cut.setup.cutter.teeth()));

@@ -19,6 +19,7 @@ struct MovingCut {
   std::vector<dynamics::ChipMode> tool;  ///< modes with +1 along their direction
   Plant plant;                           ///< its table moves along the feed
   dynamics::GridOptions grid;
+  int slices = 1;  ///< of the same cut where it is rigid; helix needs many
   int revolutions = 20;
   int samples_per_rev = 1440;
 };

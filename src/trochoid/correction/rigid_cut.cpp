@@ -20,6 +20,27 @@ double wrapped(double angle) noexcept {
   return angle - turn * std::floor(angle / turn);
 }
 
+void check(const force::Setup& setup, const force::Law& law, int slices) {
+  const geometry::Profile& p = setup.cutter.profile;
+  if (p.R != 0 || p.alpha != 0 || p.beta != 0) {
+    throw std::invalid_argument("the cutter is no cylinder");
+  }
+  if (setup.cutter.teeth() < 1 || slices < 1) {
+    throw std::invalid_argument("a cut has at least one tooth and one slice");
+  }
+  if (!(setup.cut.a_p >= 0) || !(setup.cut.f_z >= 0)) {
+    throw std::invalid_argument("depth and feed must not be negative");
+  }
+  const auto& rho = setup.runout.radial_offsets;
+  if (!std::all_of(rho.begin(), rho.end(), [](double r) { return std::isfinite(r); })) {
+    throw std::invalid_argument("a radial offset is no number");
+  }
+  if (const auto* power = std::get_if<force::Power>(&law);
+      power != nullptr && !(std::max({power->m_t, power->m_r, power->m_a}) < 1)) {
+    throw std::invalid_argument("an exponent of the power law is 1 or more");
+  }
+}
+
 }  // namespace
 
 chip::Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j) {
@@ -36,10 +57,8 @@ RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
       psi_(geometry::tooth_angles(setup.cutter)),
       pitch_(setup.cutter.pitch),
       arc_(tooth_arc(setup.cut.engagement, D_, D_ / 2)) {
+  check(setup, law, slices);
   const geometry::Profile& p = setup.cutter.profile;
-  if (p.R != 0 || p.alpha != 0 || p.beta != 0) {
-    throw std::invalid_argument("the cutter is no cylinder");
-  }
   const geometry::Meridian meridian = geometry::meridian(p);
   const double width = setup.cut.a_p / slices;
   const geometry::Runout runout =
@@ -56,6 +75,10 @@ RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
     geometry::edge_positions(runout, psi_, point.r, lag.angle, disk.teeth);
     disks_.push_back(std::move(disk));
   }
+}
+
+double RigidCut::feed() const noexcept {
+  return passage_.feed * turn;
 }
 
 int RigidCut::teeth() const noexcept {

@@ -50,12 +50,16 @@ class RigidCut {
  public:
   /// @param setup   a cylinder; any pitch
   /// @param slices  over the axial depth; helix needs many
-  /// @throws std::invalid_argument for another cutter
+  /// @throws std::invalid_argument for another cutter, for depths, feeds and slices
+  /// that
+  ///         are none, for offsets that are no numbers and for exponents of 1 or more
   RigidCut(const force::Setup& setup, const force::Law& law, int slices = 1);
 
   [[nodiscard]] int teeth() const noexcept;
   [[nodiscard]] const std::vector<double>& psi() const noexcept { return psi_; }
   [[nodiscard]] const std::vector<double>& pitch() const noexcept { return pitch_; }
+  [[nodiscard]] double radius() const noexcept { return D_ / 2; }  ///< nominal [m]
+  [[nodiscard]] double feed() const noexcept;                      ///< a turn [m]
   /// Where a tip enters and leaves the stock [rad].
   [[nodiscard]] chip::Arc arc() const noexcept { return arc_; }
   /// Offsets of the tips from the axis of rotation [m], mean 0.

@@ -1,8 +1,10 @@
 #include <trochoid/dynamics/cut_force.h>
 
 #include <trochoid/chip/chip.h>
+#include <trochoid/dynamics/power_of.h>
 #include <trochoid/force/columns.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,85 +12,207 @@ namespace trochoid::dynamics {
 
 namespace {
 
-struct LocalForce {
-  double t = 0.0;
-  double r = 0.0;
-  double a = 0.0;
-};
-
-LocalForce local_force(const force::LinearEdge& law, const Contact& c,
-                       double h) noexcept {
-  return {law.K_tc * h * c.width + law.K_te * c.edge,
-          law.K_rc * h * c.width + law.K_re * c.edge,
-          law.K_ac * h * c.width + law.K_ae * c.edge};
-}
-
-LocalForce local_force(const force::Power& law, const Contact& c, double h) noexcept {
-  const double u = h / force::h_0;
-  const double w = force::h_0 * c.width;
-  const double t = std::pow(u, 1 - law.m_t);
-  const double r = law.m_r == law.m_t ? t : std::pow(u, 1 - law.m_r);
-  const double a = law.K_a1 == 0 ? 0.0 : std::pow(u, 1 - law.m_a);
-  return {law.K_t1 * w * t, law.K_r1 * w * r, law.K_a1 * w * a};
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// q at the delayed moment.
+std::array<double, 2> delayed(const EngagedGrid& grid, std::size_t node,
+                              std::size_t tooth, std::size_t m,
+                              const History& past) noexcept {
+  if (grid.delays.empty()) {
+    const auto back = -static_cast<std::ptrdiff_t>((m + 1) * grid.pitch);
+    return {past.x[back], past.y[back]};
+  }
+  const Delay& d = grid.delays[(node * grid.teeth + tooth) * grid.lookback + m];
+  const auto a = -static_cast<std::ptrdiff_t>(d.back);
+  const auto b = a + 1;
+  const auto& w = d.weight;
+  return {w[0] * past.x[a] + w[1] * past.x[b] + w[2] * past.dx[a] + w[3] * past.dx[b],
+          w[0] * past.y[a] + w[1] * past.y[b] + w[2] * past.dy[a] + w[3] * past.dy[b]};
 }
 
 }  // namespace
 
-CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
-    : law_(law), grid_(grid) {}
-
-void CutForce::prepare(const Contacts& contacts, const History& past) {
-  contacts_ = contacts;
-  constant_.resize(contacts.last - contacts.first);
-  const auto nodes = static_cast<std::ptrdiff_t>(grid_.nodes);
-  for (std::size_t i = contacts.first; i < contacts.last; ++i) {
-    const Contact& c = grid_.contacts[i];
-    const double* above = grid_.above.data() + c.marks;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t m = 0; m < grid_.lookback; ++m) {
-      const auto back = -static_cast<std::ptrdiff_t>(m + 1) * nodes;
-      least =
-          std::min(least, above[m] - past.x[back] * c.sine - past.y[back] * c.cosine);
-    }
-    constant_[i - contacts.first] = least;  // T-1
+NearPower::NearPower(double m, std::size_t teeth) : m_(m), anchors_(teeth) {
+  double coefficient = 1.0;
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    series_[k] = coefficient;
+    coefficient *= -(m + static_cast<double>(k)) / static_cast<double>(k + 1);
   }
 }
 
-std::array<double, 3> CutForce::force(double q_x, double q_y) const noexcept {
-  std::array<double, 3> F{};
-  std::visit(
-      [&](const auto& law) {
-        for (std::size_t i = contacts_.first; i < contacts_.last; ++i) {
-          const Contact& c = grid_.contacts[i];
-          const double h =
-              constant_[i - contacts_.first] + q_x * c.sine + q_y * c.cosine;
-          if (!(h > chip::h_threshold)) {
-            continue;
-          }
-          const LocalForce f = local_force(law, c, h);
-          F[0] -= f.t * c.cosine + f.r * c.sine;
-          F[1] += f.t * c.sine - f.r * c.cosine;
-          F[2] -= f.a;
+double NearPower::renew(Anchor& anchor, double h) const noexcept {
+  anchor = {1 / h, power_of(h / force::h_0, -m_)};
+  return anchor.value;
+}
+
+CutForce::CutForce(const force::Law& law, const EngagedGrid& grid) : grid_(grid) {
+  std::size_t most = 1;
+  double most_edge = 0.0;
+  for (const auto* ranges : {&grid.before, &grid.after}) {
+    for (const Contacts& range : *ranges) {
+      std::size_t points = 0;
+      double edge = 0.0;
+      for (std::size_t k = range.first; k < range.last; ++k) {
+        const Stretch& stretch = grid.stretches[k];
+        points += stretch.count;
+        for (std::size_t i = 0; i < stretch.count; ++i) {
+          edge += grid.edge[stretch.first + i];
         }
-      },
-      law_);
-  return F;
+      }
+      most = std::max(most, points);
+      most_edge = std::max(most_edge, edge);
+    }
+  }
+  constant_.resize(most);
+  h_.resize(most);
+  watched_.assign(grid.teeth, none);
+  crossings_.reserve(grid.teeth);
+  if (const auto* linear = std::get_if<force::LinearEdge>(&law)) {
+    linear_ = *linear;
+    watches_ = grid.one_point && (linear->K_te != 0 || linear->K_re != 0);
+    largest_jump_ = 2 * std::hypot(linear_.K_te, linear_.K_re) * most_edge;
+    return;
+  }
+  power_ = true;
+  const auto& p = std::get<force::Power>(law);
+  const std::array<double, 3> m = {p.m_t, p.m_r, p.m_a};
+  const std::array<double, 3> K = {p.K_t1, p.K_r1, p.K_a1};
+  axial_ = p.K_a1 != 0;
+  for (std::size_t e = 0; e < m.size(); ++e) {
+    directions_[e] = {m[e],
+                      1 - m[e],
+                      K[e],
+                      e,
+                      NearPower(m[e], grid.teeth),
+                      std::vector<double>(most)};
+    for (std::size_t other = e; other-- > 0;) {
+      if (directions_[other].same_as == other && (m[other] == m[e] || K[e] == 0)) {
+        directions_[e].same_as = other;
+      }
+    }
+  }
+}
+
+void CutForce::prepare_edges(std::size_t node, const History& past) noexcept {
+  double* least = constant_.data();
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const Stretch& stretch = grid_.stretches[k];
+    const double* sine = grid_.sine.data() + stretch.first;
+    const double* cosine = grid_.cosine.data() + stretch.first;
+    const double* above = grid_.above.data() + stretch.marks;
+    for (std::size_t i = 0; i < stretch.count; ++i) {
+      least[i] = above[i];  // the stock
+    }
+    for (std::size_t m = 0; m < grid_.lookback; ++m) {
+      above += stretch.count;
+      const auto [x, y] = delayed(grid_, node, stretch.tooth, m, past);
+      for (std::size_t i = 0; i < stretch.count; ++i) {
+        least[i] = std::min(least[i], above[i] - x * sine[i] - y * cosine[i]);  // T-1
+      }
+    }
+    least += stretch.count;
+  }
+}
+
+Response CutForce::linear_response(double q_x, double q_y) const noexcept {
+  Response out;
+  const force::LinearEdge& law = linear_;
+  std::size_t at = 0;
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const Stretch& stretch = grid_.stretches[k];
+    for (std::size_t i = stretch.first; i < stretch.first + stretch.count; ++i, ++at) {
+      const double h = chip(at, i, q_x, q_y);
+      if (!(h > chip::h_threshold)) {
+        continue;
+      }
+      const double w = grid_.width[i];
+      const double e = grid_.edge[i];
+      const std::array<double, 3> slope = {law.K_tc * w, law.K_rc * w, law.K_ac * w};
+      add(grid_.sine[i], grid_.cosine[i],
+          {slope[0] * h + law.K_te * e, slope[1] * h + law.K_re * e,
+           slope[2] * h + law.K_ae * e},
+          slope, out);
+    }
+  }
+  return out;
+}
+
+Response CutForce::power_response(double q_x, double q_y) noexcept {
+  Response out;
+  std::size_t count = 0;
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const Stretch& stretch = grid_.stretches[k];
+    for (std::size_t i = 0; i < stretch.count; ++i, ++count) {
+      h_[count] = std::max(chip(count, stretch.first + i, q_x, q_y), chip::h_threshold);
+    }
+  }
+  for (std::size_t e = 0; e < directions_.size(); ++e) {
+    Direction& d = directions_[e];
+    if (d.same_as == e) {
+      const double* h = h_.data();
+      double* g = d.g.data();
+      for (std::size_t i = 0; i < count; ++i) {
+        g[i] = power_of(h[i] * (1 / force::h_0), -d.m);
+      }
+    }
+  }
+  std::size_t at = 0;
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const Stretch& stretch = grid_.stretches[k];
+    for (std::size_t i = stretch.first; i < stretch.first + stretch.count; ++i, ++at) {
+      const double h = h_[at];
+      if (!(h > chip::h_threshold)) {
+        continue;
+      }
+      std::array<double, 3> f;
+      std::array<double, 3> slope;
+      for (std::size_t e = 0; e < directions_.size(); ++e) {
+        const Direction& d = directions_[e];
+        const double K = d.K * grid_.width[i] * directions_[d.same_as].g[at];
+        f[e] = K * h;  // K_q1 h_0 (h/h_0)^(1 - m)
+        slope[e] = d.slope * K;
+      }
+      add(grid_.sine[i], grid_.cosine[i], f, slope, out);
+    }
+  }
+  return out;
 }
 
 std::vector<std::pair<std::size_t, double>> CutForce::chips(double q_x,
                                                             double q_y) const {
   std::vector<std::pair<std::size_t, double>> chips;
-  std::vector<bool> seen;
-  for (std::size_t i = contacts_.first; i < contacts_.last; ++i) {
-    const Contact& c = grid_.contacts[i];
-    seen.resize(std::max(seen.size(), c.tooth + 1));
-    if (!seen[c.tooth]) {  // the lowest slice comes first
-      const double h = constant_[i - contacts_.first] + q_x * c.sine + q_y * c.cosine;
-      chips.emplace_back(c.tooth, std::max(0.0, h));
-      seen[c.tooth] = true;
-    }
+  std::size_t at = 0;
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const Stretch& stretch = grid_.stretches[k];
+    chips.emplace_back(stretch.tooth, chip(at, stretch.first, q_x, q_y));
+    at += stretch.count;
   }
   return chips;
+}
+
+void CutForce::remember_chips(double q_x, double q_y) noexcept {
+  std::fill(watched_.begin(), watched_.end(), none);
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    watched_[grid_.stretches[k].tooth] = chip(k - contacts_.first, k, q_x, q_y);
+  }
+}
+
+void CutForce::find_crossings(double q_x, double q_y) noexcept {
+  crossings_.clear();
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const double from = watched_[grid_.stretches[k].tooth];
+    const double to = chip(k - contacts_.first, k, q_x, q_y);
+    const bool crosses = from > 0 ? to <= 0 : (from <= 0 && to > 0);  // NaN: neither
+    if (!crosses) {
+      continue;
+    }
+    const double s = grid_.sine[k];
+    const double c = grid_.cosine[k];
+    const double e = (to > 0 ? 1 : -1) * grid_.edge[k];
+    crossings_.push_back(
+        {from / (from - to),
+         {-e * (linear_.K_te * c + linear_.K_re * s),
+          e * (linear_.K_te * s - linear_.K_re * c), -e * linear_.K_ae}});
+  }
 }
 
 }  // namespace trochoid::dynamics

@@ -1,47 +1,231 @@
 #pragma once
 
+#include <trochoid/chip/chip.h>
 #include <trochoid/dynamics/engaged_grid.h>
 #include <trochoid/force/law.h>
 
 #include <array>
-#include <span>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace trochoid::dynamics {
 
-/// q of the steps up to now; index 0 is the step in question, -n the n-th before.
+using Force = std::array<double, 3>;  ///< on the tool [N]
+
+/// q of the nodes up to now and its slope over the spindle angle; index 0 is the node
+/// in question, -n the n-th before.
 struct History {
   const double* x = nullptr;
   const double* y = nullptr;
+  const double* dx = nullptr;
+  const double* dy = nullptr;
+};
+
+/// Force, and how it changes with q.
+struct Response {
+  Force F{};
+  std::array<double, 6> per_q{};  ///< dF/dq, rows x, y, z; columns x, y [N/m]
+};
+
+/// A place where the force jumps while a tooth leaves the cut or comes back.
+struct Crossing {
+  double part = 0.0;  ///< of the step
+  Force jump{};       ///< after minus before [N]
+};
+
+/// (h/h_0)^-m of a tooth without helix, from a chip not long ago.
+///
+/// The chip changes little from step to step: a series about the last power taken is
+/// faster than a power.
+class NearPower {
+ public:
+  explicit NearPower(double m = 0.0, std::size_t teeth = 0);
+
+  /// @param h  positive [m]
+  double operator()(std::size_t tooth, double h) noexcept {
+    Anchor& anchor = anchors_[tooth];
+    const double x = h * anchor.per_h - 1;
+    if (!(std::abs(x) < near)) {
+      return renew(anchor, h);
+    }
+    const auto& c = series_;
+    const double x_2 = x * x;
+    const double x_4 = x_2 * x_2;
+    return anchor.value *
+           (((1 + c[1] * x) + x_2 * (c[2] + c[3] * x)) +
+            x_4 * (((c[4] + c[5] * x) + x_2 * (c[6] + c[7] * x)) +
+                   x_4 * ((c[8] + c[9] * x) + x_2 * (c[10] + c[11] * x))));
+  }
+
+ private:
+  struct Anchor {
+    double per_h = 0.0;
+    double value = 0.0;
+  };
+  double renew(Anchor& anchor, double h) const noexcept;
+
+  /// Twelve terms leave 1e-13 then.
+  static constexpr double near = 1.0 / 12;
+  double m_;
+  std::array<double, 12> series_{};
+  std::vector<Anchor> anchors_;  ///< of each tooth
 };
 
 /// @brief Force of the contacts of a node, whatever q is at that moment.
 ///
-/// The marks of earlier teeth are met once a step: h = constant + q . n for each
-/// contact.
+/// The marks of earlier teeth are met once a step: h = constant + q . n for each point.
 class CutForce {
  public:
+  /// @param grid  outlives this
   CutForce(const force::Law& law, const EngagedGrid& grid);
 
-  void prepare(const Contacts& contacts, const History& past);
-  /// @return force on the tool [N] for the contacts prepared
-  [[nodiscard]] std::array<double, 3> force(double q_x, double q_y) const noexcept;
-  /// @return tooth and chip [m] of the contacts of the lowest slice
+  /// @brief Meet the marks: the chips of these contacts are then known but for q.
+  /// @param node  whose delays these are
+  void prepare(std::size_t node, const Contacts& contacts,
+               const History& past) noexcept {
+    contacts_ = contacts;
+    if (grid_.one_point && grid_.delays.empty()) {
+      prepare_points(past);
+    } else {
+      prepare_edges(node, past);
+    }
+  }
+
+  /// For the contacts prepared.
+  [[nodiscard]] Response response(double q_x, double q_y) noexcept {
+    if (grid_.one_point) {
+      return point_response(q_x, q_y);
+    }
+    return power_ ? power_response(q_x, q_y) : linear_response(q_x, q_y);
+  }
+
+  /// @return tooth and chip [m] of the lowest point of each tooth; negative: off the
+  /// work
   [[nodiscard]] std::vector<std::pair<std::size_t, double>> chips(double q_x,
                                                                   double q_y) const;
 
-  std::array<double, 3> at(const Contacts& contacts, const History& past, double q_x,
-                           double q_y) {
-    prepare(contacts, past);
-    return force(q_x, q_y);
+  /// @brief Remember the chips of single points at the start of a step.
+  void watch(double q_x, double q_y) noexcept {
+    if (watches_) {
+      remember_chips(q_x, q_y);
+    }
   }
+  /// @brief Edge forces that came or went since.
+  const std::vector<Crossing>& crossings(double q_x, double q_y) noexcept {
+    if (watches_) {
+      find_crossings(q_x, q_y);
+    }
+    return crossings_;
+  }
+  /// By how much forces may jump at h = 0, all teeth together [N].
+  [[nodiscard]] double largest_jump() const noexcept { return largest_jump_; }
 
  private:
-  force::Law law_;
+  /// One of the three directions of a power law.
+  struct Direction {
+    double m = 0.0;
+    double slope = 1.0;       ///< 1 - m
+    double K = 0.0;           ///< [N/m^2]
+    std::size_t same_as = 0;  ///< the first direction with the same m
+    NearPower near;
+    std::vector<double> g;  ///< (h/h_0)^-m of the points prepared
+  };
+
+  void prepare_points(const History& past) noexcept;
+  void prepare_edges(std::size_t node, const History& past) noexcept;
+  [[nodiscard]] Response point_response(double q_x, double q_y) noexcept;
+  [[nodiscard]] Response linear_response(double q_x, double q_y) const noexcept;
+  [[nodiscard]] Response power_response(double q_x, double q_y) noexcept;
+  void remember_chips(double q_x, double q_y) noexcept;
+  void find_crossings(double q_x, double q_y) noexcept;
+  [[nodiscard]] double chip(std::size_t at, std::size_t point, double q_x,
+                            double q_y) const noexcept {
+    return constant_[at] + q_x * grid_.sine[point] + q_y * grid_.cosine[point];
+  }
+  static void add(double s, double c, const std::array<double, 3>& f,
+                  const std::array<double, 3>& slope, Response& out) noexcept;
+
   const EngagedGrid& grid_;
+  bool power_ = false;
+  bool axial_ = true;     ///< is there a force along the axis?
+  bool watches_ = false;  ///< single points whose force jumps at h = 0
+  double largest_jump_ = 0.0;
+  force::LinearEdge linear_;
+  std::array<Direction, 3> directions_;  ///< t, r, a
   Contacts contacts_;
   std::vector<double> constant_;
+  std::vector<double> h_;
+  std::vector<double> watched_;  ///< chip of each tooth, NaN: not there
+  std::vector<Crossing> crossings_;
 };
+
+/// Add a force and its slope over the chip, both along t, r, a.
+inline void CutForce::add(double s, double c, const std::array<double, 3>& f,
+                          const std::array<double, 3>& slope, Response& out) noexcept {
+  out.F[0] -= f[0] * c + f[1] * s;
+  out.F[1] += f[0] * s - f[1] * c;
+  out.F[2] -= f[2];
+  const double x = -slope[0] * c - slope[1] * s;
+  const double y = slope[0] * s - slope[1] * c;
+  out.per_q[0] += x * s;
+  out.per_q[1] += x * c;
+  out.per_q[2] += y * s;
+  out.per_q[3] += y * c;
+  out.per_q[4] -= slope[2] * s;
+  out.per_q[5] -= slope[2] * c;
+}
+
+inline void CutForce::prepare_points(const History& past) noexcept {
+  const auto pitch = static_cast<std::ptrdiff_t>(grid_.pitch);
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const double s = grid_.sine[k];
+    const double c = grid_.cosine[k];
+    const double* above = grid_.above.data() + k * (grid_.lookback + 1);
+    double least = *above;  // the stock
+    std::ptrdiff_t back = 0;
+    for (std::size_t m = 1; m <= grid_.lookback; ++m) {
+      back -= pitch;
+      const double h = above[m] - (past.x[back] * s + past.y[back] * c);  // T-1
+      least = h < least ? h : least;
+    }
+    constant_[k - contacts_.first] = least;
+  }
+}
+
+inline Response CutForce::point_response(double q_x, double q_y) noexcept {
+  Response out;
+  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+    const double h = chip(k - contacts_.first, k, q_x, q_y);
+    if (!(h > chip::h_threshold)) {
+      continue;
+    }
+    const double w = grid_.width[k];
+    if (power_) {
+      const std::size_t tooth = grid_.stretches[k].tooth;
+      std::array<double, 3> g{directions_[0].near(tooth, h)};
+      std::array<double, 3> f{};
+      std::array<double, 3> slope{};
+      for (std::size_t e = 0; e < (axial_ ? 3 : 2); ++e) {
+        Direction& d = directions_[e];
+        g[e] = d.same_as == e && e > 0 ? d.near(tooth, h) : g[d.same_as];
+        const double K = d.K * w * g[e];
+        f[e] = K * h;  // K_q1 h_0 (h/h_0)^(1 - m)
+        slope[e] = d.slope * K;
+      }
+      add(grid_.sine[k], grid_.cosine[k], f, slope, out);
+    } else {
+      const force::LinearEdge& law = linear_;
+      const double e = grid_.edge[k];
+      const std::array<double, 3> slope = {law.K_tc * w, law.K_rc * w, law.K_ac * w};
+      add(grid_.sine[k], grid_.cosine[k],
+          {slope[0] * h + law.K_te * e, slope[1] * h + law.K_re * e,
+           slope[2] * h + law.K_ae * e},
+          slope, out);
+    }
+  }
+  return out;
+}
 
 }  // namespace trochoid::dynamics

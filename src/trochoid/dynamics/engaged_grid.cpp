@@ -1,7 +1,6 @@
 #include <trochoid/dynamics/engaged_grid.h>
 
-#include <trochoid/chip/chip.h>
-#include <trochoid/geometry/edge.h>
+#include <trochoid/dynamics/edge_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,55 +14,6 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 /// Just before and just after a node [rad].
 constexpr double beside = 1e-9;
-
-/// The arc on the front of the tool whose points lie in the stock.
-struct Window {
-  double from = 0.0;
-  double to = 0.0;
-
-  [[nodiscard]] bool holds(double theta) const noexcept {
-    const double u = theta - turn * std::floor(theta / turn);
-    return u > from && u < to;
-  }
-};
-
-Window window_of(const force::Setup& setup) {
-  const double r = setup.cutter.profile.D / 2;
-  const geometry::Band stock =
-      geometry::stock_band(setup.cut.engagement, setup.cutter.profile.D);
-  return {std::acos(std::clamp(stock.y_hi / r, -1.0, 1.0)),
-          std::acos(std::clamp(stock.y_lo / r, -1.0, 1.0))};
-}
-
-/// One slice: the teeth there, and how far they lag behind their tips.
-struct Disk {
-  double lag = 0.0;
-  double width = 0.0;
-  double edge = 0.0;
-  std::vector<geometry::EdgePosition> teeth;
-};
-
-std::vector<Disk> disks_of(const force::Setup& setup, int count) {
-  const geometry::Meridian meridian = geometry::meridian(setup.cutter.profile);
-  const std::vector<double> psi = geometry::tooth_angles(setup.cutter);
-  const double width = setup.cut.a_p / count;
-  std::vector<Disk> disks;
-  for (int i = 0; i < count; ++i) {
-    const double s = geometry::arc_length_at(meridian, (i + 0.5) * width);
-    const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s);
-    const geometry::MeridianPoint point = geometry::point_at(meridian, s);
-    Disk disk{lag.angle, width, 0.0, {}};
-    disk.edge = setup.edge_length == force::EdgeLength::axial
-                    ? width
-                    : width * geometry::edge_length_factor(point, lag);
-    disk.teeth.resize(psi.size());
-    const geometry::Runout runout =
-        setup.chip.model == chip::Model::none ? geometry::Runout{} : setup.runout;
-    geometry::edge_positions(runout, psi, point.r, lag.angle, disk.teeth);
-    disks.push_back(std::move(disk));
-  }
-  return disks;
-}
 
 /// Steps that fill a length, halved again and again towards both ends: where the chip
 /// begins, the force of a power law has an infinite slope.
@@ -96,124 +46,171 @@ std::vector<double> steps_of(double length, double longest) {
   return steps;
 }
 
-class Builder {
- public:
-  Builder(const force::Setup& setup, const GridOptions& options)
-      : setup_(setup),
-        window_(window_of(setup)),
-        passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
-        psi_(geometry::tooth_angles(setup.cutter)),
-        disks_(disks_of(setup, options.slices)) {
-    const auto teeth = static_cast<std::size_t>(setup.cutter.teeth());
-    grid_.lookback =
-        options.lookback > 0 ? static_cast<std::size_t>(options.lookback) : 2 * teeth;
-    add_nodes(options.steps_per_tooth);
-    for (const double phi : grid_.angle) {
-      const Contacts before = add_contacts(phi, -beside);
-      const Contacts after = add_contacts(phi, +beside);
-      grid_.before.push_back(before);
-      grid_.after.push_back(after);
-      grid_.jump.push_back(!same_contacts(before, after));
+bool equally_spaced(const std::vector<double>& pitch) {
+  return std::none_of(pitch.begin(), pitch.end(),
+                      [&](double x) { return std::abs(x - pitch.front()) > 1e-12; });
+}
+
+/// Nodes of one revolution: those of one pitch repeated where pitches are equal.
+void add_nodes(const force::Setup& setup, const EdgePoints& points, int steps,
+               EngagedGrid& grid) {
+  const auto& pitch = setup.cutter.pitch;
+  const bool equal = equally_spaced(pitch);
+  const double period = equal ? turn / static_cast<double>(pitch.size()) : turn;
+  const double smallest = *std::min_element(pitch.begin(), pitch.end());
+  const double longest =
+      std::min(turn / static_cast<double>(pitch.size()) / steps, smallest / 4);
+  std::vector<double> marks = {0.0, period};
+  for (const double phi : points.events()) {
+    marks.push_back(phi - period * std::floor(phi / period));
+  }
+  std::sort(marks.begin(), marks.end());
+  std::vector<double> at;
+  std::vector<double> step;
+  double from = 0.0;
+  for (const double mark : marks) {
+    // Marks that rounding alone sets apart are one, and the last is the period itself.
+    const double to = period - mark < 1e-8 ? period : mark;
+    if (to - from < 1e-8) {
+      continue;
+    }
+    double here = from;
+    for (const double s : steps_of(to - from, longest)) {
+      at.push_back(here);
+      step.push_back(s);
+      here += s;
+    }
+    from = to;
+  }
+  grid.pitch = equal ? at.size() : 0;
+  for (std::size_t j = 0; j < (equal ? pitch.size() : 1); ++j) {
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      grid.angle.push_back(static_cast<double>(j) * period + at[i]);
+      grid.step.push_back(step[i]);
     }
   }
+}
 
-  EngagedGrid take() { return std::move(grid_); }
-
- private:
-  void add_nodes(int steps_per_tooth) {
-    const double pitch = setup_.cutter.pitch.front();
-    std::vector<double> marks = {0.0, pitch};
-    for (const double edge : {window_.from, window_.to}) {
-      const double at = edge - pitch * std::floor(edge / pitch);
-      marks.push_back(at);
+bool same_points(const EngagedGrid& grid, const Contacts& a, const Contacts& b) {
+  if (a.last - a.first != b.last - b.first) {
+    return false;
+  }
+  for (std::size_t k = 0; k < a.last - a.first; ++k) {
+    const Stretch& p = grid.stretches[a.first + k];
+    const Stretch& q = grid.stretches[b.first + k];
+    if (p.tooth != q.tooth || p.count != q.count) {
+      return false;
     }
-    std::sort(marks.begin(), marks.end());
-    std::vector<double> nodes;
-    for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
-      const double length = marks[i + 1] - marks[i];
-      if (length < 1e-7 * pitch) {
-        continue;
+  }
+  return true;
+}
+
+/// Forget what was added after a state of the grid.
+void shrink_to(EngagedGrid& grid, const Stretch& end, std::size_t stretches) {
+  grid.stretches.resize(stretches);
+  grid.sine.resize(end.first);
+  grid.cosine.resize(end.first);
+  grid.width.resize(end.first);
+  grid.edge.resize(end.first);
+  grid.above.resize(end.marks);
+}
+
+/// The delay by m teeth seen from an angle, `back` counted from `node`.
+Delay delay_of(const EngagedGrid& nodes, double phi, double delay, std::size_t node) {
+  const double turns = std::floor((phi - delay) / turn);
+  const double u = phi - delay - turn * turns;
+  const auto later = std::upper_bound(nodes.angle.begin(), nodes.angle.end(), u);
+  const auto k = static_cast<std::size_t>(later - nodes.angle.begin()) - 1;
+  const double step = nodes.step[k];
+  const double t = std::min(1.0, (u - nodes.angle[k]) / step);
+  const double s = 1 - t;
+  const auto past = static_cast<std::size_t>(-turns) * nodes.angle.size();
+  return {
+      node + past - k,
+      {s * s * (1 + 2 * t), t * t * (3 - 2 * t), step * t * s * s, -step * t * t * s}};
+}
+
+void add_delays(const force::Setup& setup, const EngagedGrid& nodes, EngagedGrid& grid,
+                const std::vector<std::size_t>& node) {
+  const chip::Passage passage = chip::passage(setup.cutter, setup.cut, setup.chip);
+  for (std::size_t i = 0; i < grid.angle.size(); ++i) {
+    for (std::size_t j = 0; j < grid.teeth; ++j) {
+      for (std::size_t m = 0; m < grid.lookback; ++m) {
+        const double delay = passage.back[j * grid.teeth + m % grid.teeth] +
+                             turn * static_cast<double>(m / grid.teeth);
+        grid.delays.push_back(delay_of(nodes, grid.angle[i], delay, node[i]));
       }
-      double at = marks[i];
-      for (const double step : steps_of(length, pitch / steps_per_tooth)) {
-        nodes.push_back(at);
-        at += step;
-        grid_.step.push_back(step);
-      }
-    }
-    grid_.nodes = nodes.size();
-    for (std::size_t j = 0; j < psi_.size(); ++j) {
-      for (const double at : nodes) {
-        grid_.angle.push_back(static_cast<double>(j) * pitch + at);
-      }
     }
   }
+}
 
-  Contacts add_contacts(double phi, double side) {
-    Contacts range{grid_.contacts.size(), 0};
-    for (const Disk& disk : disks_) {
-      for (std::size_t j = 0; j < psi_.size(); ++j) {
-        const double theta = phi - psi_[j] - disk.lag;
-        if (window_.holds(theta + side)) {
-          add_contact(disk, j, theta);
-        }
-      }
-    }
-    range.last = grid_.contacts.size();
-    return range;
-  }
-
-  [[nodiscard]] bool same_contacts(const Contacts& a, const Contacts& b) const {
-    return std::equal(grid_.contacts.begin() + static_cast<std::ptrdiff_t>(a.first),
-                      grid_.contacts.begin() + static_cast<std::ptrdiff_t>(a.last),
-                      grid_.contacts.begin() + static_cast<std::ptrdiff_t>(b.first),
-                      grid_.contacts.begin() + static_cast<std::ptrdiff_t>(b.last),
-                      [](const Contact& p, const Contact& q) {
-                        return p.tooth == q.tooth && p.sine == q.sine;
-                      });
-  }
-
-  void add_contact(const Disk& disk, std::size_t j, double theta) {
-    const geometry::EdgePosition& own = disk.teeth[j];
-    const chip::Slice slice{setup_.cutter.profile.D / 2, disk.teeth};
-    grid_.contacts.push_back({std::sin(theta + own.epsilon),
-                              std::cos(theta + own.epsilon), disk.width, disk.edge, j,
-                              grid_.above.size()});
-    const auto tooth = static_cast<int>(j);
-    const std::size_t teeth = psi_.size();
-    for (std::size_t m = 1; m <= grid_.lookback; ++m) {
-      // A mark older than a turn stands one or more feeds per turn farther back.
-      const std::size_t older = (m - 1) / teeth;
-      const int mark = static_cast<int>((m - 1) % teeth) + 1;
-      const bool counts = static_cast<int>(m) <= passage_.marks || older > 0;
-      const double a = chip::chip_over_mark(passage_, slice, tooth, theta, mark) +
-                       static_cast<double>(older * teeth) * setup_.cut.f_z *
-                           std::sin(theta + own.epsilon);
-      grid_.above.push_back(counts ? a : std::numeric_limits<double>::infinity());
-    }
-  }
-
-  const force::Setup& setup_;
-  Window window_;
-  chip::Passage passage_;
-  std::vector<double> psi_;
-  std::vector<Disk> disks_;
-  EngagedGrid grid_;
-};
+EngagedGrid empty_grid(const force::Setup& setup, const GridOptions& options) {
+  EngagedGrid grid;
+  grid.teeth = static_cast<std::size_t>(setup.cutter.teeth());
+  grid.lookback = options.lookback > 0 ? static_cast<std::size_t>(options.lookback)
+                                       : 2 * grid.teeth;
+  return grid;
+}
 
 }  // namespace
 
-EngagedGrid engaged_grid(const force::Setup& setup, const GridOptions& options) {
-  const auto& pitch = setup.cutter.pitch;
+EngagedGrid engaged_grid(const force::Setup& setup, const GridOptions& options,
+                         int steps_per_tooth) {
   const geometry::Profile& p = setup.cutter.profile;
   if (p.R != 0 || p.alpha != 0 || p.beta != 0) {
     throw std::invalid_argument("the cutter is no cylinder");
   }
-  if (std::any_of(pitch.begin(), pitch.end(),
-                  [&](double x) { return std::abs(x - pitch.front()) > 1e-12; })) {
-    throw std::invalid_argument("the teeth are not equally spaced");
+  if (steps_per_tooth < 1) {
+    throw std::invalid_argument("a tooth period without steps");
   }
-  return Builder(setup, options).take();
+  EngagedGrid grid = empty_grid(setup, options);
+  const EdgePoints points(setup, options.points, grid.lookback);
+  grid.one_point = !points.helix();
+  add_nodes(setup, points, steps_per_tooth, grid);
+  for (const double phi : grid.angle) {
+    const Contacts before = points.add(phi, -beside, grid);
+    const Stretch end{0, grid.sine.size(), 0, grid.above.size()};
+    const Contacts after = points.helix() ? before : points.add(phi, +beside, grid);
+    const bool jump = !same_points(grid, before, after);
+    if (!jump) {
+      shrink_to(grid, end, before.last);
+    }
+    grid.before.push_back(before);
+    grid.after.push_back(jump ? after : before);
+    grid.jump.push_back(jump ? 1 : 0);
+  }
+  if (grid.pitch == 0) {
+    std::vector<std::size_t> node(grid.angle.size());
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      node[i] = i;
+    }
+    const EngagedGrid nodes{.angle = grid.angle, .step = grid.step};
+    add_delays(setup, nodes, grid, node);
+  }
+  return grid;
+}
+
+BetweenNodes between_nodes(const force::Setup& setup, const GridOptions& options,
+                           const EngagedGrid& nodes, std::vector<double> angles) {
+  BetweenNodes result{empty_grid(setup, options), {}, {}};
+  EngagedGrid& grid = result.grid;
+  const EdgePoints points(setup, options.points, grid.lookback);
+  grid.one_point = !points.helix();
+  for (const double phi : angles) {
+    const auto later =
+        std::upper_bound(nodes.angle.begin(), nodes.angle.end(), phi + beside);
+    const auto node = static_cast<std::size_t>(later - nodes.angle.begin());
+    const double part = (phi - nodes.angle[node - 1]) / nodes.step[node - 1];
+    result.node.push_back(node);
+    result.part.push_back(std::clamp(part, 0.0, 1.0));
+    const Contacts contacts = points.add(phi, +beside, grid);
+    grid.before.push_back(contacts);
+    grid.after.push_back(contacts);
+    grid.jump.push_back(0);
+  }
+  grid.angle = std::move(angles);
+  add_delays(setup, nodes, grid, result.node);
+  return result;
 }
 
 }  // namespace trochoid::dynamics

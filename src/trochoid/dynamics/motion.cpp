@@ -1,38 +1,103 @@
 #include <trochoid/dynamics/motion.h>
 
 #include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/motion_record.h>
 #include <trochoid/dynamics/stepper.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace trochoid::dynamics {
 
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-/// Iterations for the force at the end of a step, and when they may end [N, relative].
-constexpr int most_iterations = 20;
-constexpr double settled = 1e-6;
+/// Rounds for the force at the end of a step; after the first few in shorter strides,
+/// lest they go round in a circle where a tooth only just touches.
+constexpr int most_rounds = 40;
+constexpr int full_rounds = 5;
 /// A displacement that no cut has [m]: the motion has run away.
 constexpr double run_away = 0.1;
+/// Remembered beyond the oldest delay, for the places between nodes.
+constexpr std::size_t spare = 4;
 
 double size_of(const Force& F) {
-  return std::abs(F[0]) + std::abs(F[1]) + std::abs(F[2]);
+  return std::abs(F[0]) + std::abs(F[1]);
 }
 
-double distance(const Force& a, const Force& b) {
-  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
-}
+/// q of all nodes that delays may ask for, and of the current turn.
+class Past {
+ public:
+  explicit Past(const EngagedGrid& grid)
+      : turn_(grid.angle.size()), memory_(grid.memory() + spare), now_(memory_) {
+    for (auto* values : {&x_, &y_, &dx_, &dy_}) {
+      values->assign(memory_ + turns * turn_ + 1, 0.0);
+    }
+  }
 
-/// Cubic between the ends of a step, from places and speeds.
-double between(const std::array<double, 2>& a, const std::array<double, 2>& b,
-               double dt, double t) {
-  const double u = 1 - t;
-  return u * u * (1 + 2 * t) * a[0] + t * t * (3 - 2 * t) * b[0] +
-         t * u * dt * (u * a[1] - t * b[1]);
-}
+  /// Index 0 is the node that comes next.
+  [[nodiscard]] History next() const noexcept {
+    const std::size_t i = now_ + 1;
+    return {x_.data() + i, y_.data() + i, dx_.data() + i, dy_.data() + i};
+  }
+
+  /// Index 0 is the last node.
+  [[nodiscard]] History last() const noexcept {
+    return {x_.data() + now_, y_.data() + now_, dx_.data() + now_, dy_.data() + now_};
+  }
+
+  void set(const std::array<double, 2>& q, const std::array<double, 2>& slope) {
+    x_[now_] = q[0];
+    y_[now_] = q[1];
+    dx_[now_] = slope[0];
+    dy_[now_] = slope[1];
+  }
+
+  void add(const std::array<double, 2>& q, const std::array<double, 2>& slope) {
+    ++now_;
+    set(q, slope);
+  }
+
+  [[nodiscard]] std::array<double, 2> q() const { return {x_[now_], y_[now_]}; }
+
+  /// After a turn: forget what no delay reaches any more, if room is needed.
+  void finish_turn() {
+    if (now_ < memory_ + turns * turn_) {
+      return;
+    }
+    for (auto* values : {&x_, &y_, &dx_, &dy_}) {
+      std::copy(values->end() - static_cast<std::ptrdiff_t>(memory_ + 1), values->end(),
+                values->begin());
+    }
+    now_ = memory_;
+  }
+
+  /// After a turn: as if there had been many like it.
+  void repeat_turn() {
+    for (auto* values : {&x_, &y_, &dx_, &dy_}) {
+      for (std::size_t i = memory_; i-- > 0;) {
+        (*values)[i] = (*values)[i + turn_];
+      }
+    }
+    now_ = memory_;
+  }
+
+ private:
+  static constexpr std::size_t turns = 4;  ///< that there is room for
+
+  std::size_t turn_;
+  std::size_t memory_;
+  std::size_t now_;
+  std::vector<double> x_;
+  std::vector<double> y_;
+  std::vector<double> dx_;
+  std::vector<double> dy_;
+};
 
 std::vector<double> times_of(const EngagedGrid& grid, double omega) {
   std::vector<double> times;
@@ -42,190 +107,244 @@ std::vector<double> times_of(const EngagedGrid& grid, double omega) {
   return times;
 }
 
-/// One step that was taken.
-struct Interval {
-  double from = 0.0;  ///< spindle angle [rad]
-  double to = 0.0;
-  Force F_0{};
-  Force F_1{};
+int steps_of(const MotionProblem& problem) {
+  const int asked = problem.grid.steps_per_tooth;
+  const int steps = asked > 0 ? asked : steps_needed(problem);
+  if (steps > most_steps) {
+    throw std::invalid_argument(
+        fmt::format("{} steps in a tooth period, more than {}", steps, most_steps));
+  }
+  return steps;
+}
+
+/// (I - J P)^-1 with J = dF/dq and P = dq/dF: from how far a force is off to what it
+/// should be.
+struct Newton {
+  double xx = 1.0;
+  double xy = 0.0;
+  double yx = 0.0;
+  double yy = 1.0;
+  double strength = 0.0;  ///< size of J P
+  /// A feedback within a step weaker than this may be met with an old slope, and to
+  /// first order.
+  static constexpr double mild = 0.03;
+
+  Newton() = default;
+  Newton(const Response& r, const std::array<double, 3>& P) noexcept {
+    const auto& J = r.per_q;
+    const double a = J[0] * P[0] + J[1] * P[1];
+    const double b = J[0] * P[1] + J[1] * P[2];
+    const double c = J[2] * P[0] + J[3] * P[1];
+    const double d = J[2] * P[1] + J[3] * P[2];
+    strength = std::abs(a) + std::abs(b) + std::abs(c) + std::abs(d);
+    xx = 1 + a;
+    xy = b;
+    yx = c;
+    yy = 1 + d;
+    if (strength > mild) {
+      const double whole = 1 / ((1 - a) * (1 - d) - b * c);
+      xx = (1 - d) * whole;
+      xy = b * whole;
+      yx = c * whole;
+      yy = (1 - a) * whole;
+    }
+  }
 };
 
 class Run {
  public:
   explicit Run(const MotionProblem& problem)
       : problem_(problem),
-        grid_(engaged_grid(problem.setup, problem.grid)),
+        grid_(engaged_grid(problem.setup, problem.grid, steps_of(problem))),
         cut_(problem.law, grid_),
         omega_(problem.setup.cut.Omega),
         dt_(times_of(grid_, omega_)),
         stepper_(problem, dt_),
-        index_(grid_.lookback * grid_.nodes) {
-    const std::size_t total =
-        index_ + grid_.angle.size() * static_cast<std::size_t>(problem.revolutions) + 1;
-    q_x_.assign(total, 0.0);
-    q_y_.assign(total, 0.0);
-    motion_.flutes.resize(static_cast<std::size_t>(problem.setup.cutter.teeth()));
+        past_(grid_),
+        samples_(problem, grid_),
+        flutes_(problem, grid_),
+        comparison_(grid_.angle.size()),
+        kept_(std::max(1, problem.kept)) {
+    const auto turns = static_cast<int>(grid_.memory() / grid_.angle.size());
+    with_slope_ =
+        grid_.delays.empty() ? kept_ + turns + 1 : std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < dt_.size(); ++i) {
+      ratio_.push_back(dt_[i] / (i > 0 ? dt_[i - 1] : dt_.back()));
+    }
+    motion_.flutes.resize(grid_.teeth);
     motion_.mode.resize(problem.system.modes.size());
-    last_turn_.resize(grid_.angle.size());
+    motion_.speed.resize(problem.system.modes.size());
   }
 
   Motion go() {
-    Force F = cut_.at(grid_.after[0], past(index_), 0.0, 0.0);
+    if (problem_.start == Start::periodic) {
+      start_periodic();
+    }
+    const auto q = past_.q();
+    cut_.prepare(0, grid_.after[0], past_.last());
+    cut_.watch(q[0], q[1]);
+    Force F = cut_.response(q[0], q[1]).F;
     before_ = F;
-    for (int n = 0; n < problem_.revolutions && motion_.finite; ++n) {
-      motion_.once.push_back({q_x_[index_], q_y_[index_]});
-      motion_.last_change = 0.0;
-      for (std::size_t i = 0; i < grid_.angle.size() && motion_.finite; ++i) {
-        motion_.last_change = std::max(motion_.last_change, distance(F, last_turn_[i]));
-        last_turn_[i] = F;
+    for (int n = 0; n < problem_.revolutions && going(); ++n) {
+      motion_.once.push_back(past_.q());
+      for (std::size_t i = 0; i < grid_.angle.size() && going(); ++i) {
         F = step_once(n, i, F);
       }
+      past_.finish_turn();
       ++motion_.turns_done;
     }
-    motion_.growth = growth();
-    add_command();
+    motion_.growth = growth_of(motion_.once);
+    samples_.finish(motion_);
+    comparison_.finish(motion_);
     return std::move(motion_);
   }
 
  private:
-  [[nodiscard]] History past(std::size_t at) const {
-    return {q_x_.data() + at, q_y_.data() + at};
+  [[nodiscard]] bool going() const { return motion_.finite && motion_.solved; }
+
+  [[nodiscard]] std::array<double, 2> slope() const noexcept {
+    const auto v = stepper_.speed();
+    return {v[0] / omega_, v[1] / omega_};
+  }
+
+  /// The motion that a turn of forces without vibration keeps up, and a past like it.
+  void start_periodic() {
+    const std::vector<double> zero(grid_.memory() + spare, 0.0);
+    const double* end = zero.data() + grid_.memory() + spare - 1;
+    const History still{end, end, end, end};
+    for (const bool first : {true, false}) {
+      past_.set(stepper_.place(), slope());
+      for (std::size_t i = 0; i < grid_.angle.size(); ++i) {
+        const std::size_t next = i + 1 < grid_.angle.size() ? i + 1 : 0;
+        cut_.prepare(i, grid_.after[i], still);
+        stepper_.begin(i, cut_.response(0, 0).F, 0.0);
+        cut_.prepare(next, grid_.before[next], still);
+        const Force F = cut_.response(0, 0).F;
+        stepper_.accept(F);
+        past_.add(stepper_.end(F), slope());
+      }
+      if (first) {
+        stepper_.repeat(turn / omega_);
+        past_ = Past(grid_);
+      }
+    }
+    past_.repeat_turn();
   }
 
   /// @return the force at the start of the next step
   Force step_once(int n, std::size_t i, const Force& F) {
-    const std::size_t node = i % grid_.nodes;
     const std::size_t next = i + 1 < grid_.angle.size() ? i + 1 : 0;
-    const double phi = turn * n + grid_.angle[i];
-    const bool kept = n >= problem_.revolutions - problem_.kept;
-    if (n + 1 == problem_.revolutions) {
-      watch_flutes(i, F);
-    }
+    const int left = problem_.revolutions - n;
+    const double t = (turn * n + grid_.angle[i]) / omega_;
     if (problem_.observe) {
-      problem_.observe(phi / omega_, F, stepper_.table());
+      problem_.observe(t, F, stepper_.table());
     }
-    const double middle = phi / omega_ + 0.5 * dt_[node];
+    const double middle = t + 0.5 * dt_[i];
     const double command = problem_.command ? problem_.command(middle) : 0.0;
-    if (kept) {
-      start_ = stepper_.snapshot();
-      commands_.push_back({middle, command});
+    step_.node = i;
+    if (left <= kept_) {
+      step_ = {n, i, dt_[i], stepper_.snapshot(), {}, {}};
+      samples_.add_command(middle, command);
     }
-    stepper_.begin(node, F, command);
-    cut_.prepare(grid_.before[next], past(index_ + 1));
-    const Force end = force_at_end(F);
+    stepper_.begin(i, F, command);
+    cut_.prepare(next, grid_.before[next], past_.next());
+    const Force end = force_at_end(i, F);
+    const bool jumped = add_crossings(end);
     stepper_.accept(end);
-    if (kept) {
-      keep({phi, phi + grid_.step[node], F, end});
-    }
     const auto q = stepper_.end(end);
-    ++index_;
-    q_x_[index_] = q[0];
-    q_y_[index_] = q[1];
+    past_.add(q, left <= with_slope_ ? slope() : std::array<double, 2>{});
     motion_.finite = std::abs(q[0]) + std::abs(q[1]) < run_away;
+    if (left <= std::max(2, kept_)) {
+      record(left, F, jumped);
+    }
     if (!grid_.jump[next]) {
+      cut_.watch(q[0], q[1]);
       before_ = F;
       return end;
     }
-    before_ = cut_.at(grid_.after[next], past(index_), q[0], q[1]);
+    cut_.prepare(next, grid_.after[next], past_.last());
+    cut_.watch(q[0], q[1]);
+    before_ = cut_.response(q[0], q[1]).F;
     return before_;
   }
 
-  /// The force that agrees with the motion it makes. It starts from the last two; as it
-  /// moves q by little, each round is far better than the one before, by a factor that
-  /// is learnt.
-  Force force_at_end(const Force& F) {
-    Force guess;
-    for (std::size_t a = 0; a < 3; ++a) {
-      guess[a] = 2 * F[a] - before_[a];
-    }
-    double last = 0.0;
-    for (int k = 0; k < most_iterations; ++k) {
-      const auto q = stepper_.end(guess);
-      const Force better = cut_.force(q[0], q[1]);
-      const double off = distance(better, guess);
-      guess = better;
-      if (last > 0 && off > 0) {
-        contraction_ = std::max(0.9 * contraction_, 2 * off / last);
+  /// What is kept of the step taken, so many turns before the end.
+  void record(int left, const Force& F, bool jumped) {
+    if (left <= kept_) {
+      step_.to = stepper_.snapshot();
+      step_.past = past_.last();
+      if (left <= problem_.kept) {
+        samples_.add(step_, motion_);
       }
-      last = off;
-      if (std::min(1.0, contraction_) * off <= settled * (1e-3 + size_of(better))) {
-        break;
+      if (left == 1) {
+        flutes_.add(step_, F, motion_);
       }
     }
-    return guess;
+    if (left <= 2) {
+      comparison_.add(left == 1, step_.node, F);
+      if (jumped) {
+        comparison_.forget(step_.node);
+      }
+    }
   }
 
-  /// The samples that fall into a step.
-  void keep(const Interval& step) {
-    const double spacing = turn / problem_.samples_per_rev;
-    const double slack = 1e-9 * spacing;
-    const Snapshot end = stepper_.snapshot();
-    const double dt = (step.to - step.from) / omega_;
-    for (double k = std::ceil((step.from - slack) / spacing);
-         k * spacing < step.to - slack; k += 1) {
-      const double t = (k * spacing - step.from) / (step.to - step.from);
-      motion_.angle.push_back(k * spacing);
-      motion_.time.push_back(k * spacing / omega_);
-      Force F;
+  /// The force that agrees with the motion it makes, by Newton's method from an
+  /// extrapolation; the first round has the slope of the step before, so that little
+  /// has to wait for it.
+  Force force_at_end(std::size_t i, const Force& F) {
+    const double ratio = ratio_[i];
+    const auto& P = stepper_.per_force();
+    std::array<double, 2> guess = {F[0] + ratio * (F[0] - before_[0]),
+                                   F[1] + ratio * (F[1] - before_[1])};
+    for (int round = 0; round < most_rounds; ++round) {
+      const auto q = stepper_.end({guess[0], guess[1], 0.0});
+      const Response r = cut_.response(q[0], q[1]);
+      const Newton fresh(r, P);
+      const Newton& use = round == 0 ? newton_ : fresh;
+      const std::array<double, 2> off = {r.F[0] - guess[0], r.F[1] - guess[1]};
+      const std::array<double, 2> change = {use.xx * off[0] + use.xy * off[1],
+                                            use.yx * off[0] + use.yy * off[1]};
+      const double share = round < full_rounds ? 1.0 : 0.6;
+      guess[0] += share * change[0];
+      guess[1] += share * change[1];
+      const double moved = std::abs(change[0]) + std::abs(change[1]);
+      const double size = size_of(r.F);
+      const bool stiff =
+          round == 0 && std::max(newton_.strength, fresh.strength) > Newton::mild;
+      newton_ = fresh;
+      largest_ = std::max(largest_, size);
+      // A tooth that touches with an edge force, but not without it, has no force that
+      // agrees: one of both is as good as the other.
+      const bool either = round + 1 == most_rounds && moved <= cut_.largest_jump();
+      if ((!stiff && moved <= near * size) || moved <= settled * largest_ || either) {
+        const double dx = P[0] * change[0] + P[1] * change[1];
+        const double dy = P[1] * change[0] + P[2] * change[1];
+        return {guess[0], guess[1], r.F[2] + r.per_q[4] * dx + r.per_q[5] * dy};
+      }
+    }
+    motion_.solved = false;
+    return {guess[0], guess[1], 0.0};
+  }
+
+  /// An edge force that came or went in the step acted over a part of it, not as the
+  /// straight line between its ends has it.
+  bool add_crossings(const Force& end) {
+    const auto q = stepper_.end(end);
+    const auto& crossings = cut_.crossings(q[0], q[1]);
+    for (const Crossing& crossing : crossings) {
+      Force mean;
       for (std::size_t a = 0; a < 3; ++a) {
-        F[a] = (1 - t) * step.F_0[a] + t * step.F_1[a];
+        mean[a] = (0.5 - crossing.part) * crossing.jump[a];
       }
-      motion_.force.push_back(F);
-      for (std::size_t r = 0; r < motion_.mode.size(); ++r) {
-        motion_.mode[r].push_back(between(start_[r], end[r], dt, t));
-      }
-      motion_.actuator.push_back(
-          problem_.drive ? between(start_.back(), end.back(), dt, t) : 0.0);
+      stepper_.add(mean);
     }
+    return !crossings.empty();
   }
 
-  /// The command at the samples, from what it was in the middle of the steps.
-  void add_command() {
-    if (commands_.size() < 2) {  // it ran away as soon as it was kept
-      motion_.command.assign(motion_.time.size(), 0.0);
-      return;
-    }
-    std::size_t i = 1;
-    for (const double t : motion_.time) {
-      while (i + 1 < commands_.size() && commands_[i].first < t) {
-        ++i;
-      }
-      const auto& [t_0, c_0] = commands_[i - 1];
-      const auto& [t_1, c_1] = commands_[i];
-      motion_.command.push_back(c_0 + (c_1 - c_0) * (t - t_0) / (t_1 - t_0));
-    }
-  }
-
-  /// Peaks belong to the tooth whose turn it is; chips to their own tooth.
-  void watch_flutes(std::size_t i, const Force& F) {
-    cut_.prepare(grid_.after[i], past(index_));
-    const double step = grid_.step[i % grid_.nodes];
-    for (const auto& [tooth, h] : cut_.chips(q_x_[index_], q_y_[index_])) {
-      FluteMotion& flute = motion_.flutes[tooth];
-      flute.chip_area += h * step;
-      flute.peak_chip = std::max(flute.peak_chip, h);
-    }
-    FluteMotion& now = motion_.flutes[i / grid_.nodes];
-    now.peak_x = std::max(now.peak_x, std::abs(F[0]));
-    now.peak_y = std::max(now.peak_y, std::abs(F[1]));
-  }
-
-  /// Of the change of q from turn to turn, over the second half.
-  [[nodiscard]] double growth() const {
-    const auto& once = motion_.once;
-    if (once.size() < 6) {
-      return 1.0;
-    }
-    const auto change = [&](std::size_t i) {
-      return std::hypot(once[i][0] - once[i - 1][0], once[i][1] - once[i - 1][1]);
-    };
-    const std::size_t last = once.size() - 1;
-    const std::size_t first = last / 2;
-    const double a = change(first);
-    const double b = change(last);
-    return a > 0 && b > 0 ? std::pow(b / a, 1.0 / static_cast<double>(last - first))
-                          : 0.0;
-  }
+  /// A round that changes the force by this part of it leaves its square.
+  static constexpr double near = 1e-3;
+  /// Part of the largest force so far that is nothing.
+  static constexpr double settled = 1e-7;
 
   const MotionProblem& problem_;
   EngagedGrid grid_;
@@ -233,18 +352,46 @@ class Run {
   double omega_;
   std::vector<double> dt_;
   Stepper stepper_;
-  std::size_t index_;
-  std::vector<double> q_x_;
-  std::vector<double> q_y_;
-  std::vector<Force> last_turn_;
-  Force before_{};                                   ///< force one step earlier
-  std::vector<std::pair<double, double>> commands_;  ///< kept: time and value
-  double contraction_ = 1.0;
-  Snapshot start_;
+  Past past_;
+  MotionSamples samples_;
+  FluteWatch flutes_;
+  TurnComparison comparison_;
+  int kept_;        ///< turns of which steps are looked at
+  int with_slope_;  ///< turns at the end in which slopes of the past are asked for
+  std::vector<double> ratio_;  ///< of each step to the one before
+  TakenStep step_;
+  Newton newton_;
+  Force before_{};  ///< force one step earlier
+  double largest_ = 0.0;
   Motion motion_;
 };
 
 }  // namespace
+
+int steps_needed(const MotionProblem& problem) {
+  constexpr int least = 1000;
+  constexpr double of_fastest = 20;
+  constexpr double moves = 1e-5;
+  const force::Setup& setup = problem.setup;
+  const double per_chip = std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.K_tc; }) {
+          return std::hypot(law.K_tc, law.K_rc);
+        } else {
+          return 10 * std::hypot(law.K_t1, law.K_r1);  // chips of some um
+        }
+      },
+      problem.law);
+  double fastest = 0.0;
+  for (const ChipMode& mode : problem.system.modes) {
+    if (per_chip * setup.cut.a_p > moves * mode.stiffness) {
+      fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / turn);
+    }
+  }
+  const double tooth_period = turn / (setup.cut.Omega * setup.cutter.teeth());
+  const double needed = std::ceil(of_fastest * fastest * tooth_period);
+  return static_cast<int>(std::clamp(needed, double{least}, 1e9));
+}
 
 Motion motion(const MotionProblem& problem) {
   return Run(problem).go();

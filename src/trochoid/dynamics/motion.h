@@ -24,6 +24,12 @@ struct Drive {
   double c_s = 0.0;      ///< [N s/m]
 };
 
+/// In which motion a simulation starts.
+enum class Start {
+  rest,      ///< nothing moves, and nothing ever did
+  periodic,  ///< the one that the forces without vibration would keep up
+};
+
 /// @brief What moves, what cuts, and for how long.
 struct MotionProblem {
   force::Setup setup;
@@ -40,6 +46,7 @@ struct MotionProblem {
   std::function<void(double t, const std::array<double, 3>& force, double table)>
       observe;
   GridOptions grid;
+  Start start = Start::rest;
   int revolutions = 20;
   int kept = 1;               ///< last revolutions that are returned
   int samples_per_rev = 720;  ///< of what is returned
@@ -49,7 +56,7 @@ struct MotionProblem {
 struct FluteMotion {
   double peak_x = 0.0;     ///< largest |F_x| while its tip is in the stock [N]
   double peak_y = 0.0;     ///< largest |F_y| [N]
-  double chip_area = 0.0;  ///< integral of h over its angle, at the tip's slice [m rad]
+  double chip_area = 0.0;  ///< integral of h over its angle, at the tip [m rad]
   double peak_chip = 0.0;  ///< [m]
 };
 
@@ -59,15 +66,28 @@ struct Motion {
   std::vector<double> angle;                 ///< of the tip of tooth 1 [rad]
   std::vector<std::array<double, 3>> force;  ///< on the tool [N]
   std::vector<std::vector<double>> mode;     ///< displacement of each mode [m]
+  std::vector<std::vector<double>> speed;    ///< of each mode [m/s]
   std::vector<double> actuator;              ///< p [m]
   std::vector<double> command;               ///< x_com [m]
   std::vector<std::array<double, 2>> once;   ///< q at the start of every revolution [m]
   std::vector<FluteMotion> flutes;
-  bool finite = true;        ///< false: it grew beyond all bounds
-  double last_change = 0.0;  ///< largest change of the force from turn to turn [N]
-  double growth = 1.0;       ///< of the change of q, from turn to turn
+  bool finite = true;  ///< false: it grew beyond all bounds
+  bool solved = true;  ///< false: some step had no force that agrees with its motion
+  /// Largest change of a component of the force from turn to turn, in the last one,
+  /// apart from steps in which an edge force came or went [N].
+  double last_change = 0.0;
+  double peak = 0.0;      ///< largest force in the plane of the table, last turn [N]
+  bool periodic = false;  ///< last_change is below 1/300 of the peak
+  double growth = 1.0;    ///< of the change of q, from turn to turn
   int turns_done = 0;
 };
+
+/// @brief How many steps a tooth period needs: 1000, and 20 in a period of the fastest
+/// mode that the cut can move (by more than 1e-5 of the chip).
+int steps_needed(const MotionProblem& problem);
+
+/// More steps a tooth than this are refused.
+inline constexpr int most_steps = 400000;
 
 /// @brief Motion of cutter, table and actuator while the cut goes on.
 ///
@@ -75,7 +95,7 @@ struct Motion {
 /// @src [diez2010] eq. 8 to 13, each body in the axes of the workpiece
 /// Second order in the step: exact for a force that is linear over a step, with the
 /// forces on both sides of every entry and exit.
-/// @throws std::invalid_argument where engaged_grid does
+/// @throws std::invalid_argument where engaged_grid does, and beyond most_steps
 Motion motion(const MotionProblem& problem);
 
 }  // namespace trochoid::dynamics

@@ -49,14 +49,6 @@ void check_dynamics(const CaseTables& t, Findings& findings) {
     report(findings, "tool.shape",
            "tool.shape: motion in time is computed for a cylinder only");
   }
-  const auto& pitch = t.tool.pitch;
-  if (!pitch.empty() && sound(findings, {"tool.pitch_deg"}) &&
-      std::any_of(pitch.begin(), pitch.end(),
-                  [&](double p) { return std::abs(p - pitch.front()) > 1e-9; })) {
-    report(findings, "tool.pitch_deg",
-           "tool.pitch_deg: motion in time is computed for equal pitches only "
-           "(stability takes others)");
-  }
   const double turns = t.sampling.revolutions;
   if ((turns != std::floor(turns) || turns < 1) &&
       sound(findings, {"sampling.revolutions"})) {

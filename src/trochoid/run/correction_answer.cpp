@@ -138,7 +138,7 @@ Json axes_json(const correction::AxisLimits& axes) {
 
 correction::AxisLimits axes_of(const CorrectionFindings& f) {
   const correction::RigidCut rigid(f.setting.cut.setup, f.setting.cut.law,
-                                   f.setting.cut.grid.slices);
+                                   f.setting.cut.slices);
   return correction::axis_limits(rigid, f.wanted.harmonics);
 }
 

@@ -147,7 +147,7 @@ CorrectionPlan correction_plan(const CorrectionSetting& s,
                                const inputs::Correction& given) {
   CorrectionPlan plan;
   const RigidCut rigid(with_runout(s.cut.setup, s.designed_for), s.cut.law,
-                       s.cut.grid.slices);
+                       s.cut.slices);
   inputs::Correction wanted = given;
   const auto through = [&] {
     return correction::table_motion(
@@ -194,7 +194,7 @@ BeforeAfter before_after(const CorrectionSetting& setting,
 SpeedMap speed_map(const CorrectionSetting& s, const CorrectionPlan& plan,
                    const inputs::Correction& wanted) {
   const RigidCut rigid(with_runout(s.cut.setup, s.designed_for), s.cut.law,
-                       s.cut.grid.slices);
+                       s.cut.slices);
   const auto alike = [&](Shape shape) {
     const PeriodicMotion motion = correction::table_motion(
         rigid, shape, {.transition = wanted.transition, .harmonics = wanted.harmonics});

@@ -28,7 +28,7 @@ correction::MovingCut moving_cut(const inputs::Case& given) {
     }
   }
   cut.plant = plant_of(given.machine);
-  cut.grid.slices = given.setup.cutter.helix > 0 ? slices_of_helix : 1;
+  cut.slices = given.setup.cutter.helix > 0 ? slices_of_helix : 1;
   cut.revolutions = static_cast<int>(given.sampling.revolutions);
   cut.samples_per_rev = given.sampling.samples_per_rev;
   return cut;
@@ -98,7 +98,7 @@ bool find_in_record(const inputs::Case& given, CorrectionSetting& s,
   if (!record) {
     return false;
   }
-  const correction::StaticFitOptions options{.slices = s.cut.grid.slices};
+  const correction::StaticFitOptions options{.slices = s.cut.slices};
   s.fit = correction::static_fit(s.cut.setup, *record, options);
   if (!s.fit->ok) {
     message = "runout was not found in the record: " + s.fit->reason;
@@ -112,7 +112,7 @@ bool find_in_record(const inputs::Case& given, CorrectionSetting& s,
                      100 * s.fit->explained)});
   }
   s.angle_offset = s.fit->offset.value;
-  const correction::RigidCut rigid(s.cut.setup, s.fit->law, s.cut.grid.slices);
+  const correction::RigidCut rigid(s.cut.setup, s.fit->law, s.cut.slices);
   s.ratio = correction::ratio_estimate(peaks_of(*record, rigid, s.angle_offset),
                                        s.cut.setup.cut.f_z, s.fit->m_t.value);
   s.behind = correction::true_runout(s.cut, *s.fit, options);
@@ -152,8 +152,8 @@ std::optional<CorrectionSetting> correction_setting(
   } else {
     s.rho = correction::RigidCut(given.setup, given.law, 1).offsets();
     if (as_read || std::holds_alternative<force::Power>(given.law)) {
-      s.fit = correction::static_reading(
-          s.cut, s.rho, {.fit_offset = false, .slices = s.cut.grid.slices});
+      s.fit = correction::static_reading(s.cut, s.rho,
+                                         {.fit_offset = false, .slices = s.cut.slices});
     }
     if (as_read && !s.fit->ok) {
       message = "a static fit finds no runout in the forces: " + s.fit->reason;

@@ -322,6 +322,11 @@ TEST(ResidualMap, TheInverseKeepsItsFloorUntilTheStrokeEnds) {
     EXPECT_FALSE(p.clipped);
   }
   EXPECT_TRUE(residual_at(cut, inverse, setting, 9695 * unit::rpm).clipped);
+  MapSetting more = setting;
+  more.limits.stroke_high = 100e-6;
+  const double fast = 11500 * unit::rpm;
+  EXPECT_GT(residual_at(cut, inverse, setting, fast).peak_difference, 0.045);
+  EXPECT_NEAR(residual_at(cut, inverse, more, fast).peak_difference, 0.0256, 0.0005);
 }
 
 TEST(ResidualMap, LearningTakesBackWhatAWrongModelCosts) {

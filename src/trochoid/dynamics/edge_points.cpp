@@ -1,0 +1,291 @@
+#include <trochoid/dynamics/edge_points.h>
+
+#include <trochoid/chip/intervals.h>
+#include <trochoid/geometry/edge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trochoid::dynamics {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double turn = 2 * pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A lag of the top that is none [rad].
+constexpr double no_lag = 1e-9;
+/// Arcs longer than this are divided for the quadrature [rad].
+constexpr double longest_arc = 1.0;
+
+/// theta in a turn that starts behind the tool, where nothing is in cut.
+double in_turn(double theta) {
+  return theta - turn * std::floor((theta + pi / 2) / turn);
+}
+
+/// The arc on the front of the tool whose nominal points lie in the stock.
+std::array<double, 2> nominal_window(const force::Setup& setup) {
+  const double r = setup.cutter.profile.D / 2;
+  const geometry::Band stock =
+      geometry::stock_band(setup.cut.engagement, setup.cutter.profile.D);
+  return {std::acos(std::clamp(stock.y_hi / r, -1.0, 1.0)),
+          std::acos(std::clamp(stock.y_lo / r, -1.0, 1.0))};
+}
+
+/// Gauss-Legendre on [0, 1].
+void gauss_rule(int n, std::vector<double>& t, std::vector<double>& w) {
+  for (int i = 0; i < n; ++i) {
+    double x = -std::cos(pi * (i + 0.75) / (n + 0.5));
+    double slope = 1.0;
+    for (int round = 0; round < 20; ++round) {
+      double p = 1.0;
+      double last = 0.0;
+      for (int k = 1; k <= n; ++k) {
+        const double next = ((2 * k - 1) * x * p - (k - 1) * last) / k;
+        last = p;
+        p = next;
+      }
+      slope = n * (x * p - last) / (x * x - 1);
+      x -= p / slope;
+    }
+    t.push_back(0.5 * (1 + x));
+    w.push_back(1 / ((1 - x * x) * slope * slope));
+  }
+}
+
+/// A way from 0 to 1 that is slow at the ends where it should be, and its speed.
+std::array<double, 2> drawn(double t, bool to_begin, bool to_end) {
+  const double u = 1 - t;
+  if (to_begin && to_end) {
+    return {t * t * t * (10 - 15 * t + 6 * t * t), 30 * t * t * u * u};
+  }
+  if (to_begin) {
+    return {t * t * t, 3 * t * t};
+  }
+  if (to_end) {
+    return {1 - u * u * u, 3 * u * u};
+  }
+  return {t, 1.0};
+}
+
+}  // namespace
+
+EdgePoints::EdgePoints(const force::Setup& setup, int points, std::size_t lookback)
+    : setup_(setup),
+      lookback_(lookback),
+      passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
+      psi_(geometry::tooth_angles(setup.cutter)),
+      r_(setup.cutter.profile.D / 2) {
+  const geometry::Meridian meridian = geometry::meridian(setup.cutter.profile);
+  const double s = geometry::arc_length_at(meridian, setup.cut.a_p);
+  const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s);
+  whole_lag_ = lag.angle > no_lag ? lag.angle : 0.0;
+  if (setup.edge_length == force::EdgeLength::true_length) {
+    edge_per_height_ =
+        geometry::edge_length_factor(geometry::point_at(meridian, s), lag);
+  }
+  tips_ = positions(0.0);
+  gauss_rule(points, gauss_t_, gauss_w_);
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    reach_.push_back(reach_of(j));
+  }
+}
+
+std::vector<geometry::EdgePosition> EdgePoints::positions(double lag) const {
+  std::vector<geometry::EdgePosition> teeth(psi_.size());
+  geometry::edge_positions(
+      setup_.chip.model == chip::Model::none ? geometry::Runout{} : setup_.runout, psi_,
+      r_, lag, teeth);
+  return teeth;
+}
+
+/// Angles where what bounds the chip without vibration changes, ascending, and those
+/// among them where it enters or leaves the stock.
+std::vector<double> EdgePoints::breaks(std::size_t tooth, double lag,
+                                       std::vector<double>& events) const {
+  const std::array<double, 2> window = nominal_window(setup_);
+  const auto teeth = positions(lag);
+  std::vector<double> breaks(window.begin(), window.end());
+  events = breaks;
+  for (const chip::ChipPiece& piece :
+       chip::engaged_pieces(passage_, {r_, teeth}, static_cast<int>(tooth), -pi / 2)) {
+    breaks.insert(breaks.end(), {piece.from, piece.to});
+    const chip::Chip& chip = piece.state.chip;
+    if (chip::mark_of(chip) == 0 || !chip::ends_at_edge(chip)) {
+      events.insert(events.end(), {piece.from, piece.to});
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end(),
+                           [](double a, double b) { return b - a < no_lag; }),
+               breaks.end());
+  events.insert(events.end(), {breaks.front(), breaks.back()});
+  return breaks;
+}
+
+EdgePoints::Reach EdgePoints::reach_of(std::size_t tooth) const {
+  if (setup_.cut.f_z <= 0) {
+    return {};  // nothing is left for a second turn
+  }
+  Reach reach;
+  // At the tip, half-way and at the top: a parabola through all three.
+  std::array<std::vector<double>, 3> at;
+  at.fill(breaks(tooth, 0.0, reach.events));
+  if (whole_lag_ > 0 && setup_.runout.eccentricity != 0) {
+    std::vector<double> events;
+    at[1] = breaks(tooth, 0.5 * whole_lag_, events);
+    at[2] = breaks(tooth, whole_lag_, events);
+    reach.events.insert(reach.events.end(), events.begin(), events.end());
+    if (at[0].size() != at[1].size() || at[2].size() != at[1].size()) {
+      at.fill(at[1]);  // something ends on the way: as in the middle
+    }
+  }
+  const auto is_zero = [&](double theta, double lag) {
+    const auto a = chips(tooth, theta, lag);
+    return std::abs(*std::min_element(a.begin(), a.end())) < 1e-6 * setup_.cut.f_z;
+  };
+  const auto angle = [&](std::size_t i, double share) {
+    std::array<double, 3> b;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      b[k] = at[k][i] + share * (at[k][i + 1] - at[k][i]);
+    }
+    const double L = whole_lag_ > 0 ? whole_lag_ : 1.0;
+    return LaggingAngle{b[0], (4 * b[1] - 3 * b[0] - b[2]) / L,
+                        2 * (b[0] - 2 * b[1] + b[2]) / (L * L)};
+  };
+  const std::vector<double>& tip = at[0];
+  for (std::size_t i = 0; i + 1 < tip.size(); ++i) {
+    const double parts = std::ceil((tip[i + 1] - tip[i]) / longest_arc);
+    for (double k = 0; k < parts; k += 1) {
+      const ChipArc arc{angle(i, k / parts), angle(i, (k + 1) / parts)};
+      reach.arcs.push_back(
+          {arc.from, arc.to, is_zero(arc.from.tip, 0.0), is_zero(arc.to.tip, 0.0)});
+    }
+  }
+  return reach;
+}
+
+/// a_jm of the stock and of the teeth before.
+std::vector<double> EdgePoints::chips(std::size_t tooth, double theta,
+                                      double lag) const {
+  const auto teeth = positions(lag);
+  const chip::Slice slice{r_, teeth};
+  const auto j = static_cast<int>(tooth);
+  std::vector<double> a{infinity};
+  if (passage_.model.model == chip::Model::trochoidal) {
+    const chip::Chip chip = chip::chip_at(passage_, slice, j, theta);
+    if (chip::mark_of(chip) == 0 || !chip::ends_at_edge(chip)) {
+      a.front() = chip.margin;
+    }
+  }
+  const auto teeth_count = static_cast<int>(psi_.size());
+  // A mark older than a turn stands farther back by as much as the own one of a turn
+  // ago.
+  const double per_turn = chip::chip_over_mark(passage_, slice, j, theta, teeth_count);
+  for (std::size_t m = 1; m <= lookback_; ++m) {
+    const auto older = static_cast<int>(m - 1) / teeth_count;
+    const int mark = static_cast<int>(m - 1) % teeth_count + 1;
+    const bool counts = static_cast<int>(m) <= passage_.marks || older > 0;
+    a.push_back(counts ? chip::chip_over_mark(passage_, slice, j, theta, mark) +
+                             older * per_turn
+                       : infinity);
+  }
+  return a;
+}
+
+std::vector<double> EdgePoints::events() const {
+  std::vector<double> all;
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    for (const double theta : reach_[j].events) {
+      for (const double lag : {0.0, whole_lag_}) {
+        const double phi = psi_[j] + theta + lag;
+        all.push_back(phi - turn * std::floor(phi / turn));
+      }
+    }
+  }
+  return all;
+}
+
+/// Gauss nodes on the part of an arc that an edge covers, and on its images.
+void EdgePoints::add_arc(const ChipArc& arc, double tip,
+                         std::vector<EdgePlace>& places) const {
+  const double height_per_lag = setup_.cut.a_p / whole_lag_;
+  const double first = std::floor((tip - whole_lag_ - pi) / turn);
+  for (double image = turn * first; image < tip + pi; image += turn) {
+    const double here = tip - image;
+    const auto meets = [&](const LaggingAngle& angle) {
+      double lag = here - angle.tip;
+      for (int round = 0; round < 4; ++round) {
+        const double off =
+            here - lag - angle.tip - lag * (angle.per_lag + lag * angle.per_square);
+        lag += off / std::max(0.1, 1 + angle.per_lag + 2 * lag * angle.per_square);
+      }
+      return here - lag;
+    };
+    const double begin = meets(arc.from);
+    const double end = meets(arc.to);
+    const double from = std::max(begin, here - whole_lag_);
+    const double to = std::min(end, here);
+    if (to - from <= no_lag) {
+      continue;
+    }
+    for (std::size_t k = gauss_t_.size(); k-- > 0;) {  // upwards: theta falls
+      const auto [part, speed] =
+          drawn(gauss_t_[k], arc.begins && from == begin, arc.ends && to == end);
+      const double theta = from + part * (to - from);
+      places.push_back(
+          {theta, here - theta, gauss_w_[k] * speed * (to - from) * height_per_lag});
+    }
+  }
+}
+
+std::vector<EdgePlace> EdgePoints::places(std::size_t tooth, double tip,
+                                          double side) const {
+  const std::vector<ChipArc>& arcs = reach_[tooth].arcs;
+  std::vector<EdgePlace> places;
+  if (arcs.empty()) {
+    return places;
+  }
+  if (whole_lag_ == 0) {
+    const double theta = in_turn(tip + side);
+    if (theta > arcs.front().from.tip && theta < arcs.back().to.tip) {
+      places.push_back({tip, 0.0, setup_.cut.a_p});
+    }
+    return places;
+  }
+  for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
+    add_arc(*arc, tip, places);
+  }
+  return places;
+}
+
+Contacts EdgePoints::add(double phi, double side, EngagedGrid& grid) const {
+  Contacts range{grid.stretches.size(), 0};
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    const auto points = places(j, phi - psi_[j], side);
+    if (points.empty()) {
+      continue;
+    }
+    const Stretch stretch{j, grid.sine.size(), points.size(), grid.above.size()};
+    grid.above.resize(grid.above.size() + (lookback_ + 1) * points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const EdgePlace& point = points[i];
+      const double epsilon = positions(point.lag)[j].epsilon;
+      grid.sine.push_back(std::sin(point.theta + epsilon));
+      grid.cosine.push_back(std::cos(point.theta + epsilon));
+      grid.width.push_back(point.height);
+      grid.edge.push_back(point.height * edge_per_height_);
+      const auto a = chips(j, point.theta, point.lag);
+      for (std::size_t m = 0; m <= lookback_; ++m) {
+        grid.above[stretch.marks + m * points.size() + i] = a[m];
+      }
+    }
+    grid.stretches.push_back(stretch);
+  }
+  range.last = grid.stretches.size();
+  return range;
+}
+
+}  // namespace trochoid::dynamics

@@ -1,0 +1,197 @@
+#include <trochoid/dynamics/motion_record.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trochoid::dynamics {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// 0.2 N of 60 N, as the paper's cases settle.
+constexpr double repeats = 1.0 / 300;
+
+/// Place and speed between the ends of a step: the cubic through both.
+std::array<double, 2> between(const std::array<double, 2>& a,
+                              const std::array<double, 2>& b, double dt, double t) {
+  const double u = 1 - t;
+  return {
+      u * u * (1 + 2 * t) * a[0] + t * t * (3 - 2 * t) * b[0] +
+          t * u * dt * (u * a[1] - t * b[1]),
+      6 * t * u * (b[0] - a[0]) / dt + u * (1 - 3 * t) * a[1] + t * (3 * t - 2) * b[1]};
+}
+
+std::vector<double> sample_angles(int count) {
+  std::vector<double> angles;
+  for (int k = 0; k < count; ++k) {
+    angles.push_back(turn * k / count);
+  }
+  return angles;
+}
+
+/// The tips alone: the same cut without helix.
+force::Setup tips_of(force::Setup setup) {
+  setup.cutter.helix = 0.0;
+  return setup;
+}
+
+}  // namespace
+
+MotionSamples::MotionSamples(const MotionProblem& problem, const EngagedGrid& grid)
+    : problem_(problem),
+      samples_(between_nodes(problem.setup, problem.grid, grid,
+                             sample_angles(problem.samples_per_rev))),
+      cut_(problem.law, samples_.grid) {}
+
+void MotionSamples::add(const TakenStep& step, Motion& motion) {
+  if (step.node == 0) {
+    next_ = 0;
+  }
+  const Snapshot& from = step.from;
+  const Snapshot& to = step.to;
+  for (; next_ < samples_.node.size() && samples_.node[next_] == step.node + 1;
+       ++next_) {
+    const double t = samples_.part[next_];
+    motion.angle.push_back(turn * step.turn + samples_.grid.angle[next_]);
+    motion.time.push_back(motion.angle.back() / problem_.setup.cut.Omega);
+    std::array<double, 2> q{};
+    for (std::size_t r = 0; r < motion.mode.size(); ++r) {
+      const auto [place, speed] = between(from[r], to[r], step.dt, t);
+      motion.mode[r].push_back(place);
+      motion.speed[r].push_back(speed);
+      q[0] += problem_.system.modes[r].x * place;
+      q[1] += problem_.system.modes[r].y * place;
+    }
+    cut_.prepare(next_, samples_.grid.after[next_], step.past);
+    motion.force.push_back(cut_.response(q[0], q[1]).F);
+    motion.actuator.push_back(
+        problem_.drive ? between(from.back(), to.back(), step.dt, t)[0] : 0.0);
+  }
+}
+
+void MotionSamples::finish(Motion& motion) const {
+  if (commands_.size() < 2) {  // it ran away as soon as it was kept
+    motion.command.assign(motion.time.size(), 0.0);
+    return;
+  }
+  std::size_t i = 1;
+  for (const double t : motion.time) {
+    while (i + 1 < commands_.size() && commands_[i].first < t) {
+      ++i;
+    }
+    const auto& [t_0, c_0] = commands_[i - 1];
+    const auto& [t_1, c_1] = commands_[i];
+    motion.command.push_back(c_0 + (c_1 - c_0) * (t - t_0) / (t_1 - t_0));
+  }
+}
+
+FluteWatch::FluteWatch(const MotionProblem& problem, const EngagedGrid& grid)
+    : grid_(grid),
+      helix_(problem.setup.cutter.helix != 0),
+      tips_(between_nodes(tips_of(problem.setup), problem.grid, grid,
+                          helix_ ? grid.angle : std::vector<double>{})),
+      cut_(problem.law, helix_ ? tips_.grid : grid),
+      before_(grid.teeth, none),
+      now_(grid.teeth, none) {
+  const std::vector<double> psi = geometry::tooth_angles(problem.setup.cutter);
+  for (const double angle : grid.angle) {
+    const auto next = std::upper_bound(psi.begin(), psi.end(), angle + 1e-9);
+    flute_.push_back(static_cast<std::size_t>(next - psi.begin()) - 1);
+  }
+}
+
+void FluteWatch::add(const TakenStep& step, const Force& F, Motion& motion) {
+  const std::size_t i = step.node;
+  FluteMotion& flute = motion.flutes[flute_[i]];
+  flute.peak_x = std::max(flute.peak_x, std::abs(F[0]));
+  flute.peak_y = std::max(flute.peak_y, std::abs(F[1]));
+  motion.peak = std::max(motion.peak, std::hypot(F[0], F[1]));
+
+  const History& past = step.past;
+  const std::array<double, 2> q = {past.x[-1], past.y[-1]};
+  std::swap(before_, now_);
+  std::fill(now_.begin(), now_.end(), none);
+  if (helix_) {  // its delays are counted from the end of the step
+    cut_.prepare(i, tips_.grid.after[i], past);
+  } else {
+    cut_.prepare(i, grid_.after[i], {past.x - 1, past.y - 1, past.dx - 1, past.dy - 1});
+  }
+  for (const auto& [tooth, h] : cut_.chips(q[0], q[1])) {
+    now_[tooth] = std::max(0.0, h);
+    motion.flutes[tooth].peak_chip = std::max(motion.flutes[tooth].peak_chip, h);
+  }
+  for (std::size_t j = 0; j < now_.size(); ++j) {
+    if (i > 0 && before_[j] >= 0) {
+      const double end = now_[j] >= 0 ? now_[j] : before_[j];
+      motion.flutes[j].chip_area += 0.5 * (before_[j] + end) * grid_.step[i - 1];
+    }
+    if (i + 1 == grid_.angle.size() && now_[j] >= 0) {
+      motion.flutes[j].chip_area += now_[j] * grid_.step[i];
+    }
+  }
+}
+
+TurnComparison::TurnComparison(std::size_t nodes)
+    : before_(nodes), last_(nodes), forgotten_(nodes) {}
+
+void TurnComparison::finish(Motion& motion) const {
+  for (std::size_t i = 0; i < last_.size(); ++i) {
+    for (std::size_t a = 0; a < 3 && !forgotten_[i]; ++a) {
+      motion.last_change =
+          std::max(motion.last_change, std::abs(last_[i][a] - before_[i][a]));
+    }
+  }
+  motion.periodic =
+      motion.finite && motion.solved && motion.last_change <= repeats * motion.peak;
+}
+
+double growth_of(const std::vector<std::array<double, 2>>& once) {
+  if (once.size() < 8) {
+    return 1.0;
+  }
+  const std::size_t first = once.size() / 2 - 1;
+  std::vector<std::array<double, 2>> d;
+  double largest = 0.0;
+  for (std::size_t i = first + 1; i < once.size(); ++i) {
+    d.push_back({once[i][0] - once[i - 1][0], once[i][1] - once[i - 1][1]});
+    largest = std::max({largest, std::abs(d.back()[0]), std::abs(d.back()[1])});
+  }
+  if (largest == 0) {
+    return 0.0;
+  }
+  // d_(n+2) = a d_(n+1) + b d_n, each equation weighted by the size of its terms
+  double pp = 0.0;
+  double pq = 0.0;
+  double qq = 0.0;
+  double pr = 0.0;
+  double qr = 0.0;
+  for (std::size_t i = 0; i + 2 < d.size(); ++i) {
+    double size = 0.0;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      size += d[k][0] * d[k][0] + d[k][1] * d[k][1];
+    }
+    for (std::size_t c = 0; c < 2 && size > 0; ++c) {
+      const double p = d[i + 1][c];
+      const double q = d[i][c];
+      const double r = d[i + 2][c];
+      pp += p * p / size;
+      pq += p * q / size;
+      qq += q * q / size;
+      pr += p * r / size;
+      qr += q * r / size;
+    }
+  }
+  const double determinant = pp * qq - pq * pq;
+  if (!(determinant > 1e-12 * pp * qq)) {  // one root explains it
+    return pp > 0 ? std::abs(pr / pp) : 0.0;
+  }
+  const double a = (pr * qq - qr * pq) / determinant;
+  const double b = (qr * pp - pr * pq) / determinant;
+  const double discriminant = 0.25 * a * a + b;
+  return discriminant < 0 ? std::sqrt(-b) : 0.5 * std::abs(a) + std::sqrt(discriminant);
+}
+
+}  // namespace trochoid::dynamics

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/motion.h>
+#include <trochoid/dynamics/stepper.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace trochoid::dynamics {
+
+/// One step that was taken. The past is that at its end.
+struct TakenStep {
+  int turn = 0;
+  std::size_t node = 0;  ///< where it began
+  double dt = 0.0;       ///< [s]
+  Snapshot from;
+  Snapshot to;
+  History past;
+};
+
+/// @brief Samples of the kept revolutions.
+class MotionSamples {
+ public:
+  MotionSamples(const MotionProblem& problem, const EngagedGrid& grid);
+
+  /// Those that fall into a step.
+  void add(const TakenStep& step, Motion& motion);
+  /// The command of a kept step, at its middle.
+  void add_command(double t, double command) { commands_.emplace_back(t, command); }
+  /// The command at the samples.
+  void finish(Motion& motion) const;
+
+ private:
+  const MotionProblem& problem_;
+  BetweenNodes samples_;
+  CutForce cut_;
+  std::size_t next_ = 0;
+  std::vector<std::pair<double, double>> commands_;
+};
+
+/// @brief What each flute does in the last revolution.
+class FluteWatch {
+ public:
+  FluteWatch(const MotionProblem& problem, const EngagedGrid& grid);
+
+  /// A step of the last turn, and the force at its start.
+  void add(const TakenStep& step, const Force& F, Motion& motion);
+
+ private:
+  const EngagedGrid& grid_;
+  bool helix_ = false;
+  BetweenNodes tips_;  ///< the tips at every node, where the grid has more than them
+  CutForce cut_;
+  std::vector<double> before_;      ///< chip of each tooth a node before, or NaN
+  std::vector<double> now_;         ///< and at the node
+  std::vector<std::size_t> flute_;  ///< whose turn it is at each node
+};
+
+/// @brief Whether the last two turns are alike.
+class TurnComparison {
+ public:
+  explicit TurnComparison(std::size_t nodes);
+
+  void add(bool last, std::size_t node, const Force& F) {
+    (last ? last_ : before_)[node] = F;
+  }
+  /// An edge force came or went in the step that began at this node.
+  void forget(std::size_t node) {
+    forgotten_[node] = true;
+    forgotten_[node + 1 < forgotten_.size() ? node + 1 : 0] = true;
+  }
+  void finish(Motion& motion) const;
+
+ private:
+  std::vector<Force> before_;
+  std::vector<Force> last_;
+  std::vector<bool> forgotten_;
+};
+
+/// @brief By how much the change from turn to turn grows, over the second half of the
+/// turns: the larger root of the recurrence that fits it best.
+double growth_of(const std::vector<std::array<double, 2>>& once);
+
+}  // namespace trochoid::dynamics
