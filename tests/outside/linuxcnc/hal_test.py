@@ -298,6 +298,23 @@ class Hal(unittest.TestCase):
         self.assertEqual(after.state, RUNNING)
         self.assertLess(after.difference(), 0.03)
 
+    def test_gives_the_command_that_the_program_wrote(self):
+        example = pathlib.Path(__file__).parents[3] / "examples/runout_correction"
+        answer = self.halrun.folder / "answer"
+        subprocess.run([os.environ["TROCHOID"], "correct", example / "case.toml",
+                        "--output", answer, "--no-report"], check=True, capture_output=True)
+        wanted = [float(line.split(",")[1])
+                  for line in (answer / "command.csv").read_text().splitlines()[1:]]
+        middle = (max(wanted) + min(wanted)) / 2
+        shutil.copy(answer / "command.csv", self.halrun.folder)
+        found = self.samples(SINGLE, table="command.csv", ticks=3200,
+                             more="setp trochoid-correct.0.lead-s 0")
+        self.assertEqual(found[-1].state, RUNNING)
+        for sample in found[-200:]:  # the command is held: half a period ahead
+            turns = 0.25 + 20 * PERIOD * 1e-9 * (sample.tick + 1.5)
+            there = wanted[round(turns * len(wanted)) % len(wanted)]
+            self.assertAlmostEqual(sample.command - 30, there - middle, delta=0.1)
+
     def test_a_table_that_is_wrong_is_refused(self):
         for table, reason in (("missing.csv", "cannot be opened"),
                               ("bad.csv", "angles are not equally spaced")):
