@@ -1,12 +1,16 @@
 #include <trochoid/correction/amplitude.h>
 
-#include <trochoid/correction/shapes.h>
+#include <trochoid/numerics/levenberg_marquardt.h>
 
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <span>
 
 namespace trochoid::correction {
 
@@ -14,18 +18,53 @@ namespace {
 
 /// Factors between which the answer is looked for.
 constexpr std::array<double, 9> factors = {0.0, 0.5, 0.9, 1.1, 1.3, 1.6, 2.0, 3.0, 4.0};
-constexpr int bits = 30;  ///< of the factor
+constexpr int bits = 30;          ///< of a root
+constexpr int minimum_bits = 12;  ///< of a minimum
+/// Levels are at most this many times the largest of the offsets.
+constexpr double most_level = 6.0;
+/// Step of the differences, over the largest offset; and what keeps levels that change
+/// nothing where they were.
+constexpr double difference = 1e-3;
+constexpr double tether = 1e-4;
 
-/// Sum of x_j v_j over the largest possible one: R-9.
-double imbalance(const std::vector<double>& x, const std::vector<Flute>& flutes,
-                 double Flute::*value) {
-  double sum = 0.0;
-  double size = 0.0;
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    sum += x[j] * flutes[j].*value;
-    size += std::abs(x[j] * flutes[j].*value);
+/// What is to be equal.
+struct Goal {
+  double Flute::*value = nullptr;
+  FlutesOf flutes;
+};
+
+Goal goal_of(Target target, const RigidCut& cut, const FlutesOf& flutes) {
+  const bool area = target == Target::chip_area;
+  Goal goal{area ? &Flute::chip_area : &Flute::peak_y, flutes};
+  if (!flutes) {
+    goal.flutes = [&cut, area](const PeriodicMotion& X) {
+      return area ? cut.flutes(X) : cut.peaks(X);
+    };
   }
-  return size > 0 ? sum / size : 0.0;
+  return goal;
+}
+
+/// v_j over their mean, less 1.
+std::vector<double> differences(const Goal& goal, const PeriodicMotion& X) {
+  std::vector<double> v;
+  double mean = 0.0;
+  for (const Flute& f : goal.flutes(X)) {
+    v.push_back(f.*goal.value);
+    mean += v.back();
+  }
+  mean /= static_cast<double>(v.size());
+  for (double& x : v) {
+    x = mean > 0 ? x / mean - 1 : 0.0;
+  }
+  return v;
+}
+
+double size_of(const std::vector<double>& v) {
+  double sum = 0.0;
+  for (const double x : v) {
+    sum += x * x;
+  }
+  return sum;
 }
 
 /// R-10, from the rms with factors 0, 1 and 2: e is linear in the factor.
@@ -41,7 +80,12 @@ double least_squares_factor(const RigidCut& cut, const PeriodicMotion& X) {
   return bend > 0 ? (3 * at_0 - 4 * at_1 + at_2) / (2 * bend) : 0.0;
 }
 
-double root_factor(const std::function<double(double)>& f, std::string& reason) {
+/// R-9 for two teeth.
+double root_factor(const Goal& goal, const PeriodicMotion& X, std::string& reason) {
+  const auto f = [&](double factor) {
+    const auto v = differences(goal, scaled(X, factor));
+    return v[0] - v[1];
+  };
   double last = f(factors[0]);
   if (last == 0) {
     reason = "the flutes cut alike without any motion";
@@ -62,37 +106,143 @@ double root_factor(const std::function<double(double)>& f, std::string& reason) 
   return 1.0;
 }
 
+/// R-9 for more teeth.
+double best_factor(const Goal& goal, const PeriodicMotion& X, std::string& reason) {
+  const auto f = [&](double factor) {
+    return size_of(differences(goal, scaled(X, factor)));
+  };
+  std::array<double, factors.size()> cost{};
+  std::transform(factors.begin(), factors.end(), cost.begin(), f);
+  const auto least = static_cast<std::size_t>(
+      std::min_element(cost.begin(), cost.end()) - cost.begin());
+  if (least == 0) {
+    reason = "no amplitude of this motion makes the flutes more alike";
+    return 0.0;
+  }
+  std::uintmax_t most = 30;
+  return boost::math::tools::brent_find_minima(
+             f, factors[least - 1], factors[std::min(least + 1, factors.size() - 1)],
+             minimum_bits, most)
+      .first;
+}
+
+void finish(const RigidCut& cut, const FlutesOf& flutes, Amplitude& out) {
+  out.ok = out.reason.empty();
+  out.peak_to_peak = range_of(out.motion).peak_to_peak();
+  out.flutes = flutes ? flutes(out.motion) : cut.flutes(out.motion);
+  out.peak_difference = peak_difference(out.flutes);
+}
+
+double largest_of(const std::vector<double>& levels) {
+  double largest = 0.0;
+  for (const double x : levels) {
+    largest = std::max(largest, std::abs(x));
+  }
+  return largest;
+}
+
+/// unknown are the levels of all teeth but the last, over `unit`.
+struct LevelProblem {
+  const RigidCut& cut;
+  Shape shape;
+  const ShapeOptions& options;
+  const Goal& goal;
+  double unit = 1.0;
+  std::vector<double> start;
+
+  [[nodiscard]] std::vector<double> levels_of(std::span<const double> y) const {
+    std::vector<double> levels(y.size() + 1, 0.0);
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      levels[j] = y[j] * unit;
+      levels.back() -= levels[j];
+    }
+    return levels;
+  }
+
+  [[nodiscard]] PeriodicMotion motion(std::span<const double> y) const {
+    return table_motion(cut, shape, options, levels_of(y));
+  }
+
+  void residuals(std::span<const double> y, std::span<double> r) const {
+    const auto v = differences(goal, motion(y));
+    std::copy(v.begin(), v.end(), r.begin());
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      r[v.size() + j] = tether * (y[j] - start[j]);
+    }
+  }
+
+  bool operator()(std::span<const double> y, std::span<double> r,
+                  std::span<double> jacobian) const {
+    if (std::any_of(y.begin(), y.end(),
+                    [](double v) { return !(std::abs(v) < most_level); })) {
+      return false;
+    }
+    residuals(y, r);
+    std::vector<double> moved(y.begin(), y.end());
+    std::vector<double> up(r.size());
+    std::vector<double> down(r.size());
+    for (std::size_t k = 0; k < y.size() && !jacobian.empty(); ++k) {
+      moved[k] = y[k] + difference;
+      residuals(moved, up);
+      moved[k] = y[k] - difference;
+      residuals(moved, down);
+      moved[k] = y[k];
+      for (std::size_t i = 0; i < r.size(); ++i) {
+        jacobian[k * r.size() + i] = (up[i] - down[i]) / (2 * difference);
+      }
+    }
+    return true;
+  }
+};
+
 }  // namespace
 
 Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion& X,
                         const FlutesOf& flutes) {
-  const bool area = target == Target::chip_area;
-  const FlutesOf of = flutes ? flutes : [&](const PeriodicMotion& motion) {
-    return area ? cut.flutes(motion) : cut.peaks(motion);
-  };
-  const std::vector<double> x = levels(cut.offsets());
   Amplitude out;
+  out.motion = X;
   if (range_of(X).peak_to_peak() == 0) {
     out.reason = "this motion does not move";
-    out.motion = X;
-    out.flutes = cut.flutes(X);
-    out.peak_difference = peak_difference(out.flutes);
+    finish(cut, flutes, out);
     return out;
   }
   if (target == Target::least_squares) {
     out.factor = least_squares_factor(cut, X);
   } else {
-    const auto f = [&](double factor) {
-      return imbalance(x, of(scaled(X, factor)),
-                       area ? &Flute::chip_area : &Flute::peak_y);
-    };
-    out.factor = root_factor(f, out.reason);
+    const Goal goal = goal_of(target, cut, flutes);
+    out.factor = cut.teeth() == 2 ? root_factor(goal, X, out.reason)
+                                  : best_factor(goal, X, out.reason);
   }
-  out.ok = out.reason.empty();
   out.motion = scaled(X, out.factor);
-  out.peak_to_peak = range_of(out.motion).peak_to_peak();
-  out.flutes = flutes ? flutes(out.motion) : cut.flutes(out.motion);
-  out.peak_difference = peak_difference(out.flutes);
+  finish(cut, flutes, out);
+  return out;
+}
+
+Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
+                       const ShapeOptions& options, const FlutesOf& flutes) {
+  const Amplitude one =
+      amplitude_for(target, cut, table_motion(cut, shape, options), flutes);
+  const std::vector<double> x = levels(cut.offsets());
+  const double unit = largest_of(x);
+  if (cut.teeth() <= 2 || target == Target::least_squares || unit == 0) {
+    return one;
+  }
+  const Goal goal = goal_of(target, cut, flutes);
+  LevelProblem problem{cut, shape, options, goal, unit, {}};
+  for (std::size_t j = 0; j + 1 < x.size(); ++j) {
+    problem.start.push_back((one.ok ? one.factor : 1.0) * x[j] / unit);
+  }
+  const auto found = numerics::levenberg_marquardt(
+      std::cref(problem), static_cast<int>(2 * x.size() - 1), problem.start,
+      {.max_iterations = 20, .parameter_tolerance = 1e-6});
+  Amplitude out;
+  out.motion = problem.motion(found.p);
+  out.factor = largest_of(problem.levels_of(found.p)) / unit;
+  if (size_of(differences(goal, out.motion)) >=
+      size_of(differences(goal, one.motion))) {
+    return one;
+  }
+  finish(cut, flutes, out);
   return out;
 }
 

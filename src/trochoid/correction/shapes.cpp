@@ -35,8 +35,7 @@ std::vector<double> boundaries(const RigidCut& cut) {
   return b;
 }
 
-Segments square(const RigidCut& cut) {
-  const std::vector<double> x = levels(cut.offsets());
+Segments square(const RigidCut& cut, const std::vector<double>& x) {
   std::vector<double> b = boundaries(cut);
   b.push_back(b.front() + turn);
   Segments motion;
@@ -47,9 +46,8 @@ Segments square(const RigidCut& cut) {
 }
 
 /// @param rise  polynomial from 0 to 1
-Segments with_transitions(const RigidCut& cut, double width,
-                          const std::array<double, 6>& rise) {
-  const std::vector<double> x = levels(cut.offsets());
+Segments with_transitions(const RigidCut& cut, const std::vector<double>& x,
+                          double width, const std::array<double, 6>& rise) {
   std::vector<double> b = boundaries(cut);
   b.push_back(b.front() + turn);
   width = std::min(width, *std::min_element(cut.pitch().begin(), cut.pitch().end()));
@@ -72,8 +70,7 @@ Segments with_transitions(const RigidCut& cut, double width,
   return motion;
 }
 
-Harmonics sine(const RigidCut& cut) {
-  const std::vector<double> x = levels(cut.offsets());
+Harmonics sine(const RigidCut& cut, const std::vector<double>& x) {
   double ss = 0.0;
   double sc = 0.0;
   double cc = 0.0;
@@ -109,8 +106,8 @@ struct Comparison {
   double cosine = 0.0;
 };
 
-std::vector<Comparison> comparisons(const RigidCut& cut) {
-  const std::vector<double> rho = cut.offsets();
+std::vector<Comparison> comparisons(const RigidCut& cut,
+                                    const std::vector<double>& rho) {
   std::vector<Comparison> all;
   for (std::size_t j = 0; j < rho.size(); ++j) {
     const std::size_t last = before(cut, j);
@@ -145,8 +142,9 @@ struct HarmonicFit {
 };
 
 /// Least squares of R-7 or, with the second axis, R-8.
-HarmonicFit fit_harmonics(const RigidCut& cut, int n_max, bool second_axis) {
-  const std::vector<Comparison> all = comparisons(cut);
+HarmonicFit fit_harmonics(const RigidCut& cut, const std::vector<double>& rho,
+                          int n_max, bool second_axis) {
+  const std::vector<Comparison> all = comparisons(cut, rho);
   const std::vector<int> n = visible(cut, n_max);
   const std::size_t columns = n.size() * (second_axis ? 4 : 2);
   HarmonicFit fit;
@@ -197,20 +195,26 @@ std::vector<double> levels(std::span<const double> rho) {
 }
 
 PeriodicMotion table_motion(const RigidCut& cut, Shape shape,
-                            const ShapeOptions& options) {
+                            const ShapeOptions& options, std::span<const double> rho) {
+  const std::vector<double> x = levels(rho);
   switch (shape) {
     case Shape::square:
-      return square(cut);
+      return square(cut, x);
     case Shape::sine:
-      return sine(cut);
+      return sine(cut, x);
     case Shape::trapezoid:
-      return with_transitions(cut, options.transition, {0, 1, 0, 0, 0, 0});
+      return with_transitions(cut, x, options.transition, {0, 1, 0, 0, 0, 0});
     case Shape::quintic:
-      return with_transitions(cut, options.transition, {0, 0, 0, 10, -15, 6});
+      return with_transitions(cut, x, options.transition, {0, 0, 0, 10, -15, 6});
     case Shape::harmonics:
       break;
   }
-  return fit_harmonics(cut, options.harmonics, false).x;
+  return fit_harmonics(cut, x, options.harmonics, false).x;
+}
+
+PeriodicMotion table_motion(const RigidCut& cut, Shape shape,
+                            const ShapeOptions& options) {
+  return table_motion(cut, shape, options, cut.offsets());
 }
 
 PeriodicMotion limited(const RigidCut& cut, const PeriodicMotion& motion, int n_max) {
@@ -229,7 +233,7 @@ PeriodicMotion limited(const RigidCut& cut, const PeriodicMotion& motion, int n_
 }
 
 double chip_rms(const RigidCut& cut, const PeriodicMotion& X) {
-  const std::vector<Comparison> all = comparisons(cut);
+  const std::vector<Comparison> all = comparisons(cut, cut.offsets());
   double sum = 0.0;
   for (const Comparison& c : all) {
     const double e =
@@ -242,8 +246,8 @@ double chip_rms(const RigidCut& cut, const PeriodicMotion& X) {
 AxisLimits axis_limits(const RigidCut& cut, int n_max) {
   AxisLimits limits;
   limits.uncorrected = chip_rms(cut, Harmonics{});
-  limits.one_axis = fit_harmonics(cut, n_max, false).rms;
-  limits.two_axes = fit_harmonics(cut, n_max, true).rms;
+  limits.one_axis = fit_harmonics(cut, cut.offsets(), n_max, false).rms;
+  limits.two_axes = fit_harmonics(cut, cut.offsets(), n_max, true).rms;
   for (const double start : cut.psi()) {
     int together = 0;
     for (const double other : cut.psi()) {

@@ -42,6 +42,11 @@ std::vector<double> levels(std::span<const double> rho);
 PeriodicMotion table_motion(const RigidCut& cut, Shape shape,
                             const ShapeOptions& options);
 
+/// @brief The same through levels of their own.
+/// @param rho  in place of the offsets of the teeth [m], shape (teeth)
+PeriodicMotion table_motion(const RigidCut& cut, Shape shape,
+                            const ShapeOptions& options, std::span<const double> rho);
+
 /// @brief The first harmonics of a motion, as large as keeps the middle of every pass.
 ///
 /// @eq R-24 X_n = q (harmonics 1 to n), q = sum of X X_n/sum of X_n^2 over phi_j of R-5

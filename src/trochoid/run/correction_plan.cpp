@@ -127,8 +127,9 @@ std::optional<PeriodicMotion> sized(const CorrectionSetting& s, const RigidCut& 
           .flutes;
     };
   }
-  const correction::Amplitude found =
-      correction::amplitude_for(target_of(wanted.target), rigid, through, flutes);
+  const correction::Amplitude found = correction::equal_flutes(
+      target_of(wanted.target), rigid, shape_of(wanted.shape),
+      {.transition = wanted.transition, .harmonics = wanted.harmonics}, flutes);
   reason = found.reason;
   return found.ok ? std::optional(found.motion) : std::nullopt;
 }
@@ -196,11 +197,11 @@ SpeedMap speed_map(const CorrectionSetting& s, const CorrectionPlan& plan,
   const RigidCut rigid(with_runout(s.cut.setup, s.designed_for), s.cut.law,
                        s.cut.slices);
   const auto alike = [&](Shape shape) {
-    const PeriodicMotion motion = correction::table_motion(
-        rigid, shape, {.transition = wanted.transition, .harmonics = wanted.harmonics});
+    const correction::ShapeOptions options{.transition = wanted.transition,
+                                           .harmonics = wanted.harmonics};
     const auto found =
-        correction::amplitude_for(correction::Target::peak_force, rigid, motion);
-    return found.ok ? found.motion : motion;
+        correction::equal_flutes(correction::Target::peak_force, rigid, shape, options);
+    return found.ok ? found.motion : correction::table_motion(rigid, shape, options);
   };
   const PeriodicMotion sine = alike(Shape::sine);
   const PeriodicMotion square = alike(Shape::square);
