@@ -7,6 +7,7 @@ material.toml is an answer of the program; `examples_test.py --renew` writes it 
 import math
 import os
 import pathlib
+import re
 import shutil
 import sys
 import tempfile
@@ -184,6 +185,61 @@ class Stability(Example):
         self.assertLess(max(below), 1.0)
         chatter = limits["chatter_frequency_Hz"][0]
         self.assertTrue(922 < chatter < 1.1 * 922, chatter)
+
+
+class RunoutOnATable(Example):
+    """Peaks of Fy made by an adaptive method of steps, in G26 and G27 of the worked cases."""
+
+    FEED, TEETH = 0.05, 2
+
+    def moved(self, name, case="case", **changes):
+        shutil.copytree(EXAMPLES / name, self.folder / name, dirs_exist_ok=True)
+        text = (EXAMPLES / name / f"{case}.toml").read_text()
+        for key, value in changes.items():
+            text, count = re.subn(f"(?m)^{key} = .*", f"{key} = {value}", text, count=1)
+            self.assertEqual(count, 1)
+        return program.run("dynamics", text, self.folder / name, case)
+
+    def peaks(self, answer):
+        self.assertEqual(answer.code, 0, answer.stderr)
+        self.assertEqual(answer.result["verdict"], "periodic")
+        flutes = answer.result["flutes"]
+        # The chips of all flutes are what the feed brings, whatever moves.
+        self.assertAlmostEqual(sum(f["chip_area_mm_rad"] for f in flutes),
+                               2 * self.TEETH * self.FEED, delta=2e-5)
+        return [f["peak_Fy_N"] for f in flutes]
+
+    def test_uncorrected(self):
+        found = self.peaks(self.moved("runout_table_8mm"))
+        np.testing.assert_allclose(found, [61.6062, 39.2116], atol=0.01)
+
+    def test_a_sine_of_the_runout_makes_the_peaks_equal_but_not_the_chips(self):
+        answer = self.moved("runout_table_8mm", "sine")
+        np.testing.assert_allclose(self.peaks(answer), [53.1982, 51.4085], atol=0.01)
+        self.assertAlmostEqual(answer.result["difference"], 0.03364, delta=3e-4)
+        areas = [f["chip_area_mm_rad"] for f in answer.result["flutes"]]
+        self.assertGreater(areas[0], 1.7 * areas[1])
+
+    def test_the_larger_tool(self):
+        peaks = self.peaks(self.moved("runout_table_25mm"))
+        self.assertAlmostEqual(1 - peaks[1] / peaks[0], 0.152, delta=1e-3)
+        self.peaks(self.moved("runout_table_25mm", axial_depth_mm=2.0))
+        chatter = self.moved("runout_table_25mm", axial_depth_mm=3.0)
+        self.assertEqual(chatter.code, 1)
+        self.assertIn("chatter", chatter.stderr)
+
+    def test_stability_of_both(self):
+        for name, limit in (("runout_table_8mm", 1.504), ("runout_table_25mm", 2.541)):
+            text = (EXAMPLES / name / "case.toml").read_text()
+            text = text[:text.index("spindle_rpm = [")]  # a map is not wanted here
+            text += "spindle_rpm = [1200, 1201, 2]\naxial_depth_mm = [0.5, 4.0, 2]\n"
+            answer = program.run("stability", text, self.folder, name)
+            self.assertEqual(answer.result["verdict"], "stable")
+            self.assertEqual(answer.result["multiplier"]["period"], "revolution")
+            self.assertAlmostEqual(answer.result["limit_depth_mm"], limit, delta=1e-3)
+            motion = self.moved(name)
+            self.assertAlmostEqual(motion.result["linear_growth_per_turn"],
+                                   answer.result["multiplier"]["absolute"], delta=1e-6)
 
 
 class Simulated(Example):

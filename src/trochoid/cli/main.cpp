@@ -154,10 +154,11 @@ int run(int argc, char** argv) {
   fresh
       ->add_option(
           "COMMAND", wanted,
-          "simulate, identify, surface, calibrate, stability, modes or actuator")
+          "simulate, identify, surface, calibrate, stability, dynamics, modes or "
+          "actuator")
       ->required()
       ->check(CLI::IsMember({"simulate", "identify", "surface", "calibrate",
-                             "stability", "modes", "actuator"}));
+                             "stability", "dynamics", "modes", "actuator"}));
   fresh->add_option("FILE", options.file, "Where (default: print it)");
   fresh->callback(
       [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });

@@ -16,6 +16,7 @@ inputs::Command command_named(const std::string& name) {
          : name == "surface"   ? inputs::Command::surface
          : name == "calibrate" ? inputs::Command::calibrate
          : name == "stability" ? inputs::Command::stability
+         : name == "dynamics"  ? inputs::Command::dynamics
          : name == "modes"     ? inputs::Command::modes
          : name == "actuator"  ? inputs::Command::actuator
                                : inputs::Command::simulate;

@@ -119,6 +119,45 @@ CaseTables stability_example() {
   return t;
 }
 
+/// A slot with runout on a table whose actuator follows a sine: what correction is
+/// about.
+CaseTables dynamics_example() {
+  CaseTables t;
+  t.title = "Slot on a piezo table, 8 mm end mill";
+  t.tool.teeth = 2;
+  t.tool.diameter = 8 * unit::mm;
+  t.runout.radial_offsets = {0.01 * unit::mm, -0.01 * unit::mm};
+  t.cut.axial_depth = 1 * unit::mm;
+  t.cut.feed_per_tooth = 0.05 * unit::mm;
+  t.cut.spindle_speed = 1200 * unit::rpm;
+  t.force.K_tc = 800 * unit::MPa;
+  t.force.K_rc = 300 * unit::MPa;
+  t.force.K_ac = 0.0;
+  t.force.K_te = 5 * unit::N_per_mm;
+  t.force.K_re = 3 * unit::N_per_mm;
+  t.force.K_ae = 0.0;
+  t.sampling.revolutions = 20;
+  for (const Axis axis : {Axis::x, Axis::y}) {
+    Mode& tool = t.machine.modes.emplace_back();
+    tool.axis = axis;
+    tool.stiffness = 2e7;
+    tool.frequency = 2500.0;
+    tool.damping_ratio = 0.03;
+  }
+  Mode& table = t.machine.modes.emplace_back();
+  table.body = ModeBody::table;
+  table.mass = 0.194;
+  table.stiffness = 1.7e7;
+  table.damping = 77.3;
+  Actuator& actuator = t.machine.actuator.emplace();
+  actuator.frequency = 140.0;
+  actuator.damping_ratio = 1.0;
+  ImposedCommand& command = t.machine.command.emplace();
+  command.peak_to_peak = 20 * unit::um;
+  command.lead = 0.0022;
+  return t;
+}
+
 CaseTables modes_example() {
   CaseTables t;
   t.title = "Tip of the tool, along x";
@@ -161,6 +200,11 @@ Template template_for(Command command) {
       return {"stability",
               stability_example(),
               {"tool", "runout", "cut", "chip", "force", "mode", "stability"}};
+    case Command::dynamics:
+      return {"dynamics",
+              dynamics_example(),
+              {"tool", "runout", "cut", "chip", "force", "sampling", "mode", "actuator",
+               "command"}};
     case Command::modes:
       return {"modes", modes_example(), {"frf"}};
     case Command::actuator:
@@ -222,6 +266,11 @@ std::string new_case(Command command) {
            "a table dynamometer along the axes of the machine: it feels the reaction");
     }
   };
+  const Visitor given_line = [&](const Key& key, const Field& field) {
+    if (toml_text(key, field)) {
+      key_line(key, field);
+    }
+  };
   describe(key_line, fresh.tables);
   const auto& shown = fresh.shown;
   for (const TableEntry& table : tables_of(fresh.tables)) {
@@ -229,6 +278,11 @@ std::string new_case(Command command) {
       text += '\n';
       line(heading(table), table.meaning);
       table.describe(0, key_line);
+      for (std::size_t i = 1; i < table.count(); ++i) {
+        text += '\n';
+        line(heading(table), "another one");
+        table.describe(i, given_line);
+      }
       text += table.name == "measurement" ? second_record : "";
     }
   }

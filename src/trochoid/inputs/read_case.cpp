@@ -36,6 +36,9 @@ Command purpose_of(Command command, const Node& root) {
   if (has("stability")) {
     return Command::stability;
   }
+  if (has("command") && has("mode")) {
+    return Command::dynamics;
+  }
   if (!has("tool") && (has("frf") || has("step"))) {
     return has("frf") ? Command::modes : Command::actuator;
   }

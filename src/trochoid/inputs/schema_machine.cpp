@@ -160,7 +160,8 @@ void describe(const Visitor& v, Actuator& t) {
      .meaning = "of two first-order lags in a row",
      .range = above(0),
      .count = 2,
-     .rival = "frequency_Hz"},
+     .rival = "frequency_Hz",
+     .example = "[0.0011, 0.0012]"},
     &t.time_constants);
   v({.name = "frequency_Hz",
      .meaning = "natural frequency",
@@ -172,14 +173,22 @@ void describe(const Visitor& v, Actuator& t) {
      .range = at_least(0),
      .rival = "time_constants_s"},
     &t.damping_ratio);
-  v({.name = "stroke_um", .meaning = "lowest and highest position", .count = 2},
+  v({.name = "stroke_um",
+     .meaning = "lowest and highest position",
+     .count = 2,
+     .example = "[0, 60]"},
     &t.stroke);
   v({.name = "coupling_stiffness_N_per_m",
      .meaning = "stiffness between actuator and table",
      .range = above(0),
-     .standard = "that of the table's mode"},
+     .standard = "that of the table's mode",
+     .example = "17000000"},
     &t.coupling_stiffness);
-  v({.name = "slew_um_per_s", .meaning = "greatest speed", .range = above(0)}, &t.slew);
+  v({.name = "slew_um_per_s",
+     .meaning = "greatest speed",
+     .range = above(0),
+     .example = "100000"},
+    &t.slew);
   v({.name = "push_N",
      .meaning = "greatest force on the table along the feed",
      .range = above(0)},

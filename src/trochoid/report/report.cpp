@@ -74,7 +74,7 @@ std::string page_scripts() {
   for (const auto part :
        {text_js(), charts_js(), parts_js(), measured_js(), simulate_js(), identify_js(),
         drawing_js(), map_js(), bent_js(), surface_js(), ellipse_js(), calibrate_js(),
-        stability_js(), modes_js(), correct_js(), any_js(), main_js()}) {
+        stability_js(), modes_js(), dynamics_js(), correct_js(), any_js(), main_js()}) {
     text += part;
   }
   return text;

@@ -1,15 +1,17 @@
 #include <trochoid/run/dynamics.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/dynamics/motion.h>
-#include <trochoid/run/chip_modes.h>
+#include <trochoid/run/motion_problem.h>
+#include <trochoid/run/motion_tables.h>
+#include <trochoid/run/motion_verdict.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 namespace trochoid::run {
 
@@ -17,169 +19,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double turn = 2 * std::numbers::pi;
-/// A force that changes by less than this part of its peak from turn to turn repeats.
-constexpr double repeats = 0.01;
-/// Growth from turn to turn beyond which a motion that does not repeat is chatter.
-constexpr double grows = 1.02;
+constexpr std::array names = {"periodic", "not_periodic", "chatter"};
 
-/// The command over one turn, from -1 to 1.
-double shape_at(inputs::CommandShape shape, double angle) {
-  const double u = angle / turn - std::floor(angle / turn);
-  constexpr double ramp = 1.0 / 6;  // of a turn
-  switch (shape) {
-    case inputs::CommandShape::square:
-      return u < 0.5 ? 1.0 : -1.0;
-    case inputs::CommandShape::trapezoid: {
-      const double near_zero = u < 0.25 ? u : (u < 0.75 ? 0.5 - u : u - 1);
-      return std::clamp(2 * near_zero / ramp, -1.0, 1.0);
-    }
-    default:
-      return std::sin(angle);
-  }
+/// Where the tip of a tooth enters and leaves the stock: from theta to theta.
+std::array<double, 2> engagement_of(const force::Setup& setup) {
+  const double R = 0.5 * setup.cutter.lag_diameter;
+  const geometry::Band stock = geometry::stock_band(setup.cut.engagement, 2 * R);
+  const auto at = [R](double y) { return std::acos(std::clamp(y / R, -1.0, 1.0)); };
+  return {at(stock.y_hi), at(stock.y_lo)};
 }
 
-std::optional<dynamics::Drive> drive_of(const inputs::MachineTables& machine,
-                                        const dynamics::System& system) {
-  if (!machine.actuator) {
-    return std::nullopt;
-  }
-  const inputs::Actuator& a = *machine.actuator;
-  double sum = 0.0;
-  double product = 0.0;
-  if (a.frequency) {
-    const double omega = turn * *a.frequency;
-    sum = 2 * *a.damping_ratio / omega;
-    product = 1 / (omega * omega);
-  } else {
-    sum = a.time_constants[0] + a.time_constants[1];
-    product = a.time_constants[0] * a.time_constants[1];
-  }
-  const auto table =
-      std::find_if(system.modes.begin(), system.modes.end(),
-                   [](const dynamics::ChipMode& mode) { return mode.x < 0; });
-  const double k_s = a.coupling_stiffness.value_or(table->stiffness);
-  return dynamics::Drive{static_cast<std::size_t>(table - system.modes.begin()),
-                         1 / a.gain,
-                         sum / a.gain,
-                         product / a.gain,
-                         k_s,
-                         table->damping * k_s / table->stiffness};
-}
-
-dynamics::MotionProblem problem_of(const inputs::Case& given) {
-  dynamics::MotionProblem p{.setup = given.setup,
-                            .law = given.law,
-                            .system = chip_modes(given.machine.modes)};
-  p.drive = drive_of(given.machine, p.system);
-  const double omega = given.setup.cut.Omega;
-  if (given.machine.command) {
-    const inputs::ImposedCommand& c = *given.machine.command;
-    p.command = [c, omega](double t) {
-      return 0.5 * c.peak_to_peak * shape_at(c.shape, omega * (t + c.lead));
-    };
-  }
-  p.grid.steps_per_tooth = dynamics::steps_needed(p);
-  p.revolutions = static_cast<int>(given.sampling.revolutions);
-  p.kept = std::min(p.revolutions, 2);
-  p.samples_per_rev = given.sampling.samples_per_rev;
-  return p;
-}
-
-/// Displacements of tool and table along x and y, from their modes.
-base::Table motion_table(const dynamics::MotionProblem& p, const dynamics::Motion& m) {
-  base::Table table{"motion.csv",
-                    {{"angle_deg", {}},
-                     {"time_s", {}},
-                     {"x_tool_um", {}},
-                     {"y_tool_um", {}},
-                     {"x_table_um", {}},
-                     {"y_table_um", {}},
-                     {"x_actuator_um", {}},
-                     {"command_um", {}}}};
-  for (std::size_t i = 0; i < m.time.size(); ++i) {
-    double place[4] = {};
-    for (std::size_t r = 0; r < p.system.modes.size(); ++r) {
-      const dynamics::ChipMode& mode = p.system.modes[r];
-      const double along[2] = {mode.x, mode.y};
-      for (std::size_t a = 0; a < 2; ++a) {
-        place[along[a] < 0 ? 2 + a : a] += std::abs(along[a]) * m.mode[r][i];
-      }
-    }
-    const double row[] = {unit::in(m.angle[i], unit::deg),
-                          m.time[i],
-                          place[0] / unit::um,
-                          place[1] / unit::um,
-                          place[2] / unit::um,
-                          place[3] / unit::um,
-                          m.actuator[i] / unit::um,
-                          m.command[i] / unit::um};
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      table.columns[c].values.push_back(row[c]);
-    }
-  }
-  return table;
-}
-
-base::Table force_table(const dynamics::Motion& m) {
-  base::Table table{
-      "forces.csv",
-      {{"angle_deg", {}}, {"time_s", {}}, {"Fx_N", {}}, {"Fy_N", {}}, {"Fz_N", {}}}};
-  for (std::size_t i = 0; i < m.time.size(); ++i) {
-    table.columns[0].values.push_back(unit::in(m.angle[i], unit::deg));
-    table.columns[1].values.push_back(m.time[i]);
-    for (std::size_t q = 0; q < 3; ++q) {
-      table.columns[2 + q].values.push_back(m.force[i][q]);
-    }
-  }
-  return table;
-}
-
-/// Tool minus work at the start of every turn.
-base::Table once_table(const dynamics::Motion& m) {
-  base::Table table{"once_per_turn.csv", {{"turn", {}}, {"x_um", {}}, {"y_um", {}}}};
-  for (std::size_t n = 0; n < m.once.size(); ++n) {
-    table.columns[0].values.push_back(static_cast<double>(n));
-    table.columns[1].values.push_back(m.once[n][0] / unit::um);
-    table.columns[2].values.push_back(m.once[n][1] / unit::um);
-  }
-  return table;
-}
-
-struct Verdict {
-  double peak = 0.0;  ///< largest force in the plane of the table [N]
-  bool periodic = true;
-  bool chatter = false;
-};
-
-Verdict verdict_of(const dynamics::Motion& m) {
-  Verdict v;
-  for (const auto& F : m.force) {
-    v.peak = std::max(v.peak, std::hypot(F[0], F[1]));
-  }
-  v.periodic = m.finite && m.last_change <= repeats * v.peak;
-  v.chatter = !m.finite || (!v.periodic && m.growth > grows);
-  return v;
-}
-
-Json flutes_json(const dynamics::Motion& m) {
+Json flutes_json(const dynamics::Motion& m, const force::Setup& setup) {
   Json flutes = Json::array();
+  double psi = 0.0;
   for (std::size_t j = 0; j < m.flutes.size(); ++j) {
     const dynamics::FluteMotion& f = m.flutes[j];
+    const double enters = psi + engagement_of(setup)[0];
+    psi += setup.cutter.pitch[j];
     flutes.push_back({{"tooth", j + 1},
+                      {"enters_deg", unit::in(enters, unit::deg)},
                       {"peak_Fx_N", f.peak_x},
                       {"peak_Fy_N", f.peak_y},
                       {"chip_area_mm_rad", f.chip_area / unit::mm},
                       {"peak_chip_mm", f.peak_chip / unit::mm}});
   }
   return flutes;
-}
-
-double difference_of(const dynamics::Motion& m) {
-  const auto [low, high] = std::minmax_element(
-      m.flutes.begin(), m.flutes.end(),
-      [](const auto& a, const auto& b) { return a.peak_y < b.peak_y; });
-  return high->peak_y > 0 ? (high->peak_y - low->peak_y) / high->peak_y : 0.0;
 }
 
 std::string short_table(const Json& result) {
@@ -206,46 +70,59 @@ std::string short_table(const Json& result) {
 base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
   base::Answer answer{
       .command = "dynamics", .title = given.title, .case_toml = given.as_understood};
-  if (progress) {
-    progress("Cutting");
-  }
-  const dynamics::MotionProblem problem = problem_of(given);
-  const dynamics::Motion m = dynamics::motion(problem);
-  const Verdict verdict = verdict_of(m);
-  Json result{{"turns", m.turns_done},
-              {"steps_per_tooth", problem.grid.steps_per_tooth},
-              {"periodic", verdict.periodic},
-              {"change_N", m.finite ? Json(m.last_change) : Json(nullptr)},
-              {"growth_per_turn", m.growth}};
-  answer.tables.push_back(once_table(m));
-  if (verdict.chatter) {
+  dynamics::MotionProblem problem = motion_problem(given);
+  const auto failed = [&answer](std::string why) {
     answer.ok = false;
-    answer.message =
-        m.finite ? fmt::format(
-                       "chatter: the motion grows by a factor {:.3g} from turn "
-                       "to turn, and does not settle",
-                       m.growth)
-                 : fmt::format(
-                       "chatter: after {} turns the motion had grown beyond all "
-                       "bounds",
-                       m.turns_done);
-    answer.result = result.dump();
+    answer.message = std::move(why);
+    answer.result = answer.result.empty() ? "{}" : answer.result;
     return answer;
+  };
+  if (problem.grid.steps_per_tooth > dynamics::most_steps) {
+    return failed(fmt::format(
+        "the fastest mode would need {} steps a tooth, more than the {} that are "
+        "computed: leave out modes far above the tooth frequency",
+        problem.grid.steps_per_tooth, dynamics::most_steps));
   }
-  result["flutes"] = flutes_json(m);
-  result["difference"] = difference_of(m);
-  result["peak_xy_N"] = verdict.peak;
-  if (!verdict.periodic) {
+  const Moved all = settled(problem, progress);
+  const dynamics::Motion& m = all.motion;
+  if (m.finite && !m.solved) {
+    return failed(
+        "no force was found that agrees with the motion it makes: a mode is too "
+        "soft, or too light, for this cut");
+  }
+  const double linear = linear_growth(given, problem.system);
+  const bool chatter = all.verdict == Verdict::chatter;
+  Json result{{"verdict", names[static_cast<std::size_t>(all.verdict)]},
+              {"periodic", all.verdict == Verdict::periodic},
+              {"turns", m.turns_done},
+              {"steps_per_tooth", problem.grid.steps_per_tooth},
+              {"linear_growth_per_turn", linear},
+              {"growth_per_turn", all.growth ? Json(*all.growth) : Json(nullptr)},
+              {"change_N", chatter ? Json(nullptr) : Json(m.last_change)}};
+  answer.tables.push_back(once_table(m));
+  if (chatter) {
+    answer.result = result.dump();
+    return failed(chatter_message(all, linear));
+  }
+  const auto engaged = engagement_of(problem.setup);
+  result["engagement_deg"] = {unit::in(engaged[0], unit::deg),
+                              unit::in(engaged[1], unit::deg)};
+  result["flutes"] = flutes_json(m, problem.setup);
+  result["difference"] = peak_difference(m);
+  result["peak_xy_N"] = m.peak;
+  if (all.verdict == Verdict::not_periodic) {
     answer.warnings.push_back(
         {"not_periodic",
-         fmt::format("The force still changes by {:.3g} N from turn to turn: more "
-                     "revolutions, or a motion that never repeats. Peaks are those of "
-                     "the last turn.",
-                     m.last_change)});
+         fmt::format(
+             "The force still changes by {:.3g} N from turn to turn, less and "
+             "less: ask for more revolutions. Peaks are those of the last turn.",
+             m.last_change)});
   }
   answer.tables.push_back(motion_table(problem, m));
-  answer.tables.push_back(force_table(m));
-  answer.message = fmt::format("{} turns.", m.turns_done);
+  answer.tables.push_back(motion_forces_table(m));
+  answer.message = fmt::format(
+      "After {} turns the motion {}.", m.turns_done,
+      all.verdict == Verdict::periodic ? "repeats itself" : "has not settled");
   answer.short_table = short_table(result);
   answer.result = result.dump();
   return answer;

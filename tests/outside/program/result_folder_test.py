@@ -148,6 +148,12 @@ class NewCase(InFolder):
         self.run_program("new", "surface", "fresh.toml")
         self.run_program("check", "fresh.toml")
 
+    def test_a_new_motion_is_right_as_it_stands(self):
+        self.run_program("new", "dynamics", "fresh.toml")
+        self.run_program("check", "fresh.toml")
+        self.run_program("dynamics", "fresh.toml", "-q")
+        self.assertEqual(self.summary("fresh.dynamics")["result"]["verdict"], "periodic")
+
     def test_a_new_calibration_misses_nothing_but_its_surface(self):
         self.run_program("new", "calibrate", "fresh.toml")
         done = self.run_program("check", "fresh.toml", code=2)
@@ -157,7 +163,8 @@ class NewCase(InFolder):
         self.run_program("check", "fresh.toml")
 
     def test_it_is_printed_where_no_file_is_named(self):
-        for command in ("simulate", "identify", "surface", "calibrate", "modes", "actuator"):
+        for command in ("simulate", "identify", "surface", "calibrate", "stability",
+                        "dynamics", "modes", "actuator"):
             text = self.run_program("new", command).stdout
             self.run_program("new", command, f"{command}.toml")
             self.assertEqual((self.folder / f"{command}.toml").read_text(), text)

@@ -75,7 +75,8 @@ async function check(name, options, plots) {
 }
 
 const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2,
-  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2 };
+  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2,
+  modes: 4, actuator: 2, dynamics: 8, chatter: 1 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -98,7 +99,8 @@ const painted = (page) => page.$$eval('.drawing canvas', (canvases) => canvases.
   return { colors: colors.size, points, width: canvas.clientWidth, text: canvas.toDataURL() };
 }));
 
-for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 1, teeth: 1 })) {
+for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 1, teeth: 1,
+  stability: 1, dynamics: 1 })) {
   for (const width of [1200, 480]) {
     test(`the drawings of ${name} are painted, ${width} px wide`, async () => {
       const { page, close } = await open(name, { width });
@@ -379,5 +381,76 @@ test('paper is light, and shows the inputs', async () => {
   await page.emulateMedia({ media: 'print', colorScheme: 'dark' });
   assert.equal(await page.locator('#case').isVisible(), true);
   assert.equal(await colorOf(page, '--paper'), 0xffffff);
+  await close();
+});
+
+test('the modes stand beside their frequency response, with the fit through it', async () => {
+  const { page, canvases, close } = await check('modes', {}, 4);
+  const [measured, fit] = await Promise.all(['--measured', '--s1'].map((c) => colorOf(page, c)));
+  assert.ok(has(canvases[0], measured) && has(canvases[0], fit), 'magnitude');
+  for (const canvas of canvases.slice(1)) assert.ok(has(canvas, fit));
+  const text = await page.locator('main').innerText();
+  for (const part of ['895.7', '2516', 'N/µm', '19.34', 'phase', 'real part', 'm/s²/N',
+    'half of a 95 % interval']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  assert.ok(!/_per_|s2_N/.test(text), 'a unit is spelt as in the file');
+  await close();
+});
+
+test('the step is drawn with its fit, and no time constants where there are none', async () => {
+  const { page, canvases, close } = await check('actuator', {}, 2);
+  assert.ok(has(canvases[0], await colorOf(page, '--s1')));
+  const text = await page.locator('main').innerText();
+  for (const part of ['0.9946', 'No single time constants', 'underdamped', '2.0399']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  assert.ok(!/time constant, ms/.test(text), text);
+  assert.ok(!/_per_|_se\b|10 90/.test(text), text);
+  await close();
+});
+
+test('the lobes show the case, and how stability is lost', async () => {
+  const { page, close } = await open('stability');
+  const text = await page.locator('main').innerText();
+  for (const part of ['Least unstable depth', 'Hopf', 'period doubling there', 'The cross is the case',
+    'N/µm']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  const canvases = await drawn(page);
+  assert.ok(has(canvases[0], await colorOf(page, '--s4')), 'no stretch of period doubling');
+  const map = page.locator('.drawing canvas').first();
+  await map.scrollIntoViewIfNeeded();
+  const box = await map.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  assert.match(await page.locator('.readout').innerText(), /rpm, [\d.]+ mm: \|μ\| = \d/);
+  await close();
+});
+
+test('a motion that repeats shows forces, flutes, motion and once-per-turn samples', async () => {
+  const { page, canvases, close } = await check('dynamics', {}, 8);
+  const text = await page.locator('main').innerText();
+  for (const part of ['repeats', '53.2 · 51.4', 'differ by 3.35 %', 'tooth 1', '0.1287', '0.07130',
+    'Once per turn', 'command', 'actuator', '× 0.6014']) {
+    assert.ok(text.includes(part), `missing: ${part}\n${text}`);
+  }
+  const [first, second] = await Promise.all(['--s1', '--s2'].map((c) => colorOf(page, c)));
+  for (const canvas of canvases.slice(2, 4)) {
+    assert.ok(has(canvas, first) && has(canvas, second), 'both flutes lie over each other');
+  }
+  assert.deepEqual(await page.locator('#flutes tbody tr').count(), 2);
+  assert.ok(!(await page.locator('#figures').innerText()).includes('linear growth'));
+  await close();
+});
+
+test('chatter is said first, with its growth and without amplitudes', async () => {
+  const { page, close } = await open('chatter');
+  const lead = await page.locator('.lead').innerText();
+  assert.ok(lead.startsWith('No good answer'));
+  assert.ok(/chatter: .*1\.153/.test(lead), lead);
+  const text = await page.locator('main').innerText();
+  assert.ok(text.includes('this one does not'), text);
+  assert.ok(!/[\d.]+ N\b/.test(await page.locator('#answer').innerText()), 'a force is shown');
+  assert.equal(await page.locator('#flutes, #forces, #motion').count(), 0);
   await close();
 });

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "machine_samples.h"
 #include "sample_cut.h"
 #include "wall_samples.h"
 
@@ -244,7 +245,7 @@ Answer doubtful() {
 /// A command without a page of its own, with a table too long to be drawn whole.
 Answer other() {
   Answer answer;
-  answer.command = "dynamics";
+  answer.command = "listen";
   answer.title = "Motion of a slender tool";
   answer.message = "The motion is periodic after 14 revolutions.";
   answer.result = R"({"periodic": true, "peaks_um": [12.1, 9.7],
@@ -283,6 +284,10 @@ int main(int argc, char** argv) {
           std::pair{"calibrate",
                     sample::calibration("envelope", false, cases / "calibrate")},
           std::pair{"stability", sample::lobes(cases / "stability")},
+          std::pair{"modes", sample::modes()},
+          std::pair{"actuator", sample::actuator()},
+          std::pair{"dynamics", sample::motion()},
+          std::pair{"chatter", sample::chatter()},
           std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
           std::pair{"one_height", sample::one_height(cases / "one_height")}}) {
       const std::string summary = trochoid::results::summary_json(answer);

@@ -67,9 +67,20 @@ TEST(CasePage, NewStabilityIsAValidCase) {
   EXPECT_EQ(folder.problems(text, Command::simulate), "");
 }
 
+TEST(CasePage, NewDynamicsIsAValidCase) {
+  const CaseFolder folder;
+  const std::string text = new_case(Command::dynamics);
+  for (const Command command :
+       {Command::dynamics, Command::check, Command::stability, Command::simulate}) {
+    EXPECT_EQ(folder.problems(text, command), "");
+  }
+  EXPECT_EQ(folder.read(text, Command::dynamics).machine.modes.size(), 3U);
+}
+
 TEST(CasePage, EveryLineOfANewCaseIsExplained) {
-  for (const Command command : {Command::simulate, Command::identify, Command::surface,
-                                Command::calibrate, Command::stability}) {
+  for (const Command command :
+       {Command::simulate, Command::identify, Command::surface, Command::calibrate,
+        Command::stability, Command::dynamics}) {
     std::istringstream lines(new_case(command));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;
@@ -101,8 +112,9 @@ TEST(CasePage, WhatIsHiddenInANewCaseIsValidTomlWithoutTheHash) {
   const CaseFolder folder;
   static_cast<void>(folder.write("record.csv", "x"));
   static_cast<void>(folder.write("record2.csv", "x"));
-  for (const Command command : {Command::simulate, Command::identify, Command::surface,
-                                Command::calibrate, Command::stability}) {
+  for (const Command command :
+       {Command::simulate, Command::identify, Command::surface, Command::calibrate,
+        Command::stability, Command::dynamics}) {
     const std::string text = new_case(command);
     const auto hidden = hidden_lines(text);
     EXPECT_GT(hidden.size(), 10U);

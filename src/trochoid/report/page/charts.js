@@ -116,7 +116,7 @@ function plotOf(stack, panel, last) {
   const element = el('div', { class: 'panel' }, row, place);
   const options = {
     width: 600, height: panel.height + (last ? 30 : 0),
-    padding: [8, 12, last ? 0 : 4, 0],
+    padding: [8, 18, last ? 0 : 4, 0],
     legend: { show: false },
     scales: { x: { time: false, ...(stack.points ? { range: aroundPoints(stack.x) } : {}) },
       y: { range: panel.range } },

@@ -2,7 +2,7 @@
 
 const pages = { simulate: simulatePage, identify: identifyPage, surface: surfacePage,
   calibrate: calibratePage, stability: stabilityPage, modes: modesPage, actuator: actuatorPage,
-  correct: correctPage };
+  dynamics: dynamicsPage, correct: correctPage };
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);

@@ -2,7 +2,8 @@
 
 const modesKnown = ['kind', 'modes', 'lines', 'band_Hz', 'explained', 'description'];
 const actuatorKnown = ['gain', 'frequency_Hz', 'damping_ratio', 'time_constants_s', 'se',
-  'identifiable', 'sum_s', 'product_s2'];
+  'identifiable', 'sum_s', 'product_s2', 'start_s', 'step_um', 'half_power_frequency_Hz',
+  'low_frequency_delay_s', 'rise_time_10_90_s', 'rms_um', 'explained'];
 const unitOfKind = { receptance: 'm/N', mobility: 'm/s/N', accelerance: 'm/s²/N' };
 const kindLabels = { receptance: 'displacement over force', mobility: 'velocity over force',
   accelerance: 'acceleration over force' };
@@ -35,10 +36,11 @@ function modesTable(modes) {
   if (!modes.length) return null;
   const keys = ['frequency_Hz', 'damping_ratio', 'mass_kg', 'stiffness_N_per_m',
     'damping_Ns_per_m'];
-  const rows = modes.map((mode, i) => [`${i + 1}`,
-    ...keys.map((key) => withError(mode[key], mode.se?.[key]))]);
+  const scale = { stiffness_N_per_m: 1e-6 };
+  const rows = modes.map((mode, i) => [`${i + 1}`, ...keys.map((key) =>
+    withError(mode[key] * (scale[key] || 1), mode.se?.[key] * (scale[key] || 1)))]);
   return section('modes', 'The modes', 'Modes',
-    table(['', 'frequency, Hz', 'damping ratio', 'mass, kg', 'stiffness, N/m',
+    table(['', 'frequency, Hz', 'damping ratio', 'mass, kg', 'stiffness, N/µm',
       'damping, N s/m'], rows, { class: 'fits' }),
     prose('± half of a 95 % interval, if what the fit leaves is noise. What a wrong calibration ' +
       'of hammer or sensor does is not in it.'));
@@ -102,6 +104,9 @@ function actuatorPage(report) {
       { label: 'Damping ratio', value: result.damping_ratio,
         note: Array.isArray(T) ? `time constants ${T.map((t) => number(1000 * t, 4)).join(' and ')} ms` : '' },
       { label: 'Gain down by 3 dB', value: result.half_power_frequency_Hz, unit: 'Hz' },
+      { label: 'Explained by the fit', value: isNumber(result.explained) ?
+        number(100 * result.explained, 4) : null, unit: '%',
+      note: isNumber(result.rms_um) && `it leaves ${number(result.rms_um, 2)} µm (rms)` },
     ]) },
     { part: actuatorTable(result) },
     stepSection(report),
@@ -117,10 +122,14 @@ function actuatorTable(result) {
     ['gain', withError(result.gain, se.gain)],
     ['natural frequency, Hz', withError(result.frequency_Hz, se.frequency_Hz)],
     ['damping ratio', withError(result.damping_ratio, se.damping_ratio)],
-    ['sum of the time constants, s', withError(result.sum_s, se.sum_s)],
-    ['product of the time constants, s²', withError(result.product_s2, se.product_s2)],
-    ...(Array.isArray(T) ? T.map((t, i) => [`${i ? 'shorter' : 'longer'} time constant, s`,
-      withError(t, se.time_constants_s?.[i])]) : []),
+    ['sum of the time constants, ms', withError(1e3 * result.sum_s, 1e3 * se.sum_s)],
+    ['product of the time constants, ms²', withError(1e6 * result.product_s2, 1e6 * se.product_s2)],
+    ...(Array.isArray(T) ? T.map((t, i) => [`${i ? 'shorter' : 'longer'} time constant, ms`,
+      withError(1e3 * t, 1e3 * se.time_constants_s?.[i])]) : []),
+    ...[['start of the step, ms', 'start_s', se.start_s], ['rise from 10 to 90 %, ms', 'rise_time_10_90_s'],
+      ['delay of slow commands, ms', 'low_frequency_delay_s']].filter(([, key]) => isNumber(result[key]))
+      .map(([name, key, error]) => [name, error > 0 ? withError(1e3 * result[key], 1e3 * error)
+        : number(1e3 * result[key])]),
   ];
   const why = result.identifiable?.time_constants_s;
   return section('actuator', 'The actuator', 'Actuator',

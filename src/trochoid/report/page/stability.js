@@ -19,6 +19,15 @@ function stabilityPage(report) {
   ];
 }
 
+const kinds = { hopf: 'Hopf', period_doubling: 'period doubling', period_one: 'period one' };
+
+/** How stability is lost at the limit, and the strongest frequency there. */
+function limitWords(limit) {
+  const [strongest] = limit?.chatter_frequencies_Hz || [];
+  return [kinds[limit?.type], isNumber(strongest) && `${number(strongest, 5)} Hz`]
+    .filter(Boolean).join(', ');
+}
+
 function stabilityLead(result) {
   const mu = result.multiplier || {};
   const [strongest] = mu.chatter_frequencies_Hz || [];
@@ -30,7 +39,8 @@ function stabilityLead(result) {
         note: 'below 1: a small vibration fades' },
       { label: 'Least unstable depth at this speed', value: isNumber(result.limit_depth_mm) ?
         number(result.limit_depth_mm) : 'none', unit: isNumber(result.limit_depth_mm) && 'mm',
-      note: isNumber(result.limit_depth_mm) ? null : `up to ${number(result.greatest_depth_mm)} mm` },
+      note: isNumber(result.limit_depth_mm) ? limitWords(result.limit)
+        : `up to ${number(result.greatest_depth_mm)} mm` },
       { label: 'Strongest frequency', value: isNumber(strongest) ? number(strongest, 5) : null,
         unit: 'Hz', note: bifurcations[mu.type] },
     ]),
@@ -67,7 +77,7 @@ function lobesSection(report) {
     key: 'mu', colors: aroundZero, range: [0.5, 1.5], step: 0, smooth: true };
   let frame = null;
   const paint = (c, width, height) => {
-    frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, x, y: heights,
+    frame = { left: 52, top: 76, width: width - 72, height: height - 76 - 44, x, y: heights,
       xLabel: 'spindle speed [rpm]', yLabel: 'axial depth [mm]' };
     write(c, view.label, 0, 8, { color: '--ink' });
     colorBar(c, view, frame.left, frame.width);
@@ -116,20 +126,25 @@ function limitSection(report) {
   const x = columnNamed(t, 'spindle_rpm');
   if (!x || x.length < 2) return null;
   const { result } = report;
+  const depths = columnNamed(t, 'limit_depth_mm');
+  const doubled = columnNamed(t, 'argument_deg').map((a, i) =>
+    (Math.abs(Math.abs(a) - 180) < 1e-3 ? depths[i] : null));
   const markers = [{ x: result.spindle_rpm, text: 'the case' }];
   const chart = figure({ key: 'limit', x, label: 'spindle speed', unit: 'rpm',
     caption: zoomHint + thinned(t) });
   const panels = [
     { label: 'least unstable axial depth', unit: 'mm', height: 200, markers, series: [
-      { name: 'limit', values: columnNamed(t, 'limit_depth_mm'), color: '--s1', width: 1.8 },
+      { name: 'limit', values: depths, color: '--s1', width: 1.8 },
+      doubled.some(isNumber) && { name: 'period doubling there', values: doubled, color: '--s4', width: 3.2 },
       { name: 'depth of the case', values: x.map(() => result.axial_depth_mm), color: '--s2',
-        dash: [6, 3] }] },
+        dash: [6, 3] }].filter(Boolean) },
     { label: 'chatter frequency there', unit: 'Hz', height: 150, markers, series: [
       { name: '', values: columnNamed(t, 'chatter_frequency_Hz'), color: '--s3' }] },
   ];
   const part = section('limit', 'The limit and its frequency', 'Limit',
     prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
-      'The frequency is the strongest of the vibration that appears at the limit.'), chart.element);
+      'The frequency is the strongest of the vibration that appears at the limit. Almost everywhere that ' +
+      'has a frequency of its own (Hopf); at a period doubling it repeats after two periods.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -138,8 +153,8 @@ function modesSection(modes) {
   const rows = modes.map((mode) => [
     ['x', 'y'].map((axis, i) => (mode.direction[i] ? (mode.direction[i] < 0 ? '−' : '') + axis : ''))
       .join(' '), number(mode.frequency_Hz, 6), number(100 * mode.damping_ratio, 4),
-    number(mode.mass_kg, 5), number(mode.stiffness_N_per_m, 5)]);
+    number(mode.mass_kg, 5), number(1e-6 * mode.stiffness_N_per_m, 5)]);
   return section('modes', 'What vibrates', 'Modes',
     prose('Directions of the tool relative to the work: a mode of the table moves against it.'),
-    table(['direction', 'frequency, Hz', 'damping, %', 'mass, kg', 'stiffness, N/m'], rows));
+    table(['direction', 'frequency, Hz', 'damping, %', 'mass, kg', 'stiffness, N/µm'], rows));
 }

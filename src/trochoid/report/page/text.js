@@ -43,7 +43,8 @@ const units = {
   N: 'N', mm: 'mm', um: 'µm', deg: '°', s: 's', Nm: 'N m', Nmm: 'N mm', W: 'W', MPa: 'MPa',
   GPa: 'GPa', rpm: 'rpm', Hz: 'Hz', kg: 'kg', mm2: 'mm²', mm3: 'mm³', percent: '%',
   N_per_mm: 'N/mm', N_per_m: 'N/m', Ns_per_m: 'N s/m', mm_per_min: 'mm/min', um_per_s: 'µm/s',
-  mm3_per_rev: 'mm³/rev', mm2_per_rev: 'mm²/rev', N_per_s: 'N/s',
+  per_kg: '1/kg', m_per_N: 'm/N', m_per_s_N: 'm/s/N', m_per_s2_N: 'm/s²/N',
+  mm_rad: 'mm rad', mm3_per_rev: 'mm³/rev', mm2_per_rev: 'mm²/rev', N_per_s: 'N/s',
 };
 
 /** `K_te_N_per_mm` -> {name: 'K_te', unit: 'N/mm'}: the unit is the end of every name. */

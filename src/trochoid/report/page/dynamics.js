@@ -1,0 +1,208 @@
+// The page of `dynamics`.
+
+const dynamicsKnown = ['verdict', 'periodic', 'change_N', 'growth_per_turn', 'linear_growth_per_turn',
+  'turns', 'flutes', 'difference', 'peak_xy_N', 'engagement_deg', 'surface_location'];
+
+const verdictOfMotion = { periodic: 'repeats', not_periodic: 'has not settled', chatter: 'chatters' };
+
+function dynamicsPage(report) {
+  return [
+    { lead: dynamicsLead(report.result) },
+    { part: flutesOfMotion(report.result) },
+    motionForces(report),
+    fluteForces(report),
+    motionSection(report),
+    onceSection(report),
+    { part: surfaceLocationSection(report.result) },
+    { part: restSection(report.result, dynamicsKnown) },
+  ];
+}
+
+function dynamicsLead(result) {
+  const seen = result.growth_per_turn;
+  const forces = (result.flutes || []).map((flute) => number(flute.peak_Fy_N, 3));
+  return tiles([
+    { label: 'The motion', value: verdictOfMotion[result.verdict],
+      note: isNumber(result.change_N)
+        ? `the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
+        : `${result.turns} turns; amplitudes would be those of the moment, so none are given` },
+    { label: 'A turn makes a small vibration', value: `× ${number(result.linear_growth_per_turn, 4)}`,
+      note: isNumber(seen) ? `linearised cut; × ${number(seen, 4)} seen in the motion`
+        : 'linearised cut; below 1 it fades' },
+    forces.length && { label: forces.length > 1 ? 'Peak |Fy| of each flute' : 'Peak |Fy|',
+      value: forces.slice(0, 4).join(' · ') + (forces.length > 4 ? ' …' : ''), unit: 'N',
+      note: forces.length > 1 && `they differ by ${number(100 * result.difference, 3)} % of the largest` },
+    { label: 'Peak force across the tool', value: result.peak_xy_N, unit: 'N' },
+  ].filter(Boolean));
+}
+
+/** What each flute does in the last turn, with bars to compare. */
+function flutesOfMotion({ flutes }) {
+  if (!flutes?.length) return null;
+  const most = (key) => Math.max(...flutes.map((flute) => flute[key])) || 1;
+  const cell = (flute, key, text) => {
+    const fill = el('span', { class: 'fill' });
+    fill.style.width = `${(100 * flute[key] / most(key)).toFixed(2)}%`;
+    fill.style.background = `var(${seriesColor(flute.tooth - 1)})`;
+    return [text, el('span', { class: 'underbar' }, fill)];
+  };
+  const rows = flutes.map((flute) => [`tooth ${flute.tooth}`,
+    cell(flute, 'peak_Fx_N', fixed(flute.peak_Fx_N, 4)),
+    cell(flute, 'peak_Fy_N', fixed(flute.peak_Fy_N, 4)),
+    cell(flute, 'chip_area_mm_rad', fixed(flute.chip_area_mm_rad, 4)),
+    cell(flute, 'peak_chip_mm', fixed(1000 * flute.peak_chip_mm, 4))]);
+  return section('flutes', 'What each flute does', 'Flutes',
+    prose('In the last turn. The chip area is the chip thickness summed over the angle: equal peaks ' +
+      'of the force need not mean equal chips.'),
+    table(['', 'peak |Fx|, N', 'peak |Fy|, N', 'chip area, mm rad', 'thickest chip, µm'], rows,
+      { class: 'fits' }));
+}
+
+/** Entries of the flutes into the stock, over the angle since the first sample. */
+function entries(report, span) {
+  const marks = [];
+  for (const flute of report.result.flutes || []) {
+    for (let x = flute.enters_deg; isNumber(x) && x < span; x += 360) {
+      marks.push({ x, text: `tooth ${flute.tooth}`, color: '--soft' });
+    }
+  }
+  return marks;
+}
+
+/** The angle from the start of what was kept: whole turns. */
+const sinceFirst = (x) => x.map((angle) => angle - x[0]);
+
+function motionForces(report) {
+  const t = tableNamed(report, 'forces.csv');
+  const angle = columnNamed(t, 'angle_deg');
+  if (!angle?.length) return null;
+  const x = sinceFirst(angle);
+  const marks = entries(report, x[x.length - 1]);
+  const panels = forcePanels((axis) => {
+    const values = columnNamed(t, `F${axis}_N`);
+    if (!values?.some((value) => value !== 0)) return [];
+    return [{ name: '', values, color: seriesColor(axesOfForce.indexOf(axis)), width: 1.8 }];
+  }).map((panel, i) => ({ ...panel, markers: marks.map((m) => (i ? { ...m, text: '' } : m)) }));
+  if (!panels.length) return null;
+  const chart = figure({ key: 'angle', x, label: 'spindle angle, last turns', unit: '°',
+    caption: zoomHint + thinned(t) });
+  const part = section('forces', 'Force while it moves', 'Forces',
+    prose('Force on the tool in the last turns. Dashed: where the tip of a tooth enters the stock.'),
+    chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+/** The last turn cut into the turns of the flutes and laid over each other. */
+function fluteForces(report) {
+  const { flutes, engagement_deg: engagement } = report.result;
+  const t = tableNamed(report, 'forces.csv');
+  const angle = columnNamed(t, 'angle_deg');
+  if (!angle?.length || t.drawn !== t.rows || !(flutes?.length > 1) || !engagement || flutes.length > 6) return null;
+  const turn = Math.round(360 / (angle[1] - angle[0]));
+  if (angle.length < 2 * turn) return null;
+  const step = 360 / turn;
+  const pitch = Math.floor(turn / flutes.length);
+  const x = Array.from({ length: pitch }, (_, i) => i * step);
+  const of = (axis) => flutes.map((flute, j) => {
+    const first = turn + Math.round((flute.enters_deg - engagement[0]) / step);
+    const values = columnNamed(t, `F${axis}_N`);
+    return { name: `tooth ${flute.tooth}`, color: seriesColor(j), width: 1.8,
+      values: x.map((_, i) => values[turn + ((first + i) % turn)] ?? null) };
+  });
+  const chart = figure({ key: 'flute', x, label: 'θ, immersion angle of the tip of each tooth', unit: '°',
+    caption: zoomHint });
+  const part = section('compare', 'The flutes laid over each other', 'Compare',
+    prose('The same force from the moment each tip passes θ = 0, up to the next tooth. Where several ' +
+      'teeth cut at once, each curve is the sum of all.'), chart.element);
+  return { part, draw: () => chart.draw([
+    { label: forceName('x'), unit: 'N', series: of('x') },
+    { label: forceName('y'), unit: 'N', series: of('y') }]) };
+}
+
+function motionSection(report) {
+  const t = tableNamed(report, 'motion.csv');
+  const angle = columnNamed(t, 'angle_deg');
+  if (!angle?.length) return null;
+  const x = sinceFirst(angle);
+  const marks = entries(report, x[x.length - 1]).map((m) => ({ ...m, text: '' }));
+  const series = (list) => list.map(([column, name, color, dash]) => {
+    const values = columnNamed(t, column);
+    return values?.some((value) => value !== 0) ? { name, values, color, dash, width: 1.7 } : null;
+  }).filter(Boolean);
+  const panels = [
+    { label: 'tool', unit: 'µm', height: 180, markers: marks, series: series([
+      ['x_tool_um', 'x', '--s1'], ['y_tool_um', 'y', '--s2']]) },
+    { label: 'table', unit: 'µm', height: 180, markers: marks, series: series([
+      ['command_um', 'command', '--soft', [6, 3]], ['x_actuator_um', 'actuator', '--s5'],
+      ['x_table_um', 'x', '--s3'], ['y_table_um', 'y', '--s4']]) },
+  ].filter((panel) => panel.series.length);
+  if (!panels.length) return null;
+  const chart = figure({ key: 'angle', x, label: 'spindle angle, last turns', unit: '°',
+    caption: zoomHint + thinned(t) });
+  const part = section('motion', 'How tool and table move', 'Motion',
+    prose('Displacements from where each would rest without forces, along x (the feed) and y. The ' +
+      'table bends under the cut, so it does not stand exactly where its actuator stands.'),
+    chart.element);
+  return { part, draw: () => chart.draw(panels) };
+}
+
+/** Tool minus work once per turn: a motion that repeats comes to stand still here. */
+function onceSection(report) {
+  const t = tableNamed(report, 'once_per_turn.csv');
+  const [turn, x, y] = ['turn', 'x_um', 'y_um'].map((name) => columnNamed(t, name));
+  if (!turn || turn.length < 3) return null;
+  const moves = (values) => values.some((value) => value !== 0);
+  const inPlane = moves(x) && moves(y);
+  const dots = (name, values, color) => ({ name, values, color, points: 5, width: 1 });
+  const chart = figure({ key: 'turn', x: turn, label: 'turn', unit: '', points: true,
+    caption: zoomHint + thinned(t) });
+  const scatter = drawing({ label: 'Tool minus work at the start of each turn, y over x',
+    height: (width) => Math.round(Math.min(420, Math.max(260, 0.6 * width))),
+    paint: (c, width, height) => paintScatter(c, width, height, x, y) });
+  const part = section('once', 'Once per turn', 'Once per turn',
+    prose('Tool minus work at the moment the tip of tooth 1 passes θ = 0. ' +
+      (report.result.verdict === 'chatter'
+        ? 'A motion that repeats would come to stand still here; this one does not.'
+        : 'A motion that repeats comes to stand still: first the start dies out.')),
+    chart.element, inPlane ? scatter.element : null);
+  const panels = [{ label: 'x', unit: 'µm', height: 120, series: [dots('', x, '--s1')] },
+    { label: 'y', unit: 'µm', height: 120, series: [dots('', y, '--s2')] }]
+    .filter(({ series: [{ values }] }) => moves(values));
+  return panels.length ? { part, draw: () => {
+    chart.draw(panels);
+    if (inPlane) scatter.resize();
+  } } : null;
+}
+
+function paintScatter(c, width, height, x, y) {
+  const ends = (values) => {
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    const margin = 0.08 * (high - low) || 0.1;
+    return [low - margin, high + margin];
+  };
+  const { px, py } = plane(c, { left: 62, top: 34, width: width - 74, height: height - 34 - 44,
+    x: ends(x), y: ends(y), xLabel: 'x [µm]', yLabel: 'y [µm], every turn a dot, the last third large' });
+  const places = x.map((v, i) => [px(v), py(y[i])]);
+  line(c, places, css('--zero'), 1);
+  places.forEach(([u, v], i) => {
+    const late = i >= (2 * x.length) / 3;
+    c.fillStyle = css(late ? '--s1' : '--measured');
+    c.beginPath();
+    c.arc(u, v, late ? 4 : 2.5, 0, 2 * Math.PI);
+    c.fill();
+  });
+}
+
+/** The error left on the finished walls by the motion. */
+function surfaceLocationSection(result) {
+  const walls = result.surface_location;
+  if (!walls?.length) return null;
+  const rows = walls.map((wall) => [`${wall.wall} wall`, ...wall.flutes.map((flute) =>
+    number(flute.surface_location_error_um, 4)), number(wall.surface_location_error_um, 4)]);
+  const teeth = walls[0].flutes.map((flute) => `tooth ${flute.tooth}`);
+  return section('surface', 'What is left on the wall', 'Surface',
+    prose('By how much each tooth leaves the wall off its place, in µm, from where tool, work and tooth ' +
+      'stand at the moment the wall is made; positive where material is left. The tooth that reaches ' +
+      'deepest makes the wall that remains.'),
+    table(['error, µm', ...teeth, 'remains'], rows, { class: 'fits' }));
+}

@@ -1,0 +1,78 @@
+#include <trochoid/run/motion_problem.h>
+
+#include <trochoid/run/chip_modes.h>
+#include <trochoid/structure/actuator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::run {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+/// Last turns that are returned.
+constexpr int turns_kept = 2;
+
+/// The command over one turn, from -1 to 1.
+double shape_at(inputs::CommandShape shape, double angle) {
+  const double u = angle / turn - std::floor(angle / turn);
+  constexpr double ramp = 1.0 / 6;  // of a turn
+  switch (shape) {
+    case inputs::CommandShape::square:
+      return u < 0.5 ? 1.0 : -1.0;
+    case inputs::CommandShape::trapezoid: {
+      const double near_zero = u < 0.25 ? u : (u < 0.75 ? 0.5 - u : u - 1);
+      return std::clamp(2 * near_zero / ramp, -1.0, 1.0);
+    }
+    default:
+      return std::sin(angle);
+  }
+}
+
+structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
+  return a.frequency ? structure::from_frequency(a.gain, *a.frequency, *a.damping_ratio)
+                     : structure::from_time_constants(a.gain, a.time_constants[0],
+                                                      a.time_constants[1]);
+}
+
+dynamics::Drive drive_of(const inputs::Actuator& actuator,
+                         const dynamics::System& system) {
+  const auto table =
+      std::find_if(system.modes.begin(), system.modes.end(),
+                   [](const dynamics::ChipMode& mode) { return mode.x < 0; });
+  const auto a = structure::equation_coefficients(dynamics_of(actuator));
+  const double k_s = actuator.coupling_stiffness.value_or(table->stiffness);
+  return {static_cast<std::size_t>(table - system.modes.begin()),
+          a[0],
+          a[1],
+          a[2],
+          k_s,
+          table->damping * k_s / table->stiffness};
+}
+
+}  // namespace
+
+dynamics::MotionProblem motion_problem(const inputs::Case& given) {
+  dynamics::MotionProblem p{.setup = given.setup,
+                            .law = given.law,
+                            .system = chip_modes(given.machine.modes)};
+  if (given.machine.actuator) {
+    p.drive = drive_of(*given.machine.actuator, p.system);
+  }
+  const double omega = given.setup.cut.Omega;
+  if (given.machine.command) {
+    const inputs::ImposedCommand& c = *given.machine.command;
+    p.command = [c, omega](double t) {
+      return 0.5 * c.peak_to_peak * shape_at(c.shape, omega * (t + c.lead));
+    };
+  }
+  p.grid.steps_per_tooth = dynamics::steps_needed(p);
+  p.revolutions = static_cast<int>(given.sampling.revolutions);
+  p.kept = std::min(p.revolutions, turns_kept);
+  p.samples_per_rev = given.sampling.samples_per_rev;
+  return p;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,81 @@
+"""dynamics: a cut that moves, and one that chatters."""
+import json
+
+from in_folder import InFolder, ROOT, main
+
+BENCHMARK = (ROOT / "examples/stability_922Hz/case.toml").read_text()
+
+
+def keys_of(value):
+    """All keys anywhere in a JSON value."""
+    if isinstance(value, dict):
+        return set(value) | {k for v in value.values() for k in keys_of(v)}
+    if isinstance(value, list):
+        return {k for v in value for k in keys_of(v)}
+    return set()
+
+
+class Chatter(InFolder):
+    def cut(self, depth, code, more=""):
+        text = BENCHMARK.replace("axial_depth_mm = 0.5", f"axial_depth_mm = {depth}")
+        self.write("cut.toml", text + more)
+        done = self.run_program("dynamics", "cut.toml", code=code)
+        return done, self.summary("cut.dynamics")
+
+    def test_a_stable_cut_settles_as_its_multiplier_says(self):
+        done, summary = self.cut(0.2, code=0)
+        result = summary["result"]
+        self.assertEqual(result["verdict"], "periodic")
+        self.assertEqual([f["tooth"] for f in result["flutes"]], [1, 2])
+        self.assertAlmostEqual(result["linear_growth_per_turn"], 0.8197427843**2, 6)
+        self.assertAlmostEqual(result["growth_per_turn"], 0.8197427843**2, delta=1e-3)
+        self.assertIn("it repeats", done.stdout)
+
+    def test_an_unstable_cut_is_called_chatter_with_its_growth(self):
+        for depth, multiplier in ((0.5, 1.0739755867), (0.7, None), (1.0, 1.4064735254),
+                                  (2.0, 1.7606359579)):
+            with self.subTest(depth):
+                done, summary = self.cut(depth, code=1)
+                self.assertEqual(summary["status"], "failed")
+                self.assertIn("chatter", summary["message"])
+                self.assertIn(summary["message"], done.stderr)
+                result = summary["result"]
+                self.assertEqual(result["verdict"], "chatter")
+                self.assertFalse(result["periodic"])
+                linear = result["linear_growth_per_turn"]
+                if multiplier:
+                    self.assertAlmostEqual(linear, multiplier**2, 5)
+                if depth < 1:  # at larger depths the teeth leave the cut at once
+                    self.assertAlmostEqual(result["growth_per_turn"], linear, delta=2e-3)
+
+    def test_no_amplitude_is_given_as_if_it_were_steady(self):
+        done, summary = self.cut(1.0, code=1)
+        self.assertLessEqual(keys_of(summary["result"]), {
+            "verdict", "periodic", "turns", "steps_per_tooth", "linear_growth_per_turn",
+            "growth_per_turn", "change_N"})
+        self.assertIsNone(summary["result"]["change_N"])
+        self.assertNotIn("peak", done.stdout)
+        files = {p.name for p in (self.folder / "cut.dynamics").iterdir()}
+        self.assertEqual(files, {"case.toml", "summary.json", "report.html",
+                                 "once_per_turn.csv"})
+
+    def test_few_turns_are_continued_until_the_motion_tells(self):
+        _, summary = self.cut(0.2, code=0, more="[sampling]\nrevolutions = 2\n")
+        self.assertEqual(summary["result"]["verdict"], "periodic")
+        self.assertGreater(summary["result"]["turns"], 2)
+        echo = (self.folder / "cut.dynamics/case.toml").read_text()
+        self.assertIn("revolutions = 2\n", echo)
+
+    def test_the_completed_case_answers_the_same(self):
+        _, summary = self.cut(0.2, code=0)
+        self.run_program("dynamics", "cut.dynamics/case.toml", "-o", "again")
+        self.assertEqual(self.summary("again")["result"], summary["result"])
+
+    def test_json(self):
+        self.write("cut.toml", BENCHMARK)
+        done = self.run_program("dynamics", "cut.toml", "--json", code=1)
+        self.assertEqual(json.loads(done.stdout)["result"]["verdict"], "chatter")
+
+
+if __name__ == "__main__":
+    main()
