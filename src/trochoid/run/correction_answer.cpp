@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double grows = 1.02;    ///< from turn to turn: chatter
 constexpr double repeats = 0.01;  ///< of the peak force: the cut is steady
+constexpr double shakes = 0.1;    ///< of the peak force: chatter that grows no more
 
 double peak_of(const dynamics::Motion& m) {
   double peak = 0.0;
@@ -176,12 +177,18 @@ double table_deviation(const CorrectionFindings& f) {
 
 std::string chatter_in(const BeforeAfter& moved) {
   for (const auto* m : {&moved.before, &moved.after}) {
-    if (!m->finite || (!periodic(*m) && m->growth > grows)) {
+    const char* when = m == &moved.before ? "before" : "after";
+    if (!m->finite || !m->solved) {
       return fmt::format(
-          "chatter {} the correction: the motion grows by a factor "
-          "{:.3g} from turn to turn; there are no steady peaks to make "
-          "equal",
-          m == &moved.before ? "before" : "after", m->growth);
+          "chatter {} the correction: after {} turns the motion had grown beyond all "
+          "bounds",
+          when, m->turns_done);
+    }
+    if (!periodic(*m) && (m->growth > grows || m->last_change > shakes * peak_of(*m))) {
+      return fmt::format(
+          "chatter {} the correction: the force still changes by {:.3g} of {:.3g} N "
+          "from turn to turn; there are no steady peaks to make equal",
+          when, m->last_change, peak_of(*m));
     }
   }
   return {};

@@ -149,6 +149,7 @@ TEST(Correct, SaysWhatOneAxisCannotDo) {
                           {"[0.0139, -0.0139]", "[0.010, -0.004, 0.003, -0.009]"},
                           {"strategy = \"lead\"", "strategy = \"inverse\""},
                           {"target = \"peak_force\"", "target = \"least_squares\""},
+                          {"axial_depth_mm = 1", "axial_depth_mm = 0.2"},
                           {"adapt = true", "adapt = false"}}});
   ASSERT_TRUE(answer.ok) << answer.message;
   const Json axes = Json::parse(answer.result)["axes"];
@@ -187,9 +188,12 @@ TEST(CorrectController, GoesToMidStrokeWithoutIndexPulses) {
 }
 
 TEST(CorrectController, RefusesWhatItCannotLearn) {
-  const base::Answer answer = answer_of(
-      "three",
-      {{{"teeth = 2", "teeth = 3"}, {"[0.0139, -0.0139]", "[0.01, 0, -0.01]"}}}, true);
+  const base::Answer answer =
+      answer_of("three",
+                {{{"teeth = 2", "teeth = 3"},
+                  {"axial_depth_mm = 1", "axial_depth_mm = 0.2"},
+                  {"[0.0139, -0.0139]", "[0.01, 0, -0.01]"}}},
+                true);
   EXPECT_FALSE(answer.ok);
   EXPECT_NE(answer.message.find("controller refuses"), std::string::npos)
       << answer.message;
