@@ -154,11 +154,11 @@ int run(int argc, char** argv) {
   fresh
       ->add_option(
           "COMMAND", wanted,
-          "simulate, identify, surface, calibrate, stability, dynamics, modes or "
-          "actuator")
+          "simulate, identify, surface, calibrate, stability, dynamics, correct, modes "
+          "or actuator")
       ->required()
       ->check(CLI::IsMember({"simulate", "identify", "surface", "calibrate",
-                             "stability", "dynamics", "modes", "actuator"}));
+                             "stability", "dynamics", "correct", "modes", "actuator"}));
   fresh->add_option("FILE", options.file, "Where (default: print it)");
   fresh->callback(
       [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });

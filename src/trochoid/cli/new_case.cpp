@@ -17,6 +17,7 @@ inputs::Command command_named(const std::string& name) {
          : name == "calibrate" ? inputs::Command::calibrate
          : name == "stability" ? inputs::Command::stability
          : name == "dynamics"  ? inputs::Command::dynamics
+         : name == "correct"   ? inputs::Command::correct
          : name == "modes"     ? inputs::Command::modes
          : name == "actuator"  ? inputs::Command::actuator
                                : inputs::Command::simulate;

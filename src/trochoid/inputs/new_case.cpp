@@ -158,6 +158,18 @@ CaseTables dynamics_example() {
   return t;
 }
 
+/// The same table, to be moved so that the flutes cut alike.
+CaseTables correct_example() {
+  CaseTables t = dynamics_example();
+  t.title = "Runout taken away by a piezo table, 8 mm end mill";
+  t.chip.model = chip::Model::radial;
+  t.machine.command.reset();
+  t.machine.actuator->stroke = {0.0, 60 * unit::um};
+  t.machine.correct.emplace().strategy = CorrectionStrategy::lead;
+  t.machine.controller.emplace();
+  return t;
+}
+
 CaseTables modes_example() {
   CaseTables t;
   t.title = "Tip of the tool, along x";
@@ -205,6 +217,11 @@ Template template_for(Command command) {
               dynamics_example(),
               {"tool", "runout", "cut", "chip", "force", "sampling", "mode", "actuator",
                "command"}};
+    case Command::correct:
+      return {"correct",
+              correct_example(),
+              {"tool", "runout", "cut", "chip", "force", "sampling", "mode", "actuator",
+               "correct", "controller"}};
     case Command::modes:
       return {"modes", modes_example(), {"frf"}};
     case Command::actuator:

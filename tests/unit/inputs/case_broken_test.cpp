@@ -29,7 +29,8 @@ Command command_of(const std::string& text) {
        {Named{"check", Command::check}, Named{"identify", Command::identify},
         Named{"surface", Command::surface}, Named{"calibrate", Command::calibrate},
         Named{"stability", Command::stability}, Named{"modes", Command::modes},
-        Named{"actuator", Command::actuator}, Named{"dynamics", Command::dynamics}}) {
+        Named{"actuator", Command::actuator}, Named{"dynamics", Command::dynamics},
+        Named{"correct", Command::correct}}) {
     if (text.starts_with("# command: " + std::string(name) + "\n")) {
       return command;
     }

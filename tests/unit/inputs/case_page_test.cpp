@@ -77,10 +77,19 @@ TEST(CasePage, NewDynamicsIsAValidCase) {
   EXPECT_EQ(folder.read(text, Command::dynamics).machine.modes.size(), 3U);
 }
 
+TEST(CasePage, NewCorrectIsAValidCase) {
+  const CaseFolder folder;
+  const std::string text = new_case(Command::correct);
+  for (const Command command : {Command::correct, Command::check, Command::dynamics,
+                                Command::stability, Command::simulate}) {
+    EXPECT_EQ(folder.problems(text, command), "");
+  }
+}
+
 TEST(CasePage, EveryLineOfANewCaseIsExplained) {
   for (const Command command :
        {Command::simulate, Command::identify, Command::surface, Command::calibrate,
-        Command::stability, Command::dynamics}) {
+        Command::stability, Command::dynamics, Command::correct}) {
     std::istringstream lines(new_case(command));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;
@@ -114,7 +123,7 @@ TEST(CasePage, WhatIsHiddenInANewCaseIsValidTomlWithoutTheHash) {
   static_cast<void>(folder.write("record2.csv", "x"));
   for (const Command command :
        {Command::simulate, Command::identify, Command::surface, Command::calibrate,
-        Command::stability, Command::dynamics}) {
+        Command::stability, Command::dynamics, Command::correct}) {
     const std::string text = new_case(command);
     const auto hidden = hidden_lines(text);
     EXPECT_GT(hidden.size(), 10U);
