@@ -64,7 +64,7 @@ class Compared(unittest.TestCase):
     def compare(self, modes, where, turns=3, steps=1500, **other):
         engagement, entry, leave = where
         cut = mo.Cut(**{"pitch": [math.pi] * 2, "offsets": [0.0, 0.0], "entry": entry,
-                        "leave": leave, "depth": 1e-3, "feed": 5e-5, "rpm": 3000,
+                        "leave": leave, "depth": 0.4e-3, "feed": 5e-5, "rpm": 3000,
                         "modes": [m[1] for m in modes], **other})
         text = program.case_text("compared", tables(cut, engagement, turns))
         for given, _ in modes:
@@ -74,6 +74,8 @@ class Compared(unittest.TestCase):
             answer = program.run("dynamics", text, folder, "case")
             self.assertEqual(answer.code, 0, answer.stderr)
             places, forces = answer.columns("motion.csv"), answer.columns("forces.csv")
+        # The program goes on until the motion repeats.
+        turns = answer.result["turns"]
         want = mo.Motion(cut, steps).run(turns)
         # Second order: 1000 steps a tooth, in radians of the fastest mode.
         fastest = max(math.sqrt(m[2] / m[0]) for m in cut.modes)
@@ -104,7 +106,7 @@ class Compared(unittest.TestCase):
             force_largest = max(force_largest, np.abs(F).max())
         self.assertLess(off / largest, tolerance)
         self.assertLess(force_off / force_largest, tolerance)
-        self.assertGreater(largest, 0.5)
+        self.assertGreater(largest, 0.3)
 
     def test_slot(self):  # [T-1] [T-4]
         self.compare([X, Y], SLOT, linear=LINEAR)
@@ -113,16 +115,16 @@ class Compared(unittest.TestCase):
         drive = (2, GAIN, T_1, T_2, TABLE[1][2], TABLE[1][1])
         lead = 2 * math.pi * 20
         self.compare([X, Y, TABLE], SLOT, power=POWER, offsets=[13e-6, -13e-6], rpm=1200,
-                     actuator=drive, steps=3000,
+                     actuator=drive, steps=2000,
                      command=lambda t: 10e-6 * math.sin(lead * (t + 0.001)))
 
     def test_up(self):
         self.compare([X, Y], UP, power=SMOOTH, pitch=[2 * math.pi / 3] * 3,
-                     offsets=[4e-6, -5e-6, 1e-6], steps=3000)
+                     offsets=[4e-6, -5e-6, 1e-6], steps=2000)
 
     def test_down(self):
         self.compare([X, Y, LOW, TABLE], DOWN, linear=LINEAR, pitch=[math.pi / 2] * 4,
-                     offsets=[0.0] * 4, depth=0.5e-3)
+                     offsets=[0.0] * 4, depth=0.3e-3, steps=2000)
 
     def test_band_with_edges_and_unequal_pitch(self):  # delays between the steps
         self.compare([X, Y], BAND, linear=EDGES, pitch=[1.9, 2.2, 2 * math.pi - 4.1],

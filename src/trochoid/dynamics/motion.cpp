@@ -1,6 +1,7 @@
 #include <trochoid/dynamics/motion.h>
 
 #include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion_record.h>
 #include <trochoid/dynamics/stepper.h>
 
@@ -21,6 +22,8 @@ constexpr double turn = 2 * std::numbers::pi;
 /// lest they go round in a circle where a tooth only just touches.
 constexpr int most_rounds = 40;
 constexpr int full_rounds = 5;
+/// Changes from turn to turn up to this part of the feed per tooth are small.
+constexpr double small = 0.2;
 /// A displacement that no cut has [m]: the motion has run away.
 constexpr double run_away = 0.1;
 /// Remembered beyond the oldest delay, for the places between nodes.
@@ -193,7 +196,8 @@ class Run {
       past_.finish_turn();
       ++motion_.turns_done;
     }
-    motion_.growth = growth_of(motion_.once);
+    motion_.growth =
+        growth_per_turn(motion_.once, small * problem_.setup.cut.f_z).value_or(1.0);
     samples_.finish(motion_);
     comparison_.finish(motion_);
     return std::move(motion_);
@@ -305,7 +309,7 @@ class Run {
       const std::array<double, 2> change = {use.xx * off[0] + use.xy * off[1],
                                             use.yx * off[0] + use.yy * off[1]};
       const double share = round < full_rounds ? 1.0 : 0.6;
-      guess[0] += share * change[0];
+      guess[0] += share * change[0];  // T-6
       guess[1] += share * change[1];
       const double moved = std::abs(change[0]) + std::abs(change[1]);
       const double size = size_of(r.F);
@@ -334,7 +338,7 @@ class Run {
     for (const Crossing& crossing : crossings) {
       Force mean;
       for (std::size_t a = 0; a < 3; ++a) {
-        mean[a] = (0.5 - crossing.part) * crossing.jump[a];
+        mean[a] = (0.5 - crossing.part) * crossing.jump[a];  // T-5
       }
       stepper_.add(mean);
     }

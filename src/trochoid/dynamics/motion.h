@@ -78,7 +78,7 @@ struct Motion {
   double last_change = 0.0;
   double peak = 0.0;      ///< largest force in the plane of the table, last turn [N]
   bool periodic = false;  ///< last_change is below 1/300 of the peak
-  double growth = 1.0;    ///< of the change of q, from turn to turn
+  double growth = 1.0;    ///< T-11; 1 where none is seen
   int turns_done = 0;
 };
 
@@ -93,6 +93,9 @@ inline constexpr int most_steps = 400000;
 ///
 /// @eq T-4 m_r q_r'' + c_r q_r' + k_r q_r = (x_r, y_r) . F(t, q(t), q(t - t_m))
 /// @src [diez2010] eq. 8 to 13, each body in the axes of the workpiece
+/// @eq T-6 F = F_g + (I - J P)^-1 (F(q(F_g)) - F_g), J = dF/dq, P = dq/dF: the force at
+///         the end of a step
+/// @src Newton's method
 /// Second order in the step: exact for a force that is linear over a step, with the
 /// forces on both sides of every entry and exit.
 /// @throws std::invalid_argument where engaged_grid does, and beyond most_steps

@@ -79,8 +79,4 @@ class TurnComparison {
   std::vector<bool> forgotten_;
 };
 
-/// @brief By how much the change from turn to turn grows, over the second half of the
-/// turns: the larger root of the recurrence that fits it best.
-double growth_of(const std::vector<std::array<double, 2>>& once);
-
 }  // namespace trochoid::dynamics

@@ -31,7 +31,7 @@ Propagator of_table(const ChipMode& m, const Drive& d, double dt) {
   return propagator(A, B, 4, dt);
 }
 
-/// (I - Phi)^-1 z
+/// T-7
 template <std::size_t n>
 void solve_repeat(const std::vector<double>& Phi, std::array<double, n>& z) {
   constexpr int size = static_cast<int>(n);

@@ -31,6 +31,10 @@ class Stepper {
   void begin(std::size_t step, const Force& F, double command) noexcept;
 
   /// @brief Add a force that is constant over the step begun [N].
+  ///
+  /// @eq T-5 u(t) + (1/2 - s) dF: what a jump dF at the part s of a step does more than
+  ///         a straight line between both ends
+  /// @src derived: the same impulse
   void add(const Force& F) noexcept;
 
   /// @brief q at the end of the step if the force there is F [m].
@@ -53,6 +57,9 @@ class Stepper {
 
   /// @brief After a turn that began at rest: the state from which the same forces and
   /// commands would lead back to it.
+  ///
+  /// @eq T-7 z_0 = (I - Phi_T)^-1 z_T
+  /// @src elementary
   /// @param time  of the turn [s]
   void repeat(double time);
 

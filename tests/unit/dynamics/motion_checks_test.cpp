@@ -1,5 +1,6 @@
 #include "milling_cut.h"
 
+#include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/stepper.h>
 #include <trochoid/force/forces.h>
@@ -296,12 +297,14 @@ TEST(Motion, GrowsAsTheMultiplierSays) {  // [T-4] [D-11]
     p.start = decays ? Start::rest : Start::periodic;
     p.revolutions = decays ? 24 : 18;
     const Motion m = motion(p);
-    EXPECT_NEAR(std::sqrt(m.growth), growth(p.setup, p.law, p.system), 1e-3)
+    const auto per_turn = growth_per_turn(m.once, 0.01 * p.setup.cut.f_z);
+    ASSERT_TRUE(per_turn) << depth_mm;
+    EXPECT_NEAR(std::sqrt(*per_turn), growth(p.setup, p.law, p.system), 1e-3)
         << depth_mm;
   }
 }
 
-TEST(Motion, APeriodicStartIsTheMotionThatStays) {  // [T-4]
+TEST(Motion, APeriodicStartIsTheMotionThatStays) {  // [T-7]
   MotionProblem p = two_axes();
   p.setup.cut.a_p = 0.1e-3;
   p.start = Start::periodic;
@@ -316,7 +319,7 @@ TEST(Motion, APeriodicStartIsTheMotionThatStays) {  // [T-4]
 }
 
 /// Short teeth enter where no node is, and every tooth is thrown out by vibration.
-TEST(Motion, EdgeForcesThatComeAndGoKeepTheOrder) {  // [T-3]
+TEST(Motion, EdgeForcesThatComeAndGoKeepTheOrder) {  // [T-3] [T-5]
   for (const bool equal : {true, false}) {
     for (const bool slot : {true, false}) {
       MotionProblem p = two_axes();
@@ -348,7 +351,7 @@ TEST(Motion, OfNearlyEqualPitchesIsThatOfEqualOnes) {  // [T-1]
 }
 
 /// A mass that the force moves by more than the chip within one step.
-TEST(Motion, AMassWithoutInertiaStillHasAForceThatAgrees) {  // [T-4]
+TEST(Motion, AMassWithoutInertiaStillHasAForceThatAgrees) {  // [T-4] [T-6]
   for (const bool power : {false, true}) {
     MotionProblem p = two_axes();
     p.setup.cut.a_p = 2e-3;
