@@ -68,9 +68,6 @@ int check(const Options& options) {
   }
   if (!options.quiet) {
     fmt::print("{}: no mistakes found\n{}", options.file.string(), found);
-    for (const std::string& table : run::unused_tables(given)) {
-      fmt::print("{} is checked, but no command of this version uses it yet\n", table);
-    }
   }
   return answered;
 }

@@ -65,16 +65,4 @@ std::string describe_record(const signal::Record& record, const geometry::Cut& c
   return text;
 }
 
-std::vector<std::string> unused_tables(const inputs::Case& given) {
-  const inputs::MachineTables& machine = given.machine;
-  std::vector<std::string> names;
-  const auto add = [&names](bool there, const char* name) {
-    if (there) {
-      names.emplace_back(name);
-    }
-  };
-  add(machine.correct.has_value(), "[correct]");
-  return names;
-}
-
 }  // namespace trochoid::run

@@ -172,16 +172,14 @@ class ExitCode(InFolder):
 
     def test_check_says_what_it_read(self):
         self.record()
-        correct = "\n[correct]\nstrategy = \"inverse\"\n"
-        self.write("cut.toml", identification() + correct)
+        self.write("cut.toml", identification())
         said = self.run_program("check", "cut.toml").stdout
         rows = [[float(v) for v in line.split(",")] for line in
                 (self.folder / "record.csv").read_text().splitlines()[1:]]
         low, high = min(r[1] for r in rows), max(r[1] for r in rows)
         for part in ("cut.toml: no mistakes found", "record.csv: 120 samples",
                      "0.99 revolutions by their angles", "angle from column angle_deg",
-                     f"channel 1 from column Fx_N: {low:.1f} to {high:.1f} N",
-                     "[correct] is checked, but no command"):
+                     f"channel 1 from column Fx_N: {low:.1f} to {high:.1f} N"):
             self.assertIn(part, said)
         self.assertFalse(list(self.folder.glob("cut.*/")))
         self.assertEqual(self.run_program("check", "cut.toml", "-q").stdout, "")

@@ -76,7 +76,7 @@ async function check(name, options, plots) {
 
 const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2,
-  modes: 4, actuator: 2, dynamics: 8, chatter: 1 };
+  modes: 4, actuator: 2, dynamics: 8, chatter: 1, correct: 8 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -100,7 +100,7 @@ const painted = (page) => page.$$eval('.drawing canvas', (canvases) => canvases.
 }));
 
 for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 1, teeth: 1,
-  stability: 1, dynamics: 1 })) {
+  stability: 1, dynamics: 1, correct: 1 })) {
   for (const width of [1200, 480]) {
     test(`the drawings of ${name} are painted, ${width} px wide`, async () => {
       const { page, close } = await open(name, { width });
@@ -440,6 +440,19 @@ test('a motion that repeats shows forces, flutes, motion and once-per-turn sampl
   }
   assert.deepEqual(await page.locator('#flutes tbody tr').count(), 2);
   assert.ok(!(await page.locator('#figures').innerText()).includes('linear growth'));
+  await close();
+});
+
+test('a correction shows the flutes before and after, its command and the controller', async () => {
+  const { page, close } = await open('correct');
+  const lead = await page.locator('#answer').innerText();
+  assert.match(lead, /38\.8\d\s*%/);
+  assert.match(lead, /0\.0\d\s*%/);
+  for (const id of ['flutes', 'forces', 'command', 'controller', 'speeds', 'limits', 'runout']) {
+    assert.equal(await page.locator(`#${id}`).count(), 1, id);
+  }
+  assert.equal(await page.locator('#flutes tbody tr').count(), 2);
+  assert.match(await page.locator('#runout').innerText(), /27\.8.*26\.2/s);
   await close();
 });
 

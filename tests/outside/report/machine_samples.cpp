@@ -2,6 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/actuator.h>
+#include <trochoid/run/correct.h>
 #include <trochoid/run/dynamics.h>
 #include <trochoid/run/modes.h>
 
@@ -31,6 +32,13 @@ Answer motion() {
       inputs::read_case(examples / "runout_table_8mm/sine.toml",
                         inputs::Command::dynamics),
       {});
+}
+
+Answer correction() {
+  return trochoid::run::correct(
+      inputs::read_case(examples / "runout_correction/case.toml",
+                        inputs::Command::correct),
+      true, {});
 }
 
 Answer chatter() {

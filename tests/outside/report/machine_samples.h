@@ -12,6 +12,9 @@ trochoid::base::Answer actuator();
 /// examples/runout_table_8mm with its sine.
 trochoid::base::Answer motion();
 
+/// examples/runout_correction, with the controller in the loop.
+trochoid::base::Answer correction();
+
 /// examples/stability_922Hz cut in time: it chatters.
 trochoid::base::Answer chatter();
 

@@ -143,9 +143,10 @@ function controllerSection(report) {
   return { part, draw: () => {
     turns.draw([{ label: 'peak of |Fy|', unit: 'N', height: 190, markers, series: peaks },
       { label: 'difference', unit: '%', height: 130, markers, series: [{ name: '',
-        values: controller.turns.map((turn) => 100 * turn.difference), color: '--s3' }] }]);
+        values: controller.turns.map((turn) => 100 * turn.difference), color: '--s3',
+        width: 2 }] }]);
     samples?.draw([{ label: 'command', unit: 'µm', height: 170, series: [
-      { name: '', values: columnNamed(t, 'command_um'), color: '--s1' }] }]);
+      { name: '', values: columnNamed(t, 'command_um'), color: '--s1', width: 1.6 }] }]);
   } };
 }
 
