@@ -220,8 +220,7 @@ Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion
 
 Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
                        const ShapeOptions& options, const FlutesOf& flutes) {
-  const Amplitude one =
-      amplitude_for(target, cut, table_motion(cut, shape, options), flutes);
+  Amplitude one = amplitude_for(target, cut, table_motion(cut, shape, options), flutes);
   const std::vector<double> x = levels(cut.offsets());
   const double unit = largest_of(x);
   if (cut.teeth() <= 2 || target == Target::least_squares || unit == 0) {

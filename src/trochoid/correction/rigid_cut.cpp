@@ -81,6 +81,11 @@ double RigidCut::feed() const noexcept {
   return passage_.feed * turn;
 }
 
+double RigidCut::nominal_chip() const noexcept {
+  const double at = std::clamp(turn / 4, arc_.from, arc_.to);
+  return feed() / static_cast<double>(psi_.size()) * std::sin(at);
+}
+
 int RigidCut::teeth() const noexcept {
   return passage_.teeth;
 }

@@ -65,6 +65,8 @@ class RigidCut {
   /// Offsets of the tips from the axis of rotation [m], mean 0.
   [[nodiscard]] std::vector<double> offsets() const;
 
+  /// Thickest chip without runout: f_z times the largest sin(theta) of the arc [m].
+  [[nodiscard]] double nominal_chip() const noexcept;
   /// Which tooth is the one nearest to the middle of the arc of cut.
   [[nodiscard]] std::size_t turn_of(double phi) const noexcept;
 

@@ -16,6 +16,8 @@ namespace trochoid::correction {
 namespace {
 
 constexpr double rank_tolerance = 1e-10;
+/// Thickest chip of a flute whose runout is seen, over that of a thin one.
+constexpr double least_chip = 1.0;
 /// Exponents to start from.
 constexpr std::array<double, 2> exponents = {0.3, 0.6};
 
@@ -142,6 +144,25 @@ Found best_of(StaticProblem& problem, const std::optional<force::Power>& start,
   return fitted(problem, best.p, iterations);
 }
 
+/// Why the runout of a flute is not known: it cuts next to nothing. Empty: they all
+/// cut.
+std::string hardly_cutting(const StaticProblem& problem, const std::vector<double>& p) {
+  force::Setup setup = problem.setup;
+  setup.runout = {.radial_offsets = parameters_of(problem, p).rho};
+  const RigidCut cut(setup, force::Power{}, 1);
+  const auto flutes = cut.peaks(Harmonics{});
+  for (std::size_t j = 0; j < flutes.size(); ++j) {
+    if (flutes[j].peak_chip < least_chip * problem.options.thin * setup.cut.f_z) {
+      return fmt::format(
+          "flute {} hardly cuts, or not at all: it stands back by about the chip of "
+          "the "
+          "others, or more, and its runout is not known better",
+          j + 1);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 StaticFit static_fit(const force::Setup& setup, const ForceRecord& record,
@@ -172,6 +193,10 @@ StaticFit static_fit(const force::Setup& setup, const ForceRecord& record,
   fit.samples = problem.angle.size();
   fit.rms = problem.size * std::sqrt(2 * best.final_cost);
   fit.explained = 1 - 2 * best.final_cost * static_cast<double>(problem.axes) / 3;
+  fit.reason = hardly_cutting(problem, best.p);
+  if (!fit.reason.empty()) {
+    return fit;
+  }
   const std::vector<double> C = covariance(problem, best.p, best.final_cost);
   if (C.empty()) {
     fit.reason = "coefficients, exponents and runout cannot be told apart";

@@ -213,7 +213,8 @@ std::vector<double> start_offsets(const StaticProblem& problem, double m) {
   for (double& peak : peaks) {
     peak = std::max(peak, 0.02 * largest);
   }
-  const RatioEstimate ratio = ratio_estimate(peaks, problem.setup.cut.f_z, m);
+  const RatioEstimate ratio = ratio_estimate(
+      peaks, RigidCut(problem.setup, force::Power{}, 1).nominal_chip(), m);
   return ratio.ok ? ratio.rho : std::vector<double>(problem.teeth, 0.0);
 }
 

@@ -114,7 +114,7 @@ bool find_in_record(const inputs::Case& given, CorrectionSetting& s,
   s.angle_offset = s.fit->offset.value;
   const correction::RigidCut rigid(s.cut.setup, s.fit->law, s.cut.slices);
   s.ratio = correction::ratio_estimate(peaks_of(*record, rigid, s.angle_offset),
-                                       s.cut.setup.cut.f_z, s.fit->m_t.value);
+                                       rigid.nominal_chip(), s.fit->m_t.value);
   s.behind = correction::true_runout(s.cut, *s.fit, options);
   if (s.behind->ok) {
     s.rho = s.behind->rho;

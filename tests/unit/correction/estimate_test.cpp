@@ -75,6 +75,18 @@ TEST(Ratio, IsHighByAPercentOrTwoBecauseThePeakIsNotInFront) {  // [R-20]
   }
 }
 
+TEST(Ratio, OfAPartialCutRefersToItsThickestChip) {
+  force::Setup setup = slot_with({8e-6, -8e-6});
+  setup.cut.engagement = geometry::UpMilling{2e-3};  // 60 degrees
+  const RigidCut cut(setup, force::Power{.K_t1 = 4e8, .m_t = 0.3, .m_r = 0.3});
+  EXPECT_NEAR(cut.nominal_chip(), 50e-6 * std::sin(turn / 6), 1e-12);
+  const auto flutes = cut.peaks(still);  // both at the exit
+  const std::array<double, 2> F = {flutes[0].peak_y, flutes[1].peak_y};
+  EXPECT_NEAR(ratio_estimate(F, cut.nominal_chip(), 0.3).h_ro[0], 16e-6, 1e-9);
+  EXPECT_NEAR(RigidCut(slot_with({0.0, 0.0}), steep_law()).nominal_chip(), 50e-6,
+              1e-18);
+}
+
 TEST(Ratio, SaysThatAFluteDoesNotCut) {
   const std::array<double, 2> F = {50.0, 0.0};
   const RatioEstimate r = ratio_estimate(F, 50e-6, 0.3);
@@ -114,6 +126,34 @@ TEST(StaticFit, FindsWhatItWasGivenForTwoToFourTeeth) {  // [R-21]
     EXPECT_NEAR(fit.K_t1.value, 420e6, 5 * fit.K_t1.se);
     EXPECT_NEAR(fit.K_r1.value, 95e6, 5 * fit.K_r1.se);
     EXPECT_NEAR(fit.K_a1.value, 60e6, 5 * fit.K_a1.se);
+  }
+}
+
+TEST(StaticFit, FindsLargeRunoutInAPartialCut) {
+  force::Setup truth = slot_with({20e-6, -15e-6, 10e-6, -15e-6});
+  truth.cut.engagement = geometry::UpMilling{2e-3};
+  force::Setup asked = truth;
+  asked.runout = {};
+  const StaticFit fit =
+      static_fit(asked, rigid_record(truth, ordinary_law(), 0.0, 0.5));
+  ASSERT_TRUE(fit.ok) << fit.reason;
+  for (std::size_t j = 0; j < 4; ++j) {
+    EXPECT_NEAR(fit.rho[j].value, truth.runout.radial_offsets[j], 5 * fit.rho[j].se);
+  }
+}
+
+TEST(StaticFit, SaysThatAFluteDoesNotCut) {
+  for (const double h_ro : {52e-6, 70e-6}) {  // the feed is 50 um
+    for (const double noise : {0.0, 0.5}) {
+      const force::Setup truth = slot_with({h_ro / 2, -h_ro / 2});
+      force::Setup asked = truth;
+      asked.runout = {};
+      const StaticFit fit =
+          static_fit(asked, rigid_record(truth, ordinary_law(), 0.0, noise));
+      EXPECT_FALSE(fit.ok);
+      EXPECT_NE(fit.reason.find("flute 2 hardly cuts"), std::string::npos)
+          << fit.reason;
+    }
   }
 }
 
