@@ -9,14 +9,32 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 25> names = {
-    "case.toml",      "summary.json",      "report.html",    "material.toml",
-    "forces.csv",     "chip.csv",          "chip_curve.csv", "fitted.csv",
-    "residual.csv",   "sweep.csv",         "folded.csv",     "surface.csv",
-    "deflection.csv", "influence.csv",     "motion.csv",     "lobes.csv",
-    "limit.csv",      "command.csv",       "bent.csv",       "modes.toml",
-    "actuator.toml",  "once_per_turn.csv", "speeds.csv",     "command.h",
-    "controller.csv"};
+constexpr std::array<std::string_view, 26> names = {"case.toml",
+                                                    "summary.json",
+                                                    "report.html",
+                                                    "material.toml",
+                                                    "forces.csv",
+                                                    "chip.csv",
+                                                    "chip_curve.csv",
+                                                    "fitted.csv",
+                                                    "residual.csv",
+                                                    "sweep.csv",
+                                                    "folded.csv",
+                                                    "surface.csv",
+                                                    "deflection.csv",
+                                                    "influence.csv",
+                                                    "motion.csv",
+                                                    "lobes.csv",
+                                                    "limit.csv",
+                                                    "command.csv",
+                                                    "bent.csv",
+                                                    "modes.toml",
+                                                    "actuator.toml",
+                                                    "once_per_turn.csv",
+                                                    "surface_location.csv",
+                                                    "speeds.csv",
+                                                    "command.h",
+                                                    "controller.csv"};
 
 }  // namespace
 

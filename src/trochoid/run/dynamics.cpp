@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace trochoid::run {
@@ -23,7 +24,7 @@ constexpr std::array names = {"periodic", "not_periodic", "chatter"};
 
 /// Where the tip of a tooth enters and leaves the stock: from theta to theta.
 std::array<double, 2> engagement_of(const force::Setup& setup) {
-  const double R = 0.5 * setup.cutter.lag_diameter;
+  const double R = 0.5 * setup.cutter.profile.D;
   const geometry::Band stock = geometry::stock_band(setup.cut.engagement, 2 * R);
   const auto at = [R](double y) { return std::acos(std::clamp(y / R, -1.0, 1.0)); };
   return {at(stock.y_hi), at(stock.y_lo)};
@@ -46,6 +47,24 @@ Json flutes_json(const dynamics::Motion& m, const force::Setup& setup) {
   return flutes;
 }
 
+Json surface_location_json(const std::vector<dynamics::WallLocation>& walls) {
+  Json all = Json::array();
+  for (const dynamics::WallLocation& wall : walls) {
+    if (wall.height > 0) {
+      continue;  // those are in surface_location.csv
+    }
+    Json flutes = Json::array();
+    for (std::size_t j = 0; j < wall.teeth.size(); ++j) {
+      flutes.push_back(
+          {{"tooth", j + 1}, {"surface_location_error_um", wall.teeth[j] / unit::um}});
+    }
+    all.push_back({{"wall", wall.sigma < 0 ? "up" : "down"},
+                   {"flutes", flutes},
+                   {"surface_location_error_um", wall.remains / unit::um}});
+  }
+  return all;
+}
+
 std::string short_table(const Json& result) {
   std::string text =
       fmt::format("  {:>5} {:>14} {:>14} {:>18} {:>14}\n", "tooth", "peak |Fx| N",
@@ -62,6 +81,12 @@ std::string short_table(const Json& result) {
       fmt::format("the force changed by {:.3g} N in the last of {} turns: {}\n",
                   result["change_N"].get<double>(), result["turns"].get<int>(),
                   result["periodic"].get<bool>() ? "it repeats" : "it does not repeat");
+  for (const Json& wall : result["surface_location"]) {
+    text += fmt::format("{}-milled wall {:.3f} um off at the tip ({})\n",
+                        wall["wall"].get<std::string>(),
+                        wall["surface_location_error_um"].get<double>(),
+                        "positive: material is left");
+  }
   return text;
 }
 
@@ -90,13 +115,13 @@ base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
         "no force was found that agrees with the motion it makes: a mode is too "
         "soft, or too light, for this cut");
   }
-  const double linear = linear_growth(given, problem.system);
+  const std::optional<double> linear = linear_growth(given, problem.system);
   const bool chatter = all.verdict == Verdict::chatter;
   Json result{{"verdict", names[static_cast<std::size_t>(all.verdict)]},
               {"periodic", all.verdict == Verdict::periodic},
               {"turns", m.turns_done},
               {"steps_per_tooth", problem.grid.steps_per_tooth},
-              {"linear_growth_per_turn", linear},
+              {"linear_growth_per_turn", linear ? Json(*linear) : Json(nullptr)},
               {"growth_per_turn", all.growth ? Json(*all.growth) : Json(nullptr)},
               {"change_N", chatter ? Json(nullptr) : Json(m.last_change)}};
   answer.tables.push_back(once_table(m));
@@ -118,6 +143,10 @@ base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
              "less: ask for more revolutions. Peaks are those of the last turn.",
              m.last_change)});
   }
+  const auto walls =
+      dynamics::surface_location(problem, m, wall_heights(problem.setup));
+  result["surface_location"] = surface_location_json(walls);
+  answer.tables.push_back(surface_location_table(walls));
   answer.tables.push_back(motion_table(problem, m));
   answer.tables.push_back(motion_forces_table(m));
   answer.message = fmt::format(

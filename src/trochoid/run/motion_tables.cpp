@@ -64,4 +64,28 @@ base::Table once_table(const dynamics::Motion& m) {
   return table;
 }
 
+std::vector<double> wall_heights(const force::Setup& setup) {
+  constexpr int steps = 10;
+  std::vector<double> heights = {0.0};
+  for (int i = 1; setup.cutter.helix != 0 && i <= steps; ++i) {
+    heights.push_back(setup.cut.a_p * i / steps);
+  }
+  return heights;
+}
+
+base::Table surface_location_table(const std::vector<dynamics::WallLocation>& walls) {
+  base::Table table{
+      "surface_location.csv",
+      {{"sigma", {}}, {"height_mm", {}}, {"tooth", {}}, {"error_um", {}}}};
+  for (const dynamics::WallLocation& wall : walls) {
+    for (std::size_t j = 0; j < wall.teeth.size(); ++j) {
+      table.columns[0].values.push_back(wall.sigma);
+      table.columns[1].values.push_back(unit::in(wall.height, unit::mm));
+      table.columns[2].values.push_back(static_cast<double>(j + 1));
+      table.columns[3].values.push_back(wall.teeth[j] / unit::um);
+    }
+  }
+  return table;
+}
+
 }  // namespace trochoid::run

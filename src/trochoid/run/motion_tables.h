@@ -2,6 +2,9 @@
 
 #include <trochoid/base/answer.h>
 #include <trochoid/dynamics/motion.h>
+#include <trochoid/dynamics/surface_location.h>
+
+#include <vector>
 
 namespace trochoid::run {
 
@@ -13,5 +16,12 @@ base::Table motion_forces_table(const dynamics::Motion& m);
 
 /// once_per_turn.csv: tool minus work at the start of every turn.
 base::Table once_table(const dynamics::Motion& m);
+
+/// @brief Heights at which the walls are looked at: the tip, and with a helix ten steps
+/// up to the axial depth [m].
+std::vector<double> wall_heights(const force::Setup& setup);
+
+/// surface_location.csv: sigma of the wall, height, tooth and its error.
+base::Table surface_location_table(const std::vector<dynamics::WallLocation>& walls);
 
 }  // namespace trochoid::run

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace trochoid::run {
 
@@ -24,6 +25,8 @@ constexpr double differs = 0.02;
 
 /// Of the directional matrices, as in `stability`.
 constexpr double matrix_tolerance = 1e-10;
+/// In a period of the cut: with more, the linearised cut takes too long.
+constexpr double most_vibrations = 400;
 /// Changes from turn to turn up to this part of the feed per tooth are small.
 constexpr double small = 0.2;
 
@@ -88,29 +91,40 @@ Moved settled(dynamics::MotionProblem& problem, const Progress& progress) {
   return all;
 }
 
-double linear_growth(const inputs::Case& given, const dynamics::System& system) {
+std::optional<double> linear_growth(const inputs::Case& given,
+                                    const dynamics::System& system) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double Omega = given.setup.cut.Omega;
+  const double fastest =
+      std::accumulate(system.modes.begin(), system.modes.end(), 0.0,
+                      [](double most, const dynamics::ChipMode& mode) {
+                        return std::max(most, std::sqrt(mode.stiffness / mode.mass));
+                      });
   const inputs::Stability options =
       given.machine.stability.value_or(inputs::Stability{});
   const dynamics::DirectionalModel model(given.setup, given.law, options.chip_floor,
                                          matrix_tolerance);
   const auto directional = model.at_depth(given.setup.cut.a_p);
-  const auto mu = dynamics::multiplier(directional, system, given.setup.cut.Omega,
-                                       options.tolerance);
-  constexpr double turn = 2 * std::numbers::pi;
+  if (fastest * directional.period / (turn * Omega) > most_vibrations) {
+    return std::nullopt;
+  }
+  const auto mu = dynamics::multiplier(directional, system, Omega, options.tolerance);
   return std::pow(std::abs(mu.value), turn / directional.period);
 }
 
-std::string chatter_message(const Moved& moved, double linear_growth) {
+std::string chatter_message(const Moved& moved, std::optional<double> linear_growth) {
   const dynamics::Motion& m = moved.motion;
   std::string text = "chatter: ";
-  if (linear_growth > 1) {
+  if (!linear_growth) {
+    text += "the vibration does not die out";
+  } else if (*linear_growth > 1) {
     text += fmt::format("a small vibration grows to {:.4g} of itself in each turn",
-                        linear_growth);
+                        *linear_growth);
   } else {
     text += fmt::format(
         "the linearised cut is stable (a small vibration fades to {:.4g} of itself in "
         "each turn), the motion is not",
-        linear_growth);
+        *linear_growth);
   }
   if (!m.finite) {
     return text +

@@ -26,10 +26,12 @@ struct Moved {
 Moved settled(dynamics::MotionProblem& problem, const Progress& progress);
 
 /// @brief By what a small vibration grows in a turn, from the linearised cut (D-8).
-double linear_growth(const inputs::Case& given, const dynamics::System& system);
+/// @return nothing where a period of the cut holds too many vibrations
+std::optional<double> linear_growth(const inputs::Case& given,
+                                    const dynamics::System& system);
 
 /// @brief What chatters, in words.
-std::string chatter_message(const Moved& moved, double linear_growth);
+std::string chatter_message(const Moved& moved, std::optional<double> linear_growth);
 
 /// @brief Largest difference of the peaks of F_y between flutes, over the larger.
 double peak_difference(const dynamics::Motion& motion);

@@ -26,7 +26,7 @@ function dynamicsLead(result) {
       note: isNumber(result.change_N)
         ? `the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
         : `${result.turns} turns; amplitudes would be those of the moment, so none are given` },
-    { label: 'A turn makes a small vibration', value: `× ${number(result.linear_growth_per_turn, 4)}`,
+    isNumber(result.linear_growth_per_turn) && { label: 'A turn makes a small vibration', value: `× ${number(result.linear_growth_per_turn, 4)}`,
       note: isNumber(seen) ? `linearised cut; × ${number(seen, 4)} seen in the motion`
         : 'linearised cut; below 1 it fades' },
     forces.length && { label: forces.length > 1 ? 'Peak |Fy| of each flute' : 'Peak |Fy|',
