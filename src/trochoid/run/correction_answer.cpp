@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/correction/shapes.h>
+#include <trochoid/correction/wall_marks.h>
 #include <trochoid/run/correction_tables.h>
 #include <trochoid/run/correction_words.h>
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trochoid::run {
 
@@ -17,9 +19,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double grows = 1.02;    ///< from turn to turn: chatter
-constexpr double repeats = 0.01;  ///< of the peak force: the cut is steady
-constexpr double shakes = 0.1;    ///< of the peak force: chatter that grows no more
+constexpr double grows = 1.02;          ///< from turn to turn: chatter
+constexpr double repeats = 0.01;        ///< of the peak force: the cut is steady
+constexpr int harmonics_of_table = 60;  ///< of its motion over a turn
+constexpr double at_the_wall = 1e-6;    ///< [rad]
+constexpr double shakes = 0.1;  ///< of the peak force: chatter that grows no more
 
 double peak_of(const dynamics::Motion& m) {
   double peak = 0.0;
@@ -113,7 +117,27 @@ Json command_json(const CorrectionFindings& f) {
   return command;
 }
 
-Json cut_json(const dynamics::Motion& m) {
+/// The marks on the walls that the arc of cut reaches, with the table as it moved.
+Json walls_json(const CorrectionSetting& s, const dynamics::Motion& m) {
+  const correction::RigidCut cut(s.cut.setup, s.cut.law, 1);
+  const std::vector<double>& table = m.mode[s.cut.tool.size()];
+  const correction::PeriodicMotion X =
+      correction::harmonics_of_samples(table, harmonics_of_table);
+  Json walls = Json::array();
+  for (const bool exit : {false, true}) {
+    const double theta = exit ? std::numbers::pi : 0.0;
+    if (theta < cut.arc().from - at_the_wall || theta > cut.arc().to + at_the_wall) {
+      continue;
+    }
+    const correction::WallMarks marks = correction::wall_marks(cut, X, exit);
+    walls.push_back({{"theta_deg", exit ? 180 : 0},
+                     {"peak_to_valley_um", marks.peak_to_valley / unit::um},
+                     {"share", marks.share}});
+  }
+  return walls;
+}
+
+Json cut_json(const CorrectionSetting& s, const dynamics::Motion& m) {
   Json flutes = Json::array();
   for (std::size_t j = 0; j < m.flutes.size(); ++j) {
     const dynamics::FluteMotion& f = m.flutes[j];
@@ -127,7 +151,8 @@ Json cut_json(const dynamics::Motion& m) {
           {"difference", difference_of(m)},
           {"area_difference", area_difference_of(m)},
           {"periodic", periodic(m)},
-          {"change_N", m.last_change}};
+          {"change_N", m.last_change},
+          {"walls", walls_json(s, m)}};
 }
 
 Json axes_json(const correction::AxisLimits& axes) {
@@ -211,8 +236,8 @@ void fill_answer(const CorrectionFindings& f, base::Answer& answer) {
   }
   const Json result{
       {"runout", runout_json(f.setting)},
-      {"before", cut_json(f.moved.before)},
-      {"after", cut_json(f.moved.after)},
+      {"before", cut_json(f.setting, f.moved.before)},
+      {"after", cut_json(f.setting, f.moved.after)},
       {"reduction", before > 0 ? Json(1 - after / before) : Json(nullptr)},
       {"command", command_json(f)},
       {"allowed_difference", f.wanted.allowed_difference},

@@ -69,6 +69,12 @@ TEST(Correct, ReproducesTheCaseOfThePaper) {
   // Equal peaks are not equal chips, and the answer says so.
   EXPECT_GT(r["after"]["area_difference"], 0.3);
   EXPECT_TRUE(warned(answer, "unequal_chips"));
+  // The wall is the longer flute's, with the command as without: f^2/(8 R) deep.
+  for (const char* when : {"before", "after"}) {
+    const Json& wall = r[when]["walls"].at(1);
+    EXPECT_NEAR(wall["peak_to_valley_um"], 1e3 * 0.1 * 0.1 / (8 * 4), 0.005);
+    EXPECT_NEAR(wall["share"][0], 1.0, 1e-6);
+  }
 }
 
 TEST(Correct, CommandStaysInTheStrokeAboutItsMiddle) {

@@ -15,6 +15,7 @@ function correctPage(report) {
     controllerSection(report),
     speedsSection(report),
     { part: limitsSection(report.result.command) },
+    { part: wallsSection(report.result) },
     { part: correctRunoutSection(report.result) },
     { part: restSection(report.result, correctKnown) },
   ];
@@ -184,6 +185,19 @@ function limitsSection(command) {
     table(['what', 'limit'], rows),
     command.learning ? prose(`Learning: ${command.learning.iterations} iterations, ` +
       `${command.learning.converged ? 'converged' : 'not converged'}.`) : null);
+}
+
+/** What is left on the walls: a table along the feed moves the marks, not their depth. */
+function wallsSection({ before, after }) {
+  if (!before?.walls?.length) return null;
+  const shares = (wall) => wall.share.map((s) => number(100 * s, 3)).join(', ');
+  const rows = before.walls.map((wall, i) => [wall.theta_deg === 0 ? 'where the teeth enter' :
+    'where the teeth leave', number(wall.peak_to_valley_um, 3),
+  number(after.walls[i].peak_to_valley_um, 3), shares(wall), shares(after.walls[i])]);
+  return section('walls', 'The walls', 'Walls',
+    prose('Marks of the teeth on the walls beside the cutter, for a rigid tool. A table that moves ' +
+      'along the feed shifts the marks; how deep they lie is up to the longest tooth.'),
+    table(['wall', 'marks before, µm', 'after', 'share of each flute before, %', 'after'], rows));
 }
 
 function correctRunoutSection({ runout, axes }) {
