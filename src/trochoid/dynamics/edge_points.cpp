@@ -86,11 +86,19 @@ EdgePoints::EdgePoints(const force::Setup& setup, int points, std::size_t lookba
     edge_per_height_ =
         geometry::edge_length_factor(geometry::point_at(meridian, s), lag);
   }
+  turning_ = whole_lag_ > 0 && setup.runout.eccentricity != 0;
   tips_ = positions(0.0);
   gauss_rule(points, gauss_t_, gauss_w_);
   for (std::size_t j = 0; j < psi_.size(); ++j) {
     reach_.push_back(reach_of(j));
+    for (const double theta : reach_[j].events) {
+      for (const double behind : {0.0, whole_lag_}) {
+        const double phi = psi_[j] + theta + behind;
+        events_.push_back(phi - turn * std::floor(phi / turn));
+      }
+    }
   }
+  std::sort(events_.begin(), events_.end());
 }
 
 std::vector<geometry::EdgePosition> EdgePoints::positions(double lag) const {
@@ -133,7 +141,7 @@ EdgePoints::Reach EdgePoints::reach_of(std::size_t tooth) const {
   // At the tip, half-way and at the top: a parabola through all three.
   std::array<std::vector<double>, 3> at;
   at.fill(breaks(tooth, 0.0, reach.events));
-  if (whole_lag_ > 0 && setup_.runout.eccentricity != 0) {
+  if (turning_) {
     std::vector<double> events;
     at[1] = breaks(tooth, 0.5 * whole_lag_, events);
     at[2] = breaks(tooth, whole_lag_, events);
@@ -143,8 +151,7 @@ EdgePoints::Reach EdgePoints::reach_of(std::size_t tooth) const {
     }
   }
   const auto is_zero = [&](double theta, double lag) {
-    const auto a = chips(tooth, theta, lag);
-    return std::abs(*std::min_element(a.begin(), a.end())) < 1e-6 * setup_.cut.f_z;
+    return std::abs(least_chip(tooth, theta, lag)) < 1e-6 * setup_.cut.f_z;
   };
   const auto angle = [&](std::size_t i, double share) {
     std::array<double, 3> b;
@@ -168,44 +175,45 @@ EdgePoints::Reach EdgePoints::reach_of(std::size_t tooth) const {
 }
 
 /// a_jm of the stock and of the teeth before.
-std::vector<double> EdgePoints::chips(std::size_t tooth, double theta,
-                                      double lag) const {
-  const auto teeth = positions(lag);
-  const chip::Slice slice{r_, teeth};
+void EdgePoints::chips(const chip::Slice& slice, std::size_t tooth, double theta,
+                       std::span<double> above) const {
   const auto j = static_cast<int>(tooth);
-  std::vector<double> a{infinity};
+  above[0] = infinity;
   if (passage_.model.model == chip::Model::trochoidal) {
     const chip::Chip chip = chip::chip_at(passage_, slice, j, theta);
     if (chip::mark_of(chip) == 0 || !chip::ends_at_edge(chip)) {
-      a.front() = chip.margin;
+      above[0] = chip.margin;
     }
   }
-  const auto teeth_count = static_cast<int>(psi_.size());
-  // A mark older than a turn stands farther back by as much as the own one of a turn
-  // ago.
-  const double per_turn = chip::chip_over_mark(passage_, slice, j, theta, teeth_count);
-  for (std::size_t m = 1; m <= lookback_; ++m) {
-    const auto older = static_cast<int>(m - 1) / teeth_count;
-    const int mark = static_cast<int>(m - 1) % teeth_count + 1;
-    const bool counts = static_cast<int>(m) <= passage_.marks || older > 0;
-    a.push_back(counts ? chip::chip_over_mark(passage_, slice, j, theta, mark) +
-                             older * per_turn
-                       : infinity);
+  const std::size_t teeth = psi_.size();
+  for (std::size_t m = 1; m <= std::min(lookback_, teeth); ++m) {
+    above[m] = chip::chip_over_mark(passage_, slice, j, theta, static_cast<int>(m));
   }
-  return a;
+  if (lookback_ > teeth) {
+    // A mark older than a turn stands farther back by as much as the own one of a turn
+    // ago.
+    for (std::size_t m = teeth + 1; m <= lookback_; ++m) {
+      above[m] = above[m - teeth] + above[teeth];
+    }
+  }
+  for (auto m = static_cast<std::size_t>(passage_.marks) + 1;
+       m <= std::min(lookback_, teeth); ++m) {
+    above[m] = infinity;  // not looked at
+  }
 }
 
-std::vector<double> EdgePoints::events() const {
-  std::vector<double> all;
-  for (std::size_t j = 0; j < psi_.size(); ++j) {
-    for (const double theta : reach_[j].events) {
-      for (const double lag : {0.0, whole_lag_}) {
-        const double phi = psi_[j] + theta + lag;
-        all.push_back(phi - turn * std::floor(phi / turn));
-      }
-    }
-  }
-  return all;
+double EdgePoints::least_chip(std::size_t tooth, double theta, double lag) const {
+  const auto teeth = positions(lag);
+  std::vector<double> above(lookback_ + 1);
+  chips({r_, teeth}, tooth, theta, above);
+  return *std::min_element(above.begin(), above.end());
+}
+
+bool EdgePoints::at_event(double phi) const noexcept {
+  constexpr double near = 1e-7;
+  const auto next = std::lower_bound(events_.begin(), events_.end(), phi - near);
+  return (next != events_.end() && *next < phi + near) || phi < near ||
+         phi > turn - near;
 }
 
 /// Gauss nodes on the part of an arc that an edge covers, and on its images.
@@ -241,30 +249,32 @@ void EdgePoints::add_arc(const ChipArc& arc, double tip,
   }
 }
 
-std::vector<EdgePlace> EdgePoints::places(std::size_t tooth, double tip,
-                                          double side) const {
+void EdgePoints::find_places(std::size_t tooth, double tip, double side,
+                             std::vector<EdgePlace>& places) const {
   const std::vector<ChipArc>& arcs = reach_[tooth].arcs;
-  std::vector<EdgePlace> places;
+  places.clear();
   if (arcs.empty()) {
-    return places;
+    return;
   }
   if (whole_lag_ == 0) {
     const double theta = in_turn(tip + side);
     if (theta > arcs.front().from.tip && theta < arcs.back().to.tip) {
       places.push_back({tip, 0.0, setup_.cut.a_p});
     }
-    return places;
+    return;
   }
   for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
     add_arc(*arc, tip, places);
   }
-  return places;
 }
 
 Contacts EdgePoints::add(double phi, double side, EngagedGrid& grid) const {
   Contacts range{grid.stretches.size(), 0};
+  std::vector<EdgePlace> points;
+  std::vector<geometry::EdgePosition> turned(turning_ ? psi_.size() : 0);
+  std::vector<double> above(lookback_ + 1);
   for (std::size_t j = 0; j < psi_.size(); ++j) {
-    const auto points = places(j, phi - psi_[j], side);
+    find_places(j, phi - psi_[j], side, points);
     if (points.empty()) {
       continue;
     }
@@ -272,14 +282,18 @@ Contacts EdgePoints::add(double phi, double side, EngagedGrid& grid) const {
     grid.above.resize(grid.above.size() + (lookback_ + 1) * points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const EdgePlace& point = points[i];
-      const double epsilon = positions(point.lag)[j].epsilon;
-      grid.sine.push_back(std::sin(point.theta + epsilon));
-      grid.cosine.push_back(std::cos(point.theta + epsilon));
+      if (turning_) {
+        turned = positions(point.lag);
+      }
+      const chip::Slice slice{r_, turning_ ? turned : tips_};
+      const double theta = point.theta + slice.teeth[j].epsilon;
+      grid.sine.push_back(std::sin(theta));
+      grid.cosine.push_back(std::cos(theta));
       grid.width.push_back(point.height);
       grid.edge.push_back(point.height * edge_per_height_);
-      const auto a = chips(j, point.theta, point.lag);
+      chips(slice, j, point.theta, above);
       for (std::size_t m = 0; m <= lookback_; ++m) {
-        grid.above[stretch.marks + m * points.size() + i] = a[m];
+        grid.above[stretch.marks + m * points.size() + i] = above[m];
       }
     }
     grid.stretches.push_back(stretch);

@@ -3,6 +3,7 @@
 #include <trochoid/chip/chip.h>
 #include <trochoid/dynamics/engaged_grid.h>
 
+#include <span>
 #include <vector>
 
 namespace trochoid::dynamics {
@@ -43,8 +44,12 @@ class EdgePoints {
   /// With helix no tooth enters all at once.
   [[nodiscard]] bool helix() const noexcept { return whole_lag_ > 0; }
 
-  /// Spindle angles in one turn where an edge enters or leaves what it may cut [rad].
-  [[nodiscard]] std::vector<double> events() const;
+  /// Spindle angles in one turn where an edge enters or leaves what it may cut [rad],
+  /// ascending.
+  [[nodiscard]] const std::vector<double>& events() const noexcept { return events_; }
+
+  /// Whether one of the events is next to an angle in [0, 2 pi) [rad].
+  [[nodiscard]] bool at_event(double phi) const noexcept;
 
   /// @brief Add the stretches of all teeth to a grid.
   /// @param side  which side of phi counts where a tip enters or leaves [rad]
@@ -61,10 +66,11 @@ class EdgePoints {
                                            std::vector<double>& events) const;
   [[nodiscard]] Reach reach_of(std::size_t tooth) const;
   [[nodiscard]] std::vector<geometry::EdgePosition> positions(double lag) const;
-  [[nodiscard]] std::vector<double> chips(std::size_t tooth, double theta,
-                                          double lag) const;
-  [[nodiscard]] std::vector<EdgePlace> places(std::size_t tooth, double tip,
-                                              double side) const;
+  void chips(const chip::Slice& slice, std::size_t tooth, double theta,
+             std::span<double> above) const;
+  [[nodiscard]] double least_chip(std::size_t tooth, double theta, double lag) const;
+  void find_places(std::size_t tooth, double tip, double side,
+                   std::vector<EdgePlace>& places) const;
   void add_arc(const ChipArc& arc, double tip, std::vector<EdgePlace>& places) const;
 
   const force::Setup& setup_;
@@ -74,7 +80,9 @@ class EdgePoints {
   double r_ = 0.0;
   double whole_lag_ = 0.0;        ///< of the top behind the tip [rad]; 0: no helix
   double edge_per_height_ = 1.0;  ///< length of edge
+  bool turning_ = false;          ///< does runout change along the edge?
   std::vector<geometry::EdgePosition> tips_;
+  std::vector<double> events_;  ///< ascending
   std::vector<Reach> reach_;
   std::vector<double> gauss_t_;  ///< in (0, 1)
   std::vector<double> gauss_w_;

@@ -130,6 +130,18 @@ Delay delay_of(const EngagedGrid& nodes, double phi, double delay, std::size_t n
       {s * s * (1 + 2 * t), t * t * (3 - 2 * t), step * t * s * s, -step * t * t * s}};
 }
 
+/// With equal pitches a delay leads to the same place between two nodes as no delay.
+Delay whole_pitches(const EngagedGrid& nodes, double part, std::size_t node,
+                    std::size_t pitches) {
+  const double step = nodes.step[node - 1];
+  const double t = part;
+  const double s = 1 - t;
+  return {
+      1 + pitches * nodes.pitch,
+      {s * s * (1 + 2 * t), t * t * (3 - 2 * t), step * t * s * s, -step * t * t * s}};
+}
+
+/// Delays of all angles, counted from the nodes given.
 void add_delays(const force::Setup& setup, const EngagedGrid& nodes, EngagedGrid& grid,
                 const std::vector<std::size_t>& node) {
   const chip::Passage passage = chip::passage(setup.cutter, setup.cut, setup.chip);
@@ -170,7 +182,9 @@ EngagedGrid engaged_grid(const force::Setup& setup, const GridOptions& options,
   for (const double phi : grid.angle) {
     const Contacts before = points.add(phi, -beside, grid);
     const Stretch end{0, grid.sine.size(), 0, grid.above.size()};
-    const Contacts after = points.helix() ? before : points.add(phi, +beside, grid);
+    const Contacts after = points.helix() || !points.at_event(phi)
+                               ? before
+                               : points.add(phi, +beside, grid);
     const bool jump = !same_points(grid, before, after);
     if (!jump) {
       shrink_to(grid, end, before.last);
@@ -209,7 +223,17 @@ BetweenNodes between_nodes(const force::Setup& setup, const GridOptions& options
     grid.jump.push_back(0);
   }
   grid.angle = std::move(angles);
-  add_delays(setup, nodes, grid, result.node);
+  if (nodes.pitch == 0) {
+    add_delays(setup, nodes, grid, result.node);
+    return result;
+  }
+  for (std::size_t i = 0; i < grid.angle.size(); ++i) {
+    for (std::size_t j = 0; j < grid.teeth; ++j) {
+      for (std::size_t m = 1; m <= grid.lookback; ++m) {
+        grid.delays.push_back(whole_pitches(nodes, result.part[i], result.node[i], m));
+      }
+    }
+  }
   return result;
 }
 

@@ -246,9 +246,12 @@ class Run {
     const double middle = t + 0.5 * dt_[i];
     const double command = problem_.command ? problem_.command(middle) : 0.0;
     step_.node = i;
-    if (left <= kept_) {
-      step_ = {n, i, dt_[i], stepper_.snapshot(), {}, {}};
+    const bool sampled = left <= problem_.kept && samples_.wants(i);
+    if (left <= problem_.kept) {
       samples_.add_command(middle, command);
+    }
+    if (sampled) {
+      step_ = {n, i, dt_[i], stepper_.snapshot(), {}, {}};
     }
     stepper_.begin(i, F, command);
     cut_.prepare(next, grid_.before[next], past_.next());
@@ -258,7 +261,12 @@ class Run {
     const auto q = stepper_.end(end);
     past_.add(q, left <= with_slope_ ? slope() : std::array<double, 2>{});
     motion_.finite = std::abs(q[0]) + std::abs(q[1]) < run_away;
-    if (left <= std::max(2, kept_)) {
+    step_.past = past_.last();
+    if (sampled) {
+      step_.to = stepper_.snapshot();
+      samples_.add(step_, motion_);
+    }
+    if (left <= 2) {
       record(left, F, jumped);
     }
     if (!grid_.jump[next]) {
@@ -272,23 +280,14 @@ class Run {
     return before_;
   }
 
-  /// What is kept of the step taken, so many turns before the end.
+  /// What the last two turns tell, so many turns before the end.
   void record(int left, const Force& F, bool jumped) {
-    if (left <= kept_) {
-      step_.to = stepper_.snapshot();
-      step_.past = past_.last();
-      if (left <= problem_.kept) {
-        samples_.add(step_, motion_);
-      }
-      if (left == 1) {
-        flutes_.add(step_, F, motion_);
-      }
+    if (left == 1) {
+      flutes_.add(step_, F, motion_);
     }
-    if (left <= 2) {
-      comparison_.add(left == 1, step_.node, F);
-      if (jumped) {
-        comparison_.forget(step_.node);
-      }
+    comparison_.add(left == 1, step_.node, F);
+    if (jumped) {
+      comparison_.forget(step_.node);
     }
   }
 

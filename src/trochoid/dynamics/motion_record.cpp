@@ -47,9 +47,6 @@ MotionSamples::MotionSamples(const MotionProblem& problem, const EngagedGrid& gr
       cut_(problem.law, samples_.grid) {}
 
 void MotionSamples::add(const TakenStep& step, Motion& motion) {
-  if (step.node == 0) {
-    next_ = 0;
-  }
   const Snapshot& from = step.from;
   const Snapshot& to = step.to;
   for (; next_ < samples_.node.size() && samples_.node[next_] == step.node + 1;
@@ -91,8 +88,9 @@ void MotionSamples::finish(Motion& motion) const {
 FluteWatch::FluteWatch(const MotionProblem& problem, const EngagedGrid& grid)
     : grid_(grid),
       helix_(problem.setup.cutter.helix != 0),
-      tips_(between_nodes(tips_of(problem.setup), problem.grid, grid,
-                          helix_ ? grid.angle : std::vector<double>{})),
+      tips_(helix_
+                ? between_nodes(tips_of(problem.setup), problem.grid, grid, grid.angle)
+                : BetweenNodes{}),
       cut_(problem.law, helix_ ? tips_.grid : grid),
       before_(grid.teeth, none),
       now_(grid.teeth, none) {

@@ -25,6 +25,13 @@ class MotionSamples {
  public:
   MotionSamples(const MotionProblem& problem, const EngagedGrid& grid);
 
+  /// Whether any fall into the step that begins at a node.
+  [[nodiscard]] bool wants(std::size_t node) noexcept {
+    if (node == 0) {
+      next_ = 0;
+    }
+    return next_ < samples_.node.size() && samples_.node[next_] == node + 1;
+  }
   /// Those that fall into a step.
   void add(const TakenStep& step, Motion& motion);
   /// The command of a kept step, at its middle.
