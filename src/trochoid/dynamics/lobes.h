@@ -12,23 +12,30 @@
 
 namespace trochoid::dynamics {
 
-/// Told how much of a diagram is done, from 0 to 1; may be empty.
+/// Told how much of a diagram is done, from 0 to 1; by one thread at a time; may be
+/// empty.
 using LobeProgress = std::function<void(double share)>;
+
+/// How well the multipliers of a diagram are known: of |mu|, relative where it is
+/// above 1.
+struct LobeAccuracy {
+  double near = 1e-5;  ///< within a tenth of the limit |mu| = 1
+  double far = 1e-3;   ///< elsewhere
+};
 
 /// Multipliers over speed and depth.
 struct LobeGrid {
   std::vector<double> Omega;                     ///< [rad/s], ascending
   std::vector<double> depth;                     ///< [m], ascending
   std::vector<std::complex<double>> multiplier;  ///< shape (speeds, depths)
-  std::vector<double> factor;                    ///< of the nodes, for each speed
 };
 
-/// @brief Multipliers on a grid; for each speed with the nodes that its deepest cut
-/// needs.
-/// @param tolerance  of |mu| there
+/// @brief Multipliers on a grid, at each speed with as many nodes as the shallowest cut
+/// needs for `far` and the deepest for ten times that; near the limit with those that
+/// the first cut near it needs.
 LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
                    std::span<const double> Omega, std::span<const double> depth,
-                   double tolerance, const LobeProgress& progress);
+                   const LobeAccuracy& accuracy, const LobeProgress& progress);
 
 /// Least axial depth at which a cut becomes unstable.
 struct Limit {

@@ -18,17 +18,19 @@ Multiplier multiplier_with(const Directional& directional, const System& system,
 
 Multiplier multiplier(const Directional& directional, const System& system,
                       double Omega, double tolerance) {
-  constexpr double first = 0.8;
+  const double first = tolerance < 1e-4 ? 0.8 : 0.64;
   constexpr double growth = 1.25;
   constexpr double most = 4.0;
-  Multiplier last = multiplier_with(directional, system, Omega, first, 0.1 * tolerance);
   double factor = first;
+  Multiplier last =
+      multiplier_with(directional, system, Omega, factor, 0.1 * tolerance);
   while (true) {
     factor *= growth;
     Multiplier next =
         multiplier_with(directional, system, Omega, factor, 0.1 * tolerance);
     next.error = std::abs(std::abs(next.value) - std::abs(last.value));
-    if (next.error <= tolerance || factor > most) {
+    const double scale = std::max(1.0, std::abs(next.value));
+    if (next.error <= tolerance * scale || factor > most) {
       return next;
     }
     last = next;

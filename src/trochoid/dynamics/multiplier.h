@@ -22,7 +22,7 @@ Multiplier multiplier_with(const Directional& directional, const System& system,
                            double Omega, double factor, double tolerance);
 
 /// @brief The multiplier with nodes added until it stays.
-/// @param tolerance  of |mu|, at least 1e-11
+/// @param tolerance  of |mu|, at least 1e-11; relative where |mu| is above 1
 Multiplier multiplier(const Directional& directional, const System& system,
                       double Omega, double tolerance);
 

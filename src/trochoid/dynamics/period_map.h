@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/dynamics/directional.h>
+#include <trochoid/dynamics/period_elements.h>
 #include <trochoid/dynamics/system.h>
 
 #include <cstddef>
@@ -9,12 +10,6 @@
 #include <vector>
 
 namespace trochoid::dynamics {
-
-/// How finely a period is resolved.
-struct Resolution {
-  double factor = 1.0;        ///< of the number of nodes
-  bool whole_period = false;  ///< nodes in the air too, where nothing else needs them
-};
 
 /// @brief What one period of cutting makes of a small disturbance.
 ///
@@ -35,10 +30,9 @@ class PeriodMap {
   PeriodMap(PeriodMap&&) noexcept;
   PeriodMap& operator=(PeriodMap&&) noexcept;
 
-  /// @brief Length of a disturbance: q at the nodes of a period, states at its end.
+  /// @brief Length of a disturbance: q at the nodes that a later period needs, and the
+  /// states at the end of the period.
   [[nodiscard]] std::size_t size() const noexcept;
-  /// Nodes over a period.
-  [[nodiscard]] std::size_t nodes() const noexcept;
   /// @param[in]  in   shape (size)
   /// @param[out] out  one period later, shape (size)
   void apply(std::span<const double> in, std::span<double> out) const;

@@ -9,6 +9,8 @@ namespace trochoid::numerics {
 
 namespace {
 
+constexpr Eigen::Index first_check = 9;
+
 struct Ritz {
   std::complex<double> value;
   Eigen::VectorXcd coordinates;
@@ -17,13 +19,12 @@ struct Ritz {
 
 Ritz ritz(const Eigen::MatrixXd& H, Eigen::Index k, double next) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(H.topLeftCorner(k, k));
+  const auto& values = solver.eigenvalues();
   Eigen::Index best = 0;
   for (Eigen::Index i = 1; i < k; ++i) {
-    const bool larger =
-        std::abs(solver.eigenvalues()[i]) > std::abs(solver.eigenvalues()[best]);
-    best = larger ? i : best;
+    best = std::abs(values[i]) > std::abs(values[best]) ? i : best;
   }
-  Ritz r{solver.eigenvalues()[best], solver.eigenvectors().col(best), 0.0};
+  Ritz r{values[best], solver.eigenvectors().col(best), 0.0};
   if (r.value.imag() < 0) {
     r.value = std::conj(r.value);
     r.coordinates = r.coordinates.conjugate().eval();
@@ -43,44 +44,65 @@ Eigen::VectorXd start_vector(Eigen::Index n) {
   return v.normalized();
 }
 
+/// What of a vector lies along others.
+struct Projection {
+  Eigen::VectorXd along;
+  double left = 0.0;   ///< length of the rest
+  bool ended = false;  ///< nothing is left
+};
+
+/// @param[in,out] w  then the rest, of length one unless nothing is left
+Projection orthogonalize(const Eigen::Ref<const Eigen::MatrixXd>& V,
+                         Eigen::Ref<Eigen::VectorXd> w) {
+  const double before = w.norm();
+  Projection p{V.transpose() * w, 0.0, false};
+  w.noalias() -= V * p.along;
+  p.left = w.norm();
+  if (p.left < 0.7 * before) {  // twice is enough, and needed only here
+    const Eigen::VectorXd more = V.transpose() * w;
+    w.noalias() -= V * more;
+    p.along += more;
+    p.left = w.norm();
+  }
+  p.ended = p.left <= 1e-14 * before;
+  if (!p.ended) {
+    w /= p.left;
+  }
+  return p;
+}
+
 }  // namespace
 
 DominantEigenvalue dominant_eigenvalue(const LinearMap& map, std::size_t size,
                                        double tolerance) {
   const auto n = static_cast<Eigen::Index>(size);
-  Eigen::MatrixXd V(n, std::min<Eigen::Index>(n, 24) + 1);
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n + 1, n);
+  Eigen::Index room = std::min<Eigen::Index>(n, 24);
+  Eigen::MatrixXd V(n, room + 1);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(room + 1, room);
   V.col(0) = start_vector(n);
-  Eigen::Index check = std::min<Eigen::Index>(n, 9);
+  Eigen::Index check = std::min<Eigen::Index>(n, first_check);
   Ritz last;
   Ritz found;
   Eigen::Index k = 0;
   while (k < n) {
-    if (k + 1 >= V.cols()) {
-      V.conservativeResize(Eigen::NoChange, std::min(n, 2 * V.cols()) + 1);
+    if (k == room) {
+      room = std::min(n, 2 * room);
+      V.conservativeResize(Eigen::NoChange, room + 1);
+      H.conservativeResizeLike(Eigen::MatrixXd::Zero(room + 1, room));
     }
     map(std::span(V.col(k).data(), size), std::span(V.col(k + 1).data(), size));
-    Eigen::Ref<Eigen::VectorXd> w = V.col(k + 1);
-    const double before = w.norm();
-    for (int pass = 0; pass < 2; ++pass) {  // twice is enough
-      const Eigen::VectorXd h = V.leftCols(k + 1).transpose() * w;
-      w.noalias() -= V.leftCols(k + 1) * h;
-      H.col(k).head(k + 1) += h;
-    }
-    const double next = w.norm();
-    H(k + 1, k) = next;
+    const Projection p = orthogonalize(V.leftCols(k + 1), V.col(k + 1));
+    H.col(k).head(k + 1) = p.along;
+    H(k + 1, k) = p.left;
     ++k;
-    const bool ended = k == n || next <= 1e-14 * before;
-    if (!ended) {
-      w /= next;
-    }
+    const bool ended = k == n || p.ended;
     if (k < check && !ended) {
       continue;
     }
-    found = ritz(H, k, ended ? 0.0 : next);
+    found = ritz(H, k, ended ? 0.0 : p.left);
     const double scale = std::abs(found.value);
     if (ended || found.residual <= tolerance * scale ||
-        (found.residual <= 1e-2 * scale && k > 9 &&
+        (found.residual <= 1e-2 * scale && k > first_check &&
          std::abs(found.value - last.value) <= 0.1 * tolerance * scale)) {
       break;
     }

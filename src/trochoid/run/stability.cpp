@@ -200,9 +200,9 @@ void add_lobes(const Point& point, const std::vector<double>& depth,
       }
     };
   };
-  const auto grid = dynamics::lobe_grid(point.model, point.system,
-                                        steps(point.options.spindle_speed, unit::rpm),
-                                        depth, map_tolerance, told("lobes"));
+  const auto grid = dynamics::lobe_grid(
+      point.model, point.system, steps(point.options.spindle_speed, unit::rpm), depth,
+      dynamics::LobeAccuracy{.near = map_tolerance}, told("lobes"));
   const auto limits = dynamics::limit_curve(point.model, point.system, grid,
                                             map_tolerance, told("limit"));
   answer.tables.push_back(lobes_table(grid));
@@ -257,7 +257,7 @@ base::Answer stability(const inputs::Case& given, const Progress& progress) {
     answer.warnings.push_back(
         {"no_cut", "No tooth cuts anything: nothing but damping is left."});
   }
-  if (point.multiplier.error > point.options.tolerance) {
+  if (point.multiplier.error > point.options.tolerance * std::max(1.0, growth)) {
     answer.warnings.push_back(
         {"tolerance", fmt::format("The multiplier is good to {:.1e} only.",
                                   point.multiplier.error)});

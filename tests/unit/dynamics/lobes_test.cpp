@@ -47,7 +47,7 @@ TEST(Lobes, TheGridHoldsTheMultipliersWhateverTheThreads) {  // [D-13]
   const auto Omega = steps(10000 * unit::rpm, 20000 * unit::rpm, 12);
   const auto depth = steps(0.5e-3, 4e-3, 8);
   double told = 0.0;
-  const LobeGrid grid = lobe_grid(model, benchmark_system(), Omega, depth, 1e-7,
+  const LobeGrid grid = lobe_grid(model, benchmark_system(), Omega, depth, {1e-7, 1e-7},
                                   [&told](double share) { told = share; });
   EXPECT_NEAR(told, 1.0, 1e-12);
   for (const std::size_t i : {0U, 5U, 11U}) {
@@ -66,6 +66,31 @@ TEST(Lobes, TheGridHoldsTheMultipliersWhateverTheThreads) {  // [D-13]
   for (const Limit& limit : curve) {
     EXPECT_NEAR(std::abs(limit.multiplier), 1.0, 1e-5);
   }
+}
+
+TEST(Lobes, AreKnownBestNearTheLimit) {  // [D-13]
+  // A turn is the period, and many cycles long: runout, two modes.
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  setup.chip = {chip::Model::radial, chip::Lookback::all};
+  setup.runout.radial_offsets = {4e-6, -4e-6};
+  const System system{{mode_of(0.04, 922, 0.03, 1, 0), mode_of(0.04, 922, 0.03, 0, 1)}};
+  const DirectionalModel model(setup, benchmark_law(), 1e-6, 1e-11);
+  const auto Omega = steps(2500 * unit::rpm, 3000 * unit::rpm, 3);
+  const auto depth = steps(0.02e-3, 1e-3, 50);
+  const LobeGrid grid = lobe_grid(model, system, Omega, depth, {1e-6, 1e-3}, {});
+  int near = 0;
+  for (std::size_t i = 0; i < Omega.size(); ++i) {
+    for (std::size_t k = 0; k < depth.size(); ++k) {
+      const auto mu = multiplier(model.at_depth(depth[k]), system, Omega[i], 1e-9);
+      const double size = std::abs(mu.value);
+      const double error =
+          std::abs(std::abs(grid.multiplier[i * depth.size() + k]) - size);
+      const bool is_near = std::abs(std::log(size)) < 0.09;
+      near += is_near ? 1 : 0;
+      EXPECT_LT(error, is_near ? 1e-6 : 1e-3 * std::max(1.0, size)) << i << ' ' << k;
+    }
+  }
+  EXPECT_GT(near, 0);
 }
 
 TEST(Chatter, IsAFamilyOfFrequenciesAToothApart) {  // [D-12]

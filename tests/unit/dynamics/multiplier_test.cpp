@@ -111,5 +111,21 @@ TEST(Multiplier, OfManyCyclesATooth) {  // [D-11]
   EXPECT_NEAR(std::abs(coarse.value), std::abs(fine.value), 1e-8);
 }
 
+TEST(Multiplier, OfManyCyclesATurnWithRunout) {  // [D-11]
+  // A kink of one tooth comes back half a turn later, in the middle of long elements.
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  setup.chip = {chip::Model::radial, chip::Lookback::all};
+  setup.runout.radial_offsets = {4e-6, -4e-6};
+  setup.cut.Omega = 1500 * unit::rpm;
+  const System system{{mode_of(0.04, 922, 0.03, 1, 0), mode_of(0.04, 922, 0.03, 0, 1)}};
+  const Directional d =
+      DirectionalModel(setup, benchmark_law(), 1e-6, 1e-11).at_depth(0.2 * unit::mm);
+  const Multiplier coarse = multiplier(d, system, setup.cut.Omega, 1e-7);
+  const Multiplier fine = multiplier_with(d, system, setup.cut.Omega, 2.5, 1e-11);
+  EXPECT_LE(coarse.factor, 1.3);
+  EXPECT_NEAR(std::abs(coarse.value), std::abs(fine.value),
+              1e-7 * std::abs(fine.value));
+}
+
 }  // namespace
 }  // namespace trochoid::dynamics
