@@ -78,6 +78,7 @@ struct Actuator {
   std::optional<double> damping_ratio;
   std::vector<double> stroke;                ///< lowest and highest [m]
   std::optional<double> coupling_stiffness;  ///< [N/m]
+  std::optional<double> coupling_damping;    ///< [N s/m]
   std::optional<double> slew;                ///< [m/s]
   double push = 2000.0;                      ///< [N]
   double pull = 300.0;                       ///< [N]
@@ -89,8 +90,10 @@ enum class CommandShape { sine, square, trapezoid, table };
 /// [command]: imposed on the actuator.
 struct ImposedCommand {
   CommandShape shape = CommandShape::sine;
-  double peak_to_peak = 0.0;  ///< [m]
-  double lead = 0.0;          ///< [s]
+  std::optional<double> peak_to_peak;  ///< [m]; not of a table
+  std::string file;      ///< of a table: absolute, or relative to where we run
+  std::string location;  ///< file:line:col of its `file` key
+  double lead = 0.0;     ///< [s]
 };
 
 enum class CorrectionTarget { peak_force, chip_area, least_squares };

@@ -268,6 +268,10 @@ void rename_machine_files(MachineTables& machine, const fs::path& folder) {
   if (machine.frf) {
     machine.frf->file = renamed(machine.frf->file, machine.frf->file, folder);
   }
+  if (machine.command && !machine.command->file.empty()) {
+    machine.command->file =
+        renamed(machine.command->file, machine.command->file, folder);
+  }
   if (machine.step) {
     machine.step->file = renamed(machine.step->file, machine.step->file, folder);
   }

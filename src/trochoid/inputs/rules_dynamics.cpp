@@ -35,11 +35,6 @@ void check_modes(const MachineTables& machine, Findings& findings) {
     report(findings, "command",
            "[command]: there is no [actuator] that could follow it");
   }
-  if (machine.command && machine.command->shape == CommandShape::table) {
-    report(findings, "command.shape",
-           "command.shape = \"table\": not read by dynamics yet; must be \"sine\", "
-           "\"square\" or \"trapezoid\"");
-  }
 }
 
 }  // namespace

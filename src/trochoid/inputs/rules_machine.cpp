@@ -125,6 +125,10 @@ void settle_machine_files(MachineTables& machine, Findings& findings) {
     settle_file("frf.file", "a frequency response (csv, text or uff)",
                 machine.frf->file, machine.frf->location, findings);
   }
+  if (machine.command && machine.command->shape == CommandShape::table) {
+    settle_file("command.file", "a command over the angle (csv)", machine.command->file,
+                machine.command->location, findings);
+  }
   if (machine.step) {
     settle_file("step.file", "the record of a step (csv)", machine.step->file,
                 machine.step->location, findings);

@@ -184,6 +184,12 @@ void describe(const Visitor& v, Actuator& t) {
      .standard = "that of the table's mode",
      .example = "17000000"},
     &t.coupling_stiffness);
+  v({.name = "coupling_damping_Ns_per_m",
+     .meaning = "damping between actuator and table",
+     .range = at_least(0),
+     .standard = "that of the table's mode, in proportion to the stiffness",
+     .example = "77.3"},
+    &t.coupling_damping);
   v({.name = "slew_um_per_s",
      .meaning = "greatest speed",
      .range = above(0),
@@ -259,8 +265,16 @@ void describe(const Visitor& v, ImposedCommand& t) {
   v({.name = "peak_to_peak_um",
      .meaning = "from the lowest to the highest command",
      .range = at_least(0),
-     .need = Need::always},
+     .need = Need::always,
+     .only = {"shape", {"sine", "square", "trapezoid"}}},
     &t.peak_to_peak);
+  v({.name = "file",
+     .meaning = "CSV with angle_deg and command_um over a turn, as correct writes it, "
+                "relative to the file that names it; its mean is left out",
+     .need = Need::always,
+     .only = {"shape", {"table"}},
+     .example = "\"command.csv\""},
+    &t.file);
   v({.name = "lead_s", .meaning = "by how much the command comes early"}, &t.lead);
 }
 

@@ -1,5 +1,6 @@
 #include <trochoid/run/motion_problem.h>
 
+#include <trochoid/inputs/command_file.h>
 #include <trochoid/run/chip_modes.h>
 #include <trochoid/structure/actuator.h>
 
@@ -31,6 +32,21 @@ double shape_at(inputs::CommandShape shape, double angle) {
   }
 }
 
+/// The middle of the stroke moves nothing against anything.
+inputs::CommandTable around_its_mean(inputs::CommandTable table) {
+  double mean = 0.0;
+  const std::size_t n = table.angle.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double to = i + 1 < n ? table.angle[i + 1] : table.angle[0] + turn;
+    mean += (to - table.angle[i]) / turn *
+            (table.command[i] + table.command[(i + 1) % n]) / 2;
+  }
+  for (double& value : table.command) {
+    value -= mean;
+  }
+  return table;
+}
+
 structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
   return a.frequency ? structure::from_frequency(a.gain, *a.frequency, *a.damping_ratio)
                      : structure::from_time_constants(a.gain, a.time_constants[0],
@@ -49,7 +65,7 @@ dynamics::Drive drive_of(const inputs::Actuator& actuator,
           a[1],
           a[2],
           k_s,
-          table->damping * k_s / table->stiffness};
+          actuator.coupling_damping.value_or(table->damping * k_s / table->stiffness)};
 }
 
 }  // namespace
@@ -64,9 +80,16 @@ dynamics::MotionProblem motion_problem(const inputs::Case& given) {
   const double omega = given.setup.cut.Omega;
   if (given.machine.command) {
     const inputs::ImposedCommand& c = *given.machine.command;
-    p.command = [c, omega](double t) {
-      return 0.5 * c.peak_to_peak * shape_at(c.shape, omega * (t + c.lead));
-    };
+    if (c.shape == inputs::CommandShape::table) {
+      p.command = [table = around_its_mean(inputs::read_command(c)), lead = c.lead,
+                   omega](double t) {
+        return inputs::command_at(table, omega * (t + lead));
+      };
+    } else {
+      p.command = [c, omega](double t) {
+        return 0.5 * *c.peak_to_peak * shape_at(c.shape, omega * (t + c.lead));
+      };
+    }
   }
   p.grid.steps_per_tooth = dynamics::steps_needed(p);
   p.revolutions = static_cast<int>(given.sampling.revolutions);

@@ -1,5 +1,6 @@
 """dynamics: a cut that moves, and one that chatters."""
 import json
+import math
 
 from in_folder import InFolder, ROOT, main
 
@@ -75,6 +76,47 @@ class Chatter(InFolder):
         self.write("cut.toml", BENCHMARK)
         done = self.run_program("dynamics", "cut.toml", "--json", code=1)
         self.assertEqual(json.loads(done.stdout)["result"]["verdict"], "chatter")
+
+
+class Commanded(InFolder):
+    TABLE = (ROOT / "examples/runout_table_8mm/case.toml").read_text()
+
+    def peaks(self, name, command):
+        self.write(f"{name}.toml", self.TABLE + command)
+        self.run_program("dynamics", f"{name}.toml", "-q")
+        return [f["peak_Fy_N"] for f in self.summary(f"{name}.dynamics")["result"]["flutes"]]
+
+    def test_a_table_of_a_sine_is_a_sine_wherever_its_middle_is(self):
+        rows = "".join(f"{i},{30 + 13 * math.sin(math.radians(i))!r}\n" for i in range(360))
+        self.write("command.csv", "angle_deg,command_um\n" + rows)
+        lead = "lead_s = 0.0022679\n"
+        table = self.peaks("table", '\n[command]\nshape = "table"\nfile = "command.csv"\n' + lead)
+        sine = self.peaks("sine", "\n[command]\npeak_to_peak_um = 26\n" + lead)
+        for a, b in zip(table, sine):
+            self.assertAlmostEqual(a, b, delta=0.01)
+        self.assertLess(abs(sine[0] - sine[1]), 2)
+        echo = self.folder / "table.dynamics/case.toml"
+        self.run_program("dynamics", echo, "-o", "again", "-q")
+        self.assertEqual(self.summary("again")["result"],
+                         self.summary("table.dynamics")["result"])
+
+    def test_a_bad_table_is_named_with_its_line(self):
+        self.write("command.csv", "angle_deg,command_um\n0,1\n90,2\n80,1\n")
+        self.write("table.toml", self.TABLE +
+                   '\n[command]\nshape = "table"\nfile = "command.csv"\n')
+        said = self.run_program("dynamics", "table.toml", code=2).stderr
+        self.assertIn("command.csv:4:1: the angle 80 deg does not come after 90 deg", said)
+
+    def test_the_damping_of_the_coupling_is_a_key(self):
+        """It acts above a kilohertz: a square wave shows it, a sine hardly."""
+        square = '\n[command]\nshape = "square"\npeak_to_peak_um = 26\n'
+        usual = self.peaks("usual", square)
+        text = self.TABLE.replace("stroke_um = [0, 60]",
+                                  "stroke_um = [0, 60]\ncoupling_damping_Ns_per_m = 4000")
+        self.write("damped.toml", text + square)
+        self.run_program("dynamics", "damped.toml", "-q")
+        damped = self.summary("damped.dynamics")["result"]["flutes"]
+        self.assertGreater(abs(damped[0]["peak_Fy_N"] - usual[0]), 1e-4)
 
 
 if __name__ == "__main__":
