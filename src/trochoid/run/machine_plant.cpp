@@ -33,6 +33,7 @@ correction::Plant plant_of(const inputs::MachineTables& machine) {
     plant.k_s = *machine.actuator->coupling_stiffness;
     plant.c_s = share * mode.damping;
   }
+  plant.c_s = machine.actuator->coupling_damping.value_or(plant.c_s);
   return plant;
 }
 

@@ -2,7 +2,7 @@
 
 #include <trochoid/inputs/command_file.h>
 #include <trochoid/run/chip_modes.h>
-#include <trochoid/structure/actuator.h>
+#include <trochoid/run/machine_plant.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,25 +47,13 @@ inputs::CommandTable around_its_mean(inputs::CommandTable table) {
   return table;
 }
 
-structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
-  return a.frequency ? structure::from_frequency(a.gain, *a.frequency, *a.damping_ratio)
-                     : structure::from_time_constants(a.gain, a.time_constants[0],
-                                                      a.time_constants[1]);
-}
-
-dynamics::Drive drive_of(const inputs::Actuator& actuator,
+dynamics::Drive drive_of(const inputs::MachineTables& machine,
                          const dynamics::System& system) {
   const auto table =
       std::find_if(system.modes.begin(), system.modes.end(),
                    [](const dynamics::ChipMode& mode) { return mode.x < 0; });
-  const auto a = structure::equation_coefficients(dynamics_of(actuator));
-  const double k_s = actuator.coupling_stiffness.value_or(table->stiffness);
-  return {static_cast<std::size_t>(table - system.modes.begin()),
-          a[0],
-          a[1],
-          a[2],
-          k_s,
-          actuator.coupling_damping.value_or(table->damping * k_s / table->stiffness)};
+  return correction::drive_of(plant_of(machine),
+                              static_cast<std::size_t>(table - system.modes.begin()));
 }
 
 }  // namespace
@@ -75,7 +63,7 @@ dynamics::MotionProblem motion_problem(const inputs::Case& given) {
                             .law = given.law,
                             .system = chip_modes(given.machine.modes)};
   if (given.machine.actuator) {
-    p.drive = drive_of(*given.machine.actuator, p.system);
+    p.drive = drive_of(given.machine, p.system);
   }
   const double omega = given.setup.cut.Omega;
   if (given.machine.command) {
