@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-/// Factors from the units of files to SI: multiply on the way in, divide on the way
-/// out.
+/// Factors from the units of files to SI: multiply on
+/// the way in, divide on the way out.
 namespace trochoid::unit {
 
 inline constexpr double one = 1.0;

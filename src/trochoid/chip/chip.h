@@ -13,8 +13,8 @@ namespace trochoid::chip {
 /// h at or below this is not in cut [m]: a million times the rounding of h.
 inline constexpr double h_threshold = 1e-15;
 
-/// @brief What all slices of a cut share: who passes after whom, how fast, through
-/// what.
+/// @brief What all slices of a cut share: who
+/// passes after whom, how fast, through what.
 ///
 /// @eq C-1 f_m = f (sum of the last m pitches) / 2 pi
 /// @src [riviere2009] eq. 3 to 5, for unequal pitch
@@ -42,9 +42,9 @@ struct Slice {
 
 /// @brief Chip at one edge point, and what bounds it.
 ///
-/// While nothing else than theta or height changes, h is smooth as long as `bounds`
-/// stays the same; Chip::margin says how far from cutting or from leaving the cut we
-/// are.
+/// While nothing else than theta or height changes, h is smooth
+/// as long as `bounds` stays the same; Chip::margin says how far
+/// from cutting or from leaving the cut we are.
 struct Chip {
   double h = 0.0;       ///< along the horizontal ray [m]; 0 where not in cut
   double outer = 0.0;   ///< outer end of the chip on the ray [m]

@@ -17,8 +17,8 @@ struct ChipState {
 
 using ChipPiece = numerics::Piece<ChipState>;
 
-/// @brief Where a slice of a tooth cuts in one turn, cut at every change of what bounds
-/// it.
+/// @brief Where a slice of a tooth cuts in one
+/// turn, cut at every change of what bounds it.
 /// @param start  nominal theta where the turn starts [rad]
 /// @return ascending, within [start, start + 2 pi]; h is smooth in each
 std::vector<ChipPiece> engaged_pieces(const Passage& passage, const Slice& slice,

@@ -12,10 +12,9 @@ struct Removal {
 
 /// @brief What the chips of all teeth add up to in one turn of the trochoidal model.
 ///
-/// @eq C-8 sum over teeth of the integral of (o^2 - L^2)/2 + (f/2 pi) cos(theta) (o -
-/// L)
-///         over theta = f times the width of cut, o and L the ends of the chip on its
-///         ray
+/// @eq C-8 sum over teeth of the integral of (o^2 - L^2)/2 + (f/2 pi) cos(theta)
+///         (o - L) over theta = f times the width of cut, o and L the ends of the
+///         chip on its ray
 /// @src derived from the area that a ray sweeps while its centre moves along x
 /// @note At a full edge of the cut a cusp of about f^2/(12 R) in width stays behind.
 Removal removal(const Passage& passage, const Slice& slice);

@@ -30,13 +30,12 @@ struct Command {
 
 constexpr Command commands[] = {
     {"simulate",
-     "Chip, forces, torque and engagement of a case; compared with its measurements, "
-     "if "
-     "it has any",
+     "Chip, forces, torque and engagement of a case; "
+     "compared with its measurements, if it has any",
      trochoid::cli::simulate},
     {"identify",
-     "Cutting coefficients and runout from measured forces, with how well each is "
-     "known",
+     "Cutting coefficients and runout from measured "
+     "forces, with how well each is known",
      trochoid::cli::identify},
     {"surface",
      "The wall that a cut leaves: its errors over feed and height, from what bends",
@@ -45,8 +44,8 @@ constexpr Command commands[] = {
      "Cutting coefficients and runout from a measured wall, without a dynamometer",
      trochoid::cli::calibrate},
     {"stability",
-     "Whether a small vibration grows at the case, and at every speed and depth around "
-     "it",
+     "Whether a small vibration grows at the case, and "
+     "at every speed and depth around it",
      trochoid::cli::stability},
     {"modes",
      "Modal masses, stiffnesses and dampings from a measured frequency response",
@@ -81,8 +80,8 @@ void add_data_options(CLI::App& app, const std::string& command, Options& option
   if (command == "modes") {
     app.get_option("CASE.toml")
         ->description(
-            "The measured frequency response (UFF58, or a table), or a case with "
-            "[frf]");
+            "The measured frequency response (UFF58, or a "
+            "table), or a case with [frf]");
     app.add_option("--kind", options.kind,
                    "What was measured, if the file does not say it by its unit")
         ->check(CLI::IsMember({"receptance", "mobility", "accelerance"}));
@@ -130,11 +129,11 @@ std::unique_ptr<trochoid::numerics::ThreadLimit> thread_limit() {
 int run(int argc, char** argv) {
   CLI::App app{"What a milling cutter with runout really does.", "trochoid"};
   app.footer(
-      "Start with\n  trochoid new identify mycase.toml\n  trochoid identify "
-      "mycase.toml\n"
-      "Exit codes: 0 answered, 1 no good answer exists (the reason is said), 2 the "
-      "input "
-      "is wrong, 3 a bug of ours.");
+      "Start with\n"
+      "  trochoid new identify mycase.toml\n"
+      "  trochoid identify mycase.toml\n"
+      "Exit codes: 0 answered, 1 no good answer exists (the reason "
+      "is said), 2 the input is wrong, 3 a bug of ours.");
   app.set_version_flag("--version", std::string(trochoid::results::version()));
   app.require_subcommand(1);
   Options options;

@@ -34,9 +34,8 @@ int new_case(const std::string& command, const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(file, error);
   if (std::filesystem::exists(status)) {  // a link that leads nowhere counts
-    throw base::InputError({file.string() +
-                            ": it exists already and is not overwritten; name another "
-                            "file"});
+    throw base::InputError({file.string() + ": it exists already and is not "
+                                            "overwritten; name another file"});
   }
   std::ofstream out(file, std::ios::binary);
   out << text;

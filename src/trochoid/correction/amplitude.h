@@ -34,11 +34,9 @@ using FlutesOf = std::function<std::vector<Flute>(const PeriodicMotion& X)>;
 /// @brief The factor of a motion that makes the flutes alike, as far as one number can.
 ///
 /// @eq R-9 two teeth: v_1 = v_2, v_j the peak of |F_y| or the chip area of flute j;
-/// more:
-///         min of the sum over j of (v_j/mean(v) - 1)^2
-/// @eq R-10 least squares: factor = sum of e_0 g / sum of g^2, g = e_0 - e_1 the part
-/// of
-///         R-7 that the motion makes
+///         more: min of the sum over j of (v_j/mean(v) - 1)^2
+/// @eq R-10 least squares: factor = sum of e_0 g / sum of g^2, g = e_0 - e_1 the
+///          part of R-7 that the motion makes
 /// @src derived
 /// @param flutes  for peak_force and chip_area; empty: those of the rigid cut
 Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion& X,
@@ -49,8 +47,7 @@ Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion
 /// @eq R-26 min over the levels y_j, sum 0, of the sum over j of (v_j/mean(v) - 1)^2
 /// @src derived: N - 1 levels for N - 1 differences
 /// @note Two teeth, and least squares: amplitude_for. `factor` is by how much the
-/// largest
-///       level grew. What is better of this and of one factor is returned.
+/// largest level grew. What is better of this and of one factor is returned.
 Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
                        const ShapeOptions& options, const FlutesOf& flutes = {});
 

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-// Only what C's library has: this file is compiled without exceptions and linked
-// without libstdc++ in real-time hosts. No square roots or sines: the same bits
-// everywhere.
+// Only what C's library has: this file is compiled without
+// exceptions and linked without libstdc++ in real-time hosts. No
+// square roots or sines: the same bits everywhere.
 
 namespace {
 
@@ -217,8 +217,8 @@ double target(TrochoidController& c, double gain, double dt, int32_t& limited) {
   return c.middle_m + c.fade * (c.gain * from_table(c.config, angle));
 }
 
-/// L-3, exactly: the last bit of the sum is given up where it rounds away from the
-/// limit.
+/// L-3, exactly: the last bit of the sum is given up
+/// where it rounds away from the limit.
 double limited_move(double before, double wanted, double most) {
   if (fabs(wanted - before) <= most) {
     return wanted;

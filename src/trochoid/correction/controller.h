@@ -63,8 +63,8 @@ enum TrochoidRefusal {
   TROCHOID_REFUSED_RECOVERY = 11
 };
 
-/// @brief What is fixed while the controller runs; trochoid_controller_defaults fills
-/// it.
+/// @brief What is fixed while the controller runs;
+/// trochoid_controller_defaults fills it.
 typedef struct TrochoidControllerConfig {
   double table_m[TROCHOID_TABLE_POINTS];  ///< command from mid-stroke at i/points turns
   int32_t points;                         ///< of the table, 2 to 720

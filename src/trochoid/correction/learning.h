@@ -39,9 +39,8 @@ Learned learn(const PeriodicMotion& motion, const Harmonics& start, const Plant&
 
 /// @brief Whether learning with a wrong model still converges.
 ///
-/// @eq R-17 |1 - gamma P(i n Omega)/P_model(i n Omega)| < 1 for each harmonic: the
-/// error
-///          is multiplied by this number in each iteration
+/// @eq R-17 |1 - gamma P(i n Omega)/P_model(i n Omega)| < 1 for each harmonic:
+///          the error is multiplied by this number in each iteration
 /// @src derived from R-16
 /// @return one number a harmonic, 1 to n_max
 std::vector<double> learning_factors(const Plant& real, const Plant& model,

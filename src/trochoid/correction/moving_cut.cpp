@@ -27,8 +27,8 @@ std::vector<double> differences(const std::vector<double>& rho) {
   return h_ro;
 }
 
-/// Samples of the last two turns, in place: rounding may have left one out or kept one
-/// twice.
+/// Samples of the last two turns, in place: rounding may
+/// have left one out or kept one twice.
 struct LastTurns {
   std::vector<std::array<double, 3>> force;
   std::vector<double> table;
@@ -178,8 +178,8 @@ StaticFit reading(const MovingCut& cut, std::span<const double> rho,
   if (!flutes.periodic) {
     StaticFit fit;
     fit.reason = fmt::format(
-        "the simulated cut does not repeat: its force changes by {:.3g} N from turn to "
-        "turn",
+        "the simulated cut does not repeat: its force "
+        "changes by {:.3g} N from turn to turn",
         flutes.last_change);
     return fit;
   }

@@ -9,8 +9,8 @@
 
 namespace trochoid::correction {
 
-/// @brief From the command to the table: an actuator that pushes a mode through a
-/// spring.
+/// @brief From the command to the table: an actuator
+/// that pushes a mode through a spring.
 struct Plant {
   structure::ActuatorDynamics actuator;
   structure::Mode table;
@@ -24,9 +24,8 @@ Plant held_by_actuator(const structure::ActuatorDynamics& actuator,
 
 /// @brief Motion of the table over the command.
 ///
-/// @eq R-11 P(i omega) = G(i omega) T(i omega), T = (k_s + i c_s omega)/(k - m omega^2
-/// +
-///          i c omega)
+/// @eq R-11 P(i omega) = G(i omega) T(i omega),
+///          T = (k_s + i c_s omega)/(k - m omega^2 + i c omega)
 /// @src [diez2010] eq. 13, 15 reconstructed: T-2, T-4
 std::complex<double> response(const Plant& plant, double omega) noexcept;
 

@@ -24,8 +24,8 @@ RatioEstimate ratio_estimate(std::span<const double> peaks, double h, double m) 
     out.cutting.push_back(F > 0);
     if (!(F > 0) && out.reason.empty()) {
       out.reason = fmt::format(
-          "flute {} is not cutting: the tooth before it stands out by more than its "
-          "chip",
+          "flute {} is not cutting: the tooth before it "
+          "stands out by more than its chip",
           j + 1);
     }
     part.push_back(F > 0 ? std::pow(F, 1 / (1 - m)) : 0.0);

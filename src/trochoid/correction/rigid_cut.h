@@ -51,8 +51,7 @@ class RigidCut {
   /// @param setup   a cylinder; any pitch
   /// @param slices  over the axial depth; helix needs many
   /// @throws std::invalid_argument for another cutter, for depths, feeds and slices
-  /// that
-  ///         are none, for offsets that are no numbers and for exponents of 1 or more
+  /// that are none, for offsets that are no numbers and for exponents of 1 or more
   RigidCut(const force::Setup& setup, const force::Law& law, int slices = 1);
 
   [[nodiscard]] int teeth() const noexcept;

@@ -144,8 +144,8 @@ Found best_of(StaticProblem& problem, const std::optional<force::Power>& start,
   return fitted(problem, best.p, iterations);
 }
 
-/// Why the runout of a flute is not known: it cuts next to nothing. Empty: they all
-/// cut.
+/// Why the runout of a flute is not known: it
+/// cuts next to nothing. Empty: they all cut.
 std::string hardly_cutting(const StaticProblem& problem, const std::vector<double>& p) {
   force::Setup setup = problem.setup;
   setup.runout = {.radial_offsets = parameters_of(problem, p).rho};
@@ -154,9 +154,8 @@ std::string hardly_cutting(const StaticProblem& problem, const std::vector<doubl
   for (std::size_t j = 0; j < flutes.size(); ++j) {
     if (flutes[j].peak_chip < least_chip * problem.options.thin * setup.cut.f_z) {
       return fmt::format(
-          "flute {} hardly cuts, or not at all: it stands back by about the chip of "
-          "the "
-          "others, or more, and its runout is not known better",
+          "flute {} hardly cuts, or not at all: it stands back by about the chip "
+          "of the others, or more, and its runout is not known better",
           j + 1);
     }
   }
@@ -176,8 +175,7 @@ StaticFit static_fit(const force::Setup& setup, const ForceRecord& record,
   fit.samples = problem.angle.size();
   if (problem.residuals() < 3 * problem.parameters()) {
     fit.reason = fmt::format(
-        "{} samples away from entries and exits are too few for {} "
-        "unknowns",
+        "{} samples away from entries and exits are too few for {} unknowns",
         fit.samples, problem.parameters());
     return fit;
   }

@@ -61,9 +61,8 @@ struct StaticFit {
 /// @param start  law to start from; absent: several. With law and runout, these say
 ///               where chips are thin; else a first fit does
 /// @note Renumbering the teeth is an exact symmetry of equal pitch: the offset is
-/// looked
-///       for near 0. A tooth that just enters has a force of infinite slope, and a mark
-///       that takes over makes a kink: both fall where a chip is thin.
+/// looked for near 0. A tooth that just enters has a force of infinite slope, and a
+/// mark that takes over makes a kink: both fall where a chip is thin.
 StaticFit static_fit(const force::Setup& setup, const ForceRecord& record,
                      const StaticFitOptions& options = {},
                      const std::optional<force::Power>& start = std::nullopt);

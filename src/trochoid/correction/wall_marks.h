@@ -17,9 +17,9 @@ struct WallMarks {
 
 /// @brief What a motion of the table along the feed does to the wall.
 ///
-/// @eq R-25 y(x) = max over j, k of [rho_j - (x - x_jk)^2/(2 R)], x_jk = f (k + (psi_j
-/// +
-///          theta_w)/2 pi) - X(psi_j + theta_w), theta_w = 0 or pi
+/// @eq R-25 y(x) = max over j, k of [rho_j - (x - x_jk)^2/(2 R)],
+///          x_jk = f (k + (psi_j + theta_w)/2 pi) - X(psi_j + theta_w),
+///          theta_w = 0 or pi
 /// @src derived: each tooth leaves a circle where it passes the wall
 /// @param exit  the wall that the teeth pass last (theta_w = pi), else the first one
 /// @note Good to f/R. A motion along the wall moves the marks, not their depth: the

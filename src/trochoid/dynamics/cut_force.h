@@ -103,8 +103,8 @@ class CutForce {
     return power_ ? power_response(q_x, q_y) : linear_response(q_x, q_y);
   }
 
-  /// @return tooth and chip [m] of the lowest point of each tooth; negative: off the
-  /// work
+  /// @return tooth and chip [m] of the lowest point
+  /// of each tooth; negative: off the work
   [[nodiscard]] std::vector<std::pair<std::size_t, double>> chips(double q_x,
                                                                   double q_y) const;
 

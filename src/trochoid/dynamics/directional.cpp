@@ -19,8 +19,8 @@ using Sample = std::vector<Matrix2>;
 /// @param middle  of the element: tells on which side of a switch an end lies
 using Evaluate = std::function<void(double phi, double middle, Sample& out)>;
 
-/// Angles of one period where something switches, ascending, first and last a period
-/// apart.
+/// Angles of one period where something switches,
+/// ascending, first and last a period apart.
 std::vector<double> ordered_breaks(std::vector<double> breaks, double period) {
   if (breaks.empty()) {
     breaks.push_back(0.0);

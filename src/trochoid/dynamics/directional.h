@@ -33,9 +33,8 @@ struct Directional {
 
 /// @brief Makes D-8 of a cut for any axial depth.
 ///
-/// @eq D-9 A_d(phi) = sum over teeth and pieces with that delay of the integral of g
-/// along
-///         the edge
+/// @eq D-9 A_d(phi) = sum over teeth and pieces with that delay of the integral
+///         of g along the edge
 /// @src derived; on constant-lead cylinders as F-5
 /// @note The normal of a mark is taken along the ray: good to f/R.
 class DirectionalModel {

@@ -190,8 +190,8 @@ void EdgePoints::chips(const chip::Slice& slice, std::size_t tooth, double theta
     above[m] = chip::chip_over_mark(passage_, slice, j, theta, static_cast<int>(m));
   }
   if (lookback_ > teeth) {
-    // A mark older than a turn stands farther back by as much as the own one of a turn
-    // ago.
+    // A mark older than a turn stands farther back by
+    // as much as the own one of a turn ago.
     for (std::size_t m = teeth + 1; m <= lookback_; ++m) {
       above[m] = above[m - teeth] + above[teeth];
     }

@@ -44,8 +44,8 @@ class EdgePoints {
   /// With helix no tooth enters all at once.
   [[nodiscard]] bool helix() const noexcept { return whole_lag_ > 0; }
 
-  /// Spindle angles in one turn where an edge enters or leaves what it may cut [rad],
-  /// ascending.
+  /// Spindle angles in one turn where an edge enters or
+  /// leaves what it may cut [rad], ascending.
   [[nodiscard]] const std::vector<double>& events() const noexcept { return events_; }
 
   /// Whether one of the events is next to an angle in [0, 2 pi) [rad].

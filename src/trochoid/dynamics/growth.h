@@ -16,11 +16,10 @@ namespace trochoid::dynamics {
 /// @src derived: small vibrations are sums of powers of the multipliers of a turn
 ///
 /// @param once   q at the start of every turn [m]
-/// @param small  the largest change that is taken [m]: well below the feed per tooth,
-/// so
-///               that no tooth leaves the cut
-/// @return of the stretch of turns that obeys the recurrence best; nothing where none
-///         does
+/// @param small the largest change that is taken [m]: well below
+/// the feed per tooth, so that no tooth leaves the cut
+/// @return of the stretch of turns that obeys the
+///         recurrence best; nothing where none does
 std::optional<double> growth_per_turn(std::span<const std::array<double, 2>> once,
                                       double small);
 

@@ -12,8 +12,8 @@
 
 namespace trochoid::dynamics {
 
-/// Told how much of a diagram is done, from 0 to 1; by one thread at a time; may be
-/// empty.
+/// Told how much of a diagram is done, from 0 to 1;
+/// by one thread at a time; may be empty.
 using LobeProgress = std::function<void(double share)>;
 
 /// How well the multipliers of a diagram are known: of |mu|, relative where it is

@@ -17,9 +17,9 @@ namespace trochoid::dynamics {
 /// the modes at its start and from the forces at its nodes, which depend on q there and
 /// on q one delay before: interpolated on the element that held it.
 ///
-/// @eq  D-11 (I - G A_0) q = sum over modes of (x, y) Phi state(a) - G sum over d of
-/// A_d
-///           q(t - d), G = sum over modes of (x, y)(x, y)^T and the kernels of D-4
+/// @eq  D-11 (I - G A_0) q = sum over modes of (x, y) Phi state(a)
+///           - G sum over d of A_d q(t - d),
+///           G = sum over modes of (x, y)(x, y)^T and the kernels of D-4
 /// @src derived: spectral elements (Bayly; Khasawneh and Mann), in integral form
 class PeriodMap {
  public:

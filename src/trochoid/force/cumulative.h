@@ -12,15 +12,15 @@
 
 namespace trochoid::force {
 
-/// @brief The integrals along an edge of a cylinder of which every entry of [C] is
-/// made.
+/// @brief The integrals along an edge of a cylinder
+/// of which every entry of [C] is made.
 ///
 /// LinearEdge: h sin, h cos, h, e sin, e cos, e, with e = dS/dz where in cut.
 /// Power: w_t sin, w_t cos, w_r sin, w_r cos, w_a, 0 with w_q = h_0 (h/h_0)^(1 - m_q).
 using EdgeMoments = std::array<double, 6>;
 
-/// @brief Forces on a constant-lead cylinder whose teeth keep their radius along the
-/// edge.
+/// @brief Forces on a constant-lead cylinder whose
+/// teeth keep their radius along the edge.
 ///
 /// theta and height are one variable there: what an edge does at height z, its tip did
 /// lag(z) earlier. So the sum over the edge is a difference of an antiderivative over

@@ -16,8 +16,8 @@ struct Lag {
 };
 
 /// @eq G-7 lag = 2 z tan(helix) / lag_diameter              (constant lead)
-/// @eq G-8 lag = lag(N_z) + tan(helix)/sin(beta) ln(r/N_r)  (constant helix, on the
-/// flank)
+/// @eq G-8 lag = lag(N_z) + tan(helix)/sin(beta) ln(r/N_r)
+///         (constant helix, on the flank)
 /// @src [riviere2009] section 3.1 for the cylinder; G-8 derived from
 ///      d lag = tan(helix) dz / (r cos(beta))
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept;
@@ -28,8 +28,8 @@ Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept;
 double edge_length_factor(const MeridianPoint& point, const Lag& lag) noexcept;
 
 /// @brief Radius and turn of an edge point from the axis of rotation.
-/// @eq G-9  R = sqrt(r^2 + rho^2 + 2 r rho cos(c)), epsilon = atan2(rho sin(c), r + rho
-/// cos(c))
+/// @eq G-9  R = sqrt(r^2 + rho^2 + 2 r rho cos(c)),
+///          epsilon = atan2(rho sin(c), r + rho cos(c))
 /// @eq G-10 R = r + rho cos(c), epsilon = 0
 /// @param r  nominal radius plus the tooth's radial offset [m]
 /// @param c  psi_k + lag - lambda [rad]

@@ -10,8 +10,8 @@ enum class EccentricityOrder {
   first,  ///< R = r + rho cos(c), the angle stays
 };
 
-/// @brief Runout: radial offset of each tooth and eccentricity of the cutter; they add
-/// up.
+/// @brief Runout: radial offset of each tooth and
+/// eccentricity of the cutter; they add up.
 struct Runout {
   std::vector<double> radial_offsets;  ///< [m], shape (teeth), or empty: all zero
   double eccentricity = 0.0;           ///< rho [m]: rotation centre to geometric centre

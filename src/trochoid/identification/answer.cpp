@@ -94,9 +94,8 @@ void fill_offsets(const Unknowns& u, std::size_t first, Reasons& reasons, Fit& f
 void fill_single_direction(const Unknowns& u, std::size_t i, double e,
                            Reasons& reasons) {
   const std::string reason = fmt::format(
-      "only its component rho cos(lambda - {:.3g} deg) = {:.4g} mm (standard error "
-      "{:.2g} "
-      "mm) changes the radii of the teeth against one another",
+      "only its component rho cos(lambda - {:.3g} deg) = {:.4g} mm (standard "
+      "error {:.2g} mm) changes the radii of the teeth against one another",
       *u.direction / unit::deg, e * u.length / unit::mm,
       reasons.se(i) * u.length / unit::mm);
   reasons.refuse("eccentricity_mm", reason);
@@ -232,8 +231,8 @@ void refuse_coefficients(const Problem& problem, Fit& fit) {
 
 void refuse_runout_of_one_tooth(Fit& fit) {
   const std::string reason =
-      "a single tooth meets only marks of its own radius, so its runout changes "
-      "nothing";
+      "a single tooth meets only marks of its own "
+      "radius, so its runout changes nothing";
   if (fit.options.runout == RunoutUnknowns::offsets) {
     fit.unidentifiable.emplace_back("radial_offsets_mm", reason);
   } else if (fit.options.runout == RunoutUnknowns::eccentricity) {

@@ -131,9 +131,9 @@ std::vector<double> slope_in_rows(const FoldedRun& run) {
   return out;
 }
 
-/// The row that a slope keeps beside the groups and outside the band, one a channel.
-/// Without it a slope would be read off the few harmonics of a band, where it hardly
-/// shows.
+/// The row that a slope keeps beside the groups and outside the
+/// band, one a channel. Without it a slope would be read off the
+/// few harmonics of a band, where it hardly shows.
 void add_slope_rows(const Run& source, FoldedRun& run) {
   const std::size_t n = source.angle.size();
   const std::vector<double> known = slope_in_rows(run);

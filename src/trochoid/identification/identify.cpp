@@ -58,8 +58,8 @@ std::string refusal(const geometry::Cutter& cutter, std::span<const Run> runs) {
   return "";
 }
 
-/// Whether the mean forces alone cannot determine the coefficients: one feed, six of
-/// them.
+/// Whether the mean forces alone cannot determine the
+/// coefficients: one feed, six of them.
 bool means_do_not_suffice(const Problem& problem) {
   const double f_z = problem.runs.front().cut.f_z;
   return std::holds_alternative<force::LinearEdge>(problem.law) &&
@@ -73,8 +73,8 @@ bool force_is_constant(const Problem& problem) {
   return rss_of_means(problem) <= constant_force * constant_force * total;
 }
 
-/// Whether what the fit explains beyond the means is no more than a fit to noise
-/// explains.
+/// Whether what the fit explains beyond the means is
+/// no more than a fit to noise explains.
 bool only_noise(const Problem& problem, const numerics::LeastSquares& linear,
                 double variance) {
   const double unknowns = problem.linear() + problem.unknowns.count();
@@ -91,8 +91,7 @@ std::string nothing_explained(const Fit& fit) {
   }
   return fmt::format(
       "the best fit explains {:.1f} % of the force (sum of squares), and what it "
-      "leaves "
-      "is not noise: this record and this tool and cut do not belong together",
+      "leaves is not noise: this record and this tool and cut do not belong together",
       100.0 * (1.0 - u.all * u.all));
 }
 

@@ -36,8 +36,8 @@ struct Options {
   bool fit_exponents = true;         ///< of a Power law; false: as given
 };
 
-/// Part of a channel that is not force: constant + slope (t - mean t)/(t_last -
-/// t_first).
+/// Part of a channel that is not force: constant +
+/// slope (t - mean t)/(t_last - t_first).
 struct ChannelOffset {
   double constant = 0.0;  ///< [N]
   double slope = 0.0;     ///< change from the first sample to the last [N]
@@ -121,8 +121,7 @@ Fit identify(const force::Setup& setup, const force::Law& law,
              std::span<const Run> runs, const Options& options);
 
 /// @brief RMS over the offset of tooth 2, with the coefficients fitted anew for each.
-/// @param fit      of the same setup, law and runs: its options, phase and other
-/// offsets
+/// @param fit of the same setup, law and runs: its options, phase and other offsets
 /// @param offsets  of tooth 2 [m]
 /// @return [N], shape of offsets; empty without a phase to use or a second tooth
 std::vector<double> sweep(const force::Setup& setup, const force::Law& law,

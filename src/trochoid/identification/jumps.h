@@ -8,8 +8,8 @@ namespace trochoid::identification {
 /// them passes a sample.
 bool sum_of_squares_jumps(const Problem& problem);
 
-/// @brief Refine a start: sweeps of the phases, then smooth steps where nothing
-/// switches.
+/// @brief Refine a start: sweeps of the phases,
+/// then smooth steps where nothing switches.
 Minimum sweep_phases(const Problem& problem, std::vector<double> start);
 
 /// @brief The same and a pattern search, until nothing changes any more.

@@ -9,8 +9,8 @@
 
 namespace trochoid::identification {
 
-/// @brief What the nonlinear unknowns p mean, in their order: runout, exponents,
-/// phases.
+/// @brief What the nonlinear unknowns p mean, in
+/// their order: runout, exponents, phases.
 ///
 /// p is scaled to about one: runout by `length`, the phases in radians.
 struct Unknowns {

@@ -13,8 +13,8 @@ namespace trochoid::identification {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-/// Cells of the turn: 3 degrees, a fraction of what a force curve needs to show its
-/// shape.
+/// Cells of the turn: 3 degrees, a fraction of
+/// what a force curve needs to show its shape.
 constexpr std::size_t cells = 120;
 
 std::size_t index(int i) noexcept {
@@ -192,8 +192,8 @@ std::vector<PhaseMinimum> phase_minima(const Cells& data, const Grid& grid,
   return out;
 }
 
-/// Candidates of one runout: the best phases of all runs, and each run at its second
-/// best.
+/// Candidates of one runout: the best phases of all
+/// runs, and each run at its second best.
 void combine(std::vector<double> p,
              const std::vector<std::vector<PhaseMinimum>>& minima, int first_phase,
              std::vector<Candidate>& out) {

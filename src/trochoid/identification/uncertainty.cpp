@@ -45,9 +45,9 @@ struct Slope {
   bool on_edge = false;  ///< very different to either side
 };
 
-/// Where the force jumps as an unknown passes a value, the jump itself says nothing
-/// about the neighbourhood: of both one-sided differences the smaller one is without
-/// it.
+/// Where the force jumps as an unknown passes a value, the jump
+/// itself says nothing about the neighbourhood: of both
+/// one-sided differences the smaller one is without it.
 Slope slope_of(const Problem& problem, const Evaluation& at, std::span<const double> p,
                int i, std::span<const double> K) {
   Slope out{

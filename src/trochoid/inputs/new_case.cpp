@@ -119,8 +119,8 @@ CaseTables stability_example() {
   return t;
 }
 
-/// A slot with runout on a table whose actuator follows a sine: what correction is
-/// about.
+/// A slot with runout on a table whose actuator
+/// follows a sine: what correction is about.
 CaseTables dynamics_example() {
   CaseTables t;
   t.title = "Slot on a piezo table, 8 mm end mill";
@@ -253,8 +253,8 @@ std::string_view example_of(const Key& key) {
 }
 
 constexpr std::string_view second_record =
-    "\n# [[measurement]]                 # a second record of the same tool and "
-    "material,\n"
+    "\n# [[measurement]]                 # a second "
+    "record of the same tool and material,\n"
     "# file = \"record2.csv\"            # best at another feed: fitted together\n"
     "# cut = { feed_per_tooth_mm = 0.08 } # what is different from [cut]\n";
 

@@ -162,9 +162,8 @@ void settle_time(Reading& reading) {
   } else if (record.angle.empty()) {
     reading.text.problems.add(
         1, 1,
-        "neither angles nor times nor a sampling rate are known: add "
-        "a column angle_deg or time_s, or sample_rate_Hz in the case "
-        "file");
+        "neither angles nor times nor a sampling rate are known: add a "
+        "column angle_deg or time_s, or sample_rate_Hz in the case file");
   }
 }
 

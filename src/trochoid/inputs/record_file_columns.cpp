@@ -101,8 +101,8 @@ RecordColumns find_columns(const TableHead& head, const Measurement& measurement
     const auto before = std::span(forces).first(i);
     if (std::find(before.begin(), before.end(), forces[i]) != before.end()) {
       problems.add(head.names_line, head.names[*forces[i]].column,
-                   "one column is to serve as two forces: three different ones are "
-                   "needed");
+                   "one column is to serve as two forces: "
+                   "three different ones are needed");
       continue;
     }
     columns.force[i] = column_at(search, *forces[i], Quantity::force);

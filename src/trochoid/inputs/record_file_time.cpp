@@ -29,8 +29,8 @@ void check_increasing(const TimeColumn& time, Problems& problems) {
     if (time.values[i] > time.values[i - 1]) continue;
     problems.add(
         time.lines[i], time.column,
-        fmt::format("time {} s does not come after {} s of the row before: times must "
-                    "increase{}",
+        fmt::format("time {} s does not come after {} s of the "
+                    "row before: times must increase{}",
                     time.values[i], time.values[i - 1],
                     time.values[i] == time.values[i - 1]
                         ? " (if they are printed too coarsely, give sample_rate_Hz in "
@@ -77,9 +77,9 @@ std::string gap_note(std::span<const double> time) {
                                   [&](double s) { return s > gap_factor * usual; });
   if (gaps == 0) return {};
   return fmt::format(
-      "The times have {} gap{}: the longest goes from {:.6g} s to {:.6g} s, {:.0f} "
-      "usual "
-      "steps. Samples may be missing; the spindle is taken to turn evenly across.",
+      "The times have {} gap{}: the longest goes from {:.6g} s to "
+      "{:.6g} s, {:.0f} usual steps. Samples may be missing; the "
+      "spindle is taken to turn evenly across.",
       gaps, gaps == 1 ? "" : "s", time[at], time[at + 1], longest / usual);
 }
 

@@ -3,10 +3,10 @@
 #include <trochoid/inputs/findings.h>
 #include <trochoid/inputs/tables.h>
 
-/// What the keys of a case must fulfil together. Each function reports what is wrong,
-/// fills in the defaults that depend on other keys, and turns tables into what the
-/// rooms below work with. Nothing is reported that follows from a problem reported
-/// before.
+/// What the keys of a case must fulfil together. Each function reports
+/// what is wrong, fills in the defaults that depend on other keys, and
+/// turns tables into what the rooms below work with. Nothing is reported
+/// that follows from a problem reported before.
 namespace trochoid::inputs {
 
 geometry::Cutter cutter_of(ToolTable& tool, Findings& findings);
@@ -38,8 +38,8 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
 /// @brief Heights, cut, flutes and wall against one another.
 void check_surface(CaseTables& tables, Findings& findings);
 
-/// @brief Modes that the chip can feel, and the ranges of the lobes; fills in
-/// [stability].
+/// @brief Modes that the chip can feel, and the
+/// ranges of the lobes; fills in [stability].
 void check_stability(CaseTables& tables, Findings& findings);
 
 /// @brief What motion in time needs: a cylinder of equal pitch, modes along x or y,

@@ -42,8 +42,8 @@ void check_actuator(const Actuator& a, Findings& findings) {
   if (lags == (a.frequency || a.damping_ratio) ||
       a.frequency.has_value() != a.damping_ratio.has_value()) {
     report(findings, "actuator",
-           "actuator: must have either time_constants_s, or frequency_Hz and "
-           "damping_ratio");
+           "actuator: must have either time_constants_s, or "
+           "frequency_Hz and damping_ratio");
   }
   if (a.stroke.size() == 2 && a.stroke[0] >= a.stroke[1]) {
     report(findings, "actuator.stroke_um",
@@ -113,8 +113,8 @@ void check_band(const FrfTables& frf, Findings& findings) {
 void check_step(const StepTables& step, Findings& findings) {
   if (step.step && *step.step == 0 && sound(findings, {"step.step_um"})) {
     report(findings, "step.step_um",
-           "step.step_um = 0: no step at all; must not be 0 (height of the commanded "
-           "step)");
+           "step.step_um = 0: no step at all; must not "
+           "be 0 (height of the commanded step)");
   }
 }
 

@@ -107,9 +107,8 @@ void describe(const Visitor& v, IdentifyTable& t) {
   v({.name = "chip_models", .meaning = "one fit for each of these chip models"},
     choices(t.chip_models, models));
   v({.name = "runout",
-     .meaning =
-         "none; fixed: [runout] as it stands; or find the radial offsets, or the "
-         "eccentricity"},
+     .meaning = "none; fixed: [runout] as it stands; or find the "
+                "radial offsets, or the eccentricity"},
     choice(t.runout, runout_fits));
   v({.name = "phase_deg",
      .meaning =

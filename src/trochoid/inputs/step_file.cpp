@@ -107,8 +107,8 @@ void check_time(const std::vector<double>& time, const std::vector<std::size_t>&
   for (std::size_t i = 1; i < time.size() && !problems.full(); ++i) {
     if (time[i] <= time[i - 1]) {
       problems.add(lines[i], 1,
-                   fmt::format("the time {:g} s does not come after {:g} s: times must "
-                               "increase",
+                   fmt::format("the time {:g} s does not come after "
+                               "{:g} s: times must increase",
                                time[i], time[i - 1]));
     }
   }

@@ -196,8 +196,8 @@ std::vector<SurfaceReading> read_surface(std::istream& in, const std::string& na
   throw_problems(table);
   if (readings.empty()) {
     table.problems.add(table.lines.number(), 1,
-                       "no reading follows the row of names: rows of numbers are "
-                       "needed");
+                       "no reading follows the row of names: "
+                       "rows of numbers are needed");
   }
   check_twice(readings, table.problems);
   throw_problems(table);

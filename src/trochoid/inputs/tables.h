@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-/// The tables of a case file as they are written, in SI; case.h is what becomes of
-/// them.
+/// The tables of a case file as they are written, in
+/// SI; case.h is what becomes of them.
 namespace trochoid::inputs {
 
 enum class Shape { cylinder, ball, bull_nose, taper, apt };

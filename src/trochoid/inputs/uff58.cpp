@@ -131,8 +131,8 @@ bool read_head(Cursor& cursor, Uff58& set) {
   for (auto& line : lines) {
     if (cursor.done()) {
       cursor.problems.add(cursor.line, 1,
-                          "the file ends inside the head of a data set 58: it is cut "
-                          "off");
+                          "the file ends inside the head of a "
+                          "data set 58: it is cut off");
       return false;
     }
     line = cursor.next();

@@ -14,8 +14,8 @@ struct LeastSquares {
   double condition = 0.0;  ///< largest over smallest singular value, unit-norm columns
   std::vector<double> singular_values;  ///< of A with unit-norm columns, descending
   std::vector<double> norms;            ///< of the columns of A, shape (n)
-  /// Directions that leave A x unchanged, in the unit-norm columns: shape (n - rank,
-  /// n).
+  /// Directions that leave A x unchanged, in the
+  /// unit-norm columns: shape (n - rank, n).
   std::vector<double> null_space;
   std::vector<double> inverse_gram;  ///< (A^T A)^-1, shape (n, n); empty if rank < n
 };

@@ -32,9 +32,8 @@ struct LevenbergMarquardtSummary {
 };
 
 /// @brief Local minimum of |r(p)|^2 near the start.
-/// @src ceres/tiny_solver.h (Ceres 2.1), after Madsen, Nielsen and Tingleff, Methods
-/// for
-///      Non-Linear Least Squares Problems
+/// @src ceres/tiny_solver.h (Ceres 2.1), after Madsen, Nielsen and
+/// Tingleff, Methods for Non-Linear Least Squares Problems
 LevenbergMarquardtSummary levenberg_marquardt(const Residuals& residuals,
                                               int residual_count,
                                               std::vector<double> start,

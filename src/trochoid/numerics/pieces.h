@@ -32,8 +32,8 @@ class PieceFinder {
       : curve_(curve), resolution_(resolution) {}
 
   /// @brief The active pieces between the ends of a grid.
-  /// @param[in]  grid    ascending; between neighbours a branch hides only if it peaks
-  /// there
+  /// @param[in] grid ascending; between neighbours a
+  /// branch hides only if it peaks there
   /// @param[out] pieces  ascending, not overlapping; cleared first
   void find(std::span<const double> grid, std::vector<Piece<State>>& pieces) {
     sample(grid);
@@ -168,8 +168,8 @@ class PieceFinder {
     refine(middle, b, depth + 1);
   }
 
-  /// Root of the boundary function by the Illinois rule; false where it does not
-  /// bracket.
+  /// Root of the boundary function by the Illinois
+  /// rule; false where it does not bracket.
   bool hand_over(const Node& a, const Node& b, double& x) const {
     double lo = a.x;
     double hi = b.x;

@@ -52,8 +52,8 @@ std::string in_script(std::string_view json) {
 std::string warnings_html(const base::Answer& answer) {
   if (answer.warnings.empty()) return {};
   std::string text =
-      "<section class=\"warnings\" id=\"warnings\" data-short=\"Warnings\"><h2>Please "
-      "note</h2><ul>";
+      "<section class=\"warnings\" id=\"warnings\" "
+      "data-short=\"Warnings\"><h2>Please note</h2><ul>";
   for (const auto& warning : answer.warnings) {
     text += "<li data-code=\"" + escaped(warning.code) + "\">" +
             escaped(warning.message) + "</li>";

@@ -7,8 +7,8 @@
 
 namespace trochoid::results {
 
-/// @brief Text of summary.json (DESIGN section 4): provenance, status, warnings,
-/// result.
+/// @brief Text of summary.json (DESIGN section 4):
+/// provenance, status, warnings, result.
 std::string summary_json(const base::Answer& answer);
 
 /// @brief CSV text of a table; every number is the shortest that reads back the same.

@@ -164,8 +164,8 @@ std::string refusal(const inputs::Case& given, const Answer& answer) {
   std::string text = answer.message;
   if (answer.rank > 0 && answer.condition > surface::worst_condition) {
     text += fmt::format(
-        " (condition {:.3g}; readings at more heights, or a wall that bends more, "
-        "would)",
+        " (condition {:.3g}; readings at more heights, "
+        "or a wall that bends more, would)",
         answer.condition);
   }
   if (answer.known[0] != 0 || answer.known[1] != 0) {

@@ -9,8 +9,8 @@ namespace trochoid::run {
 
 /// @brief The [[mode]] tables as the chip feels them; modes along z are left out.
 ///
-/// Two of mass, stiffness and frequency give the third; a table mode moves against the
-/// tool.
+/// Two of mass, stiffness and frequency give the
+/// third; a table mode moves against the tool.
 dynamics::System chip_modes(std::span<const inputs::Mode> modes);
 
 }  // namespace trochoid::run

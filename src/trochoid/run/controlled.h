@@ -33,8 +33,8 @@ struct ControlledCut {
   std::vector<ControllerSample> samples;
   int fault = TROCHOID_NO_PROBLEM;  ///< the first one
   double fault_time = 0.0;          ///< [s]
-  /// From the last index pulse to rest at mid-stroke [s]; negative: it never came
-  /// there.
+  /// From the last index pulse to rest at mid-stroke
+  /// [s]; negative: it never came there.
   double time_to_safe = -1.0;
   double lowest = 0.0;   ///< command [m]
   double highest = 0.0;  ///< command [m]

@@ -205,8 +205,8 @@ std::string chatter_in(const BeforeAfter& moved) {
     const char* when = m == &moved.before ? "before" : "after";
     if (!m->finite || !m->solved) {
       return fmt::format(
-          "chatter {} the correction: after {} turns the motion had grown beyond all "
-          "bounds",
+          "chatter {} the correction: after {} turns the "
+          "motion had grown beyond all bounds",
           when, m->turns_done);
     }
     if (!periodic(*m) && (m->growth > grows || m->last_change > shakes * peak_of(*m))) {

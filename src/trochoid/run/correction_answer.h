@@ -31,8 +31,8 @@ bool periodic(const dynamics::Motion& m);
 /// @brief rho_j - rho_(j-1), cyclic.
 std::vector<double> chip_differences(const std::vector<double>& rho);
 
-/// @brief How far the table is from the motion wanted, at most, while it is cut upon
-/// [m].
+/// @brief How far the table is from the motion
+/// wanted, at most, while it is cut upon [m].
 double table_deviation(const CorrectionFindings& f);
 
 /// @brief Result, warnings, tables and the short table.

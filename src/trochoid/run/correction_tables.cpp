@@ -105,8 +105,8 @@ std::string command_header(const CorrectionSetting& setting, const CorrectionPla
   std::string text = fmt::format(
       "/* Command of the actuator over one turn of the spindle. {}\n"
       "   Made by trochoid correct for {:.6g} rpm: at another speed it is wrong.\n"
-      "   Entry i is for the spindle angle i * 360/{} deg of the tip of tooth 1, "
-      "which\n"
+      "   Entry i is for the spindle angle i * 360/{} deg "
+      "of the tip of tooth 1, which\n"
       "   is the recorded angle plus trochoid_command_offset_deg.\n"
       "   Already in it: what actuator and table are late. */\n"
       "#ifndef TROCHOID_COMMAND_H\n#define TROCHOID_COMMAND_H\n\n"

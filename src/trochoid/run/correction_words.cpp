@@ -66,9 +66,8 @@ void add_correction_warnings(const CorrectionFindings& f,
     answer.warnings.push_back(
         {"several_teeth_in_cut",
          fmt::format(
-             "{} teeth cut at once: one axis can take the chip differences from "
-             "{:.3g} to {:.3g} um at best, two axes to {:.3g} um (root mean "
-             "square).",
+             "{} teeth cut at once: one axis can take the chip differences from {:.3g} "
+             "to {:.3g} um at best, two axes to {:.3g} um (root mean square).",
              axes.most_teeth, axes.uncorrected / unit::um, axes.one_axis / unit::um,
              axes.two_axes / unit::um)});
   }

@@ -74,12 +74,12 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
   }
   if (given.identify.channel_offsets == inputs::ChannelOffset::none) {
     out.push_back(
-        likely("An offset of the channels: try channel_offsets = \"fit\" in "
-               "[identify]."));
+        likely("An offset of the channels: try "
+               "channel_offsets = \"fit\" in [identify]."));
   }
   out.push_back(
-      likely("Tool or cut: number and pitch of the teeth, feed per tooth, engagement, "
-             "depth."));
+      likely("Tool or cut: number and pitch of the teeth, "
+             "feed per tooth, engagement, depth."));
   return out;
 }
 

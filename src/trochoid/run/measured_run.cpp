@@ -73,10 +73,9 @@ bool lay_over_angle(MeasuredRun& run, int teeth, Warnings& warnings,
       if (!(run.Omega > 0)) {
         throw base::InputError(
             {record.file +
-             ": the spindle angle falls while the time rises; it must rise (if it was "
-             "counted backwards, change its sign; two samples must lie less than half "
-             "a "
-             "turn apart)"});
+             ": the spindle angle falls while the time rises; it must rise "
+             "(if it was counted backwards, change its sign; two samples "
+             "must lie less than half a turn apart)"});
       }
       compare_speed(run, warnings);
     }

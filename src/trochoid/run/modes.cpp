@@ -163,8 +163,8 @@ std::string modes_toml(const ModesFit& fit, const inputs::FrfTables& frf) {
   std::string text =
       "# Found by trochoid modes. Use it in another case with\n"
       "#   include = \"<this file>\"\n"
-      "# A list of modes is replaced whole: put all modes of a machine into one "
-      "file.\n";
+      "# A list of modes is replaced whole: put all "
+      "modes of a machine into one file.\n";
   for (const FittedMode& m : fit.modes) {
     text += fmt::format(
         "\n[[mode]]  # {:.6g} Hz, damping ratio {:.4g}\n"
@@ -181,9 +181,8 @@ std::string modes_toml(const ModesFit& fit, const inputs::FrfTables& frf) {
 
 std::string short_table(const ModesFit& fit, ResponseKind kind) {
   std::string text =
-      "mode  frequency [Hz]    damping ratio      mass [kg]          stiffness [N/m]   "
-      " "
-      "damping [N s/m]\n";
+      "mode  frequency [Hz]    damping ratio      mass [kg]          "
+      "stiffness [N/m]    damping [N s/m]\n";
   const auto cell = [](double value, double error) {
     return fmt::format("{:.6g} +- {:.2g}", value, half_interval * error);
   };

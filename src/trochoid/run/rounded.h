@@ -9,8 +9,8 @@ namespace trochoid::run {
 ///              value alone, with five digits
 std::string with_error(double value, double half);
 
-/// @brief A part from 0 to 1 in percent; where it is no such part, that it is not
-/// known.
+/// @brief A part from 0 to 1 in percent; where it
+/// is no such part, that it is not known.
 std::string percent(double part);
 
 }  // namespace trochoid::run

@@ -221,9 +221,8 @@ base::Answer surface(const inputs::Case& given, const Progress& progress) {
                         "after {} turns the deflection still changed by {:.2g} % from "
                         "turn to turn: no state was found that repeats",
                         map.turns, 100 * map.change)
-                  : "no deflection agrees with the chip that it makes: the force pulls "
-                    "cutter "
-                    "and wall together faster than they resist";
+                  : "no deflection agrees with the chip that it makes: the force "
+                    "pulls cutter and wall together faster than they resist";
     answer.result = result.dump();
     return answer;
   }

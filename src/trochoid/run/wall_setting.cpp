@@ -126,9 +126,9 @@ void add_bending_warnings(const inputs::Case& given, double largest,
   if (wall_feedback(given) == surface::Feedback::none && largest > visible * a_e) {
     warnings.push_back(
         {"feedback",
-         fmt::format("The error is {:.2g} % of the radial depth: the deflection itself "
-                     "makes the cut smaller, which feedback = \"{}\" takes into "
-                     "account.",
+         fmt::format("The error is {:.2g} % of the radial depth: the "
+                     "deflection itself makes the cut smaller, which "
+                     "feedback = \"{}\" takes into account.",
                      100 * largest / a_e,
                      given.setup.runout.eccentricity > 0 ? "regenerative" : "entry")});
   }

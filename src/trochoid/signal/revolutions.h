@@ -25,9 +25,9 @@ struct OneRevolution {
 ///
 /// @eq  S-2  mean and standard deviation of the samples in each bin of phi mod 2 pi
 ///
-/// Where the angles of a bin differ from turn to turn, a straight line is taken through
-/// its samples and read in the middle of the bin: the slope of the force is not
-/// scatter.
+/// Where the angles of a bin differ from turn to turn, a straight
+/// line is taken through its samples and read in the middle of
+/// the bin: the slope of the force is not scatter.
 /// @param channels  [N], shape (n) each
 /// @param angle     [rad], shape (n), increasing (see `unwrapped`)
 /// @param bins      at least 1

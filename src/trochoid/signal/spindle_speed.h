@@ -33,8 +33,8 @@ struct SpeedEstimate {
 /// to the Gauss-Newton steps that end it. Equal teeth without runout have harmonics of
 /// the tooth passing only; the search around the stated speed keeps them apart.
 ///
-/// @eq  S-1  Omega = argmax of sum_c |P(Omega) F_c|^2, P projecting on the e^(i k Omega
-/// t)
+/// @eq  S-1  Omega = argmax of sum_c |P(Omega) F_c|^2, P projecting on the
+///           e^(i k Omega t)
 ///
 /// The standard error comes from how much 20 parts of the record disagree, so that a
 /// speed that wanders is allowed for; never below that of white noise.

@@ -93,8 +93,8 @@ double rise_time(const ActuatorDynamics& actuator, double part) {
   }
   const ActuatorDynamics unit{1.0, actuator.sum, actuator.product};
   const auto above = [&](double t) { return step_response(unit, t) - part; };
-  // A part below 1 is first reached on the rise, which is monotone up to the first
-  // peak.
+  // A part below 1 is first reached on the rise,
+  // which is monotone up to the first peak.
   double end = std::sqrt(unit.product) / 16;
   while (above(end) < 0) {
     end *= 1.25;

@@ -28,8 +28,8 @@ ActuatorDynamics from_frequency(double gain, double frequency, double zeta) noex
 double natural_frequency(const ActuatorDynamics& actuator) noexcept;  ///< [rad/s]
 double damping_ratio(const ActuatorDynamics& actuator) noexcept;
 
-/// @brief The two real time constants, the longer one first; none below the critical
-/// damping.
+/// @brief The two real time constants, the longer one
+/// first; none below the critical damping.
 /// @eq  M-9  T_{1,2} = (S +- sqrt(S^2 - 4 P))/2
 /// @src [diez2010] eq. (16), reconstructed
 std::optional<std::array<double, 2>> time_constants(

@@ -262,8 +262,7 @@ std::string fault_of(const StepRecord& record, const ActuatorFit& fit) {
   }
   if (fit.explained < least_explained) {
     return fmt::format(
-        "two poles do not explain this step: they leave {:.1f} % of its "
-        "variance",
+        "two poles do not explain this step: they leave {:.1f} % of its variance",
         100 * (1 - fit.explained));
   }
   return {};

@@ -39,8 +39,8 @@ struct ActuatorFit {
   double explained = 0.0;             ///< 1 - rss / sum (position - mean)^2
 };
 
-/// @brief Gain and second-order dynamics from a step, on either side of the critical
-/// damping.
+/// @brief Gain and second-order dynamics from a
+/// step, on either side of the critical damping.
 ///
 /// @eq  M-13  min over K_0, S, P, y_0 and, where it is not known, t_0 of
 ///            sum (y_0 + u K_0 g(t - t_0; S, P) - y)^2, g the step response M-11 for a

@@ -28,8 +28,8 @@ bool is_free(std::span<const double> cuts, double at, double distance) {
                       [&](double cut) { return std::abs(cut - at) < distance; });
 }
 
-/// Add cuts on one side of `at`: patches of equal length as far as `even`, then
-/// growing.
+/// Add cuts on one side of `at`: patches of equal
+/// length as far as `even`, then growing.
 void grow(std::vector<double>& cuts, double at, double patch, double even, double end) {
   double cut = at + patch;
   while (cut > 0 && cut < end) {

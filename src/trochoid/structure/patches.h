@@ -18,9 +18,9 @@ struct Patches {
 /// A load on the free edge bends the wall over its reach: the distance to the next
 /// clamped side. Patches begin with twice that and each is three times as long as the
 /// one before.
-/// @param x  of the loads, in [0, length]; those nearer to a clamped end than a
-/// twentieth of the shorter side bend the wall so little that they are taken to be
-/// there
+/// @param x of the loads, in [0, length]; those nearer to a
+/// clamped end than a twentieth of the shorter side bend the
+/// wall so little that they are taken to be there
 /// @param depth  from the free edge down to the lowest load [m]; two reaches at least
 Patches patches(double length, double height, std::span<const double> x, double depth);
 

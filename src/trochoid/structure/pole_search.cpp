@@ -46,8 +46,8 @@ Lines scaled(const FrequencyResponse& response) {
   return lines;
 }
 
-/// The partial fractions of one line: two real coefficients a pair, then the residual
-/// terms.
+/// The partial fractions of one line: two real
+/// coefficients a pair, then the residual terms.
 std::vector<Complex> fractions(Complex s, const std::vector<Complex>& poles,
                                bool residual_terms) {
   std::vector<Complex> row;

@@ -39,8 +39,8 @@ struct Limits {
 /// Steps on the way may overshoot the largest deflection by this.
 constexpr double lost = 50;
 
-/// @brief u with image(u) = u, by Broyden's method from the Jacobian -1 of the
-/// residual.
+/// @brief u with image(u) = u, by Broyden's method
+/// from the Jacobian -1 of the residual.
 /// @src C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 7.3: only
 ///      the steps are kept
 template <class Image>

@@ -30,9 +30,8 @@ struct BentTurn {
 /// @brief The periodic state in which the deflection and the chip agree.
 ///
 /// @eq E-10 u(phi, h) = sum_q G_q(h) m_q(phi; u): the stock is met at y + u, and the
-/// chip
-///          over the mark of the m-th tooth before grows by cos(theta) (u(phi) - u(phi
-///          - phi_m))
+///          chip over the mark of the m-th tooth before grows by
+///          cos(theta) (u(phi) - u(phi - phi_m))
 /// @src [wang2015] section 5 in words; derived. Without runout the chip term cancels.
 /// @param K          wall_coefficients of the law
 /// @param tolerance  relative, of force and deflection

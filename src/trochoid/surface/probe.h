@@ -5,8 +5,8 @@
 
 namespace trochoid::surface {
 
-/// @brief What a spherical probe tip reads of a profile: it stops at the first
-/// material.
+/// @brief What a spherical probe tip reads of a
+/// profile: it stops at the first material.
 ///
 /// @eq E-13 reading(x) = max over x' of e(x') - (r - sqrt(r^2 - (x' - x)^2))
 /// @src derived; the measuring machine takes the radius off again

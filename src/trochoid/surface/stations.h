@@ -18,9 +18,9 @@ std::array<double, 3> heights_around(double height, double a_p);
 
 /// @brief The compliance at some heights, anywhere along a stretch of the wall.
 ///
-/// A wall is solved where the readings are; where these are many, at Chebyshev points
-/// along the stretch, more on a longer one, and what follows is interpolated between
-/// them.
+/// A wall is solved where the readings are; where these are many,
+/// at Chebyshev points along the stretch, more on a longer one,
+/// and what follows is interpolated between them.
 class Stations {
  public:
   /// @param x        where the cutter comes along the wall [m], not empty

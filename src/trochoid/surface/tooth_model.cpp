@@ -108,8 +108,8 @@ void ToothModel::find_teeth() {
     const double whole = std::round(steps);
     if (!labelled_ && std::abs(steps - whole) > 0.05) {
       obstacle_ = fmt::format(
-          "without tooth numbers the readings must be whole tooth feeds apart; one is "
-          "{:.3f}",
+          "without tooth numbers the readings must be "
+          "whole tooth feeds apart; one is {:.3f}",
           steps);
       return;
     }

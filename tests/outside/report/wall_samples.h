@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-/// Answers of `surface` and `calibrate` as the program gives them, so that the pages
-/// are tested against what is really written. The walls are computed, their noise is
-/// made.
+/// Answers of `surface` and `calibrate` as the program gives
+/// them, so that the pages are tested against what is really
+/// written. The walls are computed, their noise is made.
 namespace sample {
 
 /// @param model   of [surface]

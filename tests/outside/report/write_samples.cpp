@@ -231,8 +231,7 @@ Answer failed() {
 Answer doubtful() {
   Answer answer = identify();
   const std::string verdict =
-      "Do not use these numbers: 80 % of the force (rms) is not "
-      "explained.";
+      "Do not use these numbers: 80 % of the force (rms) is not explained.";
   answer.message = verdict + " " + answer.message;
   answer.warnings.insert(answer.warnings.begin(), {"do_not_use", verdict});
   answer.warnings.push_back({"part_of_record", std::string(120, 'x')});

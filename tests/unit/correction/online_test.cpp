@@ -19,8 +19,8 @@ using tests::sine_config;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// A sine of 10 um that leads by the delay of the actuator; the estimator knows no
-/// runout.
+/// A sine of 10 um that leads by the delay of the
+/// actuator; the estimator knows no runout.
 TrochoidControllerConfig loop_config() {
   auto config = sine_config(10e-6);
   config.lead_s = 2.268e-3;

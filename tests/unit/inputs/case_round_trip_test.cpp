@@ -212,8 +212,8 @@ sweep_um = [-20.1, 20.3, 41]
 }
 
 TEST(CaseRoundTrip, AFeedThatFollowsFromTheRate) {
-  // 39.7 / 3000 mm is among the numbers whose SI value no number of a file meets
-  // exactly.
+  // 39.7 / 3000 mm is among the numbers whose SI
+  // value no number of a file meets exactly.
   for (const char* rate : {"39.7", "100", "333.3", "1000"}) {
     std::string text = test::slot;
     text.replace(text.find("feed_per_tooth_mm = 0.04"), 24,

@@ -49,8 +49,8 @@ TEST(CommandFile, MayCloseItsTurnAndBeginAnywhere) {
 
 TEST(CommandFile, SaysWhatIsWrong) {
   EXPECT_EQ(problem("angle_deg,command_um\n0,1\n0,2\n"),
-            "c.csv:3:1: the angle 0 deg does not come after 0 deg: angles must "
-            "increase\n");
+            "c.csv:3:1: the angle 0 deg does not come "
+            "after 0 deg: angles must increase\n");
   EXPECT_EQ(problem("angle_deg,command_um\n0,1\n180,2\n400,3\n"),
             "c.csv:4:1: the angle 400 deg lies more than a turn after the first: one "
             "turn is needed, which repeats\n");

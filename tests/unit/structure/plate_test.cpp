@@ -110,8 +110,8 @@ TEST(Plate, ErrorIsBelowTheTolerance) {  // [B-8]
 }
 
 TEST(Plate, AgreesWithFiniteDifferences) {  // [B-3] [B-6] [B-7]
-  // Spacings h and h/2; the error of differences falls with h^2, so (4 fine -
-  // coarse)/3.
+  // Spacings h and h/2; the error of differences
+  // falls with h^2, so (4 fine - coarse)/3.
   for (const auto& [length, x] : {std::pair{2.0, 1.0}, {2.0, 0.5}, {1.0, 0.25}}) {
     const double nu = 0.33;
     const auto differences = [&](std::size_t cells) {
@@ -232,8 +232,8 @@ TEST(Plate, IsGoodAsDeepAsAsked) {  // [B-8]
 }
 
 TEST(Plate, HasNoEnd) {  // [B-4]
-  // A load near the end of a long wall sees the other end as little as that of a
-  // longer.
+  // A load near the end of a long wall sees the
+  // other end as little as that of a longer.
   const Plate wall = unit_plate(30, 1, 0.33);
   const Plate longer = unit_plate(3000, 1, 0.33);
   EXPECT_NEAR(under_load(PlateSolution(wall, 1, 2e-4), 1, 1) /
