@@ -39,7 +39,8 @@ class Case:
     first_order: bool = False
     model: str = "trochoidal"
     lookback: str = "all"
-    power: tuple = ()  # exponents (m_t, m_r, m_a); empty: linear with edge forces
+    power: tuple = ()  # exponents (m_t, m_r, m_a); empty: linear in the chip
+    edge: bool = True  # whether the law has edge forces
     axial_edge: bool = False
     gauge_length: float = 0.0
 

@@ -185,6 +185,22 @@ class Identify(unittest.TestCase):
             self.assertAlmostEqual(fit["coefficients"][key]["value"], value,
                                    delta=1e-5 * abs(value), msg=key)
 
+    def test_power_law_with_edge_forces(self):  # [F-9]
+        given = tables()
+        given["force"] = {"law": "power_edge"}
+        true = {"K_t1_MPa": 1500.0, "K_r1_MPa": 700.0, "K_a1_MPa": 300.0,
+                "K_te_N_per_mm": 7.0, "K_re_N_per_mm": 9.0, "K_ae_N_per_mm": 2.0,
+                "m_t": 0.15, "m_r": 0.25, "m_a": 0.2}
+        case, K_true = truth(given, true)
+        angle = turns(180)
+        F = record(case, K_true, angle)
+        fit = self.identify("power_edge", given, {"chip_models": ["trochoidal"],
+                                                  "runout": "fixed", "phase_deg": 0.0},
+                            [self.write("power_edge.csv", angle, F)]).result["fits"][0]
+        for key, value in true.items():
+            self.assertAlmostEqual(fit["coefficients"][key]["value"], value,
+                                   delta=2e-3 * value, msg=key)
+
     def test_power_law_with_its_exponents(self):  # [F-2]
         given = tables()
         given["force"] = {"law": "power"}

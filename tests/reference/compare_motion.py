@@ -25,8 +25,9 @@ Y = mode("tool", "y", 0.0324, 2400, 0.03)
 LOW = mode("tool", "y", 0.6, 900, 0.03)
 TABLE = mode("table", "x", 0.194, 1490, 0.0213)
 
-POWER = ((166.7e6, 0.598), (58.35e6, 0.598), (60e6, 0.3))
-SMOOTH = ((420e6, 0.28), (95e6, 0.42), (0.0, 0.0))
+POWER = ((166.7e6, 0.598, 0.0), (58.35e6, 0.598, 0.0), (60e6, 0.3, 0.0))
+SMOOTH = ((420e6, 0.28, 0.0), (95e6, 0.42, 0.0), (0.0, 0.0, 0.0))
+POWER_EDGE = ((420e6, 0.28, 4e3), (95e6, 0.42, 3e3), (50e6, 0.1, 1e3))
 LINEAR = (800e6, 300e6, 100e6, 0.0, 0.0, 0.0)
 EDGES = (800e6, 300e6, 100e6, 4e3, 3e3, 1e3)
 
@@ -51,9 +52,12 @@ def tables(cut, engagement, turns):
                         "K_te_N_per_mm": K[3] / 1e3, "K_re_N_per_mm": K[4] / 1e3,
                         "K_ae_N_per_mm": K[5] / 1e3}
     else:
-        out["force"] = {"law": "power"}
-        for (K, m), q in zip(cut.power, "tra"):
+        edge = any(K_e for _, _, K_e in cut.power)
+        out["force"] = {"law": "power_edge" if edge else "power"}
+        for (K, m, K_e), q in zip(cut.power, "tra"):
             out["force"] |= {f"K_{q}1_MPa": K / 1e6, f"m_{q}": m}
+            if edge:
+                out["force"] |= {f"K_{q}e_N_per_mm": K_e / 1e3}
     if cut.actuator:
         out["actuator"] = {"gain": GAIN, "time_constants_s": [T_1, T_2]}
         out["command"] = {"shape": "sine", "peak_to_peak_um": 20, "lead_s": 0.001}
@@ -128,6 +132,11 @@ class Compared(unittest.TestCase):
 
     def test_band_with_edges_and_unequal_pitch(self):  # delays between the steps
         self.compare([X, Y], BAND, linear=EDGES, pitch=[1.9, 2.2, 2 * math.pi - 4.1],
+                     offsets=[2e-6, -3e-6, 0.0])
+
+    def test_power_law_with_edge_forces(self):  # [F-9]
+        self.compare([X, Y], SLOT, power=POWER_EDGE, offsets=[2e-6, -2e-6], steps=3000)
+        self.compare([X, Y], BAND, power=POWER_EDGE, pitch=[2 * math.pi / 3] * 3,
                      offsets=[2e-6, -3e-6, 0.0])
 
     def test_six_unequal_teeth(self):

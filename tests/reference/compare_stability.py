@@ -29,7 +29,7 @@ TABLE = mode("table", "x", 0.194, 1490, 0.0213)
 HIGH = mode("tool", "y", 0.01, 2300, 0.015)
 
 
-def tables(mill, engagement):
+def tables(mill, engagement, law):
     out = {
         "tool": {"teeth": mill.teeth, "diameter_mm": 1e3 * mill.diameter,
                  "helix_deg": math.degrees(mill.helix)},
@@ -47,8 +47,10 @@ def tables(mill, engagement):
                     "K_te_N_per_mm": 0, "K_re_N_per_mm": 0, "K_ae_N_per_mm": 0}
     if mill.power:
         m_t, m_r, floor = mill.power
-        out["force"] = {"law": "power", "K_t1_MPa": mill.K_t / 1e6, "m_t": m_t,
+        out["force"] = {"law": law, "K_t1_MPa": mill.K_t / 1e6, "m_t": m_t,
                         "K_r1_MPa": mill.K_r / 1e6, "m_r": m_r, "K_a1_MPa": 0, "m_a": 0}
+        if law == "power_edge":  # a constant force feels no vibration
+            out["force"] |= {"K_te_N_per_mm": 9, "K_re_N_per_mm": 7, "K_ae_N_per_mm": 2}
         out["stability"]["chip_floor_um"] = 1e6 * floor
     return out
 
@@ -59,12 +61,12 @@ DOWN = ({"engagement": "down", "radial_depth_mm": 2.5}, 2 * np.pi / 3, np.pi)
 
 
 class Compared(unittest.TestCase):
-    def compare(self, modes, where, steps, **other):
+    def compare(self, modes, where, steps, law="power", **other):
         engagement, entry, leave = where
         mill = st.Mill(**{"teeth": 2, "K_t": 600e6, "K_r": 200e6, "entry": entry,
                           "leave": leave, "depth": 0.5e-3, "rpm": 12000,
                           "modes": [m[1] for m in modes], **other})
-        text = program.case_text("compared", tables(mill, engagement))
+        text = program.case_text("compared", tables(mill, engagement, law))
         for given, _ in modes:
             text += "\n[[mode]]\n" + "".join(
                 f"{k} = {program.toml(v)}\n" for k, v in given.items())
@@ -112,6 +114,7 @@ class Compared(unittest.TestCase):
         power = (0.3, 0.4, 25e-6)
         self.compare([X], SLOT, 120, power=power, K_t=200e6, K_r=60e6)
         self.compare([X, Y], UP, 120, power=power, K_t=200e6, K_r=60e6)
+        self.compare([X, Y], UP, 120, "power_edge", power=power, K_t=200e6, K_r=60e6)
 
     def test_the_transcription_itself(self):
         """Its order is two: the change falls by four when the steps double."""

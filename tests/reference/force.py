@@ -24,12 +24,11 @@ def frame(theta, kappa):
 
 
 def element(case, h, kappa, dS_ds):
-    """Force per ds for unit coefficients [F-1] [F-2]; list of (direction, value)"""
-    if case.power:
-        h_n = np.maximum(h * np.sin(kappa), 0.0)  # h_0 = 1 mm
-        return [(q, h_n ** (1 - m)) for q, m in enumerate(case.power)]
+    """Force per ds for unit coefficients [F-1] [F-2] [F-9]; list of (direction, value)"""
+    h_n = np.maximum(h * np.sin(kappa), 0.0)  # h_0 = 1 mm
+    cutting = [(q, h_n ** (1 - m)) for q, m in enumerate(case.power or (0, 0, 0))]
     edge = np.sin(kappa) if case.axial_edge else dS_ds
-    return [(q, h * np.sin(kappa)) for q in range(3)] + [(q, edge) for q in range(3)]
+    return cutting + [(q, edge) for q in range(3)] * case.edge
 
 
 def _cells(case, phi, kind, s0, s1, j, count):
@@ -70,7 +69,7 @@ def matrix(case, phi, count=64):
     The moments are about (0, 0, gauge length).
     """
     phi = np.atleast_1d(np.asarray(phi, float))
-    out = np.zeros((len(phi), 6, 3 if case.power else 6))
+    out = np.zeros((len(phi), 6, 6 if case.edge else 3))
     for j in range(case.tool.N):
         for kind, s0, s1 in geometry.segments(case.tool, case.a_p):
             for block in np.array_split(np.arange(len(phi)), max(1, len(phi) // 128)):

@@ -17,7 +17,7 @@ RUNOUTS = ["none", "offsets", "exact", "first", "both"]
 MODELS = [("none", None), ("feed", "all"), ("feed", "previous"), ("radial", None),
           ("trochoidal", "all"), ("trochoidal", "previous"), ("trochoidal", "all")]
 ENGAGEMENTS = ["slot", "up", "down", "band"]
-LAWS = ["true", "axial", "power"]
+LAWS = ["true", "axial", "power", "power_edge"]
 
 
 def _corner(t):
@@ -78,12 +78,15 @@ def _cut(rng, engagement, D):
 
 
 def _force(law):
+    power = {"K_t1_MPa": 1500.0, "K_r1_MPa": 600.0, "K_a1_MPa": 300.0, "m_t": 0.25,
+             "m_r": 0.4, "m_a": 0.1}
+    edge = {"K_te_N_per_mm": 12.0, "K_re_N_per_mm": 9.0, "K_ae_N_per_mm": 3.0}
     if law == "power":
-        return {"law": "power", "K_t1_MPa": 1500.0, "K_r1_MPa": 600.0, "K_a1_MPa": 300.0,
-                "m_t": 0.25, "m_r": 0.4, "m_a": 0.1}
+        return {"law": law, **power}
+    if law == "power_edge":
+        return {"law": law, **power, **edge}
     return {"law": "linear_edge", "K_tc_MPa": 1800.0, "K_rc_MPa": 800.0, "K_ac_MPa": 400.0,
-            "K_te_N_per_mm": 12.0, "K_re_N_per_mm": 9.0, "K_ae_N_per_mm": 3.0,
-            "edge_length": law}
+            **edge, "edge_length": law}
 
 
 def cases(rounds=9, seed=2009):
@@ -100,6 +103,6 @@ def cases(rounds=9, seed=2009):
                              cut["feed_per_tooth_mm"])
             chip = {"model": model, **({"lookback": lookback} if lookback else {})}
             tables = {"tool": tool, "cut": cut, "runout": runout, "chip": chip,
-                      "force": _force(LAWS[(n + n // 3) % 3])}
+                      "force": _force(LAWS[(n + n // 3) % 4])}
             yield f"made{n:02d}_{shape}", {k: v for k, v in tables.items() if v}
             n += 1

@@ -28,7 +28,7 @@ class Cut:
     rpm: float
     modes: list            # (mass, damping, stiffness, x, y), table modes with - sign
     linear: tuple = ()     # K_tc, K_rc, K_ac, K_te, K_re, K_ae
-    power: tuple = ()      # (K_1, m) for t, r, a
+    power: tuple = ()      # (K_1, m, K_e) for t, r, a
     helix: float = 0.0
     diameter: float = 8e-3
     slices: int = 1
@@ -114,8 +114,8 @@ class Motion:
                           0.0) for a in range(3)]
         else:
             u = np.where(cutting, h, 1e-3) / 1e-3
-            f = [np.where(cutting, K * 1e-3 * u ** (1 - m) * self.width, 0.0)
-                 for K, m in self.cut.power]
+            f = [np.where(cutting, (K * 1e-3 * u ** (1 - m) + K_e * self.edge_per_width)
+                          * self.width, 0.0) for K, m, K_e in self.cut.power]
         return np.array([(-f[0] * c - f[1] * s).sum(), (f[0] * s - f[1] * c).sum(),
                          -f[2].sum()])
 

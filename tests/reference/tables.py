@@ -39,14 +39,17 @@ def to_case(tables):
                 rho=r.get("eccentricity_mm", 0.0), lam=np.radians(r.get("angle_deg", 0.0)),
                 first_order=r.get("eccentricity_order") == "first",
                 model=chip.get("model", "trochoidal"), lookback=chip.get("lookback", "all"),
-                power=(tuple(f[m] for m in ("m_t", "m_r", "m_a"))
-                       if f["law"] == "power" else ()),
+                power=(() if f["law"] == "linear_edge" else
+                       tuple(f[m] for m in ("m_t", "m_r", "m_a"))),
+                edge=f["law"] != "power",
                 axial_edge=f.get("edge_length") == "axial",
                 gauge_length=t.get("gauge_length_mm", 0.0))
 
 
 def coefficients(force):
-    keys = (["K_t1_MPa", "K_r1_MPa", "K_a1_MPa"] if force["law"] == "power" else
-            ["K_tc_MPa", "K_rc_MPa", "K_ac_MPa", "K_te_N_per_mm", "K_re_N_per_mm",
-             "K_ae_N_per_mm"])
+    cutting = (["K_tc_MPa", "K_rc_MPa", "K_ac_MPa"] if force["law"] == "linear_edge" else
+               ["K_t1_MPa", "K_r1_MPa", "K_a1_MPa"])
+    edge = ([] if force["law"] == "power" else
+            ["K_te_N_per_mm", "K_re_N_per_mm", "K_ae_N_per_mm"])
+    keys = cutting + edge
     return np.array([force[k] for k in keys])

@@ -7,15 +7,17 @@
 namespace trochoid::unit {
 
 inline constexpr double one = 1.0;
-inline constexpr double mm = 1e-3;                            ///< [m]
-inline constexpr double um = 1e-6;                            ///< [m]
-inline constexpr double deg = std::numbers::pi / 180.0;       ///< [rad]
-inline constexpr double rpm = 2.0 * std::numbers::pi / 60.0;  ///< [rad/s]
-inline constexpr double MPa = 1e6;                            ///< [N/m^2]
-inline constexpr double GPa = 1e9;                            ///< [N/m^2]
-inline constexpr double N_per_mm = 1e3;                       ///< [N/m]
-inline constexpr double mm_per_min = 1e-3 / 60.0;             ///< [m/s]
-inline constexpr double Nmm = 1e-3;                           ///< [N m]
+inline constexpr double turn = 2.0 * std::numbers::pi;   ///< [rad]
+inline constexpr double mm = 1e-3;                       ///< [m]
+inline constexpr double um = 1e-6;                       ///< [m]
+inline constexpr double deg = std::numbers::pi / 180.0;  ///< [rad]
+inline constexpr double rpm = turn / 60.0;               ///< [rad/s]
+inline constexpr double Hz = turn;                       ///< [rad/s]
+inline constexpr double MPa = 1e6;                       ///< [N/m^2]
+inline constexpr double GPa = 1e9;                       ///< [N/m^2]
+inline constexpr double N_per_mm = 1e3;                  ///< [N/m]
+inline constexpr double mm_per_min = 1e-3 / 60.0;        ///< [m/s]
+inline constexpr double Nmm = 1e-3;                      ///< [N m]
 
 /// @brief A value in a unit of files, as it stood there if it came from one.
 ///

@@ -1,16 +1,15 @@
+#include <trochoid/base/units.h>
 #include <trochoid/chip/chip.h>
 #include <trochoid/chip/mark.h>
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::chip {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double full_turn = 2 * std::numbers::pi;
 
 /// Bounds of the material on a ray. Marks are numbered by how many teeth before.
 struct Bounds {
@@ -74,7 +73,8 @@ double above_rigid_mark(const Ray& ray, int m) noexcept {
       double theta_p = back;
       if (m != ray.p.teeth) {
         theta_p += other.epsilon - own.epsilon;
-        theta_p += theta_p <= 0 ? full_turn : (theta_p > full_turn ? -full_turn : 0.0);
+        theta_p +=
+            theta_p <= 0 ? unit::turn : (theta_p > unit::turn ? -unit::turn : 0.0);
       }
       return own.R - surface_left(other.R, theta_p, ray.p.feed, ray.sine, ray.cosine);
     }
@@ -227,9 +227,9 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
   const int n = cutter.teeth();
   Passage p{.model = model,
             .stock = geometry::stock_band(cut.engagement, cutter.profile.D),
-            .feed = n * cut.f_z / full_turn,
+            .feed = n * cut.f_z / unit::turn,
             .teeth = n,
-            .marks = model.model == Model::none || model.lookback == Lookback::previous
+            .marks = !feels_runout(model.model) || model.lookback == Lookback::previous
                          ? 1
                          : n};
   p.back.reserve(cutter.pitch.size() * cutter.pitch.size());
@@ -237,7 +237,7 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
     double sum = 0.0;
     for (int m = 1; m <= n; ++m) {
       sum += cutter.pitch[static_cast<std::size_t>((j - m + n) % n)];
-      p.back.push_back(m == n ? full_turn : sum);  // C-1
+      p.back.push_back(m == n ? unit::turn : sum);  // C-1
     }
   }
   return p;
@@ -258,7 +258,7 @@ Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
   if (passage.feed <= 0) {  // nothing is left for a second turn
     return {};
   }
-  if (position(ray, 0).R <= 0 && passage.model.model != Model::none) {
+  if (position(ray, 0).R <= 0 && feels_runout(passage.model.model)) {
     return {0.0, 0.0, position(ray, 0).R, 0, false};
   }
   return passage.model.model == Model::trochoidal ? exact_chip(ray) : simple_chip(ray);

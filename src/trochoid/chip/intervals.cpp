@@ -1,5 +1,7 @@
 #include <trochoid/chip/intervals.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,12 +34,12 @@ std::vector<double> grid(const Passage& passage, const Slice& slice, int tooth,
   constexpr int steps = 48;
   std::vector<double> x;
   for (int i = 0; i <= steps; ++i) {
-    x.push_back(start + 2 * pi * i / steps);
+    x.push_back(start + unit::turn * i / steps);
   }
   const geometry::EdgePosition& own = slice.teeth[static_cast<std::size_t>(tooth)];
   const auto add = [&](double theta) {
     const double u = theta - own.epsilon - start;
-    x.push_back(start + u - 2 * pi * std::floor(u / (2 * pi)));
+    x.push_back(start + u - unit::turn * std::floor(u / unit::turn));
   };
   add(pi / 2);
   for (const double y : {passage.stock.y_lo, passage.stock.y_hi}) {

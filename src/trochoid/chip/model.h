@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 namespace trochoid::chip {
 
 enum class Model {
@@ -9,11 +11,42 @@ enum class Model {
   trochoidal,  ///< exact tooth paths
 };
 
+/// Names of files.
+constexpr std::string_view name_of(Model model) noexcept {
+  switch (model) {
+    case Model::none:
+      return "none";
+    case Model::feed:
+      return "feed";
+    case Model::radial:
+      return "radial";
+    case Model::trochoidal:
+      return "trochoidal";
+  }
+  return {};
+}
+
+/// Whether runout changes the chip of a model.
+constexpr bool feels_runout(Model model) noexcept {
+  return model != Model::none;
+}
+
 /// Which earlier teeth may have left the surface that a tooth meets.
 enum class Lookback {
   all,       ///< every tooth, including itself one turn before
   previous,  ///< the tooth before only: the literal form of the paper
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Lookback lookback) noexcept {
+  switch (lookback) {
+    case Lookback::all:
+      return "all";
+    case Lookback::previous:
+      return "previous";
+  }
+  return {};
+}
 
 struct ChipModel {
   Model model = Model::trochoidal;

@@ -1,5 +1,6 @@
 #include <trochoid/chip/volume.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/chip/intervals.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
@@ -19,7 +20,7 @@ Removal removal(const Passage& passage, const Slice& slice) {
   }
   const double low = std::max(passage.stock.y_lo, -widest);
   const double high = std::min(passage.stock.y_hi, widest);
-  Removal result{.available = 2 * pi * feed * std::max(0.0, high - low)};
+  Removal result{.available = unit::turn * feed * std::max(0.0, high - low)};
   std::array<double, 1> sum{};
   const std::array<double, 1> allowed{1e-9 * result.available};
   for (int j = 0; j < passage.teeth; ++j) {

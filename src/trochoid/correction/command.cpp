@@ -1,15 +1,14 @@
+#include <trochoid/base/units.h>
 #include <trochoid/correction/command.h>
 #include <trochoid/correction/shapes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double part_of_resonance = 0.27;
 /// A harmonic that is none, over the first.
 constexpr double negligible = 1e-9;
@@ -84,8 +83,9 @@ Command inverse_in_time(const PeriodicMotion& motion, const Plant& plant, double
 }  // namespace
 
 double most_frequency(const ActuatorLimits& limits, const Plant& plant) noexcept {
-  return limits.most_frequency.value_or(
-      part_of_resonance * structure::natural_frequency(plant.table) / turn);
+  return limits.most_frequency.value_or(part_of_resonance *
+                                        structure::natural_frequency(plant.table) /
+                                        unit::turn);
 }
 
 Command command_for(const PeriodicMotion& motion, Method method, const Plant& plant,
@@ -106,7 +106,7 @@ Command command_for(const PeriodicMotion& motion, Method method, const Plant& pl
 
 Followed followed(const RigidCut& cut, const PeriodicMotion& motion, const Plant& plant,
                   double Omega, const ActuatorLimits& limits) {
-  const double by_resonance = most_frequency(limits, plant) * turn / Omega;
+  const double by_resonance = most_frequency(limits, plant) * unit::turn / Omega;
   int n = static_cast<int>(
       std::min<double>(limits.most_harmonics, by_resonance * (1 + 1e-12)));
   for (n = std::max(n, 1);; --n) {

@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Harmonics of a command by segments that are followed to the table.
 constexpr int harmonics_followed = 60;
 /// How far above the speed of the case its limit is looked for.
@@ -47,7 +45,7 @@ Push push_of(const Command& command, const Plant& plant, double Omega,
   double least = std::numeric_limits<double>::infinity();
   const PeriodicMotion motion = X;
   for (int i = 0; i < angles; ++i) {
-    const double phi = turn * (i + 0.5) / angles;
+    const double phi = unit::turn * (i + 0.5) / angles;
     const MotionPoint p = motion_at(motion, phi);
     const double force = plant.table.mass * Omega * Omega * p.curvature +
                          (plant.table.damping - plant.c_s) * Omega * p.slope +
@@ -94,20 +92,20 @@ LimitReport check_limits(const Command& command, const Plant& plant, double Omeg
                            limits.pull)));
   const double highest = most_frequency(limits, plant);
   if (command.n_max > 0) {
-    const double frequency = command.n_max * Omega / turn;
+    const double frequency = command.n_max * Omega / unit::turn;
     report.limits.push_back(limit_of(
         LimitKind::resonance, frequency, highest,
         fmt::format(
             "the highest of {} harmonics is at {:.1f} Hz, {:.1f} Hz are allowed "
             "below the table's {:.0f} Hz",
             command.n_max, frequency, highest,
-            structure::natural_frequency(plant.table) / turn)));
+            structure::natural_frequency(plant.table) / unit::turn)));
   } else {
     report.limits.push_back(
-        unknown(LimitKind::resonance, Omega / turn,
+        unknown(LimitKind::resonance, Omega / unit::turn,
                 fmt::format("the command is not limited to harmonics; its first is at "
                             "{:.1f} Hz, {:.1f} Hz are allowed",
-                            Omega / turn, highest)));
+                            Omega / unit::turn, highest)));
   }
   report.ok = std::all_of(report.limits.begin(), report.limits.end(),
                           [](const Limit& l) { return l.ok; });

@@ -1,5 +1,6 @@
 #include <trochoid/correction/moving_cut.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/correction/shapes.h>
 
 #include <fmt/core.h>
@@ -7,13 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int harmonics_of_table = 60;
 /// When the reading agrees, relative to the feed per tooth and in ln K and m.
 constexpr double agreed = 1e-5;
@@ -36,7 +35,7 @@ struct LastTurns {
 
 LastTurns last_turns(const MovingCut& cut, const dynamics::Motion& motion) {
   const auto count = 2 * static_cast<std::size_t>(cut.samples_per_rev);
-  const double spacing = turn / cut.samples_per_rev;
+  const double spacing = unit::turn / cut.samples_per_rev;
   const auto first =
       static_cast<std::int64_t>(cut.revolutions - 2) * cut.samples_per_rev;
   LastTurns out{std::vector<std::array<double, 3>>(count), std::vector<double>(count)};
@@ -72,7 +71,7 @@ std::vector<Flute> flutes_of(const MovingCut& cut, const ForceRecord& record,
     if (std::abs(record.force[i][1]) > f.peak_y) {
       f.peak_y = std::abs(record.force[i][1]);
       const double theta = record.angle[i] - rigid.psi()[j];
-      f.peak_y_angle = theta - turn * std::floor(theta / turn);
+      f.peak_y_angle = theta - unit::turn * std::floor(theta / unit::turn);
     }
   }
   for (std::size_t j = 0; j < flutes.size(); ++j) {
@@ -154,7 +153,7 @@ MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command,
   const auto samples = static_cast<std::size_t>(cut.samples_per_rev);
   std::vector<double> table;
   for (std::size_t i = 0; i < samples; ++i) {
-    out.record.angle.push_back(turn * static_cast<double>(i) /
+    out.record.angle.push_back(unit::turn * static_cast<double>(i) /
                                static_cast<double>(samples));
     out.record.force.push_back(turns.force[samples + i]);
     table.push_back(turns.table[samples + i]);
@@ -184,9 +183,7 @@ StaticFit reading(const MovingCut& cut, std::span<const double> rho,
     return fit;
   }
   if (near == nullptr) {
-    const auto* power = std::get_if<force::Power>(&moving.law);
-    return static_fit(moving.setup, flutes.record, options,
-                      power != nullptr ? std::optional(*power) : std::nullopt);
+    return static_fit(moving.setup, flutes.record, options, power_near(moving.law));
   }
   moving.setup.runout.radial_offsets.clear();
   for (const Value& value : near->rho) {

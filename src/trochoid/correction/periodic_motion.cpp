@@ -1,11 +1,11 @@
 #include <trochoid/correction/periodic_motion.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::correction {
 
@@ -13,12 +13,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double turn = 2 * std::numbers::pi;
 /// A change of place or slope below this part of the motion's size is none.
 constexpr double rounding = 1e-9;
 
 double wrapped(double phi, double from) noexcept {
-  return phi - turn * std::floor((phi - from) / turn);
+  return phi - unit::turn * std::floor((phi - from) / unit::turn);
 }
 
 MotionPoint at(const Harmonics& motion, double phi) noexcept {
@@ -94,9 +93,9 @@ Harmonics harmonics(const Segments& motion, int n_max) {
       c += transformed(s, n);
     }
     if (n == 0) {
-      out.mean = c.real() / turn;
+      out.mean = c.real() / unit::turn;
     } else {
-      out.c.push_back(2.0 * c / turn);
+      out.c.push_back(2.0 * c / unit::turn);
     }
   }
   return out;
@@ -111,7 +110,8 @@ Harmonics harmonics(const Harmonics& motion, int n_max) {
 /// Points looked at within a stretch of a motion.
 void look(const PeriodicMotion& motion, double from, double to, Range& range) {
   constexpr int count = 64;
-  const auto points = static_cast<int>(std::ceil((to - from) / turn * 2880)) + count;
+  const auto points =
+      static_cast<int>(std::ceil((to - from) / unit::turn * 2880)) + count;
   for (int i = 0; i <= points; ++i) {
     const double inside = std::clamp(static_cast<double>(i), 1e-9, points - 1e-9);
     const MotionPoint p = motion_at(motion, from + (to - from) * inside / points);
@@ -186,7 +186,7 @@ Range range_of(const PeriodicMotion& motion) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Range range{infinity, -infinity};
   if (std::holds_alternative<Harmonics>(motion)) {
-    look(motion, 0.0, turn, range);
+    look(motion, 0.0, unit::turn, range);
     return range;
   }
   const auto& all = std::get<Segments>(motion).all;
@@ -223,7 +223,7 @@ Harmonics harmonics_of_samples(const std::vector<double>& x, int n_max) {
   Harmonics out;
   const auto count = static_cast<double>(x.size());
   for (int n = 0; n <= n_max; ++n) {
-    const Complex step = std::polar(1.0, -n * turn / count);
+    const Complex step = std::polar(1.0, -n * unit::turn / count);
     Complex sum = 0.0;
     for (std::size_t i = x.size(); i-- > 0;) {
       sum = sum * step + x[i];

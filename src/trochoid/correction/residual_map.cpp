@@ -1,5 +1,6 @@
 #include <trochoid/correction/residual_map.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/correction/learning.h>
 #include <trochoid/numerics/parallel.h>
 
@@ -7,13 +8,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Harmonics of a command that are followed to the table, and samples of a clipped one.
 constexpr int harmonics_followed = 60;
 constexpr int samples = 512;
@@ -24,7 +23,7 @@ Harmonics clipped(const PeriodicMotion& wave, double low, double high) {
   std::vector<double> u(samples);
   for (int i = 0; i < samples; ++i) {
     u[static_cast<std::size_t>(i)] =
-        std::clamp(place_at(wave, turn * i / samples), low, high);
+        std::clamp(place_at(wave, unit::turn * i / samples), low, high);
   }
   return harmonics_of_samples(u, harmonics_followed);
 }

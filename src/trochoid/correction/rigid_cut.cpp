@@ -1,23 +1,20 @@
 #include <trochoid/correction/rigid_cut.h>
 
-#include <trochoid/force/columns.h>
+#include <trochoid/base/units.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/geometry/edge.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
 double wrapped(double angle) noexcept {
-  return angle - turn * std::floor(angle / turn);
+  return angle - unit::turn * std::floor(angle / unit::turn);
 }
 
 void check(const force::Setup& setup, const force::Law& law, int slices) {
@@ -35,8 +32,8 @@ void check(const force::Setup& setup, const force::Law& law, int slices) {
   if (!std::all_of(rho.begin(), rho.end(), [](double r) { return std::isfinite(r); })) {
     throw std::invalid_argument("a radial offset is no number");
   }
-  if (const auto* power = std::get_if<force::Power>(&law);
-      power != nullptr && !(std::max({power->m_t, power->m_r, power->m_a}) < 1)) {
+  const auto& m = force::form(law).m;
+  if (!(*std::max_element(m.begin(), m.end()) < 1)) {
     throw std::invalid_argument("an exponent of the power law is 1 or more");
   }
 }
@@ -50,8 +47,7 @@ chip::Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j
 }
 
 RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
-    : law_(law),
-      K_(force::coefficients(law)),
+    : law_(force::terms(law)),
       D_(setup.cutter.profile.D),
       passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
       psi_(geometry::tooth_angles(setup.cutter)),
@@ -61,8 +57,7 @@ RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
   const geometry::Profile& p = setup.cutter.profile;
   const geometry::Meridian meridian = geometry::meridian(p);
   const double width = setup.cut.a_p / slices;
-  const geometry::Runout runout =
-      setup.chip.model == chip::Model::none ? geometry::Runout{} : setup.runout;
+  const geometry::Runout runout = force::runout_of(setup);
   for (int i = 0; i < slices; ++i) {
     const double s = geometry::arc_length_at(meridian, (i + 0.5) * width);
     const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s);
@@ -78,11 +73,11 @@ RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
 }
 
 double RigidCut::feed() const noexcept {
-  return passage_.feed * turn;
+  return passage_.feed * unit::turn;
 }
 
 double RigidCut::nominal_chip() const noexcept {
-  const double at = std::clamp(turn / 4, arc_.from, arc_.to);
+  const double at = std::clamp(unit::turn / 4, arc_.from, arc_.to);
   return feed() / static_cast<double>(psi_.size()) * std::sin(at);
 }
 
@@ -140,10 +135,10 @@ void RigidCut::add_force(const Disk& disk, const Contact& c,
   if (c.mark == 0) {
     return;
   }
-  const force::ColumnWeights w = force::column_weights(law_, c.h, 1.0, disk.dS);
+  const force::ColumnWeights w = force::column_weights(law_.form, c.h, 1.0, disk.dS);
   std::array<double, 3> f{};  // t, r, a
   for (std::size_t q = 0; q < 3; ++q) {
-    f[q] = w.cutting[q] * K_[q] + (K_.size() > 3 ? w.edge * K_[q + 3] : 0.0);
+    f[q] = w.cutting[q] * law_.K[q] + w.edge * law_.K_e[q];
     f[q] *= disk.width;
   }
   const double s = std::sin(c.theta);

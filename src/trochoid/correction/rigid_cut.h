@@ -112,8 +112,7 @@ class RigidCut {
   [[nodiscard]] double chip_area(const PeriodicMotion& X, std::size_t j,
                                  std::span<const double> panels) const;
 
-  force::Law law_;
-  std::vector<double> K_;
+  force::Terms law_;
   double D_ = 0.0;
   chip::Passage passage_;
   std::vector<double> psi_;

@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/correction/rigid_cut.h>
 
 #include <trochoid/numerics/gauss_kronrod.h>
@@ -5,20 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Nodes of a turn among which peaks are looked for.
 constexpr double steps_per_turn = 1440;
 /// Inside a panel, off its ends [rad].
 constexpr double beside = 1e-9;
 
 double wrapped(double angle) noexcept {
-  return angle - turn * std::floor(angle / turn);
+  return angle - unit::turn * std::floor(angle / unit::turn);
 }
 
 double spread(std::span<const Flute> flutes, double Flute::*value) noexcept {
@@ -67,7 +66,7 @@ struct RigidCut::Nodes {
 /// Ends of the stretches in which no tip enters or leaves, no motion breaks, and one
 /// tooth is nearest to the middle.
 std::vector<double> RigidCut::panels(const PeriodicMotion& X) const {
-  std::vector<double> ends = {0.0, turn};
+  std::vector<double> ends = {0.0, unit::turn};
   const std::vector<double> breaks = breaks_of(X);
   for (std::size_t j = 0; j < psi_.size(); ++j) {
     const double lag = disks_.front().lag;
@@ -85,7 +84,7 @@ std::vector<double> RigidCut::panels(const PeriodicMotion& X) const {
   std::sort(ends.begin(), ends.end());
   const auto near = [](double a, double b) { return b - a < 100 * beside; };
   ends.erase(std::unique(ends.begin(), ends.end(), near), ends.end());
-  ends.back() = turn;
+  ends.back() = unit::turn;
   return ends;
 }
 
@@ -96,7 +95,7 @@ RigidCut::Nodes RigidCut::nodes(const PeriodicMotion& X) const {
     const double from = ends[p] + beside;
     const double length = ends[p + 1] - beside - from;
     const auto steps =
-        std::max(2, static_cast<int>(std::ceil(length / turn * steps_per_turn)));
+        std::max(2, static_cast<int>(std::ceil(length / unit::turn * steps_per_turn)));
     for (int i = 0; i <= steps; ++i) {
       const double phi = from + length * i / steps;
       std::array<double, 3> F{};
@@ -148,7 +147,7 @@ std::vector<Flute> RigidCut::peaks(const PeriodicMotion& X) const {
 double RigidCut::chip_area(const PeriodicMotion& X, std::size_t j,
                            std::span<const double> panels) const {
   std::array<double, 1> area{};
-  const std::array<double, 1> allowed = {1e-12 * (passage_.feed * turn + 1e-6)};
+  const std::array<double, 1> allowed = {1e-12 * (passage_.feed * unit::turn + 1e-6)};
   const auto h = [&](double phi, double weight, std::array<double, 1>& sum) {
     sum[0] += weight * contact(X, disks_.front(), j, phi).h;
   };
@@ -174,7 +173,7 @@ Prediction RigidCut::predict(const PeriodicMotion& X, int samples) const {
   out.chip.resize(count);
   out.flute_force.resize(count);
   for (int i = 0; i < samples; ++i) {
-    const double phi = turn * i / samples;
+    const double phi = unit::turn * i / samples;
     out.angle.push_back(phi);
     out.table.push_back(place_at(X, phi));
     out.force.emplace_back();

@@ -1,16 +1,15 @@
 #include <trochoid/correction/shapes.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double rank_tolerance = 1e-9;
 /// Angles of an arc of cut at which chips are compared.
 constexpr int angles_of_arc = 181;
@@ -37,7 +36,7 @@ std::vector<double> boundaries(const RigidCut& cut) {
 
 Segments square(const RigidCut& cut, const std::vector<double>& x) {
   std::vector<double> b = boundaries(cut);
-  b.push_back(b.front() + turn);
+  b.push_back(b.front() + unit::turn);
   Segments motion;
   for (std::size_t j = 0; j < x.size(); ++j) {
     motion.all.push_back({b[j], b[j + 1], {x[j]}});
@@ -49,7 +48,7 @@ Segments square(const RigidCut& cut, const std::vector<double>& x) {
 Segments with_transitions(const RigidCut& cut, const std::vector<double>& x,
                           double width, const std::array<double, 6>& rise) {
   std::vector<double> b = boundaries(cut);
-  b.push_back(b.front() + turn);
+  b.push_back(b.front() + unit::turn);
   width = std::min(width, *std::min_element(cut.pitch().begin(), cut.pitch().end()));
   Segments motion;
   for (std::size_t j = 0; j < x.size(); ++j) {
@@ -252,7 +251,7 @@ AxisLimits axis_limits(const RigidCut& cut, int n_max) {
     int together = 0;
     for (const double other : cut.psi()) {
       const double theta = start + cut.arc().from + 1e-6 - other;
-      const double u = theta - turn * std::floor(theta / turn);
+      const double u = theta - unit::turn * std::floor(theta / unit::turn);
       together += u > cut.arc().from && u < cut.arc().to ? 1 : 0;
     }
     limits.most_teeth = std::max(limits.most_teeth, together);

@@ -1,5 +1,6 @@
 #include <trochoid/correction/static_fit.h>
 
+#include <trochoid/base/overloaded.h>
 #include <trochoid/correction/static_problem.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
@@ -163,6 +164,15 @@ std::string hardly_cutting(const StaticProblem& problem, const std::vector<doubl
 }
 
 }  // namespace
+
+std::optional<force::Power> power_near(const force::Law& law) {
+  using Start = std::optional<force::Power>;
+  return std::visit(
+      base::Overloaded{[](const force::LinearEdge&) { return Start{}; },
+                       [](const force::Power& power) { return Start{power}; },
+                       [](const force::PowerEdge&) { return Start{}; }},
+      law);
+}
 
 StaticFit static_fit(const force::Setup& setup, const ForceRecord& record,
                      const StaticFitOptions& options,

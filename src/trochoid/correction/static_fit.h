@@ -30,6 +30,9 @@ struct Value {
   double se = 0.0;
 };
 
+/// @brief The power law that a static fit starts from; none of a law that is another one.
+std::optional<force::Power> power_near(const force::Law& law);
+
 /// @brief Power law, runout and angle that explain a record with a rigid system.
 struct StaticFit {
   bool ok = false;

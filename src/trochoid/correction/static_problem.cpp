@@ -1,16 +1,15 @@
+#include <trochoid/base/units.h>
 #include <trochoid/correction/ratio.h>
 #include <trochoid/correction/static_problem.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double rank_tolerance = 1e-10;
 /// Step of the central differences, for parameters of about one.
 constexpr double difference = 1e-6;
@@ -63,7 +62,7 @@ bool near_an_end(const RigidCut& cut, double phi, double guard) {
   return std::any_of(cut.psi().begin(), cut.psi().end(), [&](double psi) {
     const auto off = [&](double end) {
       const double d = phi - psi - end;
-      return std::abs(d - turn * std::round(d / turn));
+      return std::abs(d - unit::turn * std::round(d / unit::turn));
     };
     return off(cut.arc().from) < guard || off(cut.arc().to) < guard;
   });

@@ -1,15 +1,15 @@
 #include <trochoid/correction/wall_marks.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::correction {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Over a feed per turn, and which of them are returned.
 constexpr int samples = 8000;
 constexpr int every = 20;
@@ -40,12 +40,12 @@ Mark deepest_at(const std::vector<Mark>& marks, double x, double radius) {
 WallMarks wall_marks(const RigidCut& cut, const PeriodicMotion& X, bool exit) {
   const std::vector<double> rho = cut.offsets();
   const double f = cut.feed();
-  const double at = exit ? turn / 2 - beside : beside;
+  const double at = exit ? unit::turn / 2 - beside : beside;
   std::vector<Mark> marks;
   for (int k = -2; k <= 2; ++k) {
     for (std::size_t j = 0; j < rho.size(); ++j) {
       const double phi = cut.psi()[j] + at;
-      marks.push_back({j, f * (k + phi / turn) - place_at(X, phi), rho[j]});
+      marks.push_back({j, f * (k + phi / unit::turn) - place_at(X, phi), rho[j]});
     }
   }
   WallMarks out;

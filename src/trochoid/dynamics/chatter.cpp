@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/chatter.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/dominant_eigenvalue.h>
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace trochoid::dynamics {
 
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 using Complex = std::complex<double>;
 
@@ -65,14 +64,14 @@ std::vector<ChatterLine> chatter_lines(const Directional& directional,
   const double P = directional.period / Omega;
   double fastest = 0.0;
   for (const ChipMode& mode : system.modes) {
-    fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / turn);
+    fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / unit::turn);
   }
   const int most = static_cast<int>(std::ceil(1.5 * fastest * P)) + 3;
   const auto nodes = map.disturbance_nodes();
   std::vector<ChatterLine> lines;
   for (int k = -most; k <= most; ++k) {
-    const Complex rate = (std::log(found.value) + Complex(0, turn * k)) / P;
-    add_line(lines, std::abs(rate.imag()) / turn,  // D-12
+    const Complex rate = (std::log(found.value) + Complex(0, unit::turn * k)) / P;
+    add_line(lines, std::abs(rate.imag()) / unit::turn,  // D-12
              amplitude(found.vector, nodes, map.components(), rate));
   }
   std::sort(lines.begin(), lines.end(), [](const ChatterLine& a, const ChatterLine& b) {

@@ -2,7 +2,6 @@
 
 #include <trochoid/chip/chip.h>
 #include <trochoid/dynamics/power_of.h>
-#include <trochoid/force/columns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +43,8 @@ double NearPower::renew(Anchor& anchor, double h) const noexcept {
   return anchor.value;
 }
 
-CutForce::CutForce(const force::Law& law, const EngagedGrid& grid) : grid_(grid) {
+CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
+    : grid_(grid), law_(force::terms(law)) {
   std::size_t most = 1;
   double most_edge = 0.0;
   for (const auto* ranges : {&grid.before, &grid.after}) {
@@ -66,17 +66,14 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid) : grid_(grid)
   h_.resize(most);
   watched_.assign(grid.teeth, none);
   crossings_.reserve(grid.teeth);
-  if (const auto* linear = std::get_if<force::LinearEdge>(&law)) {
-    linear_ = *linear;
-    watches_ = grid.one_point && (linear->K_te != 0 || linear->K_re != 0);
-    largest_jump_ = 2 * std::hypot(linear_.K_te, linear_.K_re) * most_edge;
+  const auto& [form, K, K_e] = law_;
+  watches_ = grid.one_point && (K_e[0] != 0 || K_e[1] != 0);
+  largest_jump_ = 2 * std::hypot(K_e[0], K_e[1]) * most_edge;
+  if (!form.power) {
     return;
   }
-  power_ = true;
-  const auto& p = std::get<force::Power>(law);
-  const std::array<double, 3> m = {p.m_t, p.m_r, p.m_a};
-  const std::array<double, 3> K = {p.K_t1, p.K_r1, p.K_a1};
-  axial_ = p.K_a1 != 0;
+  const auto& m = form.m;
+  axial_ = K[2] != 0 || K_e[2] != 0;
   for (std::size_t e = 0; e < m.size(); ++e) {
     directions_[e] = {m[e],
                       1 - m[e],
@@ -115,7 +112,7 @@ void CutForce::prepare_edges(std::size_t node, const History& past) noexcept {
 
 Response CutForce::linear_response(double q_x, double q_y) const noexcept {
   Response out;
-  const force::LinearEdge& law = linear_;
+  const auto& [form, K, K_e] = law_;
   std::size_t at = 0;
   for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
     const Stretch& stretch = grid_.stretches[k];
@@ -126,10 +123,10 @@ Response CutForce::linear_response(double q_x, double q_y) const noexcept {
       }
       const double w = grid_.width[i];
       const double e = grid_.edge[i];
-      const std::array<double, 3> slope = {law.K_tc * w, law.K_rc * w, law.K_ac * w};
+      const std::array<double, 3> slope = {K[0] * w, K[1] * w, K[2] * w};
       add(grid_.sine[i], grid_.cosine[i],
-          {slope[0] * h + law.K_te * e, slope[1] * h + law.K_re * e,
-           slope[2] * h + law.K_ae * e},
+          {slope[0] * h + K_e[0] * e, slope[1] * h + K_e[1] * e,
+           slope[2] * h + K_e[2] * e},
           slope, out);
     }
   }
@@ -168,7 +165,7 @@ Response CutForce::power_response(double q_x, double q_y) noexcept {
       for (std::size_t e = 0; e < directions_.size(); ++e) {
         const Direction& d = directions_[e];
         const double K = d.K * grid_.width[i] * directions_[d.same_as].g[at];
-        f[e] = K * h;  // K_q1 h_0 (h/h_0)^(1 - m)
+        f[e] = K * h + law_.K_e[e] * grid_.edge[i];  // K_q1 h_0 (h/h_0)^(1 - m) + K_qe
         slope[e] = d.slope * K;
       }
       add(grid_.sine[i], grid_.cosine[i], f, slope, out);
@@ -208,10 +205,9 @@ void CutForce::find_crossings(double q_x, double q_y) noexcept {
     const double s = grid_.sine[k];
     const double c = grid_.cosine[k];
     const double e = (to > 0 ? 1 : -1) * grid_.edge[k];
-    crossings_.push_back(
-        {from / (from - to),
-         {-e * (linear_.K_te * c + linear_.K_re * s),
-          e * (linear_.K_te * s - linear_.K_re * c), -e * linear_.K_ae}});
+    crossings_.push_back({from / (from - to),
+                          {-e * (law_.K_e[0] * c + law_.K_e[1] * s),
+                           e * (law_.K_e[0] * s - law_.K_e[1] * c), -e * law_.K_e[2]}});
   }
 }
 

@@ -100,7 +100,7 @@ class CutForce {
     if (grid_.one_point) {
       return point_response(q_x, q_y);
     }
-    return power_ ? power_response(q_x, q_y) : linear_response(q_x, q_y);
+    return law_.form.power ? power_response(q_x, q_y) : linear_response(q_x, q_y);
   }
 
   /// @return tooth and chip [m] of the lowest point
@@ -150,11 +150,10 @@ class CutForce {
                   const std::array<double, 3>& slope, Response& out) noexcept;
 
   const EngagedGrid& grid_;
-  bool power_ = false;
   bool axial_ = true;     ///< is there a force along the axis?
   bool watches_ = false;  ///< single points whose force jumps at h = 0
   double largest_jump_ = 0.0;
-  force::LinearEdge linear_;
+  force::Terms law_;
   std::array<Direction, 3> directions_;  ///< t, r, a
   Contacts contacts_;
   std::vector<double> constant_;
@@ -204,7 +203,8 @@ inline Response CutForce::point_response(double q_x, double q_y) noexcept {
       continue;
     }
     const double w = grid_.width[k];
-    if (power_) {
+    const double edge = grid_.edge[k];
+    if (law_.form.power) {
       const std::size_t tooth = grid_.stretches[k].tooth;
       std::array<double, 3> g{directions_[0].near(tooth, h)};
       std::array<double, 3> f{};
@@ -213,17 +213,16 @@ inline Response CutForce::point_response(double q_x, double q_y) noexcept {
         Direction& d = directions_[e];
         g[e] = d.same_as == e && e > 0 ? d.near(tooth, h) : g[d.same_as];
         const double K = d.K * w * g[e];
-        f[e] = K * h;  // K_q1 h_0 (h/h_0)^(1 - m)
+        f[e] = K * h + law_.K_e[e] * edge;  // K_q1 h_0 (h/h_0)^(1 - m) + K_qe
         slope[e] = d.slope * K;
       }
       add(grid_.sine[k], grid_.cosine[k], f, slope, out);
     } else {
-      const force::LinearEdge& law = linear_;
-      const double e = grid_.edge[k];
-      const std::array<double, 3> slope = {law.K_tc * w, law.K_rc * w, law.K_ac * w};
+      const auto& K_e = law_.K_e;
+      const std::array<double, 3> slope = {law_.K[0] * w, law_.K[1] * w, law_.K[2] * w};
       add(grid_.sine[k], grid_.cosine[k],
-          {slope[0] * h + law.K_te * e, slope[1] * h + law.K_re * e,
-           slope[2] * h + law.K_ae * e},
+          {slope[0] * h + K_e[0] * edge, slope[1] * h + K_e[1] * edge,
+           slope[2] * h + K_e[2] * edge},
           slope, out);
     }
   }

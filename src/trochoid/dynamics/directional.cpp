@@ -118,20 +118,21 @@ void evaluate_cylinder(const CylinderArcs& arcs, double lag, double phi, double 
 
 struct DirectionalModel::Parts {
   force::Setup setup;
-  force::Law law;
+  force::Terms law;
   double h_floor;
   double tolerance;
   CylinderArcs cylinder;  ///< empty where the cutter is another one
-  bool is_cylinder;
+  bool keeps_radius;
 };
 
 DirectionalModel::DirectionalModel(const force::Setup& setup, const force::Law& law,
                                    double h_floor, double tolerance)
     : parts_(std::make_shared<const Parts>(
-          Parts{setup, law, h_floor, tolerance,
-                is_cylinder(setup) ? cylinder_arcs(setup, law, h_floor, tolerance)
-                                   : CylinderArcs{},
-                is_cylinder(setup)})) {}
+          Parts{setup, force::terms(law), h_floor, tolerance,
+                force::keeps_radius(setup)
+                    ? cylinder_arcs(setup, force::terms(law), h_floor, tolerance)
+                    : CylinderArcs{},
+                force::keeps_radius(setup)})) {}
 
 Directional DirectionalModel::at_depth(double a_p) const {
   const Parts& p = *parts_;
@@ -140,7 +141,7 @@ Directional DirectionalModel::at_depth(double a_p) const {
   Evaluate evaluate;
   double largest = 0.0;
   AxialArcs axial;
-  if (p.is_cylinder) {
+  if (p.keeps_radius) {
     const CylinderArcs& arcs = p.cylinder;
     const double lag =
         arcs.lag_per_height * a_p < 1e-8 ? 0.0 : arcs.lag_per_height * a_p;

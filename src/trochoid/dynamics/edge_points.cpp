@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/edge_points.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/chip/intervals.h>
 #include <trochoid/geometry/edge.h>
 
@@ -13,7 +14,6 @@ namespace trochoid::dynamics {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double turn = 2 * pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A lag of the top that is none [rad].
 constexpr double no_lag = 1e-9;
@@ -22,7 +22,7 @@ constexpr double longest_arc = 1.0;
 
 /// theta in a turn that starts behind the tool, where nothing is in cut.
 double in_turn(double theta) {
-  return theta - turn * std::floor((theta + pi / 2) / turn);
+  return theta - unit::turn * std::floor((theta + pi / 2) / unit::turn);
 }
 
 /// The arc on the front of the tool whose nominal points lie in the stock.
@@ -94,7 +94,7 @@ EdgePoints::EdgePoints(const force::Setup& setup, int points, std::size_t lookba
     for (const double theta : reach_[j].events) {
       for (const double behind : {0.0, whole_lag_}) {
         const double phi = psi_[j] + theta + behind;
-        events_.push_back(phi - turn * std::floor(phi / turn));
+        events_.push_back(phi - unit::turn * std::floor(phi / unit::turn));
       }
     }
   }
@@ -103,9 +103,7 @@ EdgePoints::EdgePoints(const force::Setup& setup, int points, std::size_t lookba
 
 std::vector<geometry::EdgePosition> EdgePoints::positions(double lag) const {
   std::vector<geometry::EdgePosition> teeth(psi_.size());
-  geometry::edge_positions(
-      setup_.chip.model == chip::Model::none ? geometry::Runout{} : setup_.runout, psi_,
-      r_, lag, teeth);
+  geometry::edge_positions(force::runout_of(setup_), psi_, r_, lag, teeth);
   return teeth;
 }
 
@@ -213,15 +211,15 @@ bool EdgePoints::at_event(double phi) const noexcept {
   constexpr double near = 1e-7;
   const auto next = std::lower_bound(events_.begin(), events_.end(), phi - near);
   return (next != events_.end() && *next < phi + near) || phi < near ||
-         phi > turn - near;
+         phi > unit::turn - near;
 }
 
 /// Gauss nodes on the part of an arc that an edge covers, and on its images.
 void EdgePoints::add_arc(const ChipArc& arc, double tip,
                          std::vector<EdgePlace>& places) const {
   const double height_per_lag = setup_.cut.a_p / whole_lag_;
-  const double first = std::floor((tip - whole_lag_ - pi) / turn);
-  for (double image = turn * first; image < tip + pi; image += turn) {
+  const double first = std::floor((tip - whole_lag_ - pi) / unit::turn);
+  for (double image = unit::turn * first; image < tip + pi; image += unit::turn) {
     const double here = tip - image;
     const auto meets = [&](const LaggingAngle& angle) {
       double lag = here - angle.tip;

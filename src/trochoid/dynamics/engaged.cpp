@@ -1,18 +1,17 @@
 #include <trochoid/dynamics/engaged.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/chip/intervals.h>
 #include <trochoid/geometry/edge.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double same_delay = 1e-9;  // [rad]
 /// Break points along an edge are found to this part of it.
 constexpr double relative_resolution = 1e-12;
@@ -26,16 +25,10 @@ bool all_same(const std::vector<double>& values) {
 }  // namespace
 
 Passes passes_of(const force::Setup& setup) {
-  const bool no_runout =
-      setup.chip.model == chip::Model::none ||
-      (setup.runout.eccentricity == 0 &&
-       std::all_of(setup.runout.radial_offsets.begin(),
-                   setup.runout.radial_offsets.end(), [&](double offset) {
-                     return offset == setup.runout.radial_offsets.front();
-                   }));
-  Passes passes{.equal = no_runout && all_same(setup.cutter.pitch),
+  const bool alike = geometry::runs_true(force::runout_of(setup));
+  Passes passes{.equal = alike && all_same(setup.cutter.pitch),
                 .psi = geometry::tooth_angles(setup.cutter)};
-  passes.period = passes.equal ? turn / setup.cutter.teeth() : turn;
+  passes.period = passes.equal ? unit::turn / setup.cutter.teeth() : unit::turn;
   if (passes.equal) {
     passes.delays = {passes.period};
     return passes;
@@ -65,16 +58,7 @@ std::size_t Passes::channel(const chip::Passage& passage, std::size_t tooth,
   return static_cast<std::size_t>(at - delays.begin()) + 1;
 }
 
-bool is_cylinder(const force::Setup& setup) noexcept {
-  const geometry::Profile& p = setup.cutter.profile;
-  const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;
-  const bool same_law = setup.cutter.lag_law == geometry::LagLaw::constant_lead ||
-                        setup.cutter.lag_diameter == p.D;
-  return cylinder && same_law &&
-         (setup.runout.eccentricity == 0 || setup.cutter.helix == 0);
-}
-
-AxialArcs axial_arcs(const force::Setup& given, const force::Law& law, double h_floor,
+AxialArcs axial_arcs(const force::Setup& given, const force::Terms& law, double h_floor,
                      double a_p, double tolerance) {
   force::Setup setup = given;
   setup.cut.a_p = a_p;
@@ -98,14 +82,14 @@ AxialArcs axial_arcs(const force::Setup& given, const force::Law& law, double h_
     const chip::Slice slice{point.meridian.r, teeth};
     const std::size_t different = axial.passes.equal ? 1 : psi.size();
     for (std::size_t j = 0; j < different; ++j) {
-      for (const chip::ChipPiece& piece :
-           chip::engaged_pieces(edges.passage, slice, static_cast<int>(j), -turn / 4)) {
+      for (const chip::ChipPiece& piece : chip::engaged_pieces(
+               edges.passage, slice, static_cast<int>(j), -unit::turn / 4)) {
         axial.breaks.push_back(piece.from + psi[j] + point.lag);
         axial.breaks.push_back(piece.to + psi[j] + point.lag);
       }
     }
   }
-  const Matrix2 g = directional_gradient(law, h_floor, turn / 8, 1.0, 0.0);
+  const Matrix2 g = directional_gradient(law, h_floor, unit::turn / 8, 1.0, 0.0);
   axial.largest = largest_entry(g) * edges.ends.back();
   return axial;
 }

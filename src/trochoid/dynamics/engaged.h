@@ -29,9 +29,6 @@ Passes passes_of(const force::Setup& setup);
 
 double largest_entry(const Matrix2& m) noexcept;
 
-/// Whether the teeth of a setup keep their radius and angle along the edge.
-bool is_cylinder(const force::Setup& setup) noexcept;
-
 /// An arc of theta in which one pass left the surface.
 struct PassArc {
   double from = 0.0;        ///< [rad]
@@ -44,14 +41,14 @@ struct PassArc {
 struct CylinderArcs {
   Passes passes;
   chip::Passage passage;
-  force::Law law;
+  force::Terms law;
   double h_floor = 0.0;         ///< [m]
   double r = 0.0;               ///< [m]
   double lag_per_height = 0.0;  ///< [rad/m]
   double largest = 0.0;         ///< entry of g, over all teeth [N/m^2]
   std::vector<geometry::EdgePosition> teeth;
-  std::vector<std::vector<PassArc>>
-      arcs;  ///< of each tooth, or of one if all are equal
+  /// Of each tooth, or of one if all are equal.
+  std::vector<std::vector<PassArc>> arcs;
   /// Antiderivative of g over theta for each of those teeth and each channel; empty
   /// without helix.
   std::vector<std::vector<std::optional<numerics::PiecewiseIntegral<4>>>> tables;
@@ -66,7 +63,7 @@ struct CylinderArcs {
                  std::vector<Matrix2>& out) const noexcept;
 };
 
-CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Law& law,
+CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Terms& law,
                            double h_floor, double tolerance);
 
 /// @brief The same for any cutter at one depth, by quadrature along the edges.
@@ -74,7 +71,7 @@ struct AxialArcs {
   Passes passes;
   std::vector<double> breaks;  ///< spindle angles [rad]
   std::shared_ptr<const force::Edges> edges;
-  force::Law law;
+  force::Terms law;
   double h_floor = 0.0;  ///< [m]
   double largest = 0.0;  ///< entry of the matrices [N/m]
   double tolerance = 0.0;
@@ -83,7 +80,7 @@ struct AxialArcs {
   void add(double phi, std::vector<Matrix2>& out) const;
 };
 
-AxialArcs axial_arcs(const force::Setup& setup, const force::Law& law, double h_floor,
+AxialArcs axial_arcs(const force::Setup& setup, const force::Terms& law, double h_floor,
                      double a_p, double tolerance);
 
 }  // namespace trochoid::dynamics

@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/engaged.h>
 
 #include <trochoid/chip/intervals.h>
@@ -12,7 +13,6 @@ namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Where a turn of theta starts: behind the tool, where nothing is in cut.
 constexpr double start = -std::numbers::pi / 2;
 constexpr double longest_panel = 0.8;  // [rad]
@@ -20,7 +20,7 @@ constexpr double longest_panel = 0.8;  // [rad]
 /// Angles within (from, to) where h passes the floor of the gradient.
 std::vector<double> floor_passes(const CylinderArcs& c, std::size_t tooth, double from,
                                  double to) {
-  if (std::holds_alternative<force::LinearEdge>(c.law)) {
+  if (!c.law.form.power) {
     return {};
   }
   const chip::Slice slice{c.r, c.teeth};
@@ -80,7 +80,7 @@ std::vector<std::optional<Table>> tables_of(const CylinderArcs& c, std::size_t t
     for (const PassArc& arc : c.arcs[tooth]) {
       if (channel == 0 ? arc.own : arc.channel == channel) {
         if (!tables[channel]) {
-          tables[channel].emplace(start, turn);
+          tables[channel].emplace(start, unit::turn);
         }
         tables[channel]->append(arc.from, arc.to, f, longest_panel, allowed);
       }
@@ -98,7 +98,7 @@ double largest_entry(const Matrix2& m) noexcept {
   return std::max({std::abs(m[0]), std::abs(m[1]), std::abs(m[2]), std::abs(m[3])});
 }
 
-CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Law& law,
+CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Terms& law,
                            double h_floor, double tolerance) {
   CylinderArcs c{
       .passes = passes_of(setup),
@@ -107,10 +107,8 @@ CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Law& law,
       .h_floor = h_floor,
       .r = setup.cutter.profile.D / 2,
       .lag_per_height = 2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter};
-  c.teeth.assign(c.passes.psi.size(), {c.r, 0.0});
-  if (setup.chip.model != chip::Model::none) {
-    geometry::edge_positions(setup.runout, c.passes.psi, c.r, 0.0, c.teeth);
-  }
+  c.teeth.resize(c.passes.psi.size());
+  geometry::edge_positions(force::runout_of(setup), c.passes.psi, c.r, 0.0, c.teeth);
   const std::size_t different = c.passes.equal ? 1 : c.passes.psi.size();
   for (std::size_t j = 0; j < different; ++j) {
     c.arcs.push_back(arcs_of(c, j));
@@ -144,7 +142,7 @@ std::vector<double> CylinderArcs::breaks(double lag) const {
 
 Matrix2 CylinderArcs::gradient(std::size_t tooth, double theta) const noexcept {
   double h = 0.0;
-  if (std::holds_alternative<force::Power>(law)) {
+  if (law.form.power) {
     const chip::Slice slice{r, teeth};
     h = std::max(h_floor,
                  chip::chip_at(passage, slice, static_cast<int>(tooth), theta).h);
@@ -166,7 +164,7 @@ void CylinderArcs::add_edge(std::size_t tooth, double theta, double lag,
 void CylinderArcs::add_point(std::size_t tooth, double theta, double middle,
                              std::vector<Matrix2>& out) const noexcept {
   const std::size_t source = passes.equal ? 0 : tooth;
-  const double turns = std::floor((middle - start) / turn) * turn;
+  const double turns = std::floor((middle - start) / unit::turn) * unit::turn;
   for (const PassArc& arc : arcs[source]) {
     if (middle - turns < arc.from || middle - turns > arc.to) {
       continue;

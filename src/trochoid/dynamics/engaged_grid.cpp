@@ -1,17 +1,16 @@
 #include <trochoid/dynamics/engaged_grid.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/edge_points.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Just before and just after a node [rad].
 constexpr double beside = 1e-9;
 
@@ -56,10 +55,11 @@ void add_nodes(const force::Setup& setup, const EdgePoints& points, int steps,
                EngagedGrid& grid) {
   const auto& pitch = setup.cutter.pitch;
   const bool equal = equally_spaced(pitch);
-  const double period = equal ? turn / static_cast<double>(pitch.size()) : turn;
+  const double period =
+      equal ? unit::turn / static_cast<double>(pitch.size()) : unit::turn;
   const double smallest = *std::min_element(pitch.begin(), pitch.end());
   const double longest =
-      std::min(turn / static_cast<double>(pitch.size()) / steps, smallest / 4);
+      std::min(unit::turn / static_cast<double>(pitch.size()) / steps, smallest / 4);
   std::vector<double> marks = {0.0, period};
   for (const double phi : points.events()) {
     marks.push_back(phi - period * std::floor(phi / period));
@@ -117,8 +117,8 @@ void shrink_to(EngagedGrid& grid, const Stretch& end, std::size_t stretches) {
 
 /// The delay by m teeth seen from an angle, `back` counted from `node`.
 Delay delay_of(const EngagedGrid& nodes, double phi, double delay, std::size_t node) {
-  const double turns = std::floor((phi - delay) / turn);
-  const double u = phi - delay - turn * turns;
+  const double turns = std::floor((phi - delay) / unit::turn);
+  const double u = phi - delay - unit::turn * turns;
   const auto later = std::upper_bound(nodes.angle.begin(), nodes.angle.end(), u);
   const auto k = static_cast<std::size_t>(later - nodes.angle.begin()) - 1;
   const double step = nodes.step[k];
@@ -149,7 +149,7 @@ void add_delays(const force::Setup& setup, const EngagedGrid& nodes, EngagedGrid
     for (std::size_t j = 0; j < grid.teeth; ++j) {
       for (std::size_t m = 0; m < grid.lookback; ++m) {
         const double delay = passage.back[j * grid.teeth + m % grid.teeth] +
-                             turn * static_cast<double>(m / grid.teeth);
+                             unit::turn * static_cast<double>(m / grid.teeth);
         grid.delays.push_back(delay_of(nodes, grid.angle[i], delay, node[i]));
       }
     }

@@ -1,23 +1,14 @@
 #include <trochoid/dynamics/gradient.h>
 
-#include <trochoid/force/columns.h>
-
 #include <cmath>
 
 namespace trochoid::dynamics {
 
-Matrix2 directional_gradient(const force::Law& law, double h, double theta,
+Matrix2 directional_gradient(const force::Terms& law, double h, double theta,
                              double sin_kappa, double cos_kappa) noexcept {
-  std::array<double, 3> k{};
-  if (const auto* linear = std::get_if<force::LinearEdge>(&law)) {
-    k = {linear->K_tc * sin_kappa, linear->K_rc * sin_kappa, linear->K_ac * sin_kappa};
-  } else if (const auto* power = std::get_if<force::Power>(&law)) {
-    const double ratio = h * sin_kappa / force::h_0;
-    const auto slope = [&](double K, double m) {
-      return K * (1 - m) * sin_kappa * std::pow(ratio, -m);  // D-6
-    };
-    k = {slope(power->K_t1, power->m_t), slope(power->K_r1, power->m_r),
-         slope(power->K_a1, power->m_a)};
+  std::array<double, 3> k = force::column_slopes(law.form, h, sin_kappa);
+  for (std::size_t q = 0; q < k.size(); ++q) {
+    k[q] *= law.K[q];  // D-5, D-6
   }
   const double s = std::sin(theta);
   const double c = std::cos(theta);

@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/motion.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/cut_force.h>
 #include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion_record.h>
@@ -10,14 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Rounds for the force at the end of a step; after the first few in shorter strides,
 /// lest they go round in a circle where a tooth only just touches.
 constexpr int most_rounds = 40;
@@ -228,7 +227,7 @@ class Run {
         past_.add(stepper_.end(F), slope());
       }
       if (first) {
-        stepper_.repeat(turn / omega_);
+        stepper_.repeat(unit::turn / omega_);
         past_ = Past(grid_);
       }
     }
@@ -239,7 +238,7 @@ class Run {
   Force step_once(int n, std::size_t i, const Force& F) {
     const std::size_t next = i + 1 < grid_.angle.size() ? i + 1 : 0;
     const int left = problem_.revolutions - n;
-    const double t = (turn * n + grid_.angle[i]) / omega_;
+    const double t = (unit::turn * n + grid_.angle[i]) / omega_;
     if (problem_.observe) {
       problem_.observe(t, F, stepper_.table());
     }
@@ -376,22 +375,16 @@ int steps_needed(const MotionProblem& problem) {
   constexpr double of_fastest = 20;
   constexpr double moves = 1e-5;
   const force::Setup& setup = problem.setup;
-  const double per_chip = std::visit(
-      [](const auto& law) {
-        if constexpr (requires { law.K_tc; }) {
-          return std::hypot(law.K_tc, law.K_rc);
-        } else {
-          return 10 * std::hypot(law.K_t1, law.K_r1);  // chips of some um
-        }
-      },
-      problem.law);
+  const force::Terms law = force::terms(problem.law);
+  const double thin = law.form.power ? 10 : 1;  // a power law, for chips of some um
+  const double per_chip = thin * std::hypot(law.K[0], law.K[1]);
   double fastest = 0.0;
   for (const ChipMode& mode : problem.system.modes) {
     if (per_chip * setup.cut.a_p > moves * mode.stiffness) {
-      fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / turn);
+      fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / unit::turn);
     }
   }
-  const double tooth_period = turn / (setup.cut.Omega * setup.cutter.teeth());
+  const double tooth_period = unit::turn / (setup.cut.Omega * setup.cutter.teeth());
   const double needed = std::ceil(of_fastest * fastest * tooth_period);
   return static_cast<int>(std::clamp(needed, double{least}, 1e9));
 }

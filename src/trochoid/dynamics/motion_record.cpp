@@ -1,15 +1,15 @@
 #include <trochoid/dynamics/motion_record.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// 0.2 N of 60 N, as the paper's cases settle.
 constexpr double repeats = 1.0 / 300;
@@ -27,7 +27,7 @@ std::array<double, 2> between(const std::array<double, 2>& a,
 std::vector<double> sample_angles(int count) {
   std::vector<double> angles;
   for (int k = 0; k < count; ++k) {
-    angles.push_back(turn * k / count);
+    angles.push_back(unit::turn * k / count);
   }
   return angles;
 }
@@ -52,7 +52,7 @@ void MotionSamples::add(const TakenStep& step, Motion& motion) {
   for (; next_ < samples_.node.size() && samples_.node[next_] == step.node + 1;
        ++next_) {
     const double t = samples_.part[next_];
-    motion.angle.push_back(turn * step.turn + samples_.grid.angle[next_]);
+    motion.angle.push_back(unit::turn * step.turn + samples_.grid.angle[next_]);
     motion.time.push_back(motion.angle.back() / problem_.setup.cut.Omega);
     std::array<double, 2> q{};
     for (std::size_t r = 0; r < motion.mode.size(); ++r) {

@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/period_elements.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/nodes.h>
 
 #include <algorithm>
@@ -162,7 +163,7 @@ Components components_of(const System& system) {
 double fastest_frequency(const System& system) noexcept {
   double fastest = 0.0;
   for (const ChipMode& mode : system.modes) {
-    fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / (2 * pi));
+    fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass) / unit::turn);
   }
   return fastest;
 }

@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/period_map.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/nodes.h>
 #include <trochoid/dynamics/oscillator.h>
 
@@ -224,7 +225,7 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
   parts->modes = system.modes;
   parts->Omega = Omega;
   const double fastest = fastest_frequency(system);
-  parts->speed = 2 * pi * fastest;
+  parts->speed = unit::turn * fastest;
   parts->elements =
       period_elements(directional, parts->components, Omega, fastest, resolution);
   for (const PeriodElement& element : parts->elements.all) {

@@ -1,23 +1,21 @@
 #include <trochoid/dynamics/surface_location.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/geometry/edge.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
 /// q_y over the last revolution, which the motion repeats.
 class LastTurn {
  public:
   LastTurn(const MotionProblem& problem, const Motion& m)
-      : spacing_(turn / problem.samples_per_rev),
+      : spacing_(unit::turn / problem.samples_per_rev),
         dt_(spacing_ / problem.setup.cut.Omega) {
     const auto count = static_cast<std::size_t>(problem.samples_per_rev);
     if (m.time.size() < count) {
@@ -38,7 +36,9 @@ class LastTurn {
 
   /// Cubic between the samples, from places and speeds.
   [[nodiscard]] double at(double phi) const {
-    const double u = std::fmod(std::fmod(phi - first_, turn) + turn, turn) / spacing_;
+    const double u =
+        std::fmod(std::fmod(phi - first_, unit::turn) + unit::turn, unit::turn) /
+        spacing_;
     const auto i = static_cast<std::size_t>(u) % y_.size();
     const std::size_t k = (i + 1) % y_.size();
     const double t = u - std::floor(u);
@@ -78,7 +78,7 @@ std::vector<WallLocation> surface_location(const MotionProblem& problem,
         const double r = R + (offsets.empty() ? 0.0 : offsets[j]);
         const auto edge = geometry::edge_position(
             problem.setup.runout, r, psi + lag - problem.setup.runout.angle);
-        const double theta = (sigma < 0 ? 0.0 : turn / 2) - edge.epsilon;
+        const double theta = (sigma < 0 ? 0.0 : unit::turn / 2) - edge.epsilon;
         const double q_y = motion.at(theta + psi + lag);
         wall.teeth.push_back(R - edge.R + sigma * q_y);  // T-10
         psi += cutter.pitch[j];

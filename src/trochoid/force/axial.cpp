@@ -1,12 +1,10 @@
 #include <trochoid/force/axial.h>
 
-#include <trochoid/force/columns.h>
-#include <trochoid/force/forces.h>
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::force {
 
@@ -41,18 +39,18 @@ double thickest_chip(const Edges& edges) {
                                        edges.setup.cutter.pitch.end());
   const double previous = edges.passage.feed * gap + spread;
   return edges.setup.chip.lookback == chip::Lookback::all
-             ? std::min(previous, edges.passage.feed * 2 * std::numbers::pi)
+             ? std::min(previous, edges.passage.feed * unit::turn)
              : previous;
 }
 
 }  // namespace
 
 AxialForce::AxialForce(const Setup& setup, const Law& law, double tolerance)
-    : edges_(setup), law_(law) {
+    : edges_(setup), terms_(terms(law)) {
   const double h = thickest_chip(edges_);
   const double length = edges_.ends.back();
   if (h > 0) {
-    const ColumnWeights w = column_weights(law, h, 1.0, 1.0);
+    const ColumnWeights w = column_weights(terms_.form, h, 1.0, 1.0);
     allowed_cutting_ = 0.02 * tolerance * length *
                        std::max({w.cutting[0], w.cutting[1], w.cutting[2]});
   }
@@ -94,7 +92,7 @@ void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
 }
 
 void AxialForce::matrix(double phi, std::span<double> C) const {
-  const auto columns = static_cast<std::size_t>(coefficient_count(law_));
+  const std::size_t columns = terms_.form.columns();
   std::array<double, 18> allowed{};
   for (std::size_t q = 0; q < allowed.size(); ++q) {
     allowed[q] = q % 6 < 3 ? allowed_cutting_ : allowed_edge_;
@@ -104,7 +102,7 @@ void AxialForce::matrix(double phi, std::span<double> C) const {
                            double weight, std::array<double, 18>& out) {
     const Frame B = frame(state.theta, point.meridian);
     const ColumnWeights w =
-        column_weights(law_, state.chip.h, point.meridian.sin_kappa, point.dS);
+        column_weights(terms_.form, state.chip.h, point.meridian.sin_kappa, point.dS);
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t q = 0; q < 3; ++q) {
         out[6 * row + q] += weight * B[row][q] * w.cutting[q];  // F-4
@@ -121,17 +119,11 @@ void AxialForce::matrix(double phi, std::span<double> C) const {
 }
 
 std::array<double, 6> AxialForce::loads(double phi, double gauge_length) const {
-  std::array<double, 3> K_c{};
-  std::array<double, 3> K_e{};
-  const std::vector<double> K = coefficients(law_);
-  std::copy_n(K.begin(), 3, K_c.begin());
-  if (K.size() == 6) {
-    std::copy_n(K.begin() + 3, 3, K_e.begin());
-  }
   const auto largest = [](const std::array<double, 3>& v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   };
-  const double force = allowed_cutting_ * largest(K_c) + allowed_edge_ * largest(K_e);
+  const double force =
+      allowed_cutting_ * largest(terms_.K) + allowed_edge_ * largest(terms_.K_e);
   const double arm = edges_.setup.cutter.profile.D / 2;
   const double reach = std::max({arm, edges_.setup.cut.a_p, gauge_length});
   const std::array<double, 6> allowed{force,       force,         force,
@@ -141,10 +133,10 @@ std::array<double, 6> AxialForce::loads(double phi, double gauge_length) const {
                            double weight, std::array<double, 6>& out) {
     const Frame B = frame(state.theta, point.meridian);
     const ColumnWeights w =
-        column_weights(law_, state.chip.h, point.meridian.sin_kappa, point.dS);
+        column_weights(terms_.form, state.chip.h, point.meridian.sin_kappa, point.dS);
     std::array<double, 3> edge{};
     for (std::size_t q = 0; q < 3; ++q) {
-      edge[q] = weight * (K_c[q] * w.cutting[q] + K_e[q] * w.edge);
+      edge[q] = weight * (terms_.K[q] * w.cutting[q] + terms_.K_e[q] * w.edge);
     }
     std::array<double, 3> F{};
     for (std::size_t row = 0; row < 3; ++row) {

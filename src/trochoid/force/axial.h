@@ -40,7 +40,7 @@ class AxialForce {
                  const Element& element, std::array<double, M>& sum) const;
 
   Edges edges_;
-  Law law_;
+  Terms terms_;
   double allowed_cutting_ = 0.0;
   double allowed_edge_ = 0.0;
   double smallest_ = 0.0;  ///< shortest panel [m]

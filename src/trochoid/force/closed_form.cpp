@@ -1,5 +1,6 @@
 #include <trochoid/force/closed_form.h>
 
+#include <trochoid/base/overloaded.h>
 #include <trochoid/geometry/edge.h>
 
 #include <algorithm>
@@ -10,23 +11,22 @@ namespace trochoid::force {
 
 namespace {
 
-bool runs_true(const Setup& setup) {
-  const auto& offsets = setup.runout.radial_offsets;
-  return setup.chip.model == chip::Model::none ||
-         (setup.runout.eccentricity == 0 &&
-          std::all_of(offsets.begin(), offsets.end(),
-                      [&](double r) { return r == offsets.front(); }));
-}
+/// A mean that is no simple formula.
+constexpr const LinearEdge* none = nullptr;
 
 }  // namespace
 
 std::optional<Vector3> closed_form_mean(const Setup& setup, const Law& law) {
   const geometry::Profile& p = setup.cutter.profile;
   const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;
-  const auto* K = std::get_if<LinearEdge>(&law);
+  const LinearEdge* const K =
+      std::visit(base::Overloaded{[](const LinearEdge& linear) { return &linear; },
+                                  [](const Power&) { return none; },
+                                  [](const PowerEdge&) { return none; }},
+                 law);
   if (K == nullptr || !cylinder || setup.chip.model == chip::Model::trochoidal ||
       !std::holds_alternative<geometry::Slot>(setup.cut.engagement) ||
-      !runs_true(setup) || !(setup.cut.f_z > 0)) {
+      !geometry::runs_true(runout_of(setup)) || !(setup.cut.f_z > 0)) {
     return std::nullopt;
   }
   constexpr double pi = std::numbers::pi;

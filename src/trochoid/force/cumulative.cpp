@@ -1,7 +1,7 @@
 #include <trochoid/force/cumulative.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/chip/intervals.h>
-#include <trochoid/force/columns.h>
 #include <trochoid/geometry/edge.h>
 
 #include <algorithm>
@@ -12,7 +12,6 @@ namespace trochoid::force {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Where a turn of theta starts: behind the tool, where nothing is in cut.
 constexpr double start = -std::numbers::pi / 2;
 /// Below this lag the difference of F-5 would lose more digits than its limit [rad].
@@ -32,18 +31,9 @@ bool equal_teeth(const geometry::Cutter& cutter,
 
 }  // namespace
 
-bool CumulativeForce::serves(const Setup& setup) noexcept {
-  const geometry::Profile& p = setup.cutter.profile;
-  const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;
-  const bool same_law = setup.cutter.lag_law == geometry::LagLaw::constant_lead ||
-                        setup.cutter.lag_diameter == p.D;
-  return cylinder && same_law &&
-         (setup.runout.eccentricity == 0 || setup.cutter.helix == 0);
-}
-
 CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tolerance)
     : passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
-      law_(law),
+      form_(form(law)),
       r_(setup.cutter.profile.D / 2),
       a_p_(setup.cut.a_p),
       psi_(geometry::tooth_angles(setup.cutter)),
@@ -53,11 +43,7 @@ CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tole
   if (setup.edge_length == EdgeLength::true_length) {
     edge_factor_ = std::hypot(1.0, r_ * slope);
   }
-  if (setup.chip.model == chip::Model::none) {
-    teeth_.assign(psi_.size(), {r_, 0.0});
-  } else {
-    geometry::edge_positions(setup.runout, psi_, r_, 0.0, teeth_);
-  }
+  geometry::edge_positions(runout_of(setup), psi_, r_, 0.0, teeth_);
   if (lag_ > 0) {
     const std::size_t tables = equal_teeth(setup.cutter, teeth_) ? 1 : psi_.size();
     tables_.reserve(tables);
@@ -76,13 +62,9 @@ EdgeMoments CumulativeForce::integrand(std::size_t tooth, double theta) const no
   }
   const double s = std::sin(theta + teeth_[tooth].epsilon);
   const double c = std::cos(theta + teeth_[tooth].epsilon);
-  const ColumnWeights w = column_weights(law_, chip.h, 1.0, edge_factor_);
-  if (std::holds_alternative<LinearEdge>(law_)) {
-    const double h = w.cutting[0];
-    return {h * s, h * c, h, w.edge * s, w.edge * c, w.edge};
-  }
-  return {w.cutting[0] * s, w.cutting[0] * c, w.cutting[1] * s,
-          w.cutting[1] * c, w.cutting[2],     0.0};
+  const ColumnWeights w = column_weights(form_, chip.h, 1.0, edge_factor_);
+  return {w.cutting[0] * s, w.cutting[0] * c, w.cutting[1] * s, w.cutting[1] * c,
+          w.cutting[2],     w.edge * s,       w.edge * c,       w.edge};
 }
 
 void CumulativeForce::tabulate(std::size_t tooth, double tolerance) {
@@ -99,13 +81,12 @@ void CumulativeForce::tabulate(std::size_t tooth, double tolerance) {
   }
   // Sine and cosine parts share a scale: either may vanish in the middle.
   const double largest = 0.05 * tolerance;
-  const double cutting = largest * std::max({allowed[0], allowed[1], allowed[2]});
-  const double edge = largest * std::max({allowed[3], allowed[4], allowed[5]});
-  allowed = {cutting, cutting, cutting, edge, edge, edge};
-  if (std::holds_alternative<Power>(law_)) {
-    allowed.fill(std::max(cutting, edge));
-  }
-  tables_.emplace_back(start, turn);
+  const auto edges = allowed.begin() + 5;
+  const double cutting = largest * *std::max_element(allowed.begin(), edges);
+  const double edge = largest * *std::max_element(edges, allowed.end());
+  std::fill(allowed.begin(), edges, cutting);
+  std::fill(edges, allowed.end(), edge);
+  tables_.emplace_back(start, unit::turn);
   for (const chip::ChipPiece& piece : pieces) {
     tables_.back().append(piece.from, piece.to, f, longest_panel, allowed);
   }
@@ -130,8 +111,7 @@ EdgeMoments CumulativeForce::moments(double phi) const noexcept {
   return sum;
 }
 
-void CumulativeForce::forces(const std::array<std::array<double, 6>, 3>& weights,
-                             std::span<const double> phi,
+void CumulativeForce::forces(const MomentWeights& weights, std::span<const double> phi,
                              std::span<std::array<double, 3>> out) const {
   if (lag_ == 0) {
     for (std::size_t i = 0; i < phi.size(); ++i) {
@@ -146,7 +126,7 @@ void CumulativeForce::forces(const std::array<std::array<double, 6>, 3>& weights
     return;
   }
   // A fourth, empty component lets the compiler work on whole vectors.
-  const std::array<std::array<double, 6>, 4> padded{weights[0], weights[1], weights[2]};
+  const std::array<EdgeMoments, 4> padded{weights[0], weights[1], weights[2]};
   std::vector<numerics::PiecewiseIntegral<4>> tables;
   tables.reserve(tables_.size());
   for (const auto& table : tables_) {

@@ -15,9 +15,11 @@ namespace trochoid::force {
 /// @brief The integrals along an edge of a cylinder
 /// of which every entry of [C] is made.
 ///
-/// LinearEdge: h sin, h cos, h, e sin, e cos, e, with e = dS/dz where in cut.
-/// Power: w_t sin, w_t cos, w_r sin, w_r cos, w_a, 0 with w_q = h_0 (h/h_0)^(1 - m_q).
-using EdgeMoments = std::array<double, 6>;
+/// w_t sin, w_t cos, w_r sin, w_r cos, w_a with the weights of column_weights, then
+/// e sin, e cos, e with e = dS/dz where in cut.
+using EdgeMoments = std::array<double, 8>;
+/// The moments of which the force in x, y, z is made: rows of [C]{K}.
+using MomentWeights = std::array<EdgeMoments, 3>;
 
 /// @brief Forces on a constant-lead cylinder whose
 /// teeth keep their radius along the edge.
@@ -31,32 +33,30 @@ using EdgeMoments = std::array<double, 6>;
 /// @src derived from [riviere2009] eq. 19
 class CumulativeForce {
  public:
+  /// @param setup      one that keeps_radius
   /// @param tolerance  relative to the largest value of each moment
   CumulativeForce(const Setup& setup, const Law& law, double tolerance);
-
-  /// Whether F-5 holds for a setup.
-  static bool serves(const Setup& setup) noexcept;
 
   /// @brief Moments of all teeth at one angle of the tip of tooth 1.
   [[nodiscard]] EdgeMoments moments(double phi) const noexcept;
 
   /// @brief Force on the tool for given coefficients, shape (n, 3).
-  void forces(const std::array<std::array<double, 6>, 3>& weights,
-              std::span<const double> phi, std::span<std::array<double, 3>> out) const;
+  void forces(const MomentWeights& weights, std::span<const double> phi,
+              std::span<std::array<double, 3>> out) const;
 
  private:
   [[nodiscard]] EdgeMoments integrand(std::size_t tooth, double theta) const noexcept;
   void tabulate(std::size_t tooth, double tolerance);
 
   chip::Passage passage_;
-  Law law_;
+  Form form_;
   double r_ = 0.0;            ///< [m]
   double edge_factor_ = 1.0;  ///< dS/dz
   double a_p_ = 0.0;          ///< [m]
   double lag_ = 0.0;          ///< of the edge over a_p [rad]; 0: zero helix
   std::vector<double> psi_;
   std::vector<geometry::EdgePosition> teeth_;
-  std::vector<numerics::PiecewiseIntegral<6>> tables_;  ///< one, if the teeth are equal
+  std::vector<numerics::PiecewiseIntegral<8>> tables_;  ///< one, if the teeth are equal
 };
 
 }  // namespace trochoid::force

@@ -1,5 +1,7 @@
 #include <trochoid/force/edge_curve.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,9 +36,10 @@ std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) 
     const double a = corners[i];
     const double b = corners[i + 1];
     const bool arc = a >= m.s_M && b <= m.s_N;
-    const double turn = std::max(lag_between(setup, m, a, b),
-                                 arc && m.profile.R > 0 ? (b - a) / m.profile.R : 0.0);
-    const int count = std::max(1, static_cast<int>(std::ceil(turn / longest_panel)));
+    const double turned =
+        std::max(lag_between(setup, m, a, b),
+                 arc && m.profile.R > 0 ? (b - a) / m.profile.R : 0.0);
+    const int count = std::max(1, static_cast<int>(std::ceil(turned / longest_panel)));
     for (int k = 1; k <= count; ++k) {
       ends.push_back(k == count ? b : a + (b - a) * k / count);
     }
@@ -72,9 +75,7 @@ Edges::Edges(const Setup& given)
   for (const double s : ends) {
     lag_at_ends.push_back(geometry::lag_at(setup.cutter, meridian, s).angle);
   }
-  if (setup.chip.model == chip::Model::none) {
-    setup.runout = {};
-  }
+  setup.runout = runout_of(setup);
 }
 
 EdgePoint Edges::point(double s) const noexcept {
@@ -102,14 +103,13 @@ chip::Slice EdgeCurve::slice(const EdgePoint& point) const {
 }
 
 void EdgeCurve::add_passages(double target, std::vector<double>& grid) const {
-  constexpr double turn = 2 * std::numbers::pi;
   const std::vector<double>& lags = edges_.lag_at_ends;
   // theta_tip_ - lag = target + k turn, lag in (0, last)
   double lag = theta_tip_ - target;
-  lag -= turn * std::floor(lag / turn);
-  const int windings = static_cast<int>(std::ceil((lags.back() - lag) / turn));
+  lag -= unit::turn * std::floor(lag / unit::turn);
+  const int windings = static_cast<int>(std::ceil((lags.back() - lag) / unit::turn));
   for (int k = 0; k < windings; ++k) {
-    const double at = lag + k * turn;
+    const double at = lag + k * unit::turn;
     const auto above = std::upper_bound(lags.begin(), lags.end(), at);
     if (above != lags.begin() && above != lags.end()) {
       const auto i = static_cast<std::size_t>(above - lags.begin());

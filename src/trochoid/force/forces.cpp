@@ -1,11 +1,11 @@
 #include <trochoid/force/forces.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <unordered_map>
 #include <variant>
@@ -14,43 +14,35 @@ namespace trochoid::force {
 
 namespace {
 
-using Weights = std::array<std::array<double, 6>, 3>;
-
-/// Rows of [C]{K} in terms of the edge moments of a cylinder.
-Weights moment_weights(const Law& law) {
-  const std::vector<double> K = coefficients(law);
-  if (K.size() == 6) {
-    return {{{-K[1], -K[0], 0, -K[4], -K[3], 0},
-             {K[0], -K[1], 0, K[3], -K[4], 0},
-             {0, 0, -K[2], 0, 0, -K[5]}}};
-  }
-  return {
-      {{0, -K[0], -K[1], 0, 0, 0}, {K[0], 0, 0, -K[1], 0, 0}, {0, 0, 0, 0, -K[2], 0}}};
+MomentWeights moment_weights(const Law& law) {
+  std::vector<double> K = coefficients(law);
+  K.resize(6);  // no edge forces: zeros
+  return {{{0, -K[0], -K[1], 0, 0, -K[4], -K[3], 0},
+           {K[0], 0, 0, -K[1], 0, K[3], -K[4], 0},
+           {0, 0, 0, 0, -K[2], 0, 0, -K[5]}}};
 }
 
+/// @param columns  3, or 6 with edge forces
 void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noexcept {
-  if (columns == 6) {
-    const std::array<double, 18> rows{-m[1], -m[0], 0,     -m[4], -m[3], 0,
-                                      m[0],  -m[1], 0,     m[3],  -m[4], 0,
-                                      0,     0,     -m[2], 0,     0,     -m[5]};
-    std::copy(rows.begin(), rows.end(), C);
-  } else {
-    const std::array<double, 9> rows{-m[1], -m[2], 0, m[0], -m[3], 0, 0, 0, -m[4]};
-    std::copy(rows.begin(), rows.end(), C);
+  const std::array<std::array<double, 6>, 3> rows = {
+      {{-m[1], -m[2], 0, -m[6], -m[5], 0},
+       {m[0], -m[3], 0, m[5], -m[6], 0},
+       {0, 0, -m[4], 0, 0, -m[7]}}};
+  for (const auto& row : rows) {
+    C = std::copy_n(row.begin(), columns, C);
   }
 }
 
 /// @brief Evaluate once for every angle of a turn; turns repeat to the last digit.
 template <class Value, class Evaluate>
 std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
-  constexpr double turn = 2 * std::numbers::pi;
   constexpr double same = 1e-11;  // angles closer than this are one angle [rad]
   std::unordered_map<long long, std::size_t> seen;
   std::vector<double> angles;      // different ones
   std::vector<std::size_t> place;  // which of them is the i-th
   place.reserve(phi.size());
   for (const double angle : phi) {
-    const double u = angle - turn * std::floor(angle / turn);
+    const double u = angle - unit::turn * std::floor(angle / unit::turn);
     const auto [at, is_new] = seen.try_emplace(std::llround(u / same), angles.size());
     if (is_new) {
       angles.push_back(u);
@@ -71,18 +63,18 @@ std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evalu
 }  // namespace
 
 struct ForceMatrix::Parts {
-  Law law;
+  std::size_t columns;
   std::variant<CumulativeForce, AxialForce> method;
 };
 
 ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance)
     : parts_(std::make_shared<const Parts>(
-          CumulativeForce::serves(setup)
-              ? Parts{law, CumulativeForce(setup, law, tolerance)}
-              : Parts{law, AxialForce(setup, law, tolerance)})) {}
+          keeps_radius(setup)
+              ? Parts{form(law).columns(), CumulativeForce(setup, law, tolerance)}
+              : Parts{form(law).columns(), AxialForce(setup, law, tolerance)})) {}
 
 int ForceMatrix::columns() const noexcept {
-  return coefficient_count(parts_->law);
+  return static_cast<int>(parts_->columns);
 }
 
 void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) const {
@@ -112,7 +104,7 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance) {
-  if (CumulativeForce::serves(setup)) {
+  if (keeps_radius(setup)) {
     std::vector<Vector3> out(phi.size());
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
     return out;
@@ -132,7 +124,7 @@ std::vector<Loads> loads(const Setup& setup, const Law& law,
     const auto v = axial.loads(angle, gauge_length);
     return Loads{{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])};
   });
-  if (CumulativeForce::serves(setup)) {  // good to more digits, and costs nothing
+  if (keeps_radius(setup)) {  // good to more digits, and costs nothing
     const auto exact = forces(setup, law, phi, tolerance);
     for (std::size_t i = 0; i < loads.size(); ++i) {
       loads[i].force = exact[i];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/force/law.h>
 #include <trochoid/force/setup.h>
 
 #include <array>
@@ -10,15 +11,6 @@
 namespace trochoid::force {
 
 using Vector3 = std::array<double, 3>;
-
-/// @brief How a law's coefficients enter the force linearly: F = C K.
-///
-/// LinearEdge: K = (K_tc, K_rc, K_ac, K_te, K_re, K_ae), 6 columns. Power: for given
-/// exponents K = (K_t1, K_r1, K_a1), 3 columns.
-int coefficient_count(const Law& law);
-std::vector<double> coefficients(const Law& law);
-/// The same law with other coefficients; exponents stay.
-Law with_coefficients(const Law& law, std::span<const double> K);
 
 /// @brief The matrix [C] of eq. 19, prepared once for a setup and evaluated anywhere.
 ///

@@ -17,4 +17,13 @@ struct Setup {
   EdgeLength edge_length = EdgeLength::true_length;
 };
 
+/// @brief The runout that counts: with a chip model that feels none, there is none.
+inline geometry::Runout runout_of(const Setup& setup) {
+  return chip::feels_runout(setup.chip.model) ? setup.runout : geometry::Runout{};
+}
+
+/// @brief Whether the teeth keep radius and angle along the edge: a cylinder of constant
+/// lead whose runout is the same at every height.
+bool keeps_radius(const Setup& setup) noexcept;
+
 }  // namespace trochoid::force

@@ -1,7 +1,8 @@
 #include <trochoid/geometry/cutter.h>
 
+#include <trochoid/base/units.h>
+
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace trochoid::geometry {
@@ -25,8 +26,7 @@ Profile taper(double D, double beta, double R) {
 }
 
 std::vector<double> equal_pitch(int teeth) {
-  return std::vector<double>(static_cast<std::size_t>(teeth),
-                             2 * std::numbers::pi / teeth);
+  return std::vector<double>(static_cast<std::size_t>(teeth), unit::turn / teeth);
 }
 
 std::vector<double> tooth_angles(const Cutter& cutter) {

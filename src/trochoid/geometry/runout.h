@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace trochoid::geometry {
@@ -18,6 +19,14 @@ struct Runout {
   double angle = 0.0;  ///< lambda [rad], from the tip of tooth 1 towards tooth 2
   EccentricityOrder order = EccentricityOrder::exact;
 };
+
+/// @brief Whether the runout leaves all teeth alike.
+inline bool runs_true(const Runout& runout) noexcept {
+  const auto& offsets = runout.radial_offsets;
+  return runout.eccentricity == 0 &&
+         std::all_of(offsets.begin(), offsets.end(),
+                     [&](double offset) { return offset == offsets.front(); });
+}
 
 /// @brief Where the runout puts an edge point, seen from the axis of rotation.
 /// @eq G-1 x = R sin(theta + epsilon), y = R cos(theta + epsilon),

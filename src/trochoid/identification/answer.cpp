@@ -1,3 +1,4 @@
+#include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/answer.h>
 #include <trochoid/identification/residuals.h>
@@ -13,9 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 /// Force at every sample, shape (n).
 std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
@@ -239,6 +238,11 @@ void refuse_runout_of_one_tooth(Fit& fit) {
     fit.unidentifiable.emplace_back("eccentricity_mm", reason);
     fit.unidentifiable.emplace_back("angle_deg", reason);
   }
+}
+
+bool unidentifiable(const Fit& fit, const std::string& name) {
+  return std::ranges::any_of(fit.unidentifiable,
+                             [&](const auto& entry) { return entry.first == name; });
 }
 
 }  // namespace trochoid::identification

@@ -1,9 +1,9 @@
+#include <trochoid/base/units.h>
 #include <trochoid/identification/folded.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -11,7 +11,6 @@
 namespace trochoid::identification {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 /// Angles closer than this are the same: far above the rounding of an angle after many
 /// turns, far below what changes a force.
 constexpr double same_angle = 1e-9;
@@ -22,8 +21,8 @@ constexpr std::size_t most_angles = 4000;
 constexpr std::size_t bins_of_many = 3600;
 
 double within_turn(double angle) noexcept {
-  const double a = angle - turn * std::floor(angle / turn);
-  return a >= turn - 0.5 * same_angle ? 0.0 : a;
+  const double a = angle - unit::turn * std::floor(angle / unit::turn);
+  return a >= unit::turn - 0.5 * same_angle ? 0.0 : a;
 }
 
 /// Groups of samples at the same angle, or nearly so if there are very many angles.
@@ -44,7 +43,7 @@ std::vector<std::size_t> groups(std::span<const double> angle) {
   std::vector<std::size_t> number(bins_of_many, n);
   std::size_t next = 0;
   for (const std::size_t i : order) {
-    const auto bin = static_cast<std::size_t>(in_turn[i] / turn * bins_of_many);
+    const auto bin = static_cast<std::size_t>(in_turn[i] / unit::turn * bins_of_many);
     std::size_t& at = number[std::min(bin, bins_of_many - 1)];
     if (at == n) at = next++;
     group[i] = at;
@@ -196,7 +195,8 @@ FoldedRun coarsen(const FoldedRun& run, int bins) {
   std::vector<std::array<double, 5>> sums(count, std::array<double, 5>{});
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
     const double angle = within_turn(run.angle[g]);
-    const auto bin = std::min(count - 1, static_cast<std::size_t>(angle / turn * bins));
+    const auto bin =
+        std::min(count - 1, static_cast<std::size_t>(angle / unit::turn * bins));
     const double w = run.weight[g] * run.weight[g];
     n[bin] += w;
     for (std::size_t q = 0; q < 3; ++q) sums[bin][q] += w * run.force[g][q];

@@ -1,3 +1,4 @@
+#include <trochoid/base/index.h>
 #include <trochoid/identification/answer.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/residuals.h>
@@ -29,9 +30,7 @@ constexpr double least_explained = 0.1;
 /// its standard errors mean nothing.
 constexpr int spare_equations = 3;
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 bool finite(const Run& run) {
   const auto good = [](double v) { return std::isfinite(v); };
@@ -62,7 +61,7 @@ std::string refusal(const geometry::Cutter& cutter, std::span<const Run> runs) {
 /// coefficients: one feed, six of them.
 bool means_do_not_suffice(const Problem& problem) {
   const double f_z = problem.runs.front().cut.f_z;
-  return std::holds_alternative<force::LinearEdge>(problem.law) &&
+  return force::form(problem.law).edge &&
          std::ranges::all_of(problem.runs,
                              [&](const FoldedRun& run) { return run.cut.f_z == f_z; });
 }
@@ -106,13 +105,13 @@ Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
   Unknowns out;
   out.teeth = setup.cutter.teeth();
   out.runout =
-      options.chip_model == chip::Model::none ? RunoutUnknowns::none : options.runout;
+      chip::feels_runout(options.chip_model) ? options.runout : RunoutUnknowns::none;
   if (out.teeth == 1 && out.runout != RunoutUnknowns::fixed) {
     out.runout = RunoutUnknowns::none;
   }
   out.length = 0.0;
   for (const Run& run : runs) out.length = std::max(out.length, run.cut.f_z);
-  out.exponents = options.fit_exponents && std::holds_alternative<force::Power>(law);
+  out.exponents = options.fit_exponents && force::form(law).power;
   out.phases = options.phase ? 0 : static_cast<int>(runs.size());
   return out;
 }
@@ -127,7 +126,7 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
   if (out.unknowns.runout == RunoutUnknowns::none) out.setup.runout = {};
   for (const Run& run : runs) out.runs.push_back(fold(run, options));
   out.fixed_phase = options.phase.value_or(0.0);
-  out.columns = force::coefficient_count(law);
+  out.columns = static_cast<int>(force::form(law).columns());
   return out;
 }
 
@@ -240,7 +239,7 @@ Fit identify(const force::Setup& setup, const force::Law& law,
   fit.options = options;
   fit.chip = {options.chip_model, setup.chip.lookback};
   fit.law = law;
-  fit.coefficients.resize(index(force::coefficient_count(law)));
+  fit.coefficients.resize(force::form(law).columns());
   fit.message = refusal(setup.cutter, runs);
   if (!fit.message.empty()) return fit;
   Problem problem = problem_of(setup, law, runs, options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/estimate.h>
 #include <trochoid/force/setup.h>
 
 #include <array>
@@ -43,13 +44,7 @@ struct ChannelOffset {
   double slope = 0.0;     ///< change from the first sample to the last [N]
 };
 
-/// An estimate with its standard error and 95 % interval; absent: not identifiable.
-struct Estimate {
-  double value = 0.0;
-  double se = 0.0;
-  double low = 0.0;
-  double high = 0.0;
-};
+using base::Estimate;
 
 /// How much of the measured force a fit does not explain, as parts of its RMS from 0
 /// to 1. Constants and slopes of the channels, where they are fitted, are no force.
@@ -99,6 +94,9 @@ struct Fit {
   /// Fitted force of each run with its channel offsets, shape (n).
   std::vector<std::vector<std::array<double, 3>>> fitted;
 };
+
+/// Whether a fit says of a quantity, by its name in files, that it has no value.
+bool unidentifiable(const Fit& fit, const std::string& name);
 
 /// @brief Fit coefficients, runout and phase to all runs of one tool.
 ///

@@ -1,20 +1,18 @@
 #include <trochoid/identification/jumps.h>
 
+#include <trochoid/base/index.h>
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::identification {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
-
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 double spacing(const FoldedRun& run) {
-  return turn / static_cast<double>(run.angle.size());
+  return unit::turn / static_cast<double>(run.angle.size());
 }
 
 /// Best value of one unknown among those within reach of the present one.
@@ -92,7 +90,7 @@ void improve_around(const Problem& problem, std::size_t phase, double cell,
 
 bool sum_of_squares_jumps(const Problem& problem) {
   if (problem.unknowns.phases == 0) return false;
-  if (!std::holds_alternative<force::LinearEdge>(problem.law)) return false;
+  if (!force::form(problem.law).edge) return false;
   const geometry::Cutter& cutter = problem.setup.cutter;
   return std::ranges::any_of(problem.runs, [&](const FoldedRun& run) {
     const double lag = 2.0 * run.cut.a_p * std::tan(cutter.helix) / cutter.lag_diameter;

@@ -1,14 +1,14 @@
 #include <trochoid/identification/problem.h>
 
+#include <trochoid/base/index.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace trochoid::identification {
 namespace {
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 force::Setup setup_of(const Problem& problem, const Point& point,
                       const FoldedRun& run) {
@@ -110,10 +110,7 @@ Point point_of(const Problem& problem, std::span<const double> p) {
   }
   if (u.exponents) {
     const std::size_t at = index(u.runout_count());
-    auto& power = std::get<force::Power>(out.law);
-    power.m_t = p[at];
-    power.m_r = p[at + 1];
-    power.m_a = p[at + 2];
+    out.law = force::with_exponents(out.law, p.subspan(at).first<3>());
   }
   out.phase.assign(problem.runs.size(), problem.fixed_phase);
   for (int r = 0; r < u.phases; ++r)
@@ -140,8 +137,8 @@ std::vector<double> parameters_of(const Problem& problem, const Point& point) {
     }
   }
   if (u.exponents) {
-    const auto& power = std::get<force::Power>(point.law);
-    p.insert(p.end(), {power.m_t, power.m_r, power.m_a});
+    const auto m = force::form(point.law).m;
+    p.insert(p.end(), m.begin(), m.end());
   }
   p.insert(p.end(), point.phase.begin(), point.phase.begin() + u.phases);
   return p;

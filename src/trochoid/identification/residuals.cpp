@@ -1,3 +1,4 @@
+#include <trochoid/base/index.h>
 #include <trochoid/identification/residuals.h>
 #include <trochoid/numerics/least_squares.h>
 
@@ -8,9 +9,7 @@
 namespace trochoid::identification {
 namespace {
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 /// Sums of squares over runs [N^2].
 struct Sums {

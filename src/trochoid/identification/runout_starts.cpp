@@ -1,19 +1,18 @@
 #include <trochoid/identification/runout_starts.h>
 
+#include <trochoid/base/index.h>
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::identification {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 /// Starts for three and more teeth beyond the regular patterns.
 constexpr int scattered_starts = 16;
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 /// Offsets like those of an eccentric tool, relative to tooth 1.
 std::vector<double> eccentric_offsets(const std::vector<double>& psi, double amplitude,
@@ -49,7 +48,7 @@ void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>&
   }
   for (const double amplitude : {0.3, 0.9}) {
     for (int k = 0; k < 8; ++k) {
-      out.push_back(eccentric_offsets(psi, amplitude, 0.125 * turn * k));
+      out.push_back(eccentric_offsets(psi, amplitude, 0.125 * unit::turn * k));
     }
   }
   for (std::size_t tooth = 0; tooth < n && n <= 8; ++tooth) {
@@ -87,7 +86,7 @@ std::vector<std::vector<double>> runout_starts(const Problem& problem) {
   } else {
     for (const double rho : {0.3, 0.8}) {
       for (int k = 0; k < 6; ++k) {
-        const double lambda = turn * k / 6.0;
+        const double lambda = unit::turn * k / 6.0;
         out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
       }
     }

@@ -1,3 +1,5 @@
+#include <trochoid/base/index.h>
+#include <trochoid/base/units.h>
 #include <trochoid/identification/runout_starts.h>
 #include <trochoid/identification/scan.h>
 #include <trochoid/identification/variable_projection.h>
@@ -6,20 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::identification {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 /// Cells of the turn: 3 degrees, a fraction of
 /// what a force curve needs to show its shape.
 constexpr std::size_t cells = 120;
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 /// A run averaged over the cells of the turn.
 struct Cells {
@@ -33,7 +31,7 @@ Cells cells_of(const FoldedRun& run) {
   Cells out{std::vector<double>(cells, 0.0), std::vector<std::array<double, 3>>(cells),
             false, 0.0};
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
-    const double a = run.angle[g] / turn;
+    const double a = run.angle[g] / unit::turn;
     const auto cell =
         std::min(cells - 1, static_cast<std::size_t>((a - std::floor(a)) * cells));
     const double w = run.weight[g] * run.weight[g];
@@ -56,7 +54,7 @@ Cells cells_of(const FoldedRun& run) {
 std::vector<double> cell_angles() {
   std::vector<double> out(cells);
   for (std::size_t i = 0; i < cells; ++i) {
-    out[i] = (static_cast<double>(i) + 0.5) * turn / static_cast<double>(cells);
+    out[i] = (static_cast<double>(i) + 0.5) * unit::turn / static_cast<double>(cells);
   }
   return out;
 }
@@ -162,7 +160,7 @@ struct PhaseMinimum {
 
 std::vector<PhaseMinimum> phase_minima(const Cells& data, const Grid& grid,
                                        double span) {
-  const double width = turn / static_cast<double>(cells);
+  const double width = unit::turn / static_cast<double>(cells);
   const int half = static_cast<int>(std::ceil(0.5 * span / width));
   const bool all = 2 * half >= static_cast<int>(cells);
   const int first = all ? 0 : -half;
@@ -225,7 +223,7 @@ void scan_phases(const Problem& problem, const std::vector<Cells>& data, double 
     setup.cut = problem.runs[r].cut;
     Grid grid{std::vector<double>(cells * 3 * n), n, !problem.runs[r].drift.empty()};
     force::ForceMatrix(setup, point.law, 1e-4).evaluate(phi, grid.C);
-    minima.push_back(phase_minima(data[r], grid, r == 0 ? span : turn));
+    minima.push_back(phase_minima(data[r], grid, r == 0 ? span : unit::turn));
     if (minima.back().empty()) return;
   }
   combine(std::move(p), minima, problem.unknowns.first_phase(), out);

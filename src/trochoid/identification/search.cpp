@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/scan.h>
 #include <trochoid/identification/search.h>
@@ -5,16 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::identification {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int coarse_bins = 120;
 
 bool equal_pitch(const geometry::Cutter& cutter) {
-  const double pitch = turn / cutter.teeth();
+  const double pitch = unit::turn / cutter.teeth();
   return std::ranges::all_of(cutter.pitch,
                              [&](double p) { return std::abs(p - pitch) < 1e-9; });
 }
@@ -133,7 +132,7 @@ bool apply_gauge(const Problem& problem, std::vector<double>& p) {
   const Unknowns& u = problem.unknowns;
   if (u.phases == 0) return false;
   Point point = point_of(problem, p);
-  const double pitch = turn / u.teeth;
+  const double pitch = unit::turn / u.teeth;
   int shift = 0;
   if (teeth_are_alike(problem)) {
     const auto passed = static_cast<int>(std::floor(point.phase[0] / pitch + 0.5));
@@ -148,7 +147,7 @@ bool apply_gauge(const Problem& problem, std::vector<double>& p) {
   for (std::size_t r = 0; r < point.phase.size(); ++r) {
     double& phase = point.phase[r];
     if (r > 0 || !teeth_are_alike(problem))
-      phase -= turn * std::floor(phase / turn + 0.5);
+      phase -= unit::turn * std::floor(phase / unit::turn + 0.5);
   }
   p = parameters_of(problem, point);
   return shift != 0;
@@ -157,7 +156,7 @@ bool apply_gauge(const Problem& problem, std::vector<double>& p) {
 Minimum search(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
   if (u.count() == 0) return refine(problem, {}, {}, {});
-  const double span = teeth_are_alike(problem) ? turn / u.teeth : turn;
+  const double span = teeth_are_alike(problem) ? unit::turn / u.teeth : unit::turn;
   const Problem coarse = coarse_problem(problem);
   const std::vector<Candidate> candidates = scan(coarse, span);
   if (candidates.empty()) return {{}, 0.0, false, "no start gives a force"};

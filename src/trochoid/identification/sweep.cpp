@@ -30,7 +30,7 @@ std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
   problem.setup.chip = fit.chip;
   problem.setup.runout = fit.runout;
   problem.law = fit.ok ? fit.law : law;
-  problem.columns = force::coefficient_count(law);
+  problem.columns = static_cast<int>(force::form(law).columns());
   problem.tolerance = 1e-8;
   double samples = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {

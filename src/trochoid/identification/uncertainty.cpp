@@ -1,3 +1,4 @@
+#include <trochoid/base/index.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/least_squares.h>
@@ -20,9 +21,7 @@ constexpr Step fine_step{1e-4, 1e-5, true};
 /// Slopes to either side that differ by more than this are those of an edge.
 constexpr double edge_ratio = 3.0;
 
-std::size_t index(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+using base::index;
 
 double norm(std::span<const double> v) {
   return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
@@ -144,12 +143,10 @@ numerics::LeastSquares drop_dependent(std::span<const double> J,
 
 std::vector<std::string> names_of(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
-  const bool power = std::holds_alternative<force::Power>(problem.law);
-  std::vector<std::string> out =
-      power
-          ? std::vector<std::string>{"K_t1_MPa", "K_r1_MPa", "K_a1_MPa"}
-          : std::vector<std::string>{"K_tc_MPa",      "K_rc_MPa",      "K_ac_MPa",
-                                     "K_te_N_per_mm", "K_re_N_per_mm", "K_ae_N_per_mm"};
+  std::vector<std::string> out;
+  for (const force::Quantity& K : force::coefficient_quantities(problem.law)) {
+    out.emplace_back(K.key);
+  }
   for (int i = 0; i < problem.drift_columns(); ++i) {
     out.push_back(fmt::format("{} of channel {} in run {}",
                               i % 2 == 0 ? "offset" : "drift", i % 6 / 2 + 1,

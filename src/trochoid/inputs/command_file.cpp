@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/inputs/command_file.h>
 #include <trochoid/inputs/csv_columns.h>
 
@@ -6,15 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::inputs {
 
 namespace {
 
 using namespace std::string_view_literals;
-
-constexpr double turn = 2 * std::numbers::pi;
 
 constexpr TableKind command_kind{.noun = "a command over the angle",
                                  .files = "a CSV file",
@@ -88,15 +86,15 @@ void check_angles(const std::vector<std::size_t>& lines, CommandTable& table,
                   Problems& problems) {
   constexpr double slack = 1e-9;
   for (std::size_t i = 1; i < table.angle.size() && !problems.full(); ++i) {
-    const double before = table.angle[i - 1] / turn * 360;
-    const double here = table.angle[i] / turn * 360;
+    const double before = table.angle[i - 1] / unit::turn * 360;
+    const double here = table.angle[i] / unit::turn * 360;
     if (here <= before) {
       problems.add(
           lines[i], 1,
           fmt::format("the angle {:g} deg does not come after {:g} deg: angles "
                       "must increase",
                       here, before));
-    } else if (table.angle[i] - table.angle.front() > turn + slack) {
+    } else if (table.angle[i] - table.angle.front() > unit::turn + slack) {
       problems.add(lines[i], 1,
                    fmt::format("the angle {:g} deg lies more than a turn after the "
                                "first: one turn is needed, which repeats",
@@ -105,7 +103,7 @@ void check_angles(const std::vector<std::size_t>& lines, CommandTable& table,
     }
   }
   if (table.angle.size() > 2 &&
-      table.angle.back() - table.angle.front() > turn - slack) {
+      table.angle.back() - table.angle.front() > unit::turn - slack) {
     table.angle.pop_back();
     table.command.pop_back();
   }
@@ -147,11 +145,12 @@ CommandTable read_command(const ImposedCommand& command) {
 
 double command_at(const CommandTable& table, double angle) noexcept {
   const double from = table.angle.front();
-  const double at = from + std::fmod(std::fmod(angle - from, turn) + turn, turn);
+  const double at =
+      from + std::fmod(std::fmod(angle - from, unit::turn) + unit::turn, unit::turn);
   const auto next = std::upper_bound(table.angle.begin(), table.angle.end(), at);
   const auto k = static_cast<std::size_t>(next - table.angle.begin()) - 1;
   const bool last = k + 1 == table.angle.size();
-  const double to = last ? from + turn : table.angle[k + 1];
+  const double to = last ? from + unit::turn : table.angle[k + 1];
   const double end = last ? table.command.front() : table.command[k + 1];
   const double share = (at - table.angle[k]) / (to - table.angle[k]);
   return (1 - share) * table.command[k] + share * end;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 namespace trochoid::inputs {
 
@@ -34,7 +33,7 @@ constexpr std::array units = {
     Unit{"\xC2\xB0", Quantity::angle, unit::deg},
     Unit{"\xB0", Quantity::angle, unit::deg},
     Unit{"rad", Quantity::angle, 1.0},
-    Unit{"rev", Quantity::angle, 2.0 * std::numbers::pi},
+    Unit{"rev", Quantity::angle, unit::turn},
     Unit{"m", Quantity::length, 1.0},
     Unit{"mm", Quantity::length, unit::mm},
     Unit{"um", Quantity::length, unit::um},

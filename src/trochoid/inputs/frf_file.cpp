@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <span>
 
 namespace trochoid::inputs {
@@ -21,7 +20,6 @@ namespace {
 using namespace std::string_view_literals;
 using structure::ResponseKind;
 
-constexpr double Hz = 2 * std::numbers::pi;
 constexpr int frequency_response = 4;  ///< function type of a set 58
 
 constexpr TableKind frf_kind{.noun = "a frequency response",
@@ -181,14 +179,15 @@ void check_order(const std::vector<double>& omega,
   for (std::size_t i = 0; i < omega.size() && !problems.full(); ++i) {
     const std::size_t line = i < lines.size() ? lines[i] : lines.front();
     if (omega[i] < 0) {
-      problems.add(line, at,
-                   fmt::format("the frequency {:g} Hz is negative", omega[i] / Hz));
+      problems.add(
+          line, at,
+          fmt::format("the frequency {:g} Hz is negative", omega[i] / unit::Hz));
     } else if (i > 0 && omega[i] <= omega[i - 1]) {
       problems.add(
           line, at,
           fmt::format("the frequency {:g} Hz does not come after {:g} Hz: they "
                       "must increase",
-                      omega[i] / Hz, omega[i - 1] / Hz));
+                      omega[i] / unit::Hz, omega[i - 1] / unit::Hz));
     }
   }
 }
@@ -207,7 +206,7 @@ FrfFile from_table(const std::string& text, const std::string& name,
   const double factor = settle_unit(columns.unit, table.names_line, columns.unit_column,
                                     source, out, problems);
   for (const auto& row : table.rows) {
-    out.response.omega.push_back(row[columns.frequency] * Hz);
+    out.response.omega.push_back(row[columns.frequency] * unit::Hz);
     const double a = row[columns.first];
     const double b = row[columns.second];
     out.response.H.push_back(factor * (columns.polar
@@ -307,7 +306,7 @@ FrfFile from_uff(const std::string& text, const std::string& name,
     const double factor =
         settle_unit(unit_text(*set), set->line, 1, source, out, problems);
     for (std::size_t i = 0; i < set->y.size(); ++i) {
-      out.response.omega.push_back(set->x[i] * Hz);
+      out.response.omega.push_back(set->x[i] * unit::Hz);
       out.response.H.push_back(factor * set->y[i]);
     }
     check_order(out.response.omega, {set->line}, 1, problems);

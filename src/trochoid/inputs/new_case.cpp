@@ -12,6 +12,12 @@ namespace trochoid::inputs {
 
 namespace {
 
+void give(ForceTable& table, const force::LinearEdge& law) {
+  for (const auto& number : force::numbers(law)) {
+    table.numbers[number.quantity.key] = law.*number.value;
+  }
+}
+
 /// A slot like that of the paper whose model this is: 8 mm, two teeth, one 8 um short.
 void add_slot(CaseTables& t) {
   t.title = "Slot, 8 mm end mill";
@@ -61,12 +67,12 @@ CaseTables simulate_example() {
   CaseTables t;
   add_slot(t);
   t.runout.radial_offsets = {0.0, -0.008 * unit::mm};
-  t.force.K_tc = 2620 * unit::MPa;
-  t.force.K_rc = 1560 * unit::MPa;
-  t.force.K_ac = 331 * unit::MPa;
-  t.force.K_te = 7 * unit::N_per_mm;
-  t.force.K_re = 3 * unit::N_per_mm;
-  t.force.K_ae = 1 * unit::N_per_mm;
+  give(t.force, {.K_tc = 2620 * unit::MPa,
+                 .K_rc = 1560 * unit::MPa,
+                 .K_ac = 331 * unit::MPa,
+                 .K_te = 7 * unit::N_per_mm,
+                 .K_re = 3 * unit::N_per_mm,
+                 .K_ae = 1 * unit::N_per_mm});
   return t;
 }
 
@@ -75,12 +81,8 @@ CaseTables surface_example() {
   add_thin_wall(t);
   t.runout.eccentricity = 0.003 * unit::mm;
   t.runout.angle = 71 * unit::deg;
-  t.force.K_tc = 800 * unit::MPa;
-  t.force.K_rc = 300 * unit::MPa;
-  t.force.K_ac = 100 * unit::MPa;
-  t.force.K_te = 0.0;
-  t.force.K_re = 0.0;
-  t.force.K_ae = 0.0;
+  give(t.force,
+       {.K_tc = 800 * unit::MPa, .K_rc = 300 * unit::MPa, .K_ac = 100 * unit::MPa});
   return t;
 }
 
@@ -103,12 +105,7 @@ CaseTables stability_example() {
   t.cut.axial_depth = 0.5 * unit::mm;
   t.cut.feed_per_tooth = 0.05 * unit::mm;
   t.cut.spindle_speed = 10000 * unit::rpm;
-  t.force.K_tc = 600 * unit::MPa;
-  t.force.K_rc = 200 * unit::MPa;
-  t.force.K_ac = 0.0;
-  t.force.K_te = 0.0;
-  t.force.K_re = 0.0;
-  t.force.K_ae = 0.0;
+  give(t.force, {.K_tc = 600 * unit::MPa, .K_rc = 200 * unit::MPa});
   Mode& mode = t.machine.modes.emplace_back();
   mode.mass = 0.03993;
   mode.frequency = 922.0;
@@ -130,12 +127,10 @@ CaseTables dynamics_example() {
   t.cut.axial_depth = 1 * unit::mm;
   t.cut.feed_per_tooth = 0.05 * unit::mm;
   t.cut.spindle_speed = 1200 * unit::rpm;
-  t.force.K_tc = 800 * unit::MPa;
-  t.force.K_rc = 300 * unit::MPa;
-  t.force.K_ac = 0.0;
-  t.force.K_te = 5 * unit::N_per_mm;
-  t.force.K_re = 3 * unit::N_per_mm;
-  t.force.K_ae = 0.0;
+  give(t.force, {.K_tc = 800 * unit::MPa,
+                 .K_rc = 300 * unit::MPa,
+                 .K_te = 5 * unit::N_per_mm,
+                 .K_re = 3 * unit::N_per_mm});
   t.sampling.revolutions = 20;
   for (const Axis axis : {Axis::x, Axis::y}) {
     Mode& tool = t.machine.modes.emplace_back();

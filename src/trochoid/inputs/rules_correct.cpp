@@ -1,7 +1,9 @@
 #include <trochoid/inputs/number_text.h>
 #include <trochoid/inputs/rules.h>
 
+#include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
+#include <trochoid/correction/static_fit.h>
 
 #include <fmt/core.h>
 
@@ -41,12 +43,7 @@ void check_shape(const Correction& c, Findings& findings) {
 }
 
 void check_runout_known(const CaseTables& t, Findings& findings) {
-  const geometry::Runout& r = t.runout;
-  const bool none =
-      r.eccentricity == 0 &&
-      std::all_of(r.radial_offsets.begin(), r.radial_offsets.end(),
-                  [&](double offset) { return offset == r.radial_offsets.front(); });
-  if (none && t.measurements.empty() &&
+  if (geometry::runs_true(t.runout) && t.measurements.empty() &&
       sound(findings, {"runout", "runout.radial_offsets_mm", "runout.eccentricity_mm",
                        "measurement"})) {
     report(findings, "runout",
@@ -77,7 +74,8 @@ void check_correct(CaseTables& t, Findings& findings) {
     report(findings, "measurement[2].file",
            "[[measurement]]: correct takes one record; must not be given twice");
   }
-  if (!t.measurements.empty() && t.force.law != LawKind::power &&
+  if (!t.measurements.empty() &&
+      !correction::power_near(force::law_kinds[base::index(t.force.law)]) &&
       sound(findings, {"force.law"})) {
     report(findings, "force.law",
            "force.law: correct finds the runout in a record with a power law; must be "

@@ -1,3 +1,4 @@
+#include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/meridian.h>
 #include <trochoid/inputs/number_text.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::inputs {
 
@@ -30,7 +30,7 @@ void settle_feed(CutTable& cut, const std::string& path, int teeth,
                         path + ".feed_rate_mm_per_min", path + ".feed_per_tooth_mm"})) {
     return;
   }
-  const double teeth_per_second = teeth * cut.spindle_speed / (2 * std::numbers::pi);
+  const double teeth_per_second = teeth * cut.spindle_speed / unit::turn;
   const double from_rate = *cut.feed_rate / teeth_per_second;
   const double stated = cut.feed_per_tooth.value_or(from_rate);
   if (std::abs(stated - from_rate) > feed_slack * std::max(stated, from_rate)) {
@@ -109,8 +109,8 @@ void check_windings(const CutTable& cut, const std::string& path,
       !(cutter.lag_diameter > 0)) {
     return;
   }
-  const double windings = 2 * cut.axial_depth * std::tan(cutter.helix) /
-                          (cutter.lag_diameter * 2 * std::numbers::pi);
+  const double windings =
+      2 * cut.axial_depth * std::tan(cutter.helix) / (cutter.lag_diameter * unit::turn);
   if (windings > most_windings) {
     report(findings, key,
            fmt::format("{} = {} mm: over it the edge winds {:.4g} times around the "
@@ -141,31 +141,21 @@ void check_chip(const chip::ChipModel& chip, Findings& findings) {
         fmt::format("chip.lookback = \"previous\": has no meaning for model = \"{}\"; "
                     "belongs to \"feed\" and \"trochoidal\" only (which earlier teeth "
                     "left the surface)",
-                    chip.model == chip::Model::none ? "none" : "radial"));
+                    chip::name_of(chip.model)));
   }
 }
 
 force::Law law_of(ForceTable& force, bool exponents_default) {
-  if (force.law == LawKind::linear_edge) {
-    return force::LinearEdge{.K_tc = force.K_tc.value_or(0.0),
-                             .K_rc = force.K_rc.value_or(0.0),
-                             .K_ac = force.K_ac.value_or(0.0),
-                             .K_te = force.K_te.value_or(0.0),
-                             .K_re = force.K_re.value_or(0.0),
-                             .K_ae = force.K_ae.value_or(0.0)};
-  }
   constexpr double usual_exponent = 0.25;
-  for (auto* m : {&force.m_t, &force.m_r, &force.m_a}) {
-    if (exponents_default && !*m) {
-      *m = usual_exponent;
+  force::Law law = force::law_kinds[base::index(force.law)];
+  for (const force::Quantity& quantity : force::quantities(law)) {
+    std::optional<double>& given = force.numbers[quantity.key];
+    if (exponents_default && !given && quantity.role == force::Role::exponent) {
+      given = usual_exponent;
     }
+    law = force::with_number(law, quantity.key, given.value_or(0.0));
   }
-  return force::Power{.K_t1 = force.K_t1.value_or(0.0),
-                      .K_r1 = force.K_r1.value_or(0.0),
-                      .K_a1 = force.K_a1.value_or(0.0),
-                      .m_t = force.m_t.value_or(0.0),
-                      .m_r = force.m_r.value_or(0.0),
-                      .m_a = force.m_a.value_or(0.0)};
+  return law;
 }
 
 void check_sampling(Sampling& sampling, Findings& findings) {

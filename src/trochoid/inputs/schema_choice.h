@@ -1,18 +1,26 @@
 #pragma once
 
+#include <trochoid/base/names.h>
 #include <trochoid/inputs/schema.h>
 
 namespace trochoid::inputs {
 
-/// @brief A closed choice of an enumeration whose enumerators are 0, 1, 2 ...
-template <class Enum>
-Field choice(Enum& value, std::span<const std::string_view> names) {
+/// @brief A closed choice by its place among the names: an int, or an enumeration whose
+/// enumerators are 0, 1, 2 ...
+template <class Value>
+Field choice(Value& value, std::span<const std::string_view> names) {
   return Choice{names, [&value] { return static_cast<int>(value); },
-                [&value](int i) { value = static_cast<Enum>(i); }};
+                [&value](int i) { value = static_cast<Value>(i); }};
+}
+
+/// @brief The same with the names that stand beside the enumeration (base/names.h).
+template <class Enum>
+Field choice(Enum& value) {
+  return choice(value, base::names<Enum>);
 }
 
 template <class Enum>
-Field choices(std::vector<Enum>& values, std::span<const std::string_view> names) {
+Field choices(std::vector<Enum>& values) {
   const auto get = [&values] {
     std::vector<int> all;
     all.reserve(values.size());
@@ -27,7 +35,7 @@ Field choices(std::vector<Enum>& values, std::span<const std::string_view> names
       values.push_back(static_cast<Enum>(i));
     }
   };
-  return Choices{names, get, set};
+  return Choices{base::names<Enum>, get, set};
 }
 
 }  // namespace trochoid::inputs

@@ -1,6 +1,8 @@
 #include <trochoid/inputs/schema_choice.h>
 #include <trochoid/inputs/tables.h>
 
+#include <set>
+
 namespace trochoid::inputs {
 
 namespace {
@@ -11,10 +13,6 @@ constexpr Names shapes[] = {"cylinder", "ball", "bull_nose", "taper", "apt"};
 constexpr Names lag_laws[] = {"constant_lead", "constant_helix"};
 constexpr Names orders[] = {"exact", "first"};
 constexpr Names engagements[] = {"slot", "up", "down", "band"};
-constexpr Names models[] = {"none", "feed", "radial", "trochoidal"};
-constexpr Names lookbacks[] = {"all", "previous"};
-constexpr Names laws[] = {"linear_edge", "power"};
-constexpr Names edge_lengths[] = {"true", "axial"};
 
 constexpr double longest_mm = 10000;
 
@@ -173,56 +171,61 @@ void describe(const Visitor& v, CutTable& t) {
 
 void describe(const Visitor& v, chip::ChipModel& t) {
   v({.name = "model", .meaning = "how the uncut chip thickness is computed"},
-    choice(t.model, models));
+    choice(t.model));
   v({.name = "lookback",
      .meaning = "which earlier teeth left the surface: all, or only the one before "
                 "(previous: feed and trochoidal only)"},
-    choice(t.lookback, lookbacks));
+    choice(t.lookback));
 }
 
+namespace {
+
+constexpr Range pressing = between(0, 1e6);
+constexpr Range either_sign = between(-1e6, 1e6);
+constexpr Range exponent = from_below(-0.5, 1);
+
+/// The laws that have a number of that key.
+std::vector<std::string_view> laws_with(std::string_view key) {
+  std::vector<std::string_view> laws;
+  for (const force::Law& law : force::law_kinds) {
+    for (const force::Quantity& quantity : force::quantities(law)) {
+      if (quantity.key == key) {
+        laws.push_back(force::name_of(law));
+      }
+    }
+  }
+  return laws;
+}
+
+void describe_number(const Visitor& v, const force::Quantity& quantity, ForceTable& t) {
+  const bool is_exponent = quantity.role == force::Role::exponent;
+  v({.name = quantity.key,
+     .meaning = quantity.meaning,
+     .range = is_exponent ? exponent : (quantity.signed_value ? either_sign : pressing),
+     .need = Need::coefficient,
+     .only = {"law", laws_with(quantity.key)},
+     .standard = is_exponent ? "0.25 for identify" : ""},
+    &t.numbers[quantity.key]);
+}
+
+}  // namespace
+
 void describe(const Visitor& v, ForceTable& t) {
-  v({.name = "law", .meaning = "linear_edge: K_c h + K_e; power: K_1 (h/1 mm)^(1-m)"},
-    choice(t.law, laws));
-  constexpr Range pressing = between(0, 1e6);
-  constexpr Range any = between(-1e6, 1e6);
-  const auto coefficient = [&](std::string_view name, std::string_view meaning,
-                               std::string_view law, const Range& range,
-                               std::optional<double>& value) {
-    v({.name = name,
-       .meaning = meaning,
-       .range = range,
-       .need = Need::coefficient,
-       .only = {"law", {law}}},
-      &value);
-  };
-  const auto exponent = [&](std::string_view name, std::string_view meaning,
-                            std::optional<double>& value) {
-    v({.name = name,
-       .meaning = meaning,
-       .range = from_below(-0.5, 1),
-       .need = Need::coefficient,
-       .only = {"law", {"power"}},
-       .standard = "0.25 for identify"},
-      &value);
-  };
-  coefficient("K_tc_MPa", "tangential cutting coefficient", "linear_edge", pressing,
-              t.K_tc);
-  coefficient("K_rc_MPa", "radial cutting coefficient", "linear_edge", any, t.K_rc);
-  coefficient("K_ac_MPa", "axial cutting coefficient", "linear_edge", any, t.K_ac);
-  coefficient("K_te_N_per_mm", "tangential edge coefficient", "linear_edge", any,
-              t.K_te);
-  coefficient("K_re_N_per_mm", "radial edge coefficient", "linear_edge", any, t.K_re);
-  coefficient("K_ae_N_per_mm", "axial edge coefficient", "linear_edge", any, t.K_ae);
-  coefficient("K_t1_MPa", "tangential pressure at a chip of 1 mm", "power", pressing,
-              t.K_t1);
-  exponent("m_t", "tangential exponent", t.m_t);
-  coefficient("K_r1_MPa", "radial pressure at a chip of 1 mm", "power", any, t.K_r1);
-  exponent("m_r", "radial exponent", t.m_r);
-  coefficient("K_a1_MPa", "axial pressure at a chip of 1 mm", "power", any, t.K_a1);
-  exponent("m_a", "axial exponent", t.m_a);
+  v({.name = "law",
+     .meaning = "linear_edge: K_c h + K_e; power: K_1 (h/1 mm)^(1-m); power_edge: "
+                "K_1 (h/1 mm)^(1-m) + K_e"},
+    choice(t.law, force::law_names));
+  std::set<std::string_view> seen;
+  for (const force::Law& law : force::law_kinds) {
+    for (const force::Quantity& quantity : force::quantities(law)) {
+      if (seen.insert(quantity.key).second) {
+        describe_number(v, quantity, t);
+      }
+    }
+  }
   v({.name = "edge_length",
      .meaning = "edge coefficients act per mm of true edge length or of axial depth"},
-    choice(t.edge_length, edge_lengths));
+    choice(t.edge_length));
 }
 
 }  // namespace trochoid::inputs

@@ -7,7 +7,6 @@ namespace {
 
 using Names = std::string_view;
 
-constexpr Names models[] = {"none", "feed", "radial", "trochoidal"};
 constexpr Names formats[] = {"detect", "csv", "dynoware"};
 constexpr Names runout_fits[] = {"none", "fixed", "offsets", "eccentricity"};
 constexpr Names channel_offsets[] = {"none", "idle", "fit"};
@@ -105,7 +104,7 @@ void describe(const Visitor& v, MeasurementTable& t) {
 
 void describe(const Visitor& v, IdentifyTable& t) {
   v({.name = "chip_models", .meaning = "one fit for each of these chip models"},
-    choices(t.chip_models, models));
+    choices(t.chip_models));
   v({.name = "runout",
      .meaning = "none; fixed: [runout] as it stands; or find the "
                 "radial offsets, or the eccentricity"},

@@ -3,8 +3,10 @@
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/schema.h>
 
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The tables of a case file as they are written, in
@@ -13,7 +15,6 @@ namespace trochoid::inputs {
 
 enum class Shape { cylinder, ball, bull_nose, taper, apt };
 enum class EngagementKind { slot, up, down, band };
-enum class LawKind { linear_edge, power };
 
 struct ToolTable {
   Shape shape = Shape::cylinder;
@@ -42,9 +43,9 @@ struct CutTable {
 };
 
 struct ForceTable {
-  LawKind law = LawKind::linear_edge;
-  std::optional<double> K_tc, K_rc, K_ac, K_te, K_re, K_ae;
-  std::optional<double> K_t1, m_t, K_r1, m_r, K_a1, m_a;
+  int law = 0;  ///< place in force::law_kinds
+  /// By key: every number of every law; absent: not given.
+  std::map<std::string_view, std::optional<double>> numbers = {};
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::run {
 
@@ -18,7 +17,6 @@ using Json = nlohmann::ordered_json;
 using structure::ActuatorDynamics;
 using structure::ActuatorFit;
 
-constexpr double Hz = 2 * std::numbers::pi;
 constexpr double half_interval = 1.96;  ///< of 95 %, in standard errors
 constexpr double margin = 3.0;          ///< in standard errors
 
@@ -65,7 +63,7 @@ Json result_of(const ActuatorFit& fit, double step) {
   }
   const ActuatorDynamics& d = fit.dynamics;
   result["gain"] = d.gain;
-  result["frequency_Hz"] = natural_frequency(d) / Hz;
+  result["frequency_Hz"] = natural_frequency(d) / unit::Hz;
   result["damping_ratio"] = damping_ratio(d);
   if (fit.time_constants) {
     result["time_constants_s"] = *fit.time_constants;
@@ -123,7 +121,7 @@ std::string actuator_toml(const ActuatorFit& fit) {
       "gain = {}  # standard error {:.2g}\n"
       "frequency_Hz = {}  # {:.2g}\n"
       "damping_ratio = {}  # {:.2g}\n",
-      d.gain, fit.gain_se, natural_frequency(d) / Hz, fit.frequency_se,
+      d.gain, fit.gain_se, natural_frequency(d) / unit::Hz, fit.frequency_se,
       damping_ratio(d), fit.damping_ratio_se);
 }
 
@@ -135,7 +133,7 @@ std::string short_table(const ActuatorFit& fit) {
         fmt::format("{:<34} {:>12.6g} +- {:.2g}\n", name, value, half_interval * error);
   };
   row("gain", d.gain, fit.gain_se);
-  row("natural frequency [Hz]", natural_frequency(d) / Hz, fit.frequency_se);
+  row("natural frequency [Hz]", natural_frequency(d) / unit::Hz, fit.frequency_se);
   row("damping ratio", damping_ratio(d), fit.damping_ratio_se);
   row("sum of the time constants [ms]", 1e3 * d.sum, 1e3 * fit.sum_se);
   row("product of the time constants [ms2]", 1e6 * d.product, 1e6 * fit.product_se);

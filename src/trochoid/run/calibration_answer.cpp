@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/force/forces.h>
-#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/wall_setting.h>
 
 #include <fmt/core.h>
@@ -32,12 +31,12 @@ Json estimate_json(const Estimate& e, double unit) {
 
 Json coefficients_json(const inputs::Case& given, const Estimate& K_tc,
                        const Estimate& K_rc, bool known) {
-  const auto names = coefficient_names(given.law);
+  const auto names = force::coefficient_quantities(given.law);
   if (!known) {
-    return {{names[0].key, nullptr}, {names[1].key, nullptr}};
+    return {{std::string(names[0].key), nullptr}, {std::string(names[1].key), nullptr}};
   }
-  return {{names[0].key, estimate_json(K_tc, names[0].unit)},
-          {names[1].key, estimate_json(K_rc, names[1].unit)}};
+  return {{std::string(names[0].key), estimate_json(K_tc, names[0].unit)},
+          {std::string(names[1].key), estimate_json(K_rc, names[1].unit)}};
 }
 
 Json answer_json(const inputs::Case& given, const Answer& answer) {
@@ -120,7 +119,7 @@ Json calibration_json(const inputs::Case& given,
   result["answers"] = answers;
   Json advice = Json::array();
   for (const surface::Advice& a : calibration.advice) {
-    const auto names = coefficient_names(given.law);
+    const auto names = force::coefficient_quantities(given.law);
     advice.push_back({{"height_mm", a.height / unit::mm},
                       {fmt::format("se_{}", names[0].key), a.se_K_tc / names[0].unit},
                       {fmt::format("se_{}", names[1].key), a.se_K_rc / names[1].unit}});
@@ -169,7 +168,7 @@ std::string refusal(const inputs::Case& given, const Answer& answer) {
         answer.condition);
   }
   if (answer.known[0] != 0 || answer.known[1] != 0) {
-    const auto names = coefficient_names(given.law);
+    const auto names = force::coefficient_quantities(given.law);
     text += fmt::format("; what is known: {:.3g} {} + {:.3g} {} = {:.4g} MPa",
                         answer.known[0], names[0].key, answer.known[1], names[1].key,
                         answer.combination.value / unit::MPa);
@@ -180,7 +179,7 @@ std::string refusal(const inputs::Case& given, const Answer& answer) {
 std::string calibration_table(const inputs::Case& given,
                               const surface::Calibration& calibration,
                               const surface::RunoutAnswer& runout) {
-  const auto names = coefficient_names(given.law);
+  const auto names = force::coefficient_quantities(given.law);
   std::string text =
       fmt::format("  {:<26} {:>20} {:>20} {:>8} {:>10}\n", "95 %: value +- half width",
                   names[0].key, names[1].key, "corr.", "rms um");
@@ -231,8 +230,7 @@ std::string calibrated_material(const inputs::Case& given,
                                 const surface::Calibration& calibration,
                                 const surface::RunoutAnswer& runout) {
   const Answer& chosen = calibration.answers[calibration.chosen];
-  const auto names = coefficient_names(given.law);
-  const bool power = std::holds_alternative<force::Power>(given.law);
+  const auto names = force::coefficient_quantities(given.law);
   const bool joint = runout_counts(given, runout);
   std::string text = fmt::format(
       "# Found by trochoid calibrate ({}{}). Use it in another case with\n"
@@ -241,7 +239,7 @@ std::string calibrated_material(const inputs::Case& given,
       chosen.feedback == surface::Feedback::none
           ? ""
           : fmt::format(", feedback {}", feedback_name(chosen.feedback)),
-      power ? "power" : "linear_edge");
+      force::name_of(given.law));
   const std::vector<double> known = force::coefficients(given.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     if (q < 2) {
@@ -254,12 +252,14 @@ std::string calibrated_material(const inputs::Case& given,
                           names[q].key, unit::in(known[q], names[q].unit));
     }
   }
-  if (const auto* law = std::get_if<force::Power>(&given.law)) {
-    text += fmt::format("m_t = {}\nm_r = {}\nm_a = {}\n", law->m_t, law->m_r, law->m_a);
-  } else {
-    text += fmt::format(
-        "edge_length = \"{}\"\n",
-        given.setup.edge_length == force::EdgeLength::axial ? "axial" : "true");
+  const force::Form form = force::form(given.law);
+  const auto exponents = force::exponent_quantities(given.law);
+  for (std::size_t q = 0; q < exponents.size(); ++q) {
+    text += fmt::format("{} = {}\n", exponents[q].key, form.m[q]);
+  }
+  if (form.edge) {
+    text +=
+        fmt::format("edge_length = \"{}\"\n", force::name_of(given.setup.edge_length));
   }
   if (!runout_is_seen(runout)) {
     return text + "\n# [runout]: not seen in the readings\n";

@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/run/calibration_answer.h>
-#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/wall_setting.h>
 
 #include <fmt/core.h>
@@ -21,7 +20,7 @@ using Warnings = std::vector<base::Warning>;
 /// A coefficient that is negative, or known worse than to half of itself.
 void judge_coefficients(const inputs::Case& given, const Answer& chosen,
                         Warnings& warnings) {
-  const auto names = coefficient_names(given.law);
+  const auto names = force::coefficient_quantities(given.law);
   const surface::Estimate* both[] = {&chosen.K_tc, &chosen.K_rc};
   for (std::size_t q = 0; q < 2; ++q) {
     const surface::Estimate& e = *both[q];
@@ -58,7 +57,7 @@ std::string name_of(const Answer& answer) {
 void compare_answers(const inputs::Case& given, const surface::Calibration& calibration,
                      Warnings& warnings) {
   constexpr double visible = 0.05;
-  const auto names = coefficient_names(given.law);
+  const auto names = force::coefficient_quantities(given.law);
   const Answer& chosen = calibration.answers[calibration.chosen];
   for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
     const Answer& other = calibration.answers[i];
@@ -131,7 +130,7 @@ void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout
          "that were fitted together with it."});
   } else if (runout_is_seen(runout) &&
              given.machine.surface->model == inputs::SurfaceModel::envelope) {
-    const auto names = coefficient_names(given.law);
+    const auto names = force::coefficient_quantities(given.law);
     warnings.push_back(
         {"runout_in_mean",
          fmt::format("The answer with feedback is one of means, and the mean of a real "

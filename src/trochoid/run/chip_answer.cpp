@@ -19,12 +19,9 @@ struct OwnedSlice {
     const geometry::Meridian m = geometry::meridian(setup.cutter.profile);
     const double s = geometry::arc_length_at(m, height);
     r = geometry::point_at(m, s).r;
-    if (setup.chip.model == chip::Model::none) {
-      teeth.assign(teeth.size(), {r, 0.0});
-    } else {
-      geometry::edge_positions(setup.runout, geometry::tooth_angles(setup.cutter), r,
-                               geometry::lag_at(setup.cutter, m, s).angle, teeth);
-    }
+    geometry::edge_positions(force::runout_of(setup),
+                             geometry::tooth_angles(setup.cutter), r,
+                             geometry::lag_at(setup.cutter, m, s).angle, teeth);
   }
   [[nodiscard]] chip::Slice slice() const { return {r, teeth}; }
 

@@ -1,6 +1,5 @@
 #include <trochoid/run/choose_axes.h>
 
-#include <trochoid/force/cumulative.h>
 #include <trochoid/run/fit_options.h>
 #include <trochoid/signal/axes.h>
 
@@ -69,7 +68,7 @@ std::vector<Reading> all_readings(const inputs::Case& given,
                                   const std::vector<MeasuredRun>& runs,
                                   const Progress& progress, std::string& message) {
   std::vector<Reading> readings;
-  if (force::CumulativeForce::serves(given.setup)) {
+  if (force::keeps_radius(given.setup)) {
     for (const signal::AxesClass& c : signal::axes_classes()) {
       progress("finding the axes of the dynamometer");
       const Reading first = fitted(given, runs, c.readings.front().Q, message);

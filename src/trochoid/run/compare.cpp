@@ -63,15 +63,15 @@ double best_phase(const PhasedForces& forces, std::size_t samples) {
   double best = 0.0;
   double least = INFINITY;
   for (int i = 0; i < steps; ++i) {
-    const double phase = -pi + 2 * pi * i / steps;
+    const double phase = -pi + unit::turn * i / steps;
     const double misfit = forces.misfit(phase, stride);
     if (misfit < least) {
       least = misfit;
       best = phase;
     }
   }
-  double lo = best - 2 * pi / steps;
-  double hi = best + 2 * pi / steps;
+  double lo = best - unit::turn / steps;
+  double hi = best + unit::turn / steps;
   constexpr double golden = 0.6180339887498949;
   for (int i = 0; i < 30; ++i) {
     const double a = hi - golden * (hi - lo);

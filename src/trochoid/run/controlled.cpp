@@ -1,17 +1,16 @@
 #include <trochoid/run/controlled.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/correction/online.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace trochoid::run {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double force_rate = 10e3;  ///< samples of the force for learning [Hz]
 constexpr int table_points = 720;
 /// Speeds around that of the case at which the controller runs.
@@ -32,23 +31,17 @@ TrochoidControllerConfig config_of(const CorrectionSetting& s,
   for (int i = 0; i < table_points; ++i) {
     config.table_m[i] =
         plan.limits.offset - middle +
-        correction::place_at(plan.command.wave, turn * i / table_points);
+        correction::place_at(plan.command.wave, unit::turn * i / table_points);
   }
   config.period_s = 1 / wanted.rate;
   config.max_step_s = 5 * config.period_s;
   config.slew_m_per_s = s.limits.slew.value_or(config.slew_m_per_s);
   config.fade_s = wanted.fade;
   config.ramp_s = wanted.ramp;
-  const double rps = s.cut.setup.cut.Omega / turn;
+  const double rps = s.cut.setup.cut.Omega / unit::turn;
   config.min_speed_rps = slowest * rps;
   config.max_speed_rps = fastest * rps;
   return config;
-}
-
-/// The first exponent of the law; 0 for a linear one.
-double exponent_of(const force::Law& law) {
-  const auto* power = std::get_if<force::Power>(&law);
-  return power != nullptr ? power->m_t : 0.0;
 }
 
 /// Spindle, encoder, controller and estimator, called from the simulation.
@@ -98,8 +91,8 @@ class Loop {
   void observe(double t, const std::array<double, 3>& F, double table) {
     const double phi = omega_ * t;
     table_ = table;
-    const auto n =
-        std::min(static_cast<std::size_t>(phi / turn + 1e-9), out_.turns.size() - 1);
+    const auto n = std::min(static_cast<std::size_t>(phi / unit::turn + 1e-9),
+                            out_.turns.size() - 1);
     ControlledTurn& now = out_.turns[n];
     double& peak = now.peaks[flute_at(phi)];
     peak = std::max(peak, std::abs(F[1]));
@@ -137,10 +130,10 @@ class Loop {
 
   [[nodiscard]] std::size_t flute_at(double phi) const {
     std::size_t nearest = 0;
-    double least = turn;
+    double least = unit::turn;
     for (std::size_t j = 0; j < rigid_.psi().size(); ++j) {
       const double off =
-          std::abs(std::remainder(phi - rigid_.psi()[j] - arc_middle_, turn));
+          std::abs(std::remainder(phi - rigid_.psi()[j] - arc_middle_, unit::turn));
       if (off < least) {
         least = off;
         nearest = j;
@@ -152,17 +145,18 @@ class Loop {
   void step(double time) {
     const double phi = angle_at(time);
     const double counts = wanted_.counts;
-    const double position = std::floor(phi / turn * counts) / counts;
-    const bool pulse = std::floor(phi / turn) > std::floor(angle_ / turn);
-    const bool lost = wanted_.index_lost_at > 0 && phi >= turn * wanted_.index_lost_at;
+    const double position = std::floor(phi / unit::turn * counts) / counts;
+    const bool pulse = std::floor(phi / unit::turn) > std::floor(angle_ / unit::turn);
+    const bool lost =
+        wanted_.index_lost_at > 0 && phi >= unit::turn * wanted_.index_lost_at;
     TrochoidControllerInput in{};
     in.position_rev = position;
-    in.index_position_rev = std::floor(phi / turn);
+    in.index_position_rev = std::floor(phi / unit::turn);
     in.dt_s = time - time_;
     in.speed_rps = in.dt_s > 0 ? (position - position_) / in.dt_s : 0.0;
     in.gain = gain_;
     in.index = pulse && !lost ? 1 : 0;
-    in.enable = phi >= turn * enabled_from ? 1 : 0;
+    in.enable = phi >= unit::turn * enabled_from ? 1 : 0;
     result_ = trochoid_controller_step(&controller_, &in);
     angle_ = phi;
     time_ = time;
@@ -195,11 +189,11 @@ class Loop {
     trochoid_online_defaults(&config);
     const double at = rigid_.psi()[0] + arc_middle_;
     config.teeth = static_cast<int32_t>(rigid_.psi().size());
-    config.window_start_rev = (at - turn / 4) / turn;
+    config.window_start_rev = (at - unit::turn / 4) / unit::turn;
     config.feed_per_tooth_m = s.cut.setup.cut.f_z;
     config.difference_m = correction::place_at(plan.motion, at) -
-                          correction::place_at(plan.motion, at - turn / 2);
-    config.exponent = exponent_of(s.cut.law);
+                          correction::place_at(plan.motion, at - unit::turn / 2);
+    config.exponent = force::form(s.cut.law).m[0];
     config.gain_high = trochoid_controller_gain_limit(&controller_);
     gain_ = config.gain;
     refused_online_ = trochoid_online_init(&online_, &config);
@@ -207,7 +201,8 @@ class Loop {
 
   void learn(double phi, double force) {
     const bool active = result_.state == TROCHOID_RUNNING;
-    gain_ = trochoid_online_sample(&online_, phi / turn, force, active ? 1 : 0).gain;
+    gain_ =
+        trochoid_online_sample(&online_, phi / unit::turn, force, active ? 1 : 0).gain;
   }
 
   inputs::Controller wanted_;

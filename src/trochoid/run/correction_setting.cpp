@@ -9,13 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::run {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Part of the variance that a model must explain to be believed.
 constexpr double explains_enough = 0.9;
 constexpr int slices_of_helix = 20;
@@ -46,10 +44,10 @@ std::vector<double> peaks_of(const correction::ForceRecord& record,
   std::vector<double> peaks(cut.psi().size(), 0.0);
   for (std::size_t i = 0; i < record.angle.size(); ++i) {
     std::size_t nearest = 0;
-    double least = turn;
+    double least = unit::turn;
     for (std::size_t j = 0; j < peaks.size(); ++j) {
       const double off = std::abs(
-          std::remainder(record.angle[i] + offset - cut.psi()[j] - middle, turn));
+          std::remainder(record.angle[i] + offset - cut.psi()[j] - middle, unit::turn));
       if (off < least) {
         least = off;
         nearest = j;
@@ -74,8 +72,8 @@ std::optional<correction::ForceRecord> record_of(const inputs::Case& given,
   const double first = run.angle.front();
   const double span = std::abs(run.angle.back() - first);
   const double spacing = span / static_cast<double>(run.angle.size() - 1);
-  const double whole = std::floor((span + spacing) / turn + 1e-6) * turn;
-  if (whole < turn) {
+  const double whole = std::floor((span + spacing) / unit::turn + 1e-6) * unit::turn;
+  if (whole < unit::turn) {
     message = fmt::format(
         "the record is {:.0f} deg long; a correction needs a whole "
         "turn of the spindle at least",
@@ -151,7 +149,7 @@ std::optional<CorrectionSetting> correction_setting(
     }
   } else {
     s.rho = correction::RigidCut(given.setup, given.law, 1).offsets();
-    if (as_read || std::holds_alternative<force::Power>(given.law)) {
+    if (as_read || correction::power_near(given.law)) {
       s.fit = correction::static_reading(s.cut, s.rho,
                                          {.fit_offset = false, .slices = s.cut.slices});
     }

@@ -5,16 +5,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numbers>
 
 namespace trochoid::run {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
 double angle_at(int i) {
-  return turn * i / command_points;
+  return unit::turn * i / command_points;
 }
 
 /// A text that cannot end a comment.

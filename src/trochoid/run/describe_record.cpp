@@ -7,14 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace trochoid::run {
 
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 std::string duration_text(const signal::Record& record) {
   if (record.time.size() < 2) {
@@ -30,11 +27,11 @@ std::string revolutions_text(const signal::Record& record, const geometry::Cut& 
   if (!record.angle.empty()) {
     const auto angle = signal::unwrapped(record.angle);
     return fmt::format("{:.2f} revolutions by their angles",
-                       std::abs(angle.back() - angle.front()) / turn);
+                       std::abs(angle.back() - angle.front()) / unit::turn);
   }
   const double duration = record.time.back() - record.time.front();
   return fmt::format("about {:.1f} revolutions at the stated {:g} rpm",
-                     duration * cut.Omega / turn, unit::in(cut.Omega, unit::rpm));
+                     duration * cut.Omega / unit::turn, unit::in(cut.Omega, unit::rpm));
 }
 
 /// Which column tells where the spindle stands.

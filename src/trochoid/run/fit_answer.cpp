@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/residuals.h>
-#include <trochoid/run/coefficient_names.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -34,24 +33,24 @@ Json optional_json(const std::optional<double>& value, double unit) {
 }
 
 Json runout_json(const Fit& fit) {
-  if (!fit.ok || fit.chip.model == chip::Model::none) {
+  if (!fit.ok || !chip::feels_runout(fit.chip.model)) {
     return nullptr;
   }
   Json offsets = Json::array();
   Json errors = Json::array();
   const bool found = fit.options.runout == RunoutUnknowns::offsets;
   for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
-    const bool unknown =
-        unidentifiable(fit, "radial_offsets_mm") ||
-        unidentifiable(fit, fmt::format("radial_offsets_mm[{}]", k + 1));
+    const bool unknown = identification::unidentifiable(fit, "radial_offsets_mm") ||
+                         identification::unidentifiable(
+                             fit, fmt::format("radial_offsets_mm[{}]", k + 1));
     offsets.push_back(unknown ? Json(nullptr)
                               : Json(unit::in(fit.runout.radial_offsets[k], unit::mm)));
     const bool gauge = found && k == 0 && !unknown;
     errors.push_back(gauge ? Json(0.0)
                            : optional_json(fit.radial_offsets_se[k], unit::mm));
   }
-  const bool no_rho = unidentifiable(fit, "eccentricity_mm");
-  const bool no_angle = unidentifiable(fit, "angle_deg");
+  const bool no_rho = identification::unidentifiable(fit, "eccentricity_mm");
+  const bool no_angle = identification::unidentifiable(fit, "angle_deg");
   return {{"radial_offsets_mm", offsets},
           {"radial_offsets_se_mm", errors},
           {"eccentricity_mm",
@@ -65,8 +64,9 @@ Json runout_json(const Fit& fit) {
 Json phases_json(const Fit& fit) {
   Json phases = Json::array();
   for (std::size_t r = 0; r < fit.phase.size(); ++r) {
-    const bool unknown = unidentifiable(fit, "phase_deg") ||
-                         unidentifiable(fit, fmt::format("phase_deg[{}]", r + 1));
+    const bool unknown =
+        identification::unidentifiable(fit, "phase_deg") ||
+        identification::unidentifiable(fit, fmt::format("phase_deg[{}]", r + 1));
     phases.push_back(unknown ? Json(nullptr) : Json(unit::in(fit.phase[r], unit::deg)));
   }
   return phases;
@@ -79,7 +79,7 @@ Json channel_offsets_json(const Fit& fit) {
     for (std::size_t q = 0; q < 3; ++q) {
       const auto known = [&](const char* what, double value) {
         const auto name = fmt::format("{} of channel {} in run {}", what, q + 1, r + 1);
-        return unidentifiable(fit, name) ? Json(nullptr) : Json(value);
+        return identification::unidentifiable(fit, name) ? Json(nullptr) : Json(value);
       };
       const auto& c = fit.channel_offsets[r][q];
       channels.push_back({{"constant_N", known("offset", c.constant)},
@@ -92,40 +92,28 @@ Json channel_offsets_json(const Fit& fit) {
 
 }  // namespace
 
-const char* model_name(chip::Model model) {
-  switch (model) {
-    case chip::Model::none:
-      return "none";
-    case chip::Model::feed:
-      return "feed";
-    case chip::Model::radial:
-      return "radial";
-    case chip::Model::trochoidal:
-      return "trochoidal";
-  }
-  return "";
-}
-
 Json alone_or_list(const Json& list) {
   return list.size() == 1 ? list.front() : list;
 }
 
 Json fit_json(const Fit& fit) {
-  Json out{{"chip_model", model_name(fit.chip.model)},
-           {"lookback", fit.chip.lookback == chip::Lookback::all ? "all" : "previous"},
+  Json out{{"chip_model", chip::name_of(fit.chip.model)},
+           {"lookback", chip::name_of(fit.chip.lookback)},
            {"ok", fit.ok},
            {"message", fit.message}};
   Json K;
   Json identifiable;
-  const auto names = coefficient_names(fit.law);
+  const auto names = force::coefficient_quantities(fit.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
-    K[names[q].key] = q < fit.coefficients.size() && fit.ok
-                          ? estimate_json(fit.coefficients[q], names[q].unit)
-                          : Json(nullptr);
-    identifiable[names[q].key] = !K[names[q].key].is_null();
+    const std::string key(names[q].key);
+    K[key] = q < fit.coefficients.size() && fit.ok
+                 ? estimate_json(fit.coefficients[q], names[q].unit)
+                 : Json(nullptr);
+    identifiable[key] = !K[key].is_null();
   }
+  const auto exponents = force::exponent_quantities(fit.law);
   for (std::size_t q = 0; q < fit.exponents.size(); ++q) {
-    K[exponent_names[q]] = estimate_json(fit.exponents[q], 1.0);
+    K[std::string(exponents[q].key)] = estimate_json(fit.exponents[q], 1.0);
   }
   for (const auto& [what, why] : fit.unidentifiable) {
     identifiable[what] = why;

@@ -16,7 +16,4 @@ nlohmann::ordered_json alone_or_list(const nlohmann::ordered_json& list);
 /// @brief One entry of `fits` of the summary.
 nlohmann::ordered_json fit_json(const identification::Fit& fit);
 
-/// Name of a chip model in files.
-const char* model_name(chip::Model model);
-
 }  // namespace trochoid::run

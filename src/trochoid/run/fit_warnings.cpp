@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/residuals.h>
-#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/fit_answer.h>
 #include <trochoid/run/rounded.h>
 #include <trochoid/run/trust.h>
@@ -45,8 +44,8 @@ void warn_unidentifiable(const Fit& chosen, Warnings& warnings) {
 }
 
 void warn_signs(const Fit& chosen, Warnings& warnings) {
-  const auto names = coefficient_names(chosen.law);
-  std::vector<const char*> negative;
+  const auto names = force::coefficient_quantities(chosen.law);
+  std::vector<std::string_view> negative;
   for (std::size_t q = 0; q < chosen.coefficients.size(); ++q) {
     const auto& K = chosen.coefficients[q];
     const bool along_the_axis = q % 3 == 2;  // may pull either way
@@ -65,7 +64,7 @@ void warn_signs(const Fit& chosen, Warnings& warnings) {
 
 void warn_size(const Fit& chosen, Warnings& warnings) {
   const auto& K_tc = chosen.coefficients.front();
-  if (!K_tc || !std::holds_alternative<force::LinearEdge>(chosen.law) ||
+  if (!K_tc || force::form(chosen.law).power ||
       (K_tc->value >= softest && K_tc->value <= hardest)) {
     return;
   }
@@ -123,22 +122,23 @@ void warn_other_model(std::span<const Fit> fits, const Fit& chosen,
            fmt::format("The {} chip model fits better ({:.2f} N against {:.2f} N) than "
                        "the {} one, though it is less exact: something else than the "
                        "chip shapes this record.",
-                       model_name(fit.chip.model), fit.rms, chosen.rms,
-                       model_name(chosen.chip.model))});
+                       chip::name_of(fit.chip.model), fit.rms, chosen.rms,
+                       chip::name_of(chosen.chip.model))});
     }
   }
 }
 
 void warn_large_runout(const inputs::Case& given, const Fit& chosen,
                        Warnings& warnings) {
-  if (chosen.chip.model == chip::Model::none || !(given.setup.cut.f_z > 0)) {
+  if (!chip::feels_runout(chosen.chip.model) || !(given.setup.cut.f_z > 0)) {
     return;
   }
   double lo = 0.0;
   double hi = 0.0;
   const auto& offsets = chosen.runout.radial_offsets;
   for (std::size_t k = 0; k < offsets.size(); ++k) {
-    if (!unidentifiable(chosen, fmt::format("radial_offsets_mm[{}]", k + 1))) {
+    if (!identification::unidentifiable(chosen,
+                                        fmt::format("radial_offsets_mm[{}]", k + 1))) {
       lo = std::min(lo, offsets[k]);
       hi = std::max(hi, offsets[k]);
     }
@@ -170,8 +170,8 @@ void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
   for (const Fit& fit : fits) {
     if (!fit.ok) {
       warnings.push_back(
-          {"no_fit",
-           fmt::format("chip model {}: {}", model_name(fit.chip.model), fit.message)});
+          {"no_fit", fmt::format("chip model {}: {}", chip::name_of(fit.chip.model),
+                                 fit.message)});
     }
   }
   warn_unidentifiable(chosen, warnings);

@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/residuals.h>
-#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/fit_answer.h>
 #include <trochoid/run/rounded.h>
 
@@ -33,14 +32,14 @@ std::string coefficient_text(const std::optional<Estimate>& e, double unit) {
 /// A value found with its 95 % half width; `name` as in Fit::unidentifiable.
 std::string found_text(const Fit& fit, const std::string& name, double value,
                        std::optional<double> se) {
-  if (unidentifiable(fit, name)) {
+  if (identification::unidentifiable(fit, name)) {
     return "not known";
   }
   return with_error(value, fit.interval_factor * se.value_or(0.0));
 }
 
 std::string offsets_text(const Fit& fit) {
-  if (fit.chip.model == chip::Model::none) {
+  if (!chip::feels_runout(fit.chip.model)) {
     return "-";
   }
   std::string text;
@@ -55,7 +54,7 @@ std::string offsets_text(const Fit& fit) {
 }
 
 std::string eccentricity_text(const Fit& fit) {
-  if (fit.chip.model == chip::Model::none) {
+  if (!chip::feels_runout(fit.chip.model)) {
     return "-";
   }
   const auto& se = fit.eccentricity_se;
@@ -64,7 +63,7 @@ std::string eccentricity_text(const Fit& fit) {
 }
 
 std::string direction_text(const Fit& fit) {
-  if (fit.chip.model == chip::Model::none) {
+  if (!chip::feels_runout(fit.chip.model)) {
     return "-";
   }
   const auto& se = fit.angle_se;
@@ -149,18 +148,18 @@ std::string fits_table(std::span<const Fit> fits) {
   Columns columns(fits);
   std::vector<std::string> head{"chip model (95 %: +-)"};
   for (const Fit& fit : fits) {
-    head.emplace_back(model_name(fit.chip.model));
+    head.emplace_back(chip::name_of(fit.chip.model));
   }
   columns.head(std::move(head));
-  const auto names = coefficient_names(fits.front().law);
+  const auto names = force::coefficient_quantities(fits.front().law);
   for (std::size_t q = 0; q < names.size(); ++q) {
-    columns.row(names[q].key, [&, q](const Fit& fit) {
+    columns.row(std::string(names[q].key), [&, q](const Fit& fit) {
       return coefficient_text(fit.coefficients[q], names[q].unit);
     });
   }
-  const bool exponents = std::holds_alternative<force::Power>(fits.front().law);
-  for (std::size_t q = 0; exponents && q < exponent_names.size(); ++q) {
-    columns.row(exponent_names[q], [q](const Fit& fit) {
+  const auto exponents = force::exponent_quantities(fits.front().law);
+  for (std::size_t q = 0; q < exponents.size(); ++q) {
+    columns.row(std::string(exponents[q].key), [q](const Fit& fit) {
       return q < fit.exponents.size() ? coefficient_text(fit.exponents[q], 1.0) : "-";
     });
   }

@@ -101,11 +101,11 @@ std::vector<base::Table> sweep_tables(const inputs::Case& given,
     if (!fit.ok) {
       continue;
     }
-    progress(fmt::format("sweeping the offset, {}", model_name(fit.chip.model)));
+    progress(fmt::format("sweeping the offset, {}", chip::name_of(fit.chip.model)));
     auto rms = identification::sweep(given.setup, given.law, runs, fit, offsets);
     if (rms.size() == offsets.size()) {
       table.columns.push_back(
-          {fmt::format("rms_{}_N", model_name(fit.chip.model)), std::move(rms)});
+          {fmt::format("rms_{}_N", chip::name_of(fit.chip.model)), std::move(rms)});
     }
   }
   if (table.columns.size() == 1) {
@@ -119,7 +119,7 @@ void add_curves(const inputs::Case& given, std::span<const identification::Run> 
   std::vector<ComputedForces> computed;
   for (const Fit& fit : fits) {
     if (fit.ok) {
-      computed.push_back({model_name(fit.chip.model), fit.fitted});
+      computed.push_back({std::string(chip::name_of(fit.chip.model)), fit.fitted});
     }
   }
   for (auto& table : curve_tables(runs, computed)) {
@@ -147,7 +147,7 @@ std::vector<Fit> all_fits(const inputs::Case& given,
                           const Progress& progress) {
   std::vector<Fit> fits;
   for (const chip::Model model : given.identify.chip_models) {
-    progress(fmt::format("fitting, chip model {}", model_name(model)));
+    progress(fmt::format("fitting, chip model {}", chip::name_of(model)));
     fits.push_back(identification::identify(given.setup, given.law, runs,
                                             fit_options(given, model)));
   }
@@ -162,7 +162,7 @@ std::string headline(const Fit& fit, const std::vector<MeasuredRun>& runs) {
   return fmt::format(
       "Coefficients and runout from {} samples of {} record{}; the {} model leaves "
       "{:.2f} N rms.",
-      samples, runs.size(), runs.size() == 1 ? "" : "s", model_name(fit.chip.model),
+      samples, runs.size(), runs.size() == 1 ? "" : "s", chip::name_of(fit.chip.model),
       fit.rms);
 }
 
@@ -263,7 +263,7 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
     return failed(std::move(answer), fits.back().message, result);
   }
   const Fit& chosen = fits[best];
-  result["chosen"] = model_name(chosen.chip.model);
+  result["chosen"] = chip::name_of(chosen.chip.model);
   add_curves(given, runs, fits, chosen, answer);
   for (auto& table : sweep_tables(given, runs, fits, progress)) {
     answer.tables.push_back(std::move(table));

@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/residuals.h>
-#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/trust.h>
 
 #include <fmt/core.h>
@@ -37,7 +36,6 @@ std::string runout_toml(const Fit& fit) {
 }  // namespace
 
 std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
-  const bool power = std::holds_alternative<force::Power>(fit.law);
   std::string text;
   if (const auto reasons = reasons_against(fit); !reasons.empty()) {
     text += "# " + do_not_use(reasons) + "\n\n";
@@ -51,8 +49,8 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
         identification::correlation_factor(fit.residual_correlation));
   }
   text += "\n[force]\n";
-  text += fmt::format("law = \"{}\"\n", power ? "power" : "linear_edge");
-  const auto names = coefficient_names(fit.law);
+  text += fmt::format("law = \"{}\"\n", force::name_of(fit.law));
+  const auto names = force::coefficient_quantities(fit.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     if (fit.coefficients[q]) {
       const auto& K = *fit.coefficients[q];
@@ -63,13 +61,15 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
       text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
     }
   }
-  if (const auto* law = std::get_if<force::Power>(&fit.law)) {
-    text += fmt::format("m_t = {}\nm_r = {}\nm_a = {}\n", law->m_t, law->m_r, law->m_a);
-  } else {
-    text += fmt::format("edge_length = \"{}\"\n",
-                        edge_length == force::EdgeLength::axial ? "axial" : "true");
+  const force::Form form = force::form(fit.law);
+  const auto exponents = force::exponent_quantities(fit.law);
+  for (std::size_t q = 0; q < exponents.size(); ++q) {
+    text += fmt::format("{} = {}\n", exponents[q].key, form.m[q]);
   }
-  if (fit.chip.model == chip::Model::none) {
+  if (form.edge) {
+    text += fmt::format("edge_length = \"{}\"\n", force::name_of(edge_length));
+  }
+  if (!chip::feels_runout(fit.chip.model)) {
     return text;
   }
   return text + runout_toml(fit);

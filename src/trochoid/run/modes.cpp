@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::run {
 
@@ -20,7 +19,6 @@ using structure::FittedMode;
 using structure::ModesFit;
 using structure::ResponseKind;
 
-constexpr double Hz = 2 * std::numbers::pi;
 constexpr double half_interval = 1.96;  ///< of 95 %, in standard errors
 constexpr int few_lines = 5;            ///< between the half-power points
 constexpr double poorly_explained = 0.95;
@@ -62,8 +60,8 @@ structure::ModesOptions options_of(const inputs::FrfTables& frf) {
   }
   if (frf.band.size() == 2) {
     // A line at the end of the band belongs to it, whatever rounding did to it.
-    options.from = frf.band[0] * Hz * (1 - 1e-12);
-    options.to = frf.band[1] * Hz * (1 + 1e-12);
+    options.from = frf.band[0] * unit::Hz * (1 - 1e-12);
+    options.to = frf.band[1] * unit::Hz * (1 + 1e-12);
   }
   return options;
 }
@@ -77,7 +75,7 @@ base::Table fitted_table(const ModesFit& fit, ResponseKind kind) {
     table.columns.push_back({"fitted_im_" + unit, {}});
   }
   for (std::size_t i = 0; i < fit.omega.size(); ++i) {
-    table.columns[0].values.push_back(unit::in(fit.omega[i], Hz));
+    table.columns[0].values.push_back(unit::in(fit.omega[i], unit::Hz));
     table.columns[1].values.push_back(fit.H[i].real());
     table.columns[2].values.push_back(fit.H[i].imag());
     if (fit.ok) {
@@ -89,13 +87,13 @@ base::Table fitted_table(const ModesFit& fit, ResponseKind kind) {
 }
 
 Json mode_json(const FittedMode& m) {
-  return {{"frequency_Hz", m.omega / Hz},
+  return {{"frequency_Hz", m.omega / unit::Hz},
           {"damping_ratio", m.zeta},
           {"mass_kg", m.mode.mass},
           {"stiffness_N_per_m", m.mode.stiffness},
           {"damping_Ns_per_m", m.mode.damping},
           {"se",
-           {{"frequency_Hz", m.omega_se / Hz},
+           {{"frequency_Hz", m.omega_se / unit::Hz},
             {"damping_ratio", m.zeta_se},
             {"mass_kg", m.mass_se},
             {"stiffness_N_per_m", m.stiffness_se},
@@ -112,8 +110,8 @@ Json result_of(const ModesFit& fit, ResponseKind kind) {
               {"modes", fit.ok ? modes : Json(nullptr)},
               {"lines", fit.omega.size()}};
   if (!fit.omega.empty()) {
-    result["band_Hz"] = {unit::in(fit.omega.front(), Hz),
-                         unit::in(fit.omega.back(), Hz)};
+    result["band_Hz"] = {unit::in(fit.omega.front(), unit::Hz),
+                         unit::in(fit.omega.back(), unit::Hz)};
   }
   if (fit.ok) {
     result["explained"] = fit.explained;
@@ -129,7 +127,7 @@ Json result_of(const ModesFit& fit, ResponseKind kind) {
 
 void add_warnings(const ModesFit& fit, base::Answer& answer) {
   for (const FittedMode& m : fit.modes) {
-    const std::string at = fmt::format("{:.5g} Hz", m.omega / Hz);
+    const std::string at = fmt::format("{:.5g} Hz", m.omega / unit::Hz);
     if (m.lines_in_peak < few_lines) {
       answer.warnings.push_back(
           {"few_lines",
@@ -172,7 +170,8 @@ std::string modes_toml(const ModesFit& fit, const inputs::FrfTables& frf) {
         "mass_kg = {}  # standard error {:.2g}\n"
         "stiffness_N_per_m = {}  # {:.2g}\n"
         "damping_Ns_per_m = {}  # {:.2g}\n",
-        m.omega / Hz, m.zeta, frf.body == inputs::ModeBody::table ? "table" : "tool",
+        m.omega / unit::Hz, m.zeta,
+        frf.body == inputs::ModeBody::table ? "table" : "tool",
         axes[static_cast<std::size_t>(frf.axis)], m.mode.mass, m.mass_se,
         m.mode.stiffness, m.stiffness_se, m.mode.damping, m.damping_se);
   }
@@ -189,15 +188,16 @@ std::string short_table(const ModesFit& fit, ResponseKind kind) {
   for (std::size_t r = 0; r < fit.modes.size(); ++r) {
     const FittedMode& m = fit.modes[r];
     text += fmt::format("{:>4}  {:<16}  {:<17}  {:<17}  {:<17}  {}\n", r + 1,
-                        cell(m.omega / Hz, m.omega_se / Hz), cell(m.zeta, m.zeta_se),
-                        cell(m.mode.mass, m.mass_se),
+                        cell(m.omega / unit::Hz, m.omega_se / unit::Hz),
+                        cell(m.zeta, m.zeta_se), cell(m.mode.mass, m.mass_se),
                         cell(m.mode.stiffness, m.stiffness_se),
                         cell(m.mode.damping, m.damping_se));
   }
   text += fmt::format(
       "(+-: half of a 95 % interval) from {} lines of the {}, {:.4g} to {:.4g} Hz{}\n"
       "the fit explains {:.3f} % of the power and leaves {:.3g} {} (rms)\n",
-      fit.omega.size(), words(kind).name, fit.omega.front() / Hz, fit.omega.back() / Hz,
+      fit.omega.size(), words(kind).name, fit.omega.front() / unit::Hz,
+      fit.omega.back() / unit::Hz,
       fit.residual_terms ? ", with terms for modes outside of it" : "",
       100 * fit.explained, fit.rms, words(kind).unit);
   return text;

@@ -1,24 +1,23 @@
 #include <trochoid/run/motion_problem.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/inputs/command_file.h>
 #include <trochoid/run/chip_modes.h>
 #include <trochoid/run/machine_plant.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::run {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Last turns that are returned.
 constexpr int turns_kept = 2;
 
 /// The command over one turn, from -1 to 1.
 double shape_at(inputs::CommandShape shape, double angle) {
-  const double u = angle / turn - std::floor(angle / turn);
+  const double u = angle / unit::turn - std::floor(angle / unit::turn);
   constexpr double ramp = 1.0 / 6;  // of a turn
   switch (shape) {
     case inputs::CommandShape::square:
@@ -37,8 +36,8 @@ inputs::CommandTable around_its_mean(inputs::CommandTable table) {
   double mean = 0.0;
   const std::size_t n = table.angle.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const double to = i + 1 < n ? table.angle[i + 1] : table.angle[0] + turn;
-    mean += (to - table.angle[i]) / turn *
+    const double to = i + 1 < n ? table.angle[i + 1] : table.angle[0] + unit::turn;
+    mean += (to - table.angle[i]) / unit::turn *
             (table.command[i] + table.command[(i + 1) % n]) / 2;
   }
   for (double& value : table.command) {

@@ -1,5 +1,6 @@
 #include <trochoid/run/motion_verdict.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/multiplier.h>
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace trochoid::run {
@@ -32,12 +32,8 @@ constexpr double small = 0.2;
 
 /// Equal pitch, no runout and no command: what one flute does, all do.
 bool flutes_alike(const dynamics::MotionProblem& problem) {
-  const geometry::Runout& runout = problem.setup.runout;
-  const auto& offsets = runout.radial_offsets;
   const auto& pitch = problem.setup.cutter.pitch;
-  return !problem.command && runout.eccentricity == 0 &&
-         std::all_of(offsets.begin(), offsets.end(),
-                     [&](double offset) { return offset == offsets.front(); }) &&
+  return !problem.command && geometry::runs_true(problem.setup.runout) &&
          std::all_of(pitch.begin(), pitch.end(),
                      [&](double p) { return std::abs(p - pitch.front()) < 1e-9; });
 }
@@ -93,7 +89,6 @@ Moved settled(dynamics::MotionProblem& problem, const Progress& progress) {
 
 std::optional<double> linear_growth(const inputs::Case& given,
                                     const dynamics::System& system) {
-  constexpr double turn = 2 * std::numbers::pi;
   const double Omega = given.setup.cut.Omega;
   const double fastest =
       std::accumulate(system.modes.begin(), system.modes.end(), 0.0,
@@ -105,11 +100,11 @@ std::optional<double> linear_growth(const inputs::Case& given,
   const dynamics::DirectionalModel model(given.setup, given.law, options.chip_floor,
                                          matrix_tolerance);
   const auto directional = model.at_depth(given.setup.cut.a_p);
-  if (fastest * directional.period / (turn * Omega) > most_vibrations) {
+  if (fastest * directional.period / (unit::turn * Omega) > most_vibrations) {
     return std::nullopt;
   }
   const auto mu = dynamics::multiplier(directional, system, Omega, options.tolerance);
-  return std::pow(std::abs(mu.value), turn / directional.period);
+  return std::pow(std::abs(mu.value), unit::turn / directional.period);
 }
 
 std::string chatter_message(const Moved& moved, std::optional<double> linear_growth) {

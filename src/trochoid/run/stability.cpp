@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::run {
 
@@ -100,7 +99,7 @@ double with_floor(const Point& point, double floor) {
 /// A power law has no slope at h = 0: does the verdict hang on the floor?
 void add_floor(const Point& point, std::string& verdict, base::Answer& answer,
                Json& result) {
-  if (!std::holds_alternative<force::Power>(point.given.law)) {
+  if (!force::form(point.given.law).power) {
     return;
   }
   const double half = with_floor(point, 0.5 * point.options.chip_floor);
@@ -174,7 +173,7 @@ void add_modes(const Point& point, base::Answer& answer, Json& result) {
   for (const dynamics::ChipMode& mode : point.system.modes) {
     const double omega = std::sqrt(mode.stiffness / mode.mass);
     modes.push_back({{"direction", {mode.x, mode.y}},
-                     {"frequency_Hz", omega / (2 * std::numbers::pi)},
+                     {"frequency_Hz", omega / unit::turn},
                      {"damping_ratio", 0.5 * mode.damping / (mode.mass * omega)},
                      {"mass_kg", mode.mass},
                      {"stiffness_N_per_m", mode.stiffness},

@@ -12,13 +12,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 namespace trochoid::run {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int default_heights = 21;
 
 std::vector<double> heights_of(const inputs::Case& given) {
@@ -42,7 +40,7 @@ double amplitude(const std::vector<double>& e, std::size_t cycles) {
   std::complex<double> sum = 0.0;
   for (std::size_t i = 0; i < e.size(); ++i) {
     const double angle =
-        turn * static_cast<double>(cycles * i) / static_cast<double>(e.size());
+        unit::turn * static_cast<double>(cycles * i) / static_cast<double>(e.size());
     sum += e[i] * std::polar(1.0, -angle);
   }
   return 2 * std::abs(sum) / static_cast<double>(e.size());
@@ -73,7 +71,7 @@ void fill_errors(const Pass& pass, const surface::HeightCut& cut, MapRow& row) {
     const int turns = std::max(1, static_cast<int>(std::lround(sampling.revolutions)));
     for (int n = 0; n < turns; ++n) {
       for (const surface::SurfacePoint& point : surface::imprint_errors(cut)) {
-        put(cut.x_0 + pass.feed * (point.phi / turn + n), point);
+        put(cut.x_0 + pass.feed * (point.phi / unit::turn + n), point);
       }
     }
     return;
@@ -81,7 +79,7 @@ void fill_errors(const Pass& pass, const surface::HeightCut& cut, MapRow& row) {
   const auto tips = surface::edge_places(setup, 0.0);
   for (int k = 0; k < samples; ++k) {
     if (pass.setting.model == surface::Model::quasi_static) {
-      const double phi = pass.setting.phase + turn * k / sampling.samples_per_rev;
+      const double phi = pass.setting.phase + unit::turn * k / sampling.samples_per_rev;
       const std::size_t tooth =
           surface::last_entered(tips, surface::entry_angle(setup), phi);
       put(step * k, surface::quasi_static_error(cut, tooth, phi));
@@ -135,10 +133,10 @@ void fill_forces(const Pass& pass, SurfaceMap& map) {
   for (std::size_t k = 0; k < samples; ++k) {
     const double travelled =
         named ? sampling.angles[k] - pass.setting.phase
-              : turn * static_cast<double>(k) / sampling.samples_per_rev;
+              : unit::turn * static_cast<double>(k) / sampling.samples_per_rev;
     const double phi = pass.setting.phase + travelled;
     pass.moments.value(phi, values);
-    map.forces.push_back({phi, pass.position + pass.feed * travelled / turn,
+    map.forces.push_back({phi, pass.position + pass.feed * travelled / unit::turn,
                           values[values.size() - 2], values[values.size() - 1]});
   }
 }
@@ -212,7 +210,7 @@ SurfaceMap surface_map(const inputs::Case& given, const Progress& progress) {
         side,
         setup.cutter.profile.D / 2,
         pass.feed,
-        position - pass.feed * setting.phase / turn,
+        position - pass.feed * setting.phase / unit::turn,
         surface::edge_places(setup, heights[i]),
         surface::deflection(pass.moments, std::span(rows).subspan(i * points, points),
                             side.sigma)};

@@ -1,7 +1,6 @@
 #include <trochoid/run/trust.h>
 
 #include <trochoid/identification/residuals.h>
-#include <trochoid/run/coefficient_names.h>
 #include <trochoid/run/rounded.h>
 
 #include <fmt/core.h>
@@ -28,7 +27,7 @@ std::vector<std::string> reasons_against(const Fit& fit) {
         fmt::format("{} of the force (rms{}) is not explained", percent(part),
                     banded ? ", within the harmonics that were fitted" : ""));
   }
-  const auto names = coefficient_names(fit.law);
+  const auto names = force::coefficient_quantities(fit.law);
   const auto& K_t = fit.coefficients[0];
   if (K_t && K_t->low <= 0 && K_t->high >= 0) {
     reasons.push_back(fmt::format("{} may be zero", names[0].key));

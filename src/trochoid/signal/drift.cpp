@@ -1,8 +1,9 @@
 #include <trochoid/signal/drift.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::signal {
@@ -10,7 +11,6 @@ namespace trochoid::signal {
 namespace {
 
 using Channels = std::array<std::vector<double>, 3>;
-constexpr double turn = 2.0 * std::numbers::pi;
 
 /// Consecutive whole revolutions.
 std::vector<Part> whole_turns(std::span<const double> angle) {
@@ -19,7 +19,7 @@ std::vector<Part> whole_turns(std::span<const double> angle) {
   std::size_t begin = 0;
   for (std::size_t i = 1; i < angle.size(); ++i) {
     const auto number = static_cast<double>(turns.size() + 1);
-    if (angle[i] < angle[0] + number * turn - 1e-9) continue;
+    if (angle[i] < angle[0] + number * unit::turn - 1e-9) continue;
     turns.push_back({begin, i});
     begin = i;
   }

@@ -1,16 +1,16 @@
 #include <trochoid/signal/revolutions.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::signal {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums of one bin; x from its middle, in units of its width.
@@ -30,7 +30,7 @@ struct Place {
 };
 
 Place place_of(double angle, std::size_t bins) {
-  const double turns = angle / turn;
+  const double turns = angle / unit::turn;
   const double at = (turns - std::floor(turns)) * static_cast<double>(bins);
   // An angle at the edge of two bins falls into the upper one, despite rounding.
   const double lower = std::floor(at + 1e-9);
@@ -90,7 +90,8 @@ std::vector<double> unwrapped(std::span<const double> angle) {
   double add = 0.0;
   for (std::size_t i = 1; i < out.size(); ++i) {
     const double step = angle[i] - angle[i - 1];
-    if (std::abs(step) > 0.5 * turn) add -= turn * std::round(step / turn);
+    if (std::abs(step) > 0.5 * unit::turn)
+      add -= unit::turn * std::round(step / unit::turn);
     out[i] = angle[i] + add;
   }
   return out;
@@ -107,7 +108,7 @@ OneRevolution fold(const std::array<std::vector<double>, 3>& channels,
   OneRevolution out;
   out.count.assign(b, 0);
   for (std::size_t k = 0; k < b; ++k) {
-    out.angle.push_back((static_cast<double>(k) + 0.5) * turn / bins);
+    out.angle.push_back((static_cast<double>(k) + 0.5) * unit::turn / bins);
   }
   for (std::size_t c = 0; c < 3; ++c) {
     out.mean[c].assign(b, nan);
@@ -117,9 +118,9 @@ OneRevolution fold(const std::array<std::vector<double>, 3>& channels,
   // One sample more than the last whole turn would count its angle twice.
   const double step =
       n > 1 ? (angle[n - 1] - angle[0]) / static_cast<double>(n - 1) : 0;
-  const double turns = std::floor((angle[n - 1] - angle[0] + step) / turn + 1e-9);
+  const double turns = std::floor((angle[n - 1] - angle[0] + step) / unit::turn + 1e-9);
   out.revolutions = static_cast<int>(std::clamp(turns, 0.0, 1e9));
-  const double end = turns >= 1.0 ? angle[0] + turns * turn - 0.5 * step
+  const double end = turns >= 1.0 ? angle[0] + turns * unit::turn - 0.5 * step
                                   : std::numeric_limits<double>::infinity();
   const auto bin = sums(channels, angle, end, b);
   for (std::size_t k = 0; k < b; ++k) read_bin(bin[k], k, out);

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <trochoid/base/units.h>
 #include <trochoid/signal/harmonic_fit.h>
 #include <trochoid/signal/spindle_speed.h>
 
@@ -15,7 +16,6 @@ namespace trochoid::signal {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int few_orders = 12;  ///< all of them where they hold the tooth passing
 constexpr int score_parts = 20;
 
@@ -60,7 +60,7 @@ struct Pieces {
 Pieces make_pieces(const TimedSamples& s, std::span<const int> orders, double Omega0,
                    std::size_t a_turn) {
   Pieces p{Omega0, {}, {orders.begin(), orders.end()}, {}};
-  const double span = turn / (Omega0 * static_cast<double>(a_turn));
+  const double span = unit::turn / (Omega0 * static_cast<double>(a_turn));
   const auto count = static_cast<std::size_t>((s.t.back() - s.t.front()) / span) + 1;
   p.t.resize(count);
   p.sum.resize(count * orders.size());
@@ -133,9 +133,9 @@ Candidate search_grid(const Pieces& p, const SpeedSearch& search, std::size_t a_
   };
   // A step that changes the phase of the highest order by an eighth turn at the ends.
   const auto step_of = [&](std::size_t w) {
-    const double time =
-        static_cast<double>(w) * turn / (search.Omega * static_cast<double>(a_turn));
-    return turn / (4.0 * highest * time);
+    const double time = static_cast<double>(w) * unit::turn /
+                        (search.Omega * static_cast<double>(a_turn));
+    return unit::turn / (4.0 * highest * time);
   };
   double step = step_of(width);
   const int steps = static_cast<int>(std::ceil(search.range * search.Omega / step));
@@ -207,7 +207,7 @@ SpeedEstimate spindle_speed(const Record& record, const SpeedSearch& search) {
     return refused("The record has no times, so no speed can be told.");
   }
   const double duration = record.time.back() - record.time.front();
-  const double turns = duration * search.Omega / turn;
+  const double turns = duration * search.Omega / unit::turn;
   if (turns < 2.0) {
     return refused(
         fmt::format("The record lasts {:.2f} revolutions of the stated speed; "

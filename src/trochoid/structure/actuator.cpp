@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/structure/actuator.h>
 #include <trochoid/structure/second_order.h>
 
@@ -10,18 +11,12 @@
 
 namespace trochoid::structure {
 
-namespace {
-
-constexpr double two_pi = 2 * std::numbers::pi;
-
-}  // namespace
-
 ActuatorDynamics from_time_constants(double gain, double T1, double T2) noexcept {
   return {.gain = gain, .sum = T1 + T2, .product = T1 * T2};  // M-8
 }
 
 ActuatorDynamics from_frequency(double gain, double frequency, double zeta) noexcept {
-  const double omega = two_pi * frequency;
+  const double omega = unit::turn * frequency;
   return {.gain = gain, .sum = 2 * zeta / omega, .product = 1 / (omega * omega)};
 }
 
@@ -66,7 +61,7 @@ double half_power_frequency(const ActuatorDynamics& actuator) noexcept {
   // M-12 with q = P omega^2: q^2 - 2 b q - 1 = 0
   const double b = 1 - actuator.sum * actuator.sum / (2 * actuator.product);
   const double q = b > 0 ? b + std::hypot(b, 1.0) : 1 / (std::hypot(b, 1.0) - b);
-  return std::sqrt(q / actuator.product) / two_pi;
+  return std::sqrt(q / actuator.product) / unit::turn;
 }
 
 double lag_frequency(const ActuatorDynamics& actuator, double lag) {
@@ -80,7 +75,7 @@ double lag_frequency(const ActuatorDynamics& actuator, double lag) {
   const double B = c * actuator.sum;
   const double root = std::sqrt(B * B + 4 * A * s);
   const double omega = B > 0 ? 2 * s / (B + root) : (root - B) / (2 * A);
-  return omega / two_pi;
+  return omega / unit::turn;
 }
 
 double low_frequency_delay(const ActuatorDynamics& actuator) noexcept {

@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
 #include <trochoid/structure/identify_actuator.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -203,7 +203,7 @@ void add_errors(const std::vector<double>& C, std::size_t n, double tau,
   fit.product_se = error(C, n, 0, P);
   const double zeta = damping_ratio(fit.dynamics);
   fit.damping_ratio_se = error(C, n, zeta, -zeta / 2);
-  const double frequency = natural_frequency(fit.dynamics) / (2 * std::numbers::pi);
+  const double frequency = natural_frequency(fit.dynamics) / unit::turn;
   fit.frequency_se = error(C, n, 0, frequency / 2);
   fit.start_se = n > 4 ? tau * std::sqrt(std::max(C[4 * n + 4], 0.0)) : 0.0;
   const double discriminant = S * S - 4 * P;  // M-14

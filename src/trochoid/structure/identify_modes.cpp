@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/structure/identify_modes.h>
 #include <trochoid/structure/modes_problem.h>
 #include <trochoid/structure/pole_search.h>
@@ -16,7 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double Hz = 2 * std::numbers::pi;
 constexpr int most_modes = 6;            ///< that are chosen without being asked for
 constexpr double most_damping = 0.5;     ///< more has no peak worth the name
 constexpr double worst_mass = 0.2;       ///< relative standard error
@@ -28,7 +28,7 @@ constexpr double most_turned = 50 * std::numbers::pi / 180;
 constexpr double well_explained = 0.8;
 
 std::string hertz(double omega) {
-  return fmt::format("{:.5g} Hz", omega / Hz);
+  return fmt::format("{:.5g} Hz", omega / unit::Hz);
 }
 
 FrequencyResponse in_band(const FrequencyResponse& response,

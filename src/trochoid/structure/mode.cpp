@@ -1,8 +1,8 @@
+#include <trochoid/base/units.h>
 #include <trochoid/structure/mode.h>
 #include <trochoid/structure/second_order.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace trochoid::structure {
@@ -36,7 +36,7 @@ Mode completed(const ModeGiven& given) {
     throw std::invalid_argument("completed: a value of the mode is out of range");
   }
   Mode mode;
-  const double omega = 2 * std::numbers::pi * given.frequency.value_or(0.0);
+  const double omega = unit::turn * given.frequency.value_or(0.0);
   mode.mass = given.mass ? *given.mass : *given.stiffness / (omega * omega);
   mode.stiffness = given.stiffness ? *given.stiffness : *given.mass * omega * omega;
   mode.damping = given.damping

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/estimate.h>
 #include <trochoid/surface/nominal_model.h>
 
 #include <array>
@@ -15,13 +16,7 @@ struct Datum {
   bool tilt = false;    ///< slopes along the feed and over the height
 };
 
-/// An estimate and how well it is known.
-struct Estimate {
-  double value = 0.0;
-  double se = 0.0;    ///< one standard error
-  double low = 0.0;   ///< 95 %, by Student's t
-  double high = 0.0;  ///< 95 %
-};
+using base::Estimate;
 
 /// @brief One way to read the profile, and the coefficients that follow.
 struct Answer {

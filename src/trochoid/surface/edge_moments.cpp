@@ -1,7 +1,5 @@
 #include <trochoid/surface/edge_moments.h>
 
-#include <trochoid/force/columns.h>
-#include <trochoid/force/forces.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
@@ -18,14 +16,13 @@ constexpr double relative_resolution = 1e-11;
 }  // namespace
 
 std::array<double, columns> wall_coefficients(const force::Law& law) {
-  const std::vector<double> K = force::coefficients(law);
-  return K.size() == 6 ? std::array{K[0], K[1], K[3], K[4]}
-                       : std::array{K[0], K[1], 0.0, 0.0};
+  const force::Terms terms = force::terms(law);
+  return {terms.K[0], terms.K[1], terms.K_e[0], terms.K_e[1]};
 }
 
 EdgeMoments::EdgeMoments(const force::Setup& setup, const force::Law& law,
                          const numerics::LagrangeBasis& basis)
-    : edges_(setup), law_(law), basis_(basis) {}
+    : edges_(setup), form_(force::form(law)), basis_(basis) {}
 
 void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out) const {
   std::fill(out.begin(), out.end(), 0.0);
@@ -44,7 +41,7 @@ void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out)
       return;
     }
     const force::ColumnWeights w =
-        force::column_weights(law_, state.chip.h, point.meridian.sin_kappa, point.dS);
+        force::column_weights(form_, state.chip.h, point.meridian.sin_kappa, point.dS);
     const double sine = std::sin(state.theta);
     const double cosine = std::cos(state.theta);
     const std::array<double, columns> x = {-cosine * w.cutting[0], -sine * w.cutting[1],
@@ -102,12 +99,10 @@ std::vector<double> EdgeMoments::kinks() const {
 }
 
 bool EdgeMoments::equal_teeth() const noexcept {
-  const force::Setup& s = edges_.setup;
-  const auto same = [](const std::vector<double>& v) {
-    return std::all_of(v.begin(), v.end(), [&](double x) { return x == v.front(); });
-  };
-  return same(s.cutter.pitch) && same(s.runout.radial_offsets) &&
-         s.runout.eccentricity == 0;
+  const std::vector<double>& pitch = edges_.setup.cutter.pitch;
+  return geometry::runs_true(edges_.setup.runout) &&
+         std::all_of(pitch.begin(), pitch.end(),
+                     [&](double p) { return p == pitch.front(); });
 }
 
 }  // namespace trochoid::surface

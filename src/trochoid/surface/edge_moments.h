@@ -14,7 +14,7 @@ namespace trochoid::surface {
 /// r, edge t, edge r. The axial ones do nothing there on a cylinder.
 inline constexpr std::size_t columns = 4;
 
-/// @brief Those coefficients of a law; a power law has no edge part.
+/// @brief Those coefficients of a law; 0 of the edge where it has no edge forces.
 std::array<double, columns> wall_coefficients(const force::Law& law);
 
 /// @brief How the force along the edges is spread over the height, at a spindle angle.
@@ -53,7 +53,7 @@ class EdgeMoments {
 
  private:
   force::Edges edges_;
-  force::Law law_;
+  force::Form form_;
   numerics::LagrangeBasis basis_;
 };
 

@@ -1,16 +1,15 @@
 #include <trochoid/surface/envelope.h>
 
+#include <trochoid/base/units.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace trochoid::surface {
 
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// delta is the first of up to this many functions.
 constexpr std::size_t most_functions = 8;
@@ -30,7 +29,7 @@ constexpr double near_the_wall = 1.3;
 bool angle_at(const HeightCut& cut, double R, double dx, double& t) noexcept {
   // dx = feed t/turn + slope R sin(t), by Newton's method
   const double slope = cut.side.sigma > 0 ? -1.0 : 1.0;
-  const double along = cut.feed / turn;
+  const double along = cut.feed / unit::turn;
   if (std::abs(dx) > 0.9 * R) {
     return false;
   }
@@ -54,10 +53,10 @@ std::size_t last_entered(std::span<const EdgePlace> tips, double entry,
                          double phi) noexcept {
   constexpr double slack = 1e-9;  // [rad]: just entering counts
   std::size_t tooth = 0;
-  double latest = turn;
+  double latest = unit::turn;
   for (std::size_t i = 0; i < tips.size(); ++i) {
-    double since = std::fmod(phi - tips[i].behind - entry + slack, turn);
-    since += since < 0 ? turn : 0.0;
+    double since = std::fmod(phi - tips[i].behind - entry + slack, unit::turn);
+    since += since < 0 ? unit::turn : 0.0;
     if (since < latest) {
       latest = since;
       tooth = i;
@@ -89,11 +88,11 @@ SurfacePoint envelope_error(const HeightCut& cut, double x) noexcept {
   const auto reaches = [&](std::size_t i, int turns) {
     const EdgePlace& tooth = cut.teeth[i];
     const double phi_wall = cut.side.theta + tooth.behind;
-    const double first = cut.x_0 + cut.feed * phi_wall / turn;
+    const double first = cut.x_0 + cut.feed * phi_wall / unit::turn;
     const double n = std::round((x - first) / cut.feed) + turns;
     const double dx = x - first - n * cut.feed;
     // 1 - cos(t) >= sin(t)^2/2, and |dx| <= R |sin(t)| + feed |t|/turn.
-    const double sine = dx / (tooth.R + 1.35 * cut.feed / turn);
+    const double sine = dx / (tooth.R + 1.35 * cut.feed / unit::turn);
     if (cut.R - tooth.R + 0.5 * tooth.R * sine * sine + lowest >= best.error) {
       return false;  // and the passes beyond stand higher still
     }
@@ -103,7 +102,7 @@ SurfacePoint envelope_error(const HeightCut& cut, double x) noexcept {
     }
     // As R + sigma R_i cos(theta), without its cancellation.
     const double s = std::sin(0.5 * t);
-    const double phi = phi_wall + t + n * turn;
+    const double phi = phi_wall + t + n * unit::turn;
     const double error = cut.R - tooth.R + 2 * tooth.R * s * s +
                          first_value(cut.deflection, phi);  // E-9
     if (error < best.error) {

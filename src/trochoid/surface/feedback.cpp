@@ -1,12 +1,12 @@
 #include <trochoid/surface/feedback.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/surface/scale.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::surface {
 
@@ -259,7 +259,7 @@ std::pair<double, double> difference(const Passage& passage,
   double change = 0.0;
   double peak = 0.0;
   for (int i = 0; i < samples; ++i) {
-    const double phi = 2 * std::numbers::pi * (i + 0.5) / samples;
+    const double phi = unit::turn * (i + 0.5) / samples;
     a.value(phi, x);
     b.value(phi, y);
     peak = std::max(peak, passage.largest_bend(x));

@@ -1,12 +1,12 @@
 #include <trochoid/surface/find_runout.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
 #include <trochoid/surface/datum.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::surface {
 
@@ -16,7 +16,6 @@ using Values = std::vector<double>;
 
 constexpr double um = 1e-6;    // scale of errors and runout
 constexpr double MN_m2 = 1e8;  // scale of coefficients
-constexpr double turn = 2 * std::numbers::pi;
 
 double sum_of_squares(std::span<const double> r) {
   double sum = 0.0;
@@ -188,7 +187,7 @@ State first_guess(const Problem& problem, const State& about, double amplitude) 
   std::vector<std::pair<double, State>> guesses;
   for (int i = 0; i < angles * starts; ++i) {
     State s = about;
-    const double angle = turn * (i % angles) / angles;
+    const double angle = unit::turn * (i % angles) / angles;
     s.runout = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
     s.start = problem.f_z * (i / angles) / starts;
     problem.residuals(s, forces, r);
@@ -259,7 +258,7 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
       (s * s * G(0, 0) - 2 * c * s * G(0, 1) + c * c * G(1, 1)) / (rho2 * rho2);
   answer.eccentricity = estimate(um * std::sqrt(rho2), um * um * along, freedom);
   double angle = std::atan2(s, c);
-  angle += angle < 0 ? turn : 0.0;
+  angle += angle < 0 ? unit::turn : 0.0;
   answer.angle = estimate(angle, across, freedom);
   const std::size_t k = u.start ? 3 : 2;
   if (u.start) {

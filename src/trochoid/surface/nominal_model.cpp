@@ -1,5 +1,6 @@
 #include <trochoid/surface/nominal_model.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/surface/envelope.h>
 #include <trochoid/surface/probe.h>
@@ -13,7 +14,6 @@ namespace trochoid::surface {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Points of a tooth feed over which an envelope is averaged.
 constexpr std::size_t points_per_feed = 24;
 
@@ -101,7 +101,7 @@ void NominalModel::add_largest(const numerics::PeriodicPieces& deflections,
   constexpr int samples = 24;
   std::vector<double> values(deflections.functions());
   for (int i = 0; i < samples && values.size() > columns; ++i) {
-    deflections.value(turn * (i + 0.3) / samples, values);
+    deflections.value(unit::turn * (i + 0.3) / samples, values);
     value.largest = std::max({value.largest, std::abs(values[1]), std::abs(values[2])});
   }
 }
@@ -126,7 +126,7 @@ NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments
   if (setting_.model == Model::quasi_static) {
     for (int g = 0; g < cycles; ++g) {
       const double travel = kind.travel + g * setting_.setup.cut.f_z;
-      add(setting_.phase + turn * travel / feed, 1.0 / cycles);
+      add(setting_.phase + unit::turn * travel / feed, 1.0 / cycles);
       value.error += values[0] / cycles;
     }
     return value;

@@ -1,5 +1,6 @@
 #include <trochoid/surface/tooth_model.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/surface/envelope.h>
 #include <trochoid/surface/probe.h>
@@ -9,13 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::surface {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 /// Points of a tooth feed between which an envelope is interpolated.
 constexpr std::size_t points_per_feed = 32;
 
@@ -65,7 +64,7 @@ ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings
   const double feed = setting.setup.cutter.teeth() * setting.setup.cut.f_z;
   for (const Reading& r : readings_) {
     const auto height = std::lower_bound(heights_.begin(), heights_.end(), r.height);
-    places_.push_back({.phi = setting.phase + turn * r.travel / feed,
+    places_.push_back({.phi = setting.phase + unit::turn * r.travel / feed,
                        .height = static_cast<std::size_t>(height - heights_.begin()),
                        .weights = stations_->weights(r.x)});
   }
@@ -132,7 +131,7 @@ double ToothModel::angle_of(const Place& place, const force::Setup& setup) const
     phi = side_of(setup.cut.engagement)->theta +
           edge_places(setup, heights_[place.height])[place.tooth].behind;
   }
-  return phi - turn * std::floor(phi / turn);
+  return phi - unit::turn * std::floor(phi / unit::turn);
 }
 
 ToothModel::Forces ToothModel::forces(RunoutVector runout) const {

@@ -1,10 +1,10 @@
+#include <trochoid/base/units.h>
 #include <trochoid/surface/turn.h>
 
 #include <trochoid/surface/scale.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::surface {
 
@@ -15,7 +15,7 @@ std::vector<double> largest_values(const EdgeMoments& edges, std::size_t groups,
   std::vector<double> values(groups * n);
   std::vector<double> largest(groups);
   for (int i = 0; i < samples; ++i) {
-    f(2 * std::numbers::pi * (i + 0.3) / samples, values);
+    f(unit::turn * (i + 0.3) / samples, values);
     for (std::size_t k = 0; k < values.size(); ++k) {
       largest[k / n] = std::max(largest[k / n], std::abs(values[k]));
     }
@@ -26,10 +26,9 @@ std::vector<double> largest_values(const EdgeMoments& edges, std::size_t groups,
 numerics::PeriodicPieces::Options panels_for(const EdgeMoments& edges, bool repeats,
                                              std::span<const double> largest,
                                              double tolerance) {
-  constexpr double turn = 2 * std::numbers::pi;
   constexpr double longest = 0.35;
   numerics::PeriodicPieces::Options options{
-      .period = repeats ? edges.setup().cutter.pitch.front() : turn,
+      .period = repeats ? edges.setup().cutter.pitch.front() : unit::turn,
       .breaks = edges.kinks(),
       .longest = longest,
       .shortest = 0.1 * tolerance};

@@ -2,7 +2,7 @@
 
 #include <trochoid/dynamics/engaged.h>
 #include <trochoid/dynamics/nodes.h>
-#include <trochoid/force/columns.h>
+#include <trochoid/force/law.h>
 
 #include "milling_cut.h"
 
@@ -18,16 +18,11 @@ constexpr force::Power power_law{300e6, 120e6, 80e6, 0.3, 0.4, 0.2};
 /// Force in x and y per meridian length at a chip.
 std::array<double, 2> force_at(const force::Law& law, double h, double theta,
                                double sine, double cosine) {
-  const auto w = force::column_weights(law, h, sine, 1.0);
-  std::array<double, 3> K{};
-  if (const auto* linear = std::get_if<force::LinearEdge>(&law)) {
-    K = {linear->K_tc, linear->K_rc, linear->K_ac};
-  } else {
-    K = {power_law.K_t1, power_law.K_r1, power_law.K_a1};
-  }
-  const double t = K[0] * w.cutting[0];
-  const double r = K[1] * w.cutting[1];
-  const double a = K[2] * w.cutting[2];
+  const auto [form, K, K_e] = force::terms(law);
+  const auto w = force::column_weights(form, h, sine, 1.0);
+  const double t = K[0] * w.cutting[0] + K_e[0] * w.edge;
+  const double r = K[1] * w.cutting[1] + K_e[1] * w.edge;
+  const double a = K[2] * w.cutting[2] + K_e[2] * w.edge;
   const double s = std::sin(theta);
   const double c = std::cos(theta);
   return {-c * t - s * sine * r - s * cosine * a,
@@ -36,7 +31,9 @@ std::array<double, 2> force_at(const force::Law& law, double h, double theta,
 
 TEST(Gradient, IsTheDifferenceQuotientOfTheForce) {  // [D-5] [D-6] [D-7]
   const force::Law linear = force::LinearEdge{600e6, 200e6, 100e6, 5e3, 4e3, 3e3};
-  for (const force::Law& law : {linear, force::Law(power_law)}) {
+  const force::Law both =
+      force::PowerEdge{300e6, 120e6, 80e6, 0.3, 0.4, 0.2, 5e3, 4e3, 3e3};
+  for (const force::Law& law : {linear, force::Law(power_law), both}) {
     for (const double kappa : {pi / 2, 0.9}) {
       const double h = 40e-6;
       const double dh = 1e-9;
@@ -45,7 +42,7 @@ TEST(Gradient, IsTheDifferenceQuotientOfTheForce) {  // [D-5] [D-6] [D-7]
       const double cosine = std::cos(kappa);
       const auto up = force_at(law, h + dh, theta, sine, cosine);
       const auto down = force_at(law, h - dh, theta, sine, cosine);
-      const Matrix2 g = directional_gradient(law, h, theta, sine, cosine);
+      const Matrix2 g = directional_gradient(force::terms(law), h, theta, sine, cosine);
       for (std::size_t row = 0; row < 2; ++row) {
         const double slope = (up[row] - down[row]) / (2 * dh);
         EXPECT_NEAR(g[2 * row], slope * std::sin(theta), 1e-6 * std::abs(slope));
@@ -58,8 +55,8 @@ TEST(Gradient, IsTheDifferenceQuotientOfTheForce) {  // [D-5] [D-6] [D-7]
 TEST(Gradient, TurnsWithTheTooth) {  // [D-7]
   const force::Law law = benchmark_law();
   const double turn = 0.4;
-  const Matrix2 a = directional_gradient(law, 0, 1.0, 1, 0);
-  const Matrix2 b = directional_gradient(law, 0, 1.0 + turn, 1, 0);
+  const Matrix2 a = directional_gradient(force::terms(law), 0, 1.0, 1, 0);
+  const Matrix2 b = directional_gradient(force::terms(law), 0, 1.0 + turn, 1, 0);
   // Clockwise from +y towards +x: v -> Q v with Q = [c, s; -s, c].
   const double c = std::cos(turn);
   const double s = std::sin(turn);
@@ -74,7 +71,8 @@ TEST(Gradient, TurnsWithTheTooth) {  // [D-7]
 
 TEST(Gradient, APushAgainstTheWorkIsResisted) {  // [D-7]
   // In front of the tool (theta = 90 deg) more chip means a force backwards.
-  const Matrix2 g = directional_gradient(benchmark_law(), 0, pi / 2, 1, 0);
+  const Matrix2 g =
+      directional_gradient(force::terms(benchmark_law()), 0, pi / 2, 1, 0);
   EXPECT_LT(g[0], 0);
 }
 
@@ -112,7 +110,8 @@ Matrix2 by_slices(const force::Setup& setup, double phi, double from, double to)
       double theta = phi - angle - lag;
       theta -= 2 * pi * std::floor(theta / (2 * pi));
       if (theta > from && theta < to) {
-        const Matrix2 g = directional_gradient(benchmark_law(), 0, theta, 1, 0);
+        const Matrix2 g =
+            directional_gradient(force::terms(benchmark_law()), 0, theta, 1, 0);
         for (std::size_t q = 0; q < 4; ++q) {
           sum[q] += g[q] * setup.cut.a_p / slices;
         }

@@ -1,16 +1,20 @@
 #include "made_cut.h"
 
-#include <trochoid/force/columns.h>
+#include <trochoid/force/law.h>
 
 #include <gtest/gtest.h>
+
+#include <array>
+#include <set>
 
 namespace trochoid::force {
 namespace {
 
 TEST(Law, CoefficientsGoOutAndComeBack) {
-  for (const Law& law : {Law(steel()), Law(aluminium())}) {
+  for (const Law& law : {Law(steel()), Law(aluminium()), Law(both())}) {
     const auto K = coefficients(law);
-    EXPECT_EQ(static_cast<std::size_t>(coefficient_count(law)), K.size());
+    EXPECT_EQ(form(law).columns(), K.size());
+    EXPECT_EQ(coefficient_quantities(law).size(), K.size());
     std::vector<double> other(K);
     for (double& k : other) k *= 3;
     EXPECT_EQ(coefficients(with_coefficients(law, other)), other);
@@ -18,6 +22,51 @@ TEST(Law, CoefficientsGoOutAndComeBack) {
   }
   const Law kept = with_coefficients(aluminium(), std::vector{1.0, 2.0, 3.0});
   EXPECT_EQ(std::get<Power>(kept).m_r, aluminium().m_r);
+}
+
+TEST(Law, EveryNumberOfEveryLawHasAKeyOfItsOwn) {
+  std::set<std::string_view> names;
+  for (const Law& kind : law_kinds) {
+    EXPECT_TRUE(names.insert(name_of(kind)).second);
+    std::set<std::string_view> keys;
+    for (const Quantity& quantity : quantities(kind)) {
+      EXPECT_TRUE(keys.insert(quantity.key).second) << quantity.key;
+      const bool exponent = quantity.role == Role::exponent;
+      const Law changed = with_number(kind, quantity.key, 0.125);
+      EXPECT_EQ(coefficients(changed) == coefficients(kind), exponent) << quantity.key;
+      EXPECT_EQ(form(changed).m == form(kind).m, !exponent) << quantity.key;
+    }
+    EXPECT_THROW(static_cast<void>(with_number(kind, "K_xc_MPa", 1.0)),
+                 std::invalid_argument);
+  }
+}
+
+TEST(Law, ExponentsAreReplacedAndCoefficientsStay) {
+  const std::array m = {0.3, 0.2, 0.1};
+  for (const Law& law : {Law(aluminium()), Law(both())}) {
+    const Law changed = with_exponents(law, m);
+    EXPECT_EQ(form(changed).m, m);
+    EXPECT_EQ(coefficients(changed), coefficients(law));
+  }
+  EXPECT_EQ(coefficients(with_exponents(steel(), m)), coefficients(steel()));
+}
+
+TEST(Law, APowerLawWithEdgesIsThePowerLawAndTheEdges) {  // [F-9]
+  const PowerEdge law = both();
+  const Power power{law.K_t1, law.K_r1, law.K_a1, law.m_t, law.m_r, law.m_a};
+  const LinearEdge edges{0, 0, 0, law.K_te, law.K_re, law.K_ae};
+  for (const auto& profile :
+       {geometry::cylinder(8e-3), geometry::bull_nose(8e-3, 1e-3)}) {
+    MadeCut s = slot(profile, 2, 30);
+    s.runout.radial_offsets = {0.0, -8e-6};
+    const auto phi = turn(60);
+    auto sum = forces(s, power, phi, 1e-11);
+    const auto of_edges = forces(s, edges, phi, 1e-11);
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      for (std::size_t q = 0; q < 3; ++q) sum[i][q] += of_edges[i][q];
+    }
+    EXPECT_LE(difference(forces(s, law, phi, 1e-11), sum), 1e-9 * peak(sum));
+  }
 }
 
 TEST(Law, APowerOfOneIsLinearWithoutEdgeForces) {  // [F-1] [F-2]
@@ -35,11 +84,12 @@ TEST(Law, APowerOfOneIsLinearWithoutEdgeForces) {  // [F-1] [F-2]
 
 TEST(Law, AThickChipIsCheaperPerThickness) {  // [F-2]
   const auto at = [](double h) {
-    return column_weights(aluminium(), h, 1.0, 1.0).cutting[0];
+    return column_weights(form(aluminium()), h, 1.0, 1.0).cutting[0];
   };
   EXPECT_NEAR(at(h_0), h_0, 1e-18);
   EXPECT_NEAR(at(0.1 * h_0) / h_0, std::pow(0.1, 0.75), 1e-12);
-  EXPECT_EQ(column_weights(aluminium(), 1e-5, 1.0, 1.0).edge, 0.0);
+  EXPECT_EQ(column_weights(form(aluminium()), 1e-5, 1.0, 1.0).edge, 0.0);
+  EXPECT_EQ(column_weights(form(both()), 1e-5, 1.0, 1.3).edge, 1.3);
 }
 
 TEST(Law, EdgeForcesAreAsLongAsTheEdge) {  // [F-1] [G-6]

@@ -24,6 +24,10 @@ inline Power aluminium() {
   return {900e6, 400e6, 150e6, 0.25, 0.4, 0.1};
 }
 
+inline PowerEdge both() {
+  return {900e6, 400e6, 150e6, 0.25, 0.4, 0.1, 7e3, 3e3, 1e3};
+}
+
 inline Setup slot(const geometry::Profile& profile, int teeth, double helix_deg) {
   Setup out;
   out.cutter.profile = profile;

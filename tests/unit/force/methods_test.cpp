@@ -54,7 +54,7 @@ TEST(Methods, SummingOverAnglesIsSummingAlongTheEdge) {  // [F-4] [F-5]
   for (int n = 0; n < 40; ++n) {
     const MadeCut setup = random_setup(random);
     const Law law = n % 3 == 0 ? Law(aluminium()) : Law(steel());
-    ASSERT_TRUE(CumulativeForce::serves(setup));
+    ASSERT_TRUE(keeps_radius(setup));
     const auto phi = turn(48);
     const auto F = forces(setup, law, phi, 1e-10);
     EXPECT_LE(difference(F, along_the_edge(setup, law, phi)), 1e-8 * peak(F)) << n;
@@ -63,12 +63,12 @@ TEST(Methods, SummingOverAnglesIsSummingAlongTheEdge) {  // [F-4] [F-5]
 
 TEST(Methods, OneServesOnlyWhereRadiiStayTheSameAlongTheEdge) {  // [F-5]
   MadeCut s = slot(geometry::cylinder(8e-3), 2, 30);
-  EXPECT_TRUE(CumulativeForce::serves(s));
+  EXPECT_TRUE(keeps_radius(s));
   s.runout.eccentricity = 5e-6;
-  EXPECT_FALSE(CumulativeForce::serves(s));
+  EXPECT_FALSE(keeps_radius(s));
   s.cutter.helix = 0.0;
-  EXPECT_TRUE(CumulativeForce::serves(s));
-  EXPECT_FALSE(CumulativeForce::serves(slot(geometry::ball(8e-3), 2, 30)));
+  EXPECT_TRUE(keeps_radius(s));
+  EXPECT_FALSE(keeps_radius(slot(geometry::ball(8e-3), 2, 30)));
 }
 
 TEST(Methods, AHelixThatVanishesGivesTheForceOfAStraightEdge) {  // [F-5]

@@ -42,12 +42,11 @@ void expect_equal(const force::Setup& a, const force::Setup& b) {
   EXPECT_EQ(a.edge_length, b.edge_length);
 }
 
-std::array<double, 6> numbers(const force::Law& law) {
-  if (const auto* e = std::get_if<force::LinearEdge>(&law)) {
-    return {e->K_tc, e->K_rc, e->K_ac, e->K_te, e->K_re, e->K_ae};
-  }
-  const auto& p = std::get<force::Power>(law);
-  return {p.K_t1, p.K_r1, p.K_a1, p.m_t, p.m_r, p.m_a};
+std::vector<double> numbers(const force::Law& law) {
+  std::vector<double> all = force::coefficients(law);
+  const auto m = force::form(law).m;
+  all.insert(all.end(), m.begin(), m.end());
+  return all;
 }
 
 void expect_equal(const Sampling& a, const Sampling& b) {

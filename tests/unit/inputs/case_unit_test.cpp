@@ -113,6 +113,27 @@ m_a = 0.4
   EXPECT_EQ(p.m_a, 0.4);
 }
 
+TEST(CaseUnits, CoefficientsOfALawThatSharesKeysWithOthers) {
+  const Case given = CaseFolder().read(test::tool + test::cut + R"(
+[force]
+law = "power_edge"
+K_t1_MPa = 1500
+m_t = 0.2
+K_r1_MPa = 700
+m_r = 0.3
+K_a1_MPa = 300
+m_a = 0.4
+K_te_N_per_mm = 7
+K_re_N_per_mm = 3
+K_ae_N_per_mm = 1
+)");
+  const auto& law = std::get<force::PowerEdge>(given.law);
+  EXPECT_DOUBLE_EQ(law.K_r1, 700e6);
+  EXPECT_EQ(law.m_a, 0.4);
+  EXPECT_DOUBLE_EQ(law.K_te, 7e3);
+  EXPECT_DOUBLE_EQ(law.K_ae, 1e3);
+}
+
 TEST(CaseUnits, FeedRateIsFeedPerToothTimesTeethTimesSpeed) {
   std::string rate = test::slot;
   rate.replace(rate.find("feed_per_tooth_mm = 0.04"), 24,

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace trochoid::base {
+
+/// An estimate and how well it is known.
+struct Estimate {
+  double value = 0.0;
+  double se = 0.0;    ///< one standard error
+  double low = 0.0;   ///< of the 95 % interval, by Student's t
+  double high = 0.0;  ///< of the 95 % interval
+};
+
+}  // namespace trochoid::base
