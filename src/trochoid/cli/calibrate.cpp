@@ -10,7 +10,7 @@ int calibrate(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::calibrate,
                                                result_folder(options, "calibrate"));
   ProgressLine progress(options.quiet);
-  const base::Answer answer = run::calibrate(given, std::ref(progress));
+  const results::Answer answer = run::calibrate(given, std::ref(progress));
   return deliver(answer, options);
 }
 

@@ -10,7 +10,7 @@ int correct(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::correct,
                                                result_folder(options, "correct"));
   ProgressLine progress(options.quiet);
-  const base::Answer answer =
+  const results::Answer answer =
       run::correct(given, options.simulate_controller, std::ref(progress));
   return deliver(answer, options);
 }

@@ -34,7 +34,7 @@ std::filesystem::path result_folder(const Options& options,
   return folder;
 }
 
-int deliver(const base::Answer& answer, const Options& options) {
+int deliver(const results::Answer& answer, const Options& options) {
   const std::filesystem::path folder = result_folder(options, answer.command);
   const std::string summary = results::summary_json(answer);
   const std::string page = options.no_report ? "" : report::html(answer, summary);
@@ -46,11 +46,11 @@ int deliver(const base::Answer& answer, const Options& options) {
   if (options.json) {
     fmt::print("{}\n", summary);
   } else if (!options.quiet) {
-    if (!answer.title.empty()) {
-      fmt::print("{}\n\n", answer.title);
+    if (!answer.heading.title.empty()) {
+      fmt::print("{}\n\n", answer.heading.title);
     }
     fmt::print("{}", answer.short_table);
-    for (const base::Warning& warning : answer.warnings) {
+    for (const base::Warning& warning : answer.heading.warnings) {
       fmt::print("warning [{}]: {}\n", warning.code, warning.message);
     }
     fmt::print("\nresults: {}\n", folder.string());
@@ -58,10 +58,10 @@ int deliver(const base::Answer& answer, const Options& options) {
       fmt::print("report:  {}\n", (folder / "report.html").string());
     }
   }
-  if (!answer.ok) {
-    fmt::print(stderr, "trochoid {}: {}\n", answer.command, answer.message);
+  if (!answer.heading.ok) {
+    fmt::print(stderr, "trochoid {}: {}\n", answer.command, answer.heading.message);
   }
-  return answer.ok ? answered : no_answer;
+  return answer.heading.ok ? answered : no_answer;
 }
 
 ProgressLine::ProgressLine(bool quiet)

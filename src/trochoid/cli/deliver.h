@@ -1,7 +1,7 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/cli/commands.h>
+#include <trochoid/results/answer.h>
 
 #include <string>
 
@@ -12,7 +12,7 @@ std::filesystem::path result_folder(const Options& options, const std::string& c
 
 /// @brief Write the folder of an answer and print what a person wants to see.
 /// @return exit code
-int deliver(const base::Answer& answer, const Options& options);
+int deliver(const results::Answer& answer, const Options& options);
 
 /// @brief Tells a person on a terminal what takes longer than a second.
 class ProgressLine {

@@ -10,7 +10,7 @@ int dynamics(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::dynamics,
                                                result_folder(options, "dynamics"));
   ProgressLine progress(options.quiet);
-  const base::Answer answer = run::dynamics(given, std::ref(progress));
+  const results::Answer answer = run::dynamics(given, std::ref(progress));
   return deliver(answer, options);
 }
 

@@ -7,7 +7,7 @@ namespace trochoid::cli {
 int identify(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::identify,
                                                result_folder(options, "identify"));
-  base::Answer answer;
+  results::Answer answer;
   {
     ProgressLine line(options.quiet);
     answer = run::identify(given, [&line](const std::string& what) { line(what); });

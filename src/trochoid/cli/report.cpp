@@ -11,7 +11,7 @@ namespace trochoid::cli {
 
 int report(const Options& options) {
   const std::filesystem::path& folder = options.file;
-  const base::Answer answer = results::read_folder(folder);
+  const results::Answer answer = results::read_folder(folder);
   // As it stands: the numbers keep the version that made them.
   const std::string summary = results::read_summary(folder);
   try {
@@ -22,7 +22,7 @@ int report(const Options& options) {
   if (!options.quiet) {
     fmt::print("report: {}\n", (folder / "report.html").string());
   }
-  return answer.ok ? answered : no_answer;
+  return answer.heading.ok ? answered : no_answer;
 }
 
 }  // namespace trochoid::cli

@@ -10,7 +10,7 @@ int stability(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::stability,
                                                result_folder(options, "stability"));
   ProgressLine progress(options.quiet);
-  const base::Answer answer = run::stability(given, std::ref(progress));
+  const results::Answer answer = run::stability(given, std::ref(progress));
   return deliver(answer, options);
 }
 

@@ -10,7 +10,7 @@ int surface(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::surface,
                                                result_folder(options, "surface"));
   ProgressLine progress(options.quiet);
-  const base::Answer answer = run::surface(given, std::ref(progress));
+  const results::Answer answer = run::surface(given, std::ref(progress));
   return deliver(answer, options);
 }
 

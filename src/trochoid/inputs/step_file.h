@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/warning.h>
 #include <trochoid/structure/identify_actuator.h>
 
 #include <filesystem>

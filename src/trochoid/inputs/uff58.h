@@ -1,7 +1,5 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
-
 #include <array>
 #include <complex>
 #include <cstddef>

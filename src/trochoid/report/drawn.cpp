@@ -1,21 +1,17 @@
 #include <trochoid/report/drawn.h>
 
+#include <trochoid/results/json.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 namespace trochoid::report {
 
 namespace {
-
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false,
-                                   nlohmann::json::error_handler_t::replace);
-}
 
 void append_float(std::string& text, double value) {
   const auto rounded = static_cast<float>(value);
@@ -99,11 +95,12 @@ void append_table(std::string& text, const base::Table& table) {
   const std::size_t count =
       table.columns.empty() ? 0 : table.columns.front().values.size();
   const auto rows = drawn_rows(table, drawn_cells);
-  text += "{\"file\":" + quoted(table.file) + ",\"rows\":" + std::to_string(count) +
+  text += "{\"file\":" + results::json_quoted(table.file) +
+          ",\"rows\":" + std::to_string(count) +
           ",\"drawn\":" + std::to_string(rows.size()) + ",\"columns\":[";
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const auto& column = table.columns[c];
-    text += (c > 0 ? ",{\"name\":" : "{\"name\":") + quoted(column.name);
+    text += (c > 0 ? ",{\"name\":" : "{\"name\":") + results::json_quoted(column.name);
     text += ",\"values\":[";
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (i > 0) text += ',';

@@ -1,7 +1,8 @@
 #include <trochoid/report/report.h>
 
+#include <trochoid/results/json.h>
+
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include <trochoid/report/drawn.h>
@@ -49,19 +50,19 @@ std::string in_script(std::string_view json) {
   return out;
 }
 
-std::string warnings_html(const base::Answer& answer) {
-  if (answer.warnings.empty()) return {};
+std::string warnings_html(const results::Answer& answer) {
+  if (answer.heading.warnings.empty()) return {};
   std::string text =
       "<section class=\"warnings\" id=\"warnings\" "
       "data-short=\"Warnings\"><h2>Please note</h2><ul>";
-  for (const auto& warning : answer.warnings) {
+  for (const auto& warning : answer.heading.warnings) {
     text += "<li data-code=\"" + escaped(warning.code) + "\">" +
             escaped(warning.message) + "</li>";
   }
   return text + "</ul></section>";
 }
 
-std::string without_script(const base::Answer& answer) {
+std::string without_script(const results::Answer& answer) {
   std::string text = "<p>The curves of this page need JavaScript.</p>";
   if (!answer.short_table.empty()) {
     text += "<pre>" + escaped(answer.short_table) + "</pre>";
@@ -80,39 +81,44 @@ std::string page_scripts() {
   return text;
 }
 
-std::string data_json(const base::Answer& answer, const std::string& summary) {
+std::string data_json(const results::Answer& answer, const std::string& summary) {
   return in_script("{\"summary\":" + summary +
                    ",\"tables\":" + tables_json(answer.tables) + "}");
 }
 
 /// `version` or `commit` of the program that made the summary; it may be an older one.
-std::string provenance(const std::string& summary, const char* key) {
-  const auto read = nlohmann::json::parse(summary, nullptr, false);
-  if (!read.is_object()) return "unknown";
-  return read.value("trochoid", nlohmann::json::object()).value(key, "unknown");
+std::string provenance(const std::string& summary, std::string_view key) {
+  const results::Value read = results::json_value(summary);
+  const results::Value* made_by = results::find(read, "trochoid");
+  const results::Value* value =
+      made_by == nullptr ? nullptr : results::find(*made_by, key);
+  const auto* text =
+      value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+  return text == nullptr ? "unknown" : *text;
 }
 
 /// Failed, or answered with numbers that must not be used, or ok.
-std::string status(const base::Answer& answer) {
-  if (!answer.ok) return "failed";
+std::string status(const results::Answer& answer) {
+  if (!answer.heading.ok) return "failed";
   const bool doubtful =
-      std::any_of(answer.warnings.begin(), answer.warnings.end(),
+      std::any_of(answer.heading.warnings.begin(), answer.heading.warnings.end(),
                   [](const auto& warning) { return warning.code == "do_not_use"; });
   return doubtful ? "doubtful" : "ok";
 }
 
-std::string value_of(std::string_view name, const base::Answer& answer,
+std::string value_of(std::string_view name, const results::Answer& answer,
                      const std::string& summary) {
   if (name == "title") {
-    return escaped(answer.title.empty() ? answer.command : answer.title);
+    return escaped(answer.heading.title.empty() ? answer.command
+                                                : answer.heading.title);
   }
   if (name == "command") return escaped(answer.command);
   if (name == "status") return status(answer);
-  if (name == "verdict") return answer.ok ? "" : "No good answer";
-  if (name == "message") return escaped(answer.message);
+  if (name == "verdict") return answer.heading.ok ? "" : "No good answer";
+  if (name == "message") return escaped(answer.heading.message);
   if (name == "warnings") return warnings_html(answer);
   if (name == "without_script") return without_script(answer);
-  if (name == "case") return escaped(answer.case_toml);
+  if (name == "case") return escaped(answer.heading.case_toml);
   if (name == "summary") return escaped(summary);
   if (name == "version") return escaped(provenance(summary, "version"));
   if (name == "commit") return escaped(provenance(summary, "commit"));
@@ -125,7 +131,7 @@ std::string value_of(std::string_view name, const base::Answer& answer,
 
 }  // namespace
 
-std::string html(const base::Answer& answer, const std::string& summary) {
+std::string html(const results::Answer& answer, const std::string& summary) {
   std::string page;
   std::string_view rest = page_html();
   for (std::size_t mark = rest.find("{{"); mark != std::string_view::npos;

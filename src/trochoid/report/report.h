@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/results/answer.h>
 
 #include <string>
 
@@ -8,6 +8,6 @@ namespace trochoid::report {
 
 /// @brief One self-contained HTML page of an answer; it requests nothing from anywhere.
 /// @param summary  text of summary.json, shown as it stands
-std::string html(const base::Answer& answer, const std::string& summary);
+std::string html(const results::Answer& answer, const std::string& summary);
 
 }  // namespace trochoid::report

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include <trochoid/results/json.h>
 
 namespace trochoid::results {
 
@@ -42,10 +46,19 @@ bool is_ours(std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_our_summary(std::string_view text) {
+  try {
+    const Value summary = json_value(text);
+    return find(summary, "trochoid") != nullptr;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
 bool holds_our_summary(const std::filesystem::path& folder) {
   std::ifstream file(folder / "summary.json", std::ios::binary);
-  const auto summary = nlohmann::json::parse(file, nullptr, false);
-  return summary.is_object() && summary.contains("trochoid");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return is_our_summary(text);
 }
 
 }  // namespace trochoid::results

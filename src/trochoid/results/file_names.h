@@ -11,6 +11,9 @@ namespace trochoid::results {
 /// that nothing of the user's disappears with it.
 bool is_ours(std::string_view name);
 
+/// Is this the text of a summary.json that a command of ours wrote?
+bool is_our_summary(std::string_view text);
+
 /// Does the folder hold a summary.json that a command of ours wrote?
 bool holds_our_summary(const std::filesystem::path& folder);
 

@@ -36,7 +36,7 @@ void write_file(const fs::path& path, const std::string& text) {
   }
 }
 
-void check_names(const base::Answer& answer) {
+void check_names(const Answer& answer) {
   std::vector<std::string> names;
   for (const auto& table : answer.tables) names.push_back(table.file);
   for (const auto& text : answer.texts) names.push_back(text.file);
@@ -71,9 +71,9 @@ void check_replaceable(const fs::path& folder) {
   }
 }
 
-void write_files(const fs::path& folder, const base::Answer& answer,
+void write_files(const fs::path& folder, const Answer& answer,
                  const std::string& report_html) {
-  write_file(folder / "case.toml", answer.case_toml);
+  write_file(folder / "case.toml", answer.heading.case_toml);
   for (const auto& table : answer.tables) write_file(folder / table.file, csv(table));
   for (const auto& text : answer.texts) write_file(folder / text.file, text.text);
   if (!report_html.empty()) write_file(folder / "report.html", report_html);
@@ -97,7 +97,7 @@ void put_in_place(const fs::path& fresh, const fs::path& folder, const fs::path&
 
 }  // namespace
 
-void write_folder(const fs::path& folder, const base::Answer& answer,
+void write_folder(const fs::path& folder, const Answer& answer,
                   const std::string& report_html) {
   check_names(answer);
   std::error_code error;

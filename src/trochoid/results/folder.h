@@ -1,15 +1,15 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/table.h>
+#include <trochoid/results/answer.h>
 
 #include <filesystem>
 #include <string>
 
 namespace trochoid::results {
 
-/// @brief Text of summary.json (DESIGN section 4):
-/// provenance, status, warnings, result.
-std::string summary_json(const base::Answer& answer);
+/// @brief Text of summary.json: provenance, status, warnings, result.
+std::string summary_json(const Answer& answer);
 
 /// @brief CSV text of a table; every number is the shortest that reads back the same.
 std::string csv(const base::Table& table);
@@ -19,7 +19,7 @@ std::string csv(const base::Table& table);
 /// Holds case.toml, summary.json, the tables and, if not empty, report.html. An older
 /// folder of the same name is replaced only if we wrote it (it holds our summary.json).
 /// @throws std::runtime_error when the place cannot be written, or holds foreign files
-void write_folder(const std::filesystem::path& folder, const base::Answer& answer,
+void write_folder(const std::filesystem::path& folder, const Answer& answer,
                   const std::string& report_html);
 
 /// @brief Put a new report.html into a folder of ours; everything else stays as it is.
@@ -33,6 +33,6 @@ std::string read_summary(const std::filesystem::path& folder);
 
 /// @brief Read a folder back, for `report`.
 /// @throws base::InputError when it is not a folder of ours
-base::Answer read_folder(const std::filesystem::path& folder);
+Answer read_folder(const std::filesystem::path& folder);
 
 }  // namespace trochoid::results

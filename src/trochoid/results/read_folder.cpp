@@ -1,5 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/results/folder.h>
+#include <trochoid/results/json.h>
 
 #include <toml++/toml.h>
 
@@ -8,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 
 #include "file_names.h"
@@ -16,7 +17,6 @@
 namespace trochoid::results {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -83,20 +83,38 @@ std::string title_of(const std::string& case_toml) {
   }
 }
 
-void take_summary(const fs::path& path, base::Answer& answer) {
+/// The member of that name; refused where there is none.
+const Value& member(const fs::path& path, const Value& object, const char* key) {
+  const Value* value = find(object, key);
+  if (value == nullptr) refuse(path, std::string("it has no \"") + key + '"');
+  return *value;
+}
+
+template <class Wanted>
+const Wanted& part(const fs::path& path, const Value& object, const char* key) {
+  const auto* value = std::get_if<Wanted>(&member(path, object, key).data);
+  if (value == nullptr) refuse(path, std::string("\"") + key + "\" is of another kind");
+  return *value;
+}
+
+Value parsed(const fs::path& path, const std::string& text) {
   try {
-    const Json summary = Json::parse(read_summary(path.parent_path()));
-    answer.command = summary.at("command").get<std::string>();
-    answer.ok = summary.at("status") == "ok";
-    answer.message = summary.at("message").get<std::string>();
-    for (const auto& entry : summary.at("warnings")) {
-      answer.warnings.push_back({entry.at("code").get<std::string>(),
-                                 entry.at("message").get<std::string>()});
-    }
-    answer.result = summary.at("result").dump();
-  } catch (const Json::exception& error) {
+    return json_value(text);
+  } catch (const std::invalid_argument& error) {
     refuse(path, error.what());
   }
+}
+
+void take_summary(const fs::path& path, Answer& answer) {
+  const Value summary = parsed(path, read_summary(path.parent_path()));
+  answer.command = part<std::string>(path, summary, "command");
+  answer.heading.ok = part<std::string>(path, summary, "status") == "ok";
+  answer.heading.message = part<std::string>(path, summary, "message");
+  for (const Value& entry : part<Array>(path, summary, "warnings")) {
+    answer.heading.warnings.push_back({part<std::string>(path, entry, "code"),
+                                       part<std::string>(path, entry, "message")});
+  }
+  answer.result = part<Object>(path, summary, "result");
 }
 
 }  // namespace
@@ -104,18 +122,15 @@ void take_summary(const fs::path& path, base::Answer& answer) {
 std::string read_summary(const fs::path& folder) {
   const fs::path path = folder / "summary.json";
   std::string text = read_file(path);
-  const Json summary = Json::parse(text, nullptr, false);
-  if (!summary.is_object() || !summary.contains("trochoid")) {
-    refuse(path, "not a summary.json of trochoid");
-  }
+  if (!is_our_summary(text)) refuse(path, "not a summary.json of trochoid");
   return text;
 }
 
-base::Answer read_folder(const fs::path& folder) {
-  base::Answer answer;
+Answer read_folder(const fs::path& folder) {
+  Answer answer;
   take_summary(folder / "summary.json", answer);
-  answer.case_toml = read_file(folder / "case.toml");
-  answer.title = title_of(answer.case_toml);
+  answer.heading.case_toml = read_file(folder / "case.toml");
+  answer.heading.title = title_of(answer.heading.case_toml);
   std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (is_ours(entry.path().filename().string())) paths.push_back(entry.path());

@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/actuator.h>
 
 #include <trochoid/base/units.h>
@@ -87,9 +88,9 @@ Json result_of(const ActuatorFit& fit, double step) {
 }
 
 void add_warnings(const inputs::StepFile& file, const ActuatorFit& fit,
-                  base::Answer& answer) {
+                  results::Answer& answer) {
   if (fit.dynamics.gain < 0) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"negative_gain",
          "The actuator moves against its command: is the sensor reversed? "
          "actuator.toml is not written."});
@@ -101,7 +102,7 @@ void add_warnings(const inputs::StepFile& file, const ActuatorFit& fit,
   const double late = fit.start - (*change)[1];
   const double early = (*change)[0] - fit.start;
   if (std::max(late, early) > margin * fit.start_se) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"start_differs",
          fmt::format("The motion fits a step {:.3g} ms {} than the command shows it{}",
                      1e3 * std::max(late, early), late > early ? "later" : "earlier",
@@ -165,18 +166,19 @@ inputs::StepSource step_source(const inputs::StepTables& step) {
           .start = step.start};
 }
 
-base::Answer actuator(const inputs::Case& given) {
+results::Answer actuator(const inputs::Case& given) {
   const inputs::StepTables& step = *given.machine.step;
-  base::Answer answer{
-      .command = "actuator", .title = given.title, .case_toml = given.as_understood};
+  results::Answer answer{
+      .command = "actuator",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const inputs::StepFile file = inputs::read_step(step_source(step));
   const ActuatorFit fit = structure::identify_actuator(file.record);
-  answer.warnings = file.notes;
-  answer.ok = fit.ok;
+  answer.heading.warnings = file.notes;
+  answer.heading.ok = fit.ok;
   answer.tables.push_back(fitted_table(file, fit));
-  answer.result = result_of(fit, file.record.step).dump();
+  answer.result = results::json_value(result_of(fit, file.record.step).dump());
   if (!fit.ok) {
-    answer.message = fit.reason;
+    answer.heading.message = fit.reason;
     return answer;
   }
   add_warnings(file, fit, answer);
@@ -184,8 +186,8 @@ base::Answer actuator(const inputs::Case& given) {
   if (fit.dynamics.gain > 0) {
     answer.texts.push_back({"actuator.toml", actuator_toml(fit)});
   }
-  answer.message = fmt::format("Gain and two poles from {} samples of a step.",
-                               file.record.time.size());
+  answer.heading.message = fmt::format("Gain and two poles from {} samples of a step.",
+                                       file.record.time.size());
   return answer;
 }
 

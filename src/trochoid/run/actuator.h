@@ -1,8 +1,8 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/step_file.h>
+#include <trochoid/results/answer.h>
 
 namespace trochoid::run {
 
@@ -12,6 +12,6 @@ inputs::StepSource step_source(const inputs::StepTables& step);
 /// @brief Gain and dynamics of an actuator from the step of a case.
 /// @param given  with [step]
 /// @throws base::InputError when the file cannot be read
-base::Answer actuator(const inputs::Case& given);
+results::Answer actuator(const inputs::Case& given);
 
 }  // namespace trochoid::run

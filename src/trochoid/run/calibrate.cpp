@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/calibrate.h>
 
 #include <trochoid/base/units.h>
@@ -90,18 +91,20 @@ base::Table fitted_table(const surface::Calibration& calibration) {
   return table;
 }
 
-base::Answer failed(base::Answer answer, const std::string& why, const Json& result) {
-  answer.ok = false;
-  answer.message = why;
-  answer.result = result.dump();
+results::Answer failed(results::Answer answer, const std::string& why,
+                       const Json& result) {
+  answer.heading.ok = false;
+  answer.heading.message = why;
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 
 }  // namespace
 
-base::Answer calibrate(const inputs::Case& given, const Progress& progress) {
-  base::Answer answer{
-      .command = "calibrate", .title = given.title, .case_toml = given.as_understood};
+results::Answer calibrate(const inputs::Case& given, const Progress& progress) {
+  results::Answer answer{
+      .command = "calibrate",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const MeasuredWall wall = measured_wall(given);
   const surface::Setting setting = wall_setting(given);
   if (progress) {
@@ -128,14 +131,14 @@ base::Answer calibrate(const inputs::Case& given, const Progress& progress) {
     runout = surface::find_runout(setting, wall.readings, wall.datum, calibration);
   }
   add_runout(runout, given, result);
-  add_calibration_warnings(given, wall, calibration, runout, answer.warnings);
+  add_calibration_warnings(given, wall, calibration, runout, answer.heading.warnings);
   answer.tables = {residual_table(wall, calibration, runout),
                    fitted_table(calibration)};
   answer.texts = {{"material.toml", calibrated_material(given, calibration, runout)}};
   answer.short_table = calibration_table(given, calibration, runout);
-  answer.message = fmt::format("{} readings, {} means.", wall.readings.size(),
-                               calibration.nominal.size());
-  answer.result = result.dump();
+  answer.heading.message = fmt::format("{} readings, {} means.", wall.readings.size(),
+                                       calibration.nominal.size());
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 

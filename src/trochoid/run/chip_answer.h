@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/table.h>
 #include <trochoid/chip/intervals.h>
 #include <trochoid/chip/volume.h>
 #include <trochoid/force/setup.h>

@@ -84,15 +84,15 @@ double best_phase(const PhasedForces& forces, std::size_t samples) {
 
 }  // namespace
 
-void compare(const inputs::Case& given, base::Answer& answer, Json& result) {
+void compare(const inputs::Case& given, results::Answer& answer, Json& result) {
   std::string message;
-  const auto measured = measured_runs(given, answer.warnings, message);
+  const auto measured = measured_runs(given, answer.heading.warnings, message);
   if (measured.empty()) {
-    answer.warnings.push_back({"not_compared", message});
+    answer.heading.warnings.push_back({"not_compared", message});
     return;
   }
   if (given.dynamometer && given.dynamometer->automatic) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"not_compared",
          "axes = \"auto\" needs an identification; name the axes to compare here."});
     return;

@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/controlled_answer.h>
 
 #include <trochoid/base/units.h>
@@ -74,11 +75,11 @@ base::Table samples_table(const ControlledCut& run) {
 
 }  // namespace
 
-void add_controlled(const ControlledCut& run, base::Answer& answer) {
-  Json result = Json::parse(answer.result);
+void add_controlled(const ControlledCut& run, results::Answer& answer) {
+  Json result = Json::parse(results::json_text(answer.result));
   if (!run.ok) {
-    answer.ok = false;
-    answer.message = run.reason;
+    answer.heading.ok = false;
+    answer.heading.message = run.reason;
     return;
   }
   const ControlledTurn& before = run.turns[enabled_from - 1];
@@ -98,7 +99,7 @@ void add_controlled(const ControlledCut& run, base::Answer& answer) {
       {"time_to_safe_s",
        run.time_to_safe >= 0 ? Json(run.time_to_safe) : Json(nullptr)},
       {"turns", turns_json(run)}};
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   answer.tables.push_back(samples_table(run));
   answer.short_table += fmt::format(
       "controller: {:.2f} % before, {} running", 100 * before.difference,
@@ -113,7 +114,7 @@ void add_controlled(const ControlledCut& run, base::Answer& answer) {
             : fmt::format("; command within {:.2f} and {:.2f} um\n",
                           run.lowest / unit::um, run.highest / unit::um);
   if (!run.finite) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"ran_away", "Under the controller the cut grew beyond all bounds."});
   }
 }

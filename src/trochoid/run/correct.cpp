@@ -11,24 +11,26 @@
 
 namespace trochoid::run {
 
-base::Answer correct(const inputs::Case& given, bool controller,
-                     const Progress& progress) {
-  base::Answer answer{
-      .command = "correct", .title = given.title, .case_toml = given.as_understood};
+results::Answer correct(const inputs::Case& given, bool controller,
+                        const Progress& progress) {
+  results::Answer answer{
+      .command = "correct",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const auto tell = [&](const char* what) {
     if (progress) {
       progress(what);
     }
   };
   const auto fail = [&](const std::string& why) {
-    answer.ok = false;
-    answer.message = why;
-    answer.result = "{}";
+    answer.heading.ok = false;
+    answer.heading.message = why;
+    answer.result = results::Object{};
     return answer;
   };
   const inputs::Correction& wanted = *given.machine.correct;
   std::string message;
-  const auto setting = correction_setting(given, progress, answer.warnings, message);
+  const auto setting =
+      correction_setting(given, progress, answer.heading.warnings, message);
   if (!setting) {
     return fail(message);
   }

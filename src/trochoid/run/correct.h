@@ -1,7 +1,7 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/results/answer.h>
 #include <trochoid/run/progress.h>
 
 namespace trochoid::run {
@@ -9,7 +9,7 @@ namespace trochoid::run {
 /// @brief The motion of the table that cancels runout, its command, and what the cut is
 /// like before and after.
 /// @param controller  simulate the real-time controller as well
-base::Answer correct(const inputs::Case& given, bool controller,
-                     const Progress& progress);
+results::Answer correct(const inputs::Case& given, bool controller,
+                        const Progress& progress);
 
 }  // namespace trochoid::run

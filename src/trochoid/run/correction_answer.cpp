@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/correction_answer.h>
 
 #include <trochoid/base/units.h>
@@ -226,7 +227,7 @@ double difference_of(const dynamics::Motion& m) {
   return high->peak_y > 0 ? 1 - low->peak_y / high->peak_y : 0.0;
 }
 
-void fill_answer(const CorrectionFindings& f, base::Answer& answer) {
+void fill_answer(const CorrectionFindings& f, results::Answer& answer) {
   const correction::AxisLimits axes = axes_of(f);
   const double before = difference_of(f.moved.before);
   const double after = difference_of(f.moved.after);
@@ -243,14 +244,14 @@ void fill_answer(const CorrectionFindings& f, base::Answer& answer) {
       {"allowed_difference", f.wanted.allowed_difference},
       {"max_rpm", highest},
       {"axes", axes_json(axes)}};
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   add_correction_warnings(f, axes, answer);
   answer.tables.push_back(command_table(f.plan));
   answer.tables.push_back(before_after_table(f.setting, f.moved));
   answer.tables.push_back(map_table(f.map));
   answer.texts.push_back(
-      {"command.h", command_header(f.setting, f.plan, answer.title)});
-  answer.message = fmt::format(
+      {"command.h", command_header(f.setting, f.plan, answer.heading.title)});
+  answer.heading.message = fmt::format(
       "The flutes' peaks differ by {:.2f} % with the command, {:.2f} % without.",
       100 * after, 100 * before);
   answer.short_table = correction_table(f);

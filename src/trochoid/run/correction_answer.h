@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/results/answer.h>
 #include <trochoid/run/correction_plan.h>
 
 #include <string>
@@ -36,6 +36,6 @@ std::vector<double> chip_differences(const std::vector<double>& rho);
 double table_deviation(const CorrectionFindings& f);
 
 /// @brief Result, warnings, tables and the short table.
-void fill_answer(const CorrectionFindings& found, base::Answer& answer);
+void fill_answer(const CorrectionFindings& found, results::Answer& answer);
 
 }  // namespace trochoid::run

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/warning.h>
 #include <trochoid/correction/moving_cut.h>
 #include <trochoid/correction/ratio.h>
 #include <trochoid/inputs/case.h>

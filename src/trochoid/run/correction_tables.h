@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/table.h>
 #include <trochoid/run/correction_plan.h>
 
 #include <string>

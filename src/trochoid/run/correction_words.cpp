@@ -15,10 +15,10 @@ constexpr double unequal_area = 0.1;
 /// Part of the chip differences that one axis should be able to take away.
 constexpr double one_axis_enough = 0.8;
 
-void add_limit_warnings(const CorrectionFindings& f, base::Answer& answer) {
+void add_limit_warnings(const CorrectionFindings& f, results::Answer& answer) {
   for (const correction::Limit& l : f.plan.limits.limits) {
     if (l.known && !l.ok) {
-      answer.warnings.push_back({"beyond_limit", l.reason});
+      answer.heading.warnings.push_back({"beyond_limit", l.reason});
     }
   }
 }
@@ -44,18 +44,19 @@ std::string runout_line(const CorrectionSetting& s) {
 }  // namespace
 
 void add_correction_warnings(const CorrectionFindings& f,
-                             const correction::AxisLimits& axes, base::Answer& answer) {
+                             const correction::AxisLimits& axes,
+                             results::Answer& answer) {
   add_limit_warnings(f, answer);
   const dynamics::Motion& after = f.moved.after;
   if (!periodic(f.moved.before) || !periodic(after)) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"not_periodic",
          fmt::format("The force still changes by {:.3g} N from turn to turn: a "
                      "difference between flutes means little then.",
                      std::max(f.moved.before.last_change, after.last_change))});
   }
   if (area_difference_of(after) > unequal_area) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"unequal_chips",
          fmt::format("Equal peaks are not equal chips: the flutes still cut areas that "
                      "differ by {:.0f} % ({:.0f} % before).",
@@ -63,7 +64,7 @@ void add_correction_warnings(const CorrectionFindings& f,
                      100 * area_difference_of(f.moved.before))});
   }
   if (axes.most_teeth > 1 && axes.one_axis > (1 - one_axis_enough) * axes.uncorrected) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"several_teeth_in_cut",
          fmt::format(
              "{} teeth cut at once: one axis can take the chip differences from {:.3g} "
@@ -72,7 +73,7 @@ void add_correction_warnings(const CorrectionFindings& f,
              axes.two_axes / unit::um)});
   }
   if (f.setting.fit && f.setting.designed_for != f.setting.rho) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"static_estimate",
          fmt::format("The command is made for what a rigid model reads from the forces "
                      "({:.3g} um between tooth 1 and the one before); {:.3g} um are "

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/correction/shapes.h>
+#include <trochoid/results/answer.h>
 #include <trochoid/run/correction_answer.h>
 
 #include <string>
@@ -10,7 +10,8 @@ namespace trochoid::run {
 
 /// @brief What a person should know about a correction.
 void add_correction_warnings(const CorrectionFindings& f,
-                             const correction::AxisLimits& axes, base::Answer& answer);
+                             const correction::AxisLimits& axes,
+                             results::Answer& answer);
 
 /// @brief The short table of correct.
 std::string correction_table(const CorrectionFindings& f);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/table.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/run/measured_run.h>
 

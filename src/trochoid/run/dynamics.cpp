@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/dynamics.h>
 
 #include <trochoid/base/units.h>
@@ -92,14 +93,14 @@ std::string short_table(const Json& result) {
 
 }  // namespace
 
-base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
-  base::Answer answer{
-      .command = "dynamics", .title = given.title, .case_toml = given.as_understood};
+results::Answer dynamics(const inputs::Case& given, const Progress& progress) {
+  results::Answer answer{
+      .command = "dynamics",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   dynamics::MotionProblem problem = motion_problem(given);
   const auto failed = [&answer](std::string why) {
-    answer.ok = false;
-    answer.message = std::move(why);
-    answer.result = answer.result.empty() ? "{}" : answer.result;
+    answer.heading.ok = false;
+    answer.heading.message = std::move(why);
     return answer;
   };
   if (problem.grid.steps_per_tooth > dynamics::most_steps) {
@@ -126,7 +127,7 @@ base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
               {"change_N", chatter ? Json(nullptr) : Json(m.last_change)}};
   answer.tables.push_back(once_table(m));
   if (chatter) {
-    answer.result = result.dump();
+    answer.result = results::json_value(result.dump());
     return failed(chatter_message(all, linear));
   }
   const auto engaged = engagement_of(problem.setup);
@@ -136,7 +137,7 @@ base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
   result["difference"] = peak_difference(m);
   result["peak_xy_N"] = m.peak;
   if (all.verdict == Verdict::not_periodic) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"not_periodic",
          fmt::format(
              "The force still changes by {:.3g} N from turn to turn, less and "
@@ -149,11 +150,11 @@ base::Answer dynamics(const inputs::Case& given, const Progress& progress) {
   answer.tables.push_back(surface_location_table(walls));
   answer.tables.push_back(motion_table(problem, m));
   answer.tables.push_back(motion_forces_table(m));
-  answer.message = fmt::format(
+  answer.heading.message = fmt::format(
       "After {} turns the motion {}.", m.turns_done,
       all.verdict == Verdict::periodic ? "repeats itself" : "has not settled");
   answer.short_table = short_table(result);
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/identification/identify.h>
 
 #include <nlohmann/json_fwd.hpp>

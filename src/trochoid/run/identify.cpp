@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/identify.h>
 
 #include <trochoid/base/units.h>
@@ -115,7 +116,8 @@ std::vector<base::Table> sweep_tables(const inputs::Case& given,
 }
 
 void add_curves(const inputs::Case& given, std::span<const identification::Run> runs,
-                const std::vector<Fit>& fits, const Fit& chosen, base::Answer& answer) {
+                const std::vector<Fit>& fits, const Fit& chosen,
+                results::Answer& answer) {
   std::vector<ComputedForces> computed;
   for (const Fit& fit : fits) {
     if (fit.ok) {
@@ -134,11 +136,12 @@ void add_curves(const inputs::Case& given, std::span<const identification::Run> 
   answer.tables.push_back(chip_curve(setup, default_height(setup)));
 }
 
-base::Answer failed(base::Answer answer, const std::string& why, const Json& result) {
-  answer.ok = false;
-  answer.message = why;
+results::Answer failed(results::Answer answer, const std::string& why,
+                       const Json& result) {
+  answer.heading.ok = false;
+  answer.heading.message = why;
   answer.short_table += "No answer: " + why + "\n";
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 
@@ -167,12 +170,13 @@ std::string headline(const Fit& fit, const std::vector<MeasuredRun>& runs) {
 }
 
 void add_causes(const inputs::Case& given, const std::vector<MeasuredRun>& measured,
-                const Matrix3& M, const Progress& progress, base::Answer& answer) {
+                const Matrix3& M, const Progress& progress, results::Answer& answer) {
   auto causes = likely_causes(given, measured, M, progress);
-  const bool after_verdict =
-      !answer.warnings.empty() && answer.warnings.front().code == "do_not_use";
-  answer.warnings.insert(answer.warnings.begin() + (after_verdict ? 1 : 0),
-                         causes.begin(), causes.end());
+  const bool after_verdict = !answer.heading.warnings.empty() &&
+                             answer.heading.warnings.front().code == "do_not_use";
+  answer.heading.warnings.insert(
+      answer.heading.warnings.begin() + (after_verdict ? 1 : 0), causes.begin(),
+      causes.end());
 }
 
 /// What the reader of the records noted is less urgent than what the fit says.
@@ -187,15 +191,17 @@ void put_notes_last(std::vector<base::Warning>& warnings) {
 /// Warnings, and before everything else whether the numbers may be used at all.
 /// @return what speaks against that
 std::vector<std::string> judge(const inputs::Case& given, const std::vector<Fit>& fits,
-                               const Fit& chosen, base::Answer& answer, Json& result) {
+                               const Fit& chosen, results::Answer& answer,
+                               Json& result) {
   std::vector<std::string> reasons = reasons_against(chosen);
   result["do_not_use"] = reasons;
-  add_fit_warnings(given, fits, chosen, answer.warnings);
+  add_fit_warnings(given, fits, chosen, answer.heading.warnings);
   if (!reasons.empty()) {
     const std::string verdict = do_not_use(reasons);
-    answer.message = verdict + " " + answer.message;
+    answer.heading.message = verdict + " " + answer.heading.message;
     answer.short_table += verdict + "\n\n";
-    answer.warnings.insert(answer.warnings.begin(), {"do_not_use", verdict});
+    answer.heading.warnings.insert(answer.heading.warnings.begin(),
+                                   {"do_not_use", verdict});
   }
   return reasons;
 }
@@ -219,12 +225,13 @@ std::string signal_lines(const std::vector<MeasuredRun>& measured,
 
 }  // namespace
 
-base::Answer identify(const inputs::Case& given, const Progress& progress) {
-  base::Answer answer{
-      .command = "identify", .title = given.title, .case_toml = given.as_understood};
+results::Answer identify(const inputs::Case& given, const Progress& progress) {
+  results::Answer answer{
+      .command = "identify",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   std::string message;
   progress("reading the measurements");
-  const auto measured = measured_runs(given, answer.warnings, message);
+  const auto measured = measured_runs(given, answer.heading.warnings, message);
   const Json nothing{{"fits", Json::array()}, {"chosen", nullptr}};
   if (measured.empty()) {
     return failed(std::move(answer), message, nothing);
@@ -232,12 +239,12 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
   inputs::Dynamometer dynamometer = given.dynamometer.value_or(inputs::Dynamometer{});
   AxesChoice axes;
   if (dynamometer.automatic) {
-    axes = choose_axes(given, measured, progress, answer.warnings);
+    axes = choose_axes(given, measured, progress, answer.heading.warnings);
     if (!axes.ok) {
       if (std::isfinite(axes.rms)) {
         add_causes(given, measured, dynamometer.matrix, progress, answer);
       }
-      put_notes_last(answer.warnings);
+      put_notes_last(answer.heading.warnings);
       return failed(std::move(answer), axes.message, nothing);
     }
     dynamometer.matrix = axes.matrix;
@@ -259,7 +266,7 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
     if (fits.back().rms > 0) {  // equations that could be solved, to no avail
       add_causes(given, measured, dynamometer.matrix, progress, answer);
     }
-    put_notes_last(answer.warnings);
+    put_notes_last(answer.heading.warnings);
     return failed(std::move(answer), fits.back().message, result);
   }
   const Fit& chosen = fits[best];
@@ -270,13 +277,13 @@ base::Answer identify(const inputs::Case& given, const Progress& progress) {
   }
   answer.texts.push_back(
       {"material.toml", material_toml(chosen, given.setup.edge_length)});
-  answer.message = headline(chosen, measured);
+  answer.heading.message = headline(chosen, measured);
   if (!judge(given, fits, chosen, answer, result).empty()) {
     add_causes(given, measured, dynamometer.matrix, progress, answer);
   }
-  put_notes_last(answer.warnings);
+  put_notes_last(answer.heading.warnings);
   answer.short_table += fits_table(fits) + signal_lines(measured, axes);
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/results/answer.h>
 #include <trochoid/run/progress.h>
 
 namespace trochoid::run {
 
 /// @brief Coefficients, runout and phase from the measurements of a case.
 /// @throws base::InputError when a measurement cannot be used
-base::Answer identify(const inputs::Case& given, const Progress& progress);
+results::Answer identify(const inputs::Case& given, const Progress& progress);
 
 }  // namespace trochoid::run

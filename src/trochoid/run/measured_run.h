@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/warning.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/signal/record.h>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/surface/calibrate.h>
 

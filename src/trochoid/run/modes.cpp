@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/modes.h>
 
 #include <trochoid/base/units.h>
@@ -125,11 +126,11 @@ Json result_of(const ModesFit& fit, ResponseKind kind) {
   return result;
 }
 
-void add_warnings(const ModesFit& fit, base::Answer& answer) {
+void add_warnings(const ModesFit& fit, results::Answer& answer) {
   for (const FittedMode& m : fit.modes) {
     const std::string at = fmt::format("{:.5g} Hz", m.omega / unit::Hz);
     if (m.lines_in_peak < few_lines) {
-      answer.warnings.push_back(
+      answer.heading.warnings.push_back(
           {"few_lines",
            fmt::format("Only {} lines lie between the half-power points of "
                        "the mode at {}: its damping hangs on them. A longer "
@@ -138,7 +139,7 @@ void add_warnings(const ModesFit& fit, base::Answer& answer) {
     }
     if (m.damping_se > loosely_known * m.mode.damping ||
         m.stiffness_se > loosely_known * m.mode.stiffness) {
-      answer.warnings.push_back(
+      answer.heading.warnings.push_back(
           {"loosely_known",
            fmt::format(
                "The mode at {} is known loosely: stiffness to {:.0f} %, damping "
@@ -148,7 +149,7 @@ void add_warnings(const ModesFit& fit, base::Answer& answer) {
     }
   }
   if (fit.explained < poorly_explained) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"poor_fit",
          fmt::format("The modes leave {:.1f} % of the power of the response "
                      "unexplained: look at the fit before using them.",
@@ -212,30 +213,32 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
           .dataset = frf.dataset};
 }
 
-base::Answer modes(const inputs::Case& given) {
+results::Answer modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
-  base::Answer answer{
-      .command = "modes", .title = given.title, .case_toml = given.as_understood};
+  results::Answer answer{
+      .command = "modes",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const inputs::FrfFile file = inputs::read_frf(frf_source(frf));
   const ResponseKind kind = file.response.kind;
   const ModesFit fit = structure::identify_modes(file.response, options_of(frf));
-  answer.warnings = file.notes;
-  answer.ok = fit.ok;
+  answer.heading.warnings = file.notes;
+  answer.heading.ok = fit.ok;
   answer.tables.push_back(fitted_table(fit, kind));
   Json result = result_of(fit, kind);
   if (!file.description.empty()) {
     result["description"] = file.description;
   }
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   if (!fit.ok) {
-    answer.message = fit.reason;
+    answer.heading.message = fit.reason;
     return answer;
   }
   add_warnings(fit, answer);
   answer.short_table = short_table(fit, kind);
   answer.texts.push_back({"modes.toml", modes_toml(fit, frf)});
-  answer.message = fmt::format("{} mode{} from {} lines.", fit.modes.size(),
-                               fit.modes.size() == 1 ? "" : "s", fit.omega.size());
+  answer.heading.message =
+      fmt::format("{} mode{} from {} lines.", fit.modes.size(),
+                  fit.modes.size() == 1 ? "" : "s", fit.omega.size());
   return answer;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/frf_file.h>
+#include <trochoid/results/answer.h>
 
 namespace trochoid::run {
 
@@ -12,6 +12,6 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf);
 /// @brief Modal parameters from the frequency response of a case.
 /// @param given  with [frf]
 /// @throws base::InputError when the file cannot be read
-base::Answer modes(const inputs::Case& given);
+results::Answer modes(const inputs::Case& given);
 
 }  // namespace trochoid::run

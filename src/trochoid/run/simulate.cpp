@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/simulate.h>
 
 #include <trochoid/base/units.h>
@@ -95,7 +96,7 @@ void add_loads(const inputs::Case& given, std::span<const force::Loads> loads,
 }
 
 /// Teeth of a slice, idle ones as a warning.
-void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
+void add_teeth(const SliceAnswer& slice, double height, results::Answer& answer,
                Json& result) {
   Json teeth = Json::array();
   const bool some_cut =
@@ -111,7 +112,7 @@ void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
                      {"intervals_deg", arcs},
                      {"peak_chip_mm", tooth.peak_chip / unit::mm}});
     if (tooth.arcs.empty() && some_cut) {
-      answer.warnings.push_back(
+      answer.heading.warnings.push_back(
           {"idle_tooth",
            fmt::format("Tooth {} cuts nothing at {:g} mm above the tip: the runout "
                        "keeps it behind what the others leave.",
@@ -119,7 +120,7 @@ void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
     }
   }
   if (!some_cut) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"no_cut", fmt::format("No tooth cuts anything at {:g} mm above the tip.",
                                height / unit::mm)});
   }
@@ -129,7 +130,7 @@ void add_teeth(const SliceAnswer& slice, double height, base::Answer& answer,
 
 /// The chips of a turn against the material there is (C-8).
 void add_volume(const force::Setup& setup, const SliceAnswer& slice,
-                base::Answer& answer, Json& result) {
+                results::Answer& answer, Json& result) {
   if (slice.removal.available <= 0) {
     return;
   }
@@ -140,7 +141,7 @@ void add_volume(const force::Setup& setup, const SliceAnswer& slice,
   if (std::abs(ratio - 1) > volume_slack) {
     const bool exact = setup.chip.model == chip::Model::trochoidal &&
                        setup.chip.lookback == chip::Lookback::all;
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"volume",
          fmt::format(
              "The chips of one turn add up to {:.4f} times the feed times the width "
@@ -204,10 +205,11 @@ std::vector<double> sampled_angles(const inputs::Sampling& sampling) {
   return phi;
 }
 
-base::Answer simulate(const inputs::Case& given) {
+results::Answer simulate(const inputs::Case& given) {
   const force::Setup& setup = given.setup;
-  base::Answer answer{
-      .command = "simulate", .title = given.title, .case_toml = given.as_understood};
+  results::Answer answer{
+      .command = "simulate",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const std::vector<double> phi = sampled_angles(given.sampling);
   const std::vector<force::Loads> loads =
       force::loads(setup, given.law, phi, given.gauge_length.value_or(0.0),
@@ -229,7 +231,7 @@ base::Answer simulate(const inputs::Case& given) {
   const double height = heights.empty() ? default_height(setup) : heights.front();
   for (const double z : heights) {
     if (z > setup.cut.a_p) {
-      answer.warnings.push_back(
+      answer.heading.warnings.push_back(
           {"height_above_cut",
            fmt::format("edge_heights_mm: {:g} mm lies above the axial depth; the chip "
                        "there is what a deeper cut would give.",
@@ -240,7 +242,8 @@ base::Answer simulate(const inputs::Case& given) {
   add_teeth(slice, height, answer, result);
   add_volume(setup, slice, answer, result);
   if (setup.cut.f_z == 0) {
-    answer.warnings.push_back({"zero_feed", "The feed is zero: nothing is cut."});
+    answer.heading.warnings.push_back(
+        {"zero_feed", "The feed is zero: nothing is cut."});
   }
   answer.tables.push_back(force_table(given, phi, forces));
   const std::vector<double> tip = {height};
@@ -250,9 +253,10 @@ base::Answer simulate(const inputs::Case& given) {
   if (!given.measurements.empty()) {
     compare(given, answer, result);
   }
-  answer.message = fmt::format("{} samples of the force on the tool.", phi.size());
+  answer.heading.message =
+      fmt::format("{} samples of the force on the tool.", phi.size());
   answer.short_table += short_table(s, result);
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 

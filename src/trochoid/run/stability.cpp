@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/stability.h>
 
 #include <trochoid/base/units.h>
@@ -97,7 +98,7 @@ double with_floor(const Point& point, double floor) {
 }
 
 /// A power law has no slope at h = 0: does the verdict hang on the floor?
-void add_floor(const Point& point, std::string& verdict, base::Answer& answer,
+void add_floor(const Point& point, std::string& verdict, results::Answer& answer,
                Json& result) {
   if (!force::form(point.given.law).power) {
     return;
@@ -112,7 +113,7 @@ void add_floor(const Point& point, std::string& verdict, base::Answer& answer,
                        verdict == verdict_of(twice, point.options.margin);
   if (!decided) {
     verdict = "marginal";
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"chip_floor",
          fmt::format(
              "The slope of a power law grows without limit where the chip begins: "
@@ -168,7 +169,7 @@ void add_limit(const Point& point, const std::vector<double>& depth, Json& resul
   result["greatest_depth_mm"] = unit::in(greatest, unit::mm);
 }
 
-void add_modes(const Point& point, base::Answer& answer, Json& result) {
+void add_modes(const Point& point, results::Answer& answer, Json& result) {
   Json modes = Json::array();
   for (const dynamics::ChipMode& mode : point.system.modes) {
     const double omega = std::sqrt(mode.stiffness / mode.mass);
@@ -182,7 +183,7 @@ void add_modes(const Point& point, base::Answer& answer, Json& result) {
   result["modes"] = modes;
   const std::size_t left_out = point.given.machine.modes.size() - modes.size();
   if (left_out > 0) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"mode_along_z",
          fmt::format("{} of the modes move along z, which the chip does "
                      "not feel: left out.",
@@ -191,7 +192,7 @@ void add_modes(const Point& point, base::Answer& answer, Json& result) {
 }
 
 void add_lobes(const Point& point, const std::vector<double>& depth,
-               const Progress& progress, base::Answer& answer) {
+               const Progress& progress, results::Answer& answer) {
   const auto told = [&progress](const char* what) {
     return [&progress, what](double share) {
       if (progress) {
@@ -236,9 +237,10 @@ std::string short_table(const Point& point, const Json& result) {
 
 }  // namespace
 
-base::Answer stability(const inputs::Case& given, const Progress& progress) {
-  base::Answer answer{
-      .command = "stability", .title = given.title, .case_toml = given.as_understood};
+results::Answer stability(const inputs::Case& given, const Progress& progress) {
+  results::Answer answer{
+      .command = "stability",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const Point point = point_of(given);
   const double growth = std::abs(point.multiplier.value);
   const std::vector<double> depth = steps(point.options.axial_depth, unit::mm);
@@ -253,18 +255,18 @@ base::Answer stability(const inputs::Case& given, const Progress& progress) {
   result["axial_depth_mm"] = unit::in(given.setup.cut.a_p, unit::mm);
   add_modes(point, answer, result);
   if (!cuts(point.directional)) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"no_cut", "No tooth cuts anything: nothing but damping is left."});
   }
   if (point.multiplier.error > point.options.tolerance * std::max(1.0, growth)) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"tolerance", fmt::format("The multiplier is good to {:.1e} only.",
                                   point.multiplier.error)});
   }
   add_lobes(point, depth, progress, answer);
-  answer.message = fmt::format("The cut is {}.", verdict);
+  answer.heading.message = fmt::format("The cut is {}.", verdict);
   answer.short_table = short_table(point, result);
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 

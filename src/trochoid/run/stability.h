@@ -1,12 +1,12 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/results/answer.h>
 #include <trochoid/run/progress.h>
 
 namespace trochoid::run {
 
 /// @brief Whether a small vibration grows at the case, and over speed and depth.
-base::Answer stability(const inputs::Case& given, const Progress& progress);
+results::Answer stability(const inputs::Case& given, const Progress& progress);
 
 }  // namespace trochoid::run

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/base/table.h>
 #include <trochoid/dynamics/lobes.h>
 
 #include <span>

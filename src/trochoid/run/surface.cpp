@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/surface.h>
 
 #include <trochoid/base/units.h>
@@ -192,14 +193,14 @@ std::string short_table(const inputs::Case& given, const Json& result) {
 }
 
 void add_warnings(const inputs::Case& given, const SurfaceMap& map, double largest,
-                  base::Answer& answer) {
-  add_bending_warnings(given, largest, answer.warnings);
+                  results::Answer& answer) {
+  add_bending_warnings(given, largest, answer.heading.warnings);
   if (!given.machine.cutter_body && !given.machine.wall) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"rigid", "Neither [cutter_body] nor [wall] is given: nothing bends."});
   }
   if (map.model == surface::Model::quasi_static) {
-    answer.warnings.push_back(
+    answer.heading.warnings.push_back(
         {"quasi_static",
          "quasi_static is the deflection at every spindle angle, as the paper has it: "
          "a pulse of force, not the profile that stays on the wall."});
@@ -208,22 +209,23 @@ void add_warnings(const inputs::Case& given, const SurfaceMap& map, double large
 
 }  // namespace
 
-base::Answer surface(const inputs::Case& given, const Progress& progress) {
-  base::Answer answer{
-      .command = "surface", .title = given.title, .case_toml = given.as_understood};
+results::Answer surface(const inputs::Case& given, const Progress& progress) {
+  results::Answer answer{
+      .command = "surface",
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
   const SurfaceMap map = surface_map(given, progress);
   Json result{{"model", model_name(map.model)},
               {"feedback", feedback_name(map.feedback)}};
   if (!map.converged) {
-    answer.ok = false;
-    answer.message =
+    answer.heading.ok = false;
+    answer.heading.message =
         map.found ? fmt::format(
                         "after {} turns the deflection still changed by {:.2g} % from "
                         "turn to turn: no state was found that repeats",
                         map.turns, 100 * map.change)
                   : "no deflection agrees with the chip that it makes: the force "
                     "pulls cutter and wall together faster than they resist";
-    answer.result = result.dump();
+    answer.result = results::json_value(result.dump());
     return answer;
   }
   double mean = 0.0;
@@ -251,12 +253,12 @@ base::Answer surface(const inputs::Case& given, const Progress& progress) {
     answer.tables.push_back(bent_table(*map.bent));
     result["bent"] = bent_json(given, *map.bent);
   }
-  answer.message = fmt::format(
+  answer.heading.message = fmt::format(
       "The error of the wall is {:.3g} um on average and {:.3g} um at most (positive: "
       "material left).",
       mean / unit::um, peak / unit::um);
   answer.short_table = short_table(given, result);
-  answer.result = result.dump();
+  answer.result = results::json_value(result.dump());
   return answer;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/results/answer.h>
 #include <trochoid/run/progress.h>
 
 namespace trochoid::run {
 
 /// @brief The wall that a cut leaves, with the deflection of cutter and wall.
-base::Answer surface(const inputs::Case& given, const Progress& progress);
+results::Answer surface(const inputs::Case& given, const Progress& progress);
 
 }  // namespace trochoid::run

@@ -10,7 +10,7 @@ namespace sample {
 
 namespace {
 
-using trochoid::base::Answer;
+using trochoid::results::Answer;
 namespace inputs = trochoid::inputs;
 
 const std::filesystem::path examples = TROCHOID_EXAMPLES;

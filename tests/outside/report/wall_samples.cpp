@@ -14,8 +14,8 @@ namespace sample {
 
 namespace {
 
-using trochoid::base::Answer;
 using trochoid::base::Table;
+using trochoid::results::Answer;
 namespace inputs = trochoid::inputs;
 
 const std::string cut = R"(title = "Thin wall <made up>"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/base/answer.h>
+#include <trochoid/results/answer.h>
 
 #include <filesystem>
 
@@ -11,17 +11,17 @@ namespace sample {
 
 /// @param model   of [surface]
 /// @param folder  where the case is written
-trochoid::base::Answer wall(const char* model, const std::filesystem::path& folder);
+trochoid::results::Answer wall(const char* model, const std::filesystem::path& folder);
 
 /// @brief Calibration of such a wall, with a micrometre of noise and a datum offset.
 /// @param number_teeth  whether the readings tell the tooth
-trochoid::base::Answer calibration(const char* model, bool number_teeth,
-                                   const std::filesystem::path& folder);
+trochoid::results::Answer calibration(const char* model, bool number_teeth,
+                                      const std::filesystem::path& folder);
 
 /// @brief Readings at one height, which cannot tell the coefficients apart.
-trochoid::base::Answer one_height(const std::filesystem::path& folder);
+trochoid::results::Answer one_height(const std::filesystem::path& folder);
 
 /// The lobes of a new case of `stability`.
-trochoid::base::Answer lobes(const std::filesystem::path& folder);
+trochoid::results::Answer lobes(const std::filesystem::path& folder);
 
 }  // namespace sample

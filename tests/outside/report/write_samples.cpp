@@ -1,6 +1,7 @@
 // Writes a result folder with its report for each kind of page: write_samples DIR
 #include <trochoid/report/report.h>
 #include <trochoid/results/folder.h>
+#include <trochoid/results/json.h>
 
 #include <cstdio>
 #include <exception>
@@ -14,8 +15,9 @@
 
 namespace {
 
-using trochoid::base::Answer;
 using trochoid::base::Table;
+using trochoid::results::Answer;
+using trochoid::results::json_value;
 
 const std::string axes = "xyz";
 const sample::Cut slot{{0.0, -0.008}, 0.04};
@@ -151,17 +153,17 @@ Table chip_curve(const sample::Cut& cut) {
 Answer identify() {
   Answer answer;
   answer.command = "identify";
-  answer.title = "St 52-3 slot, 8 mm HSS";
-  answer.message =
+  answer.heading.title = "St 52-3 slot, 8 mm HSS";
+  answer.heading.message =
       "The trochoidal chip with runout explains the record best: 11.6 N rms remain.";
-  answer.warnings = {
+  answer.heading.warnings = {
       {"not_identifiable",
        "K_ae cannot be told from the drift of the z channel; it is left out."},
       {"correlated_residuals",
        "Neighbouring residuals are alike (0.61): the intervals are too narrow."}};
-  answer.result = identify_result;
+  answer.result = json_value(identify_result);
   answer.short_table = "K_tc  2618 MPa\n";
-  answer.case_toml = case_toml;
+  answer.heading.case_toml = case_toml;
   answer.tables = {identify_table("fitted.csv", 4, false),
                    identify_table("residual.csv", 4, true), sweep(), chip_curve(slot)};
   return answer;
@@ -171,13 +173,14 @@ Answer simulate() {
   const sample::Cut cut{{0.0, -0.05, 0.012, 0.004}, 0.04};
   Answer answer;
   answer.command = "simulate";
-  answer.title =
+  answer.heading.title =
       "Up milling with runout <b> & \"quotes\" \xC2\xB5 \xE2\x80\x93 \xE5\x88\x80";
-  answer.message = "Three of four teeth cut; the peak force is 1412 N.";
-  answer.warnings = {{"idle_tooth",
-                      "Tooth 2 cuts nothing: its neighbours reach further "
-                      "by more than the feed. </script><b>&"}};
-  answer.result = R"({"mean_N": [-220.3, 164.8, -41.2], "min_N": [-812.1, -103, -98.4],
+  answer.heading.message = "Three of four teeth cut; the peak force is 1412 N.";
+  answer.heading.warnings = {{"idle_tooth",
+                              "Tooth 2 cuts nothing: its neighbours reach further "
+                              "by more than the feed. </script><b>&"}};
+  answer.result =
+      json_value(R"({"mean_N": [-220.3, 164.8, -41.2], "min_N": [-812.1, -103, -98.4],
     "max_N": [45.3, 1240.7, 0], "rms_N": [318.2, 402, 52.7], "peak_xy_N": 1412.3,
     "torque_mean_Nm": 1.934, "torque_peak_Nm": 4.71, "power_W": 177.2,
     "bending_peak_Nm": 84.7, "bending_gauge_length_mm": 60,
@@ -187,8 +190,8 @@ Answer simulate() {
               {"tooth": 2, "intervals_deg": [], "peak_chip_mm": 0},
               {"tooth": 3, "intervals_deg": [[-9.1, 189.1]], "peak_chip_mm": 0.0921},
               {"tooth": 4, "intervals_deg": [[-1.2, 12.1], [14, 168.9]],
-               "peak_chip_mm": 0.0322}]})";
-  answer.case_toml = case_toml + "# </pre></script>\n";
+               "peak_chip_mm": 0.0322}]})");
+  answer.heading.case_toml = case_toml + "# </pre></script>\n";
   Table forces{"forces.csv",
                {{"angle_deg", {}},
                 {"time_s", {}},
@@ -213,17 +216,17 @@ Answer simulate() {
 Answer failed() {
   Answer answer;
   answer.command = "identify";
-  answer.title = "Twelve samples of a slot";
-  answer.ok = false;
-  answer.message =
+  answer.heading.title = "Twelve samples of a slot";
+  answer.heading.ok = false;
+  answer.heading.message =
       "The coefficients cannot be told apart: the record covers 6\xC2\xB0 of the "
       "revolution, so the six columns have rank 3. Measure at least one revolution.";
-  answer.result =
+  answer.result = json_value(
       R"({"fits": [{"chip_model": "trochoidal", "lookback": "all", "ok": false,
     "message": "rank 3 of 6", "coefficients": {"K_tc_MPa": null, "K_rc_MPa": null},
     "runout": null, "rms_N": null, "rank": 3,
-    "identifiable": {"K_tc_MPa": "parallel to K_te"}}], "chosen": null})";
-  answer.case_toml = case_toml;
+    "identifiable": {"K_tc_MPa": "parallel to K_te"}}], "chosen": null})");
+  answer.heading.case_toml = case_toml;
   return answer;
 }
 
@@ -232,12 +235,12 @@ Answer doubtful() {
   Answer answer = identify();
   const std::string verdict =
       "Do not use these numbers: 80 % of the force (rms) is not explained.";
-  answer.message = verdict + " " + answer.message;
-  answer.warnings.insert(answer.warnings.begin(), {"do_not_use", verdict});
-  answer.warnings.push_back({"part_of_record", std::string(120, 'x')});
-  const auto end = answer.result.rfind('}');
-  answer.result = answer.result.substr(0, end) +
-                  R"(,"do_not_use": ["80 % of the force (rms) is not explained"]})";
+  answer.heading.message = verdict + " " + answer.heading.message;
+  answer.heading.warnings.insert(answer.heading.warnings.begin(),
+                                 {"do_not_use", verdict});
+  answer.heading.warnings.push_back({"part_of_record", std::string(120, 'x')});
+  set(std::get<trochoid::results::Object>(answer.result.data), "do_not_use",
+      std::vector<std::string>{"80 % of the force (rms) is not explained"});
   return answer;
 }
 
@@ -245,11 +248,11 @@ Answer doubtful() {
 Answer other() {
   Answer answer;
   answer.command = "listen";
-  answer.title = "Motion of a slender tool";
-  answer.message = "The motion is periodic after 14 revolutions.";
-  answer.result = R"({"periodic": true, "peaks_um": [12.1, 9.7],
-    "chip_area_mm2": {"before": 0.021, "after": 0.02}})";
-  answer.case_toml = case_toml;
+  answer.heading.title = "Motion of a slender tool";
+  answer.heading.message = "The motion is periodic after 14 revolutions.";
+  answer.result = json_value(R"({"periodic": true, "peaks_um": [12.1, 9.7],
+    "chip_area_mm2": {"before": 0.021, "after": 0.02}})");
+  answer.heading.case_toml = case_toml;
   Table motion{"motion.csv",
                {{"time_s", {}}, {"x_um", {}}, {"y_um", {}}, {"Fx_N", {}}}};
   constexpr int count = 240'000;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <trochoid/report/page.h>
 #include <trochoid/report/report.h>
+#include <trochoid/results/json.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,23 +12,23 @@ namespace {
 const std::string hostile =
     "</script><script>alert(1)</script> & \"x\" \xC2\xB5 {{case}}";
 
-base::Answer sample() {
-  base::Answer answer;
+results::Answer sample() {
+  results::Answer answer;
   answer.command = "simulate";
-  answer.title = hostile;
-  answer.message = hostile;
-  answer.warnings = {{"code\"", hostile}};
-  answer.result = "{}";
-  answer.case_toml = hostile;
+  answer.heading.title = hostile;
+  answer.heading.message = hostile;
+  answer.heading.warnings = {{"code\"", hostile}};
+  answer.result = results::json_value("{}");
+  answer.heading.case_toml = hostile;
   answer.short_table = hostile;
   answer.tables = {{"forces.csv", {{"angle_deg", {0, 1}}, {hostile, {1, 2}}}}};
   return answer;
 }
 
-std::string summary_of(const base::Answer& answer) {
+std::string summary_of(const results::Answer& answer) {
   const nlohmann::json summary = {
       {"trochoid", {{"version", "1.2.3"}, {"commit", "abc" + hostile}}},
-      {"message", answer.message},
+      {"message", answer.heading.message},
       {"result", nlohmann::json::object()}};
   return summary.dump();
 }
@@ -91,26 +92,26 @@ TEST(Page, NamesTheProgramThatMadeTheAnswer) {
 }
 
 TEST(Page, SaysProminentlyThatThereIsNoAnswer) {
-  base::Answer answer = sample();
+  results::Answer answer = sample();
   EXPECT_EQ(html(answer, summary_of(answer)).find("No good answer"), std::string::npos);
-  answer.ok = false;
+  answer.heading.ok = false;
   const std::string page = html(answer, summary_of(answer));
   EXPECT_NE(page.find("<body class=\"failed\">"), std::string::npos);
   EXPECT_NE(page.find("No good answer</strong>"), std::string::npos);
 }
 
 TEST(Page, HasNoListOfWarningsWithoutAny) {
-  base::Answer answer = sample();
+  results::Answer answer = sample();
   EXPECT_NE(html(answer, summary_of(answer)).find("id=\"warnings\""),
             std::string::npos);
-  answer.warnings.clear();
+  answer.heading.warnings.clear();
   EXPECT_EQ(html(answer, summary_of(answer)).find("id=\"warnings\""),
             std::string::npos);
 }
 
 TEST(Page, TakesItsHeadingFromTheCommandWithoutATitle) {
-  base::Answer answer = sample();
-  answer.title.clear();
+  results::Answer answer = sample();
+  answer.heading.title.clear();
   EXPECT_NE(html(answer, summary_of(answer)).find("<h1>simulate</h1>"),
             std::string::npos);
 }

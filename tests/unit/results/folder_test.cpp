@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <trochoid/base/error.h>
 #include <trochoid/results/folder.h>
+#include <trochoid/results/json.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -14,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-base::Answer sample() {
-  base::Answer answer;
+Answer sample() {
+  Answer answer;
   answer.command = "simulate";
-  answer.title = "St 52-3 slot <\"8 mm\">";
-  answer.message = "Both teeth cut.";
-  answer.warnings = {{"runout_dominates", "The runout exceeds the feed."}};
-  answer.result = R"({"mean_N":[1.5,-2,0.1]})";
-  answer.case_toml = "title = 'St 52-3 slot <\"8 mm\">'\n[tool]\nteeth = 2\n";
+  answer.heading.title = "St 52-3 slot <\"8 mm\">";
+  answer.heading.message = "Both teeth cut.";
+  answer.heading.warnings = {{"runout_dominates", "The runout exceeds the feed."}};
+  answer.result = json_value(R"({"mean_N":[1.5,-2,0.1]})");
+  answer.heading.case_toml = "title = 'St 52-3 slot <\"8 mm\">'\n[tool]\nteeth = 2\n";
   answer.tables = {{"chip.csv", {{"tooth", {1, 2}}, {"h_mm", {0.1 + 0.2, 1.0 / 3.0}}}},
                    {"forces.csv", {{"angle_deg", {0.0, 0.5}}, {"Fx_N", {-1.0, 7.0}}}}};
   answer.texts = {{"material.toml", "[force]\nlaw = \"linear_edge\"\n"}};
@@ -68,7 +69,7 @@ class Folder : public testing::Test {
 
 TEST_F(Folder, HoldsEverythingOfTheAnswer) {
   write_folder(folder_, sample(), "<html>");
-  EXPECT_EQ(content(folder_ / "case.toml"), sample().case_toml);
+  EXPECT_EQ(content(folder_ / "case.toml"), sample().heading.case_toml);
   EXPECT_EQ(content(folder_ / "summary.json"), summary_json(sample()));
   EXPECT_EQ(content(folder_ / "forces.csv"), "angle_deg,Fx_N\n0,-1\n0.5,7\n");
   EXPECT_EQ(content(folder_ / "material.toml"), sample().texts.front().text);
@@ -88,10 +89,10 @@ TEST_F(Folder, MakesTheFoldersAboveAndMindsNoTrailingSlash) {
 
 TEST_F(Folder, ReadsBackAsItWasWritten) {
   write_folder(folder_, sample(), "<html>");
-  const base::Answer read = read_folder(folder_);
+  const Answer read = read_folder(folder_);
   EXPECT_EQ(summary_json(read), summary_json(sample()));
-  EXPECT_EQ(read.title, sample().title);
-  EXPECT_EQ(read.case_toml, sample().case_toml);
+  EXPECT_EQ(read.heading.title, sample().heading.title);
+  EXPECT_EQ(read.heading.case_toml, sample().heading.case_toml);
   ASSERT_EQ(read.tables.size(), 2U);
   EXPECT_EQ(read.tables[0].file, "chip.csv");
   ASSERT_EQ(read.tables[0].columns.size(), 2U);
@@ -102,17 +103,17 @@ TEST_F(Folder, ReadsBackAsItWasWritten) {
 }
 
 TEST_F(Folder, KeepsMissingNumbersMissing) {
-  base::Answer answer = sample();
+  Answer answer = sample();
   answer.tables[0].columns[0].values[1] = std::numeric_limits<double>::quiet_NaN();
   write_folder(folder_, answer, "");
-  const base::Answer read = read_folder(folder_);
+  const Answer read = read_folder(folder_);
   EXPECT_EQ(read.tables[0].columns[0].values[0], 1.0);
   EXPECT_TRUE(std::isnan(read.tables[0].columns[0].values[1]));
 }
 
 TEST_F(Folder, ReplacesAnOlderAnswerWhole) {
   write_folder(folder_, sample(), "<html>");
-  base::Answer second = sample();
+  Answer second = sample();
   second.tables.pop_back();
   write_folder(folder_, second, "");
   EXPECT_FALSE(fs::exists(folder_ / "forces.csv"));
@@ -163,7 +164,7 @@ TEST_F(Folder, ReplacesWhatALinkPointsTo) {
 }
 
 TEST_F(Folder, LeavesNothingBehindWhenItFails) {
-  base::Answer answer = sample();
+  Answer answer = sample();
   answer.tables[0].columns[0].values.push_back(3.0);  // columns of different lengths
   EXPECT_THROW(write_folder(folder_, answer, ""), std::invalid_argument);
   EXPECT_EQ(entries_of_root(), 0);
@@ -183,7 +184,7 @@ TEST_F(Folder, NamesThePlaceThatCannotBeWritten) {
 }
 
 TEST_F(Folder, WritesOnlyFilesThatMayBeReplacedLater) {
-  base::Answer answer = sample();
+  Answer answer = sample();
   answer.tables[0].file = "unlisted.csv";
   EXPECT_THROW(write_folder(folder_, answer, ""), std::invalid_argument);
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <trochoid/results/folder.h>
+#include <trochoid/results/json.h>
 #include <trochoid/results/number.h>
 #include <trochoid/results/provenance.h>
 
@@ -31,11 +32,13 @@ TEST(Number, IsNothingWhereThereIsNoNumber) {
 }
 
 TEST(Summary, HasExactlyTheShapeOfEveryCommand) {
-  base::Answer answer;
+  Answer answer;
   answer.command = "simulate";
-  answer.message = "Two teeth cut.";
-  answer.warnings = {{"idle_tooth", "Tooth 2 \"cuts\" nothing: h < 0 \xC2\xB5m."}};
-  answer.result = R"({"mean_N": [1.0, -2.5, 0.1], "teeth": [{"tooth": 1}]})";
+  answer.heading.message = "Two teeth cut.";
+  answer.heading.warnings = {
+      {"idle_tooth", "Tooth 2 \"cuts\" nothing: h < 0 \xC2\xB5m."}};
+  answer.result =
+      json_value(R"({"mean_N": [1.0, -2.5, 0.1], "teeth": [{"tooth": 1}]})");
   const auto read = nlohmann::ordered_json::parse(summary_json(answer));
   const nlohmann::ordered_json expected = {
       {"trochoid", {{"version", version()}, {"commit", commit()}}},
@@ -51,8 +54,8 @@ TEST(Summary, HasExactlyTheShapeOfEveryCommand) {
 }
 
 TEST(Summary, KeepsShapesEvenIfEmpty) {
-  base::Answer answer;
-  answer.ok = false;
+  Answer answer;
+  answer.heading.ok = false;
   const auto read = nlohmann::ordered_json::parse(summary_json(answer));
   EXPECT_EQ(read.at("status"), "failed");
   EXPECT_TRUE(read.at("warnings").is_array());
@@ -61,8 +64,9 @@ TEST(Summary, KeepsShapesEvenIfEmpty) {
 }
 
 TEST(Summary, WritesNumbersAsShortAsTheyAre) {
-  base::Answer answer;
-  answer.result = R"({"a": 0.30000000000000004, "b": 2.0, "c": null, "d": 12})";
+  Answer answer;
+  answer.result =
+      json_value(R"({"a": 0.30000000000000004, "b": 2.0, "c": null, "d": 12})");
   const std::string text = summary_json(answer);
   EXPECT_NE(text.find("\"a\": 0.30000000000000004"), std::string::npos) << text;
   EXPECT_NE(text.find("\"b\": 2,"), std::string::npos) << text;
@@ -71,8 +75,8 @@ TEST(Summary, WritesNumbersAsShortAsTheyAre) {
 }
 
 TEST(Summary, SurvivesTextThatIsNotUtf8) {
-  base::Answer answer;
-  answer.message = "latin1: \xB5m";
+  Answer answer;
+  answer.heading.message = "latin1: \xB5m";
   EXPECT_TRUE(nlohmann::json::accept(summary_json(answer)));
 }
 

@@ -55,21 +55,21 @@ poisson_ratio = 0.33
 position_mm = 20
 )";
 
-base::Answer answer(const std::string& bodies, const std::string& load) {
+results::Answer answer(const std::string& bodies, const std::string& load) {
   const auto file = std::filesystem::path(testing::TempDir()) / "bent_test.toml";
   std::ofstream(file) << cut << bodies << "[surface]\nload = \"" << load
                       << "\"\nheights_mm = [0.0, 1.5, 3.0]\n";
   return surface(inputs::read_case(file, inputs::Command::surface), {});
 }
 
-const base::Table* table_named(const base::Answer& answer, const char* file) {
+const base::Table* table_named(const results::Answer& answer, const char* file) {
   const auto table = std::find_if(answer.tables.begin(), answer.tables.end(),
                                   [&](const base::Table& t) { return t.file == file; });
   return table == answer.tables.end() ? nullptr : &*table;
 }
 
 /// At the angle of the largest force, by height.
-std::map<double, double> deflections(const base::Answer& answer) {
+std::map<double, double> deflections(const results::Answer& answer) {
   const base::Table& forces = *table_named(answer, "forces.csv");
   const auto& F = forces.columns[2].values;
   const auto peak = static_cast<std::size_t>(
@@ -89,7 +89,7 @@ std::map<double, double> deflections(const base::Answer& answer) {
 
 TEST(Bent, CutterAndWallAddUpToTheDeflectionUnderEitherLoad) {  // [E-5] [E-6]
   for (const char* load : {"distributed", "concentrated"}) {
-    const base::Answer given = answer(cutter + wall, load);
+    const results::Answer given = answer(cutter + wall, load);
     const base::Table* bent = table_named(given, "bent.csv");
     ASSERT_NE(bent, nullptr);
     const auto expected = deflections(given);
@@ -110,7 +110,7 @@ TEST(Bent, CutterAndWallAddUpToTheDeflectionUnderEitherLoad) {  // [E-5] [E-6]
 }
 
 TEST(Bent, IsNothingWhereTheBodiesAreHeldOrDoNotReach) {
-  const base::Answer given = answer(cutter + wall, "distributed");
+  const results::Answer given = answer(cutter + wall, "distributed");
   const base::Table& bent = *table_named(given, "bent.csv");
   const auto& height = bent.columns[0].values;
   EXPECT_NEAR(height.front(), -27.0, 1e-9);
@@ -129,7 +129,7 @@ TEST(Bent, IsNothingWhereTheBodiesAreHeldOrDoNotReach) {
 }
 
 TEST(Bent, IsToldOfOneBodyAloneAndNotOfNone) {
-  const base::Answer one = answer(wall, "distributed");
+  const results::Answer one = answer(wall, "distributed");
   const base::Table& bent = *table_named(one, "bent.csv");
   EXPECT_NEAR(bent.columns[0].values.back(), 3.0, 1e-9);
   for (const double u : bent.columns[1].values) {

@@ -1,3 +1,4 @@
+#include <trochoid/results/json.h>
 #include <trochoid/run/correct.h>
 
 #include <gtest/gtest.h>
@@ -28,8 +29,8 @@ struct Changes {
   std::vector<std::pair<std::string, std::string>> all;
 };
 
-base::Answer answer_of(const std::string& name, const Changes& changes,
-                       bool controller = false, const char* file = "case.toml") {
+results::Answer answer_of(const std::string& name, const Changes& changes,
+                          bool controller = false, const char* file = "case.toml") {
   std::string text = text_of(example / file);
   for (const auto& [from, to] : changes.all) {
     const auto at = text.find(from);
@@ -42,22 +43,22 @@ base::Answer answer_of(const std::string& name, const Changes& changes,
   return correct(inputs::read_case(path, inputs::Command::correct), controller, {});
 }
 
-const base::Table& table_of(const base::Answer& answer, const std::string& file) {
+const base::Table& table_of(const results::Answer& answer, const std::string& file) {
   return *std::find_if(answer.tables.begin(), answer.tables.end(),
                        [&](const base::Table& t) { return t.file == file; });
 }
 
-bool warned(const base::Answer& answer, const std::string& code) {
-  return std::any_of(answer.warnings.begin(), answer.warnings.end(),
+bool warned(const results::Answer& answer, const std::string& code) {
+  return std::any_of(answer.heading.warnings.begin(), answer.heading.warnings.end(),
                      [&](const base::Warning& w) { return w.code == code; });
 }
 
 /// [diez2010]: 38 % before, 30 um for an estimated 26 um, near equal after, the table
 /// within 10 %; at least 86 % less is what a correction of it has to reach.
 TEST(Correct, ReproducesTheCaseOfThePaper) {
-  const base::Answer answer = answer_of("paper", {});
-  ASSERT_TRUE(answer.ok) << answer.message;
-  const Json r = Json::parse(answer.result);
+  const results::Answer answer = answer_of("paper", {});
+  ASSERT_TRUE(answer.heading.ok) << answer.heading.message;
+  const Json r = Json::parse(results::json_text(answer.result));
   EXPECT_NEAR(r["before"]["difference"], 0.388, 0.002);
   EXPECT_LT(r["after"]["difference"], 0.002);
   EXPECT_GT(r["reduction"], 0.86);
@@ -78,7 +79,7 @@ TEST(Correct, ReproducesTheCaseOfThePaper) {
 }
 
 TEST(Correct, CommandStaysInTheStrokeAboutItsMiddle) {
-  const base::Answer answer = answer_of("stroke", {});
+  const results::Answer answer = answer_of("stroke", {});
   const base::Table& command = table_of(answer, "command.csv");
   ASSERT_EQ(command.columns.at(1).name, "command_um");
   const auto& values = command.columns[1].values;
@@ -95,17 +96,17 @@ TEST(Correct, CommandStaysInTheStrokeAboutItsMiddle) {
 TEST(Correct, FindsRunoutBehindWhatGivesWay) {
   Changes here;
   here.all = {{"record.csv", (example / "record.csv").string()}};
-  const base::Answer answer = answer_of("record", here, false, "measured.toml");
-  ASSERT_TRUE(answer.ok) << answer.message;
-  const Json r = Json::parse(answer.result)["runout"];
+  const results::Answer answer = answer_of("record", here, false, "measured.toml");
+  ASSERT_TRUE(answer.heading.ok) << answer.heading.message;
+  const Json r = Json::parse(results::json_text(answer.result))["runout"];
   EXPECT_NEAR(r["chip_difference_um"][0], 27.8, 0.4);
   EXPECT_LT(r["static_fit"]["chip_difference_um"][0]["value"], 26.5);
 }
 
 TEST(Correct, CommandForARigidReadingLeavesWhatGivesWay) {
-  const base::Answer answer =
+  const results::Answer answer =
       answer_of("static", {{{"[correct]", "[correct]\nestimate = \"static_fit\""}}});
-  const Json r = Json::parse(answer.result);
+  const Json r = Json::parse(results::json_text(answer.result));
   EXPECT_GT(r["after"]["difference"], 0.02);
   EXPECT_GT(r["reduction"], 0.86);
   EXPECT_TRUE(warned(answer, "static_estimate"));
@@ -117,21 +118,22 @@ TEST(Correct, ShapesAndStrategiesMakePeaksEqual) {
        {Pair{"sine", "plain"}, Pair{"square", "lead"}, Pair{"trapezoid", "inverse"},
         Pair{"quintic", "inverse_in_time"}, Pair{"harmonics", "learning"}}) {
     SCOPED_TRACE(shape + " " + strategy);
-    const base::Answer answer = answer_of(
+    const results::Answer answer = answer_of(
         "all", {{{"shape = \"sine\"", "shape = \"" + shape + "\""},
                  {"strategy = \"lead\"",
                   "strategy = \"" + strategy + "\"\nspindle_rpm = [1000, 2000, 2]"}}});
-    ASSERT_TRUE(answer.ok) << answer.message;
-    EXPECT_LT(Json::parse(answer.result)["after"]["difference"], 0.005);
+    ASSERT_TRUE(answer.heading.ok) << answer.heading.message;
+    EXPECT_LT(Json::parse(results::json_text(answer.result))["after"]["difference"],
+              0.005);
   }
 }
 
 TEST(Correct, SaysWhatIsBeyondALimit) {
-  const base::Answer answer =
+  const results::Answer answer =
       answer_of("limits", {{{"stroke_um = [0, 60]", "stroke_um = [0, 20]"},
                             {"push_N = 2000", "push_N = 10"}}});
-  ASSERT_TRUE(answer.ok);
-  const Json command = Json::parse(answer.result)["command"];
+  ASSERT_TRUE(answer.heading.ok);
+  const Json command = Json::parse(results::json_text(answer.result))["command"];
   EXPECT_FALSE(command["within_limits"]);
   EXPECT_LT(command["stroke_margin_um"], 0);
   EXPECT_TRUE(warned(answer, "beyond_limit"));
@@ -140,25 +142,26 @@ TEST(Correct, SaysWhatIsBeyondALimit) {
 /// A tool that chatters has no peaks to make equal.
 TEST(Correct, RefusesACutThatChatters) {
   std::string soft = "stiffness_N_per_m = 8e6";
-  const base::Answer answer =
+  const results::Answer answer =
       answer_of("chatter", {{{soft, "stiffness_N_per_m = 5e5"},
                              {soft, "stiffness_N_per_m = 5e5"},
                              {"axial_depth_mm = 1", "axial_depth_mm = 3"}}});
-  EXPECT_FALSE(answer.ok);
-  EXPECT_NE(answer.message.find("chatter"), std::string::npos) << answer.message;
+  EXPECT_FALSE(answer.heading.ok);
+  EXPECT_NE(answer.heading.message.find("chatter"), std::string::npos)
+      << answer.heading.message;
 }
 
 /// Four teeth in a slot: two cut at once, one axis cannot serve both.
 TEST(Correct, SaysWhatOneAxisCannotDo) {
-  const base::Answer answer =
+  const results::Answer answer =
       answer_of("four", {{{"teeth = 2", "teeth = 4"},
                           {"[0.0139, -0.0139]", "[0.010, -0.004, 0.003, -0.009]"},
                           {"strategy = \"lead\"", "strategy = \"inverse\""},
                           {"target = \"peak_force\"", "target = \"least_squares\""},
                           {"axial_depth_mm = 1", "axial_depth_mm = 0.2"},
                           {"adapt = true", "adapt = false"}}});
-  ASSERT_TRUE(answer.ok) << answer.message;
-  const Json axes = Json::parse(answer.result)["axes"];
+  ASSERT_TRUE(answer.heading.ok) << answer.heading.message;
+  const Json axes = Json::parse(results::json_text(answer.result))["axes"];
   EXPECT_EQ(axes["most_teeth_in_cut"], 2);
   EXPECT_LT(axes["two_axes_um"], axes["one_axis_um"]);
   EXPECT_LT(axes["one_axis_um"], axes["uncorrected_um"]);
@@ -166,9 +169,9 @@ TEST(Correct, SaysWhatOneAxisCannotDo) {
 }
 
 TEST(CorrectController, LearnsTheAmplitudeInFiveTurns) {
-  const base::Answer answer = answer_of("adapt", {}, true);
-  ASSERT_TRUE(answer.ok) << answer.message;
-  const Json c = Json::parse(answer.result)["controller"];
+  const results::Answer answer = answer_of("adapt", {}, true);
+  ASSERT_TRUE(answer.heading.ok) << answer.heading.message;
+  const Json c = Json::parse(results::json_text(answer.result))["controller"];
   EXPECT_GT(c["difference_before"], 0.38);
   EXPECT_LT(c["difference_running"], 0.01);
   EXPECT_LE(c["turns_to_3_percent"], 5);
@@ -178,12 +181,12 @@ TEST(CorrectController, LearnsTheAmplitudeInFiveTurns) {
 }
 
 TEST(CorrectController, GoesToMidStrokeWithoutIndexPulses) {
-  const base::Answer answer =
+  const results::Answer answer =
       answer_of("lost",
                 {{{"adapt = true",
                    "index_lost_at_turn = 25\njitter_s = 1e-4\nspeed_ripple = 0.02"}}},
                 true);
-  const Json c = Json::parse(answer.result)["controller"];
+  const Json c = Json::parse(results::json_text(answer.result))["controller"];
   EXPECT_EQ(c["fault"], "no index pulse");
   EXPECT_LT(c["difference_running"], 0.03);
   ASSERT_TRUE(c["time_to_safe_s"].is_number());
@@ -194,15 +197,15 @@ TEST(CorrectController, GoesToMidStrokeWithoutIndexPulses) {
 }
 
 TEST(CorrectController, RefusesWhatItCannotLearn) {
-  const base::Answer answer =
+  const results::Answer answer =
       answer_of("three",
                 {{{"teeth = 2", "teeth = 3"},
                   {"axial_depth_mm = 1", "axial_depth_mm = 0.2"},
                   {"[0.0139, -0.0139]", "[0.01, 0, -0.01]"}}},
                 true);
-  EXPECT_FALSE(answer.ok);
-  EXPECT_NE(answer.message.find("controller refuses"), std::string::npos)
-      << answer.message;
+  EXPECT_FALSE(answer.heading.ok);
+  EXPECT_NE(answer.heading.message.find("controller refuses"), std::string::npos)
+      << answer.heading.message;
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trochoid::base {
+
+/// One CSV file of an answer. The unit is part of every column name.
+struct Table {
+  struct Column {
+    std::string name;            ///< for example `Fx_N`
+    std::vector<double> values;  ///< in the unit of the name; all columns equally long
+  };
+  std::string file;  ///< for example `forces.csv`
+  std::vector<Column> columns;
+};
+
+/// @brief Append a column.
+/// @param value  of each row, called with 0, 1 ... rows - 1
+template <class Value>
+void add_column(Table& table, std::string name, std::size_t rows, const Value& value) {
+  Table::Column& column = table.columns.emplace_back();
+  column.name = std::move(name);
+  column.values.reserve(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    column.values.push_back(static_cast<double>(value(i)));
+  }
+}
+
+/// A further text file of an answer.
+struct TextFile {
+  std::string file;  ///< for example `material.toml`
+  std::string text;
+};
+
+}  // namespace trochoid::base
