@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
   for (const auto command :
-       {Command::check, Command::simulate, Command::identify, Command::surface,
+       {std::nullopt, Command::simulate, Command::identify, Command::surface,
         Command::calibrate, Command::stability}) {
     read(file, command);
   }

@@ -36,7 +36,7 @@ void check_machine_files(const inputs::Case& given,
 }  // namespace
 
 int check(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::check);
+  const inputs::Case given = inputs::read_case(options.file, std::nullopt);
   std::vector<std::string> problems;
   std::string found;
   for (const inputs::Measurement& measurement : given.measurements) {

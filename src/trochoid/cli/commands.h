@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/base/command.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,7 +28,7 @@ struct Options {
   std::optional<double> start_s;  ///< time of a step
 };
 
-/// Exit codes (DESIGN section 4).
+/// Exit codes of every command.
 inline constexpr int answered = 0;
 inline constexpr int no_answer = 1;
 inline constexpr int wrong_input = 2;
@@ -44,7 +46,7 @@ int correct(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output
-int new_case(const std::string& command, const std::filesystem::path& file);
+int new_case(base::Command command, const std::filesystem::path& file);
 int report(const Options& options);
 
 }  // namespace trochoid::cli

@@ -1,4 +1,6 @@
+#include <trochoid/base/command.h>
 #include <trochoid/base/error.h>
+#include <trochoid/base/names.h>
 #include <trochoid/cli/commands.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/results/provenance.h>
@@ -6,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cstdio>
@@ -17,49 +20,45 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace {
 
+using trochoid::base::Command;
 using trochoid::cli::Options;
 
-struct Command {
-  const char* name;
-  const char* what;
-  int (*run)(const Options&);
-};
+int answer(Command command, const Options& options) {
+  using namespace trochoid::cli;
+  switch (command) {
+    case Command::simulate:
+      return simulate(options);
+    case Command::identify:
+      return identify(options);
+    case Command::surface:
+      return surface(options);
+    case Command::calibrate:
+      return calibrate(options);
+    case Command::stability:
+      return stability(options);
+    case Command::modes:
+      return modes(options);
+    case Command::actuator:
+      return actuator(options);
+    case Command::dynamics:
+      return dynamics(options);
+    case Command::correct:
+      return correct(options);
+  }
+  return our_bug;
+}
 
-constexpr Command commands[] = {
-    {"simulate",
-     "Chip, forces, torque and engagement of a case; "
-     "compared with its measurements, if it has any",
-     trochoid::cli::simulate},
-    {"identify",
-     "Cutting coefficients and runout from measured "
-     "forces, with how well each is known",
-     trochoid::cli::identify},
-    {"surface",
-     "The wall that a cut leaves: its errors over feed and height, from what bends",
-     trochoid::cli::surface},
-    {"calibrate",
-     "Cutting coefficients and runout from a measured wall, without a dynamometer",
-     trochoid::cli::calibrate},
-    {"stability",
-     "Whether a small vibration grows at the case, and "
-     "at every speed and depth around it",
-     trochoid::cli::stability},
-    {"modes",
-     "Modal masses, stiffnesses and dampings from a measured frequency response",
-     trochoid::cli::modes},
-    {"actuator", "Gain and dynamics of an actuator from a measured step",
-     trochoid::cli::actuator},
-    {"dynamics",
-     "Motion of cutter, table and actuator in time while they cut, with runout",
-     trochoid::cli::dynamics},
-    {"correct",
-     "The motion of the table that makes the flutes cut alike, its command, its limits",
-     trochoid::cli::correct},
-    {"check", "Read a case file and its measurements and name every mistake in them",
-     trochoid::cli::check}};
+std::vector<Command> all_commands() {
+  std::vector<Command> all;
+  for (const std::string_view name : trochoid::base::names<Command>) {
+    all.push_back(*trochoid::base::named<Command>(name));
+  }
+  return all;
+}
 
 void add_common(CLI::App& app, Options& options) {
   app.add_option("CASE.toml", options.file,
@@ -76,11 +75,11 @@ void add_output(CLI::App& app, Options& options) {
 }
 
 /// What a bare data file does not say by itself.
-void add_data_options(CLI::App& app, const std::string& command, Options& options) {
-  if (command == "modes") {
+void add_data_options(CLI::App& app, Command command, Options& options) {
+  if (command == Command::modes) {
     app.get_option("CASE.toml")
         ->description(
-            "The measured frequency response (UFF58, or a "
+            "The measured frequency response function (UFF58, or a "
             "table), or a case with [frf]");
     app.add_option("--kind", options.kind,
                    "What was measured, if the file does not say it by its unit")
@@ -91,14 +90,14 @@ void add_data_options(CLI::App& app, const std::string& command, Options& option
     app.add_option("--band", options.band, "Lowest and highest frequency used, in Hz")
         ->expected(2);
     app.add_option("--dataset", options.dataset,
-                   "Which frequency response of a universal file, from 1")
+                   "Which frequency response function of a universal file, from 1")
         ->check(CLI::Range(1, 100000));
   }
-  if (command == "correct") {
+  if (command == Command::correct) {
     app.add_flag("--simulate-controller", options.simulate_controller,
                  "Run the real-time controller in the loop ([controller])");
   }
-  if (command == "actuator") {
+  if (command == Command::actuator) {
     app.get_option("CASE.toml")
         ->description("The record of the step (CSV), or a case with [step]");
     app.add_option("--step-um", options.step_um,
@@ -138,29 +137,34 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Options options;
   std::function<int()> chosen;
-  for (const Command& command : commands) {
-    CLI::App* sub = app.add_subcommand(command.name, command.what);
+  for (const Command command : all_commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(name_of(command)),
+                                       std::string(purpose_of(command)));
     add_common(*sub, options);
-    if (std::string(command.name) != "check") {
-      add_output(*sub, options);
-    }
-    add_data_options(*sub, command.name, options);
-    sub->callback([&] { chosen = [&] { return command.run(options); }; });
+    add_output(*sub, options);
+    add_data_options(*sub, command, options);
+    sub->callback(
+        [&, command] { chosen = [&, command] { return answer(command, options); }; });
   }
+  CLI::App* check = app.add_subcommand(
+      "check", "Read a case file and its measurements and name every mistake in them");
+  add_common(*check, options);
+  check->callback([&] { chosen = [&] { return trochoid::cli::check(options); }; });
   std::string wanted;
+  const std::vector<std::string> names(trochoid::base::names<Command>.begin(),
+                                       trochoid::base::names<Command>.end());
   CLI::App* fresh =
       app.add_subcommand("new", "Write a commented case file to start from");
-  fresh
-      ->add_option(
-          "COMMAND", wanted,
-          "simulate, identify, surface, calibrate, stability, dynamics, correct, modes "
-          "or actuator")
+  fresh->add_option("COMMAND", wanted, fmt::format("{}", fmt::join(names, ", ")))
       ->required()
-      ->check(CLI::IsMember({"simulate", "identify", "surface", "calibrate",
-                             "stability", "dynamics", "correct", "modes", "actuator"}));
+      ->check(CLI::IsMember(names));
   fresh->add_option("FILE", options.file, "Where (default: print it)");
-  fresh->callback(
-      [&] { chosen = [&] { return trochoid::cli::new_case(wanted, options.file); }; });
+  fresh->callback([&] {
+    chosen = [&] {
+      return trochoid::cli::new_case(*trochoid::base::named<Command>(wanted),
+                                     options.file);
+    };
+  });
   CLI::App* report = app.add_subcommand(
       "report", "Make report.html of a result folder again from its files");
   report->add_option("FOLDER", options.file, "The result folder")->required();

@@ -1,4 +1,5 @@
 #include <trochoid/base/error.h>
+#include <trochoid/base/names.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/actuator.h>
@@ -22,13 +23,6 @@ void refuse_for_case(const Options& options, bool given, const char* names,
   }
 }
 
-inputs::FrfKind kind_of(const std::string& name) {
-  if (name == "receptance") return inputs::FrfKind::receptance;
-  if (name == "mobility") return inputs::FrfKind::mobility;
-  if (name == "accelerance") return inputs::FrfKind::accelerance;
-  return inputs::FrfKind::detect;
-}
-
 }  // namespace
 
 int modes(const Options& options) {
@@ -42,11 +36,12 @@ int modes(const Options& options) {
         options);
   }
   inputs::MachineTables machine;
-  machine.frf = inputs::FrfTables{.file = options.file.string(),
-                                  .kind = kind_of(options.kind),
-                                  .dataset = options.dataset,
-                                  .modes = options.modes,
-                                  .band = options.band};
+  machine.frf =
+      inputs::FrfTables{.file = options.file.string(),
+                        .kind = base::named<structure::ResponseKind>(options.kind),
+                        .dataset = options.dataset,
+                        .modes = options.modes,
+                        .band = options.band};
   return deliver(run::modes(inputs::bare_case(machine, inputs::Command::modes, folder)),
                  options);
 }

@@ -9,24 +9,8 @@
 
 namespace trochoid::cli {
 
-namespace {
-
-inputs::Command command_named(const std::string& name) {
-  return name == "identify"    ? inputs::Command::identify
-         : name == "surface"   ? inputs::Command::surface
-         : name == "calibrate" ? inputs::Command::calibrate
-         : name == "stability" ? inputs::Command::stability
-         : name == "dynamics"  ? inputs::Command::dynamics
-         : name == "correct"   ? inputs::Command::correct
-         : name == "modes"     ? inputs::Command::modes
-         : name == "actuator"  ? inputs::Command::actuator
-                               : inputs::Command::simulate;
-}
-
-}  // namespace
-
-int new_case(const std::string& command, const std::filesystem::path& file) {
-  const std::string text = inputs::new_case(command_named(command));
+int new_case(base::Command command, const std::filesystem::path& file) {
+  const std::string text = inputs::new_case(command);
   if (file.empty()) {
     fmt::print("{}", text);
     return answered;
@@ -43,7 +27,8 @@ int new_case(const std::string& command, const std::filesystem::path& file) {
   if (!out) {
     throw base::InputError({file.string() + ": it cannot be written"});
   }
-  fmt::print("{0}: edit it, then run\n  trochoid {1} {0}\n", file.string(), command);
+  fmt::print("{0}: edit it, then run\n  trochoid {1} {0}\n", file.string(),
+             name_of(command));
   return answered;
 }
 

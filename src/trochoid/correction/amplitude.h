@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::correction {
@@ -16,6 +17,19 @@ enum class Target {
   chip_area,      ///< what the flutes cut in a turn
   least_squares,  ///< the chips over the whole arc of cut, as nearly as possible
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Target target) noexcept {
+  switch (target) {
+    case Target::peak_force:
+      return "peak_force";
+    case Target::chip_area:
+      return "chip_area";
+    case Target::least_squares:
+      return "least_squares";
+  }
+  return {};
+}
 
 /// A motion made as large as its target asks.
 struct Amplitude {

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace trochoid::correction {
 
@@ -17,6 +18,23 @@ enum class Method {
   inverse_in_time,  ///< a_0 x + a_1 x' + a_2 x'', of smooth motions
   learning,         ///< inverse, then improved on the table itself
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Method method) noexcept {
+  switch (method) {
+    case Method::plain:
+      return "plain";
+    case Method::lead:
+      return "lead";
+    case Method::inverse:
+      return "inverse";
+    case Method::inverse_in_time:
+      return "inverse_in_time";
+    case Method::learning:
+      return "learning";
+  }
+  return {};
+}
 
 /// What the actuator can do.
 struct ActuatorLimits {

@@ -4,18 +4,36 @@
 #include <trochoid/correction/rigid_cut.h>
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::correction {
 
 /// How the table goes from one level to the next.
 enum class Shape {
-  square,     ///< at once
   sine,       ///< a sine at spindle frequency through the levels
+  square,     ///< at once
   trapezoid,  ///< at constant speed
   quintic,    ///< without jump of place, speed and acceleration
   harmonics,  ///< harmonics of the spindle, by least squares over the whole cut
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Shape shape) noexcept {
+  switch (shape) {
+    case Shape::sine:
+      return "sine";
+    case Shape::square:
+      return "square";
+    case Shape::trapezoid:
+      return "trapezoid";
+    case Shape::quintic:
+      return "quintic";
+    case Shape::harmonics:
+      return "harmonics";
+  }
+  return {};
+}
 
 struct ShapeOptions {
   double transition = 1.3962634015954636;  ///< width of a change of level [rad]: 80 deg

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 namespace trochoid::geometry {
@@ -31,6 +32,17 @@ enum class LagLaw {
   constant_helix,  ///< the same up to the flank, there d lag = tan(helix) dz/(r
                    ///< cos(beta))
 };
+
+/// Names of files.
+constexpr std::string_view name_of(LagLaw law) noexcept {
+  switch (law) {
+    case LagLaw::constant_lead:
+      return "constant_lead";
+    case LagLaw::constant_helix:
+      return "constant_helix";
+  }
+  return {};
+}
 
 /// @brief A cutter: profile, teeth and edges. Teeth are numbered in order of passage.
 struct Cutter {

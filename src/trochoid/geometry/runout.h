@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::geometry {
@@ -10,6 +11,17 @@ enum class EccentricityOrder {
   exact,  ///< R = |r + rho|, and the angle turns by epsilon
   first,  ///< R = r + rho cos(c), the angle stays
 };
+
+/// Names of files.
+constexpr std::string_view name_of(EccentricityOrder order) noexcept {
+  switch (order) {
+    case EccentricityOrder::exact:
+      return "exact";
+    case EccentricityOrder::first:
+      return "first";
+  }
+  return {};
+}
 
 /// @brief Runout: radial offset of each tooth and
 /// eccentricity of the cutter; they add up.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::identification {
@@ -26,6 +27,21 @@ enum class RunoutUnknowns {
   offsets,       ///< of teeth 2..N; the first is 0
   eccentricity,  ///< rho and lambda
 };
+
+/// Names of files.
+constexpr std::string_view name_of(RunoutUnknowns unknowns) noexcept {
+  switch (unknowns) {
+    case RunoutUnknowns::none:
+      return "none";
+    case RunoutUnknowns::fixed:
+      return "fixed";
+    case RunoutUnknowns::offsets:
+      return "offsets";
+    case RunoutUnknowns::eccentricity:
+      return "eccentricity";
+  }
+  return {};
+}
 
 /// What is to be found, and how.
 struct Options {

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <trochoid/base/command.h>
 #include <trochoid/force/law.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/identification/identify.h>
 #include <trochoid/inputs/machine_tables.h>
 
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -32,6 +35,19 @@ struct Dynamometer {
 
 enum class FileFormat { detect, csv, dynoware };
 
+/// Names of files.
+constexpr std::string_view name_of(FileFormat format) noexcept {
+  switch (format) {
+    case FileFormat::detect:
+      return "detect";
+    case FileFormat::csv:
+      return "csv";
+    case FileFormat::dynoware:
+      return "dynoware";
+  }
+  return {};
+}
+
 /// One [[measurement]].
 struct Measurement {
   std::filesystem::path file;  ///< absolute, or relative to where we run
@@ -44,8 +60,6 @@ struct Measurement {
   std::string location;               ///< file:line:col of its `file` key
 };
 
-enum class RunoutFit { none, fixed, offsets, eccentricity };
-
 /// What is done about a constant or slowly drifting reading of each channel.
 enum class ChannelOffset {
   none,  ///< the record is taken as it stands
@@ -53,20 +67,28 @@ enum class ChannelOffset {
   fit,   ///< one constant and one slope a channel, found with the coefficients
 };
 
+/// Names of files.
+constexpr std::string_view name_of(ChannelOffset offset) noexcept {
+  switch (offset) {
+    case ChannelOffset::none:
+      return "none";
+    case ChannelOffset::idle:
+      return "idle";
+    case ChannelOffset::fit:
+      return "fit";
+  }
+  return {};
+}
+
 /// [identify]
 struct Identify {
   std::vector<chip::Model> chip_models = {chip::Model::none, chip::Model::feed,
                                           chip::Model::trochoidal};
-  RunoutFit runout = RunoutFit::offsets;
+  identification::RunoutUnknowns runout = identification::RunoutUnknowns::offsets;
   std::optional<double> phase;  ///< [rad]; absent: free
   int band_harmonics = 0;       ///< 0: all
   ChannelOffset channel_offsets = ChannelOffset::none;
-  struct Sweep {
-    double first = 0.0;  ///< [m]
-    double last = 0.0;   ///< [m]
-    int count = 0;
-  };
-  std::optional<Sweep> sweep;  ///< of the offset of tooth 2
+  std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
 };
 
 /// @brief A case file, read and checked, in SI and radians.
@@ -84,25 +106,14 @@ struct Case {
   std::string as_understood;  ///< TOML with every default filled in
 };
 
-/// Commands differ in the tables that they need.
-enum class Command {
-  check,
-  simulate,
-  identify,
-  surface,
-  calibrate,
-  stability,
-  modes,
-  actuator,
-  dynamics,
-  correct
-};
+using base::Command;
 
 /// @brief Read a case file with all that it includes.
+/// @param command        whose tables must be there; none: that which its tables show
 /// @param result_folder  where `as_understood` will be written: the relative names of
 ///                       files in it count from there; empty: they become absolute
 /// @throws base::InputError with every problem of the file
-Case read_case(const std::filesystem::path& file, Command command,
+Case read_case(const std::filesystem::path& file, std::optional<Command> command,
                const std::filesystem::path& result_folder = {});
 
 /// @brief The case of a bare data file: [frf] or [step] and nothing else.

@@ -79,7 +79,11 @@ std::string describe_case_file() {
   for (const TableEntry& table : tables_of(tables)) {
     std::string meaning{table.meaning};
     if (!table.needed_by.empty()) {
-      meaning += fmt::format(" (needed by `{}`)", fmt::join(table.needed_by, "`, `"));
+      std::vector<std::string_view> names;
+      for (const Command command : table.needed_by) {
+        names.push_back(name_of(command));
+      }
+      meaning += fmt::format(" (needed by `{}`)", fmt::join(names, "`, `"));
     }
     meaning.front() = static_cast<char>(std::toupper(meaning.front()));
     head(fmt::format("`{}`", heading(table)), meaning);

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <trochoid/base/steps.h>
 #include <trochoid/base/units.h>
+#include <trochoid/correction/amplitude.h>
+#include <trochoid/correction/command.h>
+#include <trochoid/correction/shapes.h>
+#include <trochoid/structure/frequency_response.h>
+#include <trochoid/surface/feedback.h>
+#include <trochoid/surface/readings.h>
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Tables about the machine, the workpiece and its surface, in SI. Commands that do not
@@ -29,15 +37,11 @@ struct Wall {
   double position = 0.0;  ///< of the cutter along the wall [m]; default: its middle
 };
 
-enum class SurfaceModel { quasi_static, imprint, envelope };
-enum class SurfaceLoad { distributed, concentrated };
-enum class Feedback { none, entry, regenerative, direct };
-
 /// [surface]
 struct Surface {
-  SurfaceModel model = SurfaceModel::envelope;
-  SurfaceLoad load = SurfaceLoad::distributed;
-  Feedback feedback = Feedback::none;
+  surface::Model model = surface::Model::envelope;
+  surface::Load load = surface::Load::distributed;
+  surface::Feedback feedback = surface::Feedback::none;
   double phase = 0.0;                     ///< phi0 [rad]
   std::vector<double> heights;            ///< of the answer, above the tip [m]
   std::vector<double> influence_heights;  ///< of influence.csv, above the tip [m]
@@ -52,12 +56,47 @@ struct SurfaceMeasurement {
   std::string location;       ///< file:line:col of its `file` key
 };
 
-/// `detect`: the file says it.
-enum class FrfKind { detect, receptance, mobility, accelerance };
 enum class ResidualTerms { choose, yes, no };
 
+/// Names of files.
+constexpr std::string_view name_of(ResidualTerms terms) noexcept {
+  switch (terms) {
+    case ResidualTerms::choose:
+      return "choose";
+    case ResidualTerms::yes:
+      return "yes";
+    case ResidualTerms::no:
+      return "no";
+  }
+  return {};
+}
+
 enum class ModeBody { tool, table };
+
+/// Names of files.
+constexpr std::string_view name_of(ModeBody body) noexcept {
+  switch (body) {
+    case ModeBody::tool:
+      return "tool";
+    case ModeBody::table:
+      return "table";
+  }
+  return {};
+}
 enum class Axis { x, y, z };
+
+/// Names of files.
+constexpr std::string_view name_of(Axis axis) noexcept {
+  switch (axis) {
+    case Axis::x:
+      return "x";
+    case Axis::y:
+      return "y";
+    case Axis::z:
+      return "z";
+  }
+  return {};
+}
 
 /// One [[mode]]: two of mass, stiffness and frequency, one of the dampings.
 struct Mode {
@@ -87,6 +126,21 @@ struct Actuator {
 
 enum class CommandShape { sine, square, trapezoid, table };
 
+/// Names of files.
+constexpr std::string_view name_of(CommandShape shape) noexcept {
+  switch (shape) {
+    case CommandShape::sine:
+      return "sine";
+    case CommandShape::square:
+      return "square";
+    case CommandShape::trapezoid:
+      return "trapezoid";
+    case CommandShape::table:
+      return "table";
+  }
+  return {};
+}
+
 /// [command]: imposed on the actuator.
 struct ImposedCommand {
   CommandShape shape = CommandShape::sine;
@@ -96,27 +150,34 @@ struct ImposedCommand {
   double lead = 0.0;     ///< [s]
 };
 
-enum class CorrectionTarget { peak_force, chip_area, least_squares };
-enum class CorrectionStrategy { plain, lead, inverse, inverse_in_time, learning };
-enum class CorrectionShape { sine, square, trapezoid, quintic, harmonics };
-
 /// What the command is made for: the runout of the case, or of a [[measurement]], or
 /// what a static fit of the forces takes it for.
 enum class RunoutEstimate { known, static_fit };
 
+/// Names of files.
+constexpr std::string_view name_of(RunoutEstimate estimate) noexcept {
+  switch (estimate) {
+    case RunoutEstimate::known:
+      return "known";
+    case RunoutEstimate::static_fit:
+      return "static_fit";
+  }
+  return {};
+}
+
 /// [correct]
 struct Correction {
-  CorrectionTarget target = CorrectionTarget::peak_force;
-  CorrectionStrategy strategy = CorrectionStrategy::inverse;
-  CorrectionShape shape = CorrectionShape::sine;
+  correction::Target target = correction::Target::peak_force;
+  correction::Method strategy = correction::Method::inverse;
+  correction::Shape shape = correction::Shape::sine;
   RunoutEstimate estimate = RunoutEstimate::known;
   double transition = 80 * unit::deg;  ///< of trapezoid and quintic [rad]
   int harmonics = 9;                   ///< highest of the command
   std::optional<double> peak_to_peak;  ///< of the motion wanted [m]; absent: by target
   double sample_rate = 0.0;            ///< of a held command [Hz]; 0: continuous
   double learning_gain = 0.7;
-  double allowed_difference = 0.05;   ///< of the peaks, for the highest speed
-  std::vector<double> spindle_speed;  ///< first, last, number; as [stability] has it
+  double allowed_difference = 0.05;          ///< of the peaks, for the highest speed
+  std::optional<base::Steps> spindle_speed;  ///< of the map [rad/s]
 };
 
 /// [controller]: the real-time controller when it is simulated.
@@ -134,10 +195,9 @@ struct Controller {
 
 /// [stability]
 struct Stability {
-  /// First, last and number, the last in the unit of the others; as the file has them.
-  std::vector<double> spindle_speed;  ///< [rad/s]
-  std::vector<double> axial_depth;    ///< [m]
-  double tolerance = 1e-6;            ///< of the multiplier
+  std::optional<base::Steps> spindle_speed;  ///< of the lobes [rad/s]
+  std::optional<base::Steps> axial_depth;    ///< [m]
+  double tolerance = 1e-6;                   ///< of the multiplier
   double margin = 0.01;      ///< within this of 1 a multiplier is called marginal
   double chip_floor = 2e-6;  ///< least chip of the gradient of a power law [m]
 };
@@ -146,7 +206,7 @@ struct Stability {
 struct FrfTables {
   std::string file;      ///< absolute, or relative to where we run
   std::string location;  ///< file:line:col of its `file` key
-  FrfKind kind = FrfKind::detect;
+  std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
   int dataset = 0;           ///< of a universal file, from 1; 0: the only one
   int modes = 0;             ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all

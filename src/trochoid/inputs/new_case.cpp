@@ -111,8 +111,8 @@ CaseTables stability_example() {
   mode.frequency = 922.0;
   mode.damping_ratio = 0.011;
   Stability& lobes = t.machine.stability.emplace();
-  lobes.spindle_speed = {5000 * unit::rpm, 25000 * unit::rpm, 101 * unit::rpm};
-  lobes.axial_depth = {0.08 * unit::mm, 4 * unit::mm, 50 * unit::mm};
+  lobes.spindle_speed = base::Steps{5000 * unit::rpm, 25000 * unit::rpm, 101};
+  lobes.axial_depth = base::Steps{0.08 * unit::mm, 4 * unit::mm, 50};
   return t;
 }
 
@@ -160,7 +160,7 @@ CaseTables correct_example() {
   t.chip.model = chip::Model::radial;
   t.machine.command.reset();
   t.machine.actuator->stroke = {0.0, 60 * unit::um};
-  t.machine.correct.emplace().strategy = CorrectionStrategy::lead;
+  t.machine.correct.emplace().strategy = correction::Method::lead;
   t.machine.controller.emplace();
   return t;
 }
@@ -181,7 +181,6 @@ CaseTables actuator_example() {
 
 /// What a new case of a command shows.
 struct Template {
-  std::string_view verb;
   CaseTables tables;
   std::vector<std::string_view> shown;
 };
@@ -190,42 +189,35 @@ Template template_for(Command command) {
   switch (command) {
     case Command::identify:
       return {
-          "identify",
           identify_example(),
           {"tool", "cut", "chip", "force", "dynamometer", "measurement", "identify"}};
     case Command::surface:
       return {
-          "surface",
           surface_example(),
           {"tool", "runout", "cut", "chip", "force", "cutter_body", "wall", "surface"}};
     case Command::calibrate:
-      return {"calibrate",
-              calibrate_example(),
+      return {calibrate_example(),
               {"tool", "cut", "chip", "cutter_body", "wall", "surface",
                "surface_measurement"}};
     case Command::stability:
-      return {"stability",
-              stability_example(),
+      return {stability_example(),
               {"tool", "runout", "cut", "chip", "force", "mode", "stability"}};
     case Command::dynamics:
-      return {"dynamics",
-              dynamics_example(),
+      return {dynamics_example(),
               {"tool", "runout", "cut", "chip", "force", "sampling", "mode", "actuator",
                "command"}};
     case Command::correct:
-      return {"correct",
-              correct_example(),
+      return {correct_example(),
               {"tool", "runout", "cut", "chip", "force", "sampling", "mode", "actuator",
                "correct", "controller"}};
     case Command::modes:
-      return {"modes", modes_example(), {"frf"}};
+      return {modes_example(), {"frf"}};
     case Command::actuator:
-      return {"actuator", actuator_example(), {"step"}};
-    default:
-      return {"simulate",
-              simulate_example(),
-              {"tool", "runout", "cut", "chip", "force", "sampling"}};
+      return {actuator_example(), {"step"}};
+    case Command::simulate:
+      break;
   }
+  return {simulate_example(), {"tool", "runout", "cut", "chip", "force", "sampling"}};
 }
 
 std::string comment(const Key& key, const Field& field, bool given) {
@@ -261,7 +253,7 @@ std::string new_case(Command command) {
       "# A case for `trochoid {}`: write your own numbers in place of these.\n"
       "# Every key ends in its unit. A key behind a # may be left out. All keys, with\n"
       "# their ranges: docs/formats/case.md\n\n",
-      fresh.verb);
+      name_of(command));
   const auto line = [&text](std::string_view left, std::string_view right) {
     text += fmt::format("{:<33} # {}\n", left, right);
   };

@@ -17,12 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// `check` asks for what the case seems to be made for.
-Command purpose_of(Command command, const Node& root) {
+Command purpose_of(std::optional<Command> command, const Node& root) {
   const auto has = [&root](std::string_view table) {
     return find(root, table) != nullptr;
   };
-  if (command != Command::check) {
-    return command;
+  if (command) {
+    return *command;
   }
   if (has("correct")) {
     return Command::correct;
@@ -44,29 +44,6 @@ Command purpose_of(Command command, const Node& root) {
   }
   return has("surface") || has("wall") || has("cutter_body") ? Command::surface
                                                              : Command::simulate;
-}
-
-std::string_view verb(Command purpose) {
-  switch (purpose) {
-    case Command::identify:
-      return "identify";
-    case Command::surface:
-      return "surface";
-    case Command::calibrate:
-      return "calibrate";
-    case Command::stability:
-      return "stability";
-    case Command::modes:
-      return "modes";
-    case Command::actuator:
-      return "actuator";
-    case Command::dynamics:
-      return "dynamics";
-    case Command::correct:
-      return "correct";
-    default:
-      return "simulate";
-  }
 }
 
 /// One [name], or every [[name]], into its entry.
@@ -142,7 +119,6 @@ std::vector<std::string> report_unknown(const Node& root,
 CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   CaseTables tables;
   const Node* cut = find(root, "cut");
-  const std::string_view wanted = verb(purpose);
   const Reading reading{
       .coefficients_needed =
           purpose == Command::simulate || purpose == Command::surface ||
@@ -157,14 +133,15 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
-    } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), wanted) > 0) {
+    } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), purpose) >
+               0) {
       findings.wrong.insert(std::string(entry.name));
       if (std::count(meant.begin(), meant.end(), entry.name) > 0) {
         continue;
       }
       report(findings, std::string(entry.name),
              fmt::format("{} is missing ({}); {} needs it", heading(entry),
-                         entry.meaning, wanted));
+                         entry.meaning, name_of(purpose)));
     }
   }
   for (std::size_t i = 0; i < tables.measurements.size(); ++i) {
@@ -221,7 +198,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   }
   check_machine(t.machine, t.tool, findings);
   if (purpose == Command::surface || purpose == Command::calibrate) {
-    check_wall_cut(t, verb(purpose), findings);
+    check_wall_cut(t, name_of(purpose), findings);
   }
   check_surface(t, findings);
   if (purpose == Command::stability) {
@@ -279,7 +256,8 @@ void rename_machine_files(MachineTables& machine, const fs::path& folder) {
 
 }  // namespace
 
-Case read_case(const fs::path& file, Command command, const fs::path& result_folder) {
+Case read_case(const fs::path& file, std::optional<Command> command,
+               const fs::path& result_folder) {
   const Node root = load_document(file);
   Findings findings{.file = file.string()};
   const Command purpose = purpose_of(command, root);

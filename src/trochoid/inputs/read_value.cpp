@@ -119,6 +119,20 @@ struct Reader {
       target->push_back(number((*entries)[i], i + 1).value_or(0.0));
     }
   }
+  void operator()(std::optional<base::Steps>* target) const {
+    const Array* entries = list(3);
+    if (entries == nullptr) {
+      return;
+    }
+    const auto first = number((*entries)[0], 1);
+    const auto last = number((*entries)[1], 2);
+    const auto count = number_in((*entries)[2]);
+    if (!count) {
+      refuse((*entries)[2], 3, "not a number");
+    } else if (first && last) {
+      *target = {*first, *last, *count};
+    }
+  }
   void operator()(std::vector<std::string>* target) const {
     if (is_word()) {
       *target = {std::string(key.word)};

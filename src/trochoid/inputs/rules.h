@@ -50,6 +50,11 @@ void check_dynamics(const CaseTables& tables, Findings& findings);
 /// and runout or a record to find it in; fills in [correct].
 void check_correct(CaseTables& tables, Findings& findings);
 
+/// @brief First below last, and a whole number of them.
+/// @param what  `values` or `speeds`, for the message
+void check_steps(const std::optional<base::Steps>& steps, const std::string& key,
+                 std::string_view what, double most, Findings& findings);
+
 /// @param number  1, 2 ... of the [[surface_measurement]]
 void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings);

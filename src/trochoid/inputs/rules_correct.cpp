@@ -16,26 +16,11 @@ namespace {
 
 constexpr double most_speeds = 2000;
 
-void check_speeds(const std::vector<double>& speeds, Findings& findings) {
-  if (speeds.size() != 3 || !sound(findings, {"correct.spindle_rpm"})) {
-    return;
-  }
-  const double count = speeds[2] / unit::rpm;
-  if (speeds[0] >= speeds[1] || std::abs(count - std::round(count)) > 1e-9 * count ||
-      std::round(count) < 2 || std::round(count) > most_speeds) {
-    report(findings, "correct.spindle_rpm",
-           fmt::format(
-               "correct.spindle_rpm = [{}, {}, {}]: no range; must be first < last, "
-               "then a whole number of speeds from 2 to {:.0f}",
-               number_text(speeds[0], unit::rpm), number_text(speeds[1], unit::rpm),
-               number_text(count), most_speeds));
-  }
-}
-
 void check_shape(const Correction& c, Findings& findings) {
-  const bool in_time = c.strategy == CorrectionStrategy::inverse_in_time;
-  if (in_time && c.shape != CorrectionShape::sine &&
-      c.shape != CorrectionShape::quintic && c.shape != CorrectionShape::harmonics) {
+  const bool in_time = c.strategy == correction::Method::inverse_in_time;
+  if (in_time && c.shape != correction::Shape::sine &&
+      c.shape != correction::Shape::quintic &&
+      c.shape != correction::Shape::harmonics) {
     report(findings, "correct.strategy",
            "correct.strategy = \"inverse_in_time\": needs a motion without corners; "
            "must go with shape = \"quintic\", \"sine\" or \"harmonics\"");
@@ -59,10 +44,10 @@ void check_correct(CaseTables& t, Findings& findings) {
     t.machine.correct.emplace();
   }
   Correction& c = *t.machine.correct;
-  if (c.spindle_speed.empty()) {
-    c.spindle_speed = {200 * unit::rpm, 10000 * unit::rpm, 50 * unit::rpm};
+  if (!c.spindle_speed) {
+    c.spindle_speed = base::Steps{200 * unit::rpm, 10000 * unit::rpm, 50};
   }
-  check_speeds(c.spindle_speed, findings);
+  check_steps(c.spindle_speed, "correct.spindle_rpm", "speeds", most_speeds, findings);
   check_shape(c, findings);
   if (t.tool.teeth < 2 && sound(findings, {"tool.teeth"})) {
     report(findings, "tool.teeth",

@@ -158,27 +158,23 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
            "identify.chip_models: \"radial\" knows no [chip] lookback = \"previous\"; "
            "must be any of \"none\", \"feed\", \"trochoidal\" with it");
   }
-  if (table.sweep.size() != 3 || !sound(findings, {"identify.sweep_um"})) {
+  if (!table.sweep || !sound(findings, {"identify.sweep_um"})) {
     return result;
   }
   constexpr double most = 100000;
-  const double count = table.sweep[2] / unit::um;
-  const double whole = std::round(count);
-  if (table.sweep[0] >= table.sweep[1] || std::abs(count - whole) > 1e-9 * most ||
-      whole < 2 || whole > most) {
+  const auto& [first, last, count] = *table.sweep;
+  if (first >= last || count != std::round(count) || count < 2 || count > most) {
     report(
         findings, "identify.sweep_um",
         fmt::format("identify.sweep_um = [{}, {}, {}]: no sweep; must be first < last "
                     "in um, then a whole number of offsets from 2 to 100000",
-                    number_text(table.sweep[0], unit::um),
-                    number_text(table.sweep[1], unit::um),
-                    number_text(table.sweep[2], unit::um)));
+                    number_text(first, unit::um), number_text(last, unit::um),
+                    number_text(count)));
   } else if (tables.tool.teeth < 2 && sound(findings, {"tool.teeth"})) {
     report(findings, "identify.sweep_um",
            "identify.sweep_um: a cutter with 1 tooth has no second one to sweep");
   }
-  result.sweep =
-      Identify::Sweep{table.sweep[0], table.sweep[1], static_cast<int>(whole)};
+  result.sweep = table.sweep;
   return result;
 }
 

@@ -15,25 +15,25 @@ namespace {
 /// More would take hours and fill the disk.
 constexpr double most_points = 5000;
 
-/// @param values  first, last, number; the number in the same unit as the others
-void check_steps(const std::vector<double>& values, double unit, const std::string& key,
-                 Findings& findings) {
-  if (values.size() != 3 || !sound(findings, {key})) {
+}  // namespace
+
+void check_steps(const std::optional<base::Steps>& steps, const std::string& key,
+                 std::string_view what, double most, Findings& findings) {
+  if (!steps || !sound(findings, {key})) {
     return;
   }
-  const double count = values[2] / unit;
-  if (values[0] >= values[1] || std::abs(count - std::round(count)) > 1e-9 * count ||
-      std::round(count) < 2 || std::round(count) > most_points) {
-    report(
-        findings, key,
-        fmt::format("{} = [{}, {}, {}]: no range; must be first < last, then a whole "
-                    "number of values from 2 to {:.0f}",
-                    key, number_text(values[0], unit), number_text(values[1], unit),
-                    number_text(values[2], unit), most_points));
+  const double whole = std::round(steps->count);
+  if (steps->first >= steps->last || steps->count != whole || whole < 2 ||
+      whole > most) {
+    const double unit = unit_of(key).factor;
+    report(findings, key,
+           fmt::format(
+               "{} = [{}, {}, {}]: no range; must be first < last, then a whole "
+               "number of {} from 2 to {:.0f}",
+               key, number_text(steps->first, unit), number_text(steps->last, unit),
+               number_text(steps->count), what, most));
   }
 }
-
-}  // namespace
 
 void check_stability(CaseTables& t, Findings& findings) {
   const std::vector<Mode>& modes = t.machine.modes;
@@ -49,17 +49,19 @@ void check_stability(CaseTables& t, Findings& findings) {
     t.machine.stability.emplace();
   }
   Stability& s = *t.machine.stability;
-  check_steps(s.spindle_speed, unit::rpm, "stability.spindle_rpm", findings);
-  check_steps(s.axial_depth, unit::mm, "stability.axial_depth_mm", findings);
-  if (s.spindle_speed.empty()) {
+  check_steps(s.spindle_speed, "stability.spindle_rpm", "values", most_points,
+              findings);
+  check_steps(s.axial_depth, "stability.axial_depth_mm", "values", most_points,
+              findings);
+  if (!s.spindle_speed) {
     const double speed = t.cut.spindle_speed;
-    s.spindle_speed = {as_written(0.5 * speed, unit::rpm),
-                       as_written(1.5 * speed, unit::rpm), 101 * unit::rpm};
+    s.spindle_speed = base::Steps{as_written(0.5 * speed, unit::rpm),
+                                  as_written(1.5 * speed, unit::rpm), 101};
   }
-  if (s.axial_depth.empty()) {
+  if (!s.axial_depth) {
     const double depth = t.cut.axial_depth;
-    s.axial_depth = {as_written(0.04 * depth, unit::mm),
-                     as_written(2 * depth, unit::mm), 50 * unit::mm};
+    s.axial_depth = base::Steps{as_written(0.04 * depth, unit::mm),
+                                as_written(2 * depth, unit::mm), 50};
   }
 }
 

@@ -75,6 +75,9 @@ struct Expectation {
   std::string operator()(const std::vector<double>*) const {
     return list("numbers") + limits();
   }
+  std::string operator()(const std::optional<base::Steps>*) const {
+    return "a list of 3 numbers" + limits();
+  }
   std::string operator()(const std::vector<std::string>*) const {
     return list("texts");
   }
@@ -114,6 +117,11 @@ struct Writer {
       entries.push_back(number_text(entry, factor));
     }
     return v->empty() ? Text{} : fmt::format("[{}]", fmt::join(entries, ", "));
+  }
+  Text operator()(const std::optional<base::Steps>* v) const {
+    return *v ? fmt::format("[{}, {}, {}]", number_text((*v)->first, factor),
+                            number_text((*v)->last, factor), number_text((*v)->count))
+              : Text{};
   }
   Text operator()(const std::vector<std::string>* v) const {
     if (v->size() == 1 && v->front() == key.word) {

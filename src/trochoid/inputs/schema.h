@@ -1,5 +1,8 @@
 #pragma once
 
+#include <trochoid/base/command.h>
+#include <trochoid/base/steps.h>
+
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -85,9 +88,10 @@ using Rows = std::vector<std::array<double, 3>>;
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
-                           std::vector<double>*, std::vector<std::string>*, Rows*,
-                           Choice, Choices, CutTable*>;
+using Field =
+    std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
+                 std::vector<double>*, std::optional<base::Steps>*,
+                 std::vector<std::string>*, Rows*, Choice, Choices, CutTable*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;
@@ -96,10 +100,10 @@ using Visitor = std::function<void(const Key&, const Field&)>;
 struct TableEntry {
   std::string_view name;
   std::string_view meaning;
-  std::vector<std::string_view> needed_by = {};  ///< commands with no answer without it
-  bool many = false;                             ///< [[name]] instead of [name]
-  std::function<std::size_t()> count;            ///< how many there are
-  std::function<void()> add;  ///< one more (at most one unless `many`)
+  std::vector<base::Command> needed_by = {};  ///< have no answer without it
+  bool many = false;                          ///< [[name]] instead of [name]
+  std::function<std::size_t()> count;         ///< how many there are
+  std::function<void()> add;                  ///< one more (at most one unless `many`)
   std::function<void(std::size_t, const Visitor&)> describe;  ///< the keys of one
 };
 

@@ -3,6 +3,9 @@
 #include <trochoid/base/names.h>
 #include <trochoid/inputs/schema.h>
 
+#include <algorithm>
+#include <array>
+
 namespace trochoid::inputs {
 
 /// @brief A closed choice by its place among the names: an int, or an enumeration whose
@@ -17,6 +20,21 @@ Field choice(Value& value, std::span<const std::string_view> names) {
 template <class Enum>
 Field choice(Enum& value) {
   return choice(value, base::names<Enum>);
+}
+
+/// @brief The same with a further name for none of them.
+template <class Enum>
+Field choice(std::optional<Enum>& value, std::string_view none) {
+  static const auto names = [none] {
+    std::array<std::string_view, base::names<Enum>.size() + 1> all{none};
+    std::ranges::copy(base::names<Enum>, all.begin() + 1);
+    return all;
+  }();
+  return Choice{names, [&value] { return value ? static_cast<int>(*value) + 1 : 0; },
+                [&value](int i) {
+                  value =
+                      i == 0 ? std::nullopt : std::optional(static_cast<Enum>(i - 1));
+                }};
 }
 
 template <class Enum>

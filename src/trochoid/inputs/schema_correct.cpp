@@ -3,35 +3,22 @@
 
 namespace trochoid::inputs {
 
-namespace {
-
-using Names = std::string_view;
-
-constexpr Names targets[] = {"peak_force", "chip_area", "least_squares"};
-constexpr Names strategies[] = {"plain", "lead", "inverse", "inverse_in_time",
-                                "learning"};
-constexpr Names shapes[] = {"sine", "square", "trapezoid", "quintic", "harmonics"};
-constexpr Names estimates[] = {"known", "static_fit"};
-
-}  // namespace
-
 void describe(const Visitor& v, Correction& t) {
   v({.name = "target",
      .meaning = "what is made equal from tooth to tooth; least_squares: the chips over "
                 "the whole cut, as nearly as possible"},
-    choice(t.target, targets));
+    choice(t.target));
   v({.name = "strategy",
      .meaning = "plain: the command is the motion wanted; lead: earlier by what the "
                 "actuator is late; inverse: each harmonic through the inverse of "
                 "actuator and table; inverse_in_time: the same for smooth shapes, by "
                 "derivatives; learning: inverse, then improved on the table"},
-    choice(t.strategy, strategies));
-  v({.name = "shape", .meaning = "how the table moves over a turn"},
-    choice(t.shape, shapes));
+    choice(t.strategy));
+  v({.name = "shape", .meaning = "how the table moves over a turn"}, choice(t.shape));
   v({.name = "estimate",
      .meaning = "known: the command is made for the runout as it is; static_fit: for "
                 "what a rigid model reads from the forces, which is less"},
-    choice(t.estimate, estimates));
+    choice(t.estimate));
   v({.name = "transition_deg",
      .meaning = "width of a change of level of trapezoid and quintic",
      .range = above_up_to(0, 360)},
@@ -61,7 +48,6 @@ void describe(const Visitor& v, Correction& t) {
   v({.name = "spindle_rpm",
      .meaning = "first, last and number of the spindle speeds of the map",
      .range = above_up_to(0, 1e6),
-     .count = 3,
      .standard = "up to 10000",
      .example = "[200, 10000, 99]"},
     &t.spindle_speed);

@@ -7,13 +7,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-using Names = std::string_view;
-
-constexpr Names shapes[] = {"cylinder", "ball", "bull_nose", "taper", "apt"};
-constexpr Names lag_laws[] = {"constant_lead", "constant_helix"};
-constexpr Names orders[] = {"exact", "first"};
-constexpr Names engagements[] = {"slot", "up", "down", "band"};
-
 constexpr double longest_mm = 10000;
 
 void describe_profile(const Visitor& v, ToolTable& t) {
@@ -65,7 +58,7 @@ void describe(const Visitor& v, CaseTables& t) {
 }
 
 void describe(const Visitor& v, ToolTable& t) {
-  v({.name = "shape", .meaning = "shape of the cutter"}, choice(t.shape, shapes));
+  v({.name = "shape", .meaning = "shape of the cutter"}, choice(t.shape));
   v({.name = "teeth",
      .meaning = "number of teeth",
      .range = between(1, 64),
@@ -89,7 +82,7 @@ void describe(const Visitor& v, ToolTable& t) {
     &t.pitch);
   describe_profile(v, t);
   v({.name = "lag", .meaning = "how the edge lags behind its tip with the height"},
-    choice(t.lag, lag_laws));
+    choice(t.lag));
   v({.name = "lag_diameter_mm",
      .meaning = "diameter to which the lag refers: lag = 2 z tan(helix) / lag_diameter",
      .range = above_up_to(0, longest_mm),
@@ -121,14 +114,14 @@ void describe(const Visitor& v, geometry::Runout& t) {
     &t.angle);
   v({.name = "eccentricity_order",
      .meaning = "exact, or first: radius + eccentricity cos only"},
-    choice(t.order, orders));
+    choice(t.order));
 }
 
 void describe(const Visitor& v, CutTable& t) {
   v({.name = "engagement",
      .meaning = "which part of the cutter's width is in the stock",
      .need = Need::always},
-    choice(t.engagement, engagements));
+    choice(t.engagement));
   v({.name = "radial_depth_mm",
      .meaning = "radial depth of cut, at most the diameter",
      .range = above_up_to(0, longest_mm),

@@ -5,17 +5,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-using Names = std::string_view;
-
-constexpr Names surface_models[] = {"quasi_static", "imprint", "envelope"};
-constexpr Names loads[] = {"distributed", "concentrated"};
-constexpr Names feedbacks[] = {"none", "entry", "regenerative", "direct"};
-constexpr Names bodies[] = {"tool", "table"};
-constexpr Names axes[] = {"x", "y", "z"};
-constexpr Names frf_kinds[] = {"detect", "receptance", "mobility", "accelerance"};
-constexpr Names residual_terms[] = {"choose", "yes", "no"};
-constexpr Names command_shapes[] = {"sine", "square", "trapezoid", "table"};
-
 constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);
 constexpr Range modulus = above_up_to(0, 10000);
@@ -83,15 +72,15 @@ void describe(const Visitor& v, Surface& t) {
      .meaning = "quasi_static: the deflection at each spindle angle, a pulse and no "
                 "surface; imprint: where each tooth touches the wall squarely; "
                 "envelope: what all passes of all teeth leave"},
-    choice(t.model, surface_models));
+    choice(t.model));
   v({.name = "load",
      .meaning = "the force acts along the axial depth, or at its middle"},
-    choice(t.load, loads));
+    choice(t.load));
   v({.name = "feedback",
      .meaning = "what the deflection changes; entry: where an edge enters the stock; "
                 "regenerative: the chip as well; direct: the chip as if earlier teeth "
                 "had not been deflected"},
-    choice(t.feedback, feedbacks));
+    choice(t.feedback));
   v({.name = "phase_deg",
      .meaning = "spindle angle phi0 at the start",
      .range = between(-360, 360)},
@@ -128,10 +117,9 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
 }
 
 void describe(const Visitor& v, Mode& t) {
-  v({.name = "body", .meaning = "what vibrates", .need = Need::always},
-    choice(t.body, bodies));
+  v({.name = "body", .meaning = "what vibrates", .need = Need::always}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction", .need = Need::always},
-    choice(t.axis, axes));
+    choice(t.axis));
   v({.name = "mass_kg", .meaning = "modal mass", .range = above(0)}, &t.mass);
   v({.name = "stiffness_N_per_m",
      .meaning = "modal stiffness; may stand in place of the mass or the frequency",
@@ -216,7 +204,7 @@ void describe(const Visitor& v, FrfTables& t) {
   v({.name = "kind",
      .meaning = "displacement, velocity or acceleration over force; needed where the "
                 "file does not say it by its unit"},
-    choice(t.kind, frf_kinds));
+    choice(t.kind, "detect"));
   v({.name = "dataset",
      .meaning = "which of the frequency responses of a universal file, from 1; 0: the "
                 "only one",
@@ -235,11 +223,9 @@ void describe(const Visitor& v, FrfTables& t) {
     &t.band);
   v({.name = "residual_terms",
      .meaning = "two terms that stand for the modes below and above the band"},
-    choice(t.residual_terms, residual_terms));
-  v({.name = "body", .meaning = "what vibrates, for modes.toml"},
-    choice(t.body, bodies));
-  v({.name = "axis", .meaning = "in which direction, for modes.toml"},
-    choice(t.axis, axes));
+    choice(t.residual_terms));
+  v({.name = "body", .meaning = "what vibrates, for modes.toml"}, choice(t.body));
+  v({.name = "axis", .meaning = "in which direction, for modes.toml"}, choice(t.axis));
 }
 
 void describe(const Visitor& v, StepTables& t) {
@@ -261,7 +247,7 @@ void describe(const Visitor& v, StepTables& t) {
 
 void describe(const Visitor& v, ImposedCommand& t) {
   v({.name = "shape", .meaning = "shape of the command over one revolution"},
-    choice(t.shape, command_shapes));
+    choice(t.shape));
   v({.name = "peak_to_peak_um",
      .meaning = "from the lowest to the highest command",
      .range = at_least(0),
@@ -282,14 +268,12 @@ void describe(const Visitor& v, Stability& t) {
   v({.name = "spindle_rpm",
      .meaning = "first, last and number of the spindle speeds of the lobes",
      .range = above_up_to(0, 1e6),
-     .count = 3,
      .standard = "from half to one and a half of that of [cut]",
      .example = "[5000, 25000, 200]"},
     &t.spindle_speed);
   v({.name = "axial_depth_mm",
      .meaning = "first, last and number of the axial depths of the lobes",
      .range = above_up_to(0, longest_mm),
-     .count = 3,
      .standard = "up to twice that of [cut]",
      .example = "[0.05, 5, 100]"},
     &t.axial_depth);

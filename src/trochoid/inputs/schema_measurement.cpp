@@ -3,16 +3,6 @@
 
 namespace trochoid::inputs {
 
-namespace {
-
-using Names = std::string_view;
-
-constexpr Names formats[] = {"detect", "csv", "dynoware"};
-constexpr Names runout_fits[] = {"none", "fixed", "offsets", "eccentricity"};
-constexpr Names channel_offsets[] = {"none", "idle", "fit"};
-
-}  // namespace
-
 void describe(const Visitor& v, Sampling& t) {
   v({.name = "samples_per_rev",
      .meaning = "spindle angles in one revolution",
@@ -72,7 +62,7 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .need = Need::always},
     &t.file);
   v({.name = "format", .meaning = "format of the record; detect: from its content"},
-    choice(t.format, formats));
+    choice(t.format));
   v({.name = "columns",
      .meaning = "names of the columns of channels 1 to 3",
      .count = 3,
@@ -108,7 +98,7 @@ void describe(const Visitor& v, IdentifyTable& t) {
   v({.name = "runout",
      .meaning = "none; fixed: [runout] as it stands; or find the "
                 "radial offsets, or the eccentricity"},
-    choice(t.runout, runout_fits));
+    choice(t.runout));
   v({.name = "phase_deg",
      .meaning =
          "true angle of the tip of tooth 1 minus the recorded angle; free: found",
@@ -123,12 +113,11 @@ void describe(const Visitor& v, IdentifyTable& t) {
      .meaning =
          "constant and drift of the channels: left as they are, taken from where "
          "nothing cuts, or fitted"},
-    choice(t.channel_offsets, channel_offsets));
+    choice(t.channel_offsets));
   v({.name = "sweep_um",
      .meaning =
          "first, last and number of radial offsets of tooth 2 to try for sweep.csv",
      .range = between(-1e6, 1e6),
-     .count = 3,
      .example = "[-20, 20, 41]"},
     &t.sweep);
 }

@@ -5,7 +5,8 @@ namespace trochoid::inputs {
 
 namespace {
 
-using Commands = std::vector<std::string_view>;
+using base::Command;
+using Commands = std::vector<Command>;
 
 template <class Table>
 TableEntry one(std::string_view name, std::string_view meaning, Table& table,
@@ -44,20 +45,21 @@ TableEntry several(std::string_view name, std::string_view meaning,
 }  // namespace
 
 std::vector<TableEntry> tables_of(CaseTables& t) {
-  const Commands all_commands{"simulate",  "identify", "surface", "calibrate",
-                              "stability", "dynamics", "correct"};
+  const Commands all_commands{Command::simulate,  Command::identify,  Command::surface,
+                              Command::calibrate, Command::stability, Command::dynamics,
+                              Command::correct};
   return {
       one("tool", "the cutter", t.tool, all_commands),
       one("runout", "how the teeth stand out; left out: no runout", t.runout),
       one("cut", "the cut; the tool feeds along +x", t.cut, all_commands),
       one("chip", "the model of the uncut chip thickness", t.chip),
       one("force", "the force law and its coefficients, as forces on the tool", t.force,
-          {"simulate", "surface", "stability", "dynamics"}),
+          {Command::simulate, Command::surface, Command::stability, Command::dynamics}),
       one("sampling", "where a simulation is evaluated, and how exactly", t.sampling),
       perhaps("dynamometer", "what the channels read; left out: x, y, z",
               t.dynamometer),
       several("measurement", "a force record; several are fitted together",
-              t.measurements, {"identify"}),
+              t.measurements, {Command::identify}),
       perhaps("identify", "what is to be found from the measurements", t.identify),
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
       perhaps("wall",
@@ -66,15 +68,15 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
               t.machine.wall),
       perhaps("surface", "how the machined surface is computed", t.machine.surface),
       several("surface_measurement", "a measured surface; several are fitted together",
-              t.machine.surface_measurements, {"calibrate"}),
+              t.machine.surface_measurements, {Command::calibrate}),
       several("mode", "a mode of vibration", t.machine.modes,
-              {"stability", "dynamics", "correct"}),
+              {Command::stability, Command::dynamics, Command::correct}),
       perhaps("actuator", "the actuator that moves the table", t.machine.actuator,
-              {"correct"}),
+              {Command::correct}),
       perhaps("frf", "a measured frequency response, from which modes are found",
-              t.machine.frf, {"modes"}),
+              t.machine.frf, {Command::modes}),
       perhaps("step", "a measured step, from which the actuator is found",
-              t.machine.step, {"actuator"}),
+              t.machine.step, {Command::actuator}),
       perhaps("command", "an imposed command of the actuator", t.machine.command),
       perhaps("correct", "how runout is to be cancelled", t.machine.correct),
       perhaps("controller", "the real-time controller, when it is simulated",

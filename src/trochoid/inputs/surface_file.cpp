@@ -216,7 +216,7 @@ std::vector<std::string> check_readings(const std::vector<SurfaceReading>& readi
   const double a_p = given.setup.cut.a_p;
   const auto& wall = given.machine.wall;
   const bool along_wall = wall && given.machine.surface.value_or(Surface{}).model !=
-                                      SurfaceModel::quasi_static;
+                                      surface::Model::quasi_static;
   const auto beyond = [&](double value, double most) {
     return value < -slack * most || value > most * (1 + slack);
   };

@@ -14,7 +14,39 @@
 namespace trochoid::inputs {
 
 enum class Shape { cylinder, ball, bull_nose, taper, apt };
+
+/// Names of files.
+constexpr std::string_view name_of(Shape shape) noexcept {
+  switch (shape) {
+    case Shape::cylinder:
+      return "cylinder";
+    case Shape::ball:
+      return "ball";
+    case Shape::bull_nose:
+      return "bull_nose";
+    case Shape::taper:
+      return "taper";
+    case Shape::apt:
+      return "apt";
+  }
+  return {};
+}
 enum class EngagementKind { slot, up, down, band };
+
+/// Names of files.
+constexpr std::string_view name_of(EngagementKind kind) noexcept {
+  switch (kind) {
+    case EngagementKind::slot:
+      return "slot";
+    case EngagementKind::up:
+      return "up";
+    case EngagementKind::down:
+      return "down";
+    case EngagementKind::band:
+      return "band";
+  }
+  return {};
+}
 
 struct ToolTable {
   Shape shape = Shape::cylinder;
@@ -66,11 +98,11 @@ struct MeasurementTable {
 
 struct IdentifyTable {
   std::vector<chip::Model> chip_models = Identify{}.chip_models;
-  RunoutFit runout = RunoutFit::offsets;
+  identification::RunoutUnknowns runout = identification::RunoutUnknowns::offsets;
   std::optional<double> phase;
   int band_harmonics = 0;
   ChannelOffset channel_offsets = ChannelOffset::none;
-  std::vector<double> sweep;
+  std::optional<base::Steps> sweep;
 };
 
 struct CaseTables {

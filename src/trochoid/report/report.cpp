@@ -1,6 +1,10 @@
 #include <trochoid/report/report.h>
 
+#include <trochoid/base/command.h>
+#include <trochoid/base/names.h>
 #include <trochoid/results/json.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <string_view>
@@ -70,15 +74,24 @@ std::string without_script(const results::Answer& answer) {
   return text;
 }
 
+/// The page of each command: a function of its script, named after it.
+std::string pages_js() {
+  std::string text = "const pages = {";
+  for (const std::string_view name : base::names<base::Command>) {
+    text += fmt::format("{0}: {0}Page, ", name);
+  }
+  return text + "};\n";
+}
+
 std::string page_scripts() {
   std::string text;
   for (const auto part :
        {text_js(), charts_js(), parts_js(), measured_js(), simulate_js(), identify_js(),
         drawing_js(), map_js(), bent_js(), surface_js(), ellipse_js(), calibrate_js(),
-        stability_js(), modes_js(), dynamics_js(), correct_js(), any_js(), main_js()}) {
+        stability_js(), modes_js(), dynamics_js(), correct_js(), any_js()}) {
     text += part;
   }
-  return text;
+  return text + pages_js() + std::string(main_js());
 }
 
 std::string data_json(const results::Answer& answer, const std::string& summary) {

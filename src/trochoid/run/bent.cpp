@@ -76,7 +76,7 @@ Bent bent(const inputs::Case& given, const surface::Bodies& bodies,
   const double a_p = given.setup.cut.a_p;
   const double x = given.machine.wall ? given.machine.wall->position : 0.0;
   Bent shape{.F_normal = sigma * F_y, .heights = bent_heights(given)};
-  const bool spread = given.machine.surface->load == inputs::SurfaceLoad::distributed;
+  const bool spread = given.machine.surface->load == surface::Load::distributed;
   const surface::Compliance compliance(
       bodies, a_p, x,
       spread ? surface::Load::distributed : surface::Load::concentrated);

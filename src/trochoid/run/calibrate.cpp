@@ -66,10 +66,10 @@ base::Table fitted_table(const surface::Calibration& calibration) {
   for (const surface::Answer& answer : calibration.answers) {
     if (answer.ok) {
       table.columns.push_back(
-          {fmt::format("{}{}_mm", model_name(answer.model),
+          {fmt::format("{}{}_mm", surface::name_of(answer.model),
                        answer.feedback == surface::Feedback::none
                            ? ""
-                           : fmt::format("_{}", feedback_name(answer.feedback))),
+                           : fmt::format("_{}", surface::name_of(answer.feedback))),
            {}});
     }
   }

@@ -41,8 +41,8 @@ Json coefficients_json(const inputs::Case& given, const Estimate& K_tc,
 
 Json answer_json(const inputs::Case& given, const Answer& answer) {
   Json json{
-      {"model", model_name(answer.model)},
-      {"feedback", feedback_name(answer.feedback)},
+      {"model", surface::name_of(answer.model)},
+      {"feedback", surface::name_of(answer.feedback)},
       {"coefficients", coefficients_json(given, answer.K_tc, answer.K_rc, answer.ok)},
       {"correlation", answer.ok ? number(answer.correlation) : Json(nullptr)},
       {"rank", answer.rank},
@@ -100,8 +100,8 @@ bool runout_is_seen(const surface::RunoutAnswer& runout) {
 
 bool runout_counts(const inputs::Case& given, const surface::RunoutAnswer& runout) {
   return runout_is_seen(runout) &&
-         given.machine.surface->model == inputs::SurfaceModel::envelope &&
-         given.machine.surface->feedback == inputs::Feedback::none;
+         given.machine.surface->model == surface::Model::envelope &&
+         given.machine.surface->feedback == surface::Feedback::none;
 }
 
 Json calibration_json(const inputs::Case& given,
@@ -147,7 +147,7 @@ void add_runout(const surface::RunoutAnswer& runout, const inputs::Case& given,
       {"correlation", number(runout.correlation)},
       {"rms_without_mm", runout.rms_without / unit::mm},
       {"rms_mm", runout.rms / unit::mm}};
-  if (given.machine.surface->model == inputs::SurfaceModel::envelope) {
+  if (given.machine.surface->model == surface::Model::envelope) {
     result["runout"]["turn_begins_mm"] = number(runout.start.value / unit::mm);
   }
   result["with_runout"] = runout_counts(given, runout);
@@ -191,11 +191,12 @@ std::string calibration_table(const inputs::Case& given,
   const bool joint = runout_counts(given, runout);
   for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
     const Answer& a = calibration.answers[i];
-    const std::string name = fmt::format(
-        "{} {}{}", i == calibration.chosen && !joint ? '*' : ' ', model_name(a.model),
-        a.feedback == surface::Feedback::none
-            ? ""
-            : fmt::format(" + {}", feedback_name(a.feedback)));
+    const std::string name =
+        fmt::format("{} {}{}", i == calibration.chosen && !joint ? '*' : ' ',
+                    surface::name_of(a.model),
+                    a.feedback == surface::Feedback::none
+                        ? ""
+                        : fmt::format(" + {}", surface::name_of(a.feedback)));
     if (!a.ok) {
       text += fmt::format("{:<28} {}\n", name, a.message);
       continue;
@@ -235,10 +236,10 @@ std::string calibrated_material(const inputs::Case& given,
   std::string text = fmt::format(
       "# Found by trochoid calibrate ({}{}). Use it in another case with\n"
       "#   include = \"<this file>\"\n\n[force]\nlaw = \"{}\"\n",
-      model_name(chosen.model),
+      surface::name_of(chosen.model),
       chosen.feedback == surface::Feedback::none
           ? ""
-          : fmt::format(", feedback {}", feedback_name(chosen.feedback)),
+          : fmt::format(", feedback {}", surface::name_of(chosen.feedback)),
       force::name_of(given.law));
   const std::vector<double> known = force::coefficients(given.law);
   for (std::size_t q = 0; q < names.size(); ++q) {

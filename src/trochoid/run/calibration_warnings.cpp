@@ -48,9 +48,9 @@ void judge_coefficients(const inputs::Case& given, const Answer& chosen,
 
 std::string name_of(const Answer& answer) {
   return answer.feedback == surface::Feedback::none
-             ? model_name(answer.model)
-             : fmt::format("{} with feedback = \"{}\"", model_name(answer.model),
-                           feedback_name(answer.feedback));
+             ? std::string(surface::name_of(answer.model))
+             : fmt::format("{} with feedback = \"{}\"", surface::name_of(answer.model),
+                           surface::name_of(answer.feedback));
 }
 
 /// Readings of the profile that differ by more than their errors.
@@ -129,7 +129,7 @@ void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout
          "The mean of a real surface is not free of runout: the coefficients are those "
          "that were fitted together with it."});
   } else if (runout_is_seen(runout) &&
-             given.machine.surface->model == inputs::SurfaceModel::envelope) {
+             given.machine.surface->model == surface::Model::envelope) {
     const auto names = force::coefficient_quantities(given.law);
     warnings.push_back(
         {"runout_in_mean",

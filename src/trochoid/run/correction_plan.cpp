@@ -15,50 +15,6 @@ using correction::PeriodicMotion;
 using correction::RigidCut;
 using correction::Shape;
 
-Shape shape_of(inputs::CorrectionShape shape) {
-  switch (shape) {
-    case inputs::CorrectionShape::square:
-      return Shape::square;
-    case inputs::CorrectionShape::trapezoid:
-      return Shape::trapezoid;
-    case inputs::CorrectionShape::quintic:
-      return Shape::quintic;
-    case inputs::CorrectionShape::harmonics:
-      return Shape::harmonics;
-    case inputs::CorrectionShape::sine:
-      break;
-  }
-  return Shape::sine;
-}
-
-Method method_of(inputs::CorrectionStrategy strategy) {
-  switch (strategy) {
-    case inputs::CorrectionStrategy::plain:
-      return Method::plain;
-    case inputs::CorrectionStrategy::lead:
-      return Method::lead;
-    case inputs::CorrectionStrategy::inverse_in_time:
-      return Method::inverse_in_time;
-    case inputs::CorrectionStrategy::learning:
-      return Method::learning;
-    case inputs::CorrectionStrategy::inverse:
-      break;
-  }
-  return Method::inverse;
-}
-
-correction::Target target_of(inputs::CorrectionTarget target) {
-  switch (target) {
-    case inputs::CorrectionTarget::chip_area:
-      return correction::Target::chip_area;
-    case inputs::CorrectionTarget::least_squares:
-      return correction::Target::least_squares;
-    case inputs::CorrectionTarget::peak_force:
-      break;
-  }
-  return correction::Target::peak_force;
-}
-
 force::Setup with_runout(force::Setup setup, const std::vector<double>& rho) {
   setup.runout = {};
   setup.runout.radial_offsets = rho;
@@ -90,7 +46,7 @@ void learn(const CorrectionSetting& s, const inputs::Correction& wanted, Made& m
 Made make(const CorrectionSetting& s, const RigidCut& rigid,
           const inputs::Correction& wanted, const PeriodicMotion& motion) {
   const double Omega = s.cut.setup.cut.Omega;
-  const Method method = method_of(wanted.strategy);
+  const Method method = wanted.strategy;
   correction::CommandOptions options{.n_max = wanted.harmonics};
   if (wanted.sample_rate > 0) {
     options.sample_time = 1 / wanted.sample_rate;
@@ -128,7 +84,7 @@ std::optional<PeriodicMotion> sized(const CorrectionSetting& s, const RigidCut& 
     };
   }
   const correction::Amplitude found = correction::equal_flutes(
-      target_of(wanted.target), rigid, shape_of(wanted.shape),
+      wanted.target, rigid, wanted.shape,
       {.transition = wanted.transition, .harmonics = wanted.harmonics}, flutes);
   reason = found.reason;
   return found.ok ? std::optional(found.motion) : std::nullopt;
@@ -152,7 +108,7 @@ CorrectionPlan correction_plan(const CorrectionSetting& s,
   inputs::Correction wanted = given;
   const auto through = [&] {
     return correction::table_motion(
-        rigid, shape_of(wanted.shape),
+        rigid, wanted.shape,
         {.transition = wanted.transition, .harmonics = wanted.harmonics});
   };
   if (!(correction::range_of(through()).peak_to_peak() > 0)) {
@@ -160,7 +116,7 @@ CorrectionPlan correction_plan(const CorrectionSetting& s,
     return plan;
   }
   // The best motion of few harmonics is not the beginning of the best one of many.
-  while (wanted.shape == inputs::CorrectionShape::harmonics && wanted.harmonics > 1 &&
+  while (wanted.shape == Shape::harmonics && wanted.harmonics > 1 &&
          !whole(s, rigid, through(), wanted.harmonics)) {
     --wanted.harmonics;
   }
@@ -210,12 +166,8 @@ SpeedMap speed_map(const CorrectionSetting& s, const CorrectionPlan& plan,
                     {"sine_lead", {sine, Method::lead}},
                     {"sine_inverse", {sine, Method::inverse}},
                     {"square_lead", {square, Method::lead}},
-                    {"this_case", {plan.motion, method_of(wanted.strategy)}}};
-  const auto& range = wanted.spindle_speed;
-  const int count = static_cast<int>(std::lround(range[2] / unit::rpm));
-  for (int i = 0; i < count; ++i) {
-    map.Omega.push_back(range[0] + (range[1] - range[0]) * i / (count - 1));
-  }
+                    {"this_case", {plan.motion, wanted.strategy}}};
+  map.Omega = base::values(*wanted.spindle_speed);
   correction::MapSetting setting{.model = s.cut.plant,
                                  .real = s.cut.plant,
                                  .limits = s.limits,
@@ -228,7 +180,7 @@ SpeedMap speed_map(const CorrectionSetting& s, const CorrectionPlan& plan,
     strategies.push_back(named.strategy);
   }
   map.points = correction::residual_map(rigid, strategies, setting, map.Omega);
-  const double ends[] = {range[0], range[1]};
+  const double ends[] = {wanted.spindle_speed->first, wanted.spindle_speed->last};
   for (const correction::Strategy& strategy : strategies) {
     map.highest.push_back(correction::residual_speed(rigid, strategy, setting,
                                                      wanted.allowed_difference, ends));

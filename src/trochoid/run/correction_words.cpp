@@ -112,7 +112,7 @@ std::string correction_table(const CorrectionFindings& f) {
   }
   text += fmt::format("highest speed for {:.0f} % (rigid cut):",
                       100 * f.wanted.allowed_difference);
-  const double highest_looked_at = f.wanted.spindle_speed[1];
+  const double highest_looked_at = f.wanted.spindle_speed->last;
   for (std::size_t s = 0; s < f.map.strategies.size(); ++s) {
     const bool beyond = f.map.highest[s] >= highest_looked_at;
     text += fmt::format(" {} {}{:.0f} rpm{}", f.map.strategies[s].name,

@@ -88,12 +88,7 @@ std::vector<base::Table> sweep_tables(const inputs::Case& given,
   if (!given.identify.sweep) {
     return {};
   }
-  const auto& sweep = *given.identify.sweep;
-  std::vector<double> offsets;
-  for (int i = 0; i < sweep.count; ++i) {
-    const double t = sweep.count > 1 ? static_cast<double>(i) / (sweep.count - 1) : 0.0;
-    offsets.push_back(sweep.first + t * (sweep.last - sweep.first));
-  }
+  const std::vector<double> offsets = base::values(*given.identify.sweep);
   base::Table table{"sweep.csv", {{"offset_um", {}}}};
   for (const double offset : offsets) {
     table.columns[0].values.push_back(unit::in(offset, unit::um));

@@ -15,7 +15,7 @@ void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
   const double step =
       given.setup.cutter.teeth() * given.setup.cut.f_z / given.sampling.samples_per_rev;
   const double along = read.x ? *read.x : read.step.value_or(0.0) * step;
-  const bool pulse = given.machine.surface->model == inputs::SurfaceModel::quasi_static;
+  const bool pulse = given.machine.surface->model == surface::Model::quasi_static;
   const double position = given.machine.wall ? given.machine.wall->position : 0.0;
   reading.x = pulse || !read.x ? position : along;
   reading.travel = along + read.feed_offset.value_or(0.0);

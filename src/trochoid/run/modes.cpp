@@ -40,20 +40,6 @@ const KindWords& words(ResponseKind kind) {
   return kinds[static_cast<std::size_t>(kind)];
 }
 
-std::optional<ResponseKind> said(inputs::FrfKind kind) {
-  switch (kind) {
-    case inputs::FrfKind::receptance:
-      return ResponseKind::receptance;
-    case inputs::FrfKind::mobility:
-      return ResponseKind::mobility;
-    case inputs::FrfKind::accelerance:
-      return ResponseKind::accelerance;
-    case inputs::FrfKind::detect:
-      break;
-  }
-  return std::nullopt;
-}
-
 structure::ModesOptions options_of(const inputs::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
   if (frf.residual_terms != inputs::ResidualTerms::choose) {
@@ -171,8 +157,7 @@ std::string modes_toml(const ModesFit& fit, const inputs::FrfTables& frf) {
         "mass_kg = {}  # standard error {:.2g}\n"
         "stiffness_N_per_m = {}  # {:.2g}\n"
         "damping_Ns_per_m = {}  # {:.2g}\n",
-        m.omega / unit::Hz, m.zeta,
-        frf.body == inputs::ModeBody::table ? "table" : "tool",
+        m.omega / unit::Hz, m.zeta, inputs::name_of(frf.body),
         axes[static_cast<std::size_t>(frf.axis)], m.mode.mass, m.mass_se,
         m.mode.stiffness, m.stiffness_se, m.mode.damping, m.damping_se);
   }
@@ -209,7 +194,7 @@ std::string short_table(const ModesFit& fit, ResponseKind kind) {
 inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
   return {.file = frf.file,
           .location = frf.location,
-          .kind = said(frf.kind),
+          .kind = frf.kind,
           .dataset = frf.dataset};
 }
 

@@ -50,17 +50,6 @@ Point point_of(const inputs::Case& given) {
           mu};
 }
 
-std::vector<double> steps(const std::vector<double>& range, double unit) {
-  const auto count = static_cast<std::size_t>(std::lround(range[2] / unit));
-  std::vector<double> values;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    values.push_back(i + 1 == count ? range[1]
-                                    : range[0] + share * (range[1] - range[0]));
-  }
-  return values;
-}
-
 const char* name_of(dynamics::Bifurcation kind) {
   switch (kind) {
     case dynamics::Bifurcation::hopf:
@@ -201,7 +190,7 @@ void add_lobes(const Point& point, const std::vector<double>& depth,
     };
   };
   const auto grid = dynamics::lobe_grid(
-      point.model, point.system, steps(point.options.spindle_speed, unit::rpm), depth,
+      point.model, point.system, base::values(*point.options.spindle_speed), depth,
       dynamics::LobeAccuracy{.near = map_tolerance}, told("lobes"));
   const auto limits = dynamics::limit_curve(point.model, point.system, grid,
                                             map_tolerance, told("limit"));
@@ -243,7 +232,7 @@ results::Answer stability(const inputs::Case& given, const Progress& progress) {
       .heading = {.title = given.title, .case_toml = given.as_understood}};
   const Point point = point_of(given);
   const double growth = std::abs(point.multiplier.value);
-  const std::vector<double> depth = steps(point.options.axial_depth, unit::mm);
+  const std::vector<double> depth = base::values(*point.options.axial_depth);
   std::string verdict = verdict_of(growth, point.options.margin);
   Json result;
   add_multiplier(point, result);

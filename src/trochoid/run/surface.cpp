@@ -214,8 +214,8 @@ results::Answer surface(const inputs::Case& given, const Progress& progress) {
       .command = "surface",
       .heading = {.title = given.title, .case_toml = given.as_understood}};
   const SurfaceMap map = surface_map(given, progress);
-  Json result{{"model", model_name(map.model)},
-              {"feedback", feedback_name(map.feedback)}};
+  Json result{{"model", surface::name_of(map.model)},
+              {"feedback", surface::name_of(map.feedback)}};
   if (!map.converged) {
     answer.heading.ok = false;
     answer.heading.message =

@@ -49,59 +49,13 @@ surface::Setting wall_setting(const inputs::Case& given) {
                            .phase = table.phase,
                            .probe_radius = table.probe_diameter / 2,
                            .tolerance = force_tolerance};
-  setting.load = table.load == inputs::SurfaceLoad::concentrated
-                     ? surface::Load::concentrated
-                     : surface::Load::distributed;
-  switch (table.model) {
-    case inputs::SurfaceModel::quasi_static:
-      setting.model = surface::Model::quasi_static;
-      break;
-    case inputs::SurfaceModel::imprint:
-      setting.model = surface::Model::imprint;
-      break;
-    case inputs::SurfaceModel::envelope:
-      setting.model = surface::Model::envelope;
-      break;
-  }
+  setting.load = table.load;
+  setting.model = table.model;
   return setting;
 }
 
 surface::Feedback wall_feedback(const inputs::Case& given) {
-  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
-  switch (table.feedback) {
-    case inputs::Feedback::entry:
-      return surface::Feedback::entry;
-    case inputs::Feedback::regenerative:
-      return surface::Feedback::regenerative;
-    case inputs::Feedback::direct:
-      return surface::Feedback::direct;
-    default:
-      return surface::Feedback::none;
-  }
-}
-
-const char* model_name(surface::Model model) {
-  switch (model) {
-    case surface::Model::quasi_static:
-      return "quasi_static";
-    case surface::Model::imprint:
-      return "imprint";
-    default:
-      return "envelope";
-  }
-}
-
-const char* feedback_name(surface::Feedback feedback) {
-  switch (feedback) {
-    case surface::Feedback::entry:
-      return "entry";
-    case surface::Feedback::regenerative:
-      return "regenerative";
-    case surface::Feedback::direct:
-      return "direct";
-    default:
-      return "none";
-  }
+  return given.machine.surface.value_or(inputs::Surface{}).feedback;
 }
 
 void add_bending_warnings(const inputs::Case& given, double largest,

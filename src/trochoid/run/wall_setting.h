@@ -13,10 +13,6 @@ surface::Setting wall_setting(const inputs::Case& given);
 
 surface::Feedback wall_feedback(const inputs::Case& given);
 
-/// Names of files.
-const char* model_name(surface::Model model);
-const char* feedback_name(surface::Feedback feedback);
-
 /// @brief Warnings about what bends: a wall that bends by more than half its thickness,
 /// and a chip that the deflection would change.
 /// @param largest  error of the wall [m]

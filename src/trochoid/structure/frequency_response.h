@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::structure {
@@ -11,6 +12,19 @@ enum class ResponseKind {
   mobility,     ///< velocity over force [m/(s N)]
   accelerance,  ///< acceleration over force [m/(s^2 N)]
 };
+
+/// Names of files.
+constexpr std::string_view name_of(ResponseKind kind) noexcept {
+  switch (kind) {
+    case ResponseKind::receptance:
+      return "receptance";
+    case ResponseKind::mobility:
+      return "mobility";
+    case ResponseKind::accelerance:
+      return "accelerance";
+  }
+  return {};
+}
 
 /// A measured frequency response, of one point to a force at that point.
 struct FrequencyResponse {

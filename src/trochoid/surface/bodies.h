@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::surface {
@@ -29,6 +30,17 @@ enum class Load {
   distributed,   ///< each piece of an edge at its own height
   concentrated,  ///< on the cutter at a_p/2, on the wall evenly over a_p (the paper)
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Load load) noexcept {
+  switch (load) {
+    case Load::distributed:
+      return "distributed";
+    case Load::concentrated:
+      return "concentrated";
+  }
+  return {};
+}
 
 /// @brief Deflection along the cut, from the force along the cut.
 ///

@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace trochoid::surface {
 
@@ -17,6 +18,21 @@ enum class Feedback {
   regenerative,  ///< entry and chip; earlier teeth were deflected as well
   direct,        ///< entry and chip, as if earlier teeth had not been deflected
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Feedback feedback) noexcept {
+  switch (feedback) {
+    case Feedback::none:
+      return "none";
+    case Feedback::entry:
+      return "entry";
+    case Feedback::regenerative:
+      return "regenerative";
+    case Feedback::direct:
+      return "direct";
+  }
+  return {};
+}
 
 /// @brief A turn of the bent cutter.
 struct BentTurn {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::surface {
@@ -12,6 +13,19 @@ enum class Model {
   imprint,       ///< where each tooth touches the wall squarely
   envelope,      ///< what all passes leave
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Model model) noexcept {
+  switch (model) {
+    case Model::quasi_static:
+      return "quasi_static";
+    case Model::imprint:
+      return "imprint";
+    case Model::envelope:
+      return "envelope";
+  }
+  return {};
+}
 
 /// One measured point of a wall.
 struct Reading {

@@ -1,5 +1,7 @@
 #include "case_text.h"
 
+#include <trochoid/base/names.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,20 +24,14 @@ std::vector<std::string> broken_cases() {
   return names;
 }
 
-/// `# command: identify` in the first line; else simulate.
-Command command_of(const std::string& text) {
-  using Named = std::pair<std::string_view, Command>;
-  for (const auto& [name, command] :
-       {Named{"check", Command::check}, Named{"identify", Command::identify},
-        Named{"surface", Command::surface}, Named{"calibrate", Command::calibrate},
-        Named{"stability", Command::stability}, Named{"modes", Command::modes},
-        Named{"actuator", Command::actuator}, Named{"dynamics", Command::dynamics},
-        Named{"correct", Command::correct}}) {
-    if (text.starts_with("# command: " + std::string(name) + "\n")) {
-      return command;
-    }
+/// `# command: identify` in the first line, none for `check`; else simulate.
+std::optional<Command> command_of(const std::string& text) {
+  const std::string_view head = "# command: ";
+  if (!text.starts_with(head)) {
+    return Command::simulate;
   }
-  return Command::simulate;
+  const std::string name = text.substr(head.size(), text.find('\n') - head.size());
+  return base::named<Command>(name);
 }
 
 class BrokenCase : public testing::TestWithParam<std::string> {};

@@ -83,7 +83,7 @@ TEST(CaseDefaults, IdentifyNeedsNoCoefficients) {
   const Identify& i = c.identify;
   EXPECT_EQ(i.chip_models, (std::vector{chip::Model::none, chip::Model::feed,
                                         chip::Model::trochoidal}));
-  EXPECT_EQ(i.runout, RunoutFit::offsets);
+  EXPECT_EQ(i.runout, identification::RunoutUnknowns::offsets);
   EXPECT_FALSE(i.phase.has_value());
   EXPECT_EQ(i.band_harmonics, 0);
   EXPECT_EQ(i.channel_offsets, ChannelOffset::none);
@@ -123,13 +123,13 @@ peak_to_peak_um = 26
   EXPECT_DOUBLE_EQ(c.machine.cutter_body->flute_length.value(), 83e-3);
   EXPECT_DOUBLE_EQ(c.machine.cutter_body->shank_diameter.value(), 8e-3);
   EXPECT_DOUBLE_EQ(c.machine.cutter_body->equivalent_diameter.value(), 6.4e-3);
-  EXPECT_EQ(c.machine.surface->model, SurfaceModel::envelope);
-  EXPECT_EQ(c.machine.surface->load, SurfaceLoad::distributed);
-  EXPECT_EQ(c.machine.surface->feedback, Feedback::none);
+  EXPECT_EQ(c.machine.surface->model, surface::Model::envelope);
+  EXPECT_EQ(c.machine.surface->load, surface::Load::distributed);
+  EXPECT_EQ(c.machine.surface->feedback, surface::Feedback::none);
   EXPECT_EQ(c.machine.surface->phase, 0.0);
   EXPECT_FALSE(c.machine.surface_measurements[0].datum_offset);
-  EXPECT_EQ(c.machine.correct->target, CorrectionTarget::peak_force);
-  EXPECT_EQ(c.machine.correct->strategy, CorrectionStrategy::inverse);
+  EXPECT_EQ(c.machine.correct->target, correction::Target::peak_force);
+  EXPECT_EQ(c.machine.correct->strategy, correction::Method::inverse);
   EXPECT_EQ(c.machine.actuator->gain, 1.0);
   EXPECT_EQ(c.machine.command->shape, CommandShape::sine);
   EXPECT_EQ(c.machine.command->lead, 0.0);

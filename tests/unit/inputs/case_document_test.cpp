@@ -15,7 +15,7 @@ using test::CaseFolder;
 
 std::string refusal(const std::filesystem::path& file) {
   try {
-    static_cast<void>(read_case(file, Command::check));
+    static_cast<void>(read_case(file, std::nullopt));
   } catch (const base::InputError& error) {
     const std::string text = error.what();
     return text.substr(file.string().size());

@@ -89,7 +89,7 @@ sweep_um = [-20, 20, 41]
 )")
                          .identify;
   EXPECT_EQ(i.chip_models, std::vector{chip::Model::radial});
-  EXPECT_EQ(i.runout, RunoutFit::fixed);
+  EXPECT_EQ(i.runout, identification::RunoutUnknowns::fixed);
   EXPECT_DOUBLE_EQ(i.phase.value(), std::numbers::pi / 2);
   EXPECT_EQ(i.band_harmonics, 8);
   EXPECT_EQ(i.channel_offsets, ChannelOffset::fit);
@@ -101,9 +101,9 @@ sweep_um = [-20, 20, 41]
 TEST_F(CaseMeasurement, CheckAsksForWhatTheCaseIsMadeFor) {
   const std::string bare = test::tool + test::cut;
   EXPECT_EQ(
-      folder.problems(bare + "[[measurement]]\nfile = \"run.csv\"\n", Command::check),
+      folder.problems(bare + "[[measurement]]\nfile = \"run.csv\"\n", std::nullopt),
       "");
-  EXPECT_NE(folder.problems(bare, Command::check).find("[force] is missing"),
+  EXPECT_NE(folder.problems(bare, std::nullopt).find("[force] is missing"),
             std::string::npos);
 }
 

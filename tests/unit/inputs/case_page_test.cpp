@@ -24,7 +24,7 @@ TEST(CasePage, IsWhatTheSchemaSays) {
 TEST(CasePage, NewSimulateIsAValidCase) {
   const CaseFolder folder;
   EXPECT_EQ(folder.problems(new_case(Command::simulate), Command::simulate), "");
-  EXPECT_EQ(folder.problems(new_case(Command::check), Command::check), "");
+  EXPECT_EQ(folder.problems(new_case(Command::simulate), std::nullopt), "");
 }
 
 TEST(CasePage, NewIdentifyLacksOnlyItsRecord) {
@@ -42,7 +42,7 @@ TEST(CasePage, NewSurfaceIsAValidCase) {
   const CaseFolder folder;
   const std::string text = new_case(Command::surface);
   EXPECT_EQ(folder.problems(text, Command::surface), "");
-  EXPECT_EQ(folder.problems(text, Command::check), "");
+  EXPECT_EQ(folder.problems(text, std::nullopt), "");
   EXPECT_EQ(folder.problems(text, Command::simulate), "");
 }
 
@@ -56,22 +56,24 @@ TEST(CasePage, NewCalibrateLacksOnlyItsSurface) {
   EXPECT_EQ(std::count(problem.begin(), problem.end(), '\n'), 1);
   static_cast<void>(folder.write("wall.csv", "x"));
   EXPECT_EQ(folder.problems(text, Command::calibrate), "");
-  EXPECT_EQ(folder.problems(text, Command::check), "");
+  EXPECT_EQ(folder.problems(text, std::nullopt), "");
 }
 
 TEST(CasePage, NewStabilityIsAValidCase) {
   const CaseFolder folder;
   const std::string text = new_case(Command::stability);
   EXPECT_EQ(folder.problems(text, Command::stability), "");
-  EXPECT_EQ(folder.problems(text, Command::check), "");
+  EXPECT_EQ(folder.problems(text, std::nullopt), "");
   EXPECT_EQ(folder.problems(text, Command::simulate), "");
 }
 
 TEST(CasePage, NewDynamicsIsAValidCase) {
   const CaseFolder folder;
   const std::string text = new_case(Command::dynamics);
-  for (const Command command :
-       {Command::dynamics, Command::check, Command::stability, Command::simulate}) {
+  using Purpose = std::optional<Command>;
+  for (const Purpose command :
+       {Purpose(Command::dynamics), Purpose(), Purpose(Command::stability),
+        Purpose(Command::simulate)}) {
     EXPECT_EQ(folder.problems(text, command), "");
   }
   EXPECT_EQ(folder.read(text, Command::dynamics).machine.modes.size(), 3U);
@@ -80,8 +82,10 @@ TEST(CasePage, NewDynamicsIsAValidCase) {
 TEST(CasePage, NewCorrectIsAValidCase) {
   const CaseFolder folder;
   const std::string text = new_case(Command::correct);
-  for (const Command command : {Command::correct, Command::check, Command::dynamics,
-                                Command::stability, Command::simulate}) {
+  using Purpose = std::optional<Command>;
+  for (const Purpose command :
+       {Purpose(Command::correct), Purpose(), Purpose(Command::dynamics),
+        Purpose(Command::stability), Purpose(Command::simulate)}) {
     EXPECT_EQ(folder.problems(text, command), "");
   }
 }

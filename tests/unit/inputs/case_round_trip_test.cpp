@@ -129,7 +129,7 @@ void expect_equal(const Case& a, const Case& b) {
   expect_equal(a.machine, b.machine);
 }
 
-void expect_round_trip(const std::string& text, Command command) {
+void expect_round_trip(const std::string& text, std::optional<Command> command) {
   const CaseFolder folder;
   static_cast<void>(folder.write("run 1.csv", "x"));
   static_cast<void>(folder.write("wall.csv", "x"));
@@ -232,7 +232,7 @@ file = "run 1.csv"
 [identify]
 phase_deg = "free"
 )",
-                    Command::check);
+                    std::nullopt);
 }
 
 TEST(CaseRoundTrip, TablesOfOtherCommands) {

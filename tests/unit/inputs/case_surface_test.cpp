@@ -35,9 +35,9 @@ const std::string measured = "[[surface_measurement]]\nfile = \"wall.csv\"\n";
 TEST(CaseSurface, IsThereWithItsDefaultsWhereItIsLeftOut) {
   const Case c = CaseFolder().read(tool + test::force, Command::surface);
   ASSERT_TRUE(c.machine.surface.has_value());
-  EXPECT_EQ(c.machine.surface->model, SurfaceModel::envelope);
-  EXPECT_EQ(c.machine.surface->load, SurfaceLoad::distributed);
-  EXPECT_EQ(c.machine.surface->feedback, Feedback::none);
+  EXPECT_EQ(c.machine.surface->model, surface::Model::envelope);
+  EXPECT_EQ(c.machine.surface->load, surface::Load::distributed);
+  EXPECT_EQ(c.machine.surface->feedback, surface::Feedback::none);
   EXPECT_EQ(c.machine.surface->phase, 0.0);
   EXPECT_EQ(c.machine.surface->probe_diameter, 0.0);
   EXPECT_TRUE(c.machine.surface->heights.empty());
@@ -72,9 +72,9 @@ probe_diameter_mm = 1.0
 )",
                                    Command::surface);
   const Surface& s = c.machine.surface.value();
-  EXPECT_EQ(s.model, SurfaceModel::imprint);
-  EXPECT_EQ(s.load, SurfaceLoad::concentrated);
-  EXPECT_EQ(s.feedback, Feedback::direct);
+  EXPECT_EQ(s.model, surface::Model::imprint);
+  EXPECT_EQ(s.load, surface::Load::concentrated);
+  EXPECT_EQ(s.feedback, surface::Feedback::direct);
   EXPECT_DOUBLE_EQ(s.phase, 3.141592653589793);
   EXPECT_EQ(s.heights, (std::vector{0.0, 3e-3, 1.5e-3}));
   EXPECT_EQ(s.influence_heights, (std::vector{0.0, 83e-3}));
@@ -111,7 +111,7 @@ TEST(CaseSurface, CheckAsksForWhatTheCaseIsMadeFor) {
   static_cast<void>(folder.write("wall.csv", "x"));
   static_cast<void>(folder.write("record.csv", "x"));
   const auto said = [&](const std::string& text) {
-    return folder.problems(text, Command::check);
+    return folder.problems(text, std::nullopt);
   };
   // No coefficients: in order where they are to be found.
   EXPECT_EQ(said(tool + body + measured), "");

@@ -36,12 +36,13 @@ class CaseFolder {
     return file;
   }
   [[nodiscard]] Case read(const std::string& text,
-                          Command command = Command::simulate) const {
+                          std::optional<Command> command = Command::simulate) const {
     return read_case(write("case.toml", text), command);
   }
   /// What is wrong with a case, with the folder left out; empty: nothing.
-  [[nodiscard]] std::string problems(const std::string& text,
-                                     Command command = Command::simulate) const {
+  [[nodiscard]] std::string problems(
+      const std::string& text,
+      std::optional<Command> command = Command::simulate) const {
     try {
       static_cast<void>(read(text, command));
     } catch (const base::InputError& error) {

@@ -147,9 +147,9 @@ TEST(SurfaceReadings, LieWithinTheCutAndTheWall) {
 
 TEST(SurfaceReadings, AlongTheTurnOfAQuasiStaticModelOrARigidWallXIsFree) {
   Case c = thin_wall();
-  c.machine.surface.emplace().model = SurfaceModel::imprint;
+  c.machine.surface.emplace().model = surface::Model::imprint;
   EXPECT_EQ(check_readings(one_reading(61 * mm, mm), "w.csv", c).size(), 1U);
-  c.machine.surface->model = SurfaceModel::quasi_static;
+  c.machine.surface->model = surface::Model::quasi_static;
   EXPECT_TRUE(check_readings(one_reading(61 * mm, mm), "w.csv", c).empty());
   c = thin_wall();
   c.machine.wall.reset();

@@ -1,8 +1,5 @@
-// Builds the page from the data that are embedded in it.
-
-const pages = { simulate: simulatePage, identify: identifyPage, surface: surfacePage,
-  calibrate: calibratePage, stability: stabilityPage, modes: modesPage, actuator: actuatorPage,
-  dynamics: dynamicsPage, correct: correctPage };
+// Builds the page from the data that are embedded in it; `pages` is made by report.cpp
+// from the list of commands.
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);
