@@ -6,7 +6,7 @@ namespace trochoid::chip {
 
 enum class Model {
   none,        ///< f_j sin(theta): no runout
-  feed,        ///< (f_m + R_j - R_k) sin(theta), Kline and DeVor as the paper has it
+  feed,        ///< (f_m + R_j - R_k) sin(theta), [kline1983] as in [riviere2009]
   radial,      ///< f_m sin(theta) + R_j - R_k
   trochoidal,  ///< exact tooth paths
 };
@@ -34,7 +34,7 @@ constexpr bool feels_runout(Model model) noexcept {
 /// Which earlier teeth may have left the surface that a tooth meets.
 enum class Lookback {
   all,       ///< every tooth, including itself one turn before
-  previous,  ///< the tooth before only: the literal form of the paper
+  previous,  ///< the tooth before only: the literal form of [riviere2009]
 };
 
 /// Names of files.

@@ -31,7 +31,8 @@ struct Learned {
 /// @brief Improve a command by what the table did.
 ///
 /// @eq R-16 U_n <- U_n + gamma (X_n - measured X_n)/P_model(i n Omega)
-/// @src standard: repetitive control in the frequency domain
+/// @src [bristow2006]: iterative learning control with the inverse of the plant, here
+///      for each harmonic of the spindle by itself
 /// @param start  its harmonics are the ones that are learnt
 Learned learn(const PeriodicMotion& motion, const Harmonics& start, const Plant& model,
               double Omega, const MeasuredTable& measured,

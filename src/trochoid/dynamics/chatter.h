@@ -26,7 +26,7 @@ struct ChatterLine {
 ///
 /// @eq D-12 f_k = |arg(mu) + 2 pi k| / (2 pi P), P the period [s]; amplitude the k-th
 ///          Fourier coefficient of q(t) mu^(-t/P)
-/// @src Insperger and others, Multiple chatter frequencies in milling processes (2003)
+/// @src frequencies: [insperger2003]; how strong each is: [dombovari2010]
 /// @param least  lines with less than this share are left out
 /// @return strongest first
 std::vector<ChatterLine> chatter_lines(const Directional& directional,

@@ -95,7 +95,7 @@ inline constexpr int most_steps = 400000;
 /// @src [diez2010] eq. 8 to 13, each body in the axes of the workpiece
 /// @eq T-6 F = F_g + (I - J P)^-1 (F(q(F_g)) - F_g), J = dF/dq, P = dq/dF: the force at
 ///         the end of a step
-/// @src Newton's method
+/// @src derived: a step of Newton's method
 /// Second order in the step: exact for a force that is linear over a step, with the
 /// forces on both sides of every entry and exit.
 /// @throws std::invalid_argument where engaged_grid does, and beyond most_steps

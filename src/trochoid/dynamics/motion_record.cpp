@@ -11,7 +11,7 @@ namespace trochoid::dynamics {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// 0.2 N of 60 N, as the paper's cases settle.
+/// 0.2 N of 60 N, as the case of [diez2010] settles.
 constexpr double repeats = 1.0 / 300;
 
 /// Place and speed between the ends of a step: the cubic through both.

@@ -20,7 +20,8 @@ namespace trochoid::dynamics {
 /// @eq  D-11 (I - G A_0) q = sum over modes of (x, y) Phi state(a)
 ///           - G sum over d of A_d q(t - d),
 ///           G = sum over modes of (x, y)(x, y)^T and the kernels of D-4
-/// @src derived: spectral elements (Bayly; Khasawneh and Mann), in integral form
+/// @src derived: elements in time of [bayly2003], spectral as in [khasawneh2013], here
+///      in integral form
 class PeriodMap {
  public:
   /// @param Omega  spindle speed [rad/s], positive

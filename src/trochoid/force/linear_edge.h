@@ -10,7 +10,7 @@ namespace trochoid::force {
 
 /// @brief Force in proportion to the chip, and an edge force wherever an edge cuts.
 /// @eq F-1 dF_q = K_qc h dz + K_qe dS, q in {t, r, a}; h along the ray
-/// @src [riviere2009] eq. 14
+/// @src [riviere2009] eq. 14, the linear edge-force model of [altintas2000]
 struct LinearEdge {
   double K_tc = 0.0;  ///< [N/m^2]
   double K_rc = 0.0;  ///< [N/m^2]

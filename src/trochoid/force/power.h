@@ -10,7 +10,7 @@ namespace trochoid::force {
 
 /// @brief Kienzle's power law: a thin chip costs more per thickness.
 /// @eq F-2 dF_q = K_q1 h_0 (h sin(kappa) / h_0)^(1 - m_q) ds, q in {t, r, a}
-/// @src Kienzle
+/// @src [kienzle1952]
 struct Power {
   double K_t1 = 0.0;  ///< [N/m^2]
   double K_r1 = 0.0;  ///< [N/m^2]

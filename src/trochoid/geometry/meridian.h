@@ -20,8 +20,8 @@ struct MeridianPoint {
 /// @eq G-3 (r-Rr)^2 + (z-Rz)^2 = R^2, sin(kappa) = (r-Rr)/R        (corner, M to N)
 /// @eq G-4 r = u + z tan(beta), kappa = pi/2 - beta                (flank, from N)
 /// @eq G-5 M and N: where the arc meets the cone and the flank
-/// @src [riviere2009] section 3.1, after Altintas and
-/// Engin's general cutter; N and M derived
+/// @src [riviere2009] section 3.1, after the general
+/// cutter of [engin2001]; N and M derived
 /// @note A flat bottom (alpha = 0) carries no edge: then s = 0 at M.
 struct Meridian {
   Profile profile;

@@ -124,7 +124,7 @@ bool unidentifiable(const Fit& fit, const std::string& name);
 /// @eq  I-7 {F_c} = [D]_c {K} + a_c + b_c (t - mean t)/(t_last - t_first)
 /// @eq  I-8 value +- t_0.975(n - dim K - dim p) se
 /// @eq  I-9 nothing is explained where u > sqrt(0.9) and r > 0.3
-/// @src [riviere2009] eq. 20 to 22, section 3.3; I-3, I-4, I-8 standard
+/// @src [riviere2009] eq. 20 to 22, section 3.3; I-3 [golub1973]; I-4, I-8 standard
 ///
 /// @param setup  tool, given runout (start or fixed), chip lookback, edge length; its
 ///               `cut` and `chip.model` are replaced by those of run and options

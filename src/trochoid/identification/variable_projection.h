@@ -22,7 +22,7 @@ double rss_at(const Problem& problem, std::span<const double> p);
 /// @brief Local minimum by Levenberg-Marquardt with the coefficients eliminated.
 ///
 /// @eq  I-3 r(p) = (1 - P) {F}, dr/dp = -(1 - P) d[D]/dp {K}, P the projection on [D]
-/// @src Golub and Pereyra, Kaufman's form: exact gradient, Gauss-Newton Hessian
+/// @src [golub1973], in the form of [kaufman1975]: exact gradient, Gauss-Newton Hessian
 Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
                const numerics::LevenbergMarquardtOptions& options);
 

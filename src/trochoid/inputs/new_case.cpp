@@ -18,7 +18,7 @@ void give(ForceTable& table, const force::LinearEdge& law) {
   }
 }
 
-/// A slot like that of the paper whose model this is: 8 mm, two teeth, one 8 um short.
+/// A slot like that of [riviere2009]: 8 mm, two teeth, one 8 um short.
 void add_slot(CaseTables& t) {
   t.title = "Slot, 8 mm end mill";
   t.tool.teeth = 2;

@@ -22,7 +22,7 @@ struct DominantEigenvalue {
 /// @brief Eigenvalue of largest modulus by Arnoldi's method from a fixed start.
 ///
 /// @eq  D-10 A V_k = V_k H_k + h e_k^T; eigenvalues of H_k
-/// @src Arnoldi; Saad, Numerical Methods for Large Eigenvalue Problems, ch. 6
+/// @src [arnoldi1951]; [saad2011] ch. 6
 /// @param size       of the vectors, at least 1
 /// @param tolerance  of the eigenvalue, relative
 /// @note Meant for compact maps, whose eigenvalues fall off fast: no restarts.

@@ -18,7 +18,8 @@ const KronrodRule& kronrod_rule();
 /// @brief Add the integral of a vector function by Gauss and Kronrod with bisection.
 ///
 /// The error of the Kronrod sum is taken as S min(1, (200 |K - G| / S)^1.5), S the
-/// integral of |f|, as QUADPACK does: |K - G| itself is the error of the Gauss sum.
+/// integral of |f|: |K - G| itself is the error of the Gauss sum.
+/// @src [piessens1983] (QUADPACK)
 /// @param f        callable as f(x, weight, sum): adds weight times the values at x
 /// @param allowed   error allowed in each component over a bisected part
 /// @param smallest parts shorter than this are taken as they are: a jump may hide there

@@ -32,8 +32,7 @@ struct LevenbergMarquardtSummary {
 };
 
 /// @brief Local minimum of |r(p)|^2 near the start.
-/// @src ceres/tiny_solver.h (Ceres 2.1), after Madsen, Nielsen and
-/// Tingleff, Methods for Non-Linear Least Squares Problems
+/// @src [madsen2004], as ceres/tiny_solver.h of [ceres2022] has it
 LevenbergMarquardtSummary levenberg_marquardt(const Residuals& residuals,
                                               int residual_count,
                                               std::vector<double> start,

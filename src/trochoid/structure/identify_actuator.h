@@ -46,8 +46,8 @@ struct ActuatorFit {
 ///            sum (y_0 + u K_0 g(t - t_0; S, P) - y)^2, g the step response M-11 for a
 ///            gain of 1; standard errors from s^2 (J^T J)^-1
 /// @eq  M-14  T_1, T_2 are given only if S^2 - 4 P > 3 se(S^2 - 4 P)
-/// @src spec: near the critical damping S and P are well determined, T_1 and T_2 are
-///      not; a fit that demands real poles hides an underdamped actuator
+/// @src derived from M-9: near the critical damping S and P are well determined, T_1
+///      and T_2 are not; a fit that demands real poles hides an underdamped actuator
 ///
 /// Refused: no step in the record, one that has not settled at its end, one that two
 /// poles do not explain.

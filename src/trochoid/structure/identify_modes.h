@@ -52,7 +52,8 @@ struct ModesFit {
 ///           omega_r/A_r
 /// @eq  M-7  min over omega_r, zeta_r, A_r, U, L of sum |f (H_model - H)|^2; start from
 ///           M-5; standard errors from s^2 (J^T J)^-1, s^2 = rss/(2 n - p)
-/// @src spec: modes are real; residual terms optional
+/// @src derived from M-3: real modes, residual terms optional; how many by the
+///      information criterion of [schwarz1978]
 ///
 /// A number of modes that is not given is the one with the least
 /// 2 n ln(rss) + p ln(2 n) among the fits whose modes are all resonances: inside the

@@ -23,7 +23,8 @@ struct Poles {
 /// @eq  M-5  sum over lines of |(N(s) - H D(s)) f/D_{j-1}(s)|^2 = min,  s = i
 ///           omega/omega_max: linear in N and D of round j, with the denominator of the
 ///           round before as the weight, and f of M-4
-/// @src Sanathanan and Koerner (1963); N/D_{j-1} and D/D_{j-1} as partial fractions
+/// @src [sanathanan1963]; N/D_{j-1} and D/D_{j-1} as partial fractions, the zeros of
+///      the latter as the next poles: vector fitting, [gustavsen1999]
 ///
 /// No condition is set on the residues R: they tell whether the kind is right. In their
 /// form as partial fractions many poles are as well conditioned as few.

@@ -28,7 +28,7 @@ struct Bodies {
 /// How the force is spread over the axial depth.
 enum class Load {
   distributed,   ///< each piece of an edge at its own height
-  concentrated,  ///< on the cutter at a_p/2, on the wall evenly over a_p (the paper)
+  concentrated,  ///< on the cutter at a_p/2, on the wall evenly over a_p, [wang2015]
 };
 
 /// Names of files.

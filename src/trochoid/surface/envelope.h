@@ -31,8 +31,8 @@ struct HeightCut {
 std::size_t last_entered(std::span<const EdgePlace> tips, double entry,
                          double phi) noexcept;
 
-/// @brief The paper's surface error: what the cutter leaves at a spindle angle as if it
-/// touched there, which is a pulse of force and no surface.
+/// @brief Surface error of [wang2015]: what the cutter leaves at a spindle angle as if
+/// it touched there, which is a pulse of force and no surface.
 ///
 /// @eq E-7 e(phi, h) = delta(phi, h) - (R_i(h) - R), i: whose tip entered last
 /// @src [wang2015] eq. 10

@@ -41,8 +41,7 @@ constexpr double lost = 50;
 
 /// @brief u with image(u) = u, by Broyden's method
 /// from the Jacobian -1 of the residual.
-/// @src C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 7.3: only
-///      the steps are kept
+/// @src [broyden1965], as in [kelley1995] 7.3: only the steps are kept
 template <class Image>
 bool solve_fixed_point(const Image& image, Values& u, const Limits& limits) {
   constexpr int most_steps = 60;

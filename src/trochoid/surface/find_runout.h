@@ -26,7 +26,8 @@ struct RunoutAnswer {
 ///
 /// @eq E-17 min over rho cos(lambda), rho sin(lambda), K_tc, K_rc, datum (envelope: and
 ///          where a turn begins) of |e - e(model)|^2, from several starts
-/// @src [wang2015] section 4 in words; parameters of spec 2, stage 2 and joint
+/// @src [wang2015] section 4 in words; derived: rho cos(lambda), rho sin(lambda) in
+///      place of rho, lambda, and all unknowns together
 /// @param found  begins with its chosen answer
 RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readings,
                          std::span<const Datum> datum, const Calibration& found);

@@ -9,7 +9,7 @@ namespace trochoid::surface {
 
 /// What is meant by surface error.
 enum class Model {
-  quasi_static,  ///< the deflection at every spindle angle (the paper)
+  quasi_static,  ///< the deflection at every spindle angle, [wang2015]
   imprint,       ///< where each tooth touches the wall squarely
   envelope,      ///< what all passes leave
 };

@@ -21,7 +21,7 @@ struct Setting {
 
 /// @brief Angle at which the pass of a tooth through the stock begins.
 /// @eq E-12 down: theta_e = pi - p; up: theta_e = 0; p = arccos(1 - a_e/R)
-/// @src [wang2015]; spec of the engaged arc
+/// @src derived: where a circle of radius R meets the stock of G-11
 double entry_angle(const force::Setup& setup);
 
 }  // namespace trochoid::surface

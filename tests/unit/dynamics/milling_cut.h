@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-/// The one-mode benchmark of the literature: 922 Hz, two teeth, a slot.
+/// The one-mode benchmark of [insperger2004]: 922 Hz, two teeth, a slot.
 namespace trochoid::dynamics {
 
 inline constexpr double pi = std::numbers::pi;
