@@ -129,7 +129,7 @@ TEST(RunoutHasNoEffectOnTheAverage, OfOffsetsThatAddUpToNothing) {  // [E-11]
   EXPECT_LT(c.largest, 1e-12 * c.peak);
 }
 
-TEST(RunoutChangesTheAverage, OfOneTooth) {  // [E-11] spec 4: by its radius
+TEST(RunoutChangesTheAverage, OfOneTooth) {  // [E-11] by its radius
   const MadeCut s = with_runout(made_cut(true, 1), 5e-6, 0.3);
   const double lag = h_mid / 6e-3;
   const double bias =
@@ -137,7 +137,7 @@ TEST(RunoutChangesTheAverage, OfOneTooth) {  // [E-11] spec 4: by its radius
   EXPECT_NEAR(bias, -5e-6 * std::cos(lag - 0.3), 1e-15);
 }
 
-TEST(RunoutChangesTheAverage, WhereTheToothBeforeAloneCounts) {  // [E-11] spec 4, m = 1
+TEST(RunoutChangesTheAverage, WhereTheToothBeforeAloneCounts) {  // [E-11] m = 1
   const std::array rho = {1e-6, 3e-6, 10e-6, 50e-6};
   const std::array um = {0.002, 0.017, 0.19, 4.7};
   for (std::size_t i = 0; i < rho.size(); ++i) {
@@ -157,7 +157,7 @@ TEST(RunoutChangesTheAverage, OfAPowerLaw) {  // [E-11]
   EXPECT_NEAR(large.largest / small.largest, 4.0, 1.5);  // to second order
 }
 
-TEST(RunoutChangesTheAverage, OfTheExactChipByNextToNothing) {  // [E-11] spec 4
+TEST(RunoutChangesTheAverage, OfTheExactChipByNextToNothing) {  // [E-11]
   // there the entry follows each tooth's radius
   MadeCut s = with_runout(made_cut(), 10e-6, lambda);
   s.chip.model = chip::Model::trochoidal;
@@ -181,7 +181,7 @@ double mean_of(const MadeCut& s, Coefficients with) {
   return mean_envelope(height_cut(made_setting(Model::envelope, s), with, h_mid), 720);
 }
 
-TEST(RunoutChangesTheAverage, OfARealSurface) {  // [E-9] [E-11] table of spec 4
+TEST(RunoutChangesTheAverage, OfARealSurface) {  // [E-9] [E-11]
   const std::array rho = {1e-6, 3e-6, 10e-6, 50e-6};
   const std::array rigid_um = {-0.11, -0.93, -4.5, -27.0};
   const std::array elastic_um = {-0.05, -0.45, -4.4, -32.0};
@@ -228,7 +228,7 @@ TEST(RunoutChangesTheAverage, OfARealSurfaceInProportionWhereItIsLarge) {  // [E
 }
 
 TEST(RunoutChangesTheAverage, SlightlyWhereTheDeflectionMovesTheEntry) {  // [E-10]
-  // spec 4: 0.002 um at 3 um, 0.2 um at 30 um
+  // 0.002 um at 3 um, 0.2 um at 30 um
   const Compliance compliance(cutter_only()(0.0), 3e-3, 0.0, Load::distributed);
   const auto row = compliance.rows(std::array{h_mid});
   const auto nominal = [&](const MadeCut& s) {

@@ -1,4 +1,4 @@
-"""What the calibration of the transcription must obey: spec sections 3, 5 and 7.
+"""What the calibration of the transcription must obey: E-11 and E-15 to E-17.
 
 The cutter is that of the paper: 12 mm, three teeth, 45 deg, 83 mm out of the holder.
 """
@@ -22,7 +22,7 @@ class Calibration(unittest.TestCase):
     def imprint_matrix(self, m, s, heights):
         return se.imprint_operator(m, s, heights).mean(axis=2).T
 
-    def test_standard_errors_of_the_spec(self):  # section 7
+    def test_standard_errors_per_um_of_noise(self):
         M = self.imprint_matrix(DOWN, RIGID, self.heights)
         shifted = np.column_stack([M, np.ones(11)])
         np.testing.assert_allclose(self.unit_errors(M), [104, 28], rtol=0.02)
@@ -40,7 +40,7 @@ class Calibration(unittest.TestCase):
         M = np.column_stack([c.of_T.ravel(), c.of_R.ravel()])
         return cal.rank_and_condition(M, 1e-6)[0]
 
-    def test_what_cannot_be_told_apart(self):  # section 7
+    def test_what_cannot_be_told_apart(self):
         phi = grid(DOWN)
         self.assertEqual(self.rank(DOWN, RIGID, phi, [0.5]), 2)
         self.assertEqual(self.rank(DOWN, RIGID, phi[2:3], [0.5]), 1)
@@ -87,7 +87,7 @@ class Calibration(unittest.TestCase):
             M, 2, lambda rng: scatter + 1e-3 * rng.standard_normal(len(M)), 200)
         self.assertTrue((inside > 0.99).all(), inside)
 
-    def test_linear_answer_of_a_real_profile_is_far_off(self):  # section 3
+    def test_linear_answer_of_a_real_profile_is_far_off(self):  # imprint of an envelope
         truth, z = (800.0, 300.0), np.linspace(0.25, 2.75, 11)
         x = np.zeros(11)
         e = se.envelope(DOWN, RIGID, z, truth)[0].mean(axis=0)
@@ -96,7 +96,7 @@ class Calibration(unittest.TestCase):
         two = cal.envelope(DOWN, lambda _: RIGID, x, z, e, one["K"])
         np.testing.assert_allclose(two["p"], truth, rtol=1e-6)
 
-    def test_flexible_fit_of_data_with_feedback(self):  # section 5
+    def test_flexible_fit_of_data_with_feedback(self):  # E-10
         m, truth = replace(DOWN, disks=30), (400.0, 200.0)
         phi0 = np.radians(140.5)
         predict = cal.flexible_quasi_static(m, THIN, phi0, 10, [0.5], "entry")

@@ -1,4 +1,4 @@
-"""What the transcription of surface error must obey, whatever the numbers: spec 2-5, 7.
+"""What the transcription of surface error must obey, whatever the numbers: E-2 to E-12.
 
 The cutter is that of the paper: 12 mm, three teeth, 45 deg, 83 mm out of the holder.
 """
@@ -98,7 +98,7 @@ class Force(unittest.TestCase):
 
 
 class Average(unittest.TestCase):
-    """Runout has no effect on the average: where it holds, and where it fails (spec 4)"""
+    """Runout has no effect on the average: where it holds, and where it fails: E-11"""
 
     def test_it_holds_for_quasi_static(self):
         for m in (DOWN, UP, replace(DOWN, N=2), replace(UP, N=4, ae=7.0)):
@@ -196,7 +196,7 @@ class Feedback(unittest.TestCase):
         self.assertAlmostEqual(entry / chip, 1.0, delta=1e-7)
         self.assertLess(self.peak(THIN, "direct"), 0.8 * entry)
 
-    def test_forces_fall_with_the_wall(self):  # spec 5: 166 N against 215 N, rigid 289 N
+    def test_forces_fall_with_the_wall(self):  # E-10: 166 N against 215 N, rigid 289 N
         k = (1535.0, 1037.0)
         stiff = replace(THIN, wall=replace(WALL, thickness=4.0))
         thin, thick, rigid = (self.peak(s, "regenerative", k) for s in (THIN, stiff, RIGID))

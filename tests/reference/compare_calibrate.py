@@ -89,7 +89,7 @@ class Calibrate(unittest.TestCase):
                 found = found["value"] if isinstance(found, dict) else found
                 self.assertAlmostEqual(found, fit["K"][2], delta=0.02 * fit["se"][2])
 
-    def test_runout_of_labelled_imprints(self):  # stage 2 [E-17]
+    def test_runout_of_labelled_imprints(self):  # [E-17]
         given = tables("imprint", runout={"eccentricity_mm": 0.005, "angle_deg": 200.0,
                                           "eccentricity_order": "first"})
         bent, plain = made.milling(given, 120), tables("imprint")
@@ -143,7 +143,7 @@ class Calibrate(unittest.TestCase):
                 self.assertAlmostEqual((turn + 180) % 360 - 180, 0.0,
                                        delta=np.degrees(joint["se_lam"]))
 
-    def test_means_of_a_real_surface(self):  # section 3: the linear answer is 30 % wrong [E-16]
+    def test_means_of_a_real_surface(self):  # the linear answer is 30 % wrong [E-16]
         given = tables("envelope", False)
         m, s = made.milling(given, 120), made.structure(given)
         e, _ = se.envelope(m, s, HEIGHTS, K)
@@ -178,7 +178,7 @@ class Calibrate(unittest.TestCase):
             got = result["coefficients"][key]
             self.assertLess(abs(got["value"] - truth), 4 * got["se"], f"{key}: {got}")
 
-    def test_deflection_that_changes_the_cut(self):  # section 5 [E-16]
+    def test_deflection_that_changes_the_cut(self):  # E-10 [E-16]
         truth, phi0 = (400.0, 200.0), 140.5
         given = tables("quasi_static", surface={"phase_deg": phi0, "feedback": "regenerative"},
                        sampling={"samples_per_rev": 30})
@@ -207,7 +207,7 @@ class Calibrate(unittest.TestCase):
         for count in held:  # 38 of 40 expected; outside of 34..40 once in 200
             self.assertGreaterEqual(count, 34, held)
 
-    def test_what_cannot_be_told_apart(self):  # section 7
+    def test_what_cannot_be_told_apart(self):
         given = tables("imprint", False)
         m, s = made.milling(given), made.structure(given)
         one = rd.imprints(m, lambda _: s, [30.0], [0.5], K)
@@ -228,7 +228,7 @@ class Calibrate(unittest.TestCase):
         for v in result.get("coefficients", {}).values():
             self.assertTrue(v is None or v["value"] is None, result)
 
-    def test_pulses_that_do_not_vary(self):  # section 7
+    def test_pulses_that_do_not_vary(self):
         lead = float(np.pi * 12.0 / 3)
         self.refused("lead", tables("quasi_static", False, cut={"axial_depth_mm": lead}),
                      "concentrated")

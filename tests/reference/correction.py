@@ -1,4 +1,4 @@
-"""A table that moves against runout, from sections 1 to 6 of the specification.
+"""A table that moves against runout, after [diez2010].
 
 Written apart from the C++: dense grids instead of nodes and parabolas, the trapezoid rule
 instead of quadrature, the motion as a plain function of the spindle angle, the plant by
@@ -60,7 +60,7 @@ def flutes(X, cut, count=200001):
 
 
 def arc_of(engagement, R, ae):
-    """Entry and exit angle (section 2.5)."""
+    """Entry and exit angle, R-2 without runout."""
     if engagement == "slot":
         return 0.0, np.pi
     reach = np.arccos((R - ae) / R)
@@ -110,7 +110,7 @@ def harmonics(X, n_max, count=100000):
 
 
 def plant(w, act, table, ks, cs):
-    """X over x_com at one frequency: the equations of motion of section 4.1 solved.  R-11"""
+    """X over x_com at one frequency: the equations of motion T-2 and T-4 solved.  R-11"""
     a0, a1, a2 = (1 / act["K0"], (act["T1"] + act["T2"]) / act["K0"],
                   act["T1"] * act["T2"] / act["K0"])
     s = 1j * w

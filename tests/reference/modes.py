@@ -1,4 +1,4 @@
-"""Modes and actuators, written from spec sections 4 and 8: plain formulas and scipy's fits.
+"""Modes and actuators, written once more: plain formulas and scipy's fits.
 
 Ids: M-1 to M-4, M-6 to M-8, M-11, M-13 of docs/theory/modes.md.
 """

@@ -7,8 +7,8 @@ leaves, with steps that are short at both ends, and the motion of the past is re
 cubic Hermite pieces (method of steps). A helix is a stack of straight slices.
 Units: N, m, s, rad.
 
-Source: sections 2 to 5 of the reconstruction of [diez2010]; power law with the chip in
-units of 1 mm.
+Source: [diez2010] eq. 1 to 15 with their repairs, T-1, T-2 and T-4; power law with the
+chip in units of 1 mm.
 """
 import bisect
 import dataclasses

@@ -7,8 +7,7 @@ motion is the mean of two neighbouring samples, and the steps multiply up to the
 period. Its error falls with the square of the step, so two step numbers give the limit
 (Richardson). Units: N, m, s, rad.
 
-Source: Insperger and Stepan, Semi-Discretization for Time-Delay Systems (2011), first
-order; the marks of earlier teeth as in the specification of the chip, "radial" model.
+Source: [insperger2011], first order; the marks of earlier teeth as in C-4.
 """
 import dataclasses
 

@@ -1,4 +1,4 @@
-"""K_T, K_R and runout from surface errors, spec section 2, eqs. (11)-(18), 3, 5 and 7."""
+"""K_T, K_R and runout from surface errors: [wang2015] eq. (11)-(18), E-11 to E-17."""
 from dataclasses import replace
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Chip and force along the teeth of an end mill, from spec section 2, eqs. (1)-(3).
+"""Chip and force along the teeth of an end mill, from [wang2015] eq. (1)-(3).
 
 Lengths in mm, angles in rad, forces in N. Teeth are numbered 1..N in the text and from 0
 here. The edge is cut into disks; a disk that the engaged arc ends in counts in part.

@@ -1,4 +1,4 @@
-"""The three meanings of surface error without feedback, spec sections 2 and 3.
+"""The three meanings of surface error without feedback: E-7 to E-9.
 
 quasi_static: the deflection at every rotation against the feed, eq. (10).
 imprint: what each tooth leaves at the moment it touches the finished surface.
@@ -149,7 +149,7 @@ def envelope(m, structure, heights, K, load="distributed", points=1500, turn=Non
 
 
 def cusp_radius(m):
-    """R_e of spec section 3"""
+    """R_e, the radius of a cusp"""
     return (m.R - m.sigma * m.N * m.fz / (2 * np.pi)) ** 2 / m.R
 
 

@@ -1,8 +1,8 @@
-"""Deflection that changes the cut it comes from, spec section 5.
+"""Deflection that changes the cut it comes from: E-10.
 
 delta = G f(delta) at every phi, marched tooth by tooth until the turn repeats.
     entry         the edge cuts only where it reaches into the stock: R + sigma R cos(theta)
-                  + delta <= a_e; with `entry_by_tooth` R_i cos(theta), as the spec writes it
+                  + delta <= a_e; with `entry_by_tooth` R_i cos(theta), the real tooth
                   (its numbers, and "none" as the limit of a stiff cutter, go with R)
     regenerative  entry; and the chip is that between this path and the marks before, both bent
     direct        entry; and the chip is that between this path, bent, and marks unbent

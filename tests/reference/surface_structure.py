@@ -1,4 +1,4 @@
-"""How cutter and wall give way: mm per N, written from spec section 2, eqs. (4)-(7).
+"""How cutter and wall give way: mm per N, written from [wang2015] eq. (4)-(7).
 
 Heights z count from the cutter tip upward, y from the clamped foot of the wall.
 """

@@ -28,7 +28,7 @@ typedef struct PlantForce {
   double chip_m;
 } PlantForce;
 
-/* The ordinary aluminium of the specification: 56 % between the flutes for 26 um. */
+/* An ordinary aluminium: 56 % between the flutes for 26 um. */
 void plant_init(Plant* plant, double longer_m, double offset_m);
 
 /* One step: the command held for dt, then the cut at the position. Whole turns before

@@ -186,7 +186,7 @@ TEST(Directional, AlongTheEdgeAsOverTheAngle) {  // [D-9]
 }
 
 TEST(Directional, RunoutSendsATwoToothCutterToItsOwnMarkAtEntry) {  // [D-8]
-  // spec 2.2: offset d between the teeth, the long one meets its own mark where
+  // C-4 with all marks: offset d between the teeth, the long one meets its own where
   // f sin(theta) < d, the short one starts only there.
   force::Setup setup = straight_cut(2, geometry::Slot{});
   setup.chip = {chip::Model::radial, chip::Lookback::all};

@@ -60,7 +60,7 @@ TEST(Axes, AreConvertedToTheForceOnTheTool) {
   EXPECT_THROW(force_on_tool({std::vector{1.0}, {}, {1.0}}, M), std::invalid_argument);
 }
 
-/// Force of one edge point on a cylinder, spec section 2: columns t, r, a.
+/// Force of one edge point on a cylinder, F-3: columns t, r, a.
 Vector3 edge_force(double theta, const Vector3& K) {
   const double s = std::sin(theta);
   const double c = std::cos(theta);

@@ -33,7 +33,7 @@ double under_load(const PlateSolution& plate, double x, double y) {
 }  // namespace
 
 TEST(Plate, SquareUnderPressure) {  // [B-3] [B-4] [B-6]
-  // Ritz, finite elements and differences agree on these (spec of the wall, case 01).
+  // Ritz, finite elements and finite differences agree on these.
   const PlateSolution plate(unit_plate(1, 1, 0.3), 0.5, 1e-4);
   EXPECT_NEAR(plate.pressure(0.5, 1), 0.00295061, 2e-7);
   EXPECT_NEAR(plate.pressure(0.5, 0.5), 0.00189024, 2e-7);

@@ -133,7 +133,7 @@ TEST(Calibrate, MeansOfMoreReadingsWeighMore) {  // [E-15]
   EXPECT_LT(std::abs(a.residual[2]), std::abs(b.residual[2]));
 }
 
-TEST(Calibrate, StandardErrorsAreThoseOfTheSpec) {  // [E-15] spec 7: per um of noise
+TEST(Calibrate, StandardErrorsAreThoseComputedApart) {  // [E-15] per um of noise
   const auto se_at = [](Setting s, Datum datum, int heights) {
     auto readings = imprints(s, K, {.heights = made_heights(heights)});
     for (int i = 0; i < heights; ++i) {  // any residuals; se goes with their size
@@ -220,7 +220,7 @@ TEST(Calibrate, RealProfilesGiveTheirCoefficientsBack) {  // [E-16] by another p
   }
 }
 
-TEST(Calibrate, TheWorkedCaseOfTheSpecComesOut) {  // [E-16] spec 3: 563/305, 800/300
+TEST(Calibrate, TheEnvelopeIsReadRight) {  // [E-16] imprint 563/305, truth 800/300
   const Setting s = made_setting(Model::envelope);
   const auto readings = profiles(s, K, {.heights = made_heights(11), .per_tooth = 40});
   const Calibration c = calibrated(s, readings);
@@ -267,7 +267,7 @@ TEST(Calibrate, FeedbackIsFittedAlong) {  // [E-10] [E-15]
   const Calibration c = calibrated(s, readings, {}, Feedback::entry);
   EXPECT_EQ(chosen(c).feedback, Feedback::entry);
   expect_truth(chosen(c), 1e-2, soft);
-  EXPECT_LT(c.answers[0].K_tc.value, 0.6 * soft[0]);  // spec 5: 123 of 400
+  EXPECT_LT(c.answers[0].K_tc.value, 0.6 * soft[0]);  // without feedback: 123 of 400
 }
 
 TEST(Calibrate, AnswersStandSideBySide) {

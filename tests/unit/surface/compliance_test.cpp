@@ -93,7 +93,7 @@ TEST(Compliance, AConcentratedLoadIsTheWholeForceInTheMiddle) {  // [E-6]
   }
 }
 
-TEST(Compliance, OfThePaperIsKnown) {  // [E-6] spec 6: 1.0715 um/N at 0.5 mm
+TEST(Compliance, OfThePaperIsKnown) {  // [E-6] [wang2015]: 1.0715 um/N at 0.5 mm
   const Compliance compliance(cutter_only()(0.0), 3e-3, 0.0, Load::concentrated);
   EXPECT_NEAR(compliance.rows(std::array{0.5e-3})[0], 1.071531835513634e-6, 1e-15);
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-/// What the data cannot tell apart is refused, never inverted (spec 7 and 8).
+/// What the data cannot tell apart is refused, never inverted.
 namespace trochoid::surface {
 namespace {
 
@@ -106,7 +106,7 @@ TEST(Degenerate, ImprintsAtOneHeight) {  // [E-15]
   expect_combination(a);
 }
 
-TEST(Degenerate, PlacesAlongAWallDoNotReplaceHeights) {  // [E-15] spec 7: cond 1.8e3
+TEST(Degenerate, PlacesAlongAWallDoNotReplaceHeights) {  // [E-15] cond 1.8e3
   const Setting s = made_setting(Model::imprint, made_cut(), with_wall());
   Measured at{.heights = {1e-3}};
   at.places = {10e-3, 20e-3, 30e-3};
@@ -133,7 +133,7 @@ TEST(Degenerate, AsManyMeansAsUnknownsLeaveTheErrorsOpen) {  // [E-15]
   EXPECT_TRUE(std::isnan(a.K_tc.se));
 }
 
-TEST(Degenerate, AllZeroReadingsAreZeroCoefficients) {  // [E-15] [E-16] spec 8
+TEST(Degenerate, AllZeroReadingsAreZeroCoefficients) {  // [E-15] [E-16]
   for (const Model model : {Model::quasi_static, Model::imprint}) {
     const Setting s = made_setting(model);
     auto readings =
@@ -148,7 +148,7 @@ TEST(Degenerate, AllZeroReadingsAreZeroCoefficients) {  // [E-15] [E-16] spec 8
   }
 }
 
-TEST(Degenerate, ASingleToothIsNotTakenForRunout) {  // [E-17] spec 4
+TEST(Degenerate, ASingleToothIsNotTakenForRunout) {  // [E-17]
   const Setting s =
       made_setting(Model::imprint, with_runout(made_cut(true, 1), 5e-6, 0.3));
   const auto readings = imprints(s, K);

@@ -253,7 +253,7 @@ TEST(Envelope, TheLongestToothErasesTheOthers) {  // [E-9]
   EXPECT_NEAR(lowest, -60e-6, 2e-9);
 }
 
-TEST(Envelope, OfThePaperIsKnown) {  // [E-9] spec 3: imprint 54.66, envelope 48.22 um
+TEST(Envelope, OfThePaperIsKnown) {  // [E-9] imprint 54.66, envelope 48.22 um
   const HeightCut cut = height_cut(made_setting(Model::envelope), {8e8, 3e8}, 0.5e-3);
   EXPECT_NEAR(imprint_errors(cut)[0].error, 54.663e-6, 3e-9);
   EXPECT_NEAR(mean_envelope(cut, 300), 48.217e-6, 5e-9);

@@ -207,7 +207,7 @@ TEST(Feedback, SmallDeflectionsChangeTheForceInProportion) {  // [E-10]
   EXPECT_NEAR(loss(0.1) / loss(0.05), 2.0, 0.05);
 }
 
-TEST(Feedback, ForcesFallWithTheWall) {  // [E-10] spec 5: 166 and 215 N
+TEST(Feedback, ForcesFallWithTheWall) {  // [E-10] 166 and 215 N
   const Coefficients paper = {1535e6, 1037e6, 0.0, 0.0};
   const auto of = [&](const Bodies& bodies, Feedback feedback) {
     return peak(Bent(made_cut(), bodies).turn(feedback, paper).moments);

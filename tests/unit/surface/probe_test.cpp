@@ -44,7 +44,7 @@ TEST(Probe, ASmallTipSinksBetweenTheCusps) {  // [E-13]
   }
 }
 
-TEST(Probe, AFlatTipReadsTheCusps) {  // [E-13] spec 9: f^2/8R_e, mean f^2/24 R_e
+TEST(Probe, AFlatTipReadsTheCusps) {  // [E-13] cusps of f^2/8R_e, mean f^2/24 R_e
   const auto profile = scallops();
   EXPECT_NEAR(mean(profile), f * f / (24 * R_e), 1e-5 * f * f / R_e);
   const auto reading = probe_reading(profile, f / n, 1.0);

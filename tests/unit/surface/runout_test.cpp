@@ -124,7 +124,7 @@ TEST(FindRunout, NoneIsFoundWhereThereIsNone) {  // [E-17]
   EXPECT_LT(r.eccentricity.value, 4 * r.eccentricity.se);
 }
 
-TEST(FindRunout, TeethThatCutNothingAreNoObstacle) {  // [E-17] spec 8: rho > f_z/2
+TEST(FindRunout, TeethThatCutNothingAreNoObstacle) {  // [E-17] rho > f_z/2
   const Setting s =
       made_setting(Model::imprint, with_runout(made_cut(), 0.15e-3, 250 * unit::deg));
   const RunoutAnswer r = found(s, imprints(s, K));
