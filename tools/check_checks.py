@@ -6,6 +6,7 @@ import unittest
 
 import check_equations
 import check_layers
+import check_references
 
 SOUND = {
     "ARCHITECTURE.md": "| rank | rooms |\n|---|---|\n| 0 | base |\n| 2 | chip |\n"
@@ -16,7 +17,9 @@ SOUND = {
     "src/trochoid/signal/s.cpp": "#include <trochoid/chip/c.h>\n",
     "src/trochoid/results/r.h": "#include <nlohmann/json_fwd.hpp>\n",
     "src/trochoid/report/p.cpp": "#include <trochoid/results/r.h>\n",
-    "docs/theory/chip.md": "$$h = f \\tag{C-1}$$\n",
+    "src/trochoid/signal/s.h": "/// @src [kline1983] eq. 1\n/// @src derived from C-1\n",
+    "docs/theory/chip.md": "$$h = f \\tag{C-1}$$\nSource: [kline1983], not [this](page.md).\n",
+    "docs/references.md": "# References\n\n**[kline1983]** W. A. Kline.\n",
     "tests/unit/chip/c.cpp": "TEST(Chip, IsTheFeed) {}  // [C-1]\nint x = y[N-1];\n",
 }
 
@@ -102,6 +105,52 @@ class Equations(unittest.TestCase):
 
     def test_coded_out_of_sight(self):
         self.assertIn("belongs in the header", self.refused(source="/// @eq C-1 h = f\n"))
+
+
+class References(unittest.TestCase):
+    def refused(self, name, text):
+        found = answers(check_references.gaps, files={name: text})
+        self.assertEqual(len(found), 1, found)
+        return found[0]
+
+    def test_sound_tree_is_accepted(self):
+        self.assertEqual(answers(check_references.gaps), [])
+
+    def test_source_of_a_header_is_not_listed(self):
+        said = self.refused("src/trochoid/base/a.h", "\n/// @src [saad2011] ch. 6\n")
+        self.assertIn("src/trochoid/base/a.h:2: [saad2011] is not in docs/references.md", said)
+
+    def test_source_in_the_second_line_is_not_listed(self):
+        said = self.refused("src/trochoid/base/a.h", "/// @src derived, as\n///      [saad2011]\n")
+        self.assertIn("a.h:2: [saad2011] is not in", said)
+
+    def test_source_of_a_page_is_not_listed(self):
+        said = self.refused("docs/theory/force.md", "Source: [kienzle1952].\n")
+        self.assertIn("force.md:1: [kienzle1952] is not in", said)
+
+    def test_listed_but_not_cited(self):
+        sound = SOUND["docs/references.md"]
+        said = self.refused("docs/references.md", sound + "\n**[saad2011]** Y. Saad.\n")
+        self.assertIn("docs/references.md:5: nothing cites [saad2011]", said)
+
+    def test_listed_twice(self):
+        sound = SOUND["docs/references.md"]
+        said = self.refused("docs/references.md", 2 * sound)
+        self.assertIn("references.md:6: [kline1983] is already listed in line 3", said)
+
+    def test_name_without_a_key(self):
+        said = self.refused("src/trochoid/chip/d.h", "/// @src Kline and DeVor (1983)\n///\n")
+        self.assertIn("d.h:1: @src names no [key]", said)
+
+    def test_document_that_is_not_here(self):
+        for text in ("// DESIGN section 4", "# from spec 2.2", "TEST(A, AsTheSpecSays)"):
+            with self.subTest(text):
+                self.assertIn("is a document that is not here",
+                              self.refused("tests/unit/signal/s.py", text + "\n"))
+
+    def test_nothing_listed(self):
+        found = answers(check_references.gaps, files={"docs/references.md": "none\n"})
+        self.assertIn("no reference found", found[-1])
 
 
 if __name__ == "__main__":
