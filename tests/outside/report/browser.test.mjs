@@ -168,7 +168,7 @@ test('a wall says in words what it is, and what betrays runout', async () => {
   const { page, close } = await open('surface');
   const text = await page.locator('main').innerText();
   for (const part of ['the profile that stays on the wall', 'betrays runout', 'Wall 1', 'at its free edge',
-    'feedback = "regenerative"']) {
+    'Mean surface location error', 'Deflected shapes', 'feedback = "regenerative"']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }
   await close();
@@ -391,7 +391,7 @@ test('the modes stand beside their frequency response, with the fit through it',
   for (const canvas of canvases.slice(1)) assert.ok(has(canvas, fit));
   const text = await page.locator('main').innerText();
   for (const part of ['895.7', '2516', 'N/µm', '19.34', 'phase', 'real part', 'm/s²/N',
-    'half of a 95 % interval']) {
+    'half of a 95 % confidence interval', 'Frequency response function', 'modal stiffness']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }
   assert.ok(!/_per_|s2_N/.test(text), 'a unit is spelt as in the file');
@@ -413,8 +413,8 @@ test('the step is drawn with its fit, and no time constants where there are none
 test('the lobes show the case, and how stability is lost', async () => {
   const { page, close } = await open('stability');
   const text = await page.locator('main').innerText();
-  for (const part of ['Least unstable depth', 'Hopf', 'period doubling there', 'The cross is the case',
-    'N/µm']) {
+  for (const part of ['Stability lobe diagram', 'Floquet multiplier', 'Limit depth', 'Hopf',
+    'period doubling there', 'The cross is the case', 'N/µm']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }
   const canvases = await drawn(page);
@@ -427,10 +427,10 @@ test('the lobes show the case, and how stability is lost', async () => {
   await close();
 });
 
-test('a motion that repeats shows forces, flutes, motion and once-per-turn samples', async () => {
+test('a steady state shows forces, flutes, motion and the once-per-turn section', async () => {
   const { page, canvases, close } = await check('dynamics', {}, 8);
   const text = await page.locator('main').innerText();
-  for (const part of ['repeats', '53.2 · 51.4', 'differ by 3.35 %', 'tooth 1', '0.1287', '0.07130',
+  for (const part of ['steady state', 'it repeats', 'Surface location error', '53.2 · 51.4', 'differ by 3.35 %', 'tooth 1', '0.1287', '0.07130',
     'Once per turn', 'command', 'actuator', '× 0.6014']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }

@@ -1,4 +1,4 @@
-// Cutter and wall, bent, seen along the feed.
+// The deflected shapes of cutter and wall, seen along the feed.
 
 /** Value of a column at a height, between its rows. */
 function shapeAt(heights, values) {
@@ -64,13 +64,13 @@ function bentSection(report) {
   const largest = Math.max(...bodies.map((body) => body.largest));
   if (!bodies.length || !(largest > 0)) return null;
   const paint = (c, width, height) => paintBent(c, width, height, { bodies, bent, largest });
-  const chart = drawing({ label: 'Cutter and wall bent, seen along the feed', paint,
+  const chart = drawing({ label: 'Deflected shapes of cutter and wall, seen along the feed', paint,
     height: (width) => (width > 640 ? 500 : 780) });
   const how = bodies.map((body) => `${body.name} ${number(1000 * body.largest, 3)} µm ${body.place}`);
-  const part = section('bent', 'How cutter and wall bend', 'Bending',
+  const part = section('bent', 'Deflected shapes of cutter and wall', 'Deflection',
     prose('Seen along the feed, at the spindle angle of the largest force across the wall: ',
       el('b', {}, `${number(bent.F_normal_N, 4)}\u00a0N at ${number(bent.angle_deg, 4)}°`),
-      `. ${sentence(how.join(', '))}. Bodies to scale, their bending enlarged; broken lines: unbent.`),
+      `. ${sentence(how.join(', '))}. Bodies to scale, their deflection enlarged; broken lines: undeflected.`),
     chart.element);
   return { part, draw: () => chart.resize() };
 }
@@ -82,7 +82,7 @@ function paintBent(c, width, height, { bodies, bent, largest }) {
   const bottom = wide ? height : 0.58 * height;
   const tall = bottom - 84;
   const perMm = tall / (high - low || 1);
-  // Bending of about a twentieth of the height, in a round number of times.
+  // A deflection of about a twentieth of the height, in a round number of times.
   const factor = niceStep(tall / 20 / perMm / largest);
   const scene = { bodies, bent, factor, perMm, right: wide ? 0.55 * width : width - 14, bottom,
     toX: (mm) => Math.round(width * (wide ? 0.22 : 0.36)) + mm * perMm,
@@ -94,7 +94,7 @@ function paintBent(c, width, height, { bodies, bent, largest }) {
   const left = wide ? 0.63 * width : 46;
   const top = wide ? 34 : bottom + 40;
   const frame = { left, top, width: width - left - 14, height: height - top - 46, x: [0, 1.08 * 1000 * largest],
-    y: [low, high], xLabel: 'bending away from one another [µm]', yLabel: '' };
+    y: [low, high], xLabel: 'deflection away from one another [µm]', yLabel: '' };
   deflectionLines(c, frame, bodies);
 }
 
@@ -147,10 +147,10 @@ function scales(c, { factor, perMm, right, bottom }) {
   const rule = niceStep(30 / perMm);
   const bar = niceStep(25 / perMm / factor);
   scale(rule, 1, `bodies: ${number(rule)} mm`, bottom - 34);
-  scale(bar, factor, `bending, ${number(factor)} times: ${number(1000 * bar)} µm`, bottom - 12);
+  scale(bar, factor, `deflection, ${number(factor)} times: ${number(1000 * bar)} µm`, bottom - 12);
 }
 
-/** How far both are bent at every height, to be read off. */
+/** The deflection of both at every height, to be read off. */
 function deflectionLines(c, frame, bodies) {
   const { px, py } = plane(c, frame);
   write(c, 'height above the tip [mm]', frame.left - 40, frame.top - 18, { color: '--ink' });

@@ -120,7 +120,7 @@ function whyDifferent(other, chosen, result) {
       return `${counts}, and fits much worse: ${fixed(micro(other.rms_mm), 3)} against ${
         fixed(micro(chosen.rms_mm), 3)} µm rms. The readings speak against it.`;
     }
-    return `${counts}: on a wall that bends by a visible part of the radial depth, set feedback in the case.`;
+    return `${counts}: on a wall that deflects by a visible fraction of the radial depth, set feedback in the case.`;
   }
   if (result.with_runout) {
     return 'It fits the means only, and the mean of a real wall is not free of runout.';
@@ -232,7 +232,7 @@ function readingResiduals(report) {
   chart.controls.append(...[choice('Over', options.map(([value, text]) => ({ value, text })), start, draw)]
     .filter(Boolean));
   const joint = isNumber(report.result.runout?.eccentricity_mm);
-  const part = section('residuals', 'What stays unexplained', 'Residuals',
+  const part = section('residuals', 'Residuals: what stays unexplained', 'Residuals',
     prose('Every reading less what the ', joint ? 'fit with runout' : 'chosen answer', ' expects there. ' +
       'Only noise should be left: a slope or a bow over the height tells of a datum or of a wrong ' +
       'stiffness, teeth that lie apart tell of runout', joint ? ' of another kind than off centre.' : '.'),
@@ -259,7 +259,7 @@ function answersTable(result, readings, keys) {
   };
   const answered = readings.filter(({ pair }) => pair.some((entry) => isNumber(entry?.value)));
   row('correlation', '', ({ correlation }) => fixed(correlation, 3));
-  row('condition', '', ({ condition }) => (isNumber(condition) ? number(condition, 3) : null));
+  row('condition number', '', ({ condition }) => (isNumber(condition) ? number(condition, 3) : null));
   row('rank', '', ({ rank }) => (isNumber(rank) ? number(rank) : null));
   const left = (rms) => (isNumber(rms) ? fixed(micro(rms), 3) : null);
   row('left, means', 'µm rms', ({ rms_mm: rms, rank }) => (isNumber(rank) ? left(rms) : null));
@@ -292,7 +292,7 @@ function runoutPart(result) {
     prose(runoutSeen(runout) ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
       el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
       ' off its centre, at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
-      ' from the tip of tooth 1 towards tooth 2 (95 %).', isNumber(pitch) ?
+      ' from the tip of tooth 1 towards tooth 2 (eccentricity, 95 %).', isNumber(pitch) ?
         ` As the teeth of the readings are not numbered, the angle may as well be any multiple of ${
           number(pitch)}° further.` : ''),
     prose(`All readings are left with ${fixed(micro(runout.rms_mm), 3)} µm rms with runout and ${
@@ -318,7 +318,7 @@ function adviceSection(result, keys, fitted) {
     prose('Ten more readings at ', el('b', {}, `${number(best.height_mm, 3)} mm`), ' above the tip would do most: ' +
       'the standard error of ', symbol(nameAndUnit(keys[0]).name), ` would fall from ${number(now[0], 3)} to ${
         number(best[`se_${keys[0]}`], 3)} MPa (${number(gain[0], 2)} % less). `, gain[0] < 10 ?
-        'That is little: heights are covered well, and only many more readings, or a wall that bends more, ' +
+        'That is little: heights are covered well, and only many more readings, or a more compliant wall, ' +
         'would tell more.' : ''), sorted.length > 2 ? chart.element : null);
   const panel = { label: 'standard error less by', unit: '%', height: 170, series };
   return { part, draw: sorted.length > 2 ? () => chart.draw([panel]) : undefined };

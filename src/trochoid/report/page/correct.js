@@ -3,8 +3,8 @@
 const correctKnown = ['runout', 'before', 'after', 'reduction', 'command', 'allowed_difference',
   'max_rpm', 'axes', 'controller'];
 
-const strategyNames = { sine_plain: 'sine, plain', sine_lead: 'sine with lead',
-  sine_inverse: 'sine, inverse', square_lead: 'square with lead', this_case: 'this case' };
+const strategyNames = { sine_plain: 'sine, plain', sine_lead: 'sine, phase lead',
+  sine_inverse: 'sine, plant inversion', square_lead: 'square, phase lead', this_case: 'this case' };
 
 function correctPage(report) {
   return [
@@ -77,7 +77,7 @@ function flutesSection({ before, after }) {
   const part = section('flutes', 'Flutes before and after', 'Flutes',
     prose('Left bar: without the command. Right bar: with it. The peaks are those of the whole ' +
       'force on the tool while a flute cuts; the chip area is what the flute takes at its tip. ' +
-      'Equal peaks are not equal chips.'), chart.element,
+      'Equal peaks are not equal chip loads.'), chart.element,
     table(['flute', '|Fy| before, N', 'after', 'area before, mm rad', 'after',
       'thickest chip before, µm', 'after'], rows));
   return { part, draw: () => chart.resize() };
@@ -116,7 +116,7 @@ function commandSection(report) {
       dash: [6, 3] },
     there && { name: 'table', values: there, color: '--s2' }].filter(Boolean) }];
   const part = section('command', 'Command and table over a turn', 'Command',
-    prose('What the actuator is told, what the table should do, and what it does while it is cut ' +
+    prose('What the actuator is told (feedforward), what the table should do, and what it does while it is cut ' +
       'upon, cutting force and all. command.csv and command.h hold the command.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -183,7 +183,7 @@ function limitsSection(command) {
     l.ok === null ? 'not known' : l.ok ? 'within' : el('b', {}, 'beyond')]);
   return section('limits', 'Limits of the actuator', 'Limits',
     table(['what', 'limit'], rows),
-    command.learning ? prose(`Learning: ${command.learning.iterations} iterations, ` +
+    command.learning ? prose(`Iterative learning control: ${command.learning.iterations} iterations, ` +
       `${command.learning.converged ? 'converged' : 'not converged'}.`) : null);
 }
 
@@ -194,10 +194,10 @@ function wallsSection({ before, after }) {
   const rows = before.walls.map((wall, i) => [wall.theta_deg === 0 ? 'where the teeth enter' :
     'where the teeth leave', number(wall.peak_to_valley_um, 3),
   number(after.walls[i].peak_to_valley_um, 3), shares(wall), shares(after.walls[i])]);
-  return section('walls', 'The walls', 'Walls',
+  return section('walls', 'Feed marks on the walls', 'Walls',
     prose('Marks of the teeth on the walls beside the cutter, for a rigid tool. A table that moves ' +
       'along the feed shifts the marks; how deep they lie is up to the longest tooth.'),
-    table(['wall', 'marks before, µm', 'after', 'share of each flute before, %', 'after'], rows));
+    table(['wall', 'marks before, µm', 'after', 'made by each flute before, %', 'after'], rows));
 }
 
 function correctRunoutSection({ runout, axes }) {

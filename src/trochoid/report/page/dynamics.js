@@ -3,7 +3,7 @@
 const dynamicsKnown = ['verdict', 'periodic', 'change_N', 'growth_per_turn', 'linear_growth_per_turn',
   'turns', 'flutes', 'difference', 'peak_xy_N', 'engagement_deg', 'surface_location'];
 
-const verdictOfMotion = { periodic: 'repeats', not_periodic: 'has not settled', chatter: 'chatters' };
+const verdictOfMotion = { periodic: 'steady state', not_periodic: 'has not settled', chatter: 'chatters' };
 
 function dynamicsPage(report) {
   return [
@@ -24,11 +24,11 @@ function dynamicsLead(result) {
   return tiles([
     { label: 'The motion', value: verdictOfMotion[result.verdict],
       note: isNumber(result.change_N)
-        ? `the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
+        ? `${result.verdict === 'periodic' ? 'it repeats: ' : ''}the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
         : `${result.turns} turns; amplitudes would be those of the moment, so none are given` },
-    isNumber(result.linear_growth_per_turn) && { label: 'A turn makes a small vibration', value: `× ${number(result.linear_growth_per_turn, 4)}`,
+    isNumber(result.linear_growth_per_turn) && { label: 'Floquet multiplier of a turn', value: `× ${number(result.linear_growth_per_turn, 4)}`,
       note: isNumber(seen) ? `linearised cut; × ${number(seen, 4)} seen in the motion`
-        : 'linearised cut; below 1 it fades' },
+        : 'linearised cut; below 1 a small vibration fades' },
     forces.length && { label: forces.length > 1 ? 'Peak |Fy| of each flute' : 'Peak |Fy|',
       value: forces.slice(0, 4).join(' · ') + (forces.length > 4 ? ' …' : ''), unit: 'N',
       note: forces.length > 1 && `they differ by ${number(100 * result.difference, 3)} % of the largest` },
@@ -53,7 +53,7 @@ function flutesOfMotion({ flutes }) {
     cell(flute, 'peak_chip_mm', fixed(1000 * flute.peak_chip_mm, 4))]);
   return section('flutes', 'What each flute does', 'Flutes',
     prose('In the last turn. The chip area is the chip thickness summed over the angle: equal peaks ' +
-      'of the force need not mean equal chips.'),
+      'of the force need not mean equal chip loads.'),
     table(['', 'peak |Fx|, N', 'peak |Fy|, N', 'chip area, mm rad', 'thickest chip, µm'], rows,
       { class: 'fits' }));
 }
@@ -141,12 +141,12 @@ function motionSection(report) {
     caption: zoomHint + thinned(t) });
   const part = section('motion', 'How tool and table move', 'Motion',
     prose('Displacements from where each would rest without forces, along x (the feed) and y. The ' +
-      'table bends under the cut, so it does not stand exactly where its actuator stands.'),
+      'table is compliant: under the cut it does not stand exactly where its actuator stands.'),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
-/** Tool minus work once per turn: a motion that repeats comes to stand still here. */
+/** Tool minus work once per turn (Poincaré section): a steady state stands still here. */
 function onceSection(report) {
   const t = tableNamed(report, 'once_per_turn.csv');
   const [turn, x, y] = ['turn', 'x_um', 'y_um'].map((name) => columnNamed(t, name));
@@ -159,11 +159,11 @@ function onceSection(report) {
   const scatter = drawing({ label: 'Tool minus work at the start of each turn, y over x',
     height: (width) => Math.round(Math.min(420, Math.max(260, 0.6 * width))),
     paint: (c, width, height) => paintScatter(c, width, height, x, y) });
-  const part = section('once', 'Once per turn', 'Once per turn',
+  const part = section('once', 'Once per turn: the Poincaré section', 'Once per turn',
     prose('Tool minus work at the moment the tip of tooth 1 passes θ = 0. ' +
       (report.result.verdict === 'chatter'
-        ? 'A motion that repeats would come to stand still here; this one does not.'
-        : 'A motion that repeats comes to stand still: first the start dies out.')),
+        ? 'A motion in steady state would stand still here; this one does not.'
+        : 'A motion in steady state stands still here: first the transient of the start dies out.')),
     chart.element, inPlane ? scatter.element : null);
   const panels = [{ label: 'x', unit: 'µm', height: 120, series: [dots('', x, '--s1')] },
     { label: 'y', unit: 'µm', height: 120, series: [dots('', y, '--s2')] }]
@@ -200,7 +200,7 @@ function surfaceLocationSection(result) {
   const rows = walls.map((wall) => [`${wall.wall} wall`, ...wall.flutes.map((flute) =>
     number(flute.surface_location_error_um, 4)), number(wall.surface_location_error_um, 4)]);
   const teeth = walls[0].flutes.map((flute) => `tooth ${flute.tooth}`);
-  return section('surface', 'What is left on the wall', 'Surface',
+  return section('surface', 'Surface location error', 'Surface',
     prose('By how much each tooth leaves the wall off its place, in µm, from where tool, work and tooth ' +
       'stand at the moment the wall is made; positive where material is left. The tooth that reaches ' +
       'deepest makes the wall that remains.'),

@@ -121,7 +121,7 @@ function coefficientSection(fit, usable) {
     prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
-      widening(fit) > 1 ? 'The intervals assume that what the fit leaves is white noise. It is not ' +
+      widening(fit) > 1 ? 'The confidence intervals assume that the residuals are white noise. They are not ' +
         `(correlation ${number(fit.residual_correlation, 2)}): “how well” counts them ` +
         `${number(widening(fit), 2)} times as wide.` : null),
     table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
@@ -174,17 +174,17 @@ function fitsSection(fits, best) {
     (fit) => fixed(fit.rms_axis_N?.[i], 3)));
   row('unexplained', 'of the force, rms', (fit) => (isNumber(fit.unexplained_in_band) ?
     `${number(100 * fit.unexplained_in_band, 2)} %` : null));
-  row('condition', '', (fit) => fixed(fit.condition, 3));
+  row('condition number', '', (fit) => fixed(fit.condition, 3));
   const answered = fits.some((fit) => isNumber(fit.rms_N));
   const noted = fits.filter((fit) => (fit.ok === false && fit.message) ||
     Object.keys(fit.identifiable || {}).some((key) => reasonOf(fit, key)));
   return section('fits', 'The chip models side by side', 'Fits',
-    prose('The same record, fitted with every chip model. Where tools run out, simple models put the ' +
+    prose('The same record, fitted with every chip model. Where tools have runout, simple models put the ' +
       'runout into the coefficients.'),
     answered ? table(['± 95 %', ...fits.map((fit) => modelName(fit.chip_model))], rows,
       { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }) : null,
     noted.length ? el('ul', { class: 'reasons' }, noted.map(reasonsOf)) : null,
-    answered ? el('p', { class: 'small' }, '± is the half width of the 95 % interval. Residual: ' +
+    answered ? el('p', { class: 'small' }, '± is the half width of the 95 % confidence interval. Residual: ' +
       'square root of the mean of |ΔF|² over all samples, ΔF taken as a vector.') : null);
 }
 

@@ -41,7 +41,7 @@ function measuredOverAngle(report, words) {
   const parts = [{ part: section('measured', words.heading, words.short,
     prose(words.text), forces.element), draw: redraw }];
   if (left) {
-    parts.push({ part: section('residuals', 'What stays unexplained', 'Residuals',
+    parts.push({ part: section('residuals', 'Residuals: what stays unexplained', 'Residuals',
       prose('Measured minus computed, on one scale. Only noise should be left; a pattern that ' +
         'repeats with the teeth tells of something that the model does not know.'), left.element) });
   }

@@ -5,8 +5,8 @@ const actuatorKnown = ['gain', 'frequency_Hz', 'damping_ratio', 'time_constants_
   'identifiable', 'sum_s', 'product_s2', 'start_s', 'step_um', 'half_power_frequency_Hz',
   'low_frequency_delay_s', 'rise_time_10_90_s', 'rms_um', 'explained'];
 const unitOfKind = { receptance: 'm/N', mobility: 'm/s/N', accelerance: 'm/s²/N' };
-const kindLabels = { receptance: 'displacement over force', mobility: 'velocity over force',
-  accelerance: 'acceleration over force' };
+const kindLabels = { receptance: 'receptance, displacement over force',
+  mobility: 'mobility, velocity over force', accelerance: 'accelerance, acceleration over force' };
 
 /** A value and half of its 95 % interval, to the digits that the interval leaves. */
 const withError = (value, se) => (isNumber(value)
@@ -40,9 +40,9 @@ function modesTable(modes) {
   const rows = modes.map((mode, i) => [`${i + 1}`, ...keys.map((key) =>
     withError(mode[key] * (scale[key] || 1), mode.se?.[key] * (scale[key] || 1)))]);
   return section('modes', 'The modes', 'Modes',
-    table(['', 'frequency, Hz', 'damping ratio', 'mass, kg', 'stiffness, N/µm',
-      'damping, N s/m'], rows, { class: 'fits' }),
-    prose('± half of a 95 % interval, if what the fit leaves is noise. What a wrong calibration ' +
+    table(['', 'natural frequency, Hz', 'damping ratio', 'modal mass, kg', 'modal stiffness, N/µm',
+      'modal damping, N s/m'], rows, { class: 'fits' }),
+    prose('± half of a 95 % confidence interval, if the residuals are white noise. What a wrong calibration ' +
       'of hammer or sensor does is not in it.'));
 }
 
@@ -87,7 +87,7 @@ function responseSection(report) {
     { label: 'real part', unit, height: 130, series: both(re, fittedRe) },
     { label: 'imaginary part', unit, height: 130, series: both(im, fittedIm) },
   ];
-  return { part: section('response', 'Frequency response', 'Response',
+  return { part: section('response', 'Frequency response function', 'Response',
     prose(sentence(kindLabels[report.result.kind] || 'the response'),
       report.result.description ? `: ${report.result.description}. ` : '. ',
       fit ? 'Grey is what was measured, blue the modes together.' : 'Grey is what was measured.'),
@@ -103,7 +103,7 @@ function actuatorPage(report) {
       { label: 'Natural frequency', value: result.frequency_Hz, unit: 'Hz' },
       { label: 'Damping ratio', value: result.damping_ratio,
         note: Array.isArray(T) ? `time constants ${T.map((t) => number(1000 * t, 4)).join(' and ')} ms` : '' },
-      { label: 'Gain down by 3 dB', value: result.half_power_frequency_Hz, unit: 'Hz' },
+      { label: 'Bandwidth, −3 dB', value: result.half_power_frequency_Hz, unit: 'Hz' },
       { label: 'Explained by the fit', value: isNumber(result.explained) ?
         number(100 * result.explained, 4) : null, unit: '%',
       note: isNumber(result.rms_um) && `it leaves ${number(result.rms_um, 2)} µm (rms)` },
@@ -133,7 +133,7 @@ function actuatorTable(result) {
   ];
   const why = result.identifiable?.time_constants_s;
   return section('actuator', 'The actuator', 'Actuator',
-    table(['', 'value ± half of its 95 % interval'], rows, { class: 'fits' }),
+    table(['', 'value ± half of its 95 % confidence interval'], rows, { class: 'fits' }),
     why ? prose(`No single time constants: ${why.replace('+-', '±')}.`) : null);
 }
 

@@ -66,9 +66,9 @@ function chipSection(report, note) {
     key: 'theta', x: drawn.x, label: 'θ, immersion angle', unit: '°',
     caption: zoomHint + thinned(drawn.table),
   });
-  const part = section('chip', 'Chip thickness of each tooth', 'Chip',
-    prose('Uncut chip thickness ', el('i', {}, 'h'), ' at the tip, along the immersion angle ',
-      el('i', {}, 'θ'), ' of the tooth. Teeth that run out cut differently thick chips.', note),
+  const part = section('chip', 'Uncut chip thickness of each tooth', 'Chip',
+    prose('The thickness ', el('i', {}, 'h'), ' at the tip, along the immersion angle ',
+      el('i', {}, 'θ'), ' of the tooth. With runout the teeth take unequal chip loads.', note),
     chart.element);
   const series = drawn.curves.map((curve, i) => ({
     name: `tooth ${curve.tooth}`, values: um[i], color: seriesColor(i), dash: dashOf(i),
@@ -130,8 +130,8 @@ function engagementSection(teeth, height) {
     tick.style.left = at(angle);
     return tick;
   });
-  return section('engagement', 'Where each tooth cuts', 'Engagement',
-    prose('Immersion angles with a chip', isNumber(height) ? ` ${number(height)} mm above the tip` : '',
+  return section('engagement', 'Engagement: where each tooth cuts', 'Engagement',
+    prose('From entry to exit angle: immersion angles with a chip', isNumber(height) ? ` ${number(height)} mm above the tip` : '',
       '; 0° is +y, 90° the direction of feed.'),
     el('ol', { class: 'engagement' }, rows,
       el('li', { class: 'ticks' }, el('b', {}), el('span', { class: 'track' }, ticks))));

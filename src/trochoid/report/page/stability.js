@@ -4,8 +4,8 @@ const stabilityKnown = ['multiplier', 'stable', 'verdict', 'limit_depth_mm', 'li
   'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes'];
 
 const bifurcations = {
-  hopf: 'a vibration with a frequency of its own',
-  period_doubling: 'a vibration that repeats after two periods',
+  hopf: 'Hopf: a vibration with a frequency of its own',
+  period_doubling: 'period doubling: a vibration that repeats after two periods',
   period_one: 'a vibration that repeats with every period',
 };
 
@@ -35,18 +35,18 @@ function stabilityLead(result) {
     tiles([
       { label: 'The cut is', value: result.verdict,
         note: `${number(result.spindle_rpm, 6)} rpm, ${number(result.axial_depth_mm)} mm deep` },
-      { label: `Multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
+      { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
         note: 'below 1: a small vibration fades' },
-      { label: 'Least unstable depth at this speed', value: isNumber(result.limit_depth_mm) ?
+      { label: 'Limit depth at this speed', value: isNumber(result.limit_depth_mm) ?
         number(result.limit_depth_mm) : 'none', unit: isNumber(result.limit_depth_mm) && 'mm',
       note: isNumber(result.limit_depth_mm) ? limitWords(result.limit)
         : `up to ${number(result.greatest_depth_mm)} mm` },
-      { label: 'Strongest frequency', value: isNumber(strongest) ? number(strongest, 5) : null,
+      { label: 'Strongest chatter frequency', value: isNumber(strongest) ? number(strongest, 5) : null,
         unit: 'Hz', note: bifurcations[mu.type] },
     ]),
     result.chip_floor && prose('A power law has no slope where the chip begins. With a chip floor of ',
       number(0.5 * result.chip_floor.chip_floor_um), ' and ', number(2 * result.chip_floor.chip_floor_um),
-      ' µm the multiplier is ', number(result.chip_floor.multiplier_at_half, 6), ' and ',
+      ' µm the Floquet multiplier is ', number(result.chip_floor.multiplier_at_half, 6), ' and ',
       number(result.chip_floor.multiplier_at_twice, 6), '.'),
   ];
 }
@@ -73,7 +73,7 @@ function lobesSection(report) {
   const limits = columnNamed(limit, 'limit_depth_mm') || [];
   const x = [rows[0].x[0], rows[0].x[rows[0].x.length - 1]];
   const heights = [rows[0].height, rows[rows.length - 1].height];
-  const view = { label: '|μ|, the multiplier: blue is stable, red is not; the line is the limit',
+  const view = { label: '|μ|, Floquet multiplier: blue is stable, red is not; line: limit depth',
     key: 'mu', colors: aroundZero, range: [0.5, 1.5], step: 0, smooth: true };
   let frame = null;
   const paint = (c, width, height) => {
@@ -100,7 +100,7 @@ function lobesSection(report) {
   };
   const hint = 'Point at the map for values. The cross is the case.';
   const readout = el('div', { class: 'readout', 'aria-live': 'off' }, hint);
-  const chart = drawing({ label: 'Map of the multiplier over spindle speed and axial depth', paint,
+  const chart = drawing({ label: 'Stability lobe diagram: Floquet multiplier over spindle speed and axial depth', paint,
     height: (width) => Math.round(Math.min(480, Math.max(330, 0.5 * width))) });
   chart.canvas.addEventListener('pointermove', (event) => {
     const box = chart.canvas.getBoundingClientRect();
@@ -115,9 +115,9 @@ function lobesSection(report) {
   });
   chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(hint));
   chart.element.append(readout);
-  const part = section('lobes', 'Stability over speed and depth', 'Lobes',
-    prose('By how much a small vibration grows in a period of the cut, for every spindle speed and ' +
-      'axial depth; everything else as in the case.'), chart.element);
+  const part = section('lobes', 'Stability lobe diagram', 'Lobes',
+    prose('The Floquet multiplier |μ|: by what factor a small vibration grows in a period of the cut, for every ' +
+      'spindle speed and axial depth; everything else as in the case.'), chart.element);
   return { part, draw: () => chart.resize() };
 }
 
@@ -133,18 +133,18 @@ function limitSection(report) {
   const chart = figure({ key: 'limit', x, label: 'spindle speed', unit: 'rpm',
     caption: zoomHint + thinned(t) });
   const panels = [
-    { label: 'least unstable axial depth', unit: 'mm', height: 200, markers, series: [
-      { name: 'limit', values: depths, color: '--s1', width: 1.8 },
+    { label: 'limit depth, the least unstable one', unit: 'mm', height: 200, markers, series: [
+      { name: 'limit depth', values: depths, color: '--s1', width: 1.8 },
       doubled.some(isNumber) && { name: 'period doubling there', values: doubled, color: '--s4', width: 3.2 },
       { name: 'depth of the case', values: x.map(() => result.axial_depth_mm), color: '--s2',
         dash: [6, 3] }].filter(Boolean) },
     { label: 'chatter frequency there', unit: 'Hz', height: 150, markers, series: [
       { name: '', values: columnNamed(t, 'chatter_frequency_Hz'), color: '--s3' }] },
   ];
-  const part = section('limit', 'The limit and its frequency', 'Limit',
+  const part = section('limit', 'Limit depth and chatter frequency', 'Limit',
     prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
-      'The frequency is the strongest of the vibration that appears at the limit. Almost everywhere that ' +
-      'has a frequency of its own (Hopf); at a period doubling it repeats after two periods.'), chart.element);
+      'The frequency is the strongest of the chatter that appears at the limit. Almost everywhere that ' +
+      'has a frequency of its own (Hopf); at a period doubling (flip) it repeats after two periods.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -154,7 +154,8 @@ function modesSection(modes) {
     ['x', 'y'].map((axis, i) => (mode.direction[i] ? (mode.direction[i] < 0 ? '−' : '') + axis : ''))
       .join(' '), number(mode.frequency_Hz, 6), number(100 * mode.damping_ratio, 4),
     number(mode.mass_kg, 5), number(1e-6 * mode.stiffness_N_per_m, 5)]);
-  return section('modes', 'What vibrates', 'Modes',
+  return section('modes', 'Modes: what vibrates', 'Modes',
     prose('Directions of the tool relative to the work: a mode of the table moves against it.'),
-    table(['direction', 'frequency, Hz', 'damping, %', 'mass, kg', 'stiffness, N/µm'], rows));
+    table(['direction', 'natural frequency, Hz', 'damping ratio, %', 'modal mass, kg',
+      'modal stiffness, N/µm'], rows));
 }

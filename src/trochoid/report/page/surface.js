@@ -67,7 +67,7 @@ function surfaceLead(result, heights) {
   const model = errorModels[result.model] || { name: result.model, what: '' };
   return [
     tiles([
-      { label: 'Mean error of the wall', value: fixed(micro(result.mean_error_mm), 3), unit: 'µm',
+      { label: 'Mean surface location error', value: fixed(micro(result.mean_error_mm), 3), unit: 'µm',
         note: result.mean_error_mm < 0 ? 'negative: cut too deep' : 'positive: material is left' },
       { label: 'Largest error', value: fixed(micro(result.peak_error_mm), 3), unit: 'µm',
         note: `${number(top.height_mm, 3)} mm above the tip` },
@@ -81,7 +81,7 @@ function surfaceLead(result, heights) {
     ]),
     prose('Read as ', el('b', {}, model.name), `: ${model.what}. ${sentence(
       feedbackWords[result.feedback] || '')}${result.turns_to_repeat > 1 ?
-      `; it repeats after ${result.turns_to_repeat} turns` : ''}.`),
+      `; steady state after ${result.turns_to_repeat} turns` : ''}.`),
     markWords(result, heights),
   ];
 }
@@ -143,7 +143,7 @@ function mapSection(report, rows, section_, pick) {
   });
   section_.listeners.push(() => chart.redraw());
   const part = section('map', smooth && !lines ? 'The deflection over feed and height' :
-    'The wall, as it is left', 'Map',
+    'Surface location error of the wall', 'Map',
   prose('Error over the feed and the height. The feed runs to the right, the tip of the tool is at the ' +
       'bottom.', lines ? ' Lines join equal errors.' : '', smooth ? ` Computed at ${rows.length} heights, straight ` +
       'between them.' : ' One field for every mark of a tooth.'),
@@ -279,7 +279,7 @@ function marksTable(heights) {
     ...(teeth > 1 ? [h.share.map((s) => Math.round(100 * s)).join(' · ')] : []),
     fixed(micro(h.compliance_mm_per_N), 3)]);
   return section('numbers', 'Every height in numbers', 'Numbers',
-    prose('Errors, roughness and amplitudes of the marks in µm; how much of the profile each tooth made; what ' +
-      'cutter and wall give way for each newton of the whole force.'),
+    prose('Errors, roughness and amplitudes of the marks in µm; how much of the profile each tooth made; the ' +
+      'compliance of cutter and wall, for each newton of the whole force.'),
     table(head, rows, { class: 'rows' }));
 }
