@@ -6,7 +6,7 @@
 #include <trochoid/inputs/step_file.h>
 #include <trochoid/inputs/surface_file.h>
 #include <trochoid/run/actuator.h>
-#include <trochoid/run/describe_record.h>
+#include <trochoid/run/identify/describe_record.h>
 #include <trochoid/run/modes.h>
 
 #include <fmt/core.h>

@@ -1,6 +1,7 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/answer.h>
 #include <trochoid/identification/jumps.h>
+#include <trochoid/identification/reliability.h>
 #include <trochoid/identification/residuals.h>
 #include <trochoid/identification/search.h>
 #include <trochoid/identification/uncertainty.h>

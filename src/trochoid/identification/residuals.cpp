@@ -123,9 +123,4 @@ void fill_residuals(const Problem& problem, std::span<const Run> runs,
                      part(sums.all - sums.in_band, sums.all), everywhere.correlation()};
 }
 
-double correlation_factor(double r) noexcept {
-  const double counted = std::clamp(r, 0.0, 0.999);
-  return std::sqrt((1.0 + counted) / (1.0 - counted));
-}
-
 }  // namespace trochoid::identification

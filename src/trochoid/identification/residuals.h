@@ -7,9 +7,6 @@
 
 namespace trochoid::identification {
 
-/// Neighbouring residuals that agree more than this are not white noise.
-inline constexpr double noise_correlation = 0.3;
-
 /// @brief RMS and correlation of what a fit leaves, and how much of the force that is.
 ///
 /// Each run counts in its own band: where one is set
@@ -24,10 +21,5 @@ inline constexpr double noise_correlation = 0.3;
 /// @param fit   with its `fitted`; the RMS, the correlation and `unexplained` are set
 void fill_residuals(const Problem& problem, std::span<const Run> runs,
                     std::span<const double> left, Fit& fit);
-
-/// @brief Factor by which white standard errors are too small, at least 1.
-///
-/// @eq I-8 sqrt((1 + r)/(1 - r)) for r > 0, r counted as 0.999 at most
-double correlation_factor(double r) noexcept;
 
 }  // namespace trochoid::identification

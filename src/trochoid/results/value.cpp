@@ -2,6 +2,23 @@
 
 namespace trochoid::results {
 
+Value::Value() noexcept = default;
+Value::Value(const Value& other) = default;
+Value::Value(Value&& other) noexcept = default;
+Value& Value::operator=(const Value& other) = default;
+Value& Value::operator=(Value&& other) noexcept = default;
+Value::~Value() = default;
+
+Value::Value(std::nullptr_t) noexcept {}
+Value::Value(bool value) noexcept : data(value) {}
+Value::Value(std::int64_t value) noexcept : data(value) {}
+Value::Value(double value) noexcept : data(value) {}
+Value::Value(const char* text) : data(std::string(text)) {}
+Value::Value(std::string text) : data(std::move(text)) {}
+Value::Value(std::string_view text) : data(std::string(text)) {}
+Value::Value(Array list) : data(std::move(list)) {}
+Value::Value(Object object) : data(std::move(object)) {}
+
 const Value* find(const Value& value, std::string_view key) noexcept {
   if (const auto* object = std::get_if<Object>(&value.data)) {
     for (const Member& member : *object) {
@@ -21,6 +38,14 @@ void set(Object& object, std::string_view key, Value value) {
     }
   }
   object.push_back({std::string(key), std::move(value)});
+}
+
+Value in_unit(const std::optional<double>& value, double unit) {
+  return value ? Value(*value / unit) : Value();
+}
+
+Value alone_or_list(Array list) {
+  return list.size() == 1 ? std::move(list.front()) : Value(std::move(list));
 }
 
 }  // namespace trochoid::results

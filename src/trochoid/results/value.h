@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,6 +18,9 @@ struct Member;
 using Array = std::vector<Value>;
 using Object = std::vector<Member>;  ///< in the order in which it was built
 
+template <class Number>
+concept WholeNumber = std::integral<Number> && !std::same_as<Number, bool>;
+
 /// @brief A value of summary.json: null, truth, number, text, list or object.
 ///
 /// A number that is not finite is null in every file.
@@ -26,40 +28,40 @@ struct Value {
   std::variant<std::nullptr_t, bool, std::int64_t, double, std::string, Array, Object>
       data = nullptr;
 
-  Value() = default;
-  Value(std::nullptr_t) {}
-  Value(bool value) : data(value) {}
-  template <std::integral Number>
-  requires(!std::same_as<Number, bool>) Value(Number value)
-      : data(static_cast<std::int64_t>(value)) {}
-  Value(double value) : data(value) {}
-  Value(const char* text) : data(std::string(text)) {}
-  Value(std::string text) : data(std::move(text)) {}
-  Value(std::string_view text) : data(std::string(text)) {}
-  Value(Array list) : data(std::move(list)) {}
+  // Not inline: they are long, and a file that builds an answer needs hundreds of them.
+  Value() noexcept;
+  Value(const Value& other);
+  Value(Value&& other) noexcept;
+  Value& operator=(const Value& other);
+  Value& operator=(Value&& other) noexcept;
+  ~Value();
+
+  Value(std::nullptr_t) noexcept;
+  Value(bool value) noexcept;
+  Value(std::int64_t value) noexcept;
+  Value(double value) noexcept;
+  Value(const char* text);
+  Value(std::string text);
+  Value(std::string_view text);
+  Value(Array list);
   Value(Object object);
+  template <WholeNumber Number>
+  Value(Number value) noexcept : Value(static_cast<std::int64_t>(value)) {}
   /// A list of what can be a value.
   template <class Entry>
-  requires(!std::same_as<Entry, Value> && !std::same_as<Entry, Member>)
-      Value(const std::vector<Entry>& list)
-      : data(Array(list.begin(), list.end())) {}
+  Value(const std::vector<Entry>& list) : Value(Array(list.begin(), list.end())) {}
   template <class Entry, std::size_t count>
-  Value(const std::array<Entry, count>& list) : data(Array(list.begin(), list.end())) {}
+  Value(const std::array<Entry, count>& list)
+      : Value(Array(list.begin(), list.end())) {}
   /// null where there is none.
   template <class Entry>
-  Value(const std::optional<Entry>& value) {
-    if (value) {
-      *this = Value(*value);
-    }
-  }
+  Value(const std::optional<Entry>& value) : Value(value ? Value(*value) : Value()) {}
 };
 
 struct Member {
   std::string key;
   Value value;
 };
-
-inline Value::Value(Object object) : data(std::move(object)) {}
 
 /// @return nullptr where `value` is no object or has no such key
 const Value* find(const Value& value, std::string_view key) noexcept;
@@ -68,9 +70,7 @@ const Value* find(const Value& value, std::string_view key) noexcept;
 void set(Object& object, std::string_view key, Value value);
 
 /// A number in another unit, null where there is none.
-inline Value in_unit(const std::optional<double>& value, double unit) {
-  return value ? Value(*value / unit) : Value();
-}
+Value in_unit(const std::optional<double>& value, double unit);
 /// Numbers in another unit.
 template <class Numbers>
 Value all_in_unit(const Numbers& values, double unit) {
@@ -82,8 +82,6 @@ Value all_in_unit(const Numbers& values, double unit) {
 }
 
 /// A list in measurement order; of a single measurement, its entry alone.
-inline Value alone_or_list(Array list) {
-  return list.size() == 1 ? std::move(list.front()) : Value(std::move(list));
-}
+Value alone_or_list(Array list);
 
 }  // namespace trochoid::results

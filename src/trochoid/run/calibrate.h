@@ -2,7 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/results/answer.h>
-#include <trochoid/run/progress.h>
+#include <trochoid/run/shared/progress.h>
 
 namespace trochoid::run {
 

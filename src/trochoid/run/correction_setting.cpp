@@ -3,7 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/run/chip_modes.h>
 #include <trochoid/run/machine_plant.h>
-#include <trochoid/run/measured_run.h>
+#include <trochoid/run/shared/records.h>
 
 #include <fmt/core.h>
 
@@ -65,9 +65,8 @@ std::optional<correction::ForceRecord> record_of(const inputs::Case& given,
   if (runs.empty()) {
     return std::nullopt;
   }
-  const Matrix3 M =
-      given.dynamometer ? given.dynamometer->matrix : inputs::Dynamometer{}.matrix;
-  const identification::Run run = on_tool(runs, M).front();
+  const auto M = given.dynamometer.value_or(inputs::Dynamometer{}).matrix;
+  const identification::Run run = identification::on_tool(channels_of(runs), M).front();
   correction::ForceRecord record;
   const double first = run.angle.front();
   const double span = std::abs(run.angle.back() - first);

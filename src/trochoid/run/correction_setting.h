@@ -4,7 +4,7 @@
 #include <trochoid/correction/moving_cut.h>
 #include <trochoid/correction/ratio.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/progress.h>
+#include <trochoid/run/shared/progress.h>
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/progress.h>
+#include <trochoid/run/shared/progress.h>
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/parallel.h>
-#include <trochoid/run/angles.h>
+#include <trochoid/run/shared/sampling.h>
 #include <trochoid/run/wall_setting.h>
 #include <trochoid/surface/envelope.h>
 #include <trochoid/surface/nominal_model.h>

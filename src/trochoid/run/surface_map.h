@@ -2,7 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/bent.h>
-#include <trochoid/run/progress.h>
+#include <trochoid/run/shared/progress.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <trochoid/identification/folded.h>
+#include <trochoid/identification/reliability.h>
 #include <trochoid/identification/residuals.h>
 #include <trochoid/identification/uncertainty.h>
 

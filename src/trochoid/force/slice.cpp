@@ -1,0 +1,108 @@
+#include <trochoid/force/slice.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/geometry/edge.h>
+
+#include <algorithm>
+
+namespace trochoid::force {
+
+namespace {
+
+/// Largest h on a piece, where h is smooth: samples, then a golden section.
+double largest_chip(const Slice& slice, std::size_t tooth,
+                    const chip::ChipPiece& piece) {
+  constexpr int samples = 32;
+  const auto h = [&](double theta) { return slice.chip_thickness(tooth, theta); };
+  const double step = (piece.to - piece.from) / samples;
+  int best = 0;
+  for (int i = 1; i <= samples; ++i) {
+    if (h(piece.from + i * step) > h(piece.from + best * step)) {
+      best = i;
+    }
+  }
+  double lo = piece.from + std::max(best - 1, 0) * step;
+  double hi = piece.from + std::min(best + 1, samples) * step;
+  constexpr double golden = 0.6180339887498949;
+  for (int i = 0; i < 45; ++i) {
+    const double a = hi - golden * (hi - lo);
+    const double b = lo + golden * (hi - lo);
+    (h(a) < h(b) ? lo : hi) = h(a) < h(b) ? a : b;
+  }
+  return std::max(h(0.5 * (lo + hi)), h(piece.from + best * step));
+}
+
+}  // namespace
+
+Slice::Slice(const Setup& setup, double height)
+    : passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
+      teeth_(setup.cutter.pitch.size()) {
+  const geometry::Meridian m = geometry::meridian(setup.cutter.profile);
+  const double s = geometry::arc_length_at(m, height);
+  r_ = geometry::point_at(m, s).r;
+  geometry::edge_positions(runout_of(setup), geometry::tooth_angles(setup.cutter), r_,
+                           geometry::lag_at(setup.cutter, m, s).angle, teeth_);
+}
+
+double Slice::chip_thickness(std::size_t tooth, double theta) const noexcept {
+  return chip::chip_at(passage_, teeth(), static_cast<int>(tooth), theta).h;
+}
+
+Engagement engagement_at(const Setup& setup, double height) {
+  const Slice slice(setup, height);
+  Engagement engagement{.height = height};
+  for (std::size_t j = 0; j < setup.cutter.pitch.size(); ++j) {
+    const int tooth = static_cast<int>(j);
+    ToothEngagement of_tooth{
+        .arcs = chip::engaged_arcs(slice.passage(), slice.teeth(), tooth)};
+    for (const chip::ChipPiece& piece :
+         chip::engaged_pieces(slice.passage(), slice.teeth(), tooth, -90 * unit::deg)) {
+      of_tooth.peak_chip = std::max(of_tooth.peak_chip, largest_chip(slice, j, piece));
+    }
+    engagement.teeth.push_back(std::move(of_tooth));
+  }
+  engagement.removal = chip::removal(slice.passage(), slice.teeth());
+  return engagement;
+}
+
+double representative_height(const Setup& setup) {
+  const geometry::Meridian m = geometry::meridian(setup.cutter.profile);
+  const bool reaches_axis =
+      geometry::point_at(m, 0.0).r <= 1e-9 * setup.cutter.profile.D;
+  return reaches_axis ? setup.cut.a_p : 0.0;
+}
+
+ChipCurve chip_curve(const Setup& setup, double height) {
+  const Slice slice(setup, height);
+  ChipCurve curve;
+  for (int i = 0; i <= 440; ++i) {
+    curve.theta.push_back((-20 + 0.5 * i) * unit::deg);
+  }
+  for (std::size_t j = 0; j < setup.cutter.pitch.size(); ++j) {
+    std::vector<double>& h = curve.h.emplace_back();
+    for (const double theta : curve.theta) {
+      h.push_back(slice.chip_thickness(j, theta));
+    }
+  }
+  return curve;
+}
+
+ChipGrid chip_grid(const Setup& setup, std::span<const double> theta,
+                   std::span<const double> heights) {
+  ChipGrid grid{.theta = {theta.begin(), theta.end()},
+                .height = {heights.begin(), heights.end()}};
+  std::vector<Slice> slices;
+  for (const double height : heights) {
+    slices.emplace_back(setup, height);
+  }
+  for (std::size_t j = 0; j < setup.cutter.pitch.size(); ++j) {
+    for (const double angle : theta) {
+      for (const Slice& slice : slices) {
+        grid.h.push_back(slice.chip_thickness(j, angle));
+      }
+    }
+  }
+  return grid;
+}
+
+}  // namespace trochoid::force

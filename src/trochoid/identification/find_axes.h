@@ -1,0 +1,58 @@
+#pragma once
+
+#include <trochoid/identification/identify.h>
+#include <trochoid/signal/axes.h>
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// A run of the tool as the channels of a dynamometer have it.
+struct ChannelRun {
+  geometry::Cut cut;
+  std::vector<double> angle;                   ///< recorded angle [rad], shape (n)
+  std::array<std::vector<double>, 3> channel;  ///< [N], shape (n) each
+};
+
+/// @brief Force on the tool of every run, channels = M force.
+/// @throws std::invalid_argument where M cannot be inverted
+std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3& M);
+
+/// What is fitted to the channels, whatever they read.
+struct AxesProblem {
+  force::Setup setup;
+  force::Law law;
+  Options
+      options;  ///< their band limit is an upper one: axes show in the low harmonics
+};
+
+/// What the channels of a record read, found from the record alone.
+struct AxesChoice {
+  bool ok = false;
+  std::string message;       ///< when not ok, why
+  signal::Matrix3 matrix{};  ///< channels = matrix times force on the tool
+  double rms = 0.0;          ///< of the low band with this choice [N]; infinite: no fit
+  double next_rms = 0.0;     ///< of the best choice that is not the same data [N]
+  bool signs_clear = true;   ///< false: decided by coefficients that may be negative
+};
+
+/// @brief Try the signed permutations of the channels.
+///
+/// The residual of a fit within the lowest harmonics says which channel is z and which
+/// way round the others go. Readings that no residual can tell apart (on a cylinder
+/// always eight) are decided by K_tc, K_rc, K_ac > 0.
+/// @param told  called before each fit; may be empty
+AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> runs,
+                     const std::function<void()>& told);
+
+/// @brief What a given reading of the channels leaves, as find_axes compares it [N];
+/// infinite where it cannot be fitted.
+double reading_rms(const AxesProblem& problem, std::span<const ChannelRun> runs,
+                   const signal::Matrix3& M);
+
+}  // namespace trochoid::identification

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <trochoid/base/table.h>
+#include <trochoid/force/slice.h>
+#include <trochoid/identification/identify.h>
+#include <trochoid/signal/revolutions.h>
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+/// Tables that several commands write.
+namespace trochoid::results {
+
+/// Forces computed for the samples of every run, and what computed them.
+struct ComputedForces {
+  std::string name;  ///< of the chip model
+  std::vector<std::vector<std::array<double, 3>>> of_run;
+};
+
+/// @brief fitted.csv and residual.csv: measured force on the tool, computed forces and
+/// what is left, against the recorded angle.
+std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
+                                      std::span<const ComputedForces> computed);
+
+/// chip_curve.csv: h of every tooth over nominal theta, at one height.
+base::Table chip_curve_table(const force::ChipCurve& curve);
+
+}  // namespace trochoid::results

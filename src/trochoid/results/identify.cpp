@@ -1,0 +1,191 @@
+#include <trochoid/results/identify.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/identification/reliability.h>
+#include <trochoid/results/curve_tables.h>
+#include <trochoid/results/fit_value.h>
+#include <trochoid/results/fits_table.h>
+#include <trochoid/results/material.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace trochoid::results {
+
+namespace {
+
+using base::add_column;
+using identification::Fit;
+
+bool is_signed_permutation(const signal::Matrix3& M) {
+  for (const auto& row : M) {
+    if (std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]) != 1) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Object signal_value(const IdentifyResult& r) {
+  Array files;
+  Array samples;
+  Array rpm;
+  Array rpm_se;
+  Array stated;
+  for (const RecordSummary& record : r.records) {
+    files.emplace_back(record.file);
+    samples.emplace_back(record.samples);
+    rpm.emplace_back(unit::in(record.Omega, unit::rpm));
+    rpm_se.push_back(record.Omega_se > 0 ? Value(record.Omega_se / unit::rpm)
+                                         : Value());
+    stated.emplace_back(unit::in(record.stated_Omega, unit::rpm));
+  }
+  Object out{{"files", std::move(files)},
+             {"samples", std::move(samples)},
+             {"spindle_rpm", alone_or_list(std::move(rpm))},
+             {"spindle_rpm_se", alone_or_list(std::move(rpm_se))},
+             {"stated_rpm", alone_or_list(std::move(stated))}};
+  if (is_signed_permutation(r.channels)) {
+    out.push_back({"axes", signal::axes_names(r.channels)});
+  } else {
+    out.push_back({"axes", nullptr});
+    out.push_back({"matrix", r.channels});
+  }
+  if (r.axes) {
+    out.push_back({"axes_rms_N", r.axes->rms});
+    out.push_back({"axes_next_rms_N", r.axes->next_rms});
+  }
+  return out;
+}
+
+Object result_of(const IdentifyResult& r) {
+  Array fits;
+  for (const Fit& fit : r.fits) {
+    fits.emplace_back(fit_value(fit));
+  }
+  Object result{{"fits", std::move(fits)}, {"chosen", nullptr}};
+  if (r.chosen) {
+    set(result, "chosen", chip::name_of(r.fits[*r.chosen].chip.model));
+  }
+  if (!r.records.empty()) {
+    set(result, "signal", signal_value(r));
+  }
+  if (r.chosen) {
+    set(result, "do_not_use", r.reasons_against);
+  }
+  return result;
+}
+
+/// Below the table of fits: axes and spindle speeds found.
+std::string signal_lines(const IdentifyResult& r) {
+  std::string text;
+  if (r.axes && r.axes->ok) {
+    const auto names = signal::axes_names(r.axes->matrix);
+    text += fmt::format(
+        "axes found: channels read {}, {}, {} (next best {:.2f} times worse)\n",
+        names[0], names[1], names[2], r.axes->next_rms / r.axes->rms);
+  }
+  for (const RecordSummary& record : r.records) {
+    text += fmt::format("{}: {:.2f} rpm (stated {:g})\n", record.file,
+                        record.Omega / unit::rpm, record.stated_Omega / unit::rpm);
+  }
+  return text;
+}
+
+std::string short_table(const IdentifyResult& r) {
+  if (!r.chosen) {
+    return "No answer: " + r.heading.message + "\n";
+  }
+  const std::string verdict =
+      r.reasons_against.empty()
+          ? ""
+          : identification::do_not_use(r.reasons_against) + "\n\n";
+  return verdict + fits_table(r.fits) + signal_lines(r);
+}
+
+/// folded.csv: mean and scatter of the measured force over one turn; none where no
+/// record holds two whole turns.
+std::optional<base::Table> folded_table(
+    const std::vector<signal::OneRevolution>& folded) {
+  struct Bin {
+    std::size_t run;
+    std::size_t at;
+  };
+  std::vector<Bin> bins;
+  for (std::size_t r = 0; r < folded.size(); ++r) {
+    for (std::size_t b = 0; folded[r].revolutions >= 2 && b < folded[r].angle.size();
+         ++b) {
+      if (folded[r].count[b] >= 2) {
+        bins.push_back({r, b});
+      }
+    }
+  }
+  if (bins.empty()) {
+    return std::nullopt;
+  }
+  base::Table table{"folded.csv", {}};
+  const std::size_t n = bins.size();
+  add_column(table, "run", n, [&](std::size_t i) { return bins[i].run + 1; });
+  add_column(table, "angle_deg", n, [&](std::size_t i) {
+    return folded[bins[i].run].angle[bins[i].at] / unit::deg;
+  });
+  constexpr const char* axis[] = {"Fx", "Fy", "Fz"};
+  for (std::size_t q = 0; q < 3; ++q) {
+    add_column(table, fmt::format("{}_mean_N", axis[q]), n,
+               [&](std::size_t i) { return folded[bins[i].run].mean[q][bins[i].at]; });
+    add_column(table, fmt::format("{}_sd_N", axis[q]), n, [&](std::size_t i) {
+      return folded[bins[i].run].scatter[q][bins[i].at];
+    });
+  }
+  return table;
+}
+
+base::Table sweep_table(const OffsetSweep& sweep) {
+  base::Table table{"sweep.csv", {}};
+  const std::size_t n = sweep.offset.size();
+  add_column(table, "offset_um", n,
+             [&](std::size_t i) { return unit::in(sweep.offset[i], unit::um); });
+  for (const OffsetSweep::Curve& curve : sweep.curves) {
+    add_column(table, fmt::format("rms_{}_N", chip::name_of(curve.model)), n,
+               [&](std::size_t i) { return curve.rms[i]; });
+  }
+  return table;
+}
+
+std::vector<base::Table> tables_of(const IdentifyResult& r) {
+  std::vector<ComputedForces> computed;
+  for (const Fit& fit : r.fits) {
+    if (fit.ok) {
+      computed.push_back({std::string(chip::name_of(fit.chip.model)), fit.fitted});
+    }
+  }
+  std::vector<base::Table> tables = curve_tables(r.runs, computed);
+  if (auto folded = folded_table(r.folded)) {
+    tables.push_back(std::move(*folded));
+  }
+  if (r.curve) {
+    tables.push_back(chip_curve_table(*r.curve));
+  }
+  if (r.sweep && !r.sweep->curves.empty()) {
+    tables.push_back(sweep_table(*r.sweep));
+  }
+  return tables;
+}
+
+}  // namespace
+
+Answer answer_of(const IdentifyResult& r) {
+  Answer answer{.command = "identify",
+                .heading = r.heading,
+                .result = result_of(r),
+                .short_table = short_table(r)};
+  if (r.chosen) {
+    answer.tables = tables_of(r);
+    answer.texts.push_back(
+        {"material.toml", material_toml(r.fits[*r.chosen], r.edge_length)});
+  }
+  return answer;
+}
+
+}  // namespace trochoid::results

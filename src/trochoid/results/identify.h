@@ -1,0 +1,54 @@
+#pragma once
+
+#include <trochoid/force/slice.h>
+#include <trochoid/identification/find_axes.h>
+#include <trochoid/identification/identify.h>
+#include <trochoid/results/answer.h>
+#include <trochoid/signal/revolutions.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trochoid::results {
+
+/// What was found in one record before anything was fitted.
+struct RecordSummary {
+  std::string file;
+  std::size_t samples = 0;
+  double Omega = 0.0;         ///< spindle speed found, else as stated [rad/s]
+  double Omega_se = 0.0;      ///< [rad/s]; 0: not estimated
+  double stated_Omega = 0.0;  ///< [rad/s]
+};
+
+/// Root mean square residuals over the offset of tooth 2.
+struct OffsetSweep {
+  std::vector<double> offset;  ///< [m]
+  struct Curve {
+    chip::Model model = chip::Model::none;
+    std::vector<double> rms;  ///< [N], shape of the offsets
+  };
+  std::vector<Curve> curves;  ///< one a fit
+};
+
+/// @brief What `identify` answers: coefficients, runout and phase from measured forces.
+struct IdentifyResult {
+  Heading heading;
+  std::vector<identification::Fit> fits;  ///< one a chip model, as they were asked for
+  std::optional<std::size_t> chosen;      ///< the fit that counts; none: no answer
+  /// What speaks against using the chosen numbers at all; empty: nothing.
+  std::vector<std::string> reasons_against;
+  std::vector<RecordSummary> records;  ///< empty where they could not be used
+  signal::Matrix3 channels{};          ///< channels = matrix times force on the tool
+  std::optional<identification::AxesChoice> axes;  ///< where they were searched for
+  std::vector<identification::Run> runs;           ///< measured force on the tool
+  /// Turns of each record laid over one another; fewer than two: nothing to lay.
+  std::vector<signal::OneRevolution> folded;
+  std::optional<OffsetSweep> sweep;
+  std::optional<force::ChipCurve> curve;  ///< of the chosen fit
+  force::EdgeLength edge_length = force::EdgeLength::true_length;
+};
+
+Answer answer_of(const IdentifyResult& result);
+
+}  // namespace trochoid::results

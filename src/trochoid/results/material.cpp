@@ -1,0 +1,77 @@
+#include <trochoid/results/material.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/identification/reliability.h>
+
+#include <fmt/core.h>
+
+namespace trochoid::results {
+
+namespace {
+
+using identification::Fit;
+
+std::string runout_toml(const Fit& fit) {
+  for (const auto& [what, why] : fit.unidentifiable) {
+    if (what.starts_with("radial_offsets_mm") || what == "eccentricity_mm" ||
+        what == "angle_deg") {
+      return fmt::format("\n# [runout]: {}: {}\n", what, why);
+    }
+  }
+  std::string text = "\n[runout]\nradial_offsets_mm = [";
+  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    text += fmt::format("{}{}", k > 0 ? ", " : "",
+                        unit::in(fit.runout.radial_offsets[k], unit::mm));
+  }
+  text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
+                      unit::in(fit.runout.eccentricity, unit::mm),
+                      unit::in(fit.runout.angle, unit::deg));
+  if (fit.runout.order == geometry::EccentricityOrder::first) {
+    text += "eccentricity_order = \"first\"\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
+  std::string text;
+  if (const auto reasons = identification::reasons_against(fit); !reasons.empty()) {
+    text += "# " + identification::do_not_use(reasons) + "\n\n";
+  }
+  text +=
+      "# Found by trochoid identify. Use it in another case with\n"
+      "#   include = \"<this file>\"\n";
+  if (fit.residual_correlation > identification::noise_correlation) {
+    text += fmt::format(
+        "# What the fit leaves is correlated: the intervals are {:.1f} times wider.\n",
+        identification::correlation_factor(fit.residual_correlation));
+  }
+  text += "\n[force]\n";
+  text += fmt::format("law = \"{}\"\n", force::name_of(fit.law));
+  const auto names = force::coefficient_quantities(fit.law);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    if (fit.coefficients[q]) {
+      const auto& K = *fit.coefficients[q];
+      text +=
+          fmt::format("{} = {}  # 95 %: +- {:.2g}\n", names[q].key,
+                      K.value / names[q].unit, 0.5 * (K.high - K.low) / names[q].unit);
+    } else {
+      text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
+    }
+  }
+  const force::Form form = force::form(fit.law);
+  const auto exponents = force::exponent_quantities(fit.law);
+  for (std::size_t q = 0; q < exponents.size(); ++q) {
+    text += fmt::format("{} = {}\n", exponents[q].key, form.m[q]);
+  }
+  if (form.edge) {
+    text += fmt::format("edge_length = \"{}\"\n", force::name_of(edge_length));
+  }
+  if (!chip::feels_runout(fit.chip.model)) {
+    return text;
+  }
+  return text + runout_toml(fit);
+}
+
+}  // namespace trochoid::results

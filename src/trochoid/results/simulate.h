@@ -1,0 +1,43 @@
+#pragma once
+
+#include <trochoid/force/slice.h>
+#include <trochoid/force/statistics.h>
+#include <trochoid/identification/match_phase.h>
+#include <trochoid/results/answer.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trochoid::results {
+
+/// A measurement beside the computed forces.
+struct Comparison {
+  std::string file;
+  identification::Run run;  ///< measured force on the tool
+  double Omega = 0.0;       ///< spindle speed found in the record [rad/s]
+  identification::PhaseMatch match;
+};
+
+/// @brief What `simulate` answers: chip, forces and loads of a cut.
+struct SimulateResult {
+  Heading heading;
+  std::vector<double> phi;          ///< spindle angle of each sample [rad]
+  std::vector<force::Loads> loads;  ///< at each of them
+  double Omega = 0.0;               ///< [rad/s]
+  force::ForceStatistics force;     ///< over all samples
+  force::MomentStatistics moments;
+  std::optional<force::Vector3> closed_form_mean;  ///< F-8 [N], where it holds
+  std::optional<double> gauge_length;              ///< of the bending moment [m]
+  /// What the channels of the dynamometer read: matrix times force on the tool.
+  std::optional<std::array<std::array<double, 3>, 3>> channels;
+  force::Engagement engagement;        ///< at one height
+  force::ChipGrid chips;               ///< at the angles and heights asked for
+  force::ChipCurve curve;              ///< at the height of `engagement`
+  std::vector<Comparison> comparison;  ///< one a measurement
+};
+
+Answer answer_of(const SimulateResult& result);
+
+}  // namespace trochoid::results

@@ -1,0 +1,19 @@
+#include <trochoid/run/identify/fit_options.h>
+
+namespace trochoid::run {
+
+identification::Options fit_options(const inputs::Case& given, chip::Model model) {
+  return {.chip_model = model,
+          .runout = given.identify.runout,
+          .phase = given.identify.phase,
+          .band_harmonics = given.identify.band_harmonics,
+          .fit_channel_offsets =
+              given.identify.channel_offsets == inputs::ChannelOffset::fit};
+}
+
+identification::AxesProblem axes_problem(const inputs::Case& given) {
+  return {given.setup, given.law,
+          fit_options(given, given.identify.chip_models.back())};
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,248 @@
+#include <trochoid/run/identify/identify.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/identification/reliability.h>
+#include <trochoid/run/identify/fit_options.h>
+#include <trochoid/run/identify/likely_causes.h>
+#include <trochoid/run/identify/warnings.h>
+#include <trochoid/run/shared/records.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using identification::AxesChoice;
+using identification::Fit;
+using results::IdentifyResult;
+
+/// The exact model answers where it was asked for, else the one that fits best.
+std::optional<std::size_t> chosen_fit(const std::vector<Fit>& fits) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!fits[i].ok) {
+      continue;
+    }
+    if (fits[i].chip.model == chip::Model::trochoidal) {
+      return i;
+    }
+    if (!best || fits[i].rms < fits[*best].rms) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::optional<results::OffsetSweep> offset_sweep(
+    const inputs::Case& given, std::span<const identification::Run> runs,
+    const std::vector<Fit>& fits, const Progress& progress) {
+  if (!given.identify.sweep) {
+    return std::nullopt;
+  }
+  results::OffsetSweep sweep{.offset = base::values(*given.identify.sweep)};
+  for (const Fit& fit : fits) {
+    if (!fit.ok) {
+      continue;
+    }
+    progress(fmt::format("sweeping the offset, {}", chip::name_of(fit.chip.model)));
+    auto rms = identification::sweep(given.setup, given.law, runs, fit, sweep.offset);
+    if (rms.size() == sweep.offset.size()) {
+      sweep.curves.push_back({fit.chip.model, std::move(rms)});
+    }
+  }
+  return sweep;
+}
+
+/// The record over one turn, in bins about as fine as its samples.
+signal::OneRevolution folded(const identification::Run& run) {
+  const double turns = std::abs(run.angle.back() - run.angle.front()) / unit::turn;
+  if (run.angle.back() <= run.angle.front()) {
+    return {};
+  }
+  const double per_turn = static_cast<double>(run.angle.size()) / std::max(turns, 1.0);
+  std::array<std::vector<double>, 3> channels;
+  for (const auto& F : run.force) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      channels[q].push_back(F[q]);
+    }
+  }
+  return signal::fold(channels, run.angle,
+                      static_cast<int>(std::clamp(per_turn, 36.0, 360.0)));
+}
+
+std::vector<Fit> all_fits(const inputs::Case& given,
+                          std::span<const identification::Run> runs,
+                          const Progress& progress) {
+  std::vector<Fit> fits;
+  for (const chip::Model model : given.identify.chip_models) {
+    progress(fmt::format("fitting, chip model {}", chip::name_of(model)));
+    fits.push_back(identification::identify(given.setup, given.law, runs,
+                                            fit_options(given, model)));
+  }
+  return fits;
+}
+
+std::vector<results::RecordSummary> summaries(
+    const std::vector<MeasuredRun>& measured) {
+  std::vector<results::RecordSummary> all;
+  for (const MeasuredRun& one : measured) {
+    all.push_back(
+        {one.file, one.run.angle.size(), one.Omega, one.Omega_se, one.run.cut.Omega});
+  }
+  return all;
+}
+
+std::string headline(const IdentifyResult& r) {
+  std::size_t samples = 0;
+  for (const results::RecordSummary& record : r.records) {
+    samples += record.samples;
+  }
+  const Fit& fit = r.fits[*r.chosen];
+  return fmt::format(
+      "Coefficients and runout from {} samples of {} record{}; the {} model leaves "
+      "{:.2f} N rms.",
+      samples, r.records.size(), r.records.size() == 1 ? "" : "s",
+      chip::name_of(fit.chip.model), fit.rms);
+}
+
+void warn_axes(const AxesChoice& axes, std::vector<base::Warning>& warnings) {
+  if (!axes.signs_clear) {
+    warnings.push_back(
+        {"axes_signs",
+         "Several readings of the channels fit the record equally well and were told "
+         "apart by K_tc, K_rc, K_ac > 0, but these coefficients are not all clearly "
+         "positive: check the axes of the dynamometer."});
+  }
+  if (axes.next_rms < 1.5 * axes.rms) {
+    warnings.push_back(
+        {"axes_close",
+         fmt::format(
+             "The next best reading of the channels is only {:.2f} times worse: "
+             "check the axes of the dynamometer.",
+             axes.next_rms / axes.rms)});
+  }
+}
+
+/// The work on one case: what was read, and what is known of it so far.
+struct Identification {
+  const inputs::Case& given;
+  const Progress& progress;
+  std::vector<MeasuredRun> measured = {};
+  IdentifyResult r = {};
+
+  /// What the reader of the records noted is less urgent than what the fit says.
+  void put_notes_last() {
+    std::stable_partition(r.heading.warnings.begin(), r.heading.warnings.end(),
+                          [](const base::Warning& warning) {
+                            return warning.code != "part_of_record" &&
+                                   warning.code != "unit_assumed" &&
+                                   warning.code != "last_row_left_out";
+                          });
+  }
+
+  IdentifyResult failed(const std::string& why) {
+    put_notes_last();
+    r.heading.ok = false;
+    r.heading.message = why;
+    return std::move(r);
+  }
+
+  void add_causes() {
+    const auto causes = likely_causes(given, measured, r.channels, progress);
+    auto& warnings = r.heading.warnings;
+    const bool after_verdict =
+        !warnings.empty() && warnings.front().code == "do_not_use";
+    warnings.insert(warnings.begin() + (after_verdict ? 1 : 0), causes.begin(),
+                    causes.end());
+  }
+
+  /// @return why there are no axes; empty: there are
+  std::string find_axes() {
+    const inputs::Dynamometer dynamometer =
+        given.dynamometer.value_or(inputs::Dynamometer{});
+    r.channels = dynamometer.matrix;
+    if (!dynamometer.automatic) {
+      return "";
+    }
+    const AxesChoice axes = identification::find_axes(
+        axes_problem(given), channels_of(measured),
+        [&] { progress("finding the axes of the dynamometer"); });
+    if (!axes.ok) {
+      if (std::isfinite(axes.rms)) {
+        add_causes();
+      }
+      return axes.message;
+    }
+    warn_axes(axes, r.heading.warnings);
+    r.channels = axes.matrix;
+    r.axes = axes;
+    return "";
+  }
+
+  /// Warnings, and before everything else whether the numbers may be used at all.
+  void judge() {
+    const Fit& chosen = r.fits[*r.chosen];
+    r.heading.message = headline(r);
+    r.reasons_against = identification::reasons_against(chosen);
+    add_fit_warnings(given, r.fits, chosen, r.heading.warnings);
+    if (!r.reasons_against.empty()) {
+      const std::string verdict = identification::do_not_use(r.reasons_against);
+      r.heading.message = verdict + " " + r.heading.message;
+      r.heading.warnings.insert(r.heading.warnings.begin(), {"do_not_use", verdict});
+      add_causes();
+    }
+    put_notes_last();
+  }
+
+  void add_curves() {
+    force::Setup setup = given.setup;
+    setup.chip = r.fits[*r.chosen].chip;
+    setup.runout = r.fits[*r.chosen].runout;
+    r.curve = force::chip_curve(setup, force::representative_height(setup));
+    for (const identification::Run& run : r.runs) {
+      r.folded.push_back(folded(run));
+    }
+    r.sweep = offset_sweep(given, r.runs, r.fits, progress);
+  }
+
+  IdentifyResult answer() {
+    r.heading.title = given.title;
+    r.heading.case_toml = given.as_understood;
+    r.edge_length = given.setup.edge_length;
+    progress("reading the measurements");
+    std::string why;
+    measured = measured_runs(given, r.heading.warnings, why);
+    if (measured.empty()) {
+      return failed(why);
+    }
+    why = find_axes();
+    if (!why.empty()) {
+      return failed(why);
+    }
+    r.runs = identification::on_tool(channels_of(measured), r.channels);
+    r.records = summaries(measured);
+    r.fits = all_fits(given, r.runs, progress);
+    r.chosen = chosen_fit(r.fits);
+    if (!r.chosen) {
+      if (r.fits.back().rms > 0) {  // equations that could be solved, to no avail
+        add_causes();
+      }
+      return failed(r.fits.back().message);
+    }
+    add_curves();
+    judge();
+    return std::move(r);
+  }
+};
+
+}  // namespace
+
+IdentifyResult identify(const inputs::Case& given, const Progress& progress) {
+  return Identification{given, progress}.answer();
+}
+
+}  // namespace trochoid::run

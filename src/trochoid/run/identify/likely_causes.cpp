@@ -1,0 +1,89 @@
+#include <trochoid/run/identify/likely_causes.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/identify/fit_options.h>
+#include <trochoid/signal/axes.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+/// A reading of the channels that leaves this much less than the given one is the cure.
+constexpr double much_better = 0.5;
+
+bool axes_were_given(const inputs::Case& given) {
+  return !given.dynamometer || !given.dynamometer->automatic;
+}
+
+base::Warning likely(std::string message) {
+  return {"likely_cause", std::move(message)};
+}
+
+/// Whether another reading of the channels explains the records; then what to write.
+std::vector<base::Warning> better_axes(const inputs::Case& given,
+                                       const std::vector<MeasuredRun>& runs,
+                                       const signal::Matrix3& M,
+                                       const Progress& progress) {
+  const identification::AxesProblem problem = axes_problem(given);
+  const auto channels = channels_of(runs);
+  const auto other = identification::find_axes(
+      problem, channels, [&] { progress("finding the axes of the dynamometer"); });
+  const double now = identification::reading_rms(problem, channels, M);
+  if (!other.ok || !(other.rms < much_better * now)) {
+    return {};
+  }
+  const auto names = signal::axes_names(other.matrix);
+  std::string times;
+  if (std::isfinite(now)) {
+    times = fmt::format(", which leaves {:.1f} times less", now / other.rms);
+  }
+  return {likely(fmt::format(
+      "The axes of the dynamometer: with axes = \"auto\" in [dynamometer] the channels "
+      "read {}, {}, {} of the force on the tool{}.",
+      names[0], names[1], names[2], times))};
+}
+
+}  // namespace
+
+std::vector<base::Warning> likely_causes(const inputs::Case& given,
+                                         const std::vector<MeasuredRun>& runs,
+                                         const signal::Matrix3& M,
+                                         const Progress& progress) {
+  if (axes_were_given(given)) {
+    auto found = better_axes(given, runs, M, progress);
+    if (!found.empty()) {
+      return found;
+    }
+  }
+  std::vector<base::Warning> out;
+  if (axes_were_given(given)) {
+    out.push_back(
+        likely("The axes or the sign of the force: a table dynamometer feels the "
+               "reaction, axes = [\"-x\", \"-y\", \"-z\"]; axes = \"auto\" tries all "
+               "readings (none of them is much better as the case stands)."));
+  }
+  const bool by_time = std::any_of(runs.begin(), runs.end(),
+                                   [](const MeasuredRun& run) { return run.by_time; });
+  if (by_time) {
+    out.push_back(likely(fmt::format(
+        "spindle_rpm = {:g}: the record is searched for its speed within 5 % of this "
+        "only; a multiple or a fraction of the true speed looks periodic too.",
+        given.setup.cut.Omega / unit::rpm)));
+  }
+  if (given.identify.channel_offsets == inputs::ChannelOffset::none) {
+    out.push_back(
+        likely("An offset of the channels: try "
+               "channel_offsets = \"fit\" in [identify]."));
+  }
+  out.push_back(
+      likely("Tool or cut: number and pitch of the teeth, "
+             "feed per tooth, engagement, depth."));
+  return out;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <trochoid/base/warning.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/run/shared/progress.h>
+#include <trochoid/run/shared/records.h>
+
+#include <vector>
+
+namespace trochoid::run {
+
+/// @brief Why a case may explain its records badly, and what to try: warnings with the
+/// code `likely_cause`.
+///
+/// With given axes of the dynamometer the other readings of the channels are tried.
+/// @param M  matrix of the dynamometer that was used
+std::vector<base::Warning> likely_causes(const inputs::Case& given,
+                                         const std::vector<MeasuredRun>& runs,
+                                         const signal::Matrix3& M,
+                                         const Progress& progress);
+
+}  // namespace trochoid::run

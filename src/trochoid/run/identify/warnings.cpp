@@ -1,0 +1,188 @@
+#include <trochoid/run/identify/warnings.h>
+
+#include <trochoid/base/rounded.h>
+#include <trochoid/base/units.h>
+#include <trochoid/identification/reliability.h>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using identification::Fit;
+using Warnings = std::vector<base::Warning>;
+
+/// Cutting coefficients of real materials, from plastics to hardened steel [N/m^2].
+constexpr double softest = 100 * unit::MPa;
+constexpr double hardest = 20000 * unit::MPa;
+/// Part of the force (rms) that may stay unexplained, or outside of the band, unsaid.
+constexpr double much_ringing = 0.2;
+
+void warn_correlation(const Fit& chosen, Warnings& warnings) {
+  const double r = chosen.residual_correlation;
+  if (r > identification::noise_correlation) {
+    warnings.push_back(
+        {"correlated_residuals",
+         fmt::format("What the fit leaves is not noise: neighbouring samples agree "
+                     "(correlation {:.2f}). Standard errors and intervals assume white "
+                     "noise; multiply them by about {:.1f}.",
+                     r, identification::correlation_factor(r))});
+  }
+}
+
+void warn_unidentifiable(const Fit& chosen, Warnings& warnings) {
+  for (const auto& [what, why] : chosen.unidentifiable) {
+    warnings.push_back({"not_identifiable", fmt::format("{}: {}", what, why)});
+  }
+}
+
+void warn_signs(const Fit& chosen, Warnings& warnings) {
+  const auto names = force::coefficient_quantities(chosen.law);
+  std::vector<std::string_view> negative;
+  for (std::size_t q = 0; q < chosen.coefficients.size(); ++q) {
+    const auto& K = chosen.coefficients[q];
+    const bool along_the_axis = q % 3 == 2;  // may pull either way
+    if (K && K->high < 0 && !along_the_axis) {
+      negative.push_back(names[q].key);
+    }
+  }
+  if (!negative.empty()) {
+    warnings.push_back(
+        {"negative_coefficient",
+         fmt::format("{} came out negative, which no cut does: check the axes of the "
+                     "dynamometer and the sense of rotation.",
+                     fmt::join(negative, ", "))});
+  }
+}
+
+void warn_size(const Fit& chosen, Warnings& warnings) {
+  const auto& K_tc = chosen.coefficients.front();
+  if (!K_tc || force::form(chosen.law).power ||
+      (K_tc->value >= softest && K_tc->value <= hardest)) {
+    return;
+  }
+  warnings.push_back(
+      {"implausible",
+       fmt::format("K_tc_MPa = {:.4g} is outside of what materials have ({:g} to {:g} "
+                   "MPa): check the unit of the forces, the feed and the axial depth.",
+                   K_tc->value / unit::MPa, softest / unit::MPa, hardest / unit::MPa)});
+}
+
+/// What the fit does not explain and has not looked at.
+void warn_ringing(const inputs::Case& given, const Fit& chosen, Warnings& warnings) {
+  const identification::Unexplained& u = chosen.unexplained;
+  if (u.outside > much_ringing) {
+    warnings.push_back(
+        {"outside_the_band",
+         fmt::format("{} of the force (rms) lies outside the mean and the first {} "
+                     "harmonics, where the fit does not look: a ringing dynamometer, "
+                     "chatter or noise.",
+                     base::percent(u.outside), given.identify.band_harmonics)});
+  }
+  const bool noise = given.identify.band_harmonics == 0 &&
+                     chosen.residual_correlation <= identification::noise_correlation;
+  if (u.in_band > much_ringing && !noise &&
+      identification::reasons_against(chosen).empty()) {
+    const std::string hint =
+        given.identify.band_harmonics > 0
+            ? "Look at the residuals."
+            : fmt::format(
+                  "If the dynamometer rings, a fit of every harmonic is "
+                  "confidently wrong: try band_harmonics = {} in [identify].",
+                  given.setup.cutter.teeth());
+    warnings.push_back(
+        {"poor_fit",
+         fmt::format("{} of the force (rms{}) is not explained. {}",
+                     base::percent(u.in_band),
+                     given.identify.band_harmonics > 0 ? ", in the band" : "", hint)});
+  }
+}
+
+void warn_freedom(const Fit& chosen, Warnings& warnings) {
+  if (chosen.freedom < 10) {
+    warnings.push_back(
+        {"few_equations",
+         fmt::format("Only {:g} equations more than unknowns: the standard errors "
+                     "themselves are uncertain.",
+                     chosen.freedom)});
+  }
+}
+
+void warn_other_model(std::span<const Fit> fits, const Fit& chosen,
+                      Warnings& warnings) {
+  for (const Fit& fit : fits) {
+    if (fit.ok && fit.rms < 0.95 * chosen.rms) {
+      warnings.push_back(
+          {"other_model_fits_better",
+           fmt::format("The {} chip model fits better ({:.2f} N against {:.2f} N) than "
+                       "the {} one, though it is less exact: something else than the "
+                       "chip shapes this record.",
+                       chip::name_of(fit.chip.model), fit.rms, chosen.rms,
+                       chip::name_of(chosen.chip.model))});
+    }
+  }
+}
+
+void warn_large_runout(const inputs::Case& given, const Fit& chosen,
+                       Warnings& warnings) {
+  if (!chip::feels_runout(chosen.chip.model) || !(given.setup.cut.f_z > 0)) {
+    return;
+  }
+  double lo = 0.0;
+  double hi = 0.0;
+  const auto& offsets = chosen.runout.radial_offsets;
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    if (!identification::unidentifiable(chosen,
+                                        fmt::format("radial_offsets_mm[{}]", k + 1))) {
+      lo = std::min(lo, offsets[k]);
+      hi = std::max(hi, offsets[k]);
+    }
+  }
+  if (hi - lo > given.setup.cut.f_z) {
+    warnings.push_back(
+        {"runout_above_feed",
+         fmt::format("The teeth differ by {:.1f} um, more than the feed per tooth: a "
+                     "tooth may cut nothing.",
+                     (hi - lo) / unit::um)});
+  }
+}
+
+void warn_edge(const Fit& chosen, Warnings& warnings) {
+  for (const std::string& name : chosen.on_edge) {
+    warnings.push_back(
+        {"runout_on_edge",
+         fmt::format(
+             "{} is found where a tooth just starts or stops cutting: the force "
+             "tells it to one side only, so it has no standard error.",
+             name)});
+  }
+}
+
+}  // namespace
+
+void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
+                      const Fit& chosen, Warnings& warnings) {
+  for (const Fit& fit : fits) {
+    if (!fit.ok) {
+      warnings.push_back(
+          {"no_fit", fmt::format("chip model {}: {}", chip::name_of(fit.chip.model),
+                                 fit.message)});
+    }
+  }
+  warn_unidentifiable(chosen, warnings);
+  warn_signs(chosen, warnings);
+  warn_size(chosen, warnings);
+  warn_correlation(chosen, warnings);
+  warn_ringing(given, chosen, warnings);
+  warn_freedom(chosen, warnings);
+  warn_other_model(fits, chosen, warnings);
+  warn_large_runout(given, chosen, warnings);
+  warn_edge(chosen, warnings);
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <trochoid/base/warning.h>
+#include <trochoid/identification/find_axes.h>
+#include <trochoid/inputs/case.h>
+
+#include <string>
+#include <vector>
+
+namespace trochoid::run {
+
+/// One measurement, read and laid over the spindle angle, its idle drift taken out.
+struct MeasuredRun {
+  std::string file;
+  identification::ChannelRun run;
+  bool by_time = false;   ///< its angles follow from its times
+  double Omega = 0.0;     ///< found in the record, else as stated [rad/s]
+  double Omega_se = 0.0;  ///< [rad/s]; 0: not estimated
+};
+
+/// @brief Read all measurements of a case.
+/// @param[out] warnings  what was found out about the records
+/// @throws base::InputError with the problems of all files
+/// @return none, with the reason in `message`, where a record has no usable angle
+std::vector<MeasuredRun> measured_runs(const inputs::Case& given,
+                                       std::vector<base::Warning>& warnings,
+                                       std::string& message);
+
+/// Their channels alone.
+std::vector<identification::ChannelRun> channels_of(
+    const std::vector<MeasuredRun>& measured);
+
+}  // namespace trochoid::run

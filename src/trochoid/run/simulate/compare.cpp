@@ -1,0 +1,33 @@
+#include <trochoid/run/simulate/compare.h>
+
+#include <trochoid/run/shared/records.h>
+
+namespace trochoid::run {
+
+std::vector<results::Comparison> compare(const inputs::Case& given,
+                                         std::vector<base::Warning>& warnings) {
+  std::string message;
+  const auto measured = measured_runs(given, warnings, message);
+  if (measured.empty()) {
+    warnings.push_back({"not_compared", message});
+    return {};
+  }
+  if (given.dynamometer && given.dynamometer->automatic) {
+    warnings.push_back(
+        {"not_compared",
+         "axes = \"auto\" needs an identification; name the axes to compare here."});
+    return {};
+  }
+  const auto runs = identification::on_tool(
+      channels_of(measured), given.dynamometer.value_or(inputs::Dynamometer{}).matrix);
+  std::vector<results::Comparison> all;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    all.push_back(
+        {measured[r].file, runs[r], measured[r].Omega,
+         identification::match_phase(given.setup, given.law, runs[r],
+                                     given.identify.phase, given.sampling.tolerance)});
+  }
+  return all;
+}
+
+}  // namespace trochoid::run

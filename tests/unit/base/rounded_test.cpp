@@ -1,0 +1,31 @@
+#include <trochoid/base/rounded.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace trochoid::base {
+namespace {
+
+TEST(Rounded, ValuesHaveTheDigitsOfTheirError) {
+  EXPECT_EQ(with_error(2596.31, 57.2), "2596 +- 57");
+  EXPECT_EQ(with_error(0.17729, 2.94), "0.2 +- 2.9");
+  EXPECT_EQ(with_error(905.65, 1478.0), "900 +- 1500");
+  EXPECT_EQ(with_error(-7.9012, 0.196), "-7.90 +- 0.20");
+  EXPECT_EQ(with_error(1.23456, 0.0996), "1.23 +- 0.10");
+  EXPECT_EQ(with_error(107390.0, 145000.0), "110000 +- 150000");
+  EXPECT_EQ(with_error(-1e-9, 0.02), "0.000 +- 0.020");
+  EXPECT_EQ(with_error(-12.0, 300.0), "-10 +- 300");
+  EXPECT_EQ(with_error(-3.0, 300.0), "0 +- 300");
+  EXPECT_EQ(with_error(37.123456, 0.0), "37.123");
+}
+
+TEST(Rounded, AbsurdPartsAreNotKnown) {
+  EXPECT_EQ(percent(0.4), "40 %");
+  EXPECT_EQ(percent(0.0123), "1.2 %");
+  EXPECT_EQ(percent(9.62), "not known");
+  EXPECT_EQ(percent(std::stod("nan")), "not known");
+}
+
+}  // namespace
+}  // namespace trochoid::base
