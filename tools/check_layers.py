@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Check that every room includes lower rooms only, as the table of ARCHITECTURE.md says.
+"""Check that every room includes lower rooms only, as the table of ARCHITECTURE.md says,
+and that no chapter of a room includes another.
 
 Usage: check_layers.py [REPOSITORY]. Each violation is printed as file:line: reason.
 """
@@ -9,6 +10,8 @@ import sys
 
 # Beyond the ranks: the report computes nothing, it shows what a result folder holds.
 ONLY = {"report": {"base", "results"}}
+# Rooms that are folders of chapters: a chapter includes itself and this one of them.
+FLOOR = {"run": "shared"}
 # Headers that are slow to compile stay in .cpp files.
 HEAVY = re.compile(r"toml\+\+/|nlohmann/(?!json_fwd)|CLI/|ceres/|boost/|tbb/|Eigen/")
 
@@ -33,8 +36,10 @@ def problem(file, room, target, quoted, rank):
     if file.suffix == ".h" and HEAVY.match(target):
         return f"<{target}> is slow to compile: only in .cpp files"
     parts = target.split("/")
-    if parts[0] != "trochoid" or parts[1] == room:
+    if parts[0] != "trochoid":
         return None
+    if parts[1] == room:
+        return chapter_problem(file, room, parts)
     other = parts[1]
     if other not in rank:
         return f"{other} is not a room of ARCHITECTURE.md"
@@ -43,6 +48,15 @@ def problem(file, room, target, quoted, rank):
     if other not in ONLY.get(room, rank):
         return f"{room} may include {' and '.join(sorted(ONLY[room]))} only, not {other}"
     return None
+
+
+def chapter_problem(file, room, parts):
+    """Why a file of a chapter may not include another file of its room, or None."""
+    floor = FLOOR.get(room)
+    chapter = file.parent.name
+    if floor is None or len(parts) < 4 or parts[2] in (chapter, floor):
+        return None
+    return f"{room}/{chapter} may include {room}/{floor} only, not {room}/{parts[2]}"
 
 
 def violations(top):

@@ -62,7 +62,7 @@ std::ifstream open_table(const std::filesystem::path& file, const std::string& l
   return in;
 }
 
-std::optional<std::string_view> next_content(TableText& table) {
+std::optional<std::string_view> next_line(TableText& table) {
   while (auto line = table.lines.next()) {
     if (table.lines.number() == 1 && line->substr(0, 3) == "\xEF\xBB\xBF") {
       line->remove_prefix(3);
@@ -84,8 +84,7 @@ std::optional<std::string_view> next_content(TableText& table) {
                       table.kind.files));
       return std::nullopt;
     }
-    const auto first = line->find_first_not_of(" \t");
-    if (first != std::string_view::npos && (*line)[first] != '#') return line;
+    if (line->find_first_not_of(" \t") != std::string_view::npos) return line;
   }
   if (table.lines.too_long()) {
     table.problems.add(
@@ -94,6 +93,34 @@ std::optional<std::string_view> next_content(TableText& table) {
                     LineReader::longest, table.kind.noun, table.kind.row));
   }
   return std::nullopt;
+}
+
+bool is_comment(const TableText& table, std::string_view line) noexcept {
+  const char first = line[line.find_first_not_of(" \t")];
+  return table.kind.comments.find(first) != std::string_view::npos;
+}
+
+std::optional<std::string_view> next_content(TableText& table) {
+  auto line = next_line(table);
+  while (line && is_comment(table, *line)) {
+    line = next_line(table);
+  }
+  return line;
+}
+
+void split_row(const TableText& table, std::string_view line,
+               std::vector<Field>& fields) {
+  if (table.separator != ' ') {
+    split(line, table.separator, fields);
+    return;
+  }
+  fields.clear();
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+    fields.push_back({line.substr(at, end - at), at + 1});
+    at = end;
+  }
 }
 
 std::string names_row(TableText& table, std::string_view line) {
@@ -151,25 +178,30 @@ bool complete_row(TableText& table, std::vector<Field>& fields, std::size_t coun
   return false;
 }
 
-double number_in_row(TableText& table, const std::vector<Field>& fields,
-                     const TableColumn& column) {
-  const auto& field = fields[column.index];
-  auto number = parse_number(field.text);
+double number_in_field(TableText& table, const Field& field, double factor,
+                       std::string_view name) {
+  Number number = parse_number(field.text);
   const auto line = table.lines.number();
-  if (number.fault == NumberFault::none &&
-      !std::isfinite(number.value * column.factor)) {
+  if (number.fault == NumberFault::none && !std::isfinite(number.value * factor)) {
     number.fault = NumberFault::out_of_range;
   }
   if (number.fault == NumberFault::none) {
     table.style.see(field.text, line, field.column);
-    return number.value * column.factor;
+    return number.value * factor;
   }
   const auto what =
       number.fault == NumberFault::missing ? std::string() : excerpt(field.text) + ' ';
-  table.problems.add(line, field.column,
-                     fmt::format("column {}: {}{}", excerpt(column.name), what,
-                                 fault_text(number.fault, table.kind.row)));
+  table.problems.add(
+      line, field.column,
+      fmt::format("{}{}{}",
+                  name.empty() ? "" : fmt::format("column {}: ", excerpt(name)), what,
+                  fault_text(number.fault, table.kind.row)));
   return 0.0;
+}
+
+double number_in_row(TableText& table, const std::vector<Field>& fields,
+                     const TableColumn& column) {
+  return number_in_field(table, fields[column.index], column.factor, column.name);
 }
 
 void throw_problems(const TableText& table) {

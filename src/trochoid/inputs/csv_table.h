@@ -10,16 +10,17 @@
 #include <vector>
 
 /// A table of numbers in delimited text, while it is read. Separators are `,` `;` or a
-/// tab; decimals have a point or, where nothing else can be meant, a comma; lines with
-/// `#` are comments.
+/// tab, or blanks in a table that may do without names; decimals have a point or, where
+/// nothing else can be meant, a comma; lines that begin with `#` are comments.
 namespace trochoid::inputs {
 
 /// How messages speak of a kind of table.
 struct TableKind {
-  std::string_view noun;     ///< `a record`
-  std::string_view files;    ///< `a CSV file or a DynoWare text export`
-  std::string_view row;      ///< `sample`
-  std::string_view example;  ///< a row of names
+  std::string_view noun;            ///< `a record`
+  std::string_view files;           ///< `a CSV file or a DynoWare text export`
+  std::string_view row;             ///< `sample`
+  std::string_view example;         ///< a row of names
+  std::string_view comments = "#";  ///< marks that begin a comment
 };
 
 struct TableText {
@@ -56,8 +57,19 @@ struct TableHead {
 std::ifstream open_table(const std::filesystem::path& file, const std::string& location,
                          const TableKind& kind);
 
-/// @brief The next line that holds something; none at the end or after a problem.
+/// @brief The next line that holds something, comments too; none at the end or after a
+/// problem.
+std::optional<std::string_view> next_line(TableText& table);
+
+/// Whether a line that holds something is a comment.
+bool is_comment(const TableText& table, std::string_view line) noexcept;
+
+/// @brief The next line that is no comment.
 std::optional<std::string_view> next_content(TableText& table);
+
+/// @brief Split a line; of a table separated by blanks, where there are any.
+void split_row(const TableText& table, std::string_view line,
+               std::vector<Field>& fields);
 
 /// @brief Settle the separator, by `sep=;` or by the row of names.
 /// @param line  the first line of the table
@@ -74,6 +86,11 @@ void take_units(TableText& table, const std::vector<Field>& fields, TableHead& h
 
 /// @brief Whether a row has a field for each of `count` columns, or what it lacks.
 bool complete_row(TableText& table, std::vector<Field>& fields, std::size_t count);
+
+/// @brief A field as a number times a factor; a problem and 0 when it is none.
+/// @param name  of its column, empty: it has none
+double number_in_field(TableText& table, const Field& field, double factor,
+                       std::string_view name);
 
 /// @brief One number of a row, in SI; a problem and 0 when it is none.
 double number_in_row(TableText& table, const std::vector<Field>& fields,

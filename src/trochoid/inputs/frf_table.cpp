@@ -1,92 +1,70 @@
 #include <trochoid/inputs/frf_table.h>
 
+#include <trochoid/inputs/csv_table.h>
+
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace trochoid::inputs {
 
 namespace {
 
-constexpr std::string_view comment_marks = "#%!*";
+constexpr TableKind frf_kind{.noun = "a frequency response",
+                             .files = "a universal file (sets 58) or a table",
+                             .row = "line",
+                             .example = "freq_Hz,re_m/N,im_m/N",
+                             .comments = "#%!*"};
 
-std::vector<Field> blank_separated(std::string_view line) {
-  std::vector<Field> fields;
-  std::size_t at = 0;
-  while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-    fields.push_back({line.substr(at, end - at), at + 1});
-    at = end;
-  }
-  return fields;
-}
-
-/// Blanks are a separator of their own: ' '.
-std::vector<Field> fields_of(std::string_view line, char separator) {
-  if (separator == ' ') return blank_separated(line);
-  std::vector<Field> fields;
-  split(line, separator, fields);
+/// Some programs end every row with a separator.
+void drop_empty_end(std::vector<Field>& fields) {
   while (!fields.empty() && fields.back().text.empty()) fields.pop_back();
-  return fields;
 }
 
 bool is_number(const Field& field) {
-  return parse_number(field.text).fault != NumberFault::not_a_number &&
-         parse_number(field.text).fault != NumberFault::missing;
+  const NumberFault fault = parse_number(field.text).fault;
+  return fault != NumberFault::not_a_number && fault != NumberFault::missing;
 }
 
-/// The separator that makes of a line numbers only; 0: none does.
-char separator_of(std::string_view line) {
+/// Settle the separator by a line that it makes numbers only of; false: none does.
+bool settle_separator(TableText& text, std::string_view line,
+                      std::vector<Field>& fields) {
   for (const char mark : {';', '\t', ',', ' '}) {
-    const auto fields = fields_of(line, mark);
-    bool numbers = fields.size() > 1;
-    for (const Field& field : fields) {
-      numbers = numbers && is_number(field);
+    text.separator = mark;
+    split_row(text, line, fields);
+    drop_empty_end(fields);
+    if (fields.size() > 1 && std::all_of(fields.begin(), fields.end(), is_number)) {
+      return true;
     }
-    if (numbers) return mark;
   }
-  return 0;
+  return false;
 }
 
-void add_row(const std::vector<Field>& fields, std::size_t line, DecimalStyle& style,
-             FrfTable& table, Problems& problems) {
+void add_row(TableText& text, const std::vector<Field>& fields, FrfTable& table) {
   if (!table.rows.empty() && fields.size() != table.rows.front().size()) {
-    problems.add(line, 1,
-                 fmt::format("the row has {} numbers, the first one {}: every row must "
-                             "be complete",
-                             fields.size(), table.rows.front().size()));
+    text.problems.add(text.lines.number(), 1,
+                      fmt::format("the row has {} numbers, the first one {}: every row "
+                                  "must be complete",
+                                  fields.size(), table.rows.front().size()));
     return;
   }
   std::vector<double> row;
   for (const Field& field : fields) {
-    const Number number = parse_number(field.text);
-    row.push_back(number.value);
-    if (number.fault == NumberFault::none) {
-      style.see(field.text, line, field.column);
-      continue;
-    }
-    problems.add(
-        line, field.column,
-        fmt::format("{}: {}", excerpt(field.text),
-                    number.fault == NumberFault::not_a_number ? "not a number"
-                    : number.fault == NumberFault::missing    ? "the value is missing"
-                                                              : "not a finite number"));
+    row.push_back(number_in_field(text, field, 1.0, ""));
   }
   table.rows.push_back(std::move(row));
-  table.lines.push_back(line);
+  table.lines.push_back(text.lines.number());
 }
 
 /// Keep the names if they go with the numbers below.
-void take_names(const std::string& line, char separator, std::size_t columns,
+void take_names(const TableText& text, const std::string& line, std::size_t columns,
                 FrfTable& table) {
-  std::string_view rest = line;
-  std::size_t shift = 0;
-  while (!rest.empty() && (comment_marks.find(rest.front()) != std::string_view::npos ||
-                           rest.front() == ' ')) {
-    rest.remove_prefix(1);
-    ++shift;
-  }
-  const auto fields = fields_of(rest, separator);
+  const std::string marks = std::string(text.kind.comments) + ' ';
+  const std::size_t shift = std::min(line.find_first_not_of(marks), line.size());
+  std::vector<Field> fields;
+  split_row(text, std::string_view(line).substr(shift), fields);
+  drop_empty_end(fields);
   if (fields.size() != columns) return;
   for (const Field& field : fields) {
     table.names.emplace_back(field.text);
@@ -96,45 +74,31 @@ void take_names(const std::string& line, char separator, std::size_t columns,
 
 }  // namespace
 
-FrfTable read_frf_table(const std::string& text, Problems& problems) {
-  std::istringstream in(text);
-  LineReader lines(in);
+FrfTable read_frf_table(const std::string& content, Problems& problems) {
+  std::istringstream in(content);
+  TableText text(in, problems.file, frf_kind);
   FrfTable table;
-  DecimalStyle style;
+  std::vector<Field> fields;
   std::string above;
-  char separator = 0;
-  while (auto line = lines.next()) {
-    if (lines.number() == 1 && line->substr(0, 3) == "\xEF\xBB\xBF") {
-      line->remove_prefix(3);
-    }
-    if (const auto at = control_character(*line)) {
-      problems.add(lines.number(), *at,
-                   fmt::format("byte 0x{:02X} does not belong into a text: a frequency "
-                               "response is a universal file (sets 58) or a table",
-                               static_cast<unsigned char>((*line)[*at - 1])));
-      return table;
-    }
-    const auto first = line->find_first_not_of(" \t");
-    if (first == std::string_view::npos) continue;
-    const bool comment = comment_marks.find((*line)[first]) != std::string_view::npos;
-    if (separator == 0 && !comment) separator = separator_of(*line);
-    if (separator == 0) {
+  bool among_numbers = false;
+  while (const auto line = next_line(text)) {
+    const bool comment = is_comment(text, *line);
+    if (!among_numbers && (comment || !settle_separator(text, *line, fields))) {
       above = std::string(*line);
-      table.names_line = lines.number();
+      table.names_line = text.lines.number();
     } else if (!comment) {
-      const auto fields = fields_of(*line, separator);
-      if (table.rows.empty()) take_names(above, separator, fields.size(), table);
-      add_row(fields, lines.number(), style, table, problems);
+      split_row(text, *line, fields);
+      drop_empty_end(fields);
+      if (!among_numbers) take_names(text, above, fields.size(), table);
+      among_numbers = true;
+      add_row(text, fields, table);
     }
-    if (problems.full()) return table;
+    if (text.problems.full()) break;
   }
-  if (lines.too_long()) {
-    problems.add(lines.number(), LineReader::longest + 1,
-                 "the line is too long: a table has one row a line");
-  }
-  style.check(problems);
+  text.style.check(text.problems);
+  problems.lines = std::move(text.problems.lines);
   if (table.rows.empty() && problems.lines.empty()) {
-    problems.add(std::max<std::size_t>(lines.number(), 1), 1,
+    problems.add(std::max<std::size_t>(text.lines.number(), 1), 1,
                  "the file holds no row of numbers: a universal file with a set 58, or "
                  "a table with, for example, freq_Hz,re_m/N,im_m/N is needed");
   }
