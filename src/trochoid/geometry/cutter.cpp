@@ -29,6 +29,13 @@ std::vector<double> equal_pitch(int teeth) {
   return std::vector<double>(static_cast<std::size_t>(teeth), unit::turn / teeth);
 }
 
+Cutter end_mill(double D, int teeth, double helix) {
+  return {.profile = cylinder(D),
+          .pitch = equal_pitch(teeth),
+          .helix = helix,
+          .lag_diameter = D};
+}
+
 std::vector<double> tooth_angles(const Cutter& cutter) {
   std::vector<double> psi(cutter.pitch.size());
   std::exclusive_scan(cutter.pitch.begin(), cutter.pitch.end(), psi.begin(), 0.0);

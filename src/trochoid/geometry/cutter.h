@@ -58,6 +58,12 @@ struct Cutter {
 /// Equal pitches of a cutter with so many teeth [rad].
 std::vector<double> equal_pitch(int teeth);
 
+/// @brief A cylinder of equal pitch and constant lead.
+/// @param D      diameter [m], above 0
+/// @param teeth  at least 1
+/// @param helix  [rad], in [0, pi/2)
+Cutter end_mill(double D, int teeth, double helix);
+
 /// @brief psi_k, the angle from the tip of tooth 1 to the tip of tooth k [rad].
 /// @return shape (teeth), first entry 0
 std::vector<double> tooth_angles(const Cutter& cutter);
