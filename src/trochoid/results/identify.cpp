@@ -9,7 +9,7 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace trochoid::results {
 
@@ -19,12 +19,8 @@ using base::add_column;
 using identification::Fit;
 
 bool is_signed_permutation(const signal::Matrix3& M) {
-  for (const auto& row : M) {
-    if (std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]) != 1) {
-      return false;
-    }
-  }
-  return true;
+  const auto all = signal::axes_candidates();
+  return std::find(all.begin(), all.end(), M) != all.end();
 }
 
 Object signal_value(const IdentifyResult& r) {

@@ -61,10 +61,7 @@ std::vector<double> peaks_of(const correction::ForceRecord& record,
 std::optional<correction::ForceRecord> record_of(const inputs::Case& given,
                                                  std::vector<base::Warning>& warnings,
                                                  std::string& message) {
-  const auto runs = measured_runs(given, warnings, message);
-  if (runs.empty()) {
-    return std::nullopt;
-  }
+  const auto runs = measured_runs(given, warnings);
   const auto M = given.dynamometer.value_or(inputs::Dynamometer{}).matrix;
   const identification::Run run = identification::on_tool(channels_of(runs), M).front();
   correction::ForceRecord record;

@@ -214,13 +214,8 @@ struct Identification {
     r.heading.case_toml = given.as_understood;
     r.edge_length = given.setup.edge_length;
     progress("reading the measurements");
-    std::string why;
-    measured = measured_runs(given, r.heading.warnings, why);
-    if (measured.empty()) {
-      return failed(why);
-    }
-    why = find_axes();
-    if (!why.empty()) {
+    measured = measured_runs(given, r.heading.warnings);
+    if (const std::string why = find_axes(); !why.empty()) {
       return failed(why);
     }
     r.runs = identification::on_tool(channels_of(measured), r.channels);

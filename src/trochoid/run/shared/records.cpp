@@ -58,9 +58,9 @@ void compare_speed(const MeasuredRun& run, Warnings& warnings) {
                                    "and angles of the record.")});
 }
 
-/// Angle and speed of a run; false with the reason where it has none.
-bool lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
-                    Warnings& warnings, std::string& message) {
+/// Angle and speed of a run.
+void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
+                    Warnings& warnings) {
   std::vector<double>& angle = run.run.angle;
   run.Omega = run.run.cut.Omega;
   if (!record.angle.empty()) {
@@ -77,15 +77,9 @@ bool lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
       }
       compare_speed(run, warnings);
     }
-    return true;
+    return;
   }
   run.by_time = true;
-  if (record.time.empty()) {
-    message = record.file +
-              ": neither angles nor times: name angle_column, "
-              "time_column or sample_rate_Hz";
-    return false;
-  }
   const signal::SpeedEstimate found =
       signal::spindle_speed(record, {.Omega = run.Omega, .teeth = teeth});
   if (found.ok) {
@@ -98,7 +92,6 @@ bool lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
                                       " The stated spindle speed is used as it is."});
   }
   angle = signal::angle_from_time(record.time, run.Omega);
-  return true;
 }
 
 void take_drift_out(MeasuredRun& measured, Warnings& warnings) {
@@ -126,8 +119,7 @@ void take_drift_out(MeasuredRun& measured, Warnings& warnings) {
 
 }  // namespace
 
-std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warnings,
-                                       std::string& message) {
+std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warnings) {
   std::vector<signal::Record> records = read_all(given);
   std::vector<MeasuredRun> runs;
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -136,9 +128,7 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
     for (const base::Warning& note : record.notes) {
       warnings.push_back({note.code, run.file + ": " + note.message});
     }
-    if (!lay_over_angle(record, given.setup.cutter.teeth(), run, warnings, message)) {
-      return {};
-    }
+    lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
     run.run.channel = std::move(record.channel);
     if (given.identify.channel_offsets == inputs::ChannelOffset::idle) {
       take_drift_out(run, warnings);

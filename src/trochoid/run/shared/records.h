@@ -20,11 +20,10 @@ struct MeasuredRun {
 
 /// @brief Read all measurements of a case.
 /// @param[out] warnings  what was found out about the records
+/// @return one a measurement
 /// @throws base::InputError with the problems of all files
-/// @return none, with the reason in `message`, where a record has no usable angle
 std::vector<MeasuredRun> measured_runs(const inputs::Case& given,
-                                       std::vector<base::Warning>& warnings,
-                                       std::string& message);
+                                       std::vector<base::Warning>& warnings);
 
 /// Their channels alone.
 std::vector<identification::ChannelRun> channels_of(

@@ -6,12 +6,7 @@ namespace trochoid::run {
 
 std::vector<results::Comparison> compare(const inputs::Case& given,
                                          std::vector<base::Warning>& warnings) {
-  std::string message;
-  const auto measured = measured_runs(given, warnings, message);
-  if (measured.empty()) {
-    warnings.push_back({"not_compared", message});
-    return {};
-  }
+  const auto measured = measured_runs(given, warnings);
   if (given.dynamometer && given.dynamometer->automatic) {
     warnings.push_back(
         {"not_compared",

@@ -1,0 +1,90 @@
+#include <trochoid/identification/find_axes.h>
+
+#include "made_record.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace trochoid::identification {
+namespace {
+
+using Names = std::array<std::string, 3>;
+
+force::Setup with_runout() {
+  force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
+  setup.runout.radial_offsets = {0.0, -8.0 * unit::um};
+  return setup;
+}
+
+/// A made record as channels that read Q force.
+ChannelRun channels(const force::Setup& setup, const force::LinearEdge& law,
+                    const signal::Matrix3& Q) {
+  const Record record = made_record(setup, law, {.phase = 0.2, .noise = 2.0});
+  ChannelRun out{record.cut, record.angle, {}};
+  for (const auto& F : record.force) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.channel[c].push_back(Q[c][0] * F[0] + Q[c][1] * F[1] + Q[c][2] * F[2]);
+    }
+  }
+  return out;
+}
+
+AxesProblem problem(const force::Setup& setup) {
+  return {without_runout(setup), force::LinearEdge{}, {}};
+}
+
+signal::Matrix3 reading(const Names& names) {
+  return *signal::axes_matrix(names);
+}
+
+TEST(FindAxes, FindsEachWayThatAPersonMountsADynamometer) {
+  const force::Setup setup = with_runout();
+  for (const Names& names : {Names{"x", "y", "z"}, Names{"-x", "-y", "-z"},
+                             Names{"y", "-x", "z"}, Names{"z", "x", "y"}}) {
+    const ChannelRun run = channels(setup, steel(), reading(names));
+    const AxesChoice choice = find_axes(problem(setup), {&run, 1}, {});
+    ASSERT_TRUE(choice.ok) << choice.message;
+    EXPECT_EQ(signal::axes_names(choice.matrix), names);
+    EXPECT_TRUE(choice.signs_clear);
+    EXPECT_GT(choice.next_rms, 1.5 * choice.rms);
+    EXPECT_NEAR(reading_rms(problem(setup), {&run, 1}, choice.matrix), choice.rms,
+                1e-6 * choice.rms);
+  }
+}
+
+/// On a ball the readings are no longer alike: each is fitted.
+TEST(FindAxes, TriesAllReadingsOnACutterThatIsNoCylinder) {
+  force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
+  setup.cutter.profile = geometry::ball(8.0 * unit::mm);
+  const ChannelRun run = channels(setup, steel(), reading({"y", "z", "x"}));
+  AxesProblem ball = problem(setup);
+  ball.options = {.chip_model = chip::Model::none, .phase = 0.2};
+  int fits = 0;
+  const AxesChoice choice = find_axes(ball, {&run, 1}, [&] { ++fits; });
+  EXPECT_EQ(fits, 48);
+  ASSERT_TRUE(choice.ok) << choice.message;
+  EXPECT_EQ(signal::axes_names(choice.matrix), (Names{"y", "z", "x"}));
+}
+
+/// With no radial force nothing tells which of two readings is the true one.
+TEST(FindAxes, SaysWhereSignsDecideNothing) {
+  const force::Setup setup = with_runout();
+  const force::LinearEdge no_radial{2600e6, 0.0, 330e6, 7e3, 0.0, 1e3};
+  const ChannelRun run = channels(setup, no_radial, reading({"x", "y", "z"}));
+  const AxesChoice choice = find_axes(problem(setup), {&run, 1}, {});
+  ASSERT_TRUE(choice.ok) << choice.message;
+  EXPECT_FALSE(choice.signs_clear);
+}
+
+TEST(OnTool, TurnsChannelsIntoForces) {
+  const ChannelRun run{{}, {0.0}, {{{1.0}, {2.0}, {3.0}}}};
+  const auto runs = on_tool({&run, 1}, reading({"-y", "x", "z"}));
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].force.at(0), (force::Vector3{2.0, -1.0, 3.0}));
+  EXPECT_THROW(on_tool({&run, 1}, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace trochoid::identification

@@ -1,0 +1,108 @@
+#include <trochoid/results/identify.h>
+
+#include "../identification/sound_fit.h"
+
+#include <trochoid/base/units.h>
+#include <trochoid/results/json.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace trochoid::results {
+namespace {
+
+IdentifyResult made() {
+  IdentifyResult r;
+  r.fits = {identification::test::sound_fit()};
+  r.fits[0].chip.model = chip::Model::trochoidal;
+  r.chosen = 0;
+  r.records = {{"record.csv", 3, 100 * unit::rpm, 0.01 * unit::rpm, 99 * unit::rpm}};
+  r.channels = *signal::axes_matrix(std::array<std::string, 3>{"y", "-x", "z"});
+  return r;
+}
+
+std::string result(const IdentifyResult& r) {
+  return json_text(answer_of(r).result);
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(IdentifyAnswer, HasTheChosenFitAndWhatWasRead) {
+  const std::string text = result(made());
+  EXPECT_TRUE(says(text, R"("chosen": "trochoidal")")) << text;
+  EXPECT_TRUE(says(text, R"("axes": ["y", "-x", "z"])")) << text;
+  EXPECT_TRUE(says(text, R"("stated_rpm": 99)")) << text;
+  EXPECT_TRUE(says(text, R"("do_not_use": [])")) << text;
+  EXPECT_FALSE(says(text, "axes_rms_N")) << "the axes were given: " << text;
+}
+
+TEST(IdentifyAnswer, GivesTheMatrixThatIsNoSetOfAxes) {
+  IdentifyResult r = made();
+  r.channels[0] = {0.9, 0.1, 0.0};
+  EXPECT_TRUE(says(result(r), R"("axes": null)")) << result(r);
+  EXPECT_TRUE(says(result(r), R"("matrix": [)")) << result(r);
+}
+
+TEST(IdentifyAnswer, SaysFirstThatNumbersMustNotBeUsed) {
+  IdentifyResult r = made();
+  r.reasons_against = {"it explains nothing"};
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(answer.short_table.find("Do not use"), 0U) << answer.short_table;
+  EXPECT_TRUE(says(answer.short_table, "it explains nothing"));
+  EXPECT_TRUE(says(answer.short_table, "record.csv: 100.00 rpm (stated 99)"));
+}
+
+TEST(IdentifyAnswer, IsNoMaterialWithoutAFit) {
+  EXPECT_EQ(answer_of(made()).texts.at(0).file, "material.toml");
+  IdentifyResult r = made();
+  r.chosen.reset();
+  r.heading.ok = false;
+  r.heading.message = "the feed is zero";
+  const Answer answer = answer_of(r);
+  EXPECT_TRUE(answer.texts.empty());
+  EXPECT_TRUE(answer.tables.empty());
+  EXPECT_EQ(answer.short_table, "No answer: the feed is zero\n");
+  EXPECT_TRUE(says(json_text(answer.result), R"("chosen": null)"));
+}
+
+TEST(IdentifyAnswer, HasTheSweepByItsModel) {
+  IdentifyResult r = made();
+  r.sweep = OffsetSweep{.offset = {-1 * unit::um, 0.0},
+                        .curves = {{chip::Model::feed, {3.0, 4.0}}}};
+  const Answer answer = answer_of(r);
+  const base::Table& sweep = answer.tables.back();
+  ASSERT_EQ(sweep.file, "sweep.csv");
+  EXPECT_EQ(sweep.columns.at(0).name, "offset_um");
+  EXPECT_EQ(sweep.columns.at(1).name, "rms_feed_N");
+  EXPECT_EQ(sweep.columns.at(1).values, (std::vector{3.0, 4.0}));
+}
+
+/// Bins that hold less than two samples have no scatter, and do not count.
+TEST(IdentifyAnswer, FoldsWhatHoldsTwoTurns) {
+  IdentifyResult r = made();
+  signal::OneRevolution one;
+  one.revolutions = 2;
+  one.angle = {0.0, 1.0};
+  one.count = {2, 1};
+  for (auto& c : one.mean) {
+    c = {5.0, 6.0};
+  }
+  for (auto& c : one.scatter) {
+    c = {0.5, 0.6};
+  }
+  r.folded = {one};
+  const auto tables = answer_of(r).tables;
+  const auto folded =
+      std::find_if(tables.begin(), tables.end(),
+                   [](const base::Table& t) { return t.file == "folded.csv"; });
+  ASSERT_NE(folded, tables.end());
+  EXPECT_EQ(folded->columns.at(0).values, std::vector{1.0});
+  EXPECT_EQ(folded->columns.back().name, "Fz_sd_N");
+  EXPECT_EQ(folded->columns.back().values, std::vector{0.5});
+}
+
+}  // namespace
+}  // namespace trochoid::results

@@ -1,0 +1,128 @@
+#include <trochoid/run/identify/warnings.h>
+
+#include "../identification/sound_fit.h"
+
+#include <trochoid/base/units.h>
+
+#include <gtest/gtest.h>
+
+namespace trochoid::run {
+namespace {
+
+using identification::Fit;
+
+inputs::Case given() {
+  inputs::Case out;
+  out.setup.cutter.pitch = geometry::equal_pitch(2);
+  out.setup.cut.f_z = 0.04 * unit::mm;
+  return out;
+}
+
+Fit sound() {
+  Fit fit = identification::test::sound_fit();
+  fit.chip.model = chip::Model::trochoidal;
+  fit.freedom = 100;
+  return fit;
+}
+
+std::vector<base::Warning> warnings(const Fit& fit, const inputs::Case& c = given(),
+                                    std::vector<Fit> others = {}) {
+  others.push_back(fit);
+  std::vector<base::Warning> out;
+  add_fit_warnings(c, others, fit, out);
+  return out;
+}
+
+/// The one code that a fit is warned of.
+std::string code(const Fit& fit, const inputs::Case& c = given(),
+                 std::vector<Fit> others = {}) {
+  const auto all = warnings(fit, c, std::move(others));
+  EXPECT_EQ(all.size(), 1U);
+  return all.empty() ? "" : all.front().code;
+}
+
+TEST(FitWarnings, AreNoneForASoundFit) {
+  EXPECT_TRUE(warnings(sound()).empty());
+}
+
+TEST(FitWarnings, SayThatResidualsAreCorrelated) {
+  Fit fit = sound();
+  fit.residual_correlation = 0.8;
+  EXPECT_EQ(code(fit), "correlated_residuals");
+  EXPECT_NE(warnings(fit)[0].message.find("by about 3.0"), std::string::npos)
+      << warnings(fit)[0].message;
+}
+
+TEST(FitWarnings, SayWhatCannotBeFound) {
+  Fit fit = sound();
+  fit.unidentifiable = {{"K_te_N_per_mm", "the feed does not change"}};
+  EXPECT_EQ(code(fit), "not_identifiable");
+  EXPECT_EQ(warnings(fit)[0].message, "K_te_N_per_mm: the feed does not change");
+}
+
+TEST(FitWarnings, SayWhichCoefficientNoCutHas) {
+  Fit fit = sound();
+  fit.coefficients[1] = base::Estimate{-1e9, 1e7, -1.02e9, -0.98e9};
+  fit.coefficients[2] = base::Estimate{-1e8, 1e7, -1.2e8, -0.8e8};
+  EXPECT_EQ(code(fit), "negative_coefficient");
+  EXPECT_EQ(warnings(fit)[0].message.find("K_rc_MPa came out negative"), 0U)
+      << "the axial force may pull either way: " << warnings(fit)[0].message;
+}
+
+TEST(FitWarnings, SayThatNoMaterialIsThatHard) {
+  Fit fit = sound();
+  fit.coefficients[0] = base::Estimate{2.6e12, 1e9, 2.5e12, 2.7e12};
+  EXPECT_EQ(code(fit), "implausible");
+}
+
+TEST(FitWarnings, SayWhatTheBandLeavesOut) {
+  Fit fit = sound();
+  fit.unexplained = {.in_band = 0.1, .all = 0.4, .outside = 0.35};
+  inputs::Case c = given();
+  c.identify.band_harmonics = 4;
+  EXPECT_EQ(code(fit, c), "outside_the_band");
+}
+
+TEST(FitWarnings, SayThatMuchIsLeft) {
+  Fit fit = sound();
+  fit.unexplained = {.in_band = 0.25, .all = 0.25};
+  EXPECT_TRUE(warnings(fit).empty()) << "white noise is no reason to doubt";
+  fit.residual_correlation = 0.55;
+  const auto all = warnings(fit);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].code, "poor_fit");
+  EXPECT_NE(all[1].message.find("band_harmonics = 2"), std::string::npos);
+}
+
+TEST(FitWarnings, SayThatEquationsAreFew) {
+  Fit fit = sound();
+  fit.freedom = 4;
+  EXPECT_EQ(code(fit), "few_equations");
+}
+
+TEST(FitWarnings, SayThatALesserModelFitsBetter) {
+  Fit other = sound();
+  other.chip.model = chip::Model::feed;
+  other.rms = 9.0;
+  EXPECT_EQ(code(sound(), given(), {other}), "other_model_fits_better");
+  other.ok = false;
+  other.message = "too few samples";
+  EXPECT_EQ(code(sound(), given(), {other}), "no_fit");
+}
+
+TEST(FitWarnings, SayThatAToothMayIdle) {
+  Fit fit = sound();
+  fit.runout.radial_offsets = {0.0, -50e-6};
+  EXPECT_EQ(code(fit), "runout_above_feed");
+  fit.chip.model = chip::Model::none;
+  EXPECT_TRUE(warnings(fit).empty()) << "the model knows no runout";
+}
+
+TEST(FitWarnings, SayThatTheRunoutIsKnownToOneSideOnly) {
+  Fit fit = sound();
+  fit.on_edge = {"radial_offsets_mm[2]"};
+  EXPECT_EQ(code(fit), "runout_on_edge");
+}
+
+}  // namespace
+}  // namespace trochoid::run

@@ -1,0 +1,100 @@
+#include <trochoid/run/identify/identify.h>
+
+#include "made_record_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace trochoid::run {
+namespace {
+
+using namespace test;
+using inputs::Command;
+using results::IdentifyResult;
+
+const std::string options = R"([identify]
+chip_models = ["trochoidal"]
+)";
+const std::string automatic = "[dynamometer]\naxes = \"auto\"\n";
+
+IdentifyResult identified(const identification::Record& record,
+                          const std::string& text) {
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(record, Axis::angle));
+  return identify(
+      folder.read(inputs::test::slot + measurement + text, Command::identify),
+      [](const std::string&) {});
+}
+
+bool warned(const IdentifyResult& r, const std::string& code) {
+  return std::any_of(r.heading.warnings.begin(), r.heading.warnings.end(),
+                     [&](const base::Warning& w) { return w.code == code; });
+}
+
+TEST(Identify, FindsWhatTheRecordWasMadeWith) {
+  const IdentifyResult r = identified(two_turns(0.3, 2.0), options);
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_TRUE(r.reasons_against.empty());
+  const identification::Fit& fit = r.fits.at(*r.chosen);
+  EXPECT_NEAR(fit.coefficients[0]->value, 2620e6, 4 * fit.coefficients[0]->se);
+  EXPECT_NEAR(fit.runout.radial_offsets.at(1), -8e-6, 0.5e-6);
+  EXPECT_NEAR(fit.phase.at(0), 0.3, 0.01);
+  ASSERT_EQ(r.records.size(), 1U);
+  EXPECT_EQ(r.records[0].samples, 360U);
+  EXPECT_FALSE(r.axes.has_value());
+  EXPECT_EQ(r.folded.size(), 1U);
+  ASSERT_TRUE(r.curve.has_value());
+}
+
+TEST(Identify, FindsTheAxesToo) {
+  auto record = two_turns(0.3, 2.0);
+  for (auto& F : record.force) {
+    F = {F[1], -F[0], F[2]};
+  }
+  const IdentifyResult r = identified(record, automatic + options);
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  ASSERT_TRUE(r.axes.has_value());
+  EXPECT_EQ(signal::axes_names(r.channels),
+            (std::array<std::string, 3>{"y", "-x", "z"}));
+}
+
+/// The exact model answers; the others are told beside it.
+TEST(Identify, ChoosesTheExactModel) {
+  const IdentifyResult r = identified(
+      two_turns(0.3, 2.0), "[identify]\nchip_models = [\"trochoidal\", \"none\"]\n");
+  ASSERT_EQ(r.fits.size(), 2U);
+  EXPECT_EQ(r.chosen, 0U);
+  const IdentifyResult best = identified(
+      two_turns(0.3, 2.0), "[identify]\nchip_models = [\"none\", \"feed\"]\n");
+  EXPECT_EQ(best.chosen, 1U);
+}
+
+/// A reaction read as the force: refused for use, with the cure first.
+TEST(Identify, SaysWhatIsLikelyWrongWithTheAxes) {
+  auto record = two_turns(0.3, 2.0);
+  for (auto& F : record.force) {
+    F = {F[2], F[0], F[1]};
+  }
+  const IdentifyResult r = identified(record, options);
+  ASSERT_TRUE(warned(r, "likely_cause")) << r.heading.message;
+  const auto& warnings = r.heading.warnings;
+  const auto cause =
+      std::find_if(warnings.begin(), warnings.end(),
+                   [](const base::Warning& w) { return w.code == "likely_cause"; });
+  EXPECT_NE(cause->message.find("read z, x, y"), std::string::npos) << cause->message;
+}
+
+TEST(Identify, SweepsTheOffset) {
+  const IdentifyResult r =
+      identified(two_turns(0.3, 2.0), options + "sweep_um = [-20, 0, 5]\n");
+  ASSERT_TRUE(r.sweep.has_value());
+  ASSERT_EQ(r.sweep->offset.size(), 5U);
+  ASSERT_EQ(r.sweep->curves.size(), 1U);
+  const auto& rms = r.sweep->curves[0].rms;
+  EXPECT_EQ(std::min_element(rms.begin(), rms.end()) - rms.begin(), 2)
+      << "-10 um is nearest to -8";
+}
+
+}  // namespace
+}  // namespace trochoid::run

@@ -1,0 +1,71 @@
+#include <trochoid/run/identify/likely_causes.h>
+
+#include "made_record_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace trochoid::run {
+namespace {
+
+using namespace test;
+
+constexpr signal::Matrix3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+/// A case in memory and its record, channels = Q force.
+struct Made {
+  inputs::Case given;
+  std::vector<MeasuredRun> runs;
+
+  explicit Made(const signal::Matrix3& Q) {
+    given.setup = identification::without_runout(made_setup());
+    given.law = made_law();
+    given.identify.chip_models = {chip::Model::feed};
+    const auto record = two_turns(0.3, 2.0);
+    MeasuredRun run{.file = "record.csv", .run = {record.cut, record.angle, {}}};
+    for (const auto& F : record.force) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        run.run.channel[c].push_back(Q[c][0] * F[0] + Q[c][1] * F[1] + Q[c][2] * F[2]);
+      }
+    }
+    runs.push_back(std::move(run));
+  }
+
+  /// Messages, one a line.
+  [[nodiscard]] std::string causes() const {
+    std::string all;
+    for (const auto& w : likely_causes(given, runs, identity, [](const auto&) {})) {
+      EXPECT_EQ(w.code, "likely_cause");
+      all += w.message + "\n";
+    }
+    return all;
+  }
+};
+
+TEST(LikelyCauses, NameTheAxesAloneWhereTheyCureIt) {
+  const Made exchanged({{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}});
+  const std::string causes = exchanged.causes();
+  EXPECT_NE(causes.find("the channels read x, z, y"), std::string::npos) << causes;
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), '\n'), 1) << causes;
+}
+
+TEST(LikelyCauses, ListTheOthersWhereNoAxesDo) {
+  Made made(identity);
+  std::string causes = made.causes();
+  EXPECT_NE(causes.find("none of them is much better"), std::string::npos) << causes;
+  EXPECT_NE(causes.find("channel_offsets = \"fit\""), std::string::npos);
+  EXPECT_NE(causes.find("Tool or cut"), std::string::npos);
+  EXPECT_EQ(causes.find("spindle_rpm"), std::string::npos) << "angles were measured";
+
+  made.runs[0].by_time = true;
+  made.given.dynamometer = inputs::Dynamometer{.automatic = true};
+  made.given.identify.channel_offsets = inputs::ChannelOffset::fit;
+  causes = made.causes();
+  EXPECT_NE(causes.find("spindle_rpm = 875"), std::string::npos) << causes;
+  EXPECT_EQ(causes.find("axes"), std::string::npos) << "all of them were tried";
+  EXPECT_EQ(causes.find("channel_offsets"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trochoid::run

@@ -1,0 +1,115 @@
+#include <trochoid/run/shared/records.h>
+
+#include "made_record_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace trochoid::run {
+namespace {
+
+using namespace test;
+using inputs::Command;
+
+struct Read {
+  std::vector<MeasuredRun> runs;
+  std::vector<base::Warning> warnings;
+};
+
+Read read(const CaseFolder& folder, const std::string& text) {
+  Read out;
+  out.runs = measured_runs(folder.read(text, Command::identify), out.warnings);
+  return out;
+}
+
+TEST(MeasuredRuns, TakeTheAnglesOfTheRecord) {
+  const CaseFolder folder;
+  const auto record = two_turns();
+  folder.write("record.csv", csv_text(record, Axis::angle));
+  const Read got = read(folder, inputs::test::slot + measurement);
+  ASSERT_EQ(got.runs.size(), 1U);
+  const MeasuredRun& run = got.runs.front();
+  EXPECT_FALSE(run.by_time);
+  EXPECT_DOUBLE_EQ(run.Omega, run.run.cut.Omega);
+  ASSERT_EQ(run.run.angle.size(), record.angle.size());
+  EXPECT_NEAR(run.run.angle.back(), record.angle.back(), 1e-9);
+  EXPECT_NEAR(run.run.channel[1][100], record.force[100][1], 1e-6);
+  EXPECT_EQ(channels_of(got.runs).front().channel, run.run.channel);
+}
+
+TEST(MeasuredRuns, FindTheSpeedOfARecordWithTimes) {
+  const CaseFolder folder;
+  const auto record = identification::made_record(
+      made_setup(), made_law(), {.per_turn = 90, .turns = 20.0, .noise = 1.0});
+  folder.write("record.csv", csv_text(record, Axis::time, 880.0));
+  const Read got = read(folder, inputs::test::slot + measurement);
+  ASSERT_EQ(got.runs.size(), 1U);
+  EXPECT_TRUE(got.runs[0].by_time);
+  EXPECT_NEAR(got.runs[0].Omega / unit::rpm, 880.0, 0.05);
+  EXPECT_GT(got.runs[0].Omega_se, 0.0);
+  ASSERT_EQ(got.warnings.size(), 1U);
+  EXPECT_EQ(got.warnings[0].code, "spindle_speed");
+  EXPECT_NE(got.warnings[0].message.find("+0.57 % off the stated 875 rpm"),
+            std::string::npos)
+      << got.warnings[0].message;
+}
+
+TEST(MeasuredRuns, NameTheProblemsOfAllFiles) {
+  const CaseFolder folder;
+  folder.write("record.csv", "angle_deg,Fx_N\n0,1\n");
+  folder.write("other.csv", "angle_deg,Fx_N,Fy_N\n0,1,2\n");
+  const std::string other = "[[measurement]]\nfile = \"other.csv\"\n";
+  try {
+    static_cast<void>(read(folder, inputs::test::slot + measurement + other));
+    FAIL() << "read what cannot be read";
+  } catch (const base::InputError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("record.csv"), std::string::npos) << what;
+    EXPECT_NE(what.find("other.csv"), std::string::npos) << what;
+  }
+}
+
+TEST(MeasuredRuns, RefuseAnAngleThatFalls) {
+  const CaseFolder folder;
+  folder.write("record.csv",
+               "angle_deg,time_s,Fx_N,Fy_N,Fz_N\n"
+               "30,0,1,2,3\n20,0.1,1,2,3\n10,0.2,1,2,3\n");
+  EXPECT_THROW(static_cast<void>(read(folder, inputs::test::slot + measurement)),
+               base::InputError);
+}
+
+TEST(MeasuredRuns, TakeTheDriftOutWhereTheToolIdles) {
+  const CaseFolder folder;
+  auto record = identification::made_record(made_setup(), made_law(),
+                                            {.per_turn = 180, .turns = 14.0});
+  const auto cut = record.force;
+  for (std::size_t i = 0; i < record.force.size(); ++i) {
+    if (i < 720 || i >= 1800) {  // four turns before the entry, four after the exit
+      record.force[i] = {};
+    }
+    record.force[i][0] += 50.0 + 0.02 * static_cast<double>(i);
+  }
+  folder.write("record.csv", csv_text(record, Axis::angle));
+  const Read got = read(folder, inputs::test::slot + measurement +
+                                    "[identify]\nchannel_offsets = \"idle\"\n");
+  ASSERT_EQ(got.runs.size(), 1U);
+  EXPECT_TRUE(got.warnings.empty()) << got.warnings.front().message;
+  const auto& [plan, angle, channel] = got.runs[0].run;
+  ASSERT_EQ(angle.size(), 1080U);
+  EXPECT_NEAR(angle.front(), record.angle[720], 1e-9);
+  EXPECT_NEAR(channel[0][77], cut[720 + 77][0], 1e-6);
+}
+
+TEST(MeasuredRuns, LeaveTheOffsetWhereNothingIsIdle) {
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(two_turns(), Axis::angle));
+  const Read got = read(folder, inputs::test::slot + measurement +
+                                    "[identify]\nchannel_offsets = \"idle\"\n");
+  ASSERT_EQ(got.warnings.size(), 1U);
+  EXPECT_EQ(got.warnings[0].code, "no_idle_part");
+}
+
+}  // namespace
+}  // namespace trochoid::run
