@@ -9,10 +9,12 @@ void describe(const Visitor& v, Correction& t) {
                 "the whole cut, as nearly as possible"},
     choice(t.target));
   v({.name = "strategy",
-     .meaning = "plain: the command is the motion wanted; lead: earlier by what the "
-                "actuator is late; inverse: each harmonic through the inverse of "
-                "actuator and table; inverse_in_time: the same for smooth shapes, by "
-                "derivatives; learning: inverse, then improved on the table"},
+     .meaning = "how the motion becomes a command. plain: they are the same; lead: "
+                "phase lead, earlier by the delay of the actuator; inverse: plant "
+                "inversion, each harmonic divided by the transfer function of actuator "
+                "and table; inverse_in_time: the same for smooth shapes, by "
+                "derivatives; learning: iterative learning control, starting from "
+                "inverse"},
     choice(t.strategy));
   v({.name = "shape", .meaning = "how the table moves over a turn"}, choice(t.shape));
   v({.name = "estimate",
@@ -20,7 +22,9 @@ void describe(const Visitor& v, Correction& t) {
                 "what a rigid model reads from the forces, which is less"},
     choice(t.estimate));
   v({.name = "transition_deg",
-     .meaning = "width of a change of level of trapezoid and quintic",
+     .meaning =
+         "spindle angle in which trapezoid and quintic change from one level to the "
+         "next",
      .range = above_up_to(0, 360)},
     &t.transition);
   v({.name = "harmonics",
@@ -34,7 +38,9 @@ void describe(const Visitor& v, Correction& t) {
      .example = "26"},
     &t.peak_to_peak);
   v({.name = "sample_rate_Hz",
-     .meaning = "rate of a command that is held between samples; 0: continuous",
+     .meaning =
+         "sampling rate of a command that is held between samples (zero-order hold); "
+         "0: continuous",
      .range = at_least(0)},
     &t.sample_rate);
   v({.name = "learning_gain",
@@ -55,19 +61,20 @@ void describe(const Visitor& v, Correction& t) {
 
 void describe(const Visitor& v, Controller& t) {
   v({.name = "loop_rate_Hz",
-     .meaning = "how often the controller runs",
+     .meaning = "sampling rate of the controller",
      .range = between(100, 100000)},
     &t.rate);
   v({.name = "encoder_counts",
-     .meaning = "of the spindle encoder, per turn",
+     .meaning = "counts of the spindle encoder, per turn",
      .range = between(1, 10000000)},
     &t.counts);
   v({.name = "jitter_s",
-     .meaning = "standard deviation of the time of a step",
+     .meaning =
+         "standard deviation of the time at which a step of the controller begins",
      .range = between(0, 0.01)},
     &t.jitter);
   v({.name = "speed_ripple",
-     .meaning = "once a turn, as a part of the speed",
+     .meaning = "variation of the spindle speed once a turn, as a part of it",
      .range = between(0, 0.5)},
     &t.speed_ripple);
   v({.name = "fade_s",
@@ -79,7 +86,7 @@ void describe(const Visitor& v, Controller& t) {
      .range = above_up_to(0, 10)},
     &t.ramp);
   v({.name = "turns",
-     .meaning = "turns that are simulated",
+     .meaning = "spindle turns that are simulated",
      .range = between(10, 10000)},
     &t.turns);
   v({.name = "index_lost_at_turn",

@@ -123,7 +123,7 @@ void describe(const Visitor& v, CutTable& t) {
      .need = Need::always},
     choice(t.engagement));
   v({.name = "radial_depth_mm",
-     .meaning = "radial depth of cut, at most the diameter",
+     .meaning = "radial depth of cut a_e, at most the diameter",
      .range = above_up_to(0, longest_mm),
      .need = Need::always,
      .only = {"engagement", {"up", "down"}},

@@ -135,7 +135,7 @@ void describe(const Visitor& v, Mode& t) {
   v({.name = "frequency_Hz", .meaning = "natural frequency", .range = above(0)},
     &t.frequency);
   v({.name = "damping_ratio",
-     .meaning = "damping as a part of the critical one",
+     .meaning = "damping over critical damping (zeta)",
      .range = at_least(0),
      .rival = "damping_Ns_per_m"},
     &t.damping_ratio);
@@ -145,7 +145,7 @@ void describe(const Visitor& v, Actuator& t) {
   v({.name = "gain", .meaning = "motion for a command of 1", .range = above(0)},
     &t.gain);
   v({.name = "time_constants_s",
-     .meaning = "of two first-order lags in a row",
+     .meaning = "time constants of two first-order lags in series",
      .range = above(0),
      .count = 2,
      .rival = "frequency_Hz",
@@ -157,7 +157,7 @@ void describe(const Visitor& v, Actuator& t) {
      .rival = "time_constants_s"},
     &t.frequency);
   v({.name = "damping_ratio",
-     .meaning = "damping as a part of the critical one",
+     .meaning = "damping over critical damping (zeta)",
      .range = at_least(0),
      .rival = "time_constants_s"},
     &t.damping_ratio);
@@ -215,14 +215,14 @@ void describe(const Visitor& v, FrfTables& t) {
      .range = between(0, 20)},
     &t.modes);
   v({.name = "band_Hz",
-     .meaning = "lowest and highest frequency that is used",
+     .meaning = "lowest and highest frequency of the response that is used",
      .range = at_least(0),
      .count = 2,
      .standard = "the whole record",
      .example = "[200, 4000]"},
     &t.band);
   v({.name = "residual_terms",
-     .meaning = "two terms that stand for the modes below and above the band"},
+     .meaning = "residual terms: they stand for the modes below and above the band"},
     choice(t.residual_terms));
   v({.name = "body", .meaning = "what vibrates, for modes.toml"}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction, for modes.toml"}, choice(t.axis));
@@ -261,28 +261,31 @@ void describe(const Visitor& v, ImposedCommand& t) {
      .only = {"shape", {"table"}},
      .example = "\"command.csv\""},
     &t.file);
-  v({.name = "lead_s", .meaning = "by how much the command comes early"}, &t.lead);
+  v({.name = "lead_s", .meaning = "phase lead: by how much the command comes early"},
+    &t.lead);
 }
 
 void describe(const Visitor& v, Stability& t) {
   v({.name = "spindle_rpm",
-     .meaning = "first, last and number of the spindle speeds of the lobes",
+     .meaning =
+         "first, last and number of the spindle speeds of the stability lobe diagram",
      .range = above_up_to(0, 1e6),
      .standard = "from half to one and a half of that of [cut]",
      .example = "[5000, 25000, 200]"},
     &t.spindle_speed);
   v({.name = "axial_depth_mm",
-     .meaning = "first, last and number of the axial depths of the lobes",
+     .meaning =
+         "first, last and number of the axial depths of the stability lobe diagram",
      .range = above_up_to(0, longest_mm),
      .standard = "up to twice that of [cut]",
      .example = "[0.05, 5, 100]"},
     &t.axial_depth);
   v({.name = "tolerance",
-     .meaning = "error allowed in the multiplier of the case",
+     .meaning = "error allowed in the Floquet multiplier of the case",
      .range = between(1e-10, 1e-2)},
     &t.tolerance);
   v({.name = "margin",
-     .meaning = "a multiplier this close to 1 is called marginal",
+     .meaning = "a Floquet multiplier this close to 1 is called marginal",
      .range = from_below(0, 1)},
     &t.margin);
   v({.name = "chip_floor_um",
