@@ -33,16 +33,15 @@ struct Dynamometer {
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
-enum class FileFormat { detect, csv, dynoware };
+/// Of a force record.
+enum class RecordFormat { csv, dynoware };
 
 /// Names of files.
-constexpr std::string_view name_of(FileFormat format) noexcept {
+constexpr std::string_view name_of(RecordFormat format) noexcept {
   switch (format) {
-    case FileFormat::detect:
-      return "detect";
-    case FileFormat::csv:
+    case RecordFormat::csv:
       return "csv";
-    case FileFormat::dynoware:
+    case RecordFormat::dynoware:
       return "dynoware";
   }
   return {};
@@ -50,14 +49,14 @@ constexpr std::string_view name_of(FileFormat format) noexcept {
 
 /// One [[measurement]].
 struct Measurement {
-  std::filesystem::path file;  ///< absolute, or relative to where we run
-  FileFormat format = FileFormat::detect;
-  std::vector<std::string> columns;   ///< three names; empty: found by name
-  std::string angle_column;           ///< empty: found by name
-  std::string time_column;            ///< empty: found by name
-  std::optional<double> sample_rate;  ///< [Hz]
-  geometry::Cut cut;                  ///< [cut] with this run's overrides
-  std::string location;               ///< file:line:col of its `file` key
+  std::filesystem::path file;          ///< absolute, or relative to where we run
+  std::optional<RecordFormat> format;  ///< absent: by its content
+  std::vector<std::string> columns;    ///< three names; empty: found by name
+  std::string angle_column;            ///< empty: found by name
+  std::string time_column;             ///< empty: found by name
+  std::optional<double> sample_rate;   ///< [Hz]
+  geometry::Cut cut;                   ///< [cut] with this run's overrides
+  std::string location;                ///< file:line:col of its `file` key
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.

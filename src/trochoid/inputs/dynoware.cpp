@@ -1,6 +1,8 @@
-#include <fmt/core.h>
 #include <trochoid/inputs/dynoware.h>
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace trochoid::inputs {
@@ -44,10 +46,23 @@ void take(DynoWareHeader& header, const std::vector<Field>& fields, std::size_t 
 
 }  // namespace
 
-bool is_dynoware(std::string_view first_line) {
-  return first_line.substr(0, 8) == "DynoWare" &&
-         (first_line.size() == 8 || first_line[8] == ',' || first_line[8] == ';' ||
-          first_line[8] == '\t');
+bool is_dynoware(std::string_view head) {
+  constexpr std::string_view mark = "DynoWare";
+  constexpr std::string_view byte_order = "\xEF\xBB\xBF";
+  if (head.starts_with(byte_order)) head.remove_prefix(byte_order.size());
+  // As in every table, lines that are empty or a comment count for nothing.
+  while (!head.empty()) {
+    const std::string_view line = head.substr(0, head.find('\n'));
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && line[first] != '#') {
+      return line.starts_with(mark) &&
+             (line.size() == mark.size() ||
+              std::string_view(",;\t\r").find(line[mark.size()]) !=
+                  std::string_view::npos);
+    }
+    head.remove_prefix(std::min(head.size(), line.size() + 1));
+  }
+  return false;
 }
 
 DynoWareHeader read_dynoware_header(std::string_view first_line, LineReader& lines,

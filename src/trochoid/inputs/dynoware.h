@@ -20,7 +20,8 @@ struct DynoWareHeader {
   std::string names;   ///< the first line that is no `Key:,value`; empty: none
 };
 
-bool is_dynoware(std::string_view first_line);
+/// @param head  the first bytes of a file
+bool is_dynoware(std::string_view head);
 
 /// @brief Read the header up to and with the row of names.
 /// @param first_line  already taken from `lines`

@@ -322,11 +322,23 @@ FrfFile from_uff(const std::string& text, const std::string& name,
   return out;
 }
 
+/// A format that a response may have.
+struct Reader {
+  bool (*recognises)(std::string_view);  ///< the beginning of a file
+  decltype(&from_table) read;
+};
+
+/// All of them: the first that recognises a file reads it, and the last takes any text.
+constexpr std::array readers{Reader{is_uff, from_uff},
+                             Reader{[](std::string_view) { return true; }, from_table}};
+
 }  // namespace
 
 FrfFile read_frf(const std::string& text, const std::string& name,
                  const FrfSource& source) {
-  return is_uff(text) ? from_uff(text, name, source) : from_table(text, name, source);
+  return std::find_if(readers.begin(), readers.end(),
+                      [&](const Reader& reader) { return reader.recognises(text); })
+      ->read(text, name, source);
 }
 
 FrfFile read_frf(const FrfSource& source) {

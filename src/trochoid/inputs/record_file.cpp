@@ -1,214 +1,72 @@
-#include <fmt/core.h>
-#include <trochoid/base/error.h>
-#include <trochoid/inputs/dynoware.h>
 #include <trochoid/inputs/record_file.h>
-#include <trochoid/inputs/record_file_columns.h>
-#include <trochoid/inputs/record_file_time.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/csv_table.h>
+#include <trochoid/inputs/dynoware.h>
+#include <trochoid/inputs/record_table.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <limits>
+#include <array>
 #include <stdexcept>
+#include <string_view>
 
 namespace trochoid::inputs {
 
 namespace {
 
-constexpr TableKind record_kind{.noun = "a record",
-                                .files = "a CSV file or a DynoWare text export",
-                                .row = "sample",
-                                .example = "angle_deg,Fx_N,Fy_N,Fz_N"};
-
-/// Everything that is known while the rows are read.
-struct Reading {
-  Reading(std::istream& in, const std::string& name, const Measurement& m)
-      : measurement(m), text(in, name, record_kind) {
-    record.file = name;
-  }
-
-  const Measurement& measurement;
-  TableText text;
-  signal::Record record;
-  bool dynoware = false;
-  DynoWareHeader header;  ///< of a DynoWare export
-  RecordColumns columns;
-  std::vector<std::size_t> row_lines;
-  std::size_t time_column = 1;  ///< in the last row
-  double time_step = std::numeric_limits<double>::infinity();
+/// A format that a record may have.
+struct Reader {
+  RecordFormat format;
+  std::string_view title;                ///< `a DynoWare export`
+  std::string_view sign;                 ///< what tells it from others, for a message
+  bool (*recognises)(std::string_view);  ///< the first bytes of a file
+  decltype(&read_csv_record) read;
 };
 
-/// Take the first lines up to the row of names.
-std::string read_names(Reading& reading) {
-  auto line = next_content(reading.text);
-  if (!line) {
-    if (reading.text.problems.lines.empty()) {
-      reading.text.problems.add(
-          1, 1,
-          "the file holds no data: a row of names, for example "
-          "angle_deg,Fx_N,Fy_N,Fz_N, and rows of numbers are needed");
-    }
-    return {};
+/// All of them: the first that recognises a file reads it, and the last takes any text.
+constexpr std::array readers{
+    Reader{RecordFormat::dynoware, "a DynoWare export",
+           "begins with `DynoWare,Version ...`", is_dynoware, read_dynoware_record},
+    Reader{RecordFormat::csv, "a CSV file", "is text",
+           [](std::string_view) { return true; }, read_csv_record}};
+
+/// Enough to recognise a format by.
+constexpr std::size_t longest_head = 4096;
+
+/// @return the first bytes of a file, which then stands at its beginning again
+std::string first_bytes(std::istream& in) {
+  std::string head(longest_head, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  in.clear();
+  if (!in.seekg(0)) {
+    throw std::invalid_argument("read_record: the stream cannot be set back");
   }
-  reading.dynoware = is_dynoware(*line);
-  const auto format = reading.measurement.format;
-  if (format == FileFormat::dynoware && !reading.dynoware) {
-    reading.text.problems.add(
-        reading.text.lines.number(), 1,
-        "the case file says format = \"dynoware\", but a DynoWare "
-        "export begins with `DynoWare,Version ...`");
-    return {};
-  }
-  if (format == FileFormat::csv && reading.dynoware) {
-    reading.text.problems.add(
-        reading.text.lines.number(), 1,
-        "this is a DynoWare export, but the case file says format = "
-        "\"csv\": \"dynoware\" is right");
-    return {};
-  }
-  if (reading.dynoware) {
-    reading.header = read_dynoware_header(std::string(*line), reading.text.lines,
-                                          reading.text.problems);
-    reading.text.separator = reading.header.separator;
-    return reading.header.names;
-  }
-  return names_row(reading.text, *line);
+  return head;
 }
 
-void read_row(Reading& reading, std::vector<Field>& fields) {
-  auto& columns = reading.columns;
-  if (!complete_row(reading.text, fields, columns.count)) return;
-  auto& record = reading.record;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (columns.force[i]) {
-      record.channel[i].push_back(
-          number_in_row(reading.text, fields, *columns.force[i]));
-    }
-  }
-  if (columns.angle) {
-    record.angle.push_back(number_in_row(reading.text, fields, *columns.angle));
-  }
-  if (columns.time) {
-    const auto& field = fields[columns.time->index];
-    record.time.push_back(number_in_row(reading.text, fields, *columns.time));
-    reading.time_column = field.column;
-    reading.time_step =
-        std::min(reading.time_step, last_decimal(field.text) * columns.time->factor);
-  }
-  reading.row_lines.push_back(reading.text.lines.number());
+const Reader& reader_of(RecordFormat format) {
+  return *std::find_if(readers.begin(), readers.end(),
+                       [&](const Reader& reader) { return reader.format == format; });
 }
 
-void keep_names(const RecordColumns& columns, signal::Record& record) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (columns.force[i]) record.channel_column[i] = columns.force[i]->name;
-  }
-  if (columns.angle) record.angle_column = columns.angle->name;
-  if (columns.time) record.time_column = columns.time->name;
-}
-
-void read_rows(Reading& reading, TableHead& head) {
-  std::vector<Field> fields;
-  auto line = next_content(reading.text);
-  if (line) {
-    split(*line, reading.text.separator, fields);
-    take_units(reading.text, fields, head);
-  }
-  // The texts of the unit row end with the next line.
-  reading.columns = find_columns(head, reading.measurement, reading.text.problems,
-                                 reading.record.notes);
-  keep_names(reading.columns, reading.record);
-  if (!head.units.empty()) line = next_content(reading.text);
-  while (line) {
-    split(*line, reading.text.separator, fields);
-    read_row(reading, fields);
-    if (reading.text.problems.full()) return;
-    line = next_content(reading.text);
-  }
-}
-
-/// Angle, time and rate of the record from what is known of them.
-void settle_time(Reading& reading) {
-  auto& record = reading.record;
-  const double given = reading.measurement.sample_rate.value_or(0.0);
-  const double stated = reading.header.sample_rate;
-  if (given > 0.0 && stated > 0.0 && std::abs(given - stated) > 1e-6 * stated) {
-    reading.text.problems.add(
-        reading.header.rate_line, 1,
-        fmt::format("the sampling rate here is {} Hz, the case file "
-                    "says {} Hz: they must agree",
-                    stated, given));
+/// @throws base::InputError where the case file says another format
+void check_stated(const Reader& found, const std::optional<RecordFormat>& stated,
+                  const std::string& name) {
+  if (!stated || *stated == found.format) {
     return;
   }
-  const double rate = given > 0.0 ? given : stated;
-  const TimeColumn column{record.time,
-                          reading.row_lines,
-                          reading.time_column,
-                          {reading.dynoware, reading.time_step}};
-  if (rate > 0.0) {
-    if (!record.time.empty()) check_rate(column, rate, reading.text.problems);
-    const double first = record.time.empty() ? 0.0 : record.time.front();
-    record.time.resize(record.size());
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      record.time[i] = first + static_cast<double>(i) / rate;
-    }
-    record.sample_rate = rate;
-  } else if (!record.time.empty()) {
-    check_increasing(column, reading.text.problems);
-    if (reading.text.problems.lines.empty()) {
-      record.sample_rate = even_rate(record.time);
-      const auto note = gap_note(record.time);
-      if (!note.empty()) record.notes.push_back({"time_gap", note});
-    }
-  } else if (record.angle.empty()) {
-    reading.text.problems.add(
-        1, 1,
-        "neither angles nor times nor a sampling rate are known: add a "
-        "column angle_deg or time_s, or sample_rate_Hz in the case file");
-  }
-}
-
-/// The last row of an export that ends without a line end may be cut off inside its
-/// last number.
-void drop_last_row(Reading& reading) {
-  auto& record = reading.record;
-  for (auto& values : record.channel) values.pop_back();
-  if (!record.angle.empty()) record.angle.pop_back();
-  if (!record.time.empty()) record.time.pop_back();
-  reading.row_lines.pop_back();
-  record.notes.push_back(
-      {"last_row_left_out",
-       "The last line has no end, so that its last number may be cut off: the row is "
-       "left out."});
-}
-
-void check_whole(Reading& reading) {
-  reading.text.style.check(reading.text.problems);
-  throw_problems(reading.text);
-  const bool in_part =
-      reading.header.samples &&
-      static_cast<double>(reading.row_lines.size()) < *reading.header.samples;
-  if (in_part && !reading.text.lines.terminated() && reading.row_lines.size() > 2) {
-    drop_last_row(reading);
-  }
-  const auto rows = reading.row_lines.size();
-  const auto last = reading.text.lines.number();
-  if (rows < 2) {
-    reading.text.problems.add(
-        last, 1,
-        fmt::format("the record has {} sample{}: at least 2 are needed, "
-                    "and a whole revolution to find anything",
-                    rows, rows == 1 ? "" : "s"));
-    throw_problems(reading.text);
-  }
-  const auto& time = reading.record.time;
-  const auto first = time.empty() ? std::nullopt : std::optional(time.front());
-  settle_time(reading);
-  if (reading.dynoware) {
-    const auto note =
-        check_sample_count(reading.header, {rows, first, last}, reading.text.problems);
-    if (!note.empty()) reading.record.notes.push_back({"part_of_record", note});
-  }
-  throw_problems(reading.text);
+  const bool by_content = &found != &readers.back();
+  throw base::InputError(
+      {name + ":1:1: " +
+       (by_content ? fmt::format("this is {}, but the case file says format = \"{}\": "
+                                 "\"{}\" is right",
+                                 found.title, name_of(*stated), name_of(found.format))
+                   : fmt::format("the case file says format = \"{}\", but {} {}",
+                                 name_of(*stated), reader_of(*stated).title,
+                                 reader_of(*stated).sign))});
 }
 
 }  // namespace
@@ -218,21 +76,12 @@ signal::Record read_record(std::istream& in, const std::string& name,
   if (!measurement.columns.empty() && measurement.columns.size() != 3) {
     throw std::invalid_argument("read_record: columns must hold 3 names or none");
   }
-  Reading reading(in, name, measurement);
-  const auto names = read_names(reading);
-  throw_problems(reading.text);
-  TableHead head = head_of(reading.text, names);
-  if (head.names.size() < 3) {
-    reading.text.problems.add(
-        head.names_line, 1,
-        fmt::format("the row of names has {} column{}: three forces are needed, "
-                    "separated by , ; or a tab",
-                    head.names.size(), head.names.size() == 1 ? "" : "s"));
-    throw_problems(reading.text);
-  }
-  read_rows(reading, head);
-  check_whole(reading);
-  return std::move(reading.record);
+  const std::string head = first_bytes(in);
+  const Reader& found =
+      *std::find_if(readers.begin(), readers.end(),
+                    [&](const Reader& reader) { return reader.recognises(head); });
+  check_stated(found, measurement.format, name);
+  return found.read(in, name, measurement);
 }
 
 signal::Record read_record(const Measurement& measurement) {

@@ -18,6 +18,7 @@ namespace trochoid::inputs {
 signal::Record read_record(const Measurement& measurement);
 
 /// @brief The same from an open stream.
+/// @param in    stands at its beginning and can be set back to it
 /// @param name  of the file, for messages
 signal::Record read_record(std::istream& in, const std::string& name,
                            const Measurement& measurement);

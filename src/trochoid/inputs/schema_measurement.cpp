@@ -62,7 +62,7 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .need = Need::always},
     &t.file);
   v({.name = "format", .meaning = "format of the record; detect: from its content"},
-    choice(t.format));
+    choice(t.format, "detect"));
   v({.name = "columns",
      .meaning = "names of the columns of channels 1 to 3",
      .count = 3,

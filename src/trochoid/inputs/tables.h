@@ -88,7 +88,7 @@ struct DynamometerTable {
 
 struct MeasurementTable {
   std::string file;
-  FileFormat format = FileFormat::detect;
+  std::optional<RecordFormat> format;
   std::vector<std::string> columns;
   std::string angle_column;
   std::string time_column;

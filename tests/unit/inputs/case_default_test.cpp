@@ -74,7 +74,7 @@ TEST(CaseDefaults, IdentifyNeedsNoCoefficients) {
   ASSERT_EQ(c.measurements.size(), 1U);
   const Measurement& m = c.measurements[0];
   EXPECT_EQ(m.file, record);
-  EXPECT_EQ(m.format, FileFormat::detect);
+  EXPECT_FALSE(m.format.has_value());
   EXPECT_TRUE(m.columns.empty());
   EXPECT_EQ(m.angle_column + m.time_column, "");
   EXPECT_FALSE(m.sample_rate.has_value());

@@ -248,6 +248,9 @@ class EndlessLine : public std::streambuf {
     ++taken;
     return '7';
   }
+  pos_type seekpos(pos_type to, std::ios_base::openmode /*which*/) override {
+    return to;
+  }
 };
 
 TEST(RecordCsv, RefusesAnEndlessLineWithoutReadingIt) {
@@ -281,9 +284,9 @@ TEST(RecordCsv, OpensRegularFilesOnly) {
 
 TEST(RecordCsv, RefusesAnotherFormatThanTheCaseFileSays) {
   Measurement m;
-  m.format = FileFormat::dynoware;
+  m.format = RecordFormat::dynoware;
   EXPECT_NE(refusal("angle_deg,Fx_N,Fy_N,Fz_N\n0,1,2,3\n1,1,2,3\n", m), "");
-  m.format = FileFormat::csv;
+  m.format = RecordFormat::csv;
   EXPECT_EQ(refusal("angle_deg,Fx_N,Fy_N,Fz_N\n0,1,2,3\n1,1,2,3\n", m), "");
   EXPECT_NE(refusal("DynoWare,Version 2\nSampling rate [Hz]:,1\nFx,Fy,Fz\n", m), "");
 }

@@ -1,0 +1,223 @@
+#include <trochoid/inputs/record_table.h>
+
+#include <trochoid/inputs/csv_table.h>
+#include <trochoid/inputs/dynoware.h>
+#include <trochoid/inputs/record_file_columns.h>
+#include <trochoid/inputs/record_file_time.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trochoid::inputs {
+
+namespace {
+
+/// Everything that is known while the rows are read.
+struct Reading {
+  Reading(std::istream& in, const std::string& name, const Measurement& m)
+      : measurement(m), text(in, name, record_kind) {
+    record.file = name;
+  }
+
+  const Measurement& measurement;
+  TableText text;
+  signal::Record record;
+  std::optional<DynoWareHeader> header;  ///< of a DynoWare export
+  RecordColumns columns;
+  std::vector<std::size_t> row_lines;
+  std::size_t time_column = 1;  ///< in the last row
+  double time_step = std::numeric_limits<double>::infinity();
+};
+
+/// The first line that holds something; none, with a problem, in an empty file.
+std::optional<std::string> first_content(Reading& reading) {
+  const auto line = next_content(reading.text);
+  if (line) {
+    return std::string(*line);
+  }
+  if (reading.text.problems.lines.empty()) {
+    reading.text.problems.add(
+        1, 1,
+        "the file holds no data: a row of names, for example "
+        "angle_deg,Fx_N,Fy_N,Fz_N, and rows of numbers are needed");
+  }
+  return std::nullopt;
+}
+
+void read_row(Reading& reading, std::vector<Field>& fields) {
+  auto& columns = reading.columns;
+  if (!complete_row(reading.text, fields, columns.count)) return;
+  auto& record = reading.record;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (columns.force[i]) {
+      record.channel[i].push_back(
+          number_in_row(reading.text, fields, *columns.force[i]));
+    }
+  }
+  if (columns.angle) {
+    record.angle.push_back(number_in_row(reading.text, fields, *columns.angle));
+  }
+  if (columns.time) {
+    const auto& field = fields[columns.time->index];
+    record.time.push_back(number_in_row(reading.text, fields, *columns.time));
+    reading.time_column = field.column;
+    reading.time_step =
+        std::min(reading.time_step, last_decimal(field.text) * columns.time->factor);
+  }
+  reading.row_lines.push_back(reading.text.lines.number());
+}
+
+void keep_names(const RecordColumns& columns, signal::Record& record) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (columns.force[i]) record.channel_column[i] = columns.force[i]->name;
+  }
+  if (columns.angle) record.angle_column = columns.angle->name;
+  if (columns.time) record.time_column = columns.time->name;
+}
+
+void read_rows(Reading& reading, TableHead& head) {
+  std::vector<Field> fields;
+  auto line = next_content(reading.text);
+  if (line) {
+    split(*line, reading.text.separator, fields);
+    take_units(reading.text, fields, head);
+  }
+  // The texts of the unit row end with the next line.
+  reading.columns = find_columns(head, reading.measurement, reading.text.problems,
+                                 reading.record.notes);
+  keep_names(reading.columns, reading.record);
+  if (!head.units.empty()) line = next_content(reading.text);
+  while (line) {
+    split(*line, reading.text.separator, fields);
+    read_row(reading, fields);
+    if (reading.text.problems.full()) return;
+    line = next_content(reading.text);
+  }
+}
+
+/// Angle, time and rate of the record from what is known of them.
+void settle_time(Reading& reading) {
+  auto& record = reading.record;
+  const double given = reading.measurement.sample_rate.value_or(0.0);
+  const double stated = reading.header ? reading.header->sample_rate : 0.0;
+  if (given > 0.0 && stated > 0.0 && std::abs(given - stated) > 1e-6 * stated) {
+    reading.text.problems.add(
+        reading.header->rate_line, 1,
+        fmt::format("the sampling rate here is {} Hz, the case file "
+                    "says {} Hz: they must agree",
+                    stated, given));
+    return;
+  }
+  const double rate = given > 0.0 ? given : stated;
+  const TimeColumn column{record.time,
+                          reading.row_lines,
+                          reading.time_column,
+                          {reading.header.has_value(), reading.time_step}};
+  if (rate > 0.0) {
+    if (!record.time.empty()) check_rate(column, rate, reading.text.problems);
+    const double first = record.time.empty() ? 0.0 : record.time.front();
+    record.time.resize(record.size());
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      record.time[i] = first + static_cast<double>(i) / rate;
+    }
+    record.sample_rate = rate;
+  } else if (!record.time.empty()) {
+    check_increasing(column, reading.text.problems);
+    if (reading.text.problems.lines.empty()) {
+      record.sample_rate = even_rate(record.time);
+      const auto note = gap_note(record.time);
+      if (!note.empty()) record.notes.push_back({"time_gap", note});
+    }
+  } else if (record.angle.empty()) {
+    reading.text.problems.add(
+        1, 1,
+        "neither angles nor times nor a sampling rate are known: add a "
+        "column angle_deg or time_s, or sample_rate_Hz in the case file");
+  }
+}
+
+/// The last row of an export that ends without a line end may be cut off inside its
+/// last number.
+void drop_last_row(Reading& reading) {
+  auto& record = reading.record;
+  for (auto& values : record.channel) values.pop_back();
+  if (!record.angle.empty()) record.angle.pop_back();
+  if (!record.time.empty()) record.time.pop_back();
+  reading.row_lines.pop_back();
+  record.notes.push_back(
+      {"last_row_left_out",
+       "The last line has no end, so that its last number may be cut off: the row is "
+       "left out."});
+}
+
+void check_whole(Reading& reading) {
+  reading.text.style.check(reading.text.problems);
+  throw_problems(reading.text);
+  const bool in_part =
+      reading.header && reading.header->samples &&
+      static_cast<double>(reading.row_lines.size()) < *reading.header->samples;
+  if (in_part && !reading.text.lines.terminated() && reading.row_lines.size() > 2) {
+    drop_last_row(reading);
+  }
+  const auto rows = reading.row_lines.size();
+  const auto last = reading.text.lines.number();
+  if (rows < 2) {
+    reading.text.problems.add(
+        last, 1,
+        fmt::format("the record has {} sample{}: at least 2 are needed, "
+                    "and a whole revolution to find anything",
+                    rows, rows == 1 ? "" : "s"));
+    throw_problems(reading.text);
+  }
+  const auto& time = reading.record.time;
+  const auto first = time.empty() ? std::nullopt : std::optional(time.front());
+  settle_time(reading);
+  if (reading.header) {
+    const auto note =
+        check_sample_count(*reading.header, {rows, first, last}, reading.text.problems);
+    if (!note.empty()) reading.record.notes.push_back({"part_of_record", note});
+  }
+  throw_problems(reading.text);
+}
+
+/// @param names  the row of names
+signal::Record read_table(Reading& reading, const std::string& names) {
+  throw_problems(reading.text);
+  TableHead head = head_of(reading.text, names);
+  if (head.names.size() < 3) {
+    reading.text.problems.add(
+        head.names_line, 1,
+        fmt::format("the row of names has {} column{}: three forces are needed, "
+                    "separated by , ; or a tab",
+                    head.names.size(), head.names.size() == 1 ? "" : "s"));
+    throw_problems(reading.text);
+  }
+  read_rows(reading, head);
+  check_whole(reading);
+  return std::move(reading.record);
+}
+
+}  // namespace
+
+signal::Record read_csv_record(std::istream& in, const std::string& name,
+                               const Measurement& measurement) {
+  Reading reading(in, name, measurement);
+  const auto line = first_content(reading);
+  return read_table(reading, line ? names_row(reading.text, *line) : std::string());
+}
+
+signal::Record read_dynoware_record(std::istream& in, const std::string& name,
+                                    const Measurement& measurement) {
+  Reading reading(in, name, measurement);
+  if (const auto line = first_content(reading)) {
+    reading.header =
+        read_dynoware_header(*line, reading.text.lines, reading.text.problems);
+    reading.text.separator = reading.header->separator;
+  }
+  return read_table(reading, reading.header ? reading.header->names : std::string());
+}
+
+}  // namespace trochoid::inputs
