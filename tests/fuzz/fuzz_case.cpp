@@ -19,7 +19,7 @@ std::filesystem::path folder() {
          ("trochoid_fuzz_" + std::to_string(getpid()));
 }
 
-void read(const std::filesystem::path& file, Command command) {
+void read(const std::filesystem::path& file, std::optional<Command> command) {
   try {
     const auto read = trochoid::inputs::read_case(file, command);
     if (read.as_understood.empty()) std::abort();
@@ -37,9 +37,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
-  for (const auto command :
-       {std::nullopt, Command::simulate, Command::identify, Command::surface,
-        Command::calibrate, Command::stability}) {
+  read(file, std::nullopt);
+  for (const auto command : {Command::simulate, Command::identify, Command::surface,
+                             Command::calibrate, Command::stability}) {
     read(file, command);
   }
   std::filesystem::remove_all(folder());
