@@ -1,10 +1,9 @@
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/lobes.h>
 #include <trochoid/dynamics/oscillator.h>
+#include <trochoid/numerics/dense.h>
 
 #include <benchmark/benchmark.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -52,12 +51,14 @@ dynamics::DirectionalModel model_of(const force::Setup& setup) {
 
 /// A plain semi-discretization of the slot: m steps a tooth, the force of a step from
 /// its mean directional factor and the mean of two delayed positions; all eigenvalues.
-double semi_discretized(double depth, double Omega, int m) {
+double semi_discretized(double depth, double Omega, std::size_t m) {
   const dynamics::ChipMode one = mode(1, 0);
-  const double step = pi / Omega / m;
-  Eigen::MatrixXd U = Eigen::MatrixXd::Identity(m + 2, m + 2);
-  for (int i = 0; i < m; ++i) {
-    const double theta = pi * (i + 0.5) / m;
+  const double step = pi / Omega / static_cast<double>(m);
+  const std::size_t size = m + 2;  // place, speed, and m places before
+  numerics::Matrix U = numerics::zeros(size, size);
+  for (std::size_t k = 0; k < size; ++k) U(k, k) = 1;
+  for (std::size_t i = 0; i < m; ++i) {
+    const double theta = pi * (static_cast<double>(i) + 0.5) / static_cast<double>(m);
     const double s = std::sin(theta);
     const double h = depth * (K_t * std::cos(theta) + K_r * s) * s;  // [N/m]
     dynamics::ChipMode stiffer = one;
@@ -65,22 +66,21 @@ double semi_discretized(double depth, double Omega, int m) {
     const auto free = dynamics::free_motion(stiffer, step);
     // A constant force f moves the place of rest to f/(k + h).
     const double rest = h / stiffer.stiffness;
-    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(m + 2, m + 2);
-    D(0, 0) = free[0];
-    D(0, 1) = free[1];
-    D(1, 0) = free[2];
-    D(1, 1) = free[3];
-    for (const int delayed : {m, m + 1}) {
-      D(0, delayed) = 0.5 * rest * (1 - free[0]);
-      D(1, delayed) = -0.5 * rest * free[2];
+    for (std::size_t j = 0; j < size; ++j) {
+      const double delayed = 0.5 * rest * (U(m, j) + U(m + 1, j));
+      const double place = U(0, j);
+      const double speed = U(1, j);
+      std::shift_right(&U(2, j), &U(2, j) + m, 1);
+      U(0, j) = free[0] * place + free[1] * speed + (1 - free[0]) * delayed;
+      U(1, j) = free[2] * (place - delayed) + free[3] * speed;
+      U(2, j) = place;
     }
-    D(2, 0) = 1;
-    for (int k = 3; k < m + 2; ++k) {
-      D(k, k - 1) = 1;
-    }
-    U = (D * U).eval();
   }
-  return U.eigenvalues().cwiseAbs().maxCoeff();
+  double largest = 0.0;
+  for (const auto& mu : numerics::eigenvalues(U)) {
+    largest = std::max(largest, std::abs(mu));
+  }
+  return largest;
 }
 
 constexpr double converged = 1.4064735254;  ///< |mu| at 1 mm and 5000 rpm
@@ -100,7 +100,7 @@ void multiplier_semi_discretized(benchmark::State& state) {
   double mu = 0.0;
   for (auto _ : state) {
     mu = semi_discretized(1 * unit::mm, 5000 * unit::rpm,
-                          static_cast<int>(state.range(0)));
+                          static_cast<std::size_t>(state.range(0)));
     benchmark::DoNotOptimize(mu);
   }
   state.counters["error"] = std::abs(mu - converged);

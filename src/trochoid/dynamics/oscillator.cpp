@@ -2,8 +2,6 @@
 
 #include <trochoid/dynamics/nodes.h>
 
-#include <Eigen/Core>
-
 #include <cmath>
 
 namespace trochoid::dynamics {
@@ -38,22 +36,24 @@ DrivenMotion driven_motion(const ChipMode& mode, int n, double duration) {
   DrivenMotion motion{
       std::vector<double>(count * count), std::vector<double>(count), {}};
   motion.free.push_back({1.0, 0.0, 0.0, 1.0});
-  const auto columns = static_cast<Eigen::Index>(count);
-  using Row = Eigen::Map<Eigen::VectorXd>;
-  Row velocity(motion.end_velocity.data(), columns);
+  std::vector<double>& velocity = motion.end_velocity;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double to = nodes.t[i + 1];
     const auto step = free_motion(mode, half * (to - nodes.t[i]));
-    const Row before(&motion.eta[i * count], columns);
-    Row after(&motion.eta[(i + 1) * count], columns);
-    after = step[0] * before + step[1] * velocity;
-    velocity = step[2] * before + step[3] * velocity;
+    const double* before = &motion.eta[i * count];
+    double* after = &motion.eta[(i + 1) * count];
+    for (std::size_t k = 0; k < count; ++k) {
+      after[k] = step[0] * before[k] + step[1] * velocity[k];
+      velocity[k] = step[2] * before[k] + step[3] * velocity[k];
+    }
     for (std::size_t g = i * gauss_count; g < (i + 1) * gauss_count; ++g) {
-      const Eigen::Map<const Eigen::VectorXd> row(&nodes.at_gauss[g * count], columns);
+      const double* row = &nodes.at_gauss[g * count];
       const auto kernel = free_motion(mode, half * (to - nodes.gauss_t[g]));
       const double weight = half * nodes.gauss_w[g] / mode.mass;
-      after += weight * kernel[1] * row;  // D-4
-      velocity += weight * kernel[3] * row;
+      for (std::size_t k = 0; k < count; ++k) {
+        after[k] += weight * kernel[1] * row[k];  // D-4
+        velocity[k] += weight * kernel[3] * row[k];
+      }
     }
     motion.free.push_back(free_motion(mode, half * (to + 1)));
   }

@@ -3,77 +3,77 @@
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/nodes.h>
 #include <trochoid/dynamics/oscillator.h>
-
-#include <Eigen/LU>
+#include <trochoid/numerics/dense.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-using Index = Eigen::Index;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Index index(std::size_t i) {
-  return static_cast<Index>(i);
-}
+using numerics::Matrix;
 
 /// What an element of a length and degree does, whatever cuts in it.
 struct Response {
   int degree = 0;
   double duration = 0.0;  ///< [s]
-  Eigen::MatrixXd free;   ///< q at the nodes from the states at the start
-  Eigen::MatrixXd over;   ///< the states at the end from those at the start
-  Eigen::MatrixXd ends;   ///< the states at the end from the forces at the nodes
+  Matrix free;            ///< q at the nodes from the states at the start
+  Matrix over;            ///< the states at the end from those at the start
+  Matrix ends;            ///< the states at the end from the forces at the nodes
   /// Blocks of G of D-11 from one component to another; empty: zero.
-  std::array<Eigen::MatrixXd, 4> compliance;
+  std::array<Matrix, 4> compliance;
 };
 
 struct Solved {
   std::size_t response = 0;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;  ///< of I - G A_0
+  numerics::Lu lu;  ///< of I - G A_0, where that is not I
 };
+
+/// @param eta  row-major, shape (n, n)
+void add_compliance(double factor, std::span<const double> eta, std::size_t n,
+                    Matrix& block) {
+  if (block.values.empty()) {
+    if (factor == 0) return;
+    block = numerics::zeros(n, n);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) block(i, k) += factor * eta[i * n + k];
+  }
+}
 
 void add_mode(Response& response, const DrivenMotion& motion, std::size_t r,
               const std::array<double, 2>& direction, std::size_t count) {
-  const Index n = index(motion.end_velocity.size());
-  const Eigen::Map<const RowMajor> eta(motion.eta.data(), n, n);
-  const Eigen::Map<const Eigen::RowVectorXd> velocity(motion.end_velocity.data(), n);
+  const std::size_t n = motion.end_velocity.size();
+  const std::span<const double> at_end = std::span(motion.eta).last(n);
   for (std::size_t c = 0; c < count; ++c) {
     const double along = direction[c];
-    for (Index i = 0; i < n; ++i) {
-      const auto& free = motion.free[static_cast<std::size_t>(i)];
-      response.free(index(c) * n + i, index(2 * r)) = along * free[0];
-      response.free(index(c) * n + i, index(2 * r) + 1) = along * free[1];
+    for (std::size_t i = 0; i < n; ++i) {
+      response.free(c * n + i, 2 * r) = along * motion.free[i][0];
+      response.free(c * n + i, 2 * r + 1) = along * motion.free[i][1];
+      response.ends(2 * r, c * n + i) = along * at_end[i];
+      response.ends(2 * r + 1, c * n + i) = along * motion.end_velocity[i];
     }
-    response.ends.block(index(2 * r), index(c) * n, 1, n) = along * eta.row(n - 1);
-    response.ends.block(index(2 * r) + 1, index(c) * n, 1, n) = along * velocity;
     for (std::size_t b = 0; b < count; ++b) {
-      Eigen::MatrixXd& block = response.compliance[2 * c + b];
-      if (block.size() == 0 && along * direction[b] != 0) {
-        block.setZero(n, n);
-      }
-      if (block.size() > 0) {
-        block += along * direction[b] * eta;
-      }
+      add_compliance(along * direction[b], motion.eta, n,
+                     response.compliance[2 * c + b]);
     }
   }
 }
 
 Response response_of(const std::vector<ChipMode>& modes, const Components& components,
                      int degree, double duration) {
-  Response response{degree, duration, {}, {}, {}, {}};
-  const Index values = index(components.count) * (degree + 1);
-  const Index states = index(2 * modes.size());
-  response.free.resize(values, states);
-  response.ends.resize(states, values);
-  response.over.setZero(states, states);
+  const std::size_t values = components.count * (static_cast<std::size_t>(degree) + 1);
+  const std::size_t states = 2 * modes.size();
+  Response response{degree,
+                    duration,
+                    numerics::zeros(values, states),
+                    numerics::zeros(states, states),
+                    numerics::zeros(states, values),
+                    {}};
   std::optional<DrivenMotion> motion;
   for (std::size_t r = 0; r < modes.size(); ++r) {
     const bool alike = r > 0 && modes[r].mass == modes[r - 1].mass &&
@@ -84,11 +84,20 @@ Response response_of(const std::vector<ChipMode>& modes, const Components& compo
     }
     add_mode(response, *motion, r, components.modes[r], components.count);
     const auto over = free_motion(modes[r], duration);
-    response.over.block<2, 2>(index(2 * r), index(2 * r)) =
-        Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(over.data());
+    for (std::size_t i = 0; i < 4; ++i) {
+      response.over(2 * r + i / 2, 2 * r + i % 2) = over[i];
+    }
   }
   return response;
 }
+
+/// What one pass through the period works with.
+struct Work {
+  std::vector<double> state;
+  std::vector<double> before;  ///< the state at the start of the element
+  std::vector<double> force;   ///< of an element
+  std::vector<double> values;  ///< q of an element
+};
 
 }  // namespace
 
@@ -104,9 +113,8 @@ struct PeriodMap::Parts {
   std::size_t response_at(const PeriodElement& element);
   void solve(const PeriodElement& element);
   void delayed_force(const PeriodElement& element, std::span<const double> before,
-                     std::span<const double> now, Eigen::VectorXd& force) const;
-  void step(std::size_t k, Eigen::VectorXd& force, Eigen::VectorXd& state,
-            std::span<double> q) const;
+                     std::span<const double> now, std::vector<double>& force) const;
+  void step(std::size_t k, Work& work, std::span<double> q) const;
 };
 
 /// Elements of one length share one.
@@ -128,94 +136,97 @@ void PeriodMap::Parts::solve(const PeriodElement& e) {
     return;
   }
   const Response& response = responses[solved.back().response];
-  const Index n = index(e.nodes());
+  const std::size_t n = e.nodes();
   const std::size_t count = components.count;
-  const Index size = index(count) * n;
-  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(size, size);
-  Eigen::VectorXd A(n);
+  Matrix system = numerics::zeros(count * n, count * n);
+  for (std::size_t i = 0; i < system.rows; ++i) system(i, i) = 1.0;
   for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = 0; b < count; ++b) {
-      for (Index i = 0; i < n; ++i) {
-        A[i] = e.own.at_nodes[static_cast<std::size_t>(i)][2 * a + b];
-      }
-      for (std::size_t c = 0; c < count; ++c) {
-        const Eigen::MatrixXd& G = response.compliance[2 * c + a];
-        if (G.size() > 0) {
-          system.block(index(c) * n, index(b) * n, n, n) -= G * A.asDiagonal();
+    for (std::size_t c = 0; c < count; ++c) {
+      const Matrix& G = response.compliance[2 * c + a];
+      for (std::size_t b = 0; b < count && !G.values.empty(); ++b) {
+        for (std::size_t k = 0; k < n; ++k) {
+          const double A = e.own.at_nodes[k][2 * a + b];
+          for (std::size_t i = 0; i < n; ++i) {
+            system(c * n + i, b * n + k) -= G(i, k) * A;
+          }
         }
       }
     }
   }
-  solved.back().lu.compute(system);  // D-11
+  solved.back().lu = numerics::lu(system);  // D-11
 }
 
 void PeriodMap::Parts::delayed_force(const PeriodElement& e,
                                      std::span<const double> before,
                                      std::span<const double> now,
-                                     Eigen::VectorXd& force) const {
+                                     std::vector<double>& force) const {
   const std::size_t n = e.nodes();
   const std::size_t count = components.count;
-  force.setZero(index(count * n));
+  force.assign(count * n, 0.0);
   for (const Channel& channel : e.delayed) {
     for (std::size_t i = 0; i < channel.sources.size(); ++i) {
       const Source& source = channel.sources[i];
       const PeriodElement& from = elements.all[source.element];
       const double* q = source.previous ? &before[from.first] : &now[from.place];
-      const Index width = index(from.nodes());
       std::array<double, 2> value{};
       for (std::size_t b = 0; b < count; ++b) {
         const double* values = q + b * from.nodes();
-        value[b] = source.row.empty()
-                       ? values[i]
-                       : Eigen::Map<const Eigen::VectorXd>(source.row.data(), width)
-                             .dot(Eigen::Map<const Eigen::VectorXd>(values, width));
+        value[b] =
+            source.row.empty()
+                ? values[i]
+                : std::inner_product(source.row.begin(), source.row.end(), values, 0.0);
       }
       const Matrix2& A = channel.at_nodes[i];
       for (std::size_t c = 0; c < count; ++c) {
-        force[index(c * n + i)] -= A[2 * c] * value[0] + A[2 * c + 1] * value[1];
+        force[c * n + i] -= A[2 * c] * value[0] + A[2 * c + 1] * value[1];
       }
     }
   }
 }
 
 /// From the start of an element to its end.
-/// @param[in,out] force  of the delayed motion; then with that of the motion now
-void PeriodMap::Parts::step(std::size_t k, Eigen::VectorXd& force,
-                            Eigen::VectorXd& state, std::span<double> q) const {
+/// @param[in,out] work  force: of the delayed motion; then with that of the motion now
+void PeriodMap::Parts::step(std::size_t k, Work& work, std::span<double> q) const {
   const PeriodElement& e = elements.all[k];
   const Response& response = responses[solved[k].response];
   const std::size_t count = components.count;
-  const Index n = index(e.nodes());
-  Eigen::VectorXd values;
-  if (e.wanted) {
-    values.noalias() = response.free * state;
+  const std::size_t n = e.nodes();
+  work.before.swap(work.state);
+  work.state.assign(work.before.size(), 0.0);
+  numerics::add_product(1.0, response.over.values, work.before, work.state);
+  if (!e.wanted) {
+    return;
   }
-  state = response.over * state;
-  if (e.forced) {
+  work.values.assign(count * n, 0.0);
+  const std::span<double> values(work.values);
+  const std::span<double> force(work.force);
+  const std::span<double> here = q.subspan(e.place, count * n);
+  numerics::add_product(1.0, response.free.values, work.before, values);
+  for (std::size_t c = 0; c < count && e.forced; ++c) {
+    for (std::size_t b = 0; b < count; ++b) {
+      const Matrix& G = response.compliance[2 * c + b];
+      if (!G.values.empty()) {
+        numerics::add_product(1.0, G.values, force.subspan(b * n, n),
+                              values.subspan(c * n, n));
+      }
+    }
+  }
+  if (e.own.at_nodes.empty()) {
+    std::copy(values.begin(), values.end(), here.begin());
+  } else {
+    numerics::solve(solved[k].lu, values, here);
+  }
+  for (std::size_t i = 0; i < e.own.at_nodes.size(); ++i) {
+    const Matrix2& A = e.own.at_nodes[i];
     for (std::size_t c = 0; c < count; ++c) {
       for (std::size_t b = 0; b < count; ++b) {
-        const Eigen::MatrixXd& G = response.compliance[2 * c + b];
-        if (G.size() > 0) {
-          values.segment(index(c) * n, n) += G * force.segment(index(b) * n, n);
-        }
+        force[c * n + i] += A[2 * c + b] * here[b * n + i];
       }
     }
-    if (!e.own.at_nodes.empty()) {
-      values = solved[k].lu.solve(values).eval();
-    }
-    for (std::size_t i = 0; i < e.own.at_nodes.size(); ++i) {
-      const Matrix2& A = e.own.at_nodes[i];
-      for (std::size_t c = 0; c < count; ++c) {
-        for (std::size_t b = 0; b < count; ++b) {
-          force[index(c) * n + index(i)] +=
-              A[2 * c + b] * values[index(b) * n + index(i)];
-        }
-      }
-    }
-    state.noalias() += response.ends * force;
   }
-  std::copy_n(values.data(), values.size(),
-              q.begin() + static_cast<std::ptrdiff_t>(e.place));
+  if (e.forced) {
+    numerics::add_product(1.0, response.ends.values, force, work.state);
+  }
 }
 
 PeriodMap::PeriodMap(const Directional& directional, const System& system, double Omega,
@@ -249,27 +260,26 @@ std::size_t PeriodMap::components() const noexcept {
 void PeriodMap::apply(std::span<const double> in, std::span<double> out) const {
   const Parts& p = *parts_;
   const std::size_t states = p.elements.kept_values;
-  Eigen::VectorXd state(index(2 * p.modes.size()));
-  for (Index i = 0; i < state.size(); ++i) {
-    state[i] = in[states + static_cast<std::size_t>(i)] * (i % 2 == 0 ? 1 : p.speed);
+  Work work;
+  work.state.resize(2 * p.modes.size());
+  for (std::size_t i = 0; i < work.state.size(); ++i) {
+    work.state[i] = in[states + i] * (i % 2 == 0 ? 1 : p.speed);
   }
   std::vector<double> q(p.elements.wanted_values);
-  Eigen::VectorXd force;
   for (std::size_t k = 0; k < p.elements.all.size(); ++k) {
     const PeriodElement& e = p.elements.all[k];
     if (e.forced) {
-      p.delayed_force(e, in, q, force);
+      p.delayed_force(e, in, q, work.force);
     }
-    p.step(k, force, state, q);
+    p.step(k, work, q);
     if (e.kept) {
       std::copy_n(q.begin() + static_cast<std::ptrdiff_t>(e.place),
                   p.components.count * e.nodes(),
                   out.begin() + static_cast<std::ptrdiff_t>(e.first));
     }
   }
-  for (Index i = 0; i < state.size(); ++i) {
-    out[states + static_cast<std::size_t>(i)] =
-        i % 2 == 0 ? state[i] : state[i] / p.speed;
+  for (std::size_t i = 0; i < work.state.size(); ++i) {
+    out[states + i] = i % 2 == 0 ? work.state[i] : work.state[i] / p.speed;
   }
 }
 

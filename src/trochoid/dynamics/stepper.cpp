@@ -1,8 +1,7 @@
 #include <trochoid/dynamics/stepper.h>
 
 #include <trochoid/dynamics/propagator.h>
-
-#include <Eigen/LU>
+#include <trochoid/numerics/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +33,14 @@ Propagator of_table(const ChipMode& m, const Drive& d, double dt) {
 /// T-7
 template <std::size_t n>
 void solve_repeat(const std::vector<double>& Phi, std::array<double, n>& z) {
-  constexpr int size = static_cast<int>(n);
-  using Square = Eigen::Matrix<double, size, size, Eigen::RowMajor>;
-  const Square left = Square::Identity() - Eigen::Map<const Square>(Phi.data());
-  Eigen::Map<Eigen::Matrix<double, size, 1>> state(z.data());
-  state = left.partialPivLu().solve(state).eval();
+  numerics::Matrix left = numerics::zeros(n, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      left(i, k) = (i == k ? 1.0 : 0.0) - Phi[i * n + k];
+    }
+  }
+  const std::array<double, n> end = z;
+  numerics::solve(numerics::lu(left), end, z);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include <trochoid/signal/axes.h>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -18,6 +16,33 @@ Matrix3 product(const Matrix3& A, const Matrix3& B) {
     }
   }
   return C;
+}
+
+/// By cofactors: exact where the entries are 0 and +-1. Not finite if there is none.
+Matrix3 inverted(const Matrix3& A) {
+  const auto cofactor = [&](std::size_t i, std::size_t j) {
+    const std::size_t k = (i + 1) % 3;
+    const std::size_t l = (i + 2) % 3;
+    const std::size_t m = (j + 1) % 3;
+    const std::size_t n = (j + 2) % 3;
+    return A[k][m] * A[l][n] - A[k][n] * A[l][m];
+  };
+  const double determinant =
+      A[0][0] * cofactor(0, 0) + A[0][1] * cofactor(0, 1) + A[0][2] * cofactor(0, 2);
+  Matrix3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) out[j][i] = cofactor(i, j) / determinant;
+  }
+  return out;
+}
+
+/// Root of the sum of the squared entries.
+double norm(const Matrix3& A) {
+  double sum = 0.0;
+  for (const auto& row : A) {
+    for (const double value : row) sum += value * value;
+  }
+  return std::sqrt(sum);
 }
 
 constexpr Matrix3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -99,23 +124,16 @@ std::optional<std::vector<std::array<double, 3>>> force_on_tool(
   if (channels[1].size() != n || channels[2].size() != n) {
     throw std::invalid_argument("force_on_tool: the channels differ in length");
   }
-  Eigen::Matrix3d matrix;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      matrix(i, j) = M[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    }
-  }
-  const Eigen::Matrix3d inverse = matrix.inverse();
-  if (!matrix.allFinite() || !inverse.allFinite() ||
-      matrix.norm() * inverse.norm() > 1e8) {
+  const Matrix3 back = inverted(M);
+  const double condition = norm(M) * norm(back);
+  if (!(condition <= 1e8)) {  // nor without an inverse
     return std::nullopt;
   }
   std::vector<std::array<double, 3>> force(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (int a = 0; a < 3; ++a) {
-      force[i][static_cast<std::size_t>(a)] = inverse(a, 0) * channels[0][i] +
-                                              inverse(a, 1) * channels[1][i] +
-                                              inverse(a, 2) * channels[2][i];
+    for (std::size_t a = 0; a < 3; ++a) {
+      force[i][a] = back[a][0] * channels[0][i] + back[a][1] * channels[1][i] +
+                    back[a][2] * channels[2][i];
     }
   }
   return force;

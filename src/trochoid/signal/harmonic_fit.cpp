@@ -1,6 +1,6 @@
+#include <trochoid/numerics/dense.h>
 #include <trochoid/signal/harmonic_fit.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -78,33 +78,78 @@ Complex at(const std::vector<Complex>& S, int difference) {
 
 /// Derivative to Omega of one channel: i k t c_k, against the basis and against itself.
 struct Derivative {
-  Eigen::VectorXcd on_basis;
+  std::vector<Complex> on_basis;
   double squared = 0.0;
   double with_residual = 0.0;
 };
 
 Derivative derivative(const Sums& s, std::size_t channel, std::span<const int> orders,
-                      const Eigen::VectorXcd& c) {
-  const auto size = static_cast<Eigen::Index>(orders.size());
-  Derivative d{Eigen::VectorXcd::Zero(size), 0.0, 0.0};
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const int order_k = orders[static_cast<std::size_t>(k)];
+                      const std::vector<Complex>& c) {
+  const std::size_t size = orders.size();
+  Derivative d{std::vector<Complex>(size), 0.0, 0.0};
+  for (std::size_t k = 0; k < size; ++k) {
     Complex model{};
     Complex twice{};
-    for (Eigen::Index h = 0; h < size; ++h) {
-      const int order_h = orders[static_cast<std::size_t>(h)];
-      const double weight = order_h;
-      d.on_basis(k) += i * weight * c(h) * at(s.S[1], order_h - order_k);
-      model += c(h) * at(s.S[1], order_h - order_k);
-      twice += weight * c(h) * at(s.S[2], order_h - order_k);
+    for (std::size_t h = 0; h < size; ++h) {
+      const double weight = orders[h];
+      d.on_basis[k] += i * weight * c[h] * at(s.S[1], orders[h] - orders[k]);
+      model += c[h] * at(s.S[1], orders[h] - orders[k]);
+      twice += weight * c[h] * at(s.S[2], orders[h] - orders[k]);
     }
-    const Complex mine = static_cast<double>(order_k) * std::conj(c(k));
+    const Complex mine = static_cast<double>(orders[k]) * std::conj(c[k]);
     d.squared += (mine * twice).real();
-    const auto measured = s.Y[channel][1][static_cast<std::size_t>(k)];
+    const auto measured = s.Y[channel][1][k];
     d.with_residual += (-i * mine * (measured - model)).real();
   }
   return d;
 }
+
+/// Real part of sum conj(a) b.
+double product(const std::vector<Complex>& a, const std::vector<Complex>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += times(std::conj(a[k]), b[k]).real();
+  return sum;
+}
+
+/// The normal equations of the amplitudes, as real ones of their real and imaginary
+/// parts: [Re G, -Im G; Im G, Re G].
+class NormalEquations {
+ public:
+  NormalEquations(const std::vector<Complex>& S, std::span<const int> orders)
+      : size_(orders.size()) {
+    numerics::Matrix G = numerics::zeros(2 * size_, 2 * size_);
+    for (std::size_t k = 0; k < size_; ++k) {
+      for (std::size_t h = 0; h < size_; ++h) {
+        const Complex g = at(S, orders[h] - orders[k]);
+        G(k, h) = G(size_ + k, size_ + h) = g.real();
+        G(size_ + k, h) = g.imag();
+        G(k, size_ + h) = -g.imag();
+      }
+    }
+    lu_ = numerics::lu(G);
+    determined_ = numerics::reciprocal_condition(G, lu_) > 1e-8;
+  }
+
+  [[nodiscard]] bool determined() const noexcept { return determined_; }
+
+  [[nodiscard]] std::vector<Complex> solve(const std::vector<Complex>& right) const {
+    std::vector<double> b(2 * size_);
+    for (std::size_t k = 0; k < size_; ++k) {
+      b[k] = right[k].real();
+      b[size_ + k] = right[k].imag();
+    }
+    std::vector<double> x(2 * size_);
+    numerics::solve(lu_, b, x);
+    std::vector<Complex> out(size_);
+    for (std::size_t k = 0; k < size_; ++k) out[k] = {x[k], x[size_ + k]};
+    return out;
+  }
+
+ private:
+  std::size_t size_;
+  numerics::Lu lu_;
+  bool determined_ = false;
+};
 
 }  // namespace
 
@@ -121,30 +166,20 @@ std::vector<int> two_sided(std::span<const int> orders) {
 HarmonicFit fit_harmonics(const TimedSamples& samples, std::span<const int> two_sided,
                           double Omega) {
   const Sums s = sums(samples, two_sided, Omega);
-  const auto size = static_cast<Eigen::Index>(two_sided.size());
-  Eigen::MatrixXcd G(size, size);
-  for (Eigen::Index k = 0; k < size; ++k) {
-    for (Eigen::Index h = 0; h < size; ++h) {
-      G(k, h) = at(s.S[0], two_sided[static_cast<std::size_t>(h)] -
-                               two_sided[static_cast<std::size_t>(k)]);
-    }
-  }
-  const Eigen::LLT<Eigen::MatrixXcd> solver(G);
+  const NormalEquations equations(s.S[0], two_sided);
   HarmonicFit fit;
   fit.Omega = Omega;
-  fit.ok = solver.info() == Eigen::Success && solver.rcond() > 1e-8;
+  fit.ok = equations.determined();
   if (!fit.ok) return fit;
   double slope = 0.0;
   for (std::size_t ch = 0; ch < 3; ++ch) {
-    const Eigen::Map<const Eigen::VectorXcd> y(s.Y[ch][0].data(), size);
-    const Eigen::VectorXcd c = solver.solve(y);
-    const auto d = derivative(s, ch, two_sided, c);
-    const Eigen::VectorXcd w = solver.solve(d.on_basis);
-    fit.curvature += d.squared - d.on_basis.dot(w).real();
+    const std::vector<Complex>& y = s.Y[ch][0];
+    fit.c[ch] = equations.solve(y);
+    const auto d = derivative(s, ch, two_sided, fit.c[ch]);
+    fit.w[ch] = equations.solve(d.on_basis);
+    fit.curvature += d.squared - product(d.on_basis, fit.w[ch]);
     slope += d.with_residual;
-    fit.rss += std::max(0.0, s.yy[ch] - y.dot(c).real());
-    fit.c[ch].assign(c.data(), c.data() + size);
-    fit.w[ch].assign(w.data(), w.data() + size);
+    fit.rss += std::max(0.0, s.yy[ch] - product(y, fit.c[ch]));
   }
   fit.step = fit.curvature > 0.0 ? slope / fit.curvature : 0.0;
   return fit;

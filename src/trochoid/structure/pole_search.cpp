@@ -1,7 +1,6 @@
+#include <trochoid/numerics/dense.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/structure/pole_search.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -83,31 +82,29 @@ numerics::LeastSquares solve(const std::vector<Complex>& A, std::size_t columns,
 
 /// Zeros of 1 + sum of c * fractions: eigenvalues of the poles less what c adds.
 std::vector<Complex> zeros(const std::vector<Complex>& poles, const double* c) {
-  const auto n = static_cast<Eigen::Index>(2 * poles.size());
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index r = 0; r < n; r += 2) {
-    const Complex p = poles[static_cast<std::size_t>(r / 2)];
+  const std::size_t n = 2 * poles.size();
+  numerics::Matrix M = numerics::zeros(n, n);
+  for (std::size_t r = 0; r < n; r += 2) {
+    const Complex p = poles[r / 2];
     M(r, r) = p.real();
     M(r, r + 1) = p.imag();
     M(r + 1, r) = -p.imag();
     M(r + 1, r + 1) = p.real();
-    for (Eigen::Index k = 0; k < n; ++k) {
+    for (std::size_t k = 0; k < n; ++k) {
       M(r, k) -= 2 * c[k];
     }
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(M, false);
+  const std::vector<Complex> all = numerics::eigenvalues(M);
   std::vector<Complex> found;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Complex z = solver.eigenvalues()(k);
+  for (const Complex& z : all) {
     if (z.imag() > 0) {
       found.emplace_back(-std::abs(z.real()), z.imag());
     }
   }
   // Two real zeros are no vibration: look again where the slower one is.
-  for (Eigen::Index k = 0; k < n && found.size() < poles.size(); ++k) {
-    const Complex z = solver.eigenvalues()(k);
-    if (z.imag() == 0) {
-      const double at = std::clamp(std::abs(z.real()), 0.01, 1.0);
+  for (std::size_t k = 0; k < n && found.size() < poles.size(); ++k) {
+    if (all[k].imag() == 0) {
+      const double at = std::clamp(std::abs(all[k].real()), 0.01, 1.0);
       found.emplace_back(-renewed_damping * at, at);
     }
   }
