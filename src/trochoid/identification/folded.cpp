@@ -91,7 +91,8 @@ void make_band(int harmonics, FoldedRun& run) {
       A.push_back(run.weight[g] * std::sin(k * run.angle[g]));
     }
   }
-  run.basis = numerics::orthonormal(A, run.band);
+  run.basis = numerics::orthonormal(A, run.band, 0.0);
+  run.band = static_cast<int>(run.basis.size() / run.angle.size());
 }
 
 /// b and drift from the means.

@@ -7,13 +7,15 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace trochoid::numerics {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+using Dense = Eigen::MatrixXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
+using Qr = Eigen::ColPivHouseholderQR<Dense>;
 
 /// Added to the unit diagonal of normal equations, so that a dependent column ends in
 /// zero and not in a division by rounding.
@@ -31,19 +33,44 @@ Vector inverse_or_zero(const Vector& norms) {
   return norms.unaryExpr([](double v) { return v > 0.0 ? 1.0 / v : 0.0; });
 }
 
-Vector solve_scaled(const Matrix& gram, const Vector& right) {
+Vector solve_scaled(const Dense& gram, const Vector& right) {
   const Vector scale = inverse_or_zero(gram.diagonal().cwiseSqrt());
-  Matrix unit = scale.asDiagonal() * gram * scale.asDiagonal();
+  Dense unit = scale.asDiagonal() * gram * scale.asDiagonal();
   unit.diagonal().array() += ridge;
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
     if (scale[i] == 0.0) unit(i, i) = 1.0;
   }
   return scale.cwiseProduct(
-      Eigen::LDLT<Matrix>(unit).solve(scale.cwiseProduct(right)).eval());
+      Eigen::LDLT<Dense>(unit).solve(scale.cwiseProduct(right)).eval());
 }
 
-void fill_singular(const Matrix& R, double rank_tolerance, LeastSquares& out) {
-  const Eigen::JacobiSVD<Matrix> svd(R, Eigen::ComputeFullV);
+/// @brief Take B to H_k B, H_k the reflection number k of Q = H_0 H_1 ...
+///
+/// Eigen's product with Q takes them in blocks: seconds to compile, and faster only for
+/// more than 48 columns.
+void reflect(const Qr& qr, Eigen::Index k, Eigen::Ref<Dense> B) {
+  const Eigen::Index rest = B.rows() - k;
+  Eigen::VectorXd workspace(B.cols());
+  B.bottomRows(rest).applyHouseholderOnTheLeft(qr.matrixQR().col(k).tail(rest - 1),
+                                               qr.hCoeffs()[k], workspace.data());
+}
+
+/// Basic solution of the least-squares problem with the right-hand side given.
+Vector solved(const Qr& qr, Vector right) {
+  const Eigen::Index rank = qr.nonzeroPivots();
+  for (Eigen::Index k = 0; k < rank; ++k) reflect(qr, k, right);
+  Vector x = Vector::Zero(qr.cols());
+  x.head(rank) = right.head(rank);
+  qr.matrixQR()
+      .topLeftCorner(rank, rank)
+      .triangularView<Eigen::Upper>()
+      .solveInPlace(x.head(rank));
+  return qr.colsPermutation() * x;
+}
+
+void fill_singular(const Dense& R, double rank_tolerance, LeastSquares& out) {
+  // R is square: what would first make it so need not be compiled.
+  const Eigen::JacobiSVD<Dense, Eigen::NoQRPreconditioner> svd(R, Eigen::ComputeFullV);
   const Vector& s = svd.singularValues();
   out.singular_values.assign(s.data(), s.data() + s.size());
   const double limit = rank_tolerance * s[0];
@@ -70,25 +97,24 @@ LeastSquares least_squares(std::span<const double> A, int n, std::span<const dou
   const Vector norms = a.colwise().norm();
   out.norms.assign(norms.data(), norms.data() + n);
   const Vector scale = inverse_or_zero(norms);
-  Matrix scaled = Matrix::Zero(std::max<Eigen::Index>(m, n), n);
+  Dense scaled = Dense::Zero(std::max<Eigen::Index>(m, n), n);
   scaled.topRows(m) = a * scale.asDiagonal();
   Vector padded = Vector::Zero(scaled.rows());
   padded.head(m) = right;
 
-  Eigen::ColPivHouseholderQR<Matrix> qr(scaled);  // I-1
-  const Matrix R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  const Qr qr(scaled);  // I-1
+  const Dense R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
   fill_singular(R * qr.colsPermutation().transpose(), rank_tolerance, out);  // I-6
-  qr.setThreshold(rank_tolerance);
 
-  const Vector x = scale.cwiseProduct(qr.solve(padded).eval());
+  const Vector x = scale.cwiseProduct(solved(qr, std::move(padded)));
   const Vector residual = right - a * x;
   out.x.assign(x.data(), x.data() + n);
   out.residual.assign(residual.data(), residual.data() + m);
   out.rss = residual.squaredNorm();
   if (out.rank == n) {
-    Matrix inverse = Matrix::Identity(n, n);
+    Dense inverse = Dense::Identity(n, n);
     R.triangularView<Eigen::Upper>().solveInPlace(inverse);
-    const Matrix half = scale.asDiagonal() * (qr.colsPermutation() * inverse);
+    const Dense half = scale.asDiagonal() * (qr.colsPermutation() * inverse);
     out.inverse_gram.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
     Eigen::Map<RowMajor>(out.inverse_gram.data(), n, n) = half * half.transpose();
   }
@@ -103,8 +129,8 @@ std::vector<double> project_out(std::span<const double> A, int n, std::span<doub
   const auto m = static_cast<Eigen::Index>(B.size()) / k;
   const Eigen::Map<const RowMajor> a(A.data(), m, n);
   Eigen::Map<RowMajor> b(B.data(), m, k);
-  const Matrix gram = a.transpose() * a;
-  const Matrix right = a.transpose() * b;
+  const Dense gram = a.transpose() * a;
+  const Dense right = a.transpose() * b;
   RowMajor x(n, k);
   for (int j = 0; j < k; ++j) x.col(j) = solve_scaled(gram, right.col(j));
   b.noalias() -= a * x;
@@ -121,12 +147,15 @@ double solve_normal(std::span<const double> G, std::span<const double> g,
   return right.dot(solution);
 }
 
-std::vector<double> orthonormal(std::span<const double> A, int n) {
+std::vector<double> orthonormal(std::span<const double> A, int n, double tolerance) {
   const auto m = static_cast<Eigen::Index>(A.size()) / n;
-  const Eigen::Map<const RowMajor> a(A.data(), m, n);
-  const Eigen::HouseholderQR<Matrix> qr{Matrix(a)};
-  const RowMajor q = qr.householderQ() * Matrix::Identity(m, n);
-  return {q.data(), q.data() + q.size()};
+  Qr qr(Eigen::Map<const RowMajor>(A.data(), m, n));
+  qr.setThreshold(tolerance);
+  Dense q = Dense::Identity(m, qr.rank());
+  for (Eigen::Index k = q.cols(); k-- > 0;) reflect(qr, k, q.rightCols(q.cols() - k));
+  std::vector<double> out(static_cast<std::size_t>(q.size()));
+  Eigen::Map<RowMajor>(out.data(), m, q.cols()) = q;
+  return out;
 }
 
 }  // namespace trochoid::numerics

@@ -53,9 +53,10 @@ std::vector<double> project_out(std::span<const double> A, int n, std::span<doub
 double solve_normal(std::span<const double> G, std::span<const double> g,
                     std::span<double> x);
 
-/// @brief Orthonormal columns that span those of A.
-/// @param A  row-major, shape (m, n) with m >= n and full rank
-/// @return   row-major, shape (m, n)
-std::vector<double> orthonormal(std::span<const double> A, int n);
+/// @brief Orthonormal columns that span those of A, as many as are independent.
+/// @param A          row-major, shape (m, n)
+/// @param tolerance  of what a column adds to the others, relative to the longest
+/// @return           row-major, shape (m, rank)
+std::vector<double> orthonormal(std::span<const double> A, int n, double tolerance);
 
 }  // namespace trochoid::numerics

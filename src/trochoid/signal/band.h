@@ -29,7 +29,7 @@ class Band {
  private:
   int size_ = 0;
   std::size_t samples_ = 0;
-  std::vector<double> basis_;  ///< orthonormal columns, shape (size, n)
+  std::vector<double> basis_;  ///< orthonormal columns, row-major, shape (n, size)
 };
 
 }  // namespace trochoid::signal

@@ -88,10 +88,19 @@ TEST(LeastSquares, ProjectionLeavesWhatIsOrthogonal) {  // [I-1]
 
 TEST(LeastSquares, OrthonormalColumnsSpanTheSame) {
   const std::vector<double> A = {1, 0, 1, 1, 1, 2};
-  const std::vector<double> Q = orthonormal(A, 2);
+  const std::vector<double> Q = orthonormal(A, 2, 1e-12);
+  ASSERT_EQ(Q.size(), 6U);
   EXPECT_NEAR(Q[0] * Q[0] + Q[2] * Q[2] + Q[4] * Q[4], 1.0, 1e-14);
   EXPECT_NEAR(Q[0] * Q[1] + Q[2] * Q[3] + Q[4] * Q[5], 0.0, 1e-14);
-  EXPECT_NEAR(std::abs(Q[0]), 1.0 / std::sqrt(3.0), 1e-14);
+  // (1, 1, 1), which A has, is what both columns have of it.
+  const double first = Q[0] + Q[2] + Q[4];
+  const double second = Q[1] + Q[3] + Q[5];
+  EXPECT_NEAR(first * first + second * second, 3.0, 1e-14);
+}
+
+TEST(LeastSquares, OrthonormalColumnsAreAsManyAsIndependentOnes) {
+  const std::vector<double> A = {1, 0, 1, 1, 1, 2, 1, 2, 3, 1, 3, 4};
+  EXPECT_EQ(orthonormal(A, 3, 1e-12).size(), 8U);
 }
 
 }  // namespace
