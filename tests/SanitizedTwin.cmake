@@ -39,6 +39,6 @@ function(trochoid_sanitized_twin name)
   target_compile_definitions(${name}_sanitized PRIVATE
     $<TARGET_PROPERTY:${name},COMPILE_DEFINITIONS>)
   add_test(NAME sanitized.${name} COMMAND ${name}_sanitized --gtest_brief=1)
-  set_tests_properties(sanitized.${name} PROPERTIES TIMEOUT 600
+  set_tests_properties(sanitized.${name} PROPERTIES
     ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1")
 endfunction()

@@ -64,7 +64,7 @@ class Surface(unittest.TestCase):
 
     def run_program(self, name, tables, answered=True):
         text = program.case_text(name, tables)
-        answer = program.run("surface", text, self.folder.name, name, 30)
+        answer = program.run("surface", text, self.folder.name, name)
         self.assertEqual(answer.code, 0 if answered else 1,
                          f"{name}: exit {answer.code} {answer.stderr}\n{text}")
         return answer

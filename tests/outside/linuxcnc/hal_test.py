@@ -89,7 +89,7 @@ class Halrun:
     def close(self):
         shutil.rmtree(self.folder)
 
-    def run(self, text, timeout=60):
+    def run(self, text, timeout=1200):
         (self.folder / "test.hal").write_text(text)
         command = ["halrun", "-f", "test.hal"]
         if os.getuid() == 0:

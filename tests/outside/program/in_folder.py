@@ -59,7 +59,7 @@ class InFolder(unittest.TestCase):
     def run_program(self, *arguments, code=0, **environment):
         """What the program answers, started in the folder; the exit code is checked."""
         done = subprocess.run(
-            [program.PROGRAM, *map(str, arguments)], cwd=self.folder, timeout=120,
+            [program.PROGRAM, *map(str, arguments)], cwd=self.folder, timeout=program.HANGS,
             stdin=subprocess.DEVNULL, capture_output=True, env={**os.environ, **environment})
         done.stdout = done.stdout.decode(errors="replace")
         done.stderr = done.stderr.decode(errors="replace")

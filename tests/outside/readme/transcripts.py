@@ -33,7 +33,7 @@ def output(command, folder):
     environment = {**os.environ, "LC_ALL": "C.UTF-8", "COLUMNS": "100"}
     done = subprocess.run(command, shell=True, cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, timeout=300, check=False)
+                          stderr=subprocess.STDOUT, timeout=1200, check=False)
     return done.stdout.replace(f"{folder}/", "")
 
 

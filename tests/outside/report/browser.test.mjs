@@ -10,6 +10,7 @@ import { pathToFileURL } from 'node:url';
 const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
 const samples = process.env.SAMPLES;
 const pictures = path.join(samples, '..', 'pictures');
+const hangs = 1_200_000;  // ms; for what never comes, not for a busy machine
 let browser;
 
 before(async () => {
@@ -17,14 +18,21 @@ before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-dev-shm-usage'],
+    timeout: hangs,
   });
 });
 after(() => browser?.close());
+
+/** Until what was asked for is drawn: a frame begins, draws, and the next one begins. */
+const shown = (page) => page.evaluate(() => new Promise((resolve) => {
+  requestAnimationFrame(() => requestAnimationFrame(() => resolve()));
+}));
 
 /** Open a report; whatever it requests, prints or throws is recorded. */
 async function open(name, options = {}) {
   const { width = 1200, ...rest } = options;
   const context = await browser.newContext({ viewport: { width, height: 900 }, ...rest });
+  context.setDefaultTimeout(hangs);
   const page = await context.newPage();
   const seen = { requests: [], complaints: [] };
   page.on('request', (request) => seen.requests.push(request.url()));
@@ -32,7 +40,7 @@ async function open(name, options = {}) {
   page.on('pageerror', (error) => seen.complaints.push(String(error)));
   const url = pathToFileURL(path.join(samples, name, 'report.html')).href;
   await page.goto(url);
-  await page.waitForTimeout(200);
+  if (rest.javaScriptEnabled !== false) await shown(page);
   return { page, seen, url, close: () => context.close() };
 }
 
@@ -197,7 +205,7 @@ test('the residuals of numbered teeth have their colours', async () => {
     assert.ok(has(canvases[2], await colorOf(page, name)), name);
   }
   await page.getByRole('button', { name: 'the feed' }).click();
-  await page.waitForTimeout(100);
+  await shown(page);
   assert.notDeepEqual((await drawn(page))[2], canvases[2]);
   await close();
 });
@@ -245,7 +253,7 @@ test('measured and fitted force lie in one panel, and the chip model can be chos
     assert.ok(!has(canvas, none));
   }
   await page.getByRole('button', { name: 'no runout' }).click();
-  await page.waitForTimeout(100);
+  await shown(page);
   canvases = await drawn(page);
   for (const canvas of canvases.slice(0, 3)) {
     assert.ok(has(canvas, measured) && has(canvas, none) && !has(canvas, exact));
@@ -268,13 +276,13 @@ test('dragging zooms all panels over the angle together, a double click shows al
     all.slice(0, 6).map((b) => b.textContent));
   assert.ok(values.every((text) => /^−?[\d.]+$/.test(text)), `values at the cursor: ${values}`);
   await page.mouse.up();
-  await page.waitForTimeout(100);
+  await shown(page);
   const zoomed = await blank();
   for (let i = 0; i < 6; ++i) assert.notEqual(zoomed[i], before[i], `panel ${i + 1} stays`);
   assert.equal(zoomed[6], before[6], 'the sweep has another axis');
   await page.mouse.dblclick(box.x + 250, box.y + 50);
   await page.mouse.move(5, 5);
-  await page.waitForTimeout(100);
+  await shown(page);
   assert.deepEqual(await blank(), before);
   await close();
 });
