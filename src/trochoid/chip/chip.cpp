@@ -269,6 +269,7 @@ double chip_over_mark(const Passage& passage, const Slice& slice, int tooth,
   return above_mark(ray_at(passage, slice, tooth, theta), mark);
 }
 
+// six parameters: where the tooth is, and the two chips compared there
 double boundary(const Passage& passage, const Slice& slice, int tooth, double theta,
                 const Chip& a, const Chip& b) noexcept {
   const Ray ray = ray_at(passage, slice, tooth, theta);

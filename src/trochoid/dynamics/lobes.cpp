@@ -115,30 +115,31 @@ Limit between(const DirectionalModel& model, const System& system, double Omega,
 
 using Limits = std::vector<Limit>;
 
+using LimitAt = std::function<std::optional<Limit>(double Omega)>;
+
 /// Speeds between two, where the limit is not straight.
-void add_between(const DirectionalModel& model, const System& system, const Limit& a,
-                 const Limit& b, std::span<const double> depth, double tolerance,
-                 int left, Limits& out) {
-  const auto middle =
-      limit_depth(model, system, 0.5 * (a.Omega + b.Omega), depth, tolerance);
+void add_between(const LimitAt& limit_at, const Limit& a, const Limit& b, int left,
+                 Limits& out) {
+  const auto middle = limit_at(0.5 * (a.Omega + b.Omega));
   if (!middle) {
     return;
   }
   const double chord = 0.5 * (a.depth + b.depth);
-  const bool bent = std::abs(middle->depth - chord) > worth_a_speed * chord;
-  if (bent && left > 1) {
-    add_between(model, system, a, *middle, depth, tolerance, left - 1, out);
+  if (std::abs(middle->depth - chord) <= worth_a_speed * chord) {
+    return;
   }
-  if (bent) {
-    out.push_back(*middle);
+  if (left > 1) {
+    add_between(limit_at, a, *middle, left - 1, out);
   }
-  if (bent && left > 1) {
-    add_between(model, system, *middle, b, depth, tolerance, left - 1, out);
+  out.push_back(*middle);
+  if (left > 1) {
+    add_between(limit_at, *middle, b, left - 1, out);
   }
 }
 
 }  // namespace
 
+// six parameters: both axes of the diagram, and who is told how far it is
 LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
                    std::span<const double> Omega, std::span<const double> depth,
                    const LobeAccuracy& accuracy, const LobeProgress& progress) {
@@ -191,11 +192,13 @@ std::vector<Limit> limit_curve(const DirectionalModel& model, const System& syst
       }
     }
   });
+  const LimitAt limit_at = [&](double Omega) {
+    return limit_depth(model, system, Omega, grid.depth, tolerance);
+  };
   std::vector<Limits> further(speeds);
   tell(speeds - 1, 0.5, 1.0, progress, [&](std::size_t i) {
     if (limits[i] && limits[i + 1]) {
-      add_between(model, system, *limits[i], *limits[i + 1], grid.depth, tolerance,
-                  halvings, further[i]);
+      add_between(limit_at, *limits[i], *limits[i + 1], halvings, further[i]);
     }
   });
   Limits curve;

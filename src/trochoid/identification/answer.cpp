@@ -102,7 +102,7 @@ void fill_single_direction(const Unknowns& u, std::size_t i, double e,
 }
 
 /// rho and lambda from e_x and e_y by the chain rule.
-void fill_eccentricity(const Unknowns& u, std::size_t i, double ex, double ey,
+void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e,
                        Reasons& reasons, Fit& fit) {
   if (!reasons.reason(i).empty() || !reasons.reason(i + 1).empty()) {
     const std::string& why =
@@ -113,9 +113,9 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, double ex, double ey,
   }
   const bool smooth = reasons.has_error(i);
   if (!reasons.has_error(i + 1) || !smooth) return;
-  const double rho = std::hypot(ex, ey);
-  const double c = rho > 0.0 ? ex / rho : 1.0;
-  const double s = rho > 0.0 ? ey / rho : 0.0;
+  const double rho = std::hypot(e[0], e[1]);
+  const double c = rho > 0.0 ? e[0] / rho : 1.0;
+  const double s = rho > 0.0 ? e[1] / rho : 0.0;
   const double xx = reasons.covariance(i, i);
   const double xy = reasons.covariance(i, i + 1);
   const double yy = reasons.covariance(i + 1, i + 1);
@@ -207,7 +207,7 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   } else if (u.runout == RunoutUnknowns::eccentricity && u.direction) {
     fill_single_direction(u, linear, p[0], reasons);
   } else if (u.runout == RunoutUnknowns::eccentricity) {
-    fill_eccentricity(u, linear, p[0], p[1], reasons, fit);
+    fill_eccentricity(u, linear, {p[0], p[1]}, reasons, fit);
   }
   for (std::size_t e = 0; e < index(u.exponent_count()); ++e) {
     const std::size_t i = index(u.runout_count()) + e;

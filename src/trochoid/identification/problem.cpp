@@ -159,6 +159,7 @@ bool in_range(const Problem& problem, std::span<const double> p) {
 
 Evaluation evaluate(const Problem& problem, std::span<const double> p) {
   Evaluation out;
+  out.p.assign(p.begin(), p.end());
   out.point = point_of(problem, p);
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
@@ -195,15 +196,14 @@ std::vector<double> measured(const Problem& problem) {
   return out;
 }
 
-std::vector<double> derivative(const Problem& problem, const Evaluation& at,
-                               std::span<const double> p, int i,
+std::vector<double> derivative(const Problem& problem, const Evaluation& at, int i,
                                std::span<const double> K, const Step& step) {
   const Unknowns& u = problem.unknowns;
   const std::span<const double> force_K = K.first(index(problem.columns));
   if (i >= u.first_phase()) {
     return phase_quotient(problem, at, index(i - u.first_phase()), force_K, step);
   }
-  std::vector<double> moved(p.begin(), p.end());
+  std::vector<double> moved = at.p;
   moved[index(i)] += step.parameter;
   const Evaluation plus = evaluate(problem, moved);
   if (!step.central) return quotient(problem, at, plus, step.parameter, force_K);

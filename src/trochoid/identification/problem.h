@@ -59,7 +59,8 @@ std::vector<double> parameters_of(const Problem& problem, const Point& point);
 
 /// Force matrices of all runs at one p.
 struct Evaluation {
-  Point point;
+  std::vector<double> p;  ///< the unknowns
+  Point point;            ///< the same, in words
   std::vector<force::ForceMatrix> matrix;
   std::vector<std::vector<double>> C;  ///< shape (runs)(u, 3, columns)
 };
@@ -83,8 +84,7 @@ struct Step {
 };
 
 /// @brief d[D]/dp_i {K}, shape (rows).
-std::vector<double> derivative(const Problem& problem, const Evaluation& at,
-                               std::span<const double> p, int i,
+std::vector<double> derivative(const Problem& problem, const Evaluation& at, int i,
                                std::span<const double> K, const Step& step);
 
 }  // namespace trochoid::identification

@@ -47,13 +47,13 @@ struct Slope {
 /// Where the force jumps as an unknown passes a value, the jump
 /// itself says nothing about the neighbourhood: of both
 /// one-sided differences the smaller one is without it.
-Slope slope_of(const Problem& problem, const Evaluation& at, std::span<const double> p,
-               int i, std::span<const double> K) {
+Slope slope_of(const Problem& problem, const Evaluation& at, int i,
+               std::span<const double> K) {
   Slope out{
-      derivative(problem, at, p, i, K, {fine_step.parameter, fine_step.phase, false}),
+      derivative(problem, at, i, K, {fine_step.parameter, fine_step.phase, false}),
       false};
   const std::vector<double> behind =
-      derivative(problem, at, p, i, K, {-fine_step.parameter, -fine_step.phase, false});
+      derivative(problem, at, i, K, {-fine_step.parameter, -fine_step.phase, false});
   const double a = norm(out.column);
   const double b = norm(behind);
   if (sum_of_squares_jumps(problem)) {
@@ -84,7 +84,7 @@ Jacobian full_jacobian(const Problem& problem, std::span<const double> p,
     std::copy_n(&D[k * linear], linear, &out.J[k * width]);
   }
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Slope slope = slope_of(problem, at, p, static_cast<int>(i), K);
+    const Slope slope = slope_of(problem, at, static_cast<int>(i), K);
     out.on_edge[linear + i] = slope.on_edge;
     for (std::size_t k = 0; k < rows; ++k) {
       out.J[k * width + linear + i] = slope.column[k];

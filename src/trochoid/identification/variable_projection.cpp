@@ -47,8 +47,8 @@ void fill_jacobian(const Problem& problem, const State& state, const Step& step,
   const auto width = static_cast<std::size_t>(count);
   std::vector<double> B(rows * width);
   for (std::size_t i = 0; i < width; ++i) {
-    const std::vector<double> column = derivative(problem, state.evaluation, state.p,
-                                                  static_cast<int>(i), state.K, step);
+    const std::vector<double> column =
+        derivative(problem, state.evaluation, static_cast<int>(i), state.K, step);
     for (std::size_t k = 0; k < rows; ++k) B[k * width + i] = -column[k];
   }
   numerics::project_out(state.D, problem.linear(), B, count);

@@ -23,6 +23,7 @@ const KronrodRule& kronrod_rule();
 /// @param f        callable as f(x, weight, sum): adds weight times the values at x
 /// @param allowed   error allowed in each component over a bisected part
 /// @param smallest parts shorter than this are taken as they are: a jump may hide there
+/// @note  six parameters: it calls itself with other ends and everything else the same
 template <std::size_t M, class Function>
 void add_integral(double from, double to, const Function& f,
                   const std::array<double, M>& allowed, double smallest,

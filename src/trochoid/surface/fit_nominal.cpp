@@ -57,10 +57,11 @@ Values seen_columns(const NominalFit& fit, const Prediction& at, int n) {
 }
 
 /// The one combination that is known where the two are not.
-void find_known_combination(const Values& D, const Values& b, int n,
+void find_known_combination(const Values& D, const Values& b,
                             const numerics::LeastSquares& solved,
                             std::array<double, columns> K, Answer& answer) {
-  const auto count = static_cast<std::size_t>(n);
+  const std::size_t count = solved.x.size();
+  const int n = static_cast<int>(count);
   if (solved.rank != n - 1) {
     return;
   }
@@ -252,7 +253,7 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
     answer.condition = solved.condition;
     if (solved.rank < n) {
       answer.message = "the readings do not tell the coefficients apart";
-      find_known_combination(D, b, n, solved, K, answer);
+      find_known_combination(D, b, solved, K, answer);
       return answer;
     }
     // What is left when only the datum may follow tells whether the step was good.
@@ -265,10 +266,11 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
       stay_there(stay, solved);
     }
     best = std::min(stay.rss, best);
-    const double size = std::hypot(K[0] + solved.x[0], K[1] + solved.x[1]);
-    const double move = std::hypot(solved.x[0], solved.x[1]);
-    describe_solution(solved, n, silent, {K[0] + solved.x[0], K[1] + solved.x[1]},
-                      answer);
+    step = {solved.x[0], solved.x[1]};
+    K = {K[0] + step[0], K[1] + step[1]};
+    const double size = std::hypot(K[0], K[1]);
+    const double move = std::hypot(step[0], step[1]);
+    describe_solution(solved, n, silent, K, answer);
     const double s2 =
         solved.rss / std::max(1.0, static_cast<double>(b.size()) - n - silent);
     if (stuck || move <= enough * size || size == 0 ||
@@ -276,9 +278,6 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
       accept(fit, solved, all, b, answer);
       return answer;
     }
-    step = {solved.x[0], solved.x[1]};
-    K[0] += step[0];
-    K[1] += step[1];
   }
   answer.message = "the coefficients did not settle";
   return answer;
