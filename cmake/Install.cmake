@@ -1,16 +1,36 @@
-# cmake --install: the program, the library, its headers and find_package(trochoid).
+# cmake --install: the program, the libraries with their headers, find_package(trochoid) and
+# pkg-config.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Two exports: what needs the controller only must find nothing else.
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/trochoid)
+install(TARGETS trochoid_controller EXPORT trochoidControllerTargets
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS trochoid EXPORT trochoidTargets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS trochoid_cli)
-install(EXPORT trochoidTargets NAMESPACE trochoid:: DESTINATION ${package})
+foreach(set trochoidControllerTargets trochoidTargets)
+  install(EXPORT ${set} NAMESPACE trochoid:: DESTINATION ${package})
+endforeach()
 configure_package_config_file(cmake/trochoidConfig.cmake.in trochoidConfig.cmake
   INSTALL_DESTINATION ${package})
 write_basic_package_version_file(trochoidConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/trochoidConfig.cmake
   ${PROJECT_BINARY_DIR}/trochoidConfigVersion.cmake DESTINATION ${package})
+
+# The place of a .pc file tells where the rest is, wherever all of it is moved.
+set(pkgconfig ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH TROCHOID_PREFIX
+  ${CMAKE_INSTALL_PREFIX}/${pkgconfig} ${CMAKE_INSTALL_PREFIX})
+get_target_property(type trochoid TYPE)
+set(TROCHOID_REQUIRES_KEY Requires)  # of a static library all is needed to link it
+if(type STREQUAL SHARED_LIBRARY)
+  set(TROCHOID_REQUIRES_KEY Requires.private)
+endif()
+foreach(name trochoid trochoid-controller)
+  configure_file(cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig})
+endforeach()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -14,7 +14,10 @@ if(TROCHOID_SANITIZED_TESTS)
   target_link_options(trochoid_sanitizers INTERFACE -fsanitize=address,undefined)
 
   get_target_property(sources trochoid SOURCES)
+  get_target_property(controller trochoid_controller SOURCES)
+  list(APPEND sources ${controller})
   get_target_property(libraries trochoid LINK_LIBRARIES)
+  list(REMOVE_ITEM libraries trochoid_controller)
   add_library(trochoid_sanitized STATIC EXCLUDE_FROM_ALL ${sources})
   add_dependencies(trochoid_sanitized trochoid)  # it makes the generated sources
   target_compile_features(trochoid_sanitized PUBLIC cxx_std_20)
