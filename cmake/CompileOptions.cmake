@@ -14,3 +14,11 @@ if(TROCHOID_SANITIZE)
     -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS)
   add_link_options(-fsanitize=${TROCHOID_SANITIZE})
 endif()
+
+# What nearly every file includes, parsed once a target: a third of the time of a file.
+# Each file still includes what it uses. The preset `dev`, tools/tidy and whoever sets
+# CMAKE_DISABLE_PRECOMPILE_HEADERS compile without, and find the one that does not.
+set(TROCHOID_PRECOMPILED
+  <fmt/core.h> <algorithm> <array> <cmath> <complex> <cstddef> <functional> <limits>
+  <memory> <numbers> <numeric> <optional> <span> <stdexcept> <string> <string_view>
+  <utility> <variant> <vector>)

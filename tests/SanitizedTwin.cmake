@@ -20,6 +20,7 @@ if(TROCHOID_SANITIZED_TESTS)
   list(REMOVE_ITEM libraries trochoid_controller)
   add_library(trochoid_sanitized STATIC EXCLUDE_FROM_ALL ${sources})
   add_dependencies(trochoid_sanitized trochoid)  # it makes the generated sources
+  target_precompile_headers(trochoid_sanitized PRIVATE ${TROCHOID_PRECOMPILED})
   target_compile_features(trochoid_sanitized PUBLIC cxx_std_20)
   target_include_directories(trochoid_sanitized PUBLIC
     $<TARGET_PROPERTY:trochoid,INCLUDE_DIRECTORIES>)
@@ -37,6 +38,7 @@ function(trochoid_sanitized_twin name)
   add_executable(${name}_sanitized ${sources})
   target_link_libraries(${name}_sanitized PRIVATE trochoid_sanitized
     trochoid_compile_options GTest::gtest_main)
+  target_precompile_headers(${name}_sanitized REUSE_FROM trochoid_test_headers_sanitized)
   target_include_directories(${name}_sanitized PRIVATE
     $<TARGET_PROPERTY:${name},INCLUDE_DIRECTORIES>)
   target_compile_definitions(${name}_sanitized PRIVATE
