@@ -7,6 +7,7 @@ import unittest
 import check_equations
 import check_layers
 import check_references
+import check_sizes
 
 SOUND = {
     "ARCHITECTURE.md": "| rank | rooms |\n|---|---|\n| 0 | base |\n| 2 | chip |\n"
@@ -162,6 +163,50 @@ class References(unittest.TestCase):
     def test_nothing_listed(self):
         found = answers(check_references.gaps, files={"docs/references.md": "none\n"})
         self.assertIn("no reference found", found[-1])
+class Sizes(unittest.TestCase):
+    def refused(self, name, text):
+        found = answers(check_sizes.violations, files={name: text})
+        self.assertEqual(len(found), 1, found)
+        return found[0]
+
+    def accepted(self, text):
+        self.assertEqual(answers(check_sizes.violations, files={"src/a.cpp": text}), [])
+
+    def test_sound_tree_is_accepted(self):
+        self.assertEqual(answers(check_sizes.violations), [])
+
+    def test_long_file(self):
+        self.assertIn("tests/a.py:501: 501 lines, more than 500",
+                      self.refused("tests/a.py", "\n" * 501))
+
+    def test_long_header(self):
+        self.assertIn("more than 250", self.refused("src/trochoid/chip/d.h", "\n" * 251))
+
+    def test_long_function(self):
+        self.accepted("void f() {" + "\n" * 59 + "}\n")
+        said = self.refused("src/a.cpp", "\nvoid f() {" + "\n" * 60 + "}\n")
+        self.assertIn("src/a.cpp:2: f has 61 lines, more than 60", said)
+
+    def test_lambdas_belong_to_their_function(self):
+        one = "  const auto g = [&](int i) {\n    return i;\n  };\n"
+        self.assertIn("f has 62 lines",
+                      self.refused("src/a.cpp", f"int f() {{\n{20 * one}}}\n"))
+
+    def test_long_tests_are_accepted(self):
+        self.assertEqual(answers(check_sizes.violations, files={
+            "tests/a.cpp": "TEST(A, IsLong) {" + "\n" * 90 + "}\n"}), [])
+
+    def test_many_parameters(self):
+        self.accepted("int f(int a, std::map<int, int> b, int c, int d, g<1, 2> e) { return 1; }\n")
+        said = self.refused("src/a.cpp", "int f(int, int, int, int, int, int) { return 1; }\n")
+        self.assertIn("f has 6 parameters, more than 5", said)
+
+    def test_six_parameters_with_a_reason(self):
+        six = "template <class T>\nint f(T, int, int, int, int, int) { return 1; }\n"
+        self.accepted(f"// Two points; six parameters: both have three coordinates.\n{six}")
+        self.refused("src/a.cpp", f"// six parameters: far away\n\nint x;\n{six}")
+        seven = six.replace("T,", "T, int,")
+        self.refused("src/a.cpp", f"// six parameters: more than that\n{seven}")
 
 
 if __name__ == "__main__":
