@@ -14,7 +14,7 @@ SOUND = {
     "| 5 | structure, signal |\n| 8 | results |\n| 9 | report, run |\n",
     "src/trochoid/base/a.h": "#include <vector>\n",
     "src/trochoid/chip/c.h": "#include <trochoid/base/a.h>\n/// @eq C-1 h = f\n",
-    "src/trochoid/chip/c.cpp": "#include <trochoid/chip/c.h>\n#include <Eigen/Core>\n",
+    "src/trochoid/chip/c.cpp": "#include <trochoid/chip/c.h>\n#include <boost/math/a.hpp>\n",
     "src/trochoid/signal/s.cpp": "#include <trochoid/chip/c.h>\n",
     "src/trochoid/results/r.h": "#include <nlohmann/json_fwd.hpp>\n",
     "src/trochoid/report/p.cpp": "#include <trochoid/results/r.h>\n",
@@ -83,6 +83,11 @@ class Layers(unittest.TestCase):
     def test_heavy_header_in_a_header(self):
         said = self.refused("src/trochoid/chip/d.h", "#include <Eigen/Dense>\n")
         self.assertIn("only in .cpp files", said)
+
+    def test_eigen_out_of_its_room(self):
+        for header in ("Eigen/LU", "unsupported/Eigen/MatrixFunctions"):
+            said = self.refused("src/trochoid/chip/p.cpp", f"#include <{header}>\n")
+            self.assertIn("call numerics/dense.h", said)
 
 
 class Equations(unittest.TestCase):

@@ -12,6 +12,10 @@ import sys
 ONLY = {"report": {"base", "results"}}
 # Rooms that are folders of chapters: a chapter includes itself and this one of them.
 FLOOR = {"run": "shared"}
+# The decompositions of Eigen take longest: plain functions of this room give them, and one
+# file beside it has the sparse one.
+EIGEN = re.compile(r"(unsupported/)?Eigen/|ceres/")
+EIGEN_AT = ("numerics/", "structure/ritz.cpp")
 # Headers that are slow to compile stay in .cpp files.
 HEAVY = re.compile(r"toml\+\+/|nlohmann/(?!json_fwd)|CLI/|ceres/|boost/|tbb/|Eigen/")
 
@@ -35,6 +39,8 @@ def problem(file, room, target, quoted, rank):
         return None if "/" not in target else f'"{target}": include it as <trochoid/...>'
     if file.suffix == ".h" and HEAVY.match(target):
         return f"<{target}> is slow to compile: only in .cpp files"
+    if EIGEN.match(target) and not f"{room}/{file.name}".startswith(EIGEN_AT):
+        return f"<{target}> is slow to compile: call numerics/dense.h or least_squares.h"
     parts = target.split("/")
     if parts[0] != "trochoid":
         return None
