@@ -119,8 +119,8 @@ void calibrate(benchmark::State& state) {
   const std::vector<surface::Datum> datum = {{.offset = true}};
   for (auto _ : state) {
     const auto found =
-        surface::calibrate(setting, measured, datum, surface::Feedback::none);
-    benchmark::DoNotOptimize(found.answers.data());
+        surface::fit_models(setting, measured, datum, surface::Feedback::none);
+    benchmark::DoNotOptimize(found.fits.data());
     if (state.range(0) == 1) {
       const auto runout = surface::find_runout(setting, measured, datum, found);
       benchmark::DoNotOptimize(runout.predicted.data());

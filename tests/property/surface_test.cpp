@@ -297,7 +297,7 @@ TEST_P(RoundTrip, CalibrateInvertsSurface) {  // [E-15] [E-16] [E-17]
     const auto readings = model == Model::quasi_static ? pulses(s, drawn.K, at)
                           : model == Model::imprint    ? imprints(s, drawn.K, at)
                                                        : profiles(s, drawn.K, at);
-    const Answer a = chosen(calibrated(s, readings));
+    const CoefficientFit a = chosen_fit(fitted(s, readings));
     ASSERT_TRUE(a.ok) << a.message << GetParam() << static_cast<int>(model);
     // an envelope is averaged over other points than those measured
     const double allowed = model == Model::envelope ? 2e-2 : 1e-4;
@@ -346,7 +346,7 @@ struct Coverage {
   std::array<double, 2> stated{};    ///< mean of se^2
   int runs = 0;
 
-  void add(const Answer& a, Coefficients truth) {
+  void add(const CoefficientFit& a, Coefficients truth) {
     ASSERT_TRUE(a.ok) << a.message;
     const std::array estimates = {a.K_tc, a.K_rc};
     for (std::size_t c = 0; c < 2; ++c) {
@@ -434,7 +434,7 @@ TEST(Intervals, OfRunoutHoldTheTruth) {  // [E-17]
   const Setting s = made_setting(Model::imprint, with_runout(made_cut(), rho, angle));
   const Setting blind = made_setting(Model::imprint);
   const auto clean = imprints(s, truth, {.heights = made_heights(4)});
-  const Calibration begin = calibrated(blind, clean);
+  const ModelFits begin = fitted(blind, clean);
   int held = 0;
   double off = 0.0;
   double stated = 0.0;
@@ -442,8 +442,8 @@ TEST(Intervals, OfRunoutHoldTheTruth) {  // [E-17]
   for (unsigned seed = 0; seed < runs; ++seed) {
     auto readings = clean;
     add_noise(readings, 1e-6, 100 + seed);
-    const RunoutAnswer r =
-        find_runout(blind, readings, std::array{Datum{}}, calibrated(blind, readings));
+    const RunoutFit r =
+        find_runout(blind, readings, std::array{Datum{}}, fitted(blind, readings));
     ASSERT_TRUE(r.ok) << r.message;
     held += r.eccentricity.low < rho && rho < r.eccentricity.high ? 1 : 0;
     held += r.angle.low < angle && angle < r.angle.high ? 1 : 0;
@@ -467,8 +467,9 @@ TEST(Intervals, AreTooLongWhereRunoutPassesForNoise) {  // [E-11] [E-15]
     return model.rigid(at);
   };
   const std::array datum = {Datum{}};
-  const Answer single = fit_nominal({rows, datum, {}}, predict);
-  const Answer means = chosen(calibrated(made_setting(Model::imprint), readings));
+  const CoefficientFit single = fit_nominal({rows, datum, {}}, predict);
+  const CoefficientFit means =
+      chosen_fit(fitted(made_setting(Model::imprint), readings));
   ASSERT_TRUE(single.ok && means.ok);
   EXPECT_NEAR(single.K_tc.value, truth[0], 1e-3 * truth[0]);
   EXPECT_GT(single.K_tc.se, 1000 * means.K_tc.se);

@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 /// Measured and fitted errors of every reading; a mean stands for all its readings.
 base::Table residual_table(const MeasuredWall& wall,
-                           const surface::Calibration& calibration,
-                           const surface::RunoutAnswer& runout) {
+                           const surface::ModelFits& calibration,
+                           const surface::RunoutFit& runout) {
   base::Table table{"residual.csv",
                     {{"x_mm", {}},
                      {"feed_mm", {}},
@@ -32,7 +32,7 @@ base::Table residual_table(const MeasuredWall& wall,
                      {"fitted_mm", {}},
                      {"residual_mm", {}}}};
   std::vector<double> fitted(wall.readings.size());
-  const surface::Answer& chosen = calibration.answers[calibration.chosen];
+  const surface::CoefficientFit& chosen = calibration.fits[calibration.chosen];
   for (std::size_t i = 0; i < calibration.nominal.size(); ++i) {
     for (const std::size_t k : calibration.nominal[i].readings) {
       fitted[k] = chosen.predicted[i];
@@ -56,14 +56,14 @@ base::Table residual_table(const MeasuredWall& wall,
 }
 
 /// The means and what each reading of the profile makes of them.
-base::Table fitted_table(const surface::Calibration& calibration) {
+base::Table fitted_table(const surface::ModelFits& calibration) {
   base::Table table{"fitted.csv",
                     {{"x_mm", {}},
                      {"feed_mm", {}},
                      {"height_mm", {}},
                      {"readings", {}},
                      {"mean_mm", {}}}};
-  for (const surface::Answer& answer : calibration.answers) {
+  for (const surface::CoefficientFit& answer : calibration.fits) {
     if (answer.ok) {
       table.columns.push_back(
           {fmt::format("{}{}_mm", surface::name_of(answer.model),
@@ -79,7 +79,7 @@ base::Table fitted_table(const surface::Calibration& calibration) {
                                unit::in(n.height, unit::mm),
                                static_cast<double>(n.readings.size()),
                                n.error / unit::mm};
-    for (const surface::Answer& answer : calibration.answers) {
+    for (const surface::CoefficientFit& answer : calibration.fits) {
       if (answer.ok) {
         row.push_back(answer.predicted[i] / unit::mm);
       }
@@ -110,10 +110,10 @@ results::Answer calibrate(const inputs::Case& given, const Progress& progress) {
   if (progress) {
     progress("Fitting the coefficients");
   }
-  const surface::Calibration calibration =
-      surface::calibrate(setting, wall.readings, wall.datum, wall_feedback(given));
-  const surface::Answer& chosen =
-      calibration.answers[std::min(calibration.chosen, calibration.answers.size() - 1)];
+  const surface::ModelFits calibration =
+      surface::fit_models(setting, wall.readings, wall.datum, wall_feedback(given));
+  const surface::CoefficientFit& chosen =
+      calibration.fits[std::min(calibration.chosen, calibration.fits.size() - 1)];
   Json result = calibration_json(given, calibration);
   const bool empty =
       std::all_of(wall.readings.begin(), wall.readings.end(),
@@ -121,7 +121,7 @@ results::Answer calibrate(const inputs::Case& given, const Progress& progress) {
   if (!chosen.ok) {
     return failed(std::move(answer), refusal(given, chosen), result);
   }
-  surface::RunoutAnswer runout;
+  surface::RunoutFit runout;
   if (empty) {
     runout.message = "all readings are zero";
   } else {

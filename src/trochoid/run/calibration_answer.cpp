@@ -14,7 +14,7 @@ namespace trochoid::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using surface::Answer;
+using surface::CoefficientFit;
 using surface::Estimate;
 
 /// null where a number is not known.
@@ -39,7 +39,7 @@ Json coefficients_json(const inputs::Case& given, const Estimate& K_tc,
           {std::string(names[1].key), estimate_json(K_rc, names[1].unit)}};
 }
 
-Json answer_json(const inputs::Case& given, const Answer& answer) {
+Json answer_json(const inputs::Case& given, const CoefficientFit& answer) {
   Json json{
       {"model", surface::name_of(answer.model)},
       {"feedback", surface::name_of(answer.feedback)},
@@ -93,27 +93,27 @@ void put_datum(const inputs::Case& given, const std::vector<Estimate>& datum,
 
 }  // namespace
 
-bool runout_is_seen(const surface::RunoutAnswer& runout) {
+bool runout_is_seen(const surface::RunoutFit& runout) {
   constexpr double clearly = 3.0;
   return runout.ok && runout.eccentricity.value > clearly * runout.eccentricity.se;
 }
 
-bool runout_counts(const inputs::Case& given, const surface::RunoutAnswer& runout) {
+bool runout_counts(const inputs::Case& given, const surface::RunoutFit& runout) {
   return runout_is_seen(runout) &&
          given.machine.surface->model == surface::Model::envelope &&
          given.machine.surface->feedback == surface::Feedback::none;
 }
 
 Json calibration_json(const inputs::Case& given,
-                      const surface::Calibration& calibration) {
-  const Answer& chosen =
-      calibration.answers[std::min(calibration.chosen, calibration.answers.size() - 1)];
+                      const surface::ModelFits& calibration) {
+  const CoefficientFit& chosen =
+      calibration.fits[std::min(calibration.chosen, calibration.fits.size() - 1)];
   Json result = answer_json(given, chosen);
   put_datum(given, chosen.ok ? chosen.datum : std::vector<Estimate>{}, result);
   result["noise_mm"] = chosen.ok ? number(chosen.noise / unit::mm) : Json(nullptr);
   result["means"] = calibration.nominal.size();
   Json answers = Json::array();
-  for (const Answer& answer : calibration.answers) {
+  for (const CoefficientFit& answer : calibration.fits) {
     answers.push_back(answer_json(given, answer));
   }
   result["answers"] = answers;
@@ -128,7 +128,7 @@ Json calibration_json(const inputs::Case& given,
   return result;
 }
 
-void add_runout(const surface::RunoutAnswer& runout, const inputs::Case& given,
+void add_runout(const surface::RunoutFit& runout, const inputs::Case& given,
                 Json& result) {
   if (!runout.ok) {
     result["runout"] = {{"eccentricity_mm", nullptr},
@@ -159,7 +159,7 @@ void add_runout(const surface::RunoutAnswer& runout, const inputs::Case& given,
   }
 }
 
-std::string refusal(const inputs::Case& given, const Answer& answer) {
+std::string refusal(const inputs::Case& given, const CoefficientFit& answer) {
   std::string text = answer.message;
   if (answer.rank > 0 && answer.condition > surface::worst_condition) {
     text += fmt::format(
@@ -177,8 +177,8 @@ std::string refusal(const inputs::Case& given, const Answer& answer) {
 }
 
 std::string calibration_table(const inputs::Case& given,
-                              const surface::Calibration& calibration,
-                              const surface::RunoutAnswer& runout) {
+                              const surface::ModelFits& calibration,
+                              const surface::RunoutFit& runout) {
   const auto names = force::coefficient_quantities(given.law);
   std::string text =
       fmt::format("  {:<26} {:>20} {:>20} {:>8} {:>10}\n", "95 %: value +- half width",
@@ -189,8 +189,8 @@ std::string calibration_table(const inputs::Case& given,
                                : fmt::format("{:.1f} +- ?", e.value / unit);
   };
   const bool joint = runout_counts(given, runout);
-  for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
-    const Answer& a = calibration.answers[i];
+  for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
+    const CoefficientFit& a = calibration.fits[i];
     const std::string name =
         fmt::format("{} {}{}", i == calibration.chosen && !joint ? '*' : ' ',
                     surface::name_of(a.model),
@@ -228,9 +228,9 @@ std::string calibration_table(const inputs::Case& given,
 }
 
 std::string calibrated_material(const inputs::Case& given,
-                                const surface::Calibration& calibration,
-                                const surface::RunoutAnswer& runout) {
-  const Answer& chosen = calibration.answers[calibration.chosen];
+                                const surface::ModelFits& calibration,
+                                const surface::RunoutFit& runout) {
+  const CoefficientFit& chosen = calibration.fits[calibration.chosen];
   const auto names = force::coefficient_quantities(given.law);
   const bool joint = runout_counts(given, runout);
   std::string text = fmt::format(

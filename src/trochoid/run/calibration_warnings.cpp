@@ -14,11 +14,11 @@ namespace trochoid::run {
 
 namespace {
 
-using surface::Answer;
+using surface::CoefficientFit;
 using Warnings = std::vector<base::Warning>;
 
 /// A coefficient that is negative, or known worse than to half of itself.
-void judge_coefficients(const inputs::Case& given, const Answer& chosen,
+void judge_coefficients(const inputs::Case& given, const CoefficientFit& chosen,
                         Warnings& warnings) {
   const auto names = force::coefficient_quantities(given.law);
   const surface::Estimate* both[] = {&chosen.K_tc, &chosen.K_rc};
@@ -46,7 +46,7 @@ void judge_coefficients(const inputs::Case& given, const Answer& chosen,
   }
 }
 
-std::string name_of(const Answer& answer) {
+std::string name_of(const CoefficientFit& answer) {
   return answer.feedback == surface::Feedback::none
              ? std::string(surface::name_of(answer.model))
              : fmt::format("{} with feedback = \"{}\"", surface::name_of(answer.model),
@@ -54,13 +54,13 @@ std::string name_of(const Answer& answer) {
 }
 
 /// Readings of the profile that differ by more than their errors.
-void compare_answers(const inputs::Case& given, const surface::Calibration& calibration,
+void compare_answers(const inputs::Case& given, const surface::ModelFits& calibration,
                      Warnings& warnings) {
   constexpr double visible = 0.05;
   const auto names = force::coefficient_quantities(given.law);
-  const Answer& chosen = calibration.answers[calibration.chosen];
-  for (std::size_t i = 0; i < calibration.answers.size(); ++i) {
-    const Answer& other = calibration.answers[i];
+  const CoefficientFit& chosen = calibration.fits[calibration.chosen];
+  for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
+    const CoefficientFit& other = calibration.fits[i];
     if (i == calibration.chosen || !other.ok) {
       continue;
     }
@@ -85,7 +85,7 @@ void compare_answers(const inputs::Case& given, const surface::Calibration& cali
   }
 }
 
-void judge_means(const inputs::Case& given, const surface::Calibration& calibration,
+void judge_means(const inputs::Case& given, const surface::ModelFits& calibration,
                  Warnings& warnings) {
   const auto uneven =
       std::count_if(calibration.nominal.begin(), calibration.nominal.end(),
@@ -107,7 +107,7 @@ void judge_means(const inputs::Case& given, const surface::Calibration& calibrat
   }
 }
 
-void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout,
+void judge_runout(const inputs::Case& given, const surface::RunoutFit& runout,
                   Warnings& warnings) {
   const auto& offsets = given.setup.runout.radial_offsets;
   if (given.setup.runout.eccentricity != 0 ||
@@ -142,7 +142,7 @@ void judge_runout(const inputs::Case& given, const surface::RunoutAnswer& runout
 }
 
 /// What is said of feedback in general does not help a fit that cannot take it in.
-void judge_bending(const inputs::Case& given, const surface::RunoutAnswer& runout,
+void judge_bending(const inputs::Case& given, const surface::RunoutFit& runout,
                    double largest, Warnings& warnings) {
   Warnings bending;
   add_bending_warnings(given, largest, bending);
@@ -160,10 +160,10 @@ void judge_bending(const inputs::Case& given, const surface::RunoutAnswer& runou
 }  // namespace
 
 void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wall,
-                              const surface::Calibration& calibration,
-                              const surface::RunoutAnswer& runout,
+                              const surface::ModelFits& calibration,
+                              const surface::RunoutFit& runout,
                               std::vector<base::Warning>& warnings) {
-  const Answer& chosen = calibration.answers[calibration.chosen];
+  const CoefficientFit& chosen = calibration.fits[calibration.chosen];
   double largest = 0.0;
   for (const surface::Reading& r : wall.readings) {
     largest = std::max(largest, std::abs(r.error));
@@ -172,7 +172,7 @@ void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wal
     warnings.push_back({"all_zero", "All readings are zero: so are the coefficients."});
     return;
   }
-  Answer judged = chosen;
+  CoefficientFit judged = chosen;
   if (runout_counts(given, runout)) {
     judged.K_tc = runout.K_tc;
     judged.K_rc = runout.K_rc;

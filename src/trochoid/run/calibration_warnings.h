@@ -11,8 +11,8 @@ namespace trochoid::run {
 
 /// @brief What an engineer should know before trusting a calibration.
 void add_calibration_warnings(const inputs::Case& given, const MeasuredWall& wall,
-                              const surface::Calibration& calibration,
-                              const surface::RunoutAnswer& runout,
+                              const surface::ModelFits& calibration,
+                              const surface::RunoutFit& runout,
                               std::vector<base::Warning>& warnings);
 
 }  // namespace trochoid::run

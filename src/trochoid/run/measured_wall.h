@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/surface/calibrate.h>
+#include <trochoid/surface/fit_models.h>
 
 #include <vector>
 

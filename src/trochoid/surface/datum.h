@@ -1,11 +1,20 @@
 #pragma once
 
-#include <trochoid/surface/calibrate.h>
+#include <trochoid/base/estimate.h>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace trochoid::surface {
+
+using base::Estimate;
+
+/// What is estimated of a measurement beside the coefficients.
+struct Datum {
+  bool offset = false;  ///< a constant of the readings
+  bool tilt = false;    ///< slopes along the feed and over the height
+};
 
 /// Where a reading or a mean of readings lies.
 struct Spot {

@@ -210,22 +210,20 @@ State first_guess(const Problem& problem, const State& about, double amplitude) 
   return best;
 }
 
-/// Of all readings about the means that an answer without runout predicts [m].
-double answer_rms(const Calibration& found, std::span<const Reading> readings) {
-  const Answer& answer = found.answers[found.chosen];
+/// Of all readings about the means that a fit without runout predicts [m].
+double rms_of_means(const ModelFits& found, std::span<const Reading> readings) {
+  const Values predicted = predicted_means(found, readings.size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < found.nominal.size(); ++i) {
-    for (const std::size_t k : found.nominal[i].readings) {
-      const double r = readings[k].error - answer.predicted[i];
-      sum += r * r;
-    }
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double r = readings[i].error - predicted[i];
+    sum += r * r;
   }
   return std::sqrt(sum / static_cast<double>(readings.size()));
 }
 
 /// Values and errors of the last fit.
 void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
-                  RunoutAnswer& answer) {
+                  RunoutFit& fit) {
   const std::size_t m = problem.readings.size();
   const std::size_t n = u.count();
   Values r(m);
@@ -240,9 +238,9 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
   }
   const auto solved = numerics::least_squares(rows, static_cast<int>(n), r, 1e-7);
   const double sum = sum_of_squares(r);
-  answer.rms = um * std::sqrt(sum / static_cast<double>(m));
+  fit.rms = um * std::sqrt(sum / static_cast<double>(m));
   if (solved.inverse_gram.empty()) {
-    answer.message = "the readings do not tell runout and coefficients apart";
+    fit.message = "the readings do not tell runout and coefficients apart";
     return;
   }
   const int freedom = static_cast<int>(m) - static_cast<int>(n);
@@ -256,42 +254,42 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
   const double along = (c * c * G(0, 0) + 2 * c * s * G(0, 1) + s * s * G(1, 1)) / rho2;
   const double across =
       (s * s * G(0, 0) - 2 * c * s * G(0, 1) + c * c * G(1, 1)) / (rho2 * rho2);
-  answer.eccentricity = estimate(um * std::sqrt(rho2), um * um * along, freedom);
+  fit.eccentricity = estimate(um * std::sqrt(rho2), um * um * along, freedom);
   double angle = std::atan2(s, c);
   angle += angle < 0 ? unit::turn : 0.0;
-  answer.angle = estimate(angle, across, freedom);
+  fit.angle = estimate(angle, across, freedom);
   const std::size_t k = u.start ? 3 : 2;
   if (u.start) {
-    answer.start = estimate(best.start, problem.f_z * problem.f_z * G(2, 2), freedom);
+    fit.start = estimate(best.start, problem.f_z * problem.f_z * G(2, 2), freedom);
   }
-  answer.K_tc = estimate(best.K[0], MN_m2 * MN_m2 * G(k, k), freedom);
-  answer.K_rc = estimate(best.K[1], MN_m2 * MN_m2 * G(k + 1, k + 1), freedom);
+  fit.K_tc = estimate(best.K[0], MN_m2 * MN_m2 * G(k, k), freedom);
+  fit.K_rc = estimate(best.K[1], MN_m2 * MN_m2 * G(k + 1, k + 1), freedom);
   for (std::size_t d = 0; d < best.datum.size(); ++d) {
-    answer.datum.push_back(
+    fit.datum.push_back(
         estimate(best.datum[d], um * um * G(k + 2 + d, k + 2 + d), freedom));
   }
-  answer.correlation = G(k, k + 1) / std::sqrt(G(k, k) * G(k + 1, k + 1));
-  answer.ok = true;
-  answer.message.clear();
+  fit.correlation = G(k, k + 1) / std::sqrt(G(k, k) * G(k + 1, k + 1));
+  fit.ok = true;
+  fit.message.clear();
 }
 
 }  // namespace
 
-RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readings,
-                         std::span<const Datum> datum, const Calibration& found) {
-  RunoutAnswer answer;
-  const Answer& start = found.answers[found.chosen];
+RunoutFit find_runout(const Setting& setting, std::span<const Reading> readings,
+                      std::span<const Datum> datum, const ModelFits& found) {
+  RunoutFit fit;
+  const CoefficientFit& start = chosen_fit(found);
   const ToothModel model(setting, readings, found.stations);
-  answer.labelled = model.labelled();
+  fit.labelled = model.labelled();
   const DatumColumns datum_part =
       datum_columns(spots_of(readings, found.nominal), datum);
   const Unknowns all{
       .start = model.has_phase(), .all = true, .datum = datum_part.count};
   if (!model.obstacle().empty() || readings.size() <= all.count()) {
-    answer.message = model.obstacle().empty()
-                         ? "too few readings for runout beside the coefficients"
-                         : model.obstacle();
-    return answer;
+    fit.message = model.obstacle().empty()
+                      ? "too few readings for runout beside the coefficients"
+                      : model.obstacle();
+    return fit;
   }
   const Problem problem{model, readings, datum_part, setting.setup.cut.f_z};
   State about{.K = wall_coefficients(setting.law)};
@@ -302,28 +300,27 @@ RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readin
   }
   Values r(readings.size());
   problem.residuals(about, model.forces({}), r);
-  answer.rms_without =
-      um * std::sqrt(sum_of_squares(r) / static_cast<double>(r.size()));
+  fit.rms_without = um * std::sqrt(sum_of_squares(r) / static_cast<double>(r.size()));
   const std::vector<Reading> sample = sample_of(readings);
   const ToothModel sampled(setting, sample);
   const DatumColumns sampled_datum = datum_columns(spots_of(sample), datum);
   const bool enough = sampled.obstacle().empty() && sample.size() > all.count() &&
                       sampled_datum.count == datum_part.count;
   const Problem part{sampled, sample, sampled_datum, problem.f_z};
-  State best = first_guess(enough ? part : problem, about,
-                           std::max(answer.rms_without, 0.1 * um));
+  State best =
+      first_guess(enough ? part : problem, about, std::max(fit.rms_without, 0.1 * um));
   const auto fitted = numerics::levenberg_marquardt(
       residuals_of(problem, all, best, nullptr), static_cast<int>(readings.size()),
       problem.pack(best, all), {.max_iterations = 30, .parameter_tolerance = 1e-9});
   best = problem.unpack(fitted.p, all, best);
-  describe_fit(problem, all, best, answer);
-  if (answer.ok && answer.rms > answer_rms(found, readings)) {
-    answer.ok = false;
-    answer.message = "no runout was found that explains the readings better than none";
-    return answer;
+  describe_fit(problem, all, best, fit);
+  if (fit.ok && fit.rms > rms_of_means(found, readings)) {
+    fit.ok = false;
+    fit.message = "no runout was found that explains the readings better than none";
+    return fit;
   }
-  answer.predicted = problem.errors(best, model.forces(best.runout));
-  return answer;
+  fit.predicted = problem.errors(best, model.forces(best.runout));
+  return fit;
 }
 
 }  // namespace trochoid::surface

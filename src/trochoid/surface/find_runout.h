@@ -1,12 +1,12 @@
 #pragma once
 
-#include <trochoid/surface/calibrate.h>
+#include <trochoid/surface/fit_models.h>
 #include <trochoid/surface/tooth_model.h>
 
 namespace trochoid::surface {
 
 /// @brief Runout that single readings show, and the coefficients found with it.
-struct RunoutAnswer {
+struct RunoutFit {
   bool ok = false;
   std::string message = "not fitted";  ///< when not ok, why
   bool labelled = false;     ///< false: the angle is known up to multiples of a pitch
@@ -16,7 +16,7 @@ struct RunoutAnswer {
   Estimate K_tc;             ///< fitted together with the runout [N/m^2]
   Estimate K_rc;             ///< [N/m^2]
   double correlation = 0.0;  ///< of the two
-  std::vector<Estimate> datum;    ///< as of Answer
+  std::vector<Estimate> datum;    ///< as of CoefficientFit
   double rms_without = 0.0;       ///< of all readings, runout left out [m]
   double rms = 0.0;               ///< [m]
   std::vector<double> predicted;  ///< shape (readings), datum included [m]
@@ -28,8 +28,8 @@ struct RunoutAnswer {
 ///          where a turn begins) of |e - e(model)|^2, from several starts
 /// @src [wang2015] section 4 in words; derived: rho cos(lambda), rho sin(lambda) in
 ///      place of rho, lambda, and all unknowns together
-/// @param found  begins with its chosen answer
-RunoutAnswer find_runout(const Setting& setting, std::span<const Reading> readings,
-                         std::span<const Datum> datum, const Calibration& found);
+/// @param found  begins with its chosen fit
+RunoutFit find_runout(const Setting& setting, std::span<const Reading> readings,
+                      std::span<const Datum> datum, const ModelFits& found);
 
 }  // namespace trochoid::surface

@@ -1,7 +1,6 @@
 #include <trochoid/surface/fit_nominal.h>
 
 #include <trochoid/numerics/least_squares.h>
-#include <trochoid/surface/datum.h>
 
 #include <fmt/core.h>
 
@@ -19,27 +18,28 @@ double weight_of(const Nominal& nominal) {
   return std::sqrt(static_cast<double>(nominal.readings.size()));
 }
 
-DatumColumns datum_of(const NominalFit& fit) {
+DatumColumns datum_of(const NominalProblem& problem) {
   std::vector<Spot> spots;
-  for (const Nominal& n : fit.nominal) {
+  for (const Nominal& n : problem.nominal) {
     spots.push_back({n.x, n.height, n.set});
   }
-  return datum_columns(spots, fit.datum);
+  return datum_columns(spots, problem.datum);
 }
 
-Values weighted_errors(const NominalFit& fit, const Prediction& at) {
+Values weighted_errors(const NominalProblem& problem, const Prediction& at) {
   Values b;
-  for (std::size_t i = 0; i < fit.nominal.size(); ++i) {
-    b.push_back(weight_of(fit.nominal[i]) * (fit.nominal[i].error - at.error[i]));
+  for (std::size_t i = 0; i < problem.nominal.size(); ++i) {
+    b.push_back(weight_of(problem.nominal[i]) *
+                (problem.nominal[i].error - at.error[i]));
   }
   return b;
 }
 
 /// The weighted columns; zeros for a coefficient that nothing shows but rounding.
-Values seen_columns(const NominalFit& fit, const Prediction& at, int n) {
-  Values D = weighted_columns(fit, at);
+Values seen_columns(const NominalProblem& problem, const Prediction& at, int n) {
+  Values D = weighted_columns(problem, at);
   double weights = 0.0;
-  for (const Nominal& row : fit.nominal) {
+  for (const Nominal& row : problem.nominal) {
     weights += static_cast<double>(row.readings.size());
   }
   for (std::size_t c = 0; c < 2; ++c) {
@@ -59,7 +59,7 @@ Values seen_columns(const NominalFit& fit, const Prediction& at, int n) {
 /// The one combination that is known where the two are not.
 void find_known_combination(const Values& D, const Values& b,
                             const numerics::LeastSquares& solved,
-                            std::array<double, columns> K, Answer& answer) {
+                            std::array<double, columns> K, CoefficientFit& fit) {
   const std::size_t count = solved.x.size();
   const int n = static_cast<int>(count);
   if (solved.rank != n - 1) {
@@ -79,13 +79,13 @@ void find_known_combination(const Values& D, const Values& b,
   };
   const std::array<double, 2> blind = {step(0), step(1)};
   const double length = std::hypot(blind[0], blind[1]);
-  answer.known = {std::abs(blind[1]) / length,
-                  (blind[1] < 0 ? 1.0 : -1.0) * blind[0] / length};
+  fit.known = {std::abs(blind[1]) / length,
+               (blind[1] < 0 ? 1.0 : -1.0) * blind[0] / length};
   Values reduced;
   const std::size_t rows = D.size() / count;
   for (std::size_t i = 0; i < rows; ++i) {
     const double* row = D.data() + i * count;
-    reduced.push_back(answer.known[0] * row[0] + answer.known[1] * row[1]);
+    reduced.push_back(fit.known[0] * row[0] + fit.known[1] * row[1]);
     reduced.insert(reduced.end(), row + 2, row + count);
   }
   const auto once = numerics::least_squares(reduced, n - 1, b, 1e-12);
@@ -93,8 +93,8 @@ void find_known_combination(const Values& D, const Values& b,
   const double variance = once.inverse_gram.empty() || freedom < 1
                               ? 0.0
                               : once.rss / freedom * once.inverse_gram[0];
-  answer.combination = estimate(
-      once.x[0] + answer.known[0] * K[0] + answer.known[1] * K[1], variance, freedom);
+  fit.combination = estimate(once.x[0] + fit.known[0] * K[0] + fit.known[1] * K[1],
+                             variance, freedom);
 }
 
 /// What the datum columns alone make of b, with the coefficients where they are.
@@ -145,49 +145,49 @@ int silence_rows(const Values& D, int n, Values& b) {
 }
 
 void describe_solution(const numerics::LeastSquares& solved, int n, int silent,
-                       const std::array<double, columns>& K, Answer& answer) {
+                       const std::array<double, columns>& K, CoefficientFit& fit) {
   const auto count = static_cast<std::size_t>(n);
-  const int freedom = static_cast<int>(answer.residual.size()) - n - silent;
+  const int freedom = static_cast<int>(fit.residual.size()) - n - silent;
   const double s2 = freedom > 0 ? solved.rss / freedom : 0.0;
-  answer.noise = std::sqrt(s2);
+  fit.noise = std::sqrt(s2);
   const auto& G = solved.inverse_gram;
-  answer.K_tc = estimate(K[0], s2 * G[0], freedom);
-  answer.K_rc = estimate(K[1], s2 * G[count + 1], freedom);
-  answer.correlation = G[1] / std::sqrt(G[0] * G[count + 1]);
-  answer.datum.clear();
+  fit.K_tc = estimate(K[0], s2 * G[0], freedom);
+  fit.K_rc = estimate(K[1], s2 * G[count + 1], freedom);
+  fit.correlation = G[1] / std::sqrt(G[0] * G[count + 1]);
+  fit.datum.clear();
   for (std::size_t k = 2; k < count; ++k) {
-    answer.datum.push_back(estimate(solved.x[k], s2 * G[k * count + k], freedom));
+    fit.datum.push_back(estimate(solved.x[k], s2 * G[k * count + k], freedom));
   }
 }
 
 /// Residuals without weights, and their root mean square over the readings.
-void set_residuals(const NominalFit& fit, std::span<const double> weighted,
-                   Answer& answer) {
+void set_residuals(const NominalProblem& problem, std::span<const double> weighted,
+                   CoefficientFit& fit) {
   double sum = 0.0;
   double count = 0.0;
-  answer.residual.clear();
-  answer.predicted.clear();
+  fit.residual.clear();
+  fit.predicted.clear();
   for (std::size_t i = 0; i < weighted.size(); ++i) {
-    const double r = weighted[i] / weight_of(fit.nominal[i]);
-    answer.residual.push_back(r);
-    answer.predicted.push_back(fit.nominal[i].error - r);
+    const double r = weighted[i] / weight_of(problem.nominal[i]);
+    fit.residual.push_back(r);
+    fit.predicted.push_back(problem.nominal[i].error - r);
     sum += weighted[i] * weighted[i];
-    count += static_cast<double>(fit.nominal[i].readings.size());
+    count += static_cast<double>(problem.nominal[i].readings.size());
   }
-  answer.rms = std::sqrt(sum / count);
+  fit.rms = std::sqrt(sum / count);
 }
 
 /// @param all  errors of all rows, weighted
 /// @param b    the same without the rows that say nothing
-void accept(const NominalFit& fit, const numerics::LeastSquares& solved,
-            const Values& all, const Values& b, Answer& answer) {
+void accept(const NominalProblem& problem, const numerics::LeastSquares& solved,
+            const Values& all, const Values& b, CoefficientFit& fit) {
   Values left = solved.residual;
   for (std::size_t i = 0; i < b.size(); ++i) {
     left[i] += all[i] - b[i];
   }
-  set_residuals(fit, left, answer);
-  answer.ok = true;
-  answer.message.clear();
+  set_residuals(problem, left, fit);
+  fit.ok = true;
+  fit.message.clear();
 }
 
 /// Half of the last step back. @return whether that still makes a difference
@@ -209,11 +209,11 @@ void stay_there(const numerics::LeastSquares& stay, numerics::LeastSquares& solv
 
 }  // namespace
 
-Values weighted_columns(const NominalFit& fit, const Prediction& at) {
-  const DatumColumns datum = datum_of(fit);
+Values weighted_columns(const NominalProblem& problem, const Prediction& at) {
+  const DatumColumns datum = datum_of(problem);
   Values D;
-  for (std::size_t i = 0; i < fit.nominal.size(); ++i) {
-    const double w = weight_of(fit.nominal[i]);
+  for (std::size_t i = 0; i < problem.nominal.size(); ++i) {
+    const double w = weight_of(problem.nominal[i]);
     D.push_back(w * at.per_K[i * columns]);
     D.push_back(w * at.per_K[i * columns + 1]);
     for (std::size_t k = 0; k < datum.count; ++k) {
@@ -223,38 +223,39 @@ Values weighted_columns(const NominalFit& fit, const Prediction& at) {
   return D;
 }
 
-Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
+CoefficientFit fit_nominal(const NominalProblem& problem,
+                           const NominalPrediction& predict) {
   constexpr int most_steps = 60;
   constexpr double enough = 1e-9;
   constexpr double negligible = 1e-3;  // of the variance: a step of 0.03 se
-  Answer answer;
-  std::array<double, columns> K = fit.K;
-  const int n = 2 + static_cast<int>(datum_of(fit).count);
-  answer.residual.assign(fit.nominal.size(), 0.0);
-  if (fit.nominal.size() < static_cast<std::size_t>(n)) {
-    answer.message =
-        fmt::format("{} means of readings for {} unknowns", fit.nominal.size(), n);
-    return answer;
+  CoefficientFit fit;
+  std::array<double, columns> K = problem.K;
+  const int n = 2 + static_cast<int>(datum_of(problem).count);
+  fit.residual.assign(problem.nominal.size(), 0.0);
+  if (problem.nominal.size() < static_cast<std::size_t>(n)) {
+    fit.message =
+        fmt::format("{} means of readings for {} unknowns", problem.nominal.size(), n);
+    return fit;
   }
   std::array<double, 2> step{};
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps; ++k) {
     const Prediction at = predict(K);
     if (!at.good) {
-      answer.message = "no state was found in which deflection and chip agree";
-      return answer;
+      fit.message = "no state was found in which deflection and chip agree";
+      return fit;
     }
-    const Values D = seen_columns(fit, at, n);
-    const Values all = weighted_errors(fit, at);
+    const Values D = seen_columns(problem, at, n);
+    const Values all = weighted_errors(problem, at);
     Values b = all;
     const int silent = silence_rows(D, n, b);
     auto solved = numerics::least_squares(D, n, b, 1 / worst_condition);
-    answer.rank = solved.rank;
-    answer.condition = solved.condition;
+    fit.rank = solved.rank;
+    fit.condition = solved.condition;
     if (solved.rank < n) {
-      answer.message = "the readings do not tell the coefficients apart";
-      find_known_combination(D, b, solved, K, answer);
-      return answer;
+      fit.message = "the readings do not tell the coefficients apart";
+      find_known_combination(D, b, solved, K, fit);
+      return fit;
     }
     // What is left when only the datum may follow tells whether the step was good.
     const auto stay = datum_only(D, b, n);
@@ -270,17 +271,17 @@ Answer fit_nominal(const NominalFit& fit, const NominalPrediction& predict) {
     K = {K[0] + step[0], K[1] + step[1]};
     const double size = std::hypot(K[0], K[1]);
     const double move = std::hypot(step[0], step[1]);
-    describe_solution(solved, n, silent, K, answer);
+    describe_solution(solved, n, silent, K, fit);
     const double s2 =
         solved.rss / std::max(1.0, static_cast<double>(b.size()) - n - silent);
     if (stuck || move <= enough * size || size == 0 ||
         stay.rss - solved.rss <= negligible * s2) {
-      accept(fit, solved, all, b, answer);
-      return answer;
+      accept(problem, solved, all, b, fit);
+      return fit;
     }
   }
-  answer.message = "the coefficients did not settle";
-  return answer;
+  fit.message = "the coefficients did not settle";
+  return fit;
 }
 
 }  // namespace trochoid::surface

@@ -2,8 +2,8 @@
 
 #include "made_wall.h"
 
-#include <trochoid/surface/calibrate.h>
 #include <trochoid/surface/find_runout.h>
+#include <trochoid/surface/fit_models.h>
 
 #include <random>
 #include <vector>
@@ -99,13 +99,9 @@ inline void add_noise(std::vector<Reading>& readings, double sigma, unsigned see
   for (Reading& r : readings) r.error += noise(random);
 }
 
-inline Calibration calibrated(const Setting& s, const std::vector<Reading>& readings,
-                              Datum datum = {}, Feedback feedback = Feedback::none) {
-  return calibrate(s, readings, std::array{datum}, feedback);
-}
-
-inline const Answer& chosen(const Calibration& c) {
-  return c.answers[c.chosen];
+inline ModelFits fitted(const Setting& s, const std::vector<Reading>& readings,
+                        Datum datum = {}, Feedback feedback = Feedback::none) {
+  return fit_models(s, readings, std::array{datum}, feedback);
 }
 
 }  // namespace trochoid::surface

@@ -7,12 +7,12 @@ namespace {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 
-RunoutAnswer found(const Setting& s, const std::vector<Reading>& readings,
-                   Datum datum = {}) {
+RunoutFit found(const Setting& s, const std::vector<Reading>& readings,
+                Datum datum = {}) {
   Setting blind = s;
   blind.setup.runout = {.order = s.setup.runout.order};
-  const Calibration c = calibrated(blind, readings, datum);
-  EXPECT_TRUE(chosen(c).ok) << chosen(c).message;
+  const ModelFits c = fitted(blind, readings, datum);
+  EXPECT_TRUE(chosen_fit(c).ok) << chosen_fit(c).message;
   return find_runout(blind, readings, std::array{datum}, c);
 }
 
@@ -36,7 +36,7 @@ TEST_P(Teeth, LabelledImprintsShowTheirRunout) {  // [E-17]
   const Setting s =
       made_setting(Model::imprint,
                    with_runout(made_cut(k.down, k.teeth, k.helix_deg), k.rho, k.angle));
-  const RunoutAnswer r = found(s, imprints(s, K, {.heights = made_heights(5)}));
+  const RunoutFit r = found(s, imprints(s, K, {.heights = made_heights(5)}));
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_TRUE(r.labelled);
   EXPECT_NEAR(r.eccentricity.value, k.rho, 1e-5 * k.rho);
@@ -56,7 +56,7 @@ TEST_P(Teeth, WithoutLabelsTheAngleIsKnownUpToAPitch) {  // [E-17]
   // the first reading is of tooth 2: the numbers are not those of the cutter
   for (Reading& r : readings) r.travel -= 2.0 * s.setup.cut.f_z;
   std::erase_if(readings, [&](const Reading& r) { return r.travel < 0; });
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_FALSE(r.labelled);
   EXPECT_NEAR(r.eccentricity.value, k.rho, 1e-5 * k.rho);
@@ -70,7 +70,7 @@ TEST_P(Teeth, PulsesShowTheirRunout) {  // [E-17]
                    with_runout(made_cut(k.down, k.teeth, k.helix_deg), k.rho, k.angle));
   s.phase = 0.1;
   const auto readings = pulses(s, K, {.heights = {0.5e-3, 1.5e-3}});
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_NEAR(r.eccentricity.value, k.rho, 1e-4 * k.rho);
   EXPECT_LT(apart(r.angle.value, k.angle, 2 * pi), 1e-3);
@@ -88,7 +88,7 @@ TEST(FindRunout, RealProfilesShowIt) {  // [E-17]
   const Setting s =
       made_setting(Model::envelope, with_runout(made_cut(), 2e-6, 200 * unit::deg));
   const auto readings = profiles(s, K, {.heights = made_heights(4), .per_tooth = 8});
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_FALSE(r.labelled);
   EXPECT_NEAR(r.eccentricity.value, 2e-6, 0.03e-6);
@@ -119,7 +119,7 @@ TEST(FindRunout, NoneIsFoundWhereThereIsNone) {  // [E-17]
   const Setting s = made_setting(Model::imprint);
   auto readings = imprints(s, K);
   add_noise(readings, 1e-6, 8);
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_LT(r.eccentricity.value, 4 * r.eccentricity.se);
 }
@@ -127,7 +127,7 @@ TEST(FindRunout, NoneIsFoundWhereThereIsNone) {  // [E-17]
 TEST(FindRunout, TeethThatCutNothingAreNoObstacle) {  // [E-17] rho > f_z/2
   const Setting s =
       made_setting(Model::imprint, with_runout(made_cut(), 0.15e-3, 250 * unit::deg));
-  const RunoutAnswer r = found(s, imprints(s, K));
+  const RunoutFit r = found(s, imprints(s, K));
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_NEAR(r.eccentricity.value, 0.15e-3, 1e-7);
   EXPECT_LT(apart(r.angle.value, 250 * unit::deg, 2 * pi), 1e-3);
@@ -138,7 +138,7 @@ TEST(FindRunout, ADatumIsFittedAlong) {  // [E-17]
   const Setting s = made_setting(Model::imprint, with_runout(made_cut(), 5e-6, 3.5));
   auto readings = imprints(s, K);
   for (Reading& r : readings) r.error += 4e-6 + 1e-3 * (r.height - 1.5e-3);
-  const RunoutAnswer r = found(s, readings, {.offset = true, .tilt = true});
+  const RunoutFit r = found(s, readings, {.offset = true, .tilt = true});
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_NEAR(r.eccentricity.value, 5e-6, 1e-9);
   for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -151,7 +151,7 @@ TEST(FindRunout, ATiltOfReadingsOverASingleTurnOfTheFeed) {  // [E-17] [E-11]
   const Setting s = made_setting(Model::imprint, with_runout(made_cut(), 5e-6, 3.5));
   auto readings = imprints(s, K);
   for (Reading& r : readings) r.x = r.travel;
-  const RunoutAnswer r = found(s, readings, {.offset = true, .tilt = true});
+  const RunoutFit r = found(s, readings, {.offset = true, .tilt = true});
   ASSERT_TRUE(r.ok) << r.message;
   EXPECT_NEAR(r.eccentricity.value, 5e-6, 1e-9);
 }
@@ -160,7 +160,7 @@ TEST(FindRunout, StandardErrorsGoWithTheNoise) {  // [E-17]
   const Setting s = made_setting(Model::imprint, with_runout(made_cut(), 5e-6, 3.5));
   auto readings = imprints(s, K);
   add_noise(readings, 1e-6, 8);
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   ASSERT_TRUE(r.ok) << r.message;
   // 33 readings, rho cos(...) of each: se = 1 um/sqrt(33/2), nearly orthogonal to K
   EXPECT_NEAR(r.eccentricity.se, 1e-6 / std::sqrt(16.5), 0.08e-6);
@@ -172,7 +172,7 @@ TEST(FindRunout, WithoutLabelsTheOrderMustBeClear) {  // [E-17]
   const Setting s = made_setting(Model::imprint, with_runout(made_cut(), 5e-6, 3.5));
   auto readings = imprints(s, K, {.labelled = false});
   readings[4].travel += 0.3 * 0.2e-3;
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   EXPECT_FALSE(r.ok);
   EXPECT_NE(r.message.find("whole tooth feeds apart"), std::string::npos);
 }
@@ -181,7 +181,7 @@ TEST(FindRunout, OneReadingAPlaceCannotShowIt) {  // [E-17]
   const Setting s = made_setting(Model::imprint);
   auto readings = imprints(s, K, {.labelled = false});
   std::erase_if(readings, [](const Reading& r) { return r.travel > 30.01e-3; });
-  const RunoutAnswer r = found(s, readings);
+  const RunoutFit r = found(s, readings);
   EXPECT_FALSE(r.ok);
   EXPECT_NE(r.message.find("less than 3 teeth need"), std::string::npos);
 }
@@ -195,8 +195,8 @@ TEST(FindRunout, UnevenPitchesAreTaken) {  // [E-17]
     const auto readings = model == Model::quasi_static ? pulses(s, K, at)
                           : model == Model::imprint    ? imprints(s, K, at)
                                                        : profiles(s, K, at);
-    const Calibration c = calibrated(s, readings);
-    const RunoutAnswer r = find_runout(s, readings, std::array{Datum{}}, c);
+    const ModelFits c = fitted(s, readings);
+    const RunoutFit r = find_runout(s, readings, std::array{Datum{}}, c);
     EXPECT_TRUE(r.ok || !r.message.empty());
     EXPECT_TRUE(!r.ok || std::isfinite(r.eccentricity.value));
   }

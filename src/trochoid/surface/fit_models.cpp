@@ -1,8 +1,6 @@
-#include <trochoid/surface/calibrate.h>
+#include <trochoid/surface/fit_models.h>
 
 #include <trochoid/numerics/least_squares.h>
-#include <trochoid/surface/datum.h>
-#include <trochoid/surface/fit_nominal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +9,21 @@ namespace trochoid::surface {
 
 namespace {
 
-/// Readings that an advice is about.
+/// Readings that advice is about.
 constexpr double more_readings = 10;
 constexpr int candidates = 19;
 
-Answer named(Answer answer, Model model, Feedback feedback) {
-  answer.model = model;
-  answer.feedback = feedback;
-  return answer;
+CoefficientFit named(CoefficientFit fit, Model model, Feedback feedback) {
+  fit.model = model;
+  fit.feedback = feedback;
+  return fit;
 }
 
-std::array<double, columns> start_at(const Answer& answer,
+std::array<double, columns> start_at(const CoefficientFit& fit,
                                      std::array<double, columns> K) {
-  if (answer.ok) {
-    K[0] = answer.K_tc.value;
-    K[1] = answer.K_rc.value;
+  if (fit.ok) {
+    K[0] = fit.K_tc.value;
+    K[1] = fit.K_rc.value;
   }
   return K;
 }
@@ -46,20 +44,20 @@ std::vector<Nominal> candidates_at(double height, std::span<const Nominal> nomin
   return rows;
 }
 
-std::vector<Advice> advice_for(const Setting& setting, const Answer& answer,
-                               const NominalFit& fit, const Prediction& at) {
+std::vector<Advice> advice_for(const Setting& setting, const CoefficientFit& fit,
+                               const NominalProblem& problem, const Prediction& at) {
   const double a_p = setting.setup.cut.a_p;
   std::vector<Nominal> rows;
   for (int i = 0; i < candidates; ++i) {
     const auto more =
-        candidates_at(a_p * (i + 1) / (candidates + 1), fit.nominal, setting.model);
+        candidates_at(a_p * (i + 1) / (candidates + 1), problem.nominal, setting.model);
     rows.insert(rows.end(), more.begin(), more.end());
   }
   const std::size_t each = rows.size() / candidates;
-  const std::array<double, columns> K = start_at(answer, fit.K);
+  const std::array<double, columns> K = start_at(fit, problem.K);
   const Prediction there = NominalModel(setting, rows).rigid(K);
-  const std::vector<double> D = weighted_columns(fit, at);
-  const std::size_t n = 2 + answer.datum.size();
+  const std::vector<double> D = weighted_columns(problem, at);
+  const std::size_t n = 2 + fit.datum.size();
   std::vector<Advice> advice;
   for (std::size_t i = 0; i < candidates; ++i) {
     std::vector<double> more = D;
@@ -70,15 +68,15 @@ std::vector<Advice> advice_for(const Setting& setting, const Answer& answer,
       more.push_back(w * per_K[1]);
       // An offset moves the new readings as well; slopes are left as they are.
       for (std::size_t c = 2; c < n; ++c) {
-        more.push_back(fit.datum.front().offset && c == 2 ? w : 0.0);
+        more.push_back(problem.datum.front().offset && c == 2 ? w : 0.0);
       }
     }
     const std::vector<double> b(more.size() / n);
     const auto solved = numerics::least_squares(more, static_cast<int>(n), b, 1e-12);
     if (!solved.inverse_gram.empty()) {
       advice.push_back({rows[i * each].height,
-                        answer.noise * std::sqrt(solved.inverse_gram[0]),
-                        answer.noise * std::sqrt(solved.inverse_gram[n + 1])});
+                        fit.noise * std::sqrt(solved.inverse_gram[0]),
+                        fit.noise * std::sqrt(solved.inverse_gram[n + 1])});
     }
   }
   std::sort(advice.begin(), advice.end(),
@@ -88,14 +86,14 @@ std::vector<Advice> advice_for(const Setting& setting, const Answer& answer,
 
 }  // namespace
 
-Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
-                      std::span<const Datum> datum, Feedback feedback) {
-  Calibration result;
+ModelFits fit_models(const Setting& setting, std::span<const Reading> readings,
+                     std::span<const Datum> datum, Feedback feedback) {
+  ModelFits result;
   result.nominal = nominal_errors(readings, setting.model, setting.setup.cut.f_z,
                                   setting.setup.cutter.teeth());
-  NominalFit fit{result.nominal, datum, wall_coefficients(setting.law)};
-  fit.K[0] = 0.0;
-  fit.K[1] = 0.0;
+  NominalProblem problem{result.nominal, datum, wall_coefficients(setting.law)};
+  problem.K[0] = 0.0;
+  problem.K[1] = 0.0;
   Setting linear_setting = setting;
   if (setting.model == Model::envelope) {
     linear_setting.model = Model::imprint;
@@ -106,15 +104,15 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
     const auto predict = [&](std::span<const double, columns> K) {
       return with == Feedback::none ? model.rigid(K) : model.bent(K, with);
     };
-    result.answers.push_back(named(fit_nominal(fit, predict), name, with));
+    result.fits.push_back(named(fit_nominal(problem, predict), name, with));
     if (name == setting.model && with == feedback) {
-      result.chosen = result.answers.size() - 1;
+      result.chosen = result.fits.size() - 1;
     }
-    fit.K = start_at(result.answers.back(), fit.K);
+    problem.K = start_at(result.fits.back(), problem.K);
   };
   const Feedback bent = feedback == Feedback::none ? Feedback::entry : feedback;
   add(linear, linear_setting.model, Feedback::none);
-  if (!result.answers.front().ok) {
+  if (!result.fits.front().ok) {
     return result;
   }
   Setting finest = linear_setting;
@@ -126,13 +124,23 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
     add(rigorous, Model::envelope, Feedback::none);
   }
   add(setting.model == Model::envelope ? rigorous : linear, setting.model, bent);
-  const Answer& answer = result.answers[result.chosen];
-  if (answer.ok) {
+  const CoefficientFit& fit = chosen_fit(result);
+  if (fit.ok) {
     const NominalModel& model = setting.model == Model::envelope ? rigorous : linear;
     result.advice =
-        advice_for(setting, answer, fit, model.rigid(start_at(answer, fit.K)));
+        advice_for(setting, fit, problem, model.rigid(start_at(fit, problem.K)));
   }
   return result;
+}
+
+std::vector<double> predicted_means(const ModelFits& models, std::size_t count) {
+  std::vector<double> predicted(count);
+  for (std::size_t i = 0; i < models.nominal.size(); ++i) {
+    for (const std::size_t k : models.nominal[i].readings) {
+      predicted[k] = chosen_fit(models).predicted[i];
+    }
+  }
+  return predicted;
 }
 
 }  // namespace trochoid::surface
