@@ -137,8 +137,8 @@ void feedback_with_runout(benchmark::State& state) {
   const surface::EdgeMoments edges(setting.setup, setting.law, compliance.basis());
   int turns = 0;
   for (auto _ : state) {
-    const auto turn =
-        surface::bent_turn(edges, K, compliance, surface::Feedback::regenerative, 1e-5);
+    const auto turn = surface::steady_state(edges, K, compliance,
+                                            surface::Feedback::regenerative, 1e-5);
     turns = turn.turns;
   }
   state.counters["turns"] = turns;

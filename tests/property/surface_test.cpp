@@ -233,7 +233,7 @@ TEST(RunoutChangesTheAverage, SlightlyWhereTheDeflectionMovesTheEntry) {  // [E-
   const auto row = compliance.rows(std::array{h_mid});
   const auto nominal = [&](const MadeCut& s) {
     const EdgeMoments edges(s, law(0, 0), compliance.basis());
-    const auto turn = bent_turn(edges, K, compliance, Feedback::entry, 1e-7);
+    const auto turn = steady_state(edges, K, compliance, Feedback::entry, 1e-7);
     EXPECT_TRUE(turn.converged);
     const auto delta = deflection(turn.moments, row, 1.0);
     std::vector<double> mean;

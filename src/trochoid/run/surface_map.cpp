@@ -166,13 +166,13 @@ numerics::PeriodicPieces moments_of(const inputs::Case& given,
   if (map.feedback == surface::Feedback::none) {
     return surface::with_coefficients(surface::unit_moments(edges, tolerance), K);
   }
-  surface::BentTurn bent =
-      surface::bent_turn(edges, K, compliance, map.feedback, setting.tolerance);
-  map.converged = bent.converged;
-  map.found = bent.found;
-  map.turns = bent.turns;
-  map.change = bent.change;
-  return std::move(bent.moments);
+  surface::SteadyState state =
+      surface::steady_state(edges, K, compliance, map.feedback, setting.tolerance);
+  map.converged = state.converged;
+  map.found = state.found;
+  map.turns = state.turns;
+  map.change = state.change;
+  return std::move(state.moments);
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ class Passage {
 
   /// u at the basis points over the spindle angle, or none: as straight as now.
   void remember(const numerics::PeriodicPieces* moments) {
-    past_ = moments == nullptr ? numerics::PeriodicPieces{} : bent(*moments);
+    past_ = moments == nullptr ? numerics::PeriodicPieces{} : deflections(*moments);
   }
 
   /// Values of moments, F_x, F_y at phi; false where no state was found.
@@ -168,13 +168,13 @@ class Passage {
     return solve_by_newton(image, u, limits);
   }
 
-  [[nodiscard]] double largest_bend(std::span<const double> moments) const {
+  [[nodiscard]] double largest_deflection(std::span<const double> moments) const {
     Values u(basis_.size());
     apply(moments, u);
     return largest_of(u);
   }
 
-  [[nodiscard]] numerics::PeriodicPieces bent(
+  [[nodiscard]] numerics::PeriodicPieces deflections(
       const numerics::PeriodicPieces& moments) const {
     const std::size_t points = basis_.size();
     Values weights(points * moments.functions());
@@ -261,19 +261,20 @@ std::pair<double, double> difference(const Passage& passage,
     const double phi = unit::turn * (i + 0.5) / samples;
     a.value(phi, x);
     b.value(phi, y);
-    peak = std::max(peak, passage.largest_bend(x));
+    peak = std::max(peak, passage.largest_deflection(x));
     for (std::size_t q = 0; q < x.size(); ++q) {
       x[q] -= y[q];
     }
-    change = std::max(change, passage.largest_bend(x));
+    change = std::max(change, passage.largest_deflection(x));
   }
   return {change, peak};
 }
 
 }  // namespace
 
-BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
-                   const Compliance& compliance, Feedback feedback, double tolerance) {
+SteadyState steady_state(const EdgeMoments& edges, std::span<const double, columns> K,
+                         const Compliance& compliance, Feedback feedback,
+                         double tolerance) {
   Passage passage(edges, K, compliance, feedback);
   const auto rigid = [&](double phi, std::span<double> out) {
     Values unit(columns * edges.values());
@@ -286,9 +287,10 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
   const Values largest = largest_values(edges, 1, rigid);
   numerics::PeriodicPieces::Options options =
       panels_for(edges, edges.equal_teeth(), largest, tolerance);
-  const double rigid_bend = passage.largest_bend(Values(edges.values(), largest[0]));
+  const double rigid_deflection =
+      passage.largest_deflection(Values(edges.values(), largest[0]));
   // A cutter that pulls itself in bends far beyond what a straight one would.
-  const Limits limits{0.1 * tolerance * rigid_bend, 20 * rigid_bend};
+  const Limits limits{0.1 * tolerance * rigid_deflection, 20 * rigid_deflection};
   std::atomic<bool> found = true;
   const numerics::PeriodicPieces::Function f = [&](double phi, std::span<double> out) {
     // After the first failure nothing counts any more: flat tables end the search soon.
@@ -298,23 +300,23 @@ BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
     }
   };
   const bool remembers = feedback == Feedback::regenerative && !edges.equal_teeth();
-  BentTurn turn{.moments = {f, options}, .turns = 1};
+  SteadyState state{.moments = {f, options}, .turns = 1};
   constexpr int most_turns = 200;
   constexpr double settled = 10;  // the tables themselves are good to a few tolerances
-  while (remembers && found && turn.turns < most_turns) {
-    passage.remember(&turn.moments);
+  while (remembers && found && state.turns < most_turns) {
+    passage.remember(&state.moments);
     numerics::PeriodicPieces next(f, options);
-    const auto [change, peak] = difference(passage, turn.moments, next);
-    turn.moments = std::move(next);
-    ++turn.turns;
-    turn.change = peak > 0 ? change / peak : 0.0;
-    if (turn.change <= settled * tolerance) {
+    const auto [change, peak] = difference(passage, state.moments, next);
+    state.moments = std::move(next);
+    ++state.turns;
+    state.change = peak > 0 ? change / peak : 0.0;
+    if (state.change <= settled * tolerance) {
       break;
     }
   }
-  turn.found = found;
-  turn.converged = found && (!remembers || turn.change <= settled * tolerance);
-  return turn;
+  state.found = found;
+  state.converged = found && (!remembers || state.change <= settled * tolerance);
+  return state;
 }
 
 }  // namespace trochoid::surface

@@ -34,8 +34,8 @@ constexpr std::string_view name_of(Feedback feedback) noexcept {
   return {};
 }
 
-/// @brief A turn of the bent cutter.
-struct BentTurn {
+/// @brief Forces over a turn that repeats, deflection included.
+struct SteadyState {
   numerics::PeriodicPieces moments;  ///< as of with_coefficients
   bool converged = false;
   bool found = true;    ///< false: at some angle no deflection agrees with its chip
@@ -43,7 +43,7 @@ struct BentTurn {
   double change = 0.0;  ///< of the deflection in the last pass, relative to its peak
 };
 
-/// @brief The periodic state in which the deflection and the chip agree.
+/// @brief The steady state, in which deflection and chip agree.
 ///
 /// @eq E-10 u(phi, h) = sum_q G_q(h) m_q(phi; u): the stock is met at y + u, and the
 ///          chip over the mark of the m-th tooth before grows by
@@ -51,7 +51,8 @@ struct BentTurn {
 /// @src [wang2015] section 5 in words; derived. Without runout the chip term cancels.
 /// @param K          wall_coefficients of the law
 /// @param tolerance  relative, of force and deflection
-BentTurn bent_turn(const EdgeMoments& edges, std::span<const double, columns> K,
-                   const Compliance& compliance, Feedback feedback, double tolerance);
+SteadyState steady_state(const EdgeMoments& edges, std::span<const double, columns> K,
+                         const Compliance& compliance, Feedback feedback,
+                         double tolerance);
 
 }  // namespace trochoid::surface

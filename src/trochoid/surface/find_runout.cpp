@@ -285,10 +285,10 @@ RunoutFit find_runout(const Setting& setting, std::span<const Reading> readings,
       datum_columns(spots_of(readings, found.nominal), datum);
   const Unknowns all{
       .start = model.has_phase(), .all = true, .datum = datum_part.count};
-  if (!model.obstacle().empty() || readings.size() <= all.count()) {
-    fit.message = model.obstacle().empty()
+  if (!model.why_no_runout().empty() || readings.size() <= all.count()) {
+    fit.message = model.why_no_runout().empty()
                       ? "too few readings for runout beside the coefficients"
-                      : model.obstacle();
+                      : model.why_no_runout();
     return fit;
   }
   const Problem problem{model, readings, datum_part, setting.setup.cut.f_z};
@@ -304,7 +304,7 @@ RunoutFit find_runout(const Setting& setting, std::span<const Reading> readings,
   const std::vector<Reading> sample = sample_of(readings);
   const ToothModel sampled(setting, sample);
   const DatumColumns sampled_datum = datum_columns(spots_of(sample), datum);
-  const bool enough = sampled.obstacle().empty() && sample.size() > all.count() &&
+  const bool enough = sampled.why_no_runout().empty() && sample.size() > all.count() &&
                       sampled_datum.count == datum_part.count;
   const Problem part{sampled, sample, sampled_datum, problem.f_z};
   State best =

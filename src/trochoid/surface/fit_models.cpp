@@ -102,7 +102,7 @@ ModelFits fit_models(const Setting& setting, std::span<const Reading> readings,
   const NominalModel linear(linear_setting, result.nominal, result.stations);
   const auto add = [&](const NominalModel& model, Model name, Feedback with) {
     const auto predict = [&](std::span<const double, columns> K) {
-      return with == Feedback::none ? model.rigid(K) : model.bent(K, with);
+      return with == Feedback::none ? model.rigid(K) : model.with_feedback(K, with);
     };
     result.fits.push_back(named(fit_nominal(problem, predict), name, with));
     if (name == setting.model && with == feedback) {
@@ -110,7 +110,7 @@ ModelFits fit_models(const Setting& setting, std::span<const Reading> readings,
     }
     problem.K = start_at(result.fits.back(), problem.K);
   };
-  const Feedback bent = feedback == Feedback::none ? Feedback::entry : feedback;
+  const Feedback last = feedback == Feedback::none ? Feedback::entry : feedback;
   add(linear, linear_setting.model, Feedback::none);
   if (!result.fits.front().ok) {
     return result;
@@ -123,7 +123,7 @@ ModelFits fit_models(const Setting& setting, std::span<const Reading> readings,
   if (setting.model != Model::quasi_static) {
     add(rigorous, Model::envelope, Feedback::none);
   }
-  add(setting.model == Model::envelope ? rigorous : linear, setting.model, bent);
+  add(setting.model == Model::envelope ? rigorous : linear, setting.model, last);
   const CoefficientFit& fit = chosen_fit(result);
   if (fit.ok) {
     const NominalModel& model = setting.model == Model::envelope ? rigorous : linear;

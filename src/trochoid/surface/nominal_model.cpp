@@ -218,16 +218,16 @@ Prediction NominalModel::rigid(std::span<const double, columns> K) const {
   return along_the_wall(grid);
 }
 
-Prediction NominalModel::bent_once(std::span<const double, columns> K,
-                                   Feedback feedback) const {
+Prediction NominalModel::with_feedback_once(std::span<const double, columns> K,
+                                            Feedback feedback) const {
   std::vector<Value> grid(stations_->count() * kinds_.size());
   bool good = true;
   for (std::size_t s = 0; s < stations_->count(); ++s) {
-    const BentTurn bent = bent_turn(edges_, K, stations_->compliance(s), feedback,
-                                    10 * setting_.tolerance);
-    good = good && bent.converged;
+    const SteadyState state = steady_state(edges_, K, stations_->compliance(s),
+                                           feedback, 10 * setting_.tolerance);
+    good = good && state.converged;
     numerics::for_each_index(kinds_.size(), [&](std::size_t k) {
-      grid[s * kinds_.size() + k] = value(bent.moments, s, kinds_[k]);
+      grid[s * kinds_.size() + k] = value(state.moments, s, kinds_[k]);
     });
   }
   Prediction result = along_the_wall(grid);
@@ -235,15 +235,15 @@ Prediction NominalModel::bent_once(std::span<const double, columns> K,
   return result;
 }
 
-Prediction NominalModel::bent(std::span<const double, columns> K,
-                              Feedback feedback) const {
-  Prediction result = bent_once(K, feedback);
+Prediction NominalModel::with_feedback(std::span<const double, columns> K,
+                                       Feedback feedback) const {
+  Prediction result = with_feedback_once(K, feedback);
   const double step = 1e-3 * std::max(std::hypot(K[0], K[1]), 1e6);
   for (std::size_t c = 0; c < 2; ++c) {
     std::array<double, columns> moved{};
     std::copy(K.begin(), K.end(), moved.begin());
     moved[c] += step;
-    const Prediction there = bent_once(moved, feedback);
+    const Prediction there = with_feedback_once(moved, feedback);
     result.good = result.good && there.good;
     for (std::size_t i = 0; i < result.error.size(); ++i) {
       result.per_K[i * columns + c] = (there.error[i] - result.error[i]) / step;

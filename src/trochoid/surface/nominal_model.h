@@ -34,8 +34,8 @@ class NominalModel {
   [[nodiscard]] Prediction rigid(std::span<const double, columns> K) const;
 
   /// @brief With feedback of the deflection; `per_K` by differences, for K_tc and K_rc.
-  [[nodiscard]] Prediction bent(std::span<const double, columns> K,
-                                Feedback feedback) const;
+  [[nodiscard]] Prediction with_feedback(std::span<const double, columns> K,
+                                         Feedback feedback) const;
 
   [[nodiscard]] std::size_t stations() const noexcept { return stations_->count(); }
 
@@ -57,8 +57,8 @@ class NominalModel {
   void add_largest(const numerics::PeriodicPieces& deflections, Value& value) const;
   [[nodiscard]] Value at_row(const numerics::PeriodicPieces& moments,
                              std::span<const double> row, const Kind& kind) const;
-  [[nodiscard]] Prediction bent_once(std::span<const double, columns> K,
-                                     Feedback feedback) const;
+  [[nodiscard]] Prediction with_feedback_once(std::span<const double, columns> K,
+                                              Feedback feedback) const;
   [[nodiscard]] Prediction along_the_wall(const std::vector<Value>& grid) const;
 
   Setting setting_;

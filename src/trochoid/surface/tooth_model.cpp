@@ -77,7 +77,7 @@ ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings
 void ToothModel::find_teeth() {
   const int teeth = setting_.setup.cutter.teeth();
   if (teeth < 2) {
-    obstacle_ = "with one tooth, runout is the same as another radius";
+    why_no_runout_ = "with one tooth, runout is the same as another radius";
     return;
   }
   if (setting_.model == Model::quasi_static) {
@@ -92,7 +92,7 @@ void ToothModel::find_teeth() {
   const double reach = last->travel - first->travel;
   if (setting_.model == Model::envelope || !labelled_) {
     if (reach < (teeth - 1.01) * f_z) {
-      obstacle_ = fmt::format(
+      why_no_runout_ = fmt::format(
           "the readings reach over {:.3g} mm of the feed, less than {} teeth need",
           reach * 1e3, teeth);
       return;
@@ -106,7 +106,7 @@ void ToothModel::find_teeth() {
     const double steps = (readings_[i].travel - first->travel) / f_z;
     const double whole = std::round(steps);
     if (!labelled_ && std::abs(steps - whole) > 0.05) {
-      obstacle_ = fmt::format(
+      why_no_runout_ = fmt::format(
           "without tooth numbers the readings must be "
           "whole tooth feeds apart; one is {:.3f}",
           steps);
@@ -157,8 +157,9 @@ ToothModel::Forces ToothModel::forces(RunoutVector runout) const {
 }
 
 /// delta at the angle of a place from single values of the force.
-double ToothModel::bent(const Forces& forces, std::span<const double, columns> K,
-                        const Place& place) const {
+double ToothModel::deflection_at(const Forces& forces,
+                                 std::span<const double, columns> K,
+                                 const Place& place) const {
   const std::size_t points = stations_->basis().size();
   const std::size_t n = points + 2;
   const force::Setup setup = with(forces.runout);
@@ -198,7 +199,7 @@ std::vector<double> ToothModel::predict(const Forces& forces,
     const std::size_t tooth = setting_.model == Model::quasi_static
                                   ? last_entered(tips, entry_angle(setup), place.phi)
                                   : place.tooth;
-    errors[i] = bent(forces, K, place) -
+    errors[i] = deflection_at(forces, K, place) -
                 (teeth[place.height][tooth].R - setup.cutter.profile.D / 2);
   });
   return errors;

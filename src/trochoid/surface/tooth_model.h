@@ -28,7 +28,9 @@ class ToothModel {
   ToothModel(const Setting& setting, std::span<const Reading> readings);
 
   /// Why the readings cannot show runout; empty: they can.
-  [[nodiscard]] const std::string& obstacle() const noexcept { return obstacle_; }
+  [[nodiscard]] const std::string& why_no_runout() const noexcept {
+    return why_no_runout_;
+  }
   /// Are the teeth known, or may all be renumbered?
   [[nodiscard]] bool labelled() const noexcept { return labelled_; }
   /// Does the model depend on where a turn begins?
@@ -67,8 +69,9 @@ class ToothModel {
                              const force::Setup& setup) const;
   [[nodiscard]] force::Setup with(RunoutVector runout) const;
   [[nodiscard]] double angle_of(const Place& place, const force::Setup& setup) const;
-  [[nodiscard]] double bent(const Forces& forces, std::span<const double, columns> K,
-                            const Place& place) const;
+  [[nodiscard]] double deflection_at(const Forces& forces,
+                                     std::span<const double, columns> K,
+                                     const Place& place) const;
   [[nodiscard]] std::vector<double> predict_envelope(const Forces& forces,
                                                      std::span<const double, columns> K,
                                                      const force::Setup& setup,
@@ -81,7 +84,7 @@ class ToothModel {
   std::vector<Place> places_;
   std::shared_ptr<const Stations> stations_;
   bool labelled_ = true;
-  std::string obstacle_;
+  std::string why_no_runout_;
 };
 
 }  // namespace trochoid::surface

@@ -21,8 +21,8 @@ struct Bent {
         compliance(bodies, s.cut.a_p, 30e-3, Load::distributed),
         edges(s, law(0, 0), compliance.basis()) {}
 
-  [[nodiscard]] BentTurn turn(Feedback feedback, Coefficients with = K) const {
-    return bent_turn(edges, with, compliance, feedback, tolerance);
+  [[nodiscard]] SteadyState turn(Feedback feedback, Coefficients with = K) const {
+    return steady_state(edges, with, compliance, feedback, tolerance);
   }
   [[nodiscard]] numerics::PeriodicPieces straight(Coefficients with = K) const {
     return with_coefficients(unit_moments(edges, tolerance), with);
@@ -78,7 +78,8 @@ force::Bend bend_of(const Bent& it, const numerics::PeriodicPieces& moments, dou
 }
 
 /// Largest part of the force that the found deflection does not give back.
-double residual(const Bent& it, const BentTurn& turn, Feedback feedback, int samples) {
+double residual(const Bent& it, const SteadyState& turn, Feedback feedback,
+                int samples) {
   const std::size_t n = it.edges.values();
   std::vector<double> unit(columns * n);
   double off = 0.0;
@@ -99,7 +100,7 @@ MadeCut bent_cut(bool down, double rho) {
 /// Runout and all feedback: takes many turns to repeat, so it is found once.
 struct Regenerated {
   Bent it{bent_cut(true, 20e-6)};
-  BentTurn turn = it.turn(Feedback::regenerative);
+  SteadyState turn = it.turn(Feedback::regenerative);
 };
 
 const Regenerated& regenerated() {
@@ -111,7 +112,7 @@ TEST(Feedback, TheDeflectionFoundGivesTheForcesThatMakeIt) {  // [E-10]
   for (const Feedback feedback : {Feedback::entry, Feedback::direct}) {
     for (const bool down : {true, false}) {
       const Bent it(bent_cut(down, 10e-6));
-      const BentTurn turn = it.turn(feedback);
+      const SteadyState turn = it.turn(feedback);
       ASSERT_TRUE(turn.converged);
       EXPECT_LT(residual(it, turn, feedback, 12), 20 * tolerance)
           << down << static_cast<int>(feedback);
@@ -128,13 +129,13 @@ TEST(Feedback, AlsoWhereItComesBackWithTheNextTooth) {  // [E-10]
 
 TEST(Feedback, TheFirstGuessWouldNotDo) {  // [E-10]
   const Bent it(bent_cut(true, 0.0));
-  const BentTurn straight{.moments = it.straight()};
+  const SteadyState straight{.moments = it.straight()};
   EXPECT_GT(residual(it, straight, Feedback::entry, 40), 1e-3);
 }
 
 TEST(Feedback, OfAThinWallHoldsAsWell) {  // [E-10]
   const Bent it(bent_cut(true, 5e-6), with_wall(2e-3)(30e-3));
-  const BentTurn turn = it.turn(Feedback::entry);
+  const SteadyState turn = it.turn(Feedback::entry);
   ASSERT_TRUE(turn.converged);
   EXPECT_LT(residual(it, turn, Feedback::entry, 12), 50 * tolerance);
 }
@@ -149,7 +150,7 @@ TEST(Feedback, WithoutRunoutTheChipTermCancels) {  // [E-10]
   // also where the code cannot know: one radial offset that moves nothing
   MadeCut s = made_cut();
   s.runout.radial_offsets = {0.0, 1e-13, 0.0};
-  const BentTurn turn = Bent(s).turn(Feedback::regenerative);
+  const SteadyState turn = Bent(s).turn(Feedback::regenerative);
   ASSERT_TRUE(turn.converged);
   EXPECT_GT(turn.turns, 1);
   for (const double phi : angles(100)) {
@@ -174,7 +175,7 @@ TEST(Feedback, AStiffCutterIsARigidOne) {  // [E-10]
   const auto straight = it.straight();
   for (const Feedback feedback :
        {Feedback::entry, Feedback::regenerative, Feedback::direct}) {
-    const BentTurn turn = it.turn(feedback);
+    const SteadyState turn = it.turn(feedback);
     ASSERT_TRUE(turn.converged);
     for (const double phi : angles(50)) {
       EXPECT_NEAR(F_y(turn.moments, phi), F_y(straight, phi), 10 * tolerance * 250);
@@ -184,7 +185,7 @@ TEST(Feedback, AStiffCutterIsARigidOne) {  // [E-10]
 
 TEST(Feedback, ARigidCutterStaysStraight) {  // [E-10]
   const Bent it(bent_cut(true, 10e-6), Bodies{});
-  const BentTurn turn = it.turn(Feedback::regenerative);
+  const SteadyState turn = it.turn(Feedback::regenerative);
   EXPECT_TRUE(turn.converged);
   const auto straight = it.straight();
   for (const double phi : angles(50)) {
@@ -250,7 +251,7 @@ TEST(Feedback, ATooSoftCutterIsToldAndEnds) {  // [E-10]
   soft.cutter->youngs_modulus /= 1000;
   for (const double rho : {0.0, 20e-6}) {
     for (const Feedback feedback : {Feedback::entry, Feedback::regenerative}) {
-      const BentTurn turn = Bent(bent_cut(true, rho), soft).turn(feedback);
+      const SteadyState turn = Bent(bent_cut(true, rho), soft).turn(feedback);
       EXPECT_FALSE(turn.converged);
       EXPECT_TRUE(std::isfinite(peak(turn.moments)));
     }

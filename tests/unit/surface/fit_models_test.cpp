@@ -256,7 +256,7 @@ TEST(FitModels, FeedbackIsFittedAlong) {  // [E-10] [E-15]
   const Coefficients soft = {400e6, 200e6, 0.0, 0.0};
   const auto rows = nominal_errors(pulses(s, soft, {.heights = {0.5e-3}}), s.model,
                                    s.setup.cut.f_z, 3);
-  const auto bent = NominalModel(s, rows).bent(soft, Feedback::entry);
+  const auto bent = NominalModel(s, rows).with_feedback(soft, Feedback::entry);
   ASSERT_TRUE(bent.good);
   std::vector<Reading> readings;
   for (std::size_t i = 0; i < rows.size(); ++i) {
