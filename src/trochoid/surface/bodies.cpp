@@ -11,7 +11,23 @@ namespace {
 /// derivative, and the force along an edge is smooth but for its ends.
 constexpr int basis_points = 16;
 
+/// Of the wall's deflection: what it adds to the error is far below a reading's noise.
+constexpr double plate_tolerance = 2e-4;
+
 }  // namespace
+
+BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
+                   const std::optional<structure::Plate>& wall, double a_p) {
+  return [cutter, wall, a_p](double x) {
+    Bodies bodies{.cutter = cutter};
+    if (wall) {
+      bodies.wall = Wall{
+          std::make_shared<structure::PlateSolution>(*wall, x, plate_tolerance, a_p),
+          wall->height, wall->length};
+    }
+    return bodies;
+  };
+}
 
 Compliance::Compliance(const Bodies& bodies, double a_p, double x, Load load)
     : bodies_(bodies), a_p_(a_p), x_(x), load_(load), basis_(0.0, a_p, basis_points) {}
@@ -53,6 +69,41 @@ std::vector<double> Compliance::of_wall(std::span<const double> heights,
   return G;
 }
 
+std::vector<double> Compliance::concentrated_on_cutter(
+    std::span<const double> heights) const {
+  const std::array<double, 1> middle = {a_p_ / 2};
+  return of_cutter(heights, middle);
+}
+
+std::vector<double> Compliance::concentrated_on_wall(
+    std::span<const double> heights) const {
+  if (!bodies_.wall) {
+    return std::vector<double>(heights.size());
+  }
+  const double top = bodies_.wall->height;
+  std::vector<double> observed(heights.begin(), heights.end());
+  for (double& y : observed) {
+    y = std::clamp(y + top - a_p_, 0.0, top);  // the foot is 0 but for rounding
+  }
+  std::vector<double> c =
+      bodies_.wall->plate->line_load(x_, observed, x_, top - a_p_, top);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    if (heights[i] > a_p_) {
+      c[i] = 0.0;  // above the free edge there is no wall
+    }
+  }
+  return c;
+}
+
+std::vector<double> Compliance::concentrated(std::span<const double> heights) const {
+  std::vector<double> c = concentrated_on_cutter(heights);
+  const std::vector<double> wall = concentrated_on_wall(heights);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c[i] += wall[i];
+  }
+  return c;
+}
+
 std::vector<double> Compliance::rows(std::span<const double> heights) const {
   const std::size_t points = basis_.size();
   std::vector<double> G(heights.size() * points);
@@ -64,20 +115,7 @@ std::vector<double> Compliance::rows(std::span<const double> heights) const {
     }
     return G;
   }
-  const std::array<double, 1> middle = {a_p_ / 2};
-  std::vector<double> c = of_cutter(heights, middle);
-  if (bodies_.wall) {
-    const double top = bodies_.wall->height;
-    std::vector<double> observed(heights.begin(), heights.end());
-    for (double& y : observed) {
-      y = std::min(y + top - a_p_, top);
-    }
-    const std::vector<double> wall =
-        bodies_.wall->plate->line_load(x_, observed, x_, top - a_p_, top);
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      c[i] += wall[i];
-    }
-  }
+  const std::vector<double> c = concentrated(heights);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     for (std::size_t q = 0; q < points; ++q) {
       G[i * points + q] = c[i];  // E-6, the moments add up to F_y

@@ -4,6 +4,7 @@
 #include <trochoid/structure/cantilever.h>
 #include <trochoid/structure/plate.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,14 @@ struct Bodies {
   std::optional<structure::Cantilever> cutter;
   std::optional<Wall> wall;
 };
+
+/// The bodies with the cutter at x along the wall [m].
+using BodiesAt = std::function<Bodies(double x)>;
+
+/// @brief Cutter and wall by their dimensions; the wall is solved anew at each x.
+/// @param a_p  axial depth: loads reach down to it from the free edge [m]
+BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
+                   const std::optional<structure::Plate>& wall, double a_p);
 
 /// How the force is spread over the axial depth.
 enum class Load {
@@ -58,6 +67,9 @@ class Compliance {
   Compliance(const Bodies& bodies, double a_p, double x, Load load);
 
   [[nodiscard]] const numerics::LagrangeBasis& basis() const noexcept { return basis_; }
+  [[nodiscard]] const Bodies& bodies() const noexcept { return bodies_; }
+  [[nodiscard]] double axial_depth() const noexcept { return a_p_; }  ///< [m]
+  [[nodiscard]] Load load() const noexcept { return load_; }
 
   /// @param heights  above the tip [m]
   /// @return [m/N], row-major, shape (heights, basis points)
@@ -69,6 +81,16 @@ class Compliance {
   /// @brief The same of the wall alone; zero above the free edge's height.
   [[nodiscard]] std::vector<double> of_wall(std::span<const double> heights,
                                             std::span<const double> loads) const;
+
+  /// @brief Deflection per whole force where that is concentrated (E-6), whatever the
+  /// load of this compliance; shape of heights [m/N].
+  [[nodiscard]] std::vector<double> concentrated(std::span<const double> heights) const;
+  /// @brief What the cutter alone adds to it.
+  [[nodiscard]] std::vector<double> concentrated_on_cutter(
+      std::span<const double> heights) const;
+  /// @brief What the wall alone adds to it; zero above the free edge's height.
+  [[nodiscard]] std::vector<double> concentrated_on_wall(
+      std::span<const double> heights) const;
 
  private:
   Bodies bodies_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace trochoid::surface {
 
@@ -49,6 +50,14 @@ numerics::PeriodicPieces with_sum(const numerics::PeriodicPieces& unit,
 }
 
 }  // namespace
+
+Side side_of(const Setting& setting) {
+  const auto side = side_of(setting.setup.cut.engagement);
+  if (!side) {
+    throw std::invalid_argument("a slot or a band leaves no single wall");
+  }
+  return *side;
+}
 
 double entry_angle(const force::Setup& setup) {
   const auto* down = std::get_if<geometry::DownMilling>(&setup.cut.engagement);

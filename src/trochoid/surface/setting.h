@@ -2,6 +2,7 @@
 
 #include <trochoid/force/setup.h>
 #include <trochoid/surface/feedback.h>
+#include <trochoid/surface/pass.h>
 #include <trochoid/surface/readings.h>
 #include <trochoid/surface/stations.h>
 
@@ -18,6 +19,10 @@ struct Setting {
   double probe_radius = 0.0;  ///< of the measuring tip [m]; 0: a point
   double tolerance = 1e-5;    ///< of force and deflection, relative
 };
+
+/// @brief The side of the finished wall.
+/// @throws std::invalid_argument for a slot or a band, which leave no single wall
+Side side_of(const Setting& setting);
 
 /// @brief Angle at which the pass of a tooth through the stock begins.
 /// @eq E-12 down: theta_e = pi - p; up: theta_e = 0; p = arccos(1 - a_e/R)

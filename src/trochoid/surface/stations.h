@@ -4,14 +4,10 @@
 #include <trochoid/surface/bodies.h>
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
 namespace trochoid::surface {
-
-/// The bodies with the cutter at x along the wall [m].
-using BodiesAt = std::function<Bodies(double x)>;
 
 /// @brief Just below a height, there, and just above it: for slopes over the height.
 std::array<double, 3> heights_around(double height, double a_p);
