@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/surface.h>
+#include <trochoid/run/wall/surface.h>
 
 #include <functional>
 
@@ -10,8 +10,7 @@ int surface(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::surface,
                                                result_folder(options, "surface"));
   ProgressLine progress(options.quiet);
-  const results::Answer answer = run::surface(given, std::ref(progress));
-  return deliver(answer, options);
+  return deliver(results::answer_of(run::surface(given, std::ref(progress))), options);
 }
 
 }  // namespace trochoid::cli

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/results/estimate_value.h>
 
 #include <fmt/core.h>
 
@@ -12,16 +13,6 @@ namespace {
 using identification::Fit;
 using identification::RunoutUnknowns;
 using identification::unidentifiable;
-
-Value estimate_value(const std::optional<base::Estimate>& e, double unit) {
-  if (!e) {
-    return nullptr;
-  }
-  return Object{{"value", e->value / unit},
-                {"se", e->se / unit},
-                {"low", e->low / unit},
-                {"high", e->high / unit}};
-}
 
 /// A number that may be unknown, as a file has it.
 Value known(bool unknown, double value, double unit) {

@@ -34,6 +34,19 @@ std::string runout_toml(const Fit& fit) {
 
 }  // namespace
 
+std::string law_shape_toml(const force::Law& law, force::EdgeLength edge_length) {
+  std::string text;
+  const force::Form form = force::form(law);
+  const auto exponents = force::exponent_quantities(law);
+  for (std::size_t q = 0; q < exponents.size(); ++q) {
+    text += fmt::format("{} = {}\n", exponents[q].key, form.m[q]);
+  }
+  if (form.edge) {
+    text += fmt::format("edge_length = \"{}\"\n", force::name_of(edge_length));
+  }
+  return text;
+}
+
 std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
   std::string text;
   if (const auto reasons = identification::reasons_against(fit); !reasons.empty()) {
@@ -60,14 +73,7 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
       text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
     }
   }
-  const force::Form form = force::form(fit.law);
-  const auto exponents = force::exponent_quantities(fit.law);
-  for (std::size_t q = 0; q < exponents.size(); ++q) {
-    text += fmt::format("{} = {}\n", exponents[q].key, form.m[q]);
-  }
-  if (form.edge) {
-    text += fmt::format("edge_length = \"{}\"\n", force::name_of(edge_length));
-  }
+  text += law_shape_toml(fit.law, edge_length);
   if (!chip::feels_runout(fit.chip.model)) {
     return text;
   }

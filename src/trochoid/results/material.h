@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/force/law.h>
 #include <trochoid/identification/identify.h>
 
 #include <string>
@@ -9,5 +10,9 @@ namespace trochoid::results {
 /// @brief material.toml: what another case includes to use what was found.
 std::string material_toml(const identification::Fit& fit,
                           force::EdgeLength edge_length);
+
+/// @brief The lines of [force] below the coefficients: exponents, and what counts as the
+/// length of an edge, where the law has them.
+std::string law_shape_toml(const force::Law& law, force::EdgeLength edge_length);
 
 }  // namespace trochoid::results

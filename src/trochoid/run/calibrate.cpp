@@ -5,7 +5,7 @@
 #include <trochoid/run/calibration_answer.h>
 #include <trochoid/run/calibration_warnings.h>
 #include <trochoid/run/measured_wall.h>
-#include <trochoid/run/wall_setting.h>
+#include <trochoid/run/wall/setting.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/force/forces.h>
-#include <trochoid/run/wall_setting.h>
+#include <trochoid/run/wall/setting.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

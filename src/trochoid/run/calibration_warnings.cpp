@@ -2,7 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/run/calibration_answer.h>
-#include <trochoid/run/wall_setting.h>
+#include <trochoid/run/wall/warnings.h>
 
 #include <fmt/core.h>
 

@@ -1,9 +1,10 @@
 #include "wall_samples.h"
 
+#include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/calibrate.h>
 #include <trochoid/run/stability.h>
-#include <trochoid/run/surface.h>
+#include <trochoid/run/wall/surface.h>
 
 #include <fstream>
 #include <string>
@@ -14,7 +15,6 @@ namespace sample {
 
 namespace {
 
-using trochoid::base::Table;
 using trochoid::results::Answer;
 namespace inputs = trochoid::inputs;
 
@@ -84,28 +84,38 @@ std::filesystem::path written(const std::filesystem::path& file,
   return file;
 }
 
-/// The wall of surface.csv as a probe would tell it.
-void write_readings(const Table& surface, const std::filesystem::path& file,
-                    bool number_teeth, double highest) {
+/// The computed wall as a probe would tell it.
+void write_readings(const trochoid::surface::ErrorMap& map,
+                    const std::filesystem::path& file, bool number_teeth,
+                    double highest) {
+  using trochoid::unit::mm;
   std::ofstream out(file);
   out << (number_teeth ? "x_mm,height_mm,error_mm,tooth\n"
                        : "x_mm,height_mm,error_mm\n");
   std::uint32_t state = 20261121;
-  for (std::size_t i = 0; i < surface.columns[0].values.size(); ++i) {
-    const double height = surface.columns[1].values[i];
-    if (height > highest) continue;
-    const double noise = 1e-3 * (scatter(state) + scatter(state) + scatter(state));
-    out << surface.columns[0].values[i] << ',' << height << ','
-        << surface.columns[2].values[i] + noise + (number_teeth ? 0.0 : 0.0033);
-    if (number_teeth) out << ',' << surface.columns[3].values[i];
-    out << '\n';
+  for (const trochoid::surface::ErrorRow& row : map.rows) {
+    for (std::size_t i = 0; row.height <= highest && i < row.x.size(); ++i) {
+      const double noise = 1e-3 * (scatter(state) + scatter(state) + scatter(state));
+      out << row.x[i] / mm << ',' << row.height / mm << ','
+          << row.error[i] / mm + noise + (number_teeth ? 0.0 : 0.0033);
+      if (number_teeth) out << ',' << row.tooth[i] + 1;
+      out << '\n';
+    }
   }
+}
+
+/// The wall, with runout.
+inputs::Case cut_wall(const char* model, const std::filesystem::path& folder) {
+  const auto file =
+      written(folder / "surface.toml", cut + material + wall_table +
+                                           "position_mm = 30\n" + surface_table(model));
+  return inputs::read_case(file, inputs::Command::surface);
 }
 
 Answer calibrated(const std::string& model, bool number_teeth, double highest,
                   const std::filesystem::path& folder) {
-  const Answer made = wall(model.c_str(), folder);
-  write_readings(made.tables.front(), folder / "wall.csv", number_teeth, highest);
+  const auto made = trochoid::run::surface(cut_wall(model.c_str(), folder), {});
+  write_readings(made.map, folder / "wall.csv", number_teeth, highest);
   const auto file =
       written(folder / "calibrate.toml",
               cut + wall_table + surface_table(model) +
@@ -118,10 +128,7 @@ Answer calibrated(const std::string& model, bool number_teeth, double highest,
 }  // namespace
 
 Answer wall(const char* model, const std::filesystem::path& folder) {
-  const auto file =
-      written(folder / "surface.toml", cut + material + wall_table +
-                                           "position_mm = 30\n" + surface_table(model));
-  return trochoid::run::surface(inputs::read_case(file, inputs::Command::surface), {});
+  return answer_of(trochoid::run::surface(cut_wall(model, folder), {}));
 }
 
 Answer lobes(const std::filesystem::path& folder) {
@@ -133,11 +140,11 @@ Answer lobes(const std::filesystem::path& folder) {
 
 Answer calibration(const char* model, bool number_teeth,
                    const std::filesystem::path& folder) {
-  return calibrated(model, number_teeth, 3.0, folder);
+  return calibrated(model, number_teeth, 3e-3, folder);
 }
 
 Answer one_height(const std::filesystem::path& folder) {
-  return calibrated("imprint", true, 0.4, folder);
+  return calibrated("imprint", true, 0.4e-3, folder);
 }
 
 }  // namespace sample

@@ -1,0 +1,58 @@
+#include <trochoid/run/wall/setting.h>
+
+namespace trochoid::run {
+
+std::optional<structure::Cantilever> wall_cutter(const inputs::MachineTables& machine) {
+  if (!machine.cutter_body) {
+    return std::nullopt;
+  }
+  const inputs::CutterBody& b = *machine.cutter_body;
+  return structure::Cantilever{.overhang = b.overhang,
+                               .flute_length = b.flute_length.value_or(b.overhang),
+                               .shank_diameter = b.shank_diameter.value_or(0.0),
+                               .flute_diameter = b.equivalent_diameter.value_or(0.0),
+                               .youngs_modulus = b.youngs_modulus};
+}
+
+std::optional<structure::Plate> wall_plate(const inputs::MachineTables& machine) {
+  if (!machine.wall) {
+    return std::nullopt;
+  }
+  const inputs::Wall& w = *machine.wall;
+  return structure::Plate{w.length, w.height, w.thickness, w.youngs_modulus,
+                          w.poisson_ratio};
+}
+
+surface::Setting wall_setting(const inputs::Case& given) {
+  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
+  return {.setup = given.setup,
+          .law = given.law,
+          .bodies = surface::bodies_at(wall_cutter(given.machine),
+                                       wall_plate(given.machine), given.setup.cut.a_p),
+          .load = table.load,
+          .model = table.model,
+          .phase = table.phase,
+          .probe_radius = table.probe_diameter / 2};
+}
+
+surface::Feedback wall_feedback(const inputs::Case& given) {
+  return given.machine.surface.value_or(inputs::Surface{}).feedback;
+}
+
+double wall_position(const inputs::Case& given) {
+  return given.machine.wall ? given.machine.wall->position : 0.0;
+}
+
+surface::MapOptions map_options(const inputs::Case& given) {
+  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
+  return {.samples_per_turn = given.sampling.samples_per_rev,
+          .turns = given.sampling.revolutions,
+          .angles = given.sampling.angles,
+          .heights = table.heights,
+          .influence_heights = table.influence_heights,
+          .position = wall_position(given),
+          .feedback = table.feedback,
+          .tolerance = given.sampling.tolerance};
+}
+
+}  // namespace trochoid::run

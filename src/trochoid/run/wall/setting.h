@@ -1,0 +1,27 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/surface/error_map.h>
+#include <trochoid/surface/setting.h>
+
+#include <optional>
+
+/// What a case says of its wall, for the room surface.
+namespace trochoid::run {
+
+/// [cutter_body]; none: the cutter is rigid.
+std::optional<structure::Cantilever> wall_cutter(const inputs::MachineTables& machine);
+/// [wall]; none: the wall is rigid.
+std::optional<structure::Plate> wall_plate(const inputs::MachineTables& machine);
+
+surface::Setting wall_setting(const inputs::Case& given);
+
+surface::Feedback wall_feedback(const inputs::Case& given);
+
+/// @brief Of the cutter along the wall, at the phase; 0 without [wall] [m].
+double wall_position(const inputs::Case& given);
+
+/// Where `surface` computes the wall.
+surface::MapOptions map_options(const inputs::Case& given);
+
+}  // namespace trochoid::run
