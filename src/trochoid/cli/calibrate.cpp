@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/calibrate.h>
+#include <trochoid/run/wall/calibrate.h>
 
 #include <functional>
 
@@ -10,8 +10,8 @@ int calibrate(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::calibrate,
                                                result_folder(options, "calibrate"));
   ProgressLine progress(options.quiet);
-  const results::Answer answer = run::calibrate(given, std::ref(progress));
-  return deliver(answer, options);
+  return deliver(results::answer_of(run::calibrate(given, std::ref(progress))),
+                 options);
 }
 
 }  // namespace trochoid::cli

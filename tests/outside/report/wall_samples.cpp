@@ -2,8 +2,8 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/calibrate.h>
 #include <trochoid/run/stability.h>
+#include <trochoid/run/wall/calibrate.h>
 #include <trochoid/run/wall/surface.h>
 
 #include <fstream>
@@ -121,8 +121,8 @@ Answer calibrated(const std::string& model, bool number_teeth, double highest,
               cut + wall_table + surface_table(model) +
                   "\n[[surface_measurement]]\nfile = \"wall.csv\"\ndatum_offset = " +
                   (number_teeth ? "false\n" : "true\n"));
-  return trochoid::run::calibrate(inputs::read_case(file, inputs::Command::calibrate),
-                                  {});
+  return answer_of(trochoid::run::calibrate(
+      inputs::read_case(file, inputs::Command::calibrate), {}));
 }
 
 }  // namespace

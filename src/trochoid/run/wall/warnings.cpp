@@ -13,6 +13,7 @@ namespace trochoid::run {
 
 namespace {
 
+using surface::CoefficientFit;
 using Warnings = std::vector<base::Warning>;
 
 double radial_depth(const geometry::Engagement& engagement) {
@@ -21,6 +22,146 @@ double radial_depth(const geometry::Engagement& engagement) {
   }
   const auto* up = std::get_if<geometry::UpMilling>(&engagement);
   return up == nullptr ? 0.0 : up->a_e;
+}
+
+/// A coefficient that is negative, or known worse than to half of itself.
+void judge_coefficients(const inputs::Case& given,
+                        const surface::FoundCoefficients& found, Warnings& warnings) {
+  const auto names = force::coefficient_quantities(given.law);
+  const surface::Estimate* both[] = {&found.K_tc, &found.K_rc};
+  for (std::size_t q = 0; q < 2; ++q) {
+    const surface::Estimate& e = *both[q];
+    if (e.value < 0) {
+      warnings.push_back(
+          {"negative_coefficient",
+           fmt::format("{} = {:.3g} is negative: the readings, their sign (positive "
+                       "must be material left) or the model do not fit the cut.",
+                       names[q].key, e.value / names[q].unit)});
+    } else if (std::isfinite(e.se) && e.high - e.low > std::abs(e.value)) {
+      warnings.push_back(
+          {"poorly_known",
+           fmt::format(
+               "{} is known to +- {:.0f} % only: more readings, at heights that "
+               "the report names, would help.",
+               names[q].key, 50 * (e.high - e.low) / std::abs(e.value))});
+    }
+  }
+  if (!std::isfinite(found.K_tc.se)) {
+    warnings.push_back({"no_spare_readings",
+                        "There are as many means as unknowns: nothing tells how well "
+                        "the coefficients are known."});
+  }
+}
+
+std::string full_name(const CoefficientFit& fit) {
+  return fit.feedback == surface::Feedback::none
+             ? std::string(surface::name_of(fit.model))
+             : fmt::format("{} with feedback = \"{}\"", surface::name_of(fit.model),
+                           surface::name_of(fit.feedback));
+}
+
+/// Readings of the profile that differ by more than their errors.
+void compare_models(const inputs::Case& given, const surface::ModelFits& models,
+                    Warnings& warnings) {
+  constexpr double visible = 0.05;
+  const auto names = force::coefficient_quantities(given.law);
+  const CoefficientFit& chosen = chosen_fit(models);
+  for (std::size_t i = 0; i < models.fits.size(); ++i) {
+    const CoefficientFit& other = models.fits[i];
+    if (i == models.chosen || !other.ok) {
+      continue;
+    }
+    const double change = std::max(std::abs(other.K_tc.value / chosen.K_tc.value - 1),
+                                   std::abs(other.K_rc.value / chosen.K_rc.value - 1));
+    if (change < visible) {
+      continue;
+    }
+    const bool spring_back = other.model == surface::Model::imprint &&
+                             chosen.model == surface::Model::envelope;
+    warnings.push_back(
+        {"answers_differ",
+         fmt::format("Read as {}, the same means give {} = {:.4g} and {} = {:.4g} "
+                     "MPa (as {}: {:.4g} and {:.4g}){}",
+                     full_name(other), names[0].key, other.K_tc.value / names[0].unit,
+                     names[1].key, other.K_rc.value / names[1].unit, full_name(chosen),
+                     chosen.K_tc.value / names[0].unit,
+                     chosen.K_rc.value / names[1].unit,
+                     spring_back ? ": the linear reading leaves out that the wall "
+                                   "springs back under the next tooth."
+                                 : ".")});
+  }
+}
+
+void judge_means(const inputs::Case& given, const surface::ModelFits& models,
+                 Warnings& warnings) {
+  const auto uneven = std::count_if(models.nominal.begin(), models.nominal.end(),
+                                    [](const surface::Nominal& n) { return !n.whole; });
+  const bool single =
+      std::all_of(models.nominal.begin(), models.nominal.end(),
+                  [](const surface::Nominal& n) { return n.readings.size() == 1; });
+  if (single && given.setup.cutter.teeth() > 1) {
+    warnings.push_back(
+        {"single_readings",
+         "There is one reading at each place: it counts as the mean over a turn of the "
+         "feed. If it is not, the runout is in it."});
+  } else if (uneven > 0) {
+    warnings.push_back(
+        {"uneven_readings",
+         fmt::format("{} of {} means are not over whole multiples of {} teeth: runout "
+                     "does not drop out of them.",
+                     uneven, models.nominal.size(), given.setup.cutter.teeth())});
+  }
+}
+
+void judge_runout(const inputs::Case& given, const surface::Calibration& calibration,
+                  Warnings& warnings) {
+  const surface::RunoutFit& runout = calibration.runout;
+  const auto& offsets = given.setup.runout.radial_offsets;
+  if (given.setup.runout.eccentricity != 0 ||
+      std::any_of(offsets.begin(), offsets.end(), [](double r) { return r != 0; })) {
+    warnings.push_back(
+        {"runout_not_used", "[runout] is not used: calibrate looks for it itself."});
+  }
+  if (runout.ok && !calibration.runout_seen) {
+    warnings.push_back(
+        {"no_runout",
+         fmt::format("An eccentricity of {:.2g} +- {:.2g} um (one standard error) is "
+                     "not clearly different from none.",
+                     runout.eccentricity.value / unit::um,
+                     runout.eccentricity.se / unit::um)});
+  }
+  if (calibration.with_runout) {
+    warnings.push_back(
+        {"runout_in_mean",
+         "The mean of a real surface is not free of runout: the coefficients are those "
+         "that were fitted together with it."});
+  } else if (calibration.runout_seen &&
+             chosen_fit(calibration.models).model == surface::Model::envelope) {
+    const auto names = force::coefficient_quantities(given.law);
+    warnings.push_back(
+        {"runout_in_mean",
+         fmt::format("The answer with feedback is one of means, and the mean of a real "
+                     "surface is not free of runout: fitted together with it, without "
+                     "feedback, {} = {:.4g} and {} = {:.4g}.",
+                     names[0].key, runout.K_tc.value / names[0].unit, names[1].key,
+                     runout.K_rc.value / names[1].unit)});
+  }
+}
+
+/// What is said of feedback in general does not help a fit that cannot take it in.
+void judge_bending(const inputs::Case& given, const surface::Calibration& calibration,
+                   double largest, Warnings& warnings) {
+  Warnings bending;
+  add_bending_warnings(given, largest, bending);
+  for (base::Warning& warning : bending) {
+    if (warning.code == "feedback" && calibration.with_runout) {
+      warning.message =
+          "The deflection is large enough to even out the teeth, which the fit with "
+          "runout leaves out: the cutter may run out more than found, and the "
+          "coefficients may be off by some per cent.";
+    }
+    warnings.push_back(warning);
+  }
 }
 
 }  // namespace
@@ -62,6 +203,25 @@ void add_surface_warnings(const inputs::Case& given, const surface::ErrorMap& ma
          "quasi_static is the deflection at every spindle angle, as the paper has it: "
          "a pulse of force, not the profile that stays on the wall."});
   }
+}
+
+void add_calibration_warnings(const inputs::Case& given,
+                              std::span<const surface::Reading> readings,
+                              const surface::Calibration& calibration,
+                              Warnings& warnings) {
+  double largest = 0.0;
+  for (const surface::Reading& r : readings) {
+    largest = std::max(largest, std::abs(r.error));
+  }
+  if (largest == 0) {
+    warnings.push_back({"all_zero", "All readings are zero: so are the coefficients."});
+    return;
+  }
+  judge_coefficients(given, calibration.coefficients, warnings);
+  compare_models(given, calibration.models, warnings);
+  judge_means(given, calibration.models, warnings);
+  judge_runout(given, calibration, warnings);
+  judge_bending(given, calibration, largest, warnings);
 }
 
 }  // namespace trochoid::run

@@ -2,8 +2,10 @@
 
 #include <trochoid/base/warning.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/surface/calibrate.h>
 #include <trochoid/surface/error_map.h>
 
+#include <span>
 #include <vector>
 
 namespace trochoid::run {
@@ -17,5 +19,11 @@ void add_bending_warnings(const inputs::Case& given, double largest,
 /// @brief What an engineer should know before trusting a computed wall.
 void add_surface_warnings(const inputs::Case& given, const surface::ErrorMap& map,
                           std::vector<base::Warning>& warnings);
+
+/// @brief What an engineer should know before trusting a calibration.
+void add_calibration_warnings(const inputs::Case& given,
+                              std::span<const surface::Reading> readings,
+                              const surface::Calibration& calibration,
+                              std::vector<base::Warning>& warnings);
 
 }  // namespace trochoid::run

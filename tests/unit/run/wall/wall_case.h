@@ -11,7 +11,7 @@
 
 namespace trochoid::run::test {
 
-/// [tool], [cut] and [force] of a small cut.
+/// [tool], [cut], [chip] and [force] of a small cut.
 inline const std::string cut_tables = R"(
 [tool]
 shape = "cylinder"
@@ -24,6 +24,8 @@ radial_depth_mm = 1
 axial_depth_mm = 3
 feed_per_tooth_mm = 0.2
 spindle_rpm = 1000
+[chip]
+model = "feed"
 [force]
 law = "linear_edge"
 K_tc_MPa = 400

@@ -1,7 +1,8 @@
-#include <trochoid/run/measured_wall.h>
+#include <trochoid/run/wall/measured_wall.h>
 
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/surface_file.h>
+#include <trochoid/run/wall/setting.h>
 
 #include <string>
 
@@ -16,8 +17,7 @@ void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
       given.setup.cutter.teeth() * given.setup.cut.f_z / given.sampling.samples_per_rev;
   const double along = read.x ? *read.x : read.step.value_or(0.0) * step;
   const bool pulse = given.machine.surface->model == surface::Model::quasi_static;
-  const double position = given.machine.wall ? given.machine.wall->position : 0.0;
-  reading.x = pulse || !read.x ? position : along;
+  reading.x = pulse || !read.x ? wall_position(given) : along;
   reading.travel = along + read.feed_offset.value_or(0.0);
 }
 

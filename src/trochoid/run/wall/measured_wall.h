@@ -1,7 +1,8 @@
 #pragma once
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/surface/fit_models.h>
+#include <trochoid/surface/datum.h>
+#include <trochoid/surface/readings.h>
 
 #include <vector>
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <trochoid/results/answer.h>
+#include <trochoid/surface/calibrate.h>
+
+#include <vector>
+
+namespace trochoid::results {
+
+/// @brief What `calibrate` answers: coefficients and runout from a measured wall.
+struct CalibrateResult {
+  Heading heading;
+  std::vector<surface::Reading> readings;  ///< of all files
+  std::vector<surface::Datum> datum;       ///< what was estimated of each file
+  surface::Calibration calibration;
+  force::Law law;  ///< of the case: what the wall does not show is taken from it
+  force::EdgeLength edge_length = force::EdgeLength::true_length;
+  geometry::EccentricityOrder order = geometry::EccentricityOrder::exact;
+  int teeth = 1;
+};
+
+Answer answer_of(const CalibrateResult& result);
+
+}  // namespace trochoid::results

@@ -1,0 +1,66 @@
+#include <trochoid/run/wall/calibrate.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/wall/measured_wall.h>
+#include <trochoid/run/wall/setting.h>
+#include <trochoid/run/wall/warnings.h>
+
+#include <fmt/core.h>
+
+namespace trochoid::run {
+
+namespace {
+
+/// Why a fit was refused, and what is known all the same.
+std::string refusal(const inputs::Case& given, const surface::CoefficientFit& fit) {
+  std::string text = fit.message;
+  if (fit.rank > 0 && fit.condition > surface::worst_condition) {
+    text += fmt::format(
+        " (condition {:.3g}; readings at more heights, "
+        "or a wall that bends more, would)",
+        fit.condition);
+  }
+  if (fit.known[0] != 0 || fit.known[1] != 0) {
+    const auto names = force::coefficient_quantities(given.law);
+    text += fmt::format("; what is known: {:.3g} {} + {:.3g} {} = {:.4g} MPa",
+                        fit.known[0], names[0].key, fit.known[1], names[1].key,
+                        fit.combination.value / unit::MPa);
+  }
+  return text;
+}
+
+}  // namespace
+
+results::CalibrateResult calibrate(const inputs::Case& given,
+                                   const Progress& progress) {
+  const auto tell = [&](const char* what) {
+    if (progress) {
+      progress(what);
+    }
+  };
+  MeasuredWall wall = measured_wall(given);
+  tell("Fitting the coefficients");
+  results::CalibrateResult r{
+      .heading = {.title = given.title, .case_toml = given.as_understood},
+      .calibration =
+          surface::calibrate(wall_setting(given), wall.readings, wall.datum,
+                             wall_feedback(given), [&] { tell("Looking for runout"); }),
+      .law = given.law,
+      .edge_length = given.setup.edge_length,
+      .order = given.setup.runout.order,
+      .teeth = given.setup.cutter.teeth()};
+  r.readings = std::move(wall.readings);
+  r.datum = std::move(wall.datum);
+  const surface::ModelFits& models = r.calibration.models;
+  if (!r.calibration.ok) {
+    r.heading.ok = false;
+    r.heading.message = refusal(given, chosen_fit(models));
+    return r;
+  }
+  add_calibration_warnings(given, r.readings, r.calibration, r.heading.warnings);
+  r.heading.message =
+      fmt::format("{} readings, {} means.", r.readings.size(), models.nominal.size());
+  return r;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,122 @@
+#include "made_readings.h"
+
+#include <trochoid/surface/calibrate.h>
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace trochoid::surface {
+namespace {
+
+constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
+
+/// Of readings whose runout is not told.
+Calibration calibration(const Setting& s, const std::vector<Reading>& readings,
+                        Feedback feedback = Feedback::none, Datum datum = {}) {
+  Setting blind = s;
+  blind.setup.runout = {.order = s.setup.runout.order};
+  return calibrate(blind, readings, std::array{datum}, feedback);
+}
+
+Setting with_eccentricity(Model model) {
+  return made_setting(model, with_runout(made_cut(), 5e-6, 3.5));
+}
+
+std::vector<Reading> profile(const Setting& s) {
+  return profiles(s, K, {.heights = made_heights(4), .per_tooth = 8});
+}
+
+TEST(Calibrate, OfAnEnvelopeTheFitWithRunoutCounts) {  // [E-16] [E-17]
+  const Setting s = with_eccentricity(Model::envelope);
+  const Calibration c = calibration(s, profile(s));
+  ASSERT_TRUE(c.ok) << c.message;
+  EXPECT_TRUE(c.runout_seen);
+  EXPECT_TRUE(c.with_runout);
+  EXPECT_EQ(c.coefficients.K_tc.value, c.runout.K_tc.value);
+  EXPECT_EQ(c.coefficients.rms, c.runout.rms);
+  EXPECT_NE(c.coefficients.K_tc.value, chosen_fit(c.models).K_tc.value);
+  EXPECT_NEAR(c.coefficients.K_tc.value, K[0], 0.02 * K[0]);
+  EXPECT_EQ(c.predicted, c.runout.predicted);
+}
+
+TEST(Calibrate, WithFeedbackTheMeansCount) {  // [E-10] [E-16]
+  const Setting s = with_eccentricity(Model::envelope);
+  const Calibration c = calibration(s, profile(s), Feedback::entry);
+  ASSERT_TRUE(c.ok) << c.message;
+  EXPECT_TRUE(c.runout_seen);
+  EXPECT_FALSE(c.with_runout);
+  EXPECT_EQ(c.coefficients.K_tc.value, chosen_fit(c.models).K_tc.value);
+  EXPECT_EQ(c.coefficients.rms, chosen_fit(c.models).rms);
+}
+
+TEST(Calibrate, OfImprintsTheMeansCount) {  // [E-11] [E-15]
+  const Setting s = with_eccentricity(Model::imprint);
+  const auto readings = imprints(s, K);
+  const Calibration c = calibration(s, readings, Feedback::none, {.offset = true});
+  ASSERT_TRUE(c.ok) << c.message;
+  EXPECT_TRUE(c.runout_seen);
+  EXPECT_FALSE(c.with_runout);
+  EXPECT_EQ(c.coefficients.K_tc.value, chosen_fit(c.models).K_tc.value);
+  EXPECT_EQ(c.coefficients.datum.size(), 1U);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    EXPECT_NEAR(c.predicted[i], readings[i].error, 1e-9);
+  }
+}
+
+TEST(Calibrate, RunoutBelowThreeStandardErrorsIsNotSeen) {
+  RunoutFit runout{.ok = true, .eccentricity = {.value = 2.9e-6, .se = 1e-6}};
+  EXPECT_FALSE(is_seen(runout));
+  runout.eccentricity.value = 3.1e-6;
+  EXPECT_TRUE(is_seen(runout));
+  runout.ok = false;
+  EXPECT_FALSE(is_seen(runout));
+}
+
+TEST(Calibrate, ReadingsOfZeroHaveNoRunoutToLookFor) {
+  const Setting s = made_setting(Model::imprint);
+  auto readings = imprints(s, K);
+  for (Reading& r : readings) r.error = 0.0;
+  int looked = 0;
+  const Calibration c =
+      calibrate(s, readings, std::array{Datum{}}, Feedback::none, [&] { ++looked; });
+  EXPECT_TRUE(c.ok);
+  EXPECT_EQ(c.runout.message, "all readings are zero");
+  EXPECT_EQ(looked, 0);
+  EXPECT_EQ(c.predicted.size(), readings.size());
+}
+
+TEST(Calibrate, WithoutRunoutAReadingIsHeldAgainstItsMean) {  // [E-11]
+  const Setting s = made_setting(Model::imprint, made_cut(true, 1));
+  const auto readings = imprints(s, K);
+  const Calibration c = calibration(s, readings);
+  ASSERT_TRUE(c.ok) << c.message;
+  EXPECT_FALSE(c.runout.ok);
+  EXPECT_EQ(c.predicted, predicted_means(c.models, readings.size()));
+  EXPECT_NEAR(c.predicted.front(), readings.front().error, 1e-9);
+}
+
+TEST(Calibrate, SaysWhyThereAreNoCoefficients) {  // [E-15]
+  const Setting s = made_setting(Model::imprint);
+  int looked = 0;
+  const Calibration c =
+      calibrate(s, imprints(s, K, {.heights = {1e-3}}), std::array{Datum{}},
+                Feedback::none, [&] { ++looked; });
+  EXPECT_FALSE(c.ok);
+  EXPECT_EQ(c.message, chosen_fit(c.models).message);
+  EXPECT_FALSE(c.message.empty());
+  EXPECT_FALSE(c.runout_seen || c.with_runout);
+  EXPECT_EQ(looked, 0);
+}
+
+TEST(Calibrate, ASlotHasNoSingleWall) {
+  MadeCut slot = made_cut();
+  slot.cut.engagement = geometry::Slot{};
+  const std::vector<Reading> readings = {{.height = 1e-3, .error = 1e-6}};
+  EXPECT_THROW(
+      static_cast<void>(calibration(made_setting(Model::imprint, slot), readings)),
+      std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace trochoid::surface
