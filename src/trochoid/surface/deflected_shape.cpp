@@ -11,9 +11,10 @@ namespace {
 constexpr int steps = 40;  ///< along each body; enough to draw it
 
 void append_even(double from, double to, std::vector<double>& heights) {
-  for (int i = 0; i <= steps; ++i) {
+  for (int i = 0; i < steps; ++i) {
     heights.push_back(from + (to - from) * i / steps);
   }
+  heights.push_back(to);  // not a bit more: the wall ends at the axial depth
 }
 
 /// sum_q G(h, z_q) m_q of one body, in the direction of the normal.

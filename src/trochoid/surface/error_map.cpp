@@ -18,8 +18,11 @@ constexpr int default_heights = 21;
 
 std::vector<double> heights_of(const MapOptions& options, double a_p) {
   std::vector<double> heights = options.heights;
-  for (int i = 0; options.heights.empty() && i < default_heights; ++i) {
-    heights.push_back(a_p * i / (default_heights - 1));
+  if (heights.empty()) {
+    for (int i = 0; i + 1 < default_heights; ++i) {
+      heights.push_back(a_p * i / (default_heights - 1));
+    }
+    heights.push_back(a_p);  // not a bit more: there is no wall above
   }
   return heights;
 }

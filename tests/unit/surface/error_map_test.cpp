@@ -141,6 +141,22 @@ TEST(ErrorMap, HeightsAreSpreadOverTheAxialDepthUnlessNamed) {
   EXPECT_EQ(map.influence_heights.size(), 21U);
 }
 
+TEST(ErrorMap, TheHighestHeightIsStillOnTheWall) {
+  // 20 steps of a twentieth are a bit more than these.
+  for (const double a_p : {3.5e-3, 3.7e-3, 7e-3}) {
+    MadeCut cut = made_cut();
+    cut.cut.a_p = a_p;
+    const auto wall_only = [](double x) { return Bodies{.wall = with_wall()(x).wall}; };
+    const ErrorMap map =
+        error_map(cutting(Model::imprint, cut, wall_only), {.position = 20e-3});
+    EXPECT_EQ(map.rows.back().height, a_p);
+    EXPECT_GT(map.influence_of_wall.back(), map.influence_of_wall.front());
+    const DeflectedShape& shape = *map.shape;
+    EXPECT_EQ(shape.heights.back(), a_p);
+    EXPECT_NE(shape.wall.back(), 0.0);
+  }
+}
+
 TEST(ErrorMap, ASlotHasNoSingleWall) {
   MadeCut slot = made_cut();
   slot.cut.engagement = geometry::Slot{};
