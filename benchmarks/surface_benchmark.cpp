@@ -23,7 +23,7 @@ constexpr int teeth = 3;
 constexpr double feed = teeth * f_z;
 constexpr std::array<double, surface::columns> K = {400e6, 200e6, 0.0, 0.0};
 
-/// The cutter and the wall of the paper on thin walls.
+/// The cutter and the wall of [wang2015].
 surface::Setting thin_wall(double eccentricity) {
   surface::Setting s;
   s.setup.cutter = {.profile = geometry::cylinder(12e-3),

@@ -36,7 +36,7 @@ class Errors {
     return side_of(cut_.cut.engagement)->sigma * sum;
   }
 
-  /// Mean over whole turns of the paper's error, at a place in the tooth feed [0, 1).
+  /// Error of [wang2015] eq. 10 at a place in the tooth feed [0, 1), mean over turns.
   [[nodiscard]] double quasi_static(double place) const {
     const int teeth = cut_.cutter.teeth();
     double sum = 0.0;

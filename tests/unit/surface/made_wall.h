@@ -24,7 +24,7 @@ using Coefficients = std::array<double, columns>;
 /// gtest has a Setup of its own in the scope of every test.
 using MadeCut = force::Setup;
 
-/// The cut of the paper: 12 mm, three teeth, 45 deg, a_e = 1 mm, a_p = 3 mm, 0.2 mm.
+/// The cut of [wang2015]: 12 mm, three teeth, 45 deg, a_e = 1 mm, a_p = 3 mm, 0.2 mm.
 inline MadeCut made_cut(bool down = true, int teeth = 3, double helix_deg = 45.0) {
   MadeCut s;
   s.cutter.profile = geometry::cylinder(12e-3);
