@@ -268,7 +268,8 @@ CoefficientFit fit_nominal(const NominalProblem& problem,
     }
     best = std::min(stay.rss, best);
     step = {solved.x[0], solved.x[1]};
-    K = {K[0] + step[0], K[1] + step[1]};
+    K[0] += step[0];
+    K[1] += step[1];
     const double size = std::hypot(K[0], K[1]);
     const double move = std::hypot(step[0], step[1]);
     describe_solution(solved, n, silent, K, fit);
