@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/force_balance.h>
 #include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion_record.h>
 #include <trochoid/dynamics/stepper.h>
@@ -17,10 +18,13 @@ namespace trochoid::dynamics {
 
 namespace {
 
-/// Rounds for the force at the end of a step; after the first few in shorter strides,
-/// lest they go round in a circle where a tooth only just touches.
-constexpr int most_rounds = 40;
-constexpr int full_rounds = 5;
+/// Rounds for the force at the end of a step; more would go round in a circle where a
+/// tooth only just touches.
+constexpr int most_rounds = 5;
+/// A displacement that is nothing, and one that is too much for a force that agrees, as
+/// parts of the feed per tooth.
+constexpr double no_motion = 1e-9;
+constexpr double too_much = 1e-6;
 /// Changes from turn to turn up to this part of the feed per tooth are small.
 constexpr double small = 0.2;
 /// A displacement that no cut has [m]: the motion has run away.
@@ -306,26 +310,37 @@ class Run {
       const std::array<double, 2> off = {r.F[0] - guess[0], r.F[1] - guess[1]};
       const std::array<double, 2> change = {use.xx * off[0] + use.xy * off[1],
                                             use.yx * off[0] + use.yy * off[1]};
-      const double share = round < full_rounds ? 1.0 : 0.6;
-      guess[0] += share * change[0];  // T-6
-      guess[1] += share * change[1];
+      guess[0] += change[0];  // T-6
+      guess[1] += change[1];
       const double moved = std::abs(change[0]) + std::abs(change[1]);
       const double size = size_of(r.F);
       const bool stiff =
           round == 0 && std::max(newton_.strength, fresh.strength) > Newton::mild;
       newton_ = fresh;
       largest_ = std::max(largest_, size);
-      // A tooth that touches with an edge force, but not without it, has no force that
-      // agrees: one of both is as good as the other.
-      const bool either = round + 1 == most_rounds && moved <= cut_.largest_jump();
-      if ((!stiff && moved <= near * size) || moved <= settled * largest_ || either) {
+      if ((!stiff && moved <= near * size) || moved <= settled * largest_) {
         const double dx = P[0] * change[0] + P[1] * change[1];
         const double dy = P[1] * change[0] + P[2] * change[1];
         return {guess[0], guess[1], r.F[2] + r.per_q[4] * dx + r.per_q[5] * dy};
       }
     }
-    motion_.solved = false;
-    return {guess[0], guess[1], 0.0};
+    return bracketed_force({guess[0], guess[1], 0.0});
+  }
+
+  /// The same where the force has a corner, a jump or an infinite slope in between.
+  Force bracketed_force(const Force& guess) {
+    const double f_z = problem_.setup.cut.f_z;
+    const auto response_of = [this](const Force& F) {
+      const auto q = stepper_.end(F);
+      return cut_.response(q[0], q[1]);
+    };
+    const ForceBalance found =
+        balanced_force(response_of, stepper_.per_force(), guess, no_motion * f_z);
+    // A tooth that touches with an edge force, but not without it, has no force that
+    // agrees: one of both is as good as the other.
+    motion_.solved = found.motion_error <= too_much * f_z ||
+                     found.force_error <= cut_.largest_jump();
+    return found.F;
   }
 
   /// An edge force that came or went in the step acted over a part of it, not as the

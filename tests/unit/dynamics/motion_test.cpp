@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/cut_force.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/power_of.h>
@@ -215,6 +216,25 @@ TEST(Motion, SoftToolChattersAndIsSaidTo) {
   p.revolutions = 30;
   const Motion m = motion(p);
   EXPECT_TRUE(!m.finite || m.last_change > 1.0);
+}
+
+/// The chips of a power law begin with an infinite slope: a force is found all the same,
+/// whether the cut settles, stays bounded or runs away.
+TEST(Motion, AlwaysFindsTheForceOfATouchingTooth) {  // [T-12]
+  for (const double a_e : {0.5e-3, 1.99e-3, 2e-3, 2.01e-3, 4e-3}) {
+    for (const double rpm : {60.0, 300.0, 1200.0, 9000.0}) {
+      for (const double soft : {1.0, 40.0}) {
+        MotionProblem p = small_tool();
+        p.setup.cut.engagement = geometry::DownMilling{a_e};
+        p.setup.cut.Omega = rpm * unit::rpm;
+        for (ChipMode& mode : p.system.modes) {
+          mode.stiffness /= soft;
+        }
+        p.revolutions = rpm < 500 ? 2 : 20;
+        EXPECT_TRUE(motion(p).solved) << a_e << " m, " << rpm << " rpm, /" << soft;
+      }
+    }
+  }
 }
 
 TEST(Motion, TheLongFluteTakesWhatTheShortOneLeaves) {  // [T-1]
