@@ -271,11 +271,10 @@ CoefficientFit fit_nominal(const NominalProblem& problem,
     K[0] += step[0];
     K[1] += step[1];
     const double size = std::hypot(K[0], K[1]);
-    const double move = std::hypot(step[0], step[1]);
     describe_solution(solved, n, silent, K, fit);
     const double s2 =
         solved.rss / std::max(1.0, static_cast<double>(b.size()) - n - silent);
-    if (stuck || move <= enough * size || size == 0 ||
+    if (stuck || std::hypot(step[0], step[1]) <= enough * size || size == 0 ||
         stay.rss - solved.rss <= negligible * s2) {
       accept(problem, solved, all, b, fit);
       return fit;
