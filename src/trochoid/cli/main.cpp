@@ -54,6 +54,7 @@ int answer(Command command, const Options& options) {
 
 std::vector<Command> all_commands() {
   std::vector<Command> all;
+  all.reserve(trochoid::base::names<Command>.size());
   for (const std::string_view name : trochoid::base::names<Command>) {
     all.push_back(*trochoid::base::named<Command>(name));
   }

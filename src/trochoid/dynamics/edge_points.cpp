@@ -162,9 +162,10 @@ EdgePoints::Reach EdgePoints::reach_of(std::size_t tooth) const {
   };
   const std::vector<double>& tip = at[0];
   for (std::size_t i = 0; i + 1 < tip.size(); ++i) {
-    const double parts = std::ceil((tip[i + 1] - tip[i]) / longest_arc);
-    for (double k = 0; k < parts; k += 1) {
-      const ChipArc arc{angle(i, k / parts), angle(i, (k + 1) / parts)};
+    const int parts = static_cast<int>(std::ceil((tip[i + 1] - tip[i]) / longest_arc));
+    for (int k = 0; k < parts; ++k) {
+      const double n = parts;
+      const ChipArc arc{angle(i, k / n), angle(i, (k + 1) / n)};
       reach.arcs.push_back(
           {arc.from, arc.to, is_zero(arc.from.tip, 0.0), is_zero(arc.to.tip, 0.0)});
     }
@@ -218,9 +219,10 @@ bool EdgePoints::at_event(double phi) const noexcept {
 void EdgePoints::add_arc(const ChipArc& arc, double tip,
                          std::vector<EdgePlace>& places) const {
   const double height_per_lag = setup_.cut.a_p / whole_lag_;
-  const double first = std::floor((tip - whole_lag_ - pi) / unit::turn);
-  for (double image = unit::turn * first; image < tip + pi; image += unit::turn) {
-    const double here = tip - image;
+  const auto first = static_cast<int>(std::floor((tip - whole_lag_ - pi) / unit::turn));
+  const auto last = static_cast<int>(std::ceil((tip + pi) / unit::turn));
+  for (int image = first; image < last; ++image) {
+    const double here = tip - unit::turn * image;
     const auto meets = [&](const LaggingAngle& angle) {
       double lag = here - angle.tip;
       for (int round = 0; round < 4; ++round) {

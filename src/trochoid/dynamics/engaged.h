@@ -80,7 +80,7 @@ struct AxialArcs {
   void add(double phi, std::vector<Matrix2>& out) const;
 };
 
-AxialArcs axial_arcs(const force::Setup& setup, const force::Terms& law, double h_floor,
+AxialArcs axial_arcs(const force::Setup& given, const force::Terms& law, double h_floor,
                      double a_p, double tolerance);
 
 }  // namespace trochoid::dynamics

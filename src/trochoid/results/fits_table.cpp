@@ -129,7 +129,7 @@ void add_quality(Columns& columns) {
   columns.row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
   columns.row("unexplained (rms)",
               [](const Fit& fit) { return base::percent(fit.unexplained.in_band); });
-  columns.row("condition", [](const Fit& fit) {
+  columns.row("condition number", [](const Fit& fit) {
     return fit.condition < largest_shown_condition
                ? fmt::format("{:.1f}", fit.condition)
                : std::string("rank deficient");

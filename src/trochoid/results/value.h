@@ -25,8 +25,9 @@ concept WholeNumber = std::integral<Number> && !std::same_as<Number, bool>;
 ///
 /// A number that is not finite is null in every file.
 struct Value {
+  // Null at first, without saying so: Member is not known here yet.
   std::variant<std::nullptr_t, bool, std::int64_t, double, std::string, Array, Object>
-      data = nullptr;
+      data;
 
   // Not inline: they are long, and a file that builds an answer needs hundreds of them.
   Value() noexcept;
