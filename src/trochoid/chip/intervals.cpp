@@ -69,6 +69,12 @@ std::vector<ChipPiece> engaged_pieces(const Passage& passage, const Slice& slice
   return pieces;
 }
 
+Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j) {
+  const geometry::Band stock = geometry::stock_band(engagement, D);
+  return {std::acos(std::clamp(stock.y_hi / R_j, -1.0, 1.0)),
+          std::acos(std::clamp(stock.y_lo / R_j, -1.0, 1.0))};
+}
+
 std::vector<Arc> engaged_arcs(const Passage& passage, const Slice& slice, int tooth) {
   // Start the turn opposite to the front, where nothing but a tip is ever in cut.
   std::vector<Arc> arcs;

@@ -30,6 +30,14 @@ struct Arc {
   double to = 0.0;
 };
 
+/// @brief Entry and exit angle: where a tooth of its own radius is in the stock.
+///
+/// @eq R-2 cos(theta_st) = y_hi/R_j, cos(theta_ex) = y_lo/R_j, within [0, pi]
+/// @src [diez2010], reconstructed; G-11 with the radius of the tooth
+/// @param D    nominal diameter, to which the radial depth refers [m]
+/// @param R_j  [m], positive
+Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j);
+
 /// @brief The arcs in which a slice of a tooth cuts, `from` in [-90, 270) deg.
 std::vector<Arc> engaged_arcs(const Passage& passage, const Slice& slice, int tooth);
 

@@ -40,19 +40,13 @@ void check(const force::Setup& setup, const force::Law& law, int slices) {
 
 }  // namespace
 
-chip::Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j) {
-  const geometry::Band stock = geometry::stock_band(engagement, D);
-  return {std::acos(std::clamp(stock.y_hi / R_j, -1.0, 1.0)),
-          std::acos(std::clamp(stock.y_lo / R_j, -1.0, 1.0))};
-}
-
 RigidCut::RigidCut(const force::Setup& setup, const force::Law& law, int slices)
     : law_(force::terms(law)),
       D_(setup.cutter.profile.D),
       passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
       psi_(geometry::tooth_angles(setup.cutter)),
       pitch_(setup.cutter.pitch),
-      arc_(tooth_arc(setup.cut.engagement, D_, D_ / 2)) {
+      arc_(chip::tooth_arc(setup.cut.engagement, D_, D_ / 2)) {
   check(setup, law, slices);
   const geometry::Profile& p = setup.cutter.profile;
   const geometry::Meridian meridian = geometry::meridian(p);

@@ -121,12 +121,4 @@ class RigidCut {
   chip::Arc arc_;
 };
 
-/// @brief Where a tooth of its own radius enters and leaves a stock.
-///
-/// @eq R-2 cos(theta_st) = y_hi/R_j, cos(theta_ex) = y_lo/R_j, within [0, pi]
-/// @src [diez2010], reconstructed; G-11 with the radius of the tooth
-/// @param D    nominal diameter, to which the radial depth refers [m]
-/// @param R_j  [m], positive
-chip::Arc tooth_arc(const geometry::Engagement& engagement, double D, double R_j);
-
 }  // namespace trochoid::correction

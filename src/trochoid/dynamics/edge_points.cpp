@@ -25,15 +25,6 @@ double in_turn(double theta) {
   return theta - unit::turn * std::floor((theta + pi / 2) / unit::turn);
 }
 
-/// The arc on the front of the tool whose nominal points lie in the stock.
-std::array<double, 2> nominal_window(const force::Setup& setup) {
-  const double r = setup.cutter.profile.D / 2;
-  const geometry::Band stock =
-      geometry::stock_band(setup.cut.engagement, setup.cutter.profile.D);
-  return {std::acos(std::clamp(stock.y_hi / r, -1.0, 1.0)),
-          std::acos(std::clamp(stock.y_lo / r, -1.0, 1.0))};
-}
-
 /// Gauss-Legendre on [0, 1].
 void gauss_rule(int n, std::vector<double>& t, std::vector<double>& w) {
   for (int i = 0; i < n; ++i) {
@@ -111,9 +102,10 @@ std::vector<geometry::EdgePosition> EdgePoints::positions(double lag) const {
 /// among them where it enters or leaves the stock.
 std::vector<double> EdgePoints::breaks(std::size_t tooth, double lag,
                                        std::vector<double>& events) const {
-  const std::array<double, 2> window = nominal_window(setup_);
+  const double D = setup_.cutter.profile.D;
+  const chip::Arc window = chip::tooth_arc(setup_.cut.engagement, D, D / 2);
   const auto teeth = positions(lag);
-  std::vector<double> breaks(window.begin(), window.end());
+  std::vector<double> breaks = {window.from, window.to};
   events = breaks;
   for (const chip::ChipPiece& piece :
        chip::engaged_pieces(passage_, {r_, teeth}, static_cast<int>(tooth), -pi / 2)) {

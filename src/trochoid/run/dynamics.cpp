@@ -2,6 +2,7 @@
 #include <trochoid/run/dynamics.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/chip/intervals.h>
 #include <trochoid/run/motion_problem.h>
 #include <trochoid/run/motion_tables.h>
 #include <trochoid/run/motion_verdict.h>
@@ -9,9 +10,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -23,12 +22,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array names = {"periodic", "not_periodic", "chatter"};
 
-/// Where the tip of a tooth enters and leaves the stock: from theta to theta.
-std::array<double, 2> engagement_of(const force::Setup& setup) {
-  const double R = 0.5 * setup.cutter.profile.D;
-  const geometry::Band stock = geometry::stock_band(setup.cut.engagement, 2 * R);
-  const auto at = [R](double y) { return std::acos(std::clamp(y / R, -1.0, 1.0)); };
-  return {at(stock.y_hi), at(stock.y_lo)};
+/// Where the tip of a nominal tooth enters and leaves the stock.
+chip::Arc engagement_of(const force::Setup& setup) {
+  const double D = setup.cutter.profile.D;
+  return chip::tooth_arc(setup.cut.engagement, D, D / 2);
 }
 
 Json flutes_json(const dynamics::Motion& m, const force::Setup& setup) {
@@ -36,7 +33,7 @@ Json flutes_json(const dynamics::Motion& m, const force::Setup& setup) {
   double psi = 0.0;
   for (std::size_t j = 0; j < m.flutes.size(); ++j) {
     const dynamics::FluteMotion& f = m.flutes[j];
-    const double enters = psi + engagement_of(setup)[0];
+    const double enters = psi + engagement_of(setup).from;
     psi += setup.cutter.pitch[j];
     flutes.push_back({{"tooth", j + 1},
                       {"enters_deg", unit::in(enters, unit::deg)},
@@ -131,8 +128,8 @@ results::Answer dynamics(const inputs::Case& given, const Progress& progress) {
     return failed(chatter_message(all, linear));
   }
   const auto engaged = engagement_of(problem.setup);
-  result["engagement_deg"] = {unit::in(engaged[0], unit::deg),
-                              unit::in(engaged[1], unit::deg)};
+  result["engagement_deg"] = {unit::in(engaged.from, unit::deg),
+                              unit::in(engaged.to, unit::deg)};
   result["flutes"] = flutes_json(m, problem.setup);
   result["difference"] = peak_difference(m);
   result["peak_xy_N"] = m.peak;

@@ -29,6 +29,18 @@ TEST(Intervals, LookingBackAtOneToothWidensThem) {
   EXPECT_NEAR(one[0].to / unit::deg, 191.78, 5e-3);
 }
 
+TEST(ToothArc, IsThatOfTheRadiusOfTheTooth) {
+  const Arc slot = tooth_arc(geometry::Slot{}, 8e-3, 4e-3);
+  EXPECT_EQ(slot.from, 0.0);
+  EXPECT_NEAR(slot.to, pi, 1e-15);
+  const Arc up = tooth_arc(geometry::UpMilling{2e-3}, 8e-3, 4e-3);  // y from 2 mm on
+  EXPECT_EQ(up.from, 0.0);
+  EXPECT_NEAR(up.to, pi / 3, 1e-15);
+  const Arc longer = tooth_arc(geometry::DownMilling{2e-3}, 8e-3, 5e-3);
+  EXPECT_NEAR(longer.from, std::acos(-2.0 / 5.0), 1e-15);
+  EXPECT_NEAR(longer.to, pi, 1e-15);
+}
+
 TEST(Intervals, HoldAllThatCutsAndNothingElse) {
   std::mt19937 random(11);
   for (int n = 0; n < 40; ++n) {

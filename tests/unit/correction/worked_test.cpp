@@ -163,7 +163,7 @@ TEST(WorkedCorrection, EntryAndExitOfTeethOfTheirOwnRadius) {  // [R-2]
       const geometry::Engagement engagement =
           name.starts_with("up") ? geometry::Engagement(geometry::UpMilling{a_e})
                                  : geometry::DownMilling{a_e};
-      const chip::Arc arc = tooth_arc(engagement, D, R_j);
+      const chip::Arc arc = chip::tooth_arc(engagement, D, R_j);
       const double allowed = j["tolerance"]["abs"];
       EXPECT_NEAR(arc.from / unit::deg, want[0].get<double>(), allowed) << name;
       EXPECT_NEAR(arc.to / unit::deg, want[1].get<double>(), allowed) << name;
