@@ -3,6 +3,7 @@
 #include <trochoid/dynamics/multiplier.h>
 
 #include <complex>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::dynamics {
@@ -13,6 +14,19 @@ enum class Bifurcation {
   period_doubling,  ///< every second period alike
   period_one,       ///< every period alike
 };
+
+/// Names of files.
+constexpr std::string_view name_of(Bifurcation kind) noexcept {
+  switch (kind) {
+    case Bifurcation::hopf:
+      return "hopf";
+    case Bifurcation::period_doubling:
+      return "period_doubling";
+    case Bifurcation::period_one:
+      return "period_one";
+  }
+  return {};
+}
 
 Bifurcation bifurcation_of(std::complex<double> multiplier) noexcept;
 

@@ -25,8 +25,8 @@ constexpr int most_rounds = 5;
 /// parts of the feed per tooth.
 constexpr double no_motion = 1e-9;
 constexpr double too_much = 1e-6;
-/// Changes from turn to turn up to this part of the feed per tooth are small.
-constexpr double small = 0.2;
+/// Changes from turn to turn up to this fraction of the feed per tooth are small.
+constexpr double small_change = 0.2;
 /// A displacement that no cut has [m]: the motion has run away.
 constexpr double run_away = 0.1;
 /// Remembered beyond the oldest delay, for the places between nodes.
@@ -200,7 +200,7 @@ class Run {
       ++motion_.turns_done;
     }
     motion_.growth =
-        growth_per_turn(motion_.once, small * problem_.setup.cut.f_z).value_or(1.0);
+        growth_per_turn(motion_.once, small_change * problem_.setup.cut.f_z);
     samples_.finish(motion_);
     comparison_.finish(motion_);
     return std::move(motion_);

@@ -77,8 +77,8 @@ struct Motion {
   /// apart from steps in which an edge force came or went [N].
   double last_change = 0.0;
   double peak = 0.0;      ///< largest force in the plane of the table, last turn [N]
-  bool periodic = false;  ///< last_change is below 1/300 of the peak
-  double growth = 1.0;    ///< T-11; 1 where none is seen
+  bool periodic = false;  ///< last_change is within periodic_tolerance of the peak
+  std::optional<double> growth;  ///< of a small vibration in a turn (T-11), where seen
   int turns_done = 0;
 };
 

@@ -1,6 +1,7 @@
 #include <trochoid/dynamics/motion_record.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/dynamics/steady_state.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace trochoid::dynamics {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// 0.2 N of 60 N, as the case of [diez2010] settles.
-constexpr double repeats = 1.0 / 300;
 
 /// Place and speed between the ends of a step: the cubic through both.
 std::array<double, 2> between(const std::array<double, 2>& a,
@@ -142,8 +141,8 @@ void TurnComparison::finish(Motion& motion) const {
           std::max(motion.last_change, std::abs(last_[i][a] - before_[i][a]));
     }
   }
-  motion.periodic =
-      motion.finite && motion.solved && motion.last_change <= repeats * motion.peak;
+  motion.periodic = motion.finite && motion.solved &&
+                    motion.last_change <= periodic_tolerance * motion.peak;
 }
 
 }  // namespace trochoid::dynamics

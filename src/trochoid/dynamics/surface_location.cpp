@@ -57,6 +57,15 @@ class LastTurn {
 
 }  // namespace
 
+std::vector<double> wall_heights(const force::Setup& setup) {
+  constexpr int steps = 10;
+  std::vector<double> heights = {0.0};
+  for (int i = 1; setup.cutter.helix != 0 && i <= steps; ++i) {
+    heights.push_back(setup.cut.a_p * i / steps);
+  }
+  return heights;
+}
+
 std::vector<WallLocation> surface_location(const MotionProblem& problem,
                                            const Motion& m,
                                            const std::vector<double>& heights) {

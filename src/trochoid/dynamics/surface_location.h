@@ -15,6 +15,10 @@ struct WallLocation {
   double remains = 0.0;  ///< that of the tooth that reaches deepest [m]
 };
 
+/// @brief Heights at which a wall is worth looking at: the tip, and with a helix ten
+/// steps up to the axial depth [m].
+std::vector<double> wall_heights(const force::Setup& setup);
+
 /// @brief Surface location error: where the wall is made, compared with a rigid tool
 /// without runout.
 ///

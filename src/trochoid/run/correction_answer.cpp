@@ -210,7 +210,8 @@ std::string chatter_in(const BeforeAfter& moved) {
           "motion had grown beyond all bounds",
           when, m->turns_done);
     }
-    if (!periodic(*m) && (m->growth > grows || m->last_change > shakes * peak_of(*m))) {
+    if (!periodic(*m) &&
+        (m->growth.value_or(1.0) > grows || m->last_change > shakes * peak_of(*m))) {
       return fmt::format(
           "chatter {} the correction: the force still changes by {:.3g} of {:.3g} N "
           "from turn to turn; there are no steady peaks to make equal",
