@@ -10,4 +10,7 @@ struct Estimate {
   double high = 0.0;  ///< of the 95 % interval
 };
 
+/// Half of a 95 % interval over its standard error, where that itself is well known.
+inline constexpr double normal_interval = 1.96;
+
 }  // namespace trochoid::base

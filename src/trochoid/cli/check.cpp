@@ -5,9 +5,9 @@
 #include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/step_file.h>
 #include <trochoid/inputs/surface_file.h>
-#include <trochoid/run/actuator.h>
 #include <trochoid/run/identify/describe_record.h>
-#include <trochoid/run/modes.h>
+#include <trochoid/run/vibration/actuator.h>
+#include <trochoid/run/vibration/modes.h>
 
 #include <fmt/core.h>
 

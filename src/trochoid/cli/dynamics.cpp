@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/dynamics.h>
+#include <trochoid/run/vibration/dynamics.h>
 
 #include <functional>
 
@@ -10,8 +10,7 @@ int dynamics(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::dynamics,
                                                result_folder(options, "dynamics"));
   ProgressLine progress(options.quiet);
-  const results::Answer answer = run::dynamics(given, std::ref(progress));
-  return deliver(answer, options);
+  return deliver(results::answer_of(run::dynamics(given, std::ref(progress))), options);
 }
 
 }  // namespace trochoid::cli

@@ -2,8 +2,8 @@
 #include <trochoid/base/names.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/actuator.h>
-#include <trochoid/run/modes.h>
+#include <trochoid/run/vibration/actuator.h>
+#include <trochoid/run/vibration/modes.h>
 
 namespace trochoid::cli {
 
@@ -31,9 +31,9 @@ int modes(const Options& options) {
                    !options.band.empty();
   if (is_case(options.file)) {
     refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
-    return deliver(
-        run::modes(inputs::read_case(options.file, inputs::Command::modes, folder)),
-        options);
+    return deliver(results::answer_of(run::modes(inputs::read_case(
+                       options.file, inputs::Command::modes, folder))),
+                   options);
   }
   inputs::MachineTables machine;
   machine.frf =
@@ -42,7 +42,8 @@ int modes(const Options& options) {
                         .dataset = options.dataset,
                         .modes = options.modes,
                         .band = options.band};
-  return deliver(run::modes(inputs::bare_case(machine, inputs::Command::modes, folder)),
+  return deliver(results::answer_of(run::modes(
+                     inputs::bare_case(machine, inputs::Command::modes, folder))),
                  options);
 }
 
@@ -51,8 +52,8 @@ int actuator(const Options& options) {
   if (is_case(options.file)) {
     refuse_for_case(options, options.step_um || options.start_s,
                     "--step-um and --start-s", "[step]");
-    return deliver(run::actuator(inputs::read_case(options.file,
-                                                   inputs::Command::actuator, folder)),
+    return deliver(results::answer_of(run::actuator(inputs::read_case(
+                       options.file, inputs::Command::actuator, folder))),
                    options);
   }
   inputs::MachineTables machine;
@@ -61,9 +62,9 @@ int actuator(const Options& options) {
   if (options.step_um) {
     machine.step->step = *options.step_um * 1e-6;
   }
-  return deliver(
-      run::actuator(inputs::bare_case(machine, inputs::Command::actuator, folder)),
-      options);
+  return deliver(results::answer_of(run::actuator(
+                     inputs::bare_case(machine, inputs::Command::actuator, folder))),
+                 options);
 }
 
 }  // namespace trochoid::cli

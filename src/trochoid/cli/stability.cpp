@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/stability.h>
+#include <trochoid/run/vibration/stability.h>
 
 #include <functional>
 
@@ -10,8 +10,8 @@ int stability(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::stability,
                                                result_folder(options, "stability"));
   ProgressLine progress(options.quiet);
-  const results::Answer answer = run::stability(given, std::ref(progress));
-  return deliver(answer, options);
+  return deliver(results::answer_of(run::stability(given, std::ref(progress))),
+                 options);
 }
 
 }  // namespace trochoid::cli

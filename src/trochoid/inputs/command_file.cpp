@@ -143,17 +143,4 @@ CommandTable read_command(const ImposedCommand& command) {
   return read_command(in, command.file);
 }
 
-double command_at(const CommandTable& table, double angle) noexcept {
-  const double from = table.angle.front();
-  const double at =
-      from + std::fmod(std::fmod(angle - from, unit::turn) + unit::turn, unit::turn);
-  const auto next = std::upper_bound(table.angle.begin(), table.angle.end(), at);
-  const auto k = static_cast<std::size_t>(next - table.angle.begin()) - 1;
-  const bool last = k + 1 == table.angle.size();
-  const double to = last ? from + unit::turn : table.angle[k + 1];
-  const double end = last ? table.command.front() : table.command[k + 1];
-  const double share = (at - table.angle[k]) / (to - table.angle[k]);
-  return (1 - share) * table.command[k] + share * end;
-}
-
 }  // namespace trochoid::inputs

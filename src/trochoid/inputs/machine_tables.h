@@ -5,7 +5,9 @@
 #include <trochoid/correction/amplitude.h>
 #include <trochoid/correction/command.h>
 #include <trochoid/correction/shapes.h>
+#include <trochoid/dynamics/imposed_command.h>
 #include <trochoid/structure/frequency_response.h>
+#include <trochoid/structure/mode.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
 
@@ -71,32 +73,8 @@ constexpr std::string_view name_of(ResidualTerms terms) noexcept {
   return {};
 }
 
-enum class ModeBody { tool, table };
-
-/// Names of files.
-constexpr std::string_view name_of(ModeBody body) noexcept {
-  switch (body) {
-    case ModeBody::tool:
-      return "tool";
-    case ModeBody::table:
-      return "table";
-  }
-  return {};
-}
-enum class Axis { x, y, z };
-
-/// Names of files.
-constexpr std::string_view name_of(Axis axis) noexcept {
-  switch (axis) {
-    case Axis::x:
-      return "x";
-    case Axis::y:
-      return "y";
-    case Axis::z:
-      return "z";
-  }
-  return {};
-}
+using structure::Axis;
+using structure::ModeBody;
 
 /// One [[mode]]: two of mass, stiffness and frequency, one of the dampings.
 struct Mode {
@@ -124,22 +102,7 @@ struct Actuator {
   std::optional<double> highest_frequency;   ///< of a command [Hz]
 };
 
-enum class CommandShape { sine, square, trapezoid, table };
-
-/// Names of files.
-constexpr std::string_view name_of(CommandShape shape) noexcept {
-  switch (shape) {
-    case CommandShape::sine:
-      return "sine";
-    case CommandShape::square:
-      return "square";
-    case CommandShape::trapezoid:
-      return "trapezoid";
-    case CommandShape::table:
-      return "table";
-  }
-  return {};
-}
+using dynamics::CommandShape;
 
 /// [command]: imposed on the actuator.
 struct ImposedCommand {

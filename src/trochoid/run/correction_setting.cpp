@@ -1,8 +1,7 @@
 #include <trochoid/run/correction_setting.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/run/chip_modes.h>
-#include <trochoid/run/machine_plant.h>
+#include <trochoid/run/shared/machine.h>
 #include <trochoid/run/shared/records.h>
 
 #include <fmt/core.h>

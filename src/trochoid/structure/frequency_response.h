@@ -26,6 +26,32 @@ constexpr std::string_view name_of(ResponseKind kind) noexcept {
   return {};
 }
 
+/// The unit of a response, for people.
+constexpr std::string_view unit_of(ResponseKind kind) noexcept {
+  switch (kind) {
+    case ResponseKind::receptance:
+      return "m/N";
+    case ResponseKind::mobility:
+      return "m/s/N";
+    case ResponseKind::accelerance:
+      return "m/s^2/N";
+  }
+  return {};
+}
+
+/// The unit of a response as the end of a name in files.
+constexpr std::string_view unit_suffix(ResponseKind kind) noexcept {
+  switch (kind) {
+    case ResponseKind::receptance:
+      return "m_per_N";
+    case ResponseKind::mobility:
+      return "m_per_s_N";
+    case ResponseKind::accelerance:
+      return "m_per_s2_N";
+  }
+  return {};
+}
+
 /// A measured frequency response, of one point to a force at that point.
 struct FrequencyResponse {
   ResponseKind kind = ResponseKind::receptance;

@@ -2,8 +2,39 @@
 
 #include <complex>
 #include <optional>
+#include <string_view>
 
 namespace trochoid::structure {
+
+/// What a mode moves.
+enum class ModeBody { tool, table };
+
+/// Names of files.
+constexpr std::string_view name_of(ModeBody body) noexcept {
+  switch (body) {
+    case ModeBody::tool:
+      return "tool";
+    case ModeBody::table:
+      return "table";
+  }
+  return {};
+}
+
+/// In which direction of the machine.
+enum class Axis { x, y, z };
+
+/// Names of files.
+constexpr std::string_view name_of(Axis axis) noexcept {
+  switch (axis) {
+    case Axis::x:
+      return "x";
+    case Axis::y:
+      return "y";
+    case Axis::z:
+      return "z";
+  }
+  return {};
+}
 
 /// One degree of freedom: mass x'' + damping x' + stiffness x = force.
 struct Mode {

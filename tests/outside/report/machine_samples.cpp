@@ -1,10 +1,10 @@
 #include "machine_samples.h"
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/actuator.h>
 #include <trochoid/run/correct.h>
-#include <trochoid/run/dynamics.h>
-#include <trochoid/run/modes.h>
+#include <trochoid/run/vibration/actuator.h>
+#include <trochoid/run/vibration/dynamics.h>
+#include <trochoid/run/vibration/modes.h>
 
 namespace sample {
 
@@ -18,20 +18,20 @@ const std::filesystem::path examples = TROCHOID_EXAMPLES;
 }  // namespace
 
 Answer modes() {
-  return trochoid::run::modes(
-      inputs::read_case(examples / "tap_test/case.toml", inputs::Command::modes));
+  return answer_of(trochoid::run::modes(
+      inputs::read_case(examples / "tap_test/case.toml", inputs::Command::modes)));
 }
 
 Answer actuator() {
-  return trochoid::run::actuator(
-      inputs::read_case(examples / "tap_test/case.toml", inputs::Command::actuator));
+  return answer_of(trochoid::run::actuator(
+      inputs::read_case(examples / "tap_test/case.toml", inputs::Command::actuator)));
 }
 
 Answer motion() {
-  return trochoid::run::dynamics(
-      inputs::read_case(examples / "runout_table_8mm/sine.toml",
-                        inputs::Command::dynamics),
-      {});
+  return answer_of(
+      trochoid::run::dynamics(inputs::read_case(examples / "runout_table_8mm/sine.toml",
+                                                inputs::Command::dynamics),
+                              {}));
 }
 
 Answer correction() {
@@ -42,10 +42,10 @@ Answer correction() {
 }
 
 Answer chatter() {
-  return trochoid::run::dynamics(
-      inputs::read_case(examples / "stability_922Hz/case.toml",
-                        inputs::Command::dynamics),
-      {});
+  return answer_of(
+      trochoid::run::dynamics(inputs::read_case(examples / "stability_922Hz/case.toml",
+                                                inputs::Command::dynamics),
+                              {}));
 }
 
 }  // namespace sample

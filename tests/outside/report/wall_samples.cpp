@@ -2,7 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/stability.h>
+#include <trochoid/run/vibration/stability.h>
 #include <trochoid/run/wall/calibrate.h>
 #include <trochoid/run/wall/surface.h>
 
@@ -134,8 +134,8 @@ Answer wall(const char* model, const std::filesystem::path& folder) {
 Answer lobes(const std::filesystem::path& folder) {
   const auto file =
       written(folder / "stability.toml", inputs::new_case(inputs::Command::stability));
-  return trochoid::run::stability(inputs::read_case(file, inputs::Command::stability),
-                                  {});
+  return answer_of(trochoid::run::stability(
+      inputs::read_case(file, inputs::Command::stability), {}));
 }
 
 Answer calibration(const char* model, bool number_teeth,

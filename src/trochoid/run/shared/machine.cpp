@@ -1,4 +1,4 @@
-#include <trochoid/run/machine_plant.h>
+#include <trochoid/run/shared/machine.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,6 +6,11 @@
 namespace trochoid::run {
 
 namespace {
+
+structure::Mode whole_mode(const inputs::Mode& mode) {
+  return structure::completed(
+      {mode.mass, mode.stiffness, mode.damping, mode.frequency, mode.damping_ratio});
+}
 
 structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
   return a.frequency ? structure::from_frequency(a.gain, *a.frequency, *a.damping_ratio)
@@ -15,6 +20,22 @@ structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
 
 }  // namespace
 
+dynamics::System chip_modes(std::span<const inputs::Mode> modes) {
+  dynamics::System system;
+  for (const inputs::Mode& mode : modes) {
+    if (mode.axis == inputs::Axis::z) {
+      continue;
+    }
+    const structure::Mode whole = whole_mode(mode);
+    dynamics::ChipMode m{whole.mass, whole.damping, whole.stiffness};
+    const double sign = mode.body == inputs::ModeBody::table ? -1.0 : 1.0;
+    m.x = mode.axis == inputs::Axis::x ? sign : 0.0;
+    m.y = mode.axis == inputs::Axis::y ? sign : 0.0;
+    system.modes.push_back(m);
+  }
+  return system;
+}
+
 correction::Plant plant_of(const inputs::MachineTables& machine) {
   const auto table = std::find_if(
       machine.modes.begin(), machine.modes.end(), [](const inputs::Mode& mode) {
@@ -23,15 +44,13 @@ correction::Plant plant_of(const inputs::MachineTables& machine) {
   if (!machine.actuator || table == machine.modes.end()) {
     throw std::invalid_argument("plant_of: no actuator, or no table along x");
   }
-  const structure::Mode mode =
-      structure::completed({table->mass, table->stiffness, table->damping,
-                            table->frequency, table->damping_ratio});
+  const structure::Mode mode = whole_mode(*table);
   correction::Plant plant =
       correction::held_by_actuator(dynamics_of(*machine.actuator), mode);
   if (machine.actuator->coupling_stiffness) {
-    const double share = *machine.actuator->coupling_stiffness / mode.stiffness;
+    const double fraction = *machine.actuator->coupling_stiffness / mode.stiffness;
     plant.k_s = *machine.actuator->coupling_stiffness;
-    plant.c_s = share * mode.damping;
+    plant.c_s = fraction * mode.damping;
   }
   plant.c_s = machine.actuator->coupling_damping.value_or(plant.c_s);
   return plant;

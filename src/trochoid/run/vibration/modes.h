@@ -2,7 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/frf_file.h>
-#include <trochoid/results/answer.h>
+#include <trochoid/results/modes.h>
 
 namespace trochoid::run {
 
@@ -12,6 +12,6 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf);
 /// @brief Modal parameters from the frequency response of a case.
 /// @param given  with [frf]
 /// @throws base::InputError when the file cannot be read
-results::Answer modes(const inputs::Case& given);
+results::ModesResult modes(const inputs::Case& given);
 
 }  // namespace trochoid::run

@@ -1,0 +1,153 @@
+#include <trochoid/results/modes.h>
+
+#include <trochoid/base/estimate.h>
+#include <trochoid/base/units.h>
+
+#include <fmt/core.h>
+
+#include <complex>
+
+namespace trochoid::results {
+
+namespace {
+
+using base::add_column;
+using structure::FittedMode;
+using structure::ModesFit;
+
+/// fitted.csv: the lines of the response as measured and as fitted.
+base::Table fitted_table(const ModesResult& r) {
+  base::Table table{"fitted.csv", {}};
+  const ModesFit& fit = r.fit;
+  const std::size_t n = fit.omega.size();
+  add_column(table, "frequency_Hz", n,
+             [&](std::size_t i) { return unit::in(fit.omega[i], unit::Hz); });
+  const auto add = [&](const char* what, const std::vector<std::complex<double>>& H) {
+    const std::string_view suffix = unit_suffix(r.kind);
+    add_column(table, fmt::format("{}re_{}", what, suffix), n,
+               [&](std::size_t i) { return H[i].real(); });
+    add_column(table, fmt::format("{}im_{}", what, suffix), n,
+               [&](std::size_t i) { return H[i].imag(); });
+  };
+  add("", fit.H);
+  if (fit.ok) {
+    add("fitted_", fit.fitted);
+  }
+  return table;
+}
+
+Object mode_value(const FittedMode& m) {
+  return {{"frequency_Hz", m.omega / unit::Hz},
+          {"damping_ratio", m.zeta},
+          {"mass_kg", m.mode.mass},
+          {"stiffness_N_per_m", m.mode.stiffness},
+          {"damping_Ns_per_m", m.mode.damping},
+          {"se", Object{{"frequency_Hz", m.omega_se / unit::Hz},
+                        {"damping_ratio", m.zeta_se},
+                        {"mass_kg", m.mass_se},
+                        {"stiffness_N_per_m", m.stiffness_se},
+                        {"damping_Ns_per_m", m.damping_se}}},
+          {"lines_in_peak", m.lines_in_peak}};
+}
+
+Value modes_value(const ModesFit& fit) {
+  if (!fit.ok) {
+    return nullptr;
+  }
+  Array modes;
+  for (const FittedMode& mode : fit.modes) {
+    modes.emplace_back(mode_value(mode));
+  }
+  return modes;
+}
+
+Value residual_terms_value(const ModesFit& fit) {
+  if (!fit.residual_terms) {
+    return nullptr;
+  }
+  return Object{{"above_m_per_N", fit.above}, {"below_per_kg", fit.below}};
+}
+
+Object result_of(const ModesResult& r) {
+  const ModesFit& fit = r.fit;
+  Object result{{"kind", name_of(r.kind)},
+                {"modes", modes_value(fit)},
+                {"lines", fit.omega.size()}};
+  const auto add = [&](std::string key, Value value) {
+    result.push_back({std::move(key), std::move(value)});
+  };
+  if (!fit.omega.empty()) {
+    add("band_Hz", Array{unit::in(fit.omega.front(), unit::Hz),
+                         unit::in(fit.omega.back(), unit::Hz)});
+  }
+  if (fit.ok) {
+    add("explained", fit.explained);
+    add(fmt::format("rms_{}", unit_suffix(r.kind)), fit.rms);
+    add("residual_terms", residual_terms_value(fit));
+  }
+  if (!r.description.empty()) {
+    add("description", r.description);
+  }
+  return result;
+}
+
+std::string modes_toml(const ModesResult& r) {
+  std::string text =
+      "# Found by trochoid modes. Use it in another case with\n"
+      "#   include = \"<this file>\"\n"
+      "# A list of modes is replaced whole: put all "
+      "modes of a machine into one file.\n";
+  for (const FittedMode& m : r.fit.modes) {
+    text += fmt::format(
+        "\n[[mode]]  # {:.6g} Hz, damping ratio {:.4g}\n"
+        "body = \"{}\"\naxis = \"{}\"\n"
+        "mass_kg = {}  # standard error {:.2g}\n"
+        "stiffness_N_per_m = {}  # {:.2g}\n"
+        "damping_Ns_per_m = {}  # {:.2g}\n",
+        m.omega / unit::Hz, m.zeta, name_of(r.body), name_of(r.axis), m.mode.mass,
+        m.mass_se, m.mode.stiffness, m.stiffness_se, m.mode.damping, m.damping_se);
+  }
+  return text;
+}
+
+std::string short_table(const ModesResult& r) {
+  const ModesFit& fit = r.fit;
+  std::string text =
+      "mode  frequency [Hz]    damping ratio      mass [kg]          "
+      "stiffness [N/m]    damping [N s/m]\n";
+  const auto cell = [](double value, double error) {
+    return fmt::format("{:.6g} +- {:.2g}", value, base::normal_interval * error);
+  };
+  for (std::size_t i = 0; i < fit.modes.size(); ++i) {
+    const FittedMode& m = fit.modes[i];
+    text += fmt::format("{:>4}  {:<16}  {:<17}  {:<17}  {:<17}  {}\n", i + 1,
+                        cell(m.omega / unit::Hz, m.omega_se / unit::Hz),
+                        cell(m.zeta, m.zeta_se), cell(m.mode.mass, m.mass_se),
+                        cell(m.mode.stiffness, m.stiffness_se),
+                        cell(m.mode.damping, m.damping_se));
+  }
+  text += fmt::format(
+      "(+-: half of a 95 % interval) from {} lines of the {}, {:.4g} to {:.4g} Hz{}\n"
+      "the fit explains {:.3f} % of the power and leaves {:.3g} {} (rms)\n",
+      fit.omega.size(), name_of(r.kind), fit.omega.front() / unit::Hz,
+      fit.omega.back() / unit::Hz,
+      fit.residual_terms ? ", with terms for modes outside of it" : "",
+      100 * fit.explained, fit.rms, unit_of(r.kind));
+  return text;
+}
+
+}  // namespace
+
+Answer answer_of(const ModesResult& r) {
+  Answer answer{.command = "modes",
+                .heading = r.heading,
+                .result = result_of(r),
+                .tables = {fitted_table(r)}};
+  if (r.fit.ok) {
+    answer.short_table = short_table(r);
+    answer.texts.push_back({"modes.toml", modes_toml(r)});
+  }
+  return answer;
+}
+
+}  // namespace trochoid::results

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <trochoid/results/answer.h>
+#include <trochoid/structure/identify_modes.h>
+
+#include <string>
+
+namespace trochoid::results {
+
+/// @brief What `modes` answers: modal parameters of a measured frequency response.
+struct ModesResult {
+  Heading heading;
+  structure::ResponseKind kind = structure::ResponseKind::receptance;
+  std::string description;  ///< of the measurement, where its file says it
+  structure::ModeBody body = structure::ModeBody::tool;  ///< that was tapped
+  structure::Axis axis = structure::Axis::x;             ///< in which direction
+  structure::ModesFit fit;
+};
+
+Answer answer_of(const ModesResult& result);
+
+}  // namespace trochoid::results

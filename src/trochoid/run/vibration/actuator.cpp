@@ -1,0 +1,37 @@
+#include <trochoid/run/vibration/actuator.h>
+
+#include <trochoid/run/vibration/warnings.h>
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace trochoid::run {
+
+inputs::StepSource step_source(const inputs::StepTables& step) {
+  return {.file = step.file,
+          .location = step.location,
+          .step = step.step,
+          .start = step.start};
+}
+
+results::ActuatorResult actuator(const inputs::Case& given) {
+  inputs::StepFile file = inputs::read_step(step_source(*given.machine.step));
+  results::ActuatorResult r{
+      .heading = {.title = given.title, .case_toml = given.as_understood},
+      .record = std::move(file.record),
+      .command = std::move(file.command)};
+  r.fit = structure::identify_actuator(r.record);
+  r.heading.warnings = std::move(file.notes);
+  r.heading.ok = r.fit.ok;
+  if (!r.fit.ok) {
+    r.heading.message = r.fit.reason;
+    return r;
+  }
+  add_actuator_warnings(r.record, r.fit, r.heading.warnings);
+  r.heading.message = fmt::format("Gain and two poles from {} samples of a step.",
+                                  r.record.time.size());
+  return r;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,73 @@
+#include <trochoid/run/vibration/dynamics.h>
+
+#include <trochoid/dynamics/stability.h>
+#include <trochoid/run/vibration/problem.h>
+#include <trochoid/run/vibration/warnings.h>
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace trochoid::run {
+
+namespace {
+
+using dynamics::MotionProblem;
+using dynamics::SteadyState;
+using dynamics::Verdict;
+using results::MotionResult;
+
+MotionResult failed(MotionResult r, std::string why) {
+  r.heading.ok = false;
+  r.heading.message = std::move(why);
+  return r;
+}
+
+MotionResult result_of(const inputs::Case& given, const MotionProblem& problem) {
+  const double D = problem.setup.cutter.profile.D;
+  MotionResult r{.heading = {.title = given.title, .case_toml = given.as_understood},
+                 .system = problem.system,
+                 .steps_per_tooth = problem.grid.steps_per_tooth,
+                 .engagement = chip::tooth_arc(problem.setup.cut.engagement, D, D / 2),
+                 .entry = geometry::tooth_angles(problem.setup.cutter)};
+  for (double& angle : r.entry) {
+    angle += r.engagement.from;
+  }
+  return r;
+}
+
+}  // namespace
+
+MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
+  const MotionProblem problem = motion_problem(given);
+  MotionResult r = result_of(given, problem);
+  if (problem.grid.steps_per_tooth > dynamics::most_steps) {
+    return failed(std::move(r), too_many_steps(problem.grid.steps_per_tooth));
+  }
+  SteadyState steady = dynamics::steady_state(problem, [&](int turns) {
+    if (progress) {
+      progress(fmt::format("Cutting, {} turns", turns));
+    }
+  });
+  if (steady.motion.finite && !steady.motion.solved) {
+    return failed(std::move(r),
+                  "no force was found that agrees with the motion it makes: a mode is "
+                  "too soft, or too light, for this cut");
+  }
+  r.linear_growth = dynamics::linear_growth(problem.setup, problem.law, problem.system,
+                                            stability_options(given));
+  r.steady = std::move(steady);
+  if (r.steady->verdict == Verdict::chatter) {
+    std::string why = chatter_message(r.steady->motion, r.linear_growth);
+    return failed(std::move(r), std::move(why));
+  }
+  r.heading.warnings = motion_warnings(*r.steady);
+  r.walls = dynamics::surface_location(problem, r.steady->motion,
+                                       dynamics::wall_heights(problem.setup));
+  r.heading.message = fmt::format(
+      "After {} turns the motion {}.", r.steady->motion.turns_done,
+      r.steady->verdict == Verdict::periodic ? "repeats itself" : "has not settled");
+  return r;
+}
+
+}  // namespace trochoid::run

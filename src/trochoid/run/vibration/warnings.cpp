@@ -1,0 +1,172 @@
+#include <trochoid/run/vibration/warnings.h>
+
+#include <trochoid/base/units.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::run {
+
+namespace {
+
+using dynamics::Motion;
+using Warnings = std::vector<base::Warning>;
+
+/// Lines between the half-power points of a mode that are few.
+constexpr int few_lines = 5;
+/// Fraction of the power of a response below which its modes are in doubt.
+constexpr double poor_fit = 0.95;
+/// Relative standard error above which a number is known loosely.
+constexpr double loose_error = 0.1;
+/// How far the start of a step may lie from what the command shows, in standard errors.
+constexpr double start_slack = 3.0;
+
+void warn_floor(const dynamics::Stability& stability, Warnings& warnings) {
+  if (stability.floor && !stability.floor->decided) {
+    warnings.push_back(
+        {"chip_floor",
+         fmt::format(
+             "The slope of a power law grows without limit where the chip begins: "
+             "with half and twice chip_floor_um the multiplier is {:.4f} and "
+             "{:.4f}. Take the verdict as open.",
+             stability.floor->at_half, stability.floor->at_twice)});
+  }
+}
+
+void warn_modes(const inputs::Case& given, Warnings& warnings) {
+  const auto left_out = std::count_if(
+      given.machine.modes.begin(), given.machine.modes.end(),
+      [](const inputs::Mode& mode) { return mode.axis == inputs::Axis::z; });
+  if (left_out > 0) {
+    warnings.push_back({"mode_along_z",
+                        fmt::format("{} of the modes move along z, which the chip does "
+                                    "not feel: left out.",
+                                    left_out)});
+  }
+}
+
+}  // namespace
+
+Warnings stability_warnings(const inputs::Case& given,
+                            const dynamics::StabilityOptions& options,
+                            const dynamics::Stability& stability) {
+  Warnings warnings;
+  warn_floor(stability, warnings);
+  warn_modes(given, warnings);
+  if (!stability.cuts) {
+    warnings.push_back(
+        {"no_cut", "No tooth cuts anything: nothing but damping is left."});
+  }
+  const dynamics::Multiplier& mu = stability.multiplier;
+  if (mu.error > options.tolerance * std::max(1.0, std::abs(mu.value))) {
+    warnings.push_back(
+        {"tolerance", fmt::format("The multiplier is good to {:.1e} only.", mu.error)});
+  }
+  return warnings;
+}
+
+Warnings motion_warnings(const dynamics::SteadyState& steady) {
+  if (steady.verdict != dynamics::Verdict::not_periodic) {
+    return {};
+  }
+  return {
+      {"not_periodic",
+       fmt::format("The force still changes by {:.3g} N from turn to turn, less and "
+                   "less: ask for more revolutions. Peaks are those of the last turn.",
+                   steady.motion.last_change)}};
+}
+
+void add_modes_warnings(const structure::ModesFit& fit, Warnings& warnings) {
+  for (const structure::FittedMode& m : fit.modes) {
+    const std::string at = fmt::format("{:.5g} Hz", m.omega / unit::Hz);
+    if (m.lines_in_peak < few_lines) {
+      warnings.push_back(
+          {"few_lines",
+           fmt::format("Only {} lines lie between the half-power points of "
+                       "the mode at {}: its damping hangs on them. A longer "
+                       "record has a finer resolution.",
+                       m.lines_in_peak, at)});
+    }
+    if (m.damping_se > loose_error * m.mode.damping ||
+        m.stiffness_se > loose_error * m.mode.stiffness) {
+      warnings.push_back(
+          {"loosely_known",
+           fmt::format(
+               "The mode at {} is known loosely: stiffness to {:.0f} %, damping "
+               "to {:.0f} % (standard errors).",
+               at, 100 * m.stiffness_se / m.mode.stiffness,
+               100 * m.damping_se / m.mode.damping)});
+    }
+  }
+  if (fit.explained < poor_fit) {
+    warnings.push_back(
+        {"poor_fit",
+         fmt::format("The modes leave {:.1f} % of the power of the response "
+                     "unexplained: look at the fit before using them.",
+                     100 * (1 - fit.explained))});
+  }
+}
+
+void add_actuator_warnings(const structure::StepRecord& record,
+                           const structure::ActuatorFit& fit, Warnings& warnings) {
+  if (fit.dynamics.gain < 0) {
+    warnings.push_back(
+        {"negative_gain",
+         "The actuator moves against its command: is the sensor reversed? "
+         "actuator.toml is not written."});
+  }
+  if (!record.change || record.start) {
+    return;
+  }
+  const double late = fit.start - (*record.change)[1];
+  const double early = (*record.change)[0] - fit.start;
+  if (std::max(late, early) > start_slack * fit.start_se) {
+    warnings.push_back(
+        {"start_differs",
+         fmt::format("The motion fits a step {:.3g} ms {} than the command shows it{}",
+                     1e3 * std::max(late, early), late > early ? "later" : "earlier",
+                     late > early
+                         ? ": a dead time, or a third pole, which the two poles "
+                           "of the model do not have."
+                         : ": check the times of the record.")});
+  }
+}
+
+std::string too_many_steps(int steps_per_tooth) {
+  return fmt::format(
+      "the fastest mode would need {} steps a tooth, more than the {} that are "
+      "computed: leave out modes far above the tooth frequency",
+      steps_per_tooth, dynamics::most_steps);
+}
+
+std::string chatter_message(const Motion& motion,
+                            const std::optional<double>& linear_growth) {
+  std::string text = "chatter: ";
+  if (!linear_growth) {
+    text += "the vibration does not die out";
+  } else if (*linear_growth > 1) {
+    text += fmt::format("a small vibration grows to {:.4g} of itself in each turn",
+                        *linear_growth);
+  } else {
+    text += fmt::format(
+        "the linearised cut is stable (a small vibration fades to {:.4g} of itself in "
+        "each turn), the motion is not",
+        *linear_growth);
+  }
+  if (!motion.finite) {
+    return text + fmt::format("; after {} turns it had grown beyond all bounds",
+                              motion.turns_done);
+  }
+  if (motion.periodic) {
+    return text +
+           "; the teeth are alike, yet they do not cut alike: the motion repeats only "
+           "after several teeth";
+  }
+  return text +
+         fmt::format("; the motion does not come to repeat itself within {} turns",
+                     motion.turns_done);
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <trochoid/base/warning.h>
+#include <trochoid/dynamics/stability.h>
+#include <trochoid/dynamics/steady_state.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/structure/identify_actuator.h>
+#include <trochoid/structure/identify_modes.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What an engineer should know about the answers on vibration, in sentences.
+namespace trochoid::run {
+
+std::vector<base::Warning> stability_warnings(const inputs::Case& given,
+                                              const dynamics::StabilityOptions& options,
+                                              const dynamics::Stability& stability);
+
+std::vector<base::Warning> motion_warnings(const dynamics::SteadyState& steady);
+
+/// @brief Why a motion is not followed: more steps than dynamics::most_steps.
+std::string too_many_steps(int steps_per_tooth);
+
+/// @brief What chatters.
+/// @param motion         with the verdict chatter
+/// @param linear_growth  of the linearised cut in a turn, where it is known
+std::string chatter_message(const dynamics::Motion& motion,
+                            const std::optional<double>& linear_growth);
+
+void add_modes_warnings(const structure::ModesFit& fit,
+                        std::vector<base::Warning>& warnings);
+
+void add_actuator_warnings(const structure::StepRecord& record,
+                           const structure::ActuatorFit& fit,
+                           std::vector<base::Warning>& warnings);
+
+}  // namespace trochoid::run

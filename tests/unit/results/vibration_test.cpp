@@ -1,0 +1,165 @@
+#include "answers.h"
+
+#include <trochoid/base/units.h>
+#include <trochoid/results/dynamics.h>
+#include <trochoid/results/stability.h>
+
+#include <gtest/gtest.h>
+
+#include <complex>
+
+namespace trochoid::results {
+namespace {
+
+using dynamics::Verdict;
+using test::column_of;
+using test::columns_of;
+using test::json_at;
+using test::table_of;
+using Names = std::vector<std::string>;
+
+StabilityResult stability_result() {
+  StabilityResult r;
+  r.problem.setup.cut = {.a_p = 0.5e-3, .Omega = 5000 * unit::rpm};
+  r.problem.system.modes = {{1.0, 2.0, 4.0, 1.0, 0.0}};
+  r.stability.multiplier = {.value = std::polar(1.1, 0.5), .error = 1e-8};
+  r.stability.verdict = dynamics::StabilityVerdict::unstable;
+  r.stability.lines = {{900.0, 1.0}, {1100.0, 0.2}};
+  r.stability.period = unit::turn / 2;
+  r.stability.greatest_depth = 2e-3;
+  r.stability.limit = {.limit = {.depth = 0.3e-3, .multiplier = {-1.0, 0.0}},
+                       .lines = {{850.0, 1.0}}};
+  r.stability.lobes = {{5000 * unit::rpm, 6000 * unit::rpm},
+                       {1e-3, 2e-3},
+                       {{0.5, 0.0}, {0.0, 1.5}, {0.25, 0.0}, {2.0, 0.0}}};
+  r.stability.limit_curve = {
+      {{.Omega = 5000 * unit::rpm, .depth = 0.3e-3, .multiplier = {-1.0, 0.0}}, 850.0}};
+  return r;
+}
+
+TEST(StabilityAnswer, TablesCarryNamesAndUnits) {
+  const Answer answer = answer_of(stability_result());
+  const base::Table& lobes = table_of(answer, "lobes.csv");
+  EXPECT_EQ(columns_of(lobes), (Names{"spindle_rpm", "axial_depth_mm", "multiplier"}));
+  EXPECT_EQ(column_of(lobes, "spindle_rpm"),
+            (std::vector<double>{5000, 5000, 6000, 6000}));
+  EXPECT_EQ(column_of(lobes, "axial_depth_mm"), (std::vector<double>{1, 2, 1, 2}));
+  EXPECT_EQ(column_of(lobes, "multiplier"), (std::vector<double>{0.5, 1.5, 0.25, 2}));
+  const base::Table& limit = table_of(answer, "limit.csv");
+  EXPECT_EQ(columns_of(limit), (Names{"spindle_rpm", "limit_depth_mm", "argument_deg",
+                                      "chatter_frequency_Hz"}));
+  EXPECT_EQ(column_of(limit, "argument_deg"), std::vector<double>{180});
+}
+
+TEST(StabilityAnswer, SaysTheVerdictAndWhatBelongsToIt) {
+  const Answer answer = answer_of(stability_result());
+  EXPECT_EQ(json_at(answer, "verdict"), "\"unstable\"");
+  EXPECT_EQ(json_at(answer, "stable"), "false");
+  EXPECT_EQ(json_at(answer, "multiplier", "type"), "\"hopf\"");
+  EXPECT_EQ(json_at(answer, "multiplier", "period"), "\"tooth\"");
+  EXPECT_EQ(json_at(answer, "multiplier", "chatter_frequencies_Hz"), "[900, 1100]");
+  EXPECT_EQ(json_at(answer, "limit", "type"), "\"period_doubling\"");
+  EXPECT_EQ(json_at(answer, "chip_floor"), "") << "of a power law only";
+  EXPECT_EQ(answer.short_table,
+            "unstable: a small vibration grows to 1.100000 of itself in each tooth "
+            "(hopf)\n"
+            "frequencies [Hz], strongest first: 900.00 1100.00\n"
+            "at 5000 rpm unstable from 0.3 mm axial depth on; here 0.5 mm\n");
+}
+
+TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
+  StabilityResult r = stability_result();
+  r.stability.limit.reset();
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_at(answer, "limit_depth_mm"), "null");
+  EXPECT_EQ(json_at(answer, "limit"), "");
+  EXPECT_NE(answer.short_table.find("no axial depth up to 2 mm is unstable"),
+            std::string::npos);
+}
+
+/// Two teeth, two samples, a tool and a table mode.
+MotionResult motion_result(Verdict verdict) {
+  MotionResult r;
+  r.system.modes = {{.x = 1.0, .y = 0.0}, {.x = -1.0, .y = 0.0}};
+  r.steps_per_tooth = 1000;
+  r.engagement = {0.0, unit::turn / 2};
+  r.entry = {0.0, unit::turn / 2};
+  r.steady = {.motion = {.time = {0.0, 0.01},
+                         .angle = {0.0, unit::deg},
+                         .force = {{1, 2, 3}, {4, 5, 6}},
+                         .mode = {{1e-6, 2e-6}, {5e-6, 6e-6}},
+                         .actuator = {7e-6, 8e-6},
+                         .command = {9e-6, 10e-6},
+                         .once = {{1e-6, -2e-6}, {1e-6, -3e-6}},
+                         .flutes = {{40, 20, 1e-3, 1e-5}, {30, 10, 2e-3, 2e-5}},
+                         .last_change = 0.5,
+                         .peak = 44,
+                         .turns_done = 20},
+              .verdict = verdict};
+  r.walls = {{.sigma = -1, .height = 0.0, .teeth = {3e-6, -4e-6}, .remains = -4e-6},
+             {.sigma = -1, .height = 1e-3, .teeth = {3e-6, -4e-6}, .remains = -4e-6}};
+  return r;
+}
+
+TEST(MotionAnswer, OfASteadyStateHasItsTables) {
+  const Answer answer = answer_of(motion_result(Verdict::periodic));
+  const base::Table& motion = table_of(answer, "motion.csv");
+  EXPECT_EQ(columns_of(motion),
+            (Names{"angle_deg", "time_s", "x_tool_um", "y_tool_um", "x_table_um",
+                   "y_table_um", "x_actuator_um", "command_um"}));
+  EXPECT_DOUBLE_EQ(column_of(motion, "x_tool_um")[1], 2.0);
+  EXPECT_DOUBLE_EQ(column_of(motion, "x_table_um")[0], 5.0);
+  EXPECT_EQ(column_of(motion, "y_table_um")[0], 0.0);
+  EXPECT_EQ(columns_of(table_of(answer, "forces.csv")),
+            (Names{"angle_deg", "time_s", "Fx_N", "Fy_N", "Fz_N"}));
+  const base::Table& once = table_of(answer, "once_per_turn.csv");
+  EXPECT_EQ(columns_of(once), (Names{"turn", "x_um", "y_um"}));
+  EXPECT_EQ(column_of(once, "turn"), (std::vector<double>{0, 1}));
+  const base::Table& walls = table_of(answer, "surface_location.csv");
+  EXPECT_EQ(columns_of(walls), (Names{"sigma", "height_mm", "tooth", "error_um"}));
+  EXPECT_EQ(column_of(walls, "height_mm"), (std::vector<double>{0, 0, 1, 1}));
+  EXPECT_EQ(column_of(walls, "tooth"), (std::vector<double>{1, 2, 1, 2}));
+}
+
+TEST(MotionAnswer, OfASteadyStateSaysThatItRepeats) {
+  const Answer answer = answer_of(motion_result(Verdict::periodic));
+  EXPECT_EQ(json_at(answer, "verdict"), "\"periodic\"");
+  EXPECT_EQ(json_at(answer, "difference"), "0.5");
+  EXPECT_EQ(json_at(answer, "growth_per_turn"), "null") << "none was seen";
+  EXPECT_EQ(json_at(answer, "linear_growth_per_turn"), "null");
+  EXPECT_EQ(json_at(answer, "engagement_deg"), "[0, 180]");
+  EXPECT_NE(answer.short_table.find("0.5 N in the last of 20 turns: it repeats\n"),
+            std::string::npos)
+      << answer.short_table;
+  EXPECT_NE(answer.short_table.find("up-milled wall -4.000 um off at the tip"),
+            std::string::npos);
+  EXPECT_NE(answer_of(motion_result(Verdict::not_periodic))
+                .short_table.find("it does not repeat"),
+            std::string::npos);
+}
+
+TEST(MotionAnswer, OfChatterGivesNoAmplitudes) {
+  MotionResult r = motion_result(Verdict::chatter);
+  r.steady->motion.growth = 1.15;
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_at(answer, "verdict"), "\"chatter\"");
+  EXPECT_EQ(json_at(answer, "change_N"), "null");
+  EXPECT_EQ(json_at(answer, "growth_per_turn"), "1.15");
+  EXPECT_EQ(json_at(answer, "flutes"), "");
+  ASSERT_EQ(answer.tables.size(), 1U);
+  EXPECT_EQ(answer.tables[0].file, "once_per_turn.csv");
+  EXPECT_EQ(answer.short_table, "");
+}
+
+TEST(MotionAnswer, WithoutAMotionIsEmpty) {
+  MotionResult r = motion_result(Verdict::periodic);
+  r.steady.reset();
+  r.heading = {.ok = false, .message = "why"};
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_text(answer.result), "null");
+  EXPECT_TRUE(answer.tables.empty());
+  EXPECT_FALSE(answer.heading.ok);
+}
+
+}  // namespace
+}  // namespace trochoid::results

@@ -1,0 +1,261 @@
+#include "../inputs/case_text.h"
+
+#include <trochoid/base/units.h>
+#include <trochoid/run/vibration/actuator.h>
+#include <trochoid/run/vibration/dynamics.h>
+#include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/problem.h>
+#include <trochoid/run/vibration/stability.h>
+#include <trochoid/run/vibration/warnings.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace trochoid::run {
+namespace {
+
+using dynamics::Verdict;
+using inputs::Command;
+using inputs::test::CaseFolder;
+
+const std::string benchmark = R"(
+[tool]
+teeth = 2
+diameter_mm = 10
+helix_deg = 0
+[cut]
+engagement = "slot"
+axial_depth_mm = 0.2
+feed_per_tooth_mm = 0.05
+spindle_rpm = 5000
+[chip]
+model = "none"
+[force]
+K_tc_MPa = 600
+K_rc_MPa = 200
+K_ac_MPa = 0
+K_te_N_per_mm = 0
+K_re_N_per_mm = 0
+K_ae_N_per_mm = 0
+[[mode]]
+body = "tool"
+axis = "x"
+mass_kg = 0.03993
+frequency_Hz = 922
+damping_ratio = 0.011
+)";
+const std::string along_z = R"(
+[[mode]]
+body = "tool"
+axis = "z"
+mass_kg = 0.1
+frequency_Hz = 500
+damping_ratio = 0.01
+)";
+const std::string driven_table = R"(
+[[mode]]
+body = "table"
+axis = "x"
+mass_kg = 0.194
+stiffness_N_per_m = 1.7e7
+damping_Ns_per_m = 77.3
+[actuator]
+time_constants_s = [0.001, 0.001]
+)";
+
+std::string deeper(std::string text, const std::string& depth) {
+  const std::string key = "axial_depth_mm = 0.2";
+  return text.replace(text.find(key), key.size(), "axial_depth_mm = " + depth);
+}
+
+std::vector<std::string> codes(const std::vector<base::Warning>& warnings) {
+  std::vector<std::string> all;
+  for (const base::Warning& warning : warnings) {
+    all.push_back(warning.code);
+  }
+  return all;
+}
+
+class Vibration : public testing::Test {
+ protected:
+  [[nodiscard]] inputs::Case read(const std::string& text, Command command) const {
+    return folder_.read(text, command);
+  }
+  CaseFolder folder_;
+};
+
+TEST_F(Vibration, AProblemOfStabilityIsTheCase) {
+  const auto p = stability_problem(
+      read(benchmark + "[stability]\nspindle_rpm = [4000, 6000, 3]\n"
+                       "axial_depth_mm = [0.1, 0.3, 2]\nmargin = 0.02\n",
+           Command::stability));
+  EXPECT_EQ(p.system.modes.size(), 1U);
+  ASSERT_EQ(p.spindle_speeds.size(), 3U);
+  EXPECT_NEAR(p.spindle_speeds[1], 5000 * unit::rpm, 1e-9);
+  EXPECT_EQ(p.depths.size(), 2U);
+  EXPECT_EQ(p.options.margin, 0.02);
+  EXPECT_EQ(p.options.chip_floor, 2e-6);
+}
+
+TEST_F(Vibration, AProblemOfMotionIsTheCase) {
+  const auto p = motion_problem(
+      read(benchmark + driven_table +
+               "[command]\npeak_to_peak_um = 20\n[sampling]\nrevolutions = 5\n",
+           Command::dynamics));
+  ASSERT_TRUE(p.drive);
+  EXPECT_EQ(p.drive->mode, 1U) << "the table is the second mode";
+  EXPECT_EQ(p.revolutions, 5);
+  EXPECT_EQ(p.kept, 2);
+  ASSERT_TRUE(p.command);
+  EXPECT_NEAR(p.command(0.003), 10e-6, 1e-12);  // a quarter of a turn
+  EXPECT_FALSE(motion_problem(read(benchmark, Command::dynamics)).command);
+}
+
+TEST_F(Vibration, StabilityTellsOfItsCase) {
+  const auto r = stability(read(benchmark + along_z +
+                                    "[stability]\n"
+                                    "spindle_rpm = [4900, 5000, 2]\n"
+                                    "axial_depth_mm = [0.2, 1, 2]\n",
+                                Command::stability),
+                           {});
+  EXPECT_TRUE(r.heading.ok);
+  EXPECT_EQ(r.heading.message, "The cut is stable.");
+  EXPECT_EQ(codes(r.heading.warnings), std::vector<std::string>{"mode_along_z"});
+  EXPECT_NEAR(std::abs(r.stability.multiplier.value), 0.8197427843, 1e-5);
+  EXPECT_EQ(r.stability.lobes.multiplier.size(), 4U);
+}
+
+TEST_F(Vibration, AStableCutReachesASteadyState) {
+  const auto r = run::dynamics(read(benchmark, Command::dynamics), {});
+  EXPECT_TRUE(r.heading.ok);
+  ASSERT_TRUE(r.steady);
+  EXPECT_EQ(r.steady->verdict, Verdict::periodic);
+  EXPECT_NEAR(*r.linear_growth, std::pow(0.8197427843, 2), 1e-5);
+  EXPECT_EQ(r.walls.size(), 2U) << "a slot has two walls";
+  EXPECT_NEAR(r.entry.at(1), unit::turn / 2, 1e-12);
+  EXPECT_EQ(r.steps_per_tooth, 1000);
+}
+
+TEST_F(Vibration, AnUnstableCutIsNoAnswer) {
+  const auto r = run::dynamics(read(deeper(benchmark, "0.5"), Command::dynamics), {});
+  EXPECT_FALSE(r.heading.ok);
+  EXPECT_EQ(r.heading.message,
+            "chatter: a small vibration grows to 1.153 of itself in each turn; the "
+            "motion does not come to repeat itself within 20 turns");
+  ASSERT_TRUE(r.steady);
+  EXPECT_EQ(r.steady->verdict, Verdict::chatter);
+  EXPECT_TRUE(r.walls.empty());
+}
+
+TEST_F(Vibration, AFastModeIsRefusedBeforeTheWork) {
+  const std::string fast =
+      "[[mode]]\nbody = \"tool\"\naxis = \"y\"\nmass_kg = 1e-6\nfrequency_Hz = 5e6\n"
+      "damping_ratio = 0.01\n";
+  const auto r = run::dynamics(read(benchmark + fast, Command::dynamics), {});
+  EXPECT_FALSE(r.heading.ok);
+  EXPECT_FALSE(r.steady);
+  EXPECT_NE(r.heading.message.find("leave out modes far above"), std::string::npos);
+}
+
+TEST_F(Vibration, ModesComeFromAResponse) {
+  std::string rows = "freq_Hz,re_m/N,im_m/N\n";
+  for (int f = 500; f < 3000; f += 10) {
+    const double w = f * unit::Hz;
+    const std::complex<double> H =
+        1.0 / std::complex<double>(1.7e7 - 0.194 * w * w, 77.3 * w);
+    rows += std::to_string(f) + ',' + std::to_string(1e9 * H.real()) + "e-9," +
+            std::to_string(1e9 * H.imag()) + "e-9\n";
+  }
+  static_cast<void>(folder_.write("tip.csv", rows));
+  const auto given = read("[frf]\nfile = \"tip.csv\"\nbody = \"table\"\naxis = \"y\"\n",
+                          Command::modes);
+  EXPECT_EQ(frf_source(*given.machine.frf).file, given.machine.frf->file);
+  const auto r = modes(given);
+  EXPECT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_EQ(r.heading.message, "1 mode from 250 lines.");
+  EXPECT_EQ(r.body, structure::ModeBody::table);
+  EXPECT_EQ(r.axis, structure::Axis::y);
+  ASSERT_EQ(r.fit.modes.size(), 1U);
+  EXPECT_NEAR(r.fit.modes[0].mode.mass, 0.194, 1e-4);
+}
+
+TEST_F(Vibration, AnActuatorComesFromAStep) {
+  std::string rows = "time_s,command_um,position_um\n";
+  const auto actuator_of = structure::from_frequency(0.98, 140, 0.7);
+  for (int i = 0; i < 1000; ++i) {
+    const double t = i * 5e-5;
+    const double y = 6 * structure::step_response(actuator_of, t - 0.001);
+    rows += std::to_string(t) + (t >= 0.001 ? ",6," : ",0,") + std::to_string(y) + '\n';
+  }
+  static_cast<void>(folder_.write("step.csv", rows));
+  const auto given =
+      read("[step]\nfile = \"step.csv\"\nstart_s = 0.001\n", Command::actuator);
+  EXPECT_EQ(step_source(*given.machine.step).start, 0.001);
+  const auto r = actuator(given);
+  EXPECT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_EQ(r.record.time.size(), 1000U);
+  EXPECT_EQ(r.command.size(), 1000U);
+  EXPECT_NEAR(r.fit.dynamics.gain, 0.98, 1e-3);
+}
+
+TEST(VibrationWarnings, OfStability) {
+  dynamics::Stability s;
+  s.multiplier = {.value = 0.9, .error = 1e-3};
+  s.cuts = false;
+  s.floor = {.at_half = 0.98, .at_twice = 1.02, .decided = false};
+  EXPECT_EQ(codes(stability_warnings({}, {}, s)),
+            (std::vector<std::string>{"chip_floor", "no_cut", "tolerance"}));
+}
+
+TEST(VibrationWarnings, OfMotion) {
+  dynamics::SteadyState steady;
+  EXPECT_TRUE(motion_warnings(steady).empty());
+  steady.verdict = Verdict::not_periodic;
+  EXPECT_EQ(codes(motion_warnings(steady)), std::vector<std::string>{"not_periodic"});
+}
+
+TEST(VibrationWarnings, OfModes) {
+  std::vector<base::Warning> warnings;
+  add_modes_warnings(
+      {.modes = {{.mode = {1, 1, 1}, .damping_se = 0.2, .lines_in_peak = 3}},
+       .explained = 0.9},
+      warnings);
+  EXPECT_EQ(codes(warnings),
+            (std::vector<std::string>{"few_lines", "loosely_known", "poor_fit"}));
+}
+
+TEST(VibrationWarnings, OfAnActuator) {
+  std::vector<base::Warning> warnings;
+  structure::StepRecord record{.change = std::array{0.0010, 0.0011}};
+  structure::ActuatorFit fit{
+      .dynamics = {.gain = -1}, .start = 0.0012, .start_se = 1e-5};
+  add_actuator_warnings(record, fit, warnings);
+  EXPECT_EQ(codes(warnings),
+            (std::vector<std::string>{"negative_gain", "start_differs"}));
+  EXPECT_NE(warnings[1].message.find("0.1 ms later than the command shows it"),
+            std::string::npos)
+      << warnings[1].message;
+  warnings.clear();
+  record.start = 0.0012;  // it was given
+  fit.dynamics.gain = 1;
+  add_actuator_warnings(record, fit, warnings);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(ChatterMessage, SaysWhatGrowsAndHowItEnds) {
+  dynamics::Motion m{.turns_done = 20};
+  EXPECT_EQ(chatter_message(m, std::nullopt),
+            "chatter: the vibration does not die out; the motion does not come to "
+            "repeat itself within 20 turns");
+  m.periodic = true;
+  EXPECT_NE(chatter_message(m, 1.2).find("the teeth are alike"), std::string::npos);
+  m.finite = false;
+  const std::string stable = chatter_message(m, 0.9);
+  EXPECT_NE(stable.find("the linearised cut is stable"), std::string::npos);
+  EXPECT_NE(stable.find("after 20 turns it had grown beyond all bounds"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace trochoid::run
