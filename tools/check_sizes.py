@@ -21,9 +21,6 @@ SIX = re.compile(r"six parameters: \S")
 
 # What may be longer: file, or file:function, and why.
 MAY = {
-    "src/trochoid/run/surface_map.cpp:surface_map": "waits for the new run room",
-    "src/trochoid/run/dynamics.cpp:dynamics": "waits for the new run room",
-    "src/trochoid/correction/learning.cpp:learn": "waits for the new correction room",
     "src/trochoid/inputs/frf_file.cpp:settle_unit": "waits for the new inputs room",
 }
 

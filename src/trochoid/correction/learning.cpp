@@ -18,6 +18,7 @@ double size_of(const Harmonics& motion, std::size_t n) {
 
 }  // namespace
 
+// six parameters: what is wanted, the first try, the plant at a speed, and its table
 Learned learn(const PeriodicMotion& motion, const Harmonics& start, const Plant& model,
               double Omega, const MeasuredTable& measured,
               const LearningOptions& options) {

@@ -12,8 +12,6 @@ namespace trochoid::correction {
 
 namespace {
 
-/// Harmonics of a command by segments that are followed to the table.
-constexpr int harmonics_followed = 60;
 /// How far above the speed of the case its limit is looked for.
 constexpr double speeds_searched = 50;
 
@@ -39,7 +37,7 @@ struct Push {
 
 Push push_of(const Command& command, const Plant& plant, double Omega,
              const RigidCut& cut) {
-  const Harmonics X = table_response(plant, command.wave, Omega, harmonics_followed);
+  const Harmonics X = table_response(plant, command.wave, Omega, table_harmonics);
   constexpr int angles = 720;
   Push out{-std::numeric_limits<double>::infinity(), 0.0};
   double least = std::numeric_limits<double>::infinity();

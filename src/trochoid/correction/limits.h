@@ -1,14 +1,51 @@
 #pragma once
 
+#include <trochoid/base/units.h>
 #include <trochoid/correction/command.h>
 #include <trochoid/correction/rigid_cut.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::correction {
 
 enum class LimitKind { stroke, slew, push, pull, resonance, speed };
+
+/// Names of files: of the value, with its unit.
+constexpr std::string_view name_of(LimitKind kind) noexcept {
+  switch (kind) {
+    case LimitKind::stroke:
+      return "stroke_um";
+    case LimitKind::slew:
+      return "slew_um_per_s";
+    case LimitKind::push:
+      return "push_N";
+    case LimitKind::pull:
+      return "pull_N";
+    case LimitKind::resonance:
+      return "frequency_Hz";
+    case LimitKind::speed:
+      return "spindle_rpm";
+  }
+  return {};
+}
+
+/// The unit of that name, over the one of Limit::value.
+constexpr double unit_of(LimitKind kind) noexcept {
+  switch (kind) {
+    case LimitKind::stroke:
+    case LimitKind::slew:
+      return unit::um;
+    case LimitKind::speed:
+      return unit::rpm;
+    case LimitKind::push:
+    case LimitKind::pull:
+    case LimitKind::resonance:
+      break;
+  }
+  return unit::one;
+}
 
 /// @brief One limit: value and limit are in SI, a frequency in Hz, a speed in rad/s.
 struct Limit {

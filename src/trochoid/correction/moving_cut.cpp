@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/correction/shapes.h>
+#include <trochoid/dynamics/steady_state.h>
 
 #include <fmt/core.h>
 
@@ -13,18 +14,9 @@ namespace trochoid::correction {
 
 namespace {
 
-constexpr int harmonics_of_table = 60;
 /// When the reading agrees, relative to the feed per tooth and in ln K and m.
 constexpr double agreed = 1e-5;
 constexpr int most_iterations = 25;
-
-std::vector<double> differences(const std::vector<double>& rho) {
-  std::vector<double> h_ro;
-  for (std::size_t j = 0; j < rho.size(); ++j) {
-    h_ro.push_back(rho[j] - rho[(j + rho.size() - 1) % rho.size()]);
-  }
-  return h_ro;
-}
 
 /// Samples of the last two turns, in place: rounding may
 /// have left one out or kept one twice.
@@ -37,7 +29,7 @@ LastTurns last_turns(const MovingCut& cut, const dynamics::Motion& motion) {
   const auto count = 2 * static_cast<std::size_t>(cut.samples_per_rev);
   const double spacing = unit::turn / cut.samples_per_rev;
   const auto first =
-      static_cast<std::int64_t>(cut.revolutions - 2) * cut.samples_per_rev;
+      static_cast<std::int64_t>(motion.turns_done - 2) * cut.samples_per_rev;
   LastTurns out{std::vector<std::array<double, 3>>(count), std::vector<double>(count)};
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < motion.angle.size(); ++i) {
@@ -122,6 +114,11 @@ void take(const Step& step, force::Power& law, std::vector<double>& rho) {
 
 }  // namespace
 
+int slices_for(const geometry::Cutter& cutter) noexcept {
+  constexpr int slices_of_helix = 20;
+  return cutter.helix > 0 ? slices_of_helix : 1;
+}
+
 dynamics::MotionProblem problem_of(const MovingCut& cut,
                                    const PeriodicMotion& command) {
   dynamics::MotionProblem p{.setup = cut.setup, .law = cut.law, .grid = cut.grid};
@@ -139,13 +136,11 @@ dynamics::MotionProblem problem_of(const MovingCut& cut,
   return p;
 }
 
-MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command,
-                           double repeats) {
-  const dynamics::Motion motion = dynamics::motion(problem_of(cut, command));
-  MovingFlutes out;
+namespace {
+
+MovingFlutes flutes_in(const MovingCut& cut, const dynamics::Motion& motion) {
+  MovingFlutes out{.periodic = motion.periodic, .last_change = motion.last_change};
   if (!motion.finite || !motion.solved) {
-    out.periodic = false;
-    out.last_change = motion.last_change;
     out.flutes.resize(static_cast<std::size_t>(cut.setup.cutter.teeth()));
     return out;
   }
@@ -157,23 +152,20 @@ MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command,
                                static_cast<double>(samples));
     out.record.force.push_back(turns.force[samples + i]);
     table.push_back(turns.table[samples + i]);
-    out.last_change = std::max(
-        out.last_change, std::abs(turns.force[samples + i][1] - turns.force[i][1]));
   }
-  out.periodic = out.last_change < repeats;
-  out.table = harmonics_of_samples(table, harmonics_of_table);
+  out.table = harmonics_of_samples(table, table_harmonics);
   out.flutes = flutes_of(cut, out.record, motion);
   return out;
 }
 
-namespace {
-
+/// Of a steady state, for which more turns are followed where it needs them.
 /// @param near  where the fit starts, and which decides what chips are thin
 StaticFit reading(const MovingCut& cut, std::span<const double> rho,
                   const StaticFitOptions& options, const StaticFit* near) {
   MovingCut moving = cut;
   moving.setup.runout = {.radial_offsets = {rho.begin(), rho.end()}};
-  const MovingFlutes flutes = moving_flutes(moving, Harmonics{});
+  const MovingFlutes flutes =
+      flutes_in(moving, dynamics::steady_state(problem_of(moving, Harmonics{})).motion);
   if (!flutes.periodic) {
     StaticFit fit;
     fit.reason = fmt::format(
@@ -193,6 +185,10 @@ StaticFit reading(const MovingCut& cut, std::span<const double> rho,
 }
 
 }  // namespace
+
+MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command) {
+  return flutes_in(cut, dynamics::motion(problem_of(cut, command)));
+}
 
 StaticFit static_reading(const MovingCut& cut, std::span<const double> rho,
                          const StaticFitOptions& options) {
@@ -236,7 +232,7 @@ TrueRunout true_runout(const MovingCut& cut, const StaticFit& measured,
     take(step, out.law, out.rho);
     ++out.iterations;
   }
-  out.h_ro = differences(out.rho);
+  out.h_ro = chip_differences(out.rho);
   if (out.ok) {
     moving.setup.runout = {.radial_offsets = out.rho};
     out.peak_difference = peak_difference(moving_flutes(moving, Harmonics{}).flutes);

@@ -24,22 +24,23 @@ struct MovingCut {
   int samples_per_rev = 1440;
 };
 
+/// Slices in which a rigid cut follows the helix of a cutter.
+int slices_for(const geometry::Cutter& cutter) noexcept;
+
 /// What dynamics::motion does for a cut.
 dynamics::MotionProblem problem_of(const MovingCut& cut, const PeriodicMotion& command);
 
 /// What the last turn was like.
 struct MovingFlutes {
-  bool periodic = true;      ///< the forces repeated from turn to turn
-  double last_change = 0.0;  ///< largest change of F_y in the last turn [N]
+  bool periodic = true;      ///< as dynamics::Motion has it
+  double last_change = 0.0;  ///< of the force from turn to turn, in the last one [N]
   ForceRecord record;        ///< last turn, on the tool
   Harmonics table;           ///< X over the last turn [m]
   std::vector<Flute> flutes;
 };
 
 /// @brief Forces and flutes with a command, by T-4; the command starts from rest.
-/// @param repeats  change of F_y from turn to turn that is none [N]
-MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command,
-                           double repeats = 0.2);
+MovingFlutes moving_flutes(const MovingCut& cut, const PeriodicMotion& command);
 
 /// @brief What a static fit reads on a moving cut of known runout.
 ///

@@ -29,6 +29,9 @@ Plant held_by_actuator(const structure::ActuatorDynamics& actuator,
 /// @src [diez2010] eq. 13, 15 reconstructed: T-2, T-4
 std::complex<double> response(const Plant& plant, double omega) noexcept;
 
+/// Harmonics to which the motion of a table over a turn is followed.
+inline constexpr int table_harmonics = 60;
+
 /// @brief Motion of the table that a command makes in the long run.
 /// @param Omega  spindle speed [rad/s]
 /// @param n_max  harmonics of a command by segments

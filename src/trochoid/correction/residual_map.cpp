@@ -13,10 +13,8 @@ namespace trochoid::correction {
 
 namespace {
 
-/// Harmonics of a command that are followed to the table, and samples of a clipped one.
-constexpr int harmonics_followed = 60;
-constexpr int samples = 512;
-/// Harmonics below this part of the largest do not matter.
+constexpr int samples = 512;  ///< of a clipped command
+/// Harmonics below this fraction of the largest do not matter.
 constexpr double negligible = 1e-7;
 
 Harmonics clipped(const PeriodicMotion& wave, double low, double high) {
@@ -25,7 +23,7 @@ Harmonics clipped(const PeriodicMotion& wave, double low, double high) {
     u[static_cast<std::size_t>(i)] =
         std::clamp(place_at(wave, unit::turn * i / samples), low, high);
   }
-  return harmonics_of_samples(u, harmonics_followed);
+  return harmonics_of_samples(u, table_harmonics);
 }
 
 void drop_negligible(Harmonics& motion) {
@@ -103,14 +101,14 @@ std::vector<MapPoint> map_of(const Cut& cut, std::span<const Strategy> strategie
 MapPoint residual_at(const RigidCut& cut, const Strategy& strategy,
                      const MapSetting& setting, double Omega) {
   const auto table = [&](const Harmonics& u) {
-    return table_response(setting.real, u, Omega, harmonics_followed);
+    return table_response(setting.real, u, Omega, table_harmonics);
   };
   const Command command = command_of(cut, strategy, setting, Omega, table);
   if (!command.ok) {
     return impossible();
   }
   Sent out = sent(command, setting.limits);
-  Harmonics X = table_response(setting.real, out.wave, Omega, harmonics_followed);
+  Harmonics X = table_response(setting.real, out.wave, Omega, table_harmonics);
   drop_negligible(X);
   out.point.peak_difference = peak_difference(cut.peaks(X));
   return out.point;

@@ -24,10 +24,10 @@ struct Flute {
   double peak_chip = 0.0;     ///< thickest chip at the tip [m]
 };
 
-/// @brief (largest - smallest)/largest peak of |F_y|; 0 without force.
-double peak_difference(std::span<const Flute> flutes) noexcept;
-/// @brief (largest - smallest)/largest chip area.
-double area_difference(std::span<const Flute> flutes) noexcept;
+/// @brief dynamics::relative_difference of the peaks of |F_y|; 0 without force.
+double peak_difference(std::span<const Flute> flutes);
+/// @brief The same of the chip areas.
+double area_difference(std::span<const Flute> flutes);
 
 /// @brief Forces and chips over a turn, at equally spaced spindle angles from 0.
 struct Prediction {
@@ -120,5 +120,20 @@ class RigidCut {
   std::vector<Disk> disks_;
   chip::Arc arc_;
 };
+
+/// @brief Largest |F_y| of measured forces while each tooth is the one nearest to the
+/// middle of the arc of cut [N].
+/// @param angle   recorded [rad], shape (n)
+/// @param force   on the tool [N], shape (n)
+/// @param offset  true angle minus the recorded one [rad]
+/// @return shape (teeth)
+std::vector<double> peaks_of_turns(const RigidCut& cut, std::span<const double> angle,
+                                   std::span<const std::array<double, 3>> force,
+                                   double offset = 0.0);
+
+/// @brief By how much each tooth cuts more than its share of the feed: rho_j -
+/// rho_(j-1), cyclic [m].
+/// @param rho  offset of each tooth [m]
+std::vector<double> chip_differences(std::span<const double> rho);
 
 }  // namespace trochoid::correction

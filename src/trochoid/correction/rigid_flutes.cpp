@@ -1,11 +1,11 @@
-#include <trochoid/base/units.h>
 #include <trochoid/correction/rigid_cut.h>
 
+#include <trochoid/base/units.h>
+#include <trochoid/dynamics/steady_state.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trochoid::correction {
 
@@ -20,14 +20,12 @@ double wrapped(double angle) noexcept {
   return angle - unit::turn * std::floor(angle / unit::turn);
 }
 
-double spread(std::span<const Flute> flutes, double Flute::*value) noexcept {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
+double difference_of(std::span<const Flute> flutes, double Flute::*value) {
+  std::vector<double> values;
   for (const Flute& f : flutes) {
-    low = std::min(low, f.*value);
-    high = std::max(high, f.*value);
+    values.push_back(f.*value);
   }
-  return high > 0 ? (high - low) / high : 0.0;
+  return dynamics::relative_difference(values);
 }
 
 /// A largest value, and by how many steps the top of a parabola lies beside it.
@@ -47,12 +45,31 @@ Top top_of(double before, double here, double after) noexcept {
 
 }  // namespace
 
-double peak_difference(std::span<const Flute> flutes) noexcept {
-  return spread(flutes, &Flute::peak_y);
+double peak_difference(std::span<const Flute> flutes) {
+  return difference_of(flutes, &Flute::peak_y);
 }
 
-double area_difference(std::span<const Flute> flutes) noexcept {
-  return spread(flutes, &Flute::chip_area);
+double area_difference(std::span<const Flute> flutes) {
+  return difference_of(flutes, &Flute::chip_area);
+}
+
+std::vector<double> peaks_of_turns(const RigidCut& cut, std::span<const double> angle,
+                                   std::span<const std::array<double, 3>> force,
+                                   double offset) {
+  std::vector<double> peaks(cut.psi().size(), 0.0);
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    double& peak = peaks[cut.turn_of(angle[i] + offset)];
+    peak = std::max(peak, std::abs(force[i][1]));
+  }
+  return peaks;
+}
+
+std::vector<double> chip_differences(std::span<const double> rho) {
+  std::vector<double> h_ro;
+  for (std::size_t j = 0; j < rho.size(); ++j) {
+    h_ro.push_back(rho[j] - rho[(j + rho.size() - 1) % rho.size()]);
+  }
+  return h_ro;
 }
 
 /// The force over a turn, at nodes that avoid every jump.

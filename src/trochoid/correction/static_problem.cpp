@@ -68,17 +68,6 @@ bool near_an_end(const RigidCut& cut, double phi, double guard) {
   });
 }
 
-/// Largest |F_y| in the turn of each tooth.
-std::vector<double> peaks_of(const StaticProblem& problem) {
-  const RigidCut cut(problem.setup, force::Power{}, 1);
-  std::vector<double> peaks(problem.teeth);
-  for (std::size_t i = 0; i < problem.angle.size(); ++i) {
-    double& peak = peaks[cut.turn_of(problem.angle[i])];
-    peak = std::max(peak, std::abs(problem.force[i][1]));
-  }
-  return peaks;
-}
-
 /// Coefficients by linear least squares, for given exponents and offsets.
 std::array<double, 3> linear_start(const StaticProblem& problem, StaticParameters at) {
   std::vector<RigidCut> unit;
@@ -207,13 +196,13 @@ std::vector<double> start_offsets(const StaticProblem& problem, double m) {
     }
     return rho;
   }
-  std::vector<double> peaks = peaks_of(problem);
+  const RigidCut cut(problem.setup, force::Power{}, 1);
+  std::vector<double> peaks = peaks_of_turns(cut, problem.angle, problem.force);
   const double largest = *std::max_element(peaks.begin(), peaks.end());
   for (double& peak : peaks) {
     peak = std::max(peak, 0.02 * largest);
   }
-  const RatioEstimate ratio = ratio_estimate(
-      peaks, RigidCut(problem.setup, force::Power{}, 1).nominal_chip(), m);
+  const RatioEstimate ratio = ratio_estimate(peaks, cut.nominal_chip(), m);
   return ratio.ok ? ratio.rho : std::vector<double>(problem.teeth, 0.0);
 }
 

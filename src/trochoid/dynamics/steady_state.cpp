@@ -71,6 +71,25 @@ double area_difference(const Motion& motion) {
   return difference_of(motion, &FluteMotion::chip_area);
 }
 
+double largest_component(const Motion& motion) {
+  double largest = 0.0;
+  for (const FluteMotion& flute : motion.flutes) {
+    largest = std::max({largest, flute.peak_x, flute.peak_y});
+  }
+  return largest;
+}
+
+Verdict verdict_so_far(const Motion& m) {
+  if (!m.finite || !m.solved) {
+    return Verdict::chatter;
+  }
+  if (m.periodic) {
+    return Verdict::periodic;
+  }
+  const bool shakes = m.last_change > chatter_change * largest_component(m);
+  return grows(m) || shakes ? Verdict::chatter : Verdict::not_periodic;
+}
+
 SteadyState steady_state(MotionProblem problem, const TurnsProgress& progress) {
   SteadyState all;
   for (int doubled = 0; doubled <= most_doublings; ++doubled) {

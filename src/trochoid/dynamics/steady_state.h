@@ -16,6 +16,10 @@ inline constexpr double periodic_tolerance = 1.0 / 300;
 /// Growth in a turn above which a vibration is chatter: it is none that dies out.
 inline constexpr double chatter_growth = 1.02;
 
+/// Change of the force from turn to turn, over the largest component of the force, above
+/// which a motion that is not periodic is chatter even where it grows no more.
+inline constexpr double chatter_change = 0.1;
+
 /// What a motion comes to.
 enum class Verdict {
   periodic,      ///< a steady state: it repeats from turn to turn
@@ -43,6 +47,16 @@ double relative_difference(std::span<const double> values) noexcept;
 double peak_difference(const Motion& motion);
 /// @brief The same of what they cut.
 double area_difference(const Motion& motion);
+
+/// @brief Largest |F_x| or |F_y| of the flutes in the last turn [N].
+double largest_component(const Motion& motion);
+
+/// @brief The verdict on a motion that is not followed further.
+///
+/// Transients that die out slowly are no chatter yet: it takes a motion that has run
+/// away, that grows (T-11), or whose force changes by more than chatter_change. One that
+/// is not `solved` counts as run away.
+Verdict verdict_so_far(const Motion& motion);
 
 /// A motion, and what it comes to.
 struct SteadyState {

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <trochoid/base/steps.h>
-#include <trochoid/base/units.h>
-#include <trochoid/correction/amplitude.h>
-#include <trochoid/correction/command.h>
-#include <trochoid/correction/shapes.h>
+#include <trochoid/correction/controller_in_loop.h>
+#include <trochoid/correction/plan.h>
 #include <trochoid/dynamics/imposed_command.h>
+#include <trochoid/dynamics/stability.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
 #include <trochoid/surface/feedback.h>
@@ -113,56 +112,20 @@ struct ImposedCommand {
   double lead = 0.0;     ///< [s]
 };
 
-/// What the command is made for: the runout of the case, or of a [[measurement]], or
-/// what a static fit of the forces takes it for.
-enum class RunoutEstimate { known, static_fit };
-
-/// Names of files.
-constexpr std::string_view name_of(RunoutEstimate estimate) noexcept {
-  switch (estimate) {
-    case RunoutEstimate::known:
-      return "known";
-    case RunoutEstimate::static_fit:
-      return "static_fit";
-  }
-  return {};
-}
-
 /// [correct]
 struct Correction {
-  correction::Target target = correction::Target::peak_force;
-  correction::Method strategy = correction::Method::inverse;
-  correction::Shape shape = correction::Shape::sine;
-  RunoutEstimate estimate = RunoutEstimate::known;
-  double transition = 80 * unit::deg;  ///< of trapezoid and quintic [rad]
-  int harmonics = 9;                   ///< highest of the command
-  std::optional<double> peak_to_peak;  ///< of the motion wanted [m]; absent: by target
-  double sample_rate = 0.0;            ///< of a held command [Hz]; 0: continuous
-  double learning_gain = 0.7;
-  double allowed_difference = 0.05;          ///< of the peaks, for the highest speed
+  correction::CorrectionOptions options;     ///< but for the speeds of its map
   std::optional<base::Steps> spindle_speed;  ///< of the map [rad/s]
 };
 
 /// [controller]: the real-time controller when it is simulated.
-struct Controller {
-  double rate = 4000.0;       ///< of the loop [Hz]
-  int counts = 4096;          ///< of the encoder, a turn
-  double jitter = 0.0;        ///< standard deviation of the loop's time [s]
-  double speed_ripple = 0.0;  ///< amplitude, part of the speed, once a turn
-  double fade = 0.2;          ///< [s]
-  double ramp = 0.05;         ///< to mid-stroke after a fault [s]
-  int turns = 40;             ///< that are simulated
-  int index_lost_at = 0;      ///< turn from which no index pulse comes; 0: never
-  bool adapt = false;         ///< the amplitude learns from the forces while it runs
-};
+using Controller = correction::LoopOptions;
 
 /// [stability]
 struct Stability {
   std::optional<base::Steps> spindle_speed;  ///< of the lobes [rad/s]
   std::optional<base::Steps> axial_depth;    ///< [m]
-  double tolerance = 1e-6;                   ///< of the multiplier
-  double margin = 0.01;      ///< within this of 1 a multiplier is called marginal
-  double chip_floor = 2e-6;  ///< least chip of the gradient of a power law [m]
+  dynamics::StabilityOptions options;
 };
 
 /// [frf]: a measured frequency response.

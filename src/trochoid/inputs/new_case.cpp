@@ -160,7 +160,7 @@ CaseTables correct_example() {
   t.chip.model = chip::Model::radial;
   t.machine.command.reset();
   t.machine.actuator->stroke = {0.0, 60 * unit::um};
-  t.machine.correct.emplace().strategy = correction::Method::lead;
+  t.machine.correct.emplace().options.strategy = correction::Method::lead;
   t.machine.controller.emplace();
   return t;
 }

@@ -17,10 +17,11 @@ namespace {
 constexpr double most_speeds = 2000;
 
 void check_shape(const Correction& c, Findings& findings) {
-  const bool in_time = c.strategy == correction::Method::inverse_in_time;
-  if (in_time && c.shape != correction::Shape::sine &&
-      c.shape != correction::Shape::quintic &&
-      c.shape != correction::Shape::harmonics) {
+  const correction::CorrectionOptions& o = c.options;
+  const bool in_time = o.strategy == correction::Method::inverse_in_time;
+  if (in_time && o.shape != correction::Shape::sine &&
+      o.shape != correction::Shape::quintic &&
+      o.shape != correction::Shape::harmonics) {
     report(findings, "correct.strategy",
            "correct.strategy = \"inverse_in_time\": needs a motion without corners; "
            "must go with shape = \"quintic\", \"sine\" or \"harmonics\"");

@@ -7,7 +7,7 @@ void describe(const Visitor& v, Correction& t) {
   v({.name = "target",
      .meaning = "what is made equal from tooth to tooth; least_squares: the chips over "
                 "the whole cut, as nearly as possible"},
-    choice(t.target));
+    choice(t.options.target));
   v({.name = "strategy",
      .meaning = "how the motion becomes a command. plain: they are the same; lead: "
                 "phase lead, earlier by the delay of the actuator; inverse: plant "
@@ -15,42 +15,43 @@ void describe(const Visitor& v, Correction& t) {
                 "and table; inverse_in_time: the same for smooth shapes, by "
                 "derivatives; learning: iterative learning control, starting from "
                 "inverse"},
-    choice(t.strategy));
-  v({.name = "shape", .meaning = "how the table moves over a turn"}, choice(t.shape));
+    choice(t.options.strategy));
+  v({.name = "shape", .meaning = "how the table moves over a turn"},
+    choice(t.options.shape));
   v({.name = "estimate",
      .meaning = "known: the command is made for the runout as it is; static_fit: for "
                 "what a rigid model reads from the forces, which is less"},
-    choice(t.estimate));
+    choice(t.options.estimate));
   v({.name = "transition_deg",
      .meaning =
          "spindle angle in which trapezoid and quintic change from one level to the "
          "next",
      .range = above_up_to(0, 360)},
-    &t.transition);
+    &t.options.transition);
   v({.name = "harmonics",
      .meaning = "highest harmonic of the spindle in the command",
      .range = between(1, 100)},
-    &t.harmonics);
+    &t.options.harmonics);
   v({.name = "peak_to_peak_um",
      .meaning = "motion of the table, instead of what the target asks",
      .range = above(0),
      .standard = "from the target",
      .example = "26"},
-    &t.peak_to_peak);
+    &t.options.peak_to_peak);
   v({.name = "sample_rate_Hz",
      .meaning =
          "sampling rate of a command that is held between samples (zero-order hold); "
          "0: continuous",
      .range = at_least(0)},
-    &t.sample_rate);
+    &t.options.sample_rate);
   v({.name = "learning_gain",
      .meaning = "part of the error that each iteration takes away",
      .range = inside(0, 2)},
-    &t.learning_gain);
+    &t.options.learning_gain);
   v({.name = "allowed_difference",
      .meaning = "of the peaks of force, for the highest speed that keeps it",
      .range = inside(0, 1)},
-    &t.allowed_difference);
+    &t.options.allowed_difference);
   v({.name = "spindle_rpm",
      .meaning = "first, last and number of the spindle speeds of the map",
      .range = above_up_to(0, 1e6),

@@ -283,17 +283,17 @@ void describe(const Visitor& v, Stability& t) {
   v({.name = "tolerance",
      .meaning = "error allowed in the Floquet multiplier of the case",
      .range = between(1e-10, 1e-2)},
-    &t.tolerance);
+    &t.options.tolerance);
   v({.name = "margin",
      .meaning = "a Floquet multiplier this close to 1 is called marginal",
      .range = from_below(0, 1)},
-    &t.margin);
+    &t.options.margin);
   v({.name = "chip_floor_um",
      .meaning =
          "in a power law: the slope of the force is taken at no thinner chip, for "
          "example the radius of the edge",
      .range = above_up_to(0, 1000)},
-    &t.chip_floor);
+    &t.options.chip_floor);
 }
 
 }  // namespace trochoid::inputs

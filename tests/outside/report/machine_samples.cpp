@@ -1,7 +1,7 @@
 #include "machine_samples.h"
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/correct.h>
+#include <trochoid/run/correct/correct.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/dynamics.h>
 #include <trochoid/run/vibration/modes.h>
@@ -35,10 +35,10 @@ Answer motion() {
 }
 
 Answer correction() {
-  return trochoid::run::correct(
-      inputs::read_case(examples / "runout_correction/case.toml",
-                        inputs::Command::correct),
-      true, {});
+  return answer_of(
+      trochoid::run::correct(inputs::read_case(examples / "runout_correction/case.toml",
+                                               inputs::Command::correct),
+                             true, {}));
 }
 
 Answer chatter() {

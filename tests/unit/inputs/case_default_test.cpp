@@ -128,8 +128,8 @@ peak_to_peak_um = 26
   EXPECT_EQ(c.machine.surface->feedback, surface::Feedback::none);
   EXPECT_EQ(c.machine.surface->phase, 0.0);
   EXPECT_FALSE(c.machine.surface_measurements[0].datum_offset);
-  EXPECT_EQ(c.machine.correct->target, correction::Target::peak_force);
-  EXPECT_EQ(c.machine.correct->strategy, correction::Method::inverse);
+  EXPECT_EQ(c.machine.correct->options.target, correction::Target::peak_force);
+  EXPECT_EQ(c.machine.correct->options.strategy, correction::Method::inverse);
   EXPECT_EQ(c.machine.actuator->gain, 1.0);
   EXPECT_EQ(c.machine.command->shape, CommandShape::sine);
   EXPECT_EQ(c.machine.command->lead, 0.0);

@@ -34,8 +34,7 @@ dynamics::ImposedCommand imposed(const inputs::ImposedCommand& command) {
 }  // namespace
 
 dynamics::StabilityOptions stability_options(const inputs::Case& given) {
-  const inputs::Stability asked = given.machine.stability.value_or(inputs::Stability{});
-  return {asked.tolerance, asked.margin, asked.chip_floor};
+  return given.machine.stability.value_or(inputs::Stability{}).options;
 }
 
 dynamics::StabilityProblem stability_problem(const inputs::Case& given) {

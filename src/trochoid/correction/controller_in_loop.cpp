@@ -1,26 +1,27 @@
-#include <trochoid/run/controlled.h>
+#include <trochoid/correction/controller_in_loop.h>
 
 #include <trochoid/base/units.h>
 #include <trochoid/correction/online.h>
+#include <trochoid/dynamics/steady_state.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
-namespace trochoid::run {
+namespace trochoid::correction {
 
 namespace {
 
 constexpr double force_rate = 10e3;  ///< samples of the force for learning [Hz]
-constexpr int table_points = 720;
+constexpr int table_points = TROCHOID_TABLE_POINTS;
 /// Speeds around that of the case at which the controller runs.
 constexpr double slowest = 0.5;
 constexpr double fastest = 1.5;
 constexpr double at_rest = 1e-9;  ///< from mid-stroke [m]
 
-TrochoidControllerConfig config_of(const CorrectionSetting& s,
-                                   const CorrectionPlan& plan,
-                                   const inputs::Controller& wanted) {
+TrochoidControllerConfig config_of(const Setting& s, const Plan& plan,
+                                   const LoopOptions& options) {
   TrochoidControllerConfig config;
   trochoid_controller_defaults(&config);
   config.points = table_points;
@@ -29,15 +30,14 @@ TrochoidControllerConfig config_of(const CorrectionSetting& s,
   const double middle = (config.lower_m + config.upper_m) / 2;
   config.start_m = middle;
   for (int i = 0; i < table_points; ++i) {
-    config.table_m[i] =
-        plan.limits.offset - middle +
-        correction::place_at(plan.command.wave, unit::turn * i / table_points);
+    config.table_m[i] = plan.limits.offset - middle +
+                        place_at(plan.command.wave, unit::turn * i / table_points);
   }
-  config.period_s = 1 / wanted.rate;
+  config.period_s = 1 / options.rate;
   config.max_step_s = 5 * config.period_s;
   config.slew_m_per_s = s.limits.slew.value_or(config.slew_m_per_s);
-  config.fade_s = wanted.fade;
-  config.ramp_s = wanted.ramp;
+  config.fade_s = options.fade;
+  config.ramp_s = options.ramp;
   const double rps = s.cut.setup.cut.Omega / unit::turn;
   config.min_speed_rps = slowest * rps;
   config.max_speed_rps = fastest * rps;
@@ -47,19 +47,17 @@ TrochoidControllerConfig config_of(const CorrectionSetting& s,
 /// Spindle, encoder, controller and estimator, called from the simulation.
 class Loop {
  public:
-  Loop(const CorrectionSetting& s, const CorrectionPlan& plan,
-       const inputs::Controller& wanted)
-      : wanted_(wanted),
+  Loop(const Setting& s, const Plan& plan, const LoopOptions& options)
+      : options_(options),
         omega_(s.cut.setup.cut.Omega),
         middle_((s.limits.stroke_low + s.limits.stroke_high) / 2),
         random_(1),
         rigid_(s.cut.setup, s.cut.law, 1),
-        config_(config_of(s, plan, wanted)) {
-    arc_middle_ = (rigid_.arc().from + rigid_.arc().to) / 2;
+        config_(config_of(s, plan, options)) {
     refused_ = trochoid_controller_init(&controller_, &config_);
     begin_learning(s, plan);
-    out_.turns.resize(static_cast<std::size_t>(wanted.turns));
-    for (ControlledTurn& each : out_.turns) {
+    out_.turns.resize(static_cast<std::size_t>(options.turns));
+    for (LoopTurn& each : out_.turns) {
       each.peaks.assign(rigid_.psi().size(), 0.0);
     }
     out_.lowest = out_.highest = middle_;
@@ -79,9 +77,9 @@ class Loop {
     const double now = real_time(omega_ * t);
     while (next_ <= now) {
       step(next_);
-      const double period = 1 / wanted_.rate;
+      const double period = 1 / options_.rate;
       const double late =
-          std::clamp(wanted_.jitter * normal_(random_), -0.45 * period, 0.45 * period);
+          std::clamp(options_.jitter * normal_(random_), -0.45 * period, 0.45 * period);
       ++ticks_;
       next_ = ticks_ * period + late;
     }
@@ -93,22 +91,20 @@ class Loop {
     table_ = table;
     const auto n = std::min(static_cast<std::size_t>(phi / unit::turn + 1e-9),
                             out_.turns.size() - 1);
-    ControlledTurn& now = out_.turns[n];
-    double& peak = now.peaks[flute_at(phi)];
+    LoopTurn& now = out_.turns[n];
+    double& peak = now.peaks[rigid_.turn_of(phi)];
     peak = std::max(peak, std::abs(F[1]));
     now.gain = result_.gain;
     now.state = result_.state;
-    if (wanted_.adapt && t >= next_force_) {
+    if (options_.adapt && t >= next_force_) {
       next_force_ += 1 / force_rate;
       learn(phi, F[1]);
     }
   }
 
-  ControlledCut finish(bool finite) {
-    for (ControlledTurn& each : out_.turns) {
-      const auto [low, high] =
-          std::minmax_element(each.peaks.begin(), each.peaks.end());
-      each.difference = *high > 0 ? 1 - *low / *high : 0.0;
+  ControllerInLoop finish(bool finite) {
+    for (LoopTurn& each : out_.turns) {
+      each.difference = dynamics::relative_difference(each.peaks);
     }
     out_.finite = finite;
     out_.ok = true;
@@ -118,37 +114,23 @@ class Loop {
  private:
   /// The ripple makes the spindle early or late: d phi/dt = Omega (1 + r sin phi).
   [[nodiscard]] double real_time(double phi) const {
-    return (phi + wanted_.speed_ripple * (std::cos(phi) - 1)) / omega_;
+    return (phi + options_.speed_ripple * (std::cos(phi) - 1)) / omega_;
   }
   [[nodiscard]] double angle_at(double time) const {
     double phi = omega_ * time;
     for (int k = 0; k < 60; ++k) {
-      phi = omega_ * time - wanted_.speed_ripple * (std::cos(phi) - 1);
+      phi = omega_ * time - options_.speed_ripple * (std::cos(phi) - 1);
     }
     return phi;
   }
 
-  [[nodiscard]] std::size_t flute_at(double phi) const {
-    std::size_t nearest = 0;
-    double least = unit::turn;
-    for (std::size_t j = 0; j < rigid_.psi().size(); ++j) {
-      const double off =
-          std::abs(std::remainder(phi - rigid_.psi()[j] - arc_middle_, unit::turn));
-      if (off < least) {
-        least = off;
-        nearest = j;
-      }
-    }
-    return nearest;
-  }
-
   void step(double time) {
     const double phi = angle_at(time);
-    const double counts = wanted_.counts;
+    const double counts = options_.counts;
     const double position = std::floor(phi / unit::turn * counts) / counts;
     const bool pulse = std::floor(phi / unit::turn) > std::floor(angle_ / unit::turn);
     const bool lost =
-        wanted_.index_lost_at > 0 && phi >= unit::turn * wanted_.index_lost_at;
+        options_.index_lost_at > 0 && phi >= unit::turn * options_.index_lost_at;
     TrochoidControllerInput in{};
     in.position_rev = position;
     in.index_position_rev = std::floor(phi / unit::turn);
@@ -156,7 +138,7 @@ class Loop {
     in.speed_rps = in.dt_s > 0 ? (position - position_) / in.dt_s : 0.0;
     in.gain = gain_;
     in.index = pulse && !lost ? 1 : 0;
-    in.enable = phi >= unit::turn * enabled_from ? 1 : 0;
+    in.enable = phi >= unit::turn * enabling_turn ? 1 : 0;
     result_ = trochoid_controller_step(&controller_, &in);
     angle_ = phi;
     time_ = time;
@@ -176,23 +158,23 @@ class Loop {
       out_.fault = result_.fault;
       out_.fault_time = time;
     }
-    if (out_.time_to_safe < 0 && std::abs(result_.command_m - middle_) < at_rest) {
+    if (!out_.time_to_safe && std::abs(result_.command_m - middle_) < at_rest) {
       out_.time_to_safe = time - out_.fault_time;
     }
   }
 
-  void begin_learning(const CorrectionSetting& s, const CorrectionPlan& plan) {
-    if (!wanted_.adapt) {
+  void begin_learning(const Setting& s, const Plan& plan) {
+    if (!options_.adapt) {
       return;
     }
     TrochoidOnlineConfig config;
     trochoid_online_defaults(&config);
-    const double at = rigid_.psi()[0] + arc_middle_;
+    const double at = rigid_.psi()[0] + (rigid_.arc().from + rigid_.arc().to) / 2;
     config.teeth = static_cast<int32_t>(rigid_.psi().size());
     config.window_start_rev = (at - unit::turn / 4) / unit::turn;
     config.feed_per_tooth_m = s.cut.setup.cut.f_z;
-    config.difference_m = correction::place_at(plan.motion, at) -
-                          correction::place_at(plan.motion, at - unit::turn / 2);
+    config.difference_m =
+        place_at(plan.motion, at) - place_at(plan.motion, at - unit::turn / 2);
     config.exponent = force::form(s.cut.law).m[0];
     config.gain_high = trochoid_controller_gain_limit(&controller_);
     gain_ = config.gain;
@@ -205,19 +187,18 @@ class Loop {
         trochoid_online_sample(&online_, phi / unit::turn, force, active ? 1 : 0).gain;
   }
 
-  inputs::Controller wanted_;
+  LoopOptions options_;
   double omega_;
   double middle_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_{0.0, 1.0};
-  correction::RigidCut rigid_;
+  RigidCut rigid_;
   TrochoidControllerConfig config_;
   TrochoidController controller_{};
   TrochoidControllerResult result_{};
   TrochoidOnline online_{};
   int32_t refused_ = TROCHOID_ACCEPTED;
   int32_t refused_online_ = TROCHOID_ONLINE_ACCEPTED;
-  double arc_middle_ = 0.0;
   double gain_ = 1.0;
   double next_ = 0.0;
   double next_force_ = 0.0;
@@ -226,25 +207,56 @@ class Loop {
   double angle_ = 0.0;
   double position_ = 0.0;
   double table_ = 0.0;
-  ControlledCut out_;
+  ControllerInLoop out_;
 };
 
 }  // namespace
 
-ControlledCut controlled_cut(const CorrectionSetting& s, const CorrectionPlan& plan,
-                             const inputs::Controller& wanted) {
-  Loop loop(s, plan, wanted);
+ControllerInLoop controller_in_loop(const Setting& s, const Plan& plan,
+                                    const LoopOptions& options) {
+  if (options.turns <= enabling_turn) {
+    throw std::invalid_argument("the controller is enabled after the last turn");
+  }
+  Loop loop(s, plan, options);
   if (const std::string why = loop.refusal(); !why.empty()) {
     return {.reason = "the controller refuses its configuration: " + why};
   }
-  dynamics::MotionProblem p = correction::problem_of(s.cut, correction::Harmonics{});
+  dynamics::MotionProblem p = problem_of(s.cut, Harmonics{});
   p.command = [&loop](double t) { return loop.command(t); };
   p.observe = [&loop](double t, const std::array<double, 3>& F, double table) {
     loop.observe(t, F, table);
   };
-  p.revolutions = wanted.turns;
+  p.revolutions = options.turns;
   p.kept = 1;
   return loop.finish(dynamics::motion(p).finite);
 }
 
-}  // namespace trochoid::run
+const LoopTurn* last_running(const ControllerInLoop& run) noexcept {
+  const LoopTurn* last = nullptr;
+  for (const LoopTurn& turn : run.turns) {
+    if (turn.state == TROCHOID_RUNNING) {
+      last = &turn;
+    }
+  }
+  return last;
+}
+
+std::optional<int> turns_to_equal(const ControllerInLoop& run,
+                                  double difference) noexcept {
+  std::optional<int> first;
+  int running = 0;
+  for (const LoopTurn& turn : run.turns) {
+    if (turn.state != TROCHOID_RUNNING) {
+      continue;
+    }
+    ++running;
+    if (turn.difference >= difference) {
+      first.reset();
+    } else if (!first) {
+      first = running;
+    }
+  }
+  return first;
+}
+
+}  // namespace trochoid::correction

@@ -1,0 +1,158 @@
+#include <trochoid/correction/plan.h>
+
+#include <trochoid/correction/shapes.h>
+
+#include <algorithm>
+
+namespace trochoid::correction {
+
+namespace {
+
+/// A command, and the fraction of the motion wanted that it can make.
+struct Made {
+  PeriodicMotion motion;
+  Command command;
+  std::optional<Learned> learned;
+};
+
+/// A setting and the rigid cut that it is designed on.
+struct Design {
+  const Setting& setting;
+  RigidCut rigid = designed_cut(setting);
+  double Omega = setting.cut.setup.cut.Omega;
+};
+
+ShapeOptions shape_options(const CorrectionOptions& options) {
+  return {.transition = options.transition, .harmonics = options.harmonics};
+}
+
+/// The motion of a shape through the levels of the teeth, of its own size.
+PeriodicMotion through_levels(const Design& design, const CorrectionOptions& options) {
+  return table_motion(design.rigid, options.shape, shape_options(options));
+}
+
+void learn_command(const Setting& s, const CorrectionOptions& options, Made& made) {
+  const auto* start = std::get_if<Harmonics>(&made.command.wave);
+  if (!made.command.ok || start == nullptr) {
+    return;
+  }
+  const MeasuredTable measured = [&s](const Harmonics& u) {
+    return moving_flutes(s.cut, u).table;
+  };
+  made.learned = learn(made.motion, *start, s.cut.plant, s.cut.setup.cut.Omega,
+                       measured, {.gain = options.learning_gain});
+  made.command.wave = made.learned->command;
+}
+
+/// Inverse commands hold as many harmonics as the limits leave.
+Made make(const Design& design, const CorrectionOptions& options,
+          const PeriodicMotion& motion) {
+  const Setting& s = design.setting;
+  CommandOptions allowed = command_options(options);
+  Made made{.motion = motion};
+  if (options.strategy == Method::inverse || options.strategy == Method::learning) {
+    const Followed part =
+        followed(design.rigid, motion, s.cut.plant, design.Omega, s.limits);
+    allowed.n_max = std::min(allowed.n_max, part.n_max);
+    made.motion = part.motion;
+  }
+  made.command =
+      command_for(made.motion, options.strategy, s.cut.plant, design.Omega, allowed);
+  if (options.strategy == Method::learning) {
+    learn_command(s, options, made);
+  }
+  return made;
+}
+
+/// A motion through the levels, as large as the target asks; none with the reason.
+std::optional<PeriodicMotion> sized(const Design& design,
+                                    const CorrectionOptions& options,
+                                    const PeriodicMotion& through,
+                                    std::string& reason) {
+  if (options.peak_to_peak) {
+    return scaled(through, *options.peak_to_peak / range_of(through).peak_to_peak());
+  }
+  FlutesOf flutes;
+  if (options.estimate == RunoutEstimate::known) {
+    flutes = [&](const PeriodicMotion& motion) {
+      return moving_flutes(design.setting.cut,
+                           make(design, options, motion).command.wave)
+          .flutes;
+    };
+  }
+  const Amplitude found = equal_flutes(options.target, design.rigid, options.shape,
+                                       shape_options(options), flutes);
+  reason = found.reason;
+  return found.ok ? std::optional(found.motion) : std::nullopt;
+}
+
+/// Does the actuator follow every harmonic of a motion?
+bool whole(const Design& design, const PeriodicMotion& motion, int harmonics) {
+  const Setting& s = design.setting;
+  return followed(design.rigid, motion, s.cut.plant, design.Omega, s.limits).n_max >=
+         harmonics;
+}
+
+std::vector<double> over_turn(const PeriodicMotion& motion, double offset, int points) {
+  std::vector<double> values;
+  for (int i = 0; i < points; ++i) {
+    values.push_back(offset + place_at(motion, unit::turn * i / points));
+  }
+  return values;
+}
+
+}  // namespace
+
+bool nothing_to_correct(const Setting& setting, const CorrectionOptions& options) {
+  return !(range_of(through_levels(Design{setting}, options)).peak_to_peak() > 0);
+}
+
+Plan plan_correction(const Setting& setting, const CorrectionOptions& given) {
+  Plan plan;
+  const Design design{setting};
+  CorrectionOptions options = given;
+  const auto through = [&] { return through_levels(design, options); };
+  if (nothing_to_correct(setting, options)) {
+    plan.reason = "the teeth stand out alike: there is nothing to correct";
+    return plan;
+  }
+  // The best motion of few harmonics is not the beginning of the best one of many.
+  while (options.shape == Shape::harmonics && options.harmonics > 1 &&
+         !whole(design, through(), options.harmonics)) {
+    --options.harmonics;
+  }
+  const auto motion = sized(design, options, through(), plan.reason);
+  if (!motion) {
+    return plan;
+  }
+  Made made = make(design, options, *motion);
+  plan.motion = made.motion;
+  plan.command = made.command;
+  plan.learned = std::move(made.learned);
+  if (!plan.command.ok) {
+    plan.reason = plan.command.reason;
+    return plan;
+  }
+  plan.limits = check_limits(plan.command, setting.cut.plant, design.Omega,
+                             setting.limits, design.rigid);
+  plan.ok = true;
+  return plan;
+}
+
+CommandOptions command_options(const CorrectionOptions& options) {
+  CommandOptions out{.n_max = options.harmonics};
+  if (options.sample_rate > 0) {
+    out.sample_time = 1 / options.sample_rate;
+  }
+  return out;
+}
+
+std::vector<double> command_over_turn(const Plan& plan, int points) {
+  return over_turn(plan.command.wave, plan.limits.offset, points);
+}
+
+std::vector<double> motion_over_turn(const Plan& plan, int points) {
+  return over_turn(plan.motion, plan.limits.offset, points);
+}
+
+}  // namespace trochoid::correction

@@ -1,0 +1,43 @@
+#include <trochoid/run/correct/correct.h>
+
+#include <trochoid/run/correct/problem.h>
+#include <trochoid/run/correct/warnings.h>
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace trochoid::run {
+
+namespace {
+
+std::string headline(const correction::BeforeAfter& cuts) {
+  return fmt::format(
+      "The flutes' peaks differ by {:.2f} % with the command, {:.2f} % without.",
+      100 * dynamics::peak_difference(cuts.after.motion),
+      100 * dynamics::peak_difference(cuts.before.motion));
+}
+
+}  // namespace
+
+results::CorrectResult correct(const inputs::Case& given, bool controller,
+                               const Progress& progress) {
+  results::CorrectResult r{
+      .heading = {.title = given.title, .case_toml = given.as_understood}};
+  r.heading.ok = false;
+  const auto problem = correction_problem(given, controller, r.heading.warnings);
+  r.options = problem.options;
+  r.correction = correction::correct(problem, progress);
+  const correction::Correction& c = r.correction;
+  add_setting_warnings(c.setting, r.heading.warnings);
+  if (!c.ok) {
+    r.heading.message = c.reason;
+    return r;
+  }
+  add_correction_warnings(c, r.heading.warnings);
+  r.heading.ok = !c.controller || c.controller->ok;
+  r.heading.message = r.heading.ok ? headline(c.cuts) : c.controller->reason;
+  return r;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <trochoid/base/warning.h>
+#include <trochoid/correction/correct.h>
+#include <trochoid/inputs/case.h>
+
+#include <vector>
+
+namespace trochoid::run {
+
+/// @brief A case of `correct` as the room correction takes it, its [[measurement]] read.
+/// @param controller     that of [controller] is to be simulated
+/// @param[out] warnings  what was found out about the record
+/// @throws base::InputError when a measurement cannot be read
+correction::CorrectionProblem correction_problem(const inputs::Case& given,
+                                                 bool controller,
+                                                 std::vector<base::Warning>& warnings);
+
+}  // namespace trochoid::run

@@ -1,0 +1,106 @@
+#include <trochoid/run/correct/warnings.h>
+
+#include <trochoid/base/units.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace trochoid::run {
+
+namespace {
+
+using Warnings = std::vector<base::Warning>;
+
+/// Fraction of the variance that a model must explain to be believed.
+constexpr double well_explained = 0.9;
+/// A chip area that differs so much where the peaks do not is worth a word.
+constexpr double unequal_area = 0.1;
+/// Fraction of the chip differences that one axis should be able to take away.
+constexpr double one_axis_enough = 0.8;
+
+void warn_limits(const correction::LimitReport& report, Warnings& warnings) {
+  for (const correction::Limit& l : report.limits) {
+    if (l.known && !l.ok) {
+      warnings.push_back({"beyond_limit", l.reason});
+    }
+  }
+}
+
+void warn_flutes(const correction::BeforeAfter& cuts, Warnings& warnings) {
+  const dynamics::Motion& before = cuts.before.motion;
+  const dynamics::Motion& after = cuts.after.motion;
+  if (!before.periodic || !after.periodic) {
+    warnings.push_back(
+        {"not_periodic",
+         fmt::format("The force still changes by {:.3g} N from turn to turn: a "
+                     "difference between flutes means little then.",
+                     std::max(before.last_change, after.last_change))});
+  }
+  if (dynamics::area_difference(after) > unequal_area) {
+    warnings.push_back(
+        {"unequal_chips",
+         fmt::format("Equal peaks are not equal chips: the flutes still cut areas that "
+                     "differ by {:.0f} % ({:.0f} % before).",
+                     100 * dynamics::area_difference(after),
+                     100 * dynamics::area_difference(before))});
+  }
+}
+
+void warn_axes(const correction::AxisLimits& axes, Warnings& warnings) {
+  if (axes.most_teeth > 1 && axes.one_axis > (1 - one_axis_enough) * axes.uncorrected) {
+    warnings.push_back(
+        {"several_teeth_in_cut",
+         fmt::format(
+             "{} teeth cut at once: one axis can take the chip differences from {:.3g} "
+             "to {:.3g} um at best, two axes to {:.3g} um (root mean square).",
+             axes.most_teeth, axes.uncorrected / unit::um, axes.one_axis / unit::um,
+             axes.two_axes / unit::um)});
+  }
+}
+
+void warn_estimate(const correction::Setting& s, Warnings& warnings) {
+  if (s.fit && s.designed_for != s.rho) {
+    warnings.push_back(
+        {"static_estimate",
+         fmt::format("The command is made for what a rigid model reads from the forces "
+                     "({:.3g} um between tooth 1 and the one before); {:.3g} um are "
+                     "there, as tool and table give way.",
+                     correction::chip_differences(s.designed_for)[0] / unit::um,
+                     correction::chip_differences(s.rho)[0] / unit::um)});
+  }
+}
+
+}  // namespace
+
+void add_setting_warnings(const correction::Setting& setting, Warnings& warnings) {
+  if (!setting.behind) {
+    return;
+  }
+  if (setting.fit->explained < well_explained) {
+    warnings.push_back(
+        {"poor_fit",
+         fmt::format("The model explains {:.0f} % of the measured forces: look at "
+                     "identify before using this command.",
+                     100 * setting.fit->explained)});
+  }
+  if (!setting.behind->ok) {
+    warnings.push_back(
+        {"compliance_not_removed",
+         "What tool and table give way was not taken out of the estimate: " +
+             setting.behind->reason});
+  }
+}
+
+void add_correction_warnings(const correction::Correction& c, Warnings& warnings) {
+  warn_limits(c.plan.limits, warnings);
+  warn_flutes(c.cuts, warnings);
+  warn_axes(c.axes, warnings);
+  warn_estimate(c.setting, warnings);
+  if (c.controller && !c.controller->finite) {
+    warnings.push_back(
+        {"ran_away", "Under the controller the cut grew beyond all bounds."});
+  }
+}
+
+}  // namespace trochoid::run
