@@ -35,6 +35,7 @@ std::vector<double> steps_of(double length, double longest) {
   }
   const double step = length / (inner + ends);
   std::vector<double> steps;
+  steps.reserve(2 * sizes.size() + static_cast<std::size_t>(inner));
   for (const double size : sizes) {
     steps.push_back(size * step);
   }
@@ -148,8 +149,9 @@ void add_delays(const force::Setup& setup, const EngagedGrid& nodes, EngagedGrid
   for (std::size_t i = 0; i < grid.angle.size(); ++i) {
     for (std::size_t j = 0; j < grid.teeth; ++j) {
       for (std::size_t m = 0; m < grid.lookback; ++m) {
+        const std::size_t turns = m / grid.teeth;
         const double delay = passage.back[j * grid.teeth + m % grid.teeth] +
-                             unit::turn * static_cast<double>(m / grid.teeth);
+                             unit::turn * static_cast<double>(turns);
         grid.delays.push_back(delay_of(nodes, grid.angle[i], delay, node[i]));
       }
     }

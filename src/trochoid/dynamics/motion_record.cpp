@@ -25,6 +25,7 @@ std::array<double, 2> between(const std::array<double, 2>& a,
 
 std::vector<double> sample_angles(int count) {
   std::vector<double> angles;
+  angles.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     angles.push_back(unit::turn * k / count);
   }

@@ -48,6 +48,22 @@ c++ -std=c++20 $strict "$here/consumer/main.cpp" -o "$scratch/by_pkg_config" \
   $(pkg-config --cflags --libs trochoid)
 "$scratch/by_pkg_config"
 
+# Every header that is installed compiles there by itself; what is internal is not there.
+(cd "$prefix/include" && find trochoid -name '*.h') >"$scratch/headers"
+for header in $(<"$scratch/headers"); do
+  printf '#include <%s>\n' "$header"
+done | xargs -d '\n' -P "$(nproc)" -I LINE sh -c \
+  'echo "LINE" | c++ -std=c++20 -fsyntax-only '"$strict -I$prefix/include"' -x c++ -'
+for internal in numerics/dense.h inputs/schema.h dynamics/stepper.h report/page.h; do
+  [ -f "$here/../../../src/trochoid/$internal" ]
+  ! grep -qx "trochoid/$internal" "$scratch/headers" || { echo "$internal is installed"; exit 1; }
+done
+
+# The examples are projects of a stranger, too.
+cmake -G Ninja -S "$here/../../../examples/cpp" -B "$scratch/examples" -DCMAKE_PREFIX_PATH="$prefix"
+cmake --build "$scratch/examples"
+for example in calibrate correct dynamics identify; do "$scratch/examples/example_$example"; done
+
 # The installed files must point neither to where they were built nor to where they were.
 top=$(cd -- "$here/../../.." && pwd)
 if grep -rlF -e "$top" -e "$scratch/first" "$prefix" --include='*.cmake' --include='*.h' \
