@@ -95,6 +95,7 @@ bool whole(const Design& design, const PeriodicMotion& motion, int harmonics) {
 
 std::vector<double> over_turn(const PeriodicMotion& motion, double offset, int points) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(points));
   for (int i = 0; i < points; ++i) {
     values.push_back(offset + place_at(motion, unit::turn * i / points));
   }
@@ -107,25 +108,25 @@ bool nothing_to_correct(const Setting& setting, const CorrectionOptions& options
   return !(range_of(through_levels(Design{setting}, options)).peak_to_peak() > 0);
 }
 
-Plan plan_correction(const Setting& setting, const CorrectionOptions& given) {
+Plan plan_correction(const Setting& setting, const CorrectionOptions& options) {
   Plan plan;
   const Design design{setting};
-  CorrectionOptions options = given;
-  const auto through = [&] { return through_levels(design, options); };
+  CorrectionOptions fewer = options;
+  const auto through = [&] { return through_levels(design, fewer); };
   if (nothing_to_correct(setting, options)) {
     plan.reason = "the teeth stand out alike: there is nothing to correct";
     return plan;
   }
   // The best motion of few harmonics is not the beginning of the best one of many.
-  while (options.shape == Shape::harmonics && options.harmonics > 1 &&
-         !whole(design, through(), options.harmonics)) {
-    --options.harmonics;
+  while (fewer.shape == Shape::harmonics && fewer.harmonics > 1 &&
+         !whole(design, through(), fewer.harmonics)) {
+    --fewer.harmonics;
   }
-  const auto motion = sized(design, options, through(), plan.reason);
+  const auto motion = sized(design, fewer, through(), plan.reason);
   if (!motion) {
     return plan;
   }
-  Made made = make(design, options, *motion);
+  Made made = make(design, fewer, *motion);
   plan.motion = made.motion;
   plan.command = made.command;
   plan.learned = std::move(made.learned);

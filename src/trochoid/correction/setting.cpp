@@ -16,6 +16,7 @@ constexpr double angle_slack = 1e-9;
 
 std::vector<double> values_of(const std::vector<Value>& estimates) {
   std::vector<double> values;
+  values.reserve(estimates.size());
   for (const Value& estimate : estimates) {
     values.push_back(estimate.value);
   }
