@@ -15,6 +15,7 @@ libraries=(
   libboost-dev         # Boost.Math: Student's t, quadrature, roots
   libtbb-dev           # threads
   libfmt-dev           # number formatting
+  libhwy-dev           # vectors of whatever width the machine has
   libtomlplusplus-dev  # case files
   nlohmann-json3-dev   # summary.json
   libcli11-dev         # command line

@@ -308,7 +308,9 @@ std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
   std::vector<double> breaks;
   for (std::size_t i = 0; i < search.marks.size(); ++i) {
     const TrigPolynomial& p = *out.over_mark[index(search.marks[i])];
-    add_roots(p, breaks);
+    TrigPolynomial in_cut = p;
+    in_cut.a[0] -= h_threshold;
+    add_roots(in_cut, breaks);
     for (std::size_t k = i + 1; k < search.marks.size(); ++k) {
       add_roots(difference(p, *out.over_mark[index(search.marks[k])]), breaks);
     }

@@ -61,11 +61,11 @@ MarkSeries mark_series(double a, double theta_p, double R, double tolerance) noe
     out.C[i] = -0.5 * squares;
     d[i] = S[i] - turned / n;  // C-9
     out.y[i] = d[i];
-    out.highest = n;
     if (R * (std::abs(out.C[i]) + std::abs(a * out.y[i - 1])) < tolerance) {
       out.converged = true;
       return out;
     }
+    out.highest = n;
   }
   return out;
 }

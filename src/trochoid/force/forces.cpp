@@ -3,9 +3,13 @@
 #include <trochoid/base/units.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
+#include <trochoid/force/turn_kernel.h>
+#include <trochoid/force/turn_polynomial.h>
 #include <trochoid/numerics/parallel.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 #include <variant>
@@ -32,6 +36,42 @@ void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noe
     C = std::copy_n(row.begin(), columns, C);
   }
 }
+
+/// Error of the chips behind a TurnPolynomial, of the largest chip: one harmonic more
+/// costs little.
+constexpr double turn_tolerance = 1e-9;
+/// The same where differences of matrices are taken.
+constexpr double smooth_turn_tolerance = 1e-11;
+
+/// @brief How the teeth cut, where forces are linear in the chip and the chips have few
+/// harmonics.
+std::optional<TurnTeeth> linear_turn(const Setup& setup, const Law& law,
+                                     double tolerance) {
+  return std::holds_alternative<LinearEdge>(law) ? turn_teeth(setup, tolerance)
+                                                 : std::nullopt;
+}
+
+/// The six different entries of [C].
+struct TurnMatrix {
+  TurnPolynomial chip;  ///< integrals of h sin, h cos, h
+  TurnPolynomial edge;  ///< of e sin, e cos, e
+
+  void evaluate(std::span<const double> phi, std::span<double> C) const noexcept {
+    constexpr std::size_t chunk = 256;
+    std::array<double, 3 * chunk> h;
+    std::array<double, 3 * chunk> e;
+    for (std::size_t first = 0; first < phi.size(); first += chunk) {
+      const auto some = phi.subspan(first, std::min(chunk, phi.size() - first));
+      force::evaluate(chip, some, std::span(h).first(3 * some.size()));
+      force::evaluate(edge, some, std::span(e).first(3 * some.size()));
+      for (std::size_t i = 0; i < 3 * some.size(); i += 3) {
+        moments_to_matrix(
+            {h[i], h[i + 1], h[i], h[i + 1], h[i + 2], e[i], e[i + 1], e[i + 2]}, 6,
+            &C[6 * (3 * first + i)]);
+      }
+    }
+  }
+};
 
 /// @brief Evaluate once for every angle of a turn; turns repeat to the last digit.
 template <class Value, class Evaluate>
@@ -64,14 +104,22 @@ std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evalu
 
 struct ForceMatrix::Parts {
   std::size_t columns;
-  std::variant<CumulativeForce, AxialForce> method;
+  std::variant<TurnMatrix, CumulativeForce, AxialForce> method;
 };
 
-ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance)
-    : parts_(std::make_shared<const Parts>(
-          keeps_radius(setup)
-              ? Parts{form(law).columns(), CumulativeForce(setup, law, tolerance)}
-              : Parts{form(law).columns(), AxialForce(setup, law, tolerance)})) {}
+ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
+  const std::size_t columns = form(law).columns();
+  const auto parts = [&] {
+    const double allowed = std::min(tolerance, smooth_turn_tolerance);
+    if (const auto teeth = linear_turn(setup, law, allowed)) {
+      return Parts{columns, TurnMatrix{turn_polynomial(*teeth, chip_weights()),
+                                       turn_polynomial(*teeth, edge_weights())}};
+    }
+    return keeps_radius(setup) ? Parts{columns, CumulativeForce(setup, law, tolerance)}
+                               : Parts{columns, AxialForce(setup, law, tolerance)};
+  };
+  parts_ = std::make_shared<const Parts>(parts());
+}
 
 int ForceMatrix::columns() const noexcept {
   return static_cast<int>(parts_->columns);
@@ -83,6 +131,10 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
     throw std::invalid_argument("force matrix: " + std::to_string(C.size()) +
                                 " numbers for " + std::to_string(phi.size()) +
                                 " angles of 3 x " + std::to_string(columns));
+  }
+  if (const auto* turn = std::get_if<TurnMatrix>(&parts_->method)) {
+    turn->evaluate(phi, C);
+    return;
   }
   if (const auto* cumulative = std::get_if<CumulativeForce>(&parts_->method)) {
     for (std::size_t i = 0; i < phi.size(); ++i) {
@@ -104,6 +156,15 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance) {
+  if (phi.empty()) {
+    return {};
+  }
+  if (const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
+    std::vector<Vector3> out(phi.size());
+    evaluate(turn_polynomial(*teeth, force_weights(std::get<LinearEdge>(law))), phi,
+             std::span(out.front().data(), 3 * out.size()));
+    return out;
+  }
   if (keeps_radius(setup)) {
     std::vector<Vector3> out(phi.size());
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
