@@ -3,6 +3,7 @@
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/chip/harmonics.h>
+#include <trochoid/numerics/trig_roots.h>
 
 #include <algorithm>
 #include <array>
@@ -15,22 +16,17 @@ namespace trochoid::chip {
 namespace {
 
 using base::index;
+using numerics::add_roots;
+using numerics::bracketed_root;
 using numerics::evaluate;
 using numerics::TrigPolynomial;
+using numerics::value;
 using numerics::ValueAndSlope;
 
 constexpr double pi = std::numbers::pi;
 constexpr double start = -pi / 2;
 /// Stretches shorter than this are none [rad].
 constexpr double shortest = 1e-13;
-
-double highest_harmonics(const TrigPolynomial& p) noexcept {
-  double sum = std::abs(p.a[1]);
-  for (int k = 2; k <= p.highest; ++k) {
-    sum += std::abs(p.a[index(k)]) + std::abs(p.b[index(k)]);
-  }
-  return sum;
-}
 
 TrigPolynomial difference(const TrigPolynomial& p, const TrigPolynomial& q) noexcept {
   TrigPolynomial out;
@@ -43,118 +39,52 @@ TrigPolynomial difference(const TrigPolynomial& p, const TrigPolynomial& q) noex
   return out;
 }
 
-ValueAndSlope at(const TrigPolynomial& p, double theta) noexcept {
-  return evaluate(p, std::sin(theta), std::cos(theta));
-}
-
-/// Root of a function that rises or falls from lo to hi, by Newton's steps in a bracket.
-template <class Function>
-double bracketed_root(const Function& f, double lo, double hi, double x) noexcept {
-  const bool rises = f(lo).value < 0;
-  for (int i = 0; i < 60; ++i) {
-    const auto [value, slope] = f(x);
-    ((value < 0) == rises ? lo : hi) = x;
-    const double next = x - value / slope;
-    const bool good = next > lo && next < hi;
-    const double moved = (good ? next : 0.5 * (lo + hi)) - x;
-    x += moved;
-    if (std::abs(moved) < 4e-15 || !(hi - lo > shortest)) {
-      break;
-    }
-  }
-  return x;
-}
-
-/// Where a polynomial that is mostly its first harmonic has its extremum near x.
-double extremum(const TrigPolynomial& p, double x) noexcept {
-  for (int i = 0; i < 3; ++i) {
-    double slope = 0.0;
-    double bend = 0.0;
-    for (int k = 1; k <= p.highest; ++k) {
-      const std::size_t n = index(k);
-      const double c = std::cos(k * x);
-      const double s = std::sin(k * x);
-      slope += k * (p.b[n] * c - p.a[n] * s);
-      bend -= k * k * (p.a[n] * c + p.b[n] * s);
-    }
-    const double step = slope / bend;
-    if (!(std::abs(step) < 0.5)) {
-      return x;
-    }
-    x -= step;
-  }
-  return x;
-}
-
-/// @brief Add the roots of a polynomial that is mostly d + e sin: at most two in a turn.
-void add_roots(const TrigPolynomial& p, std::vector<double>& roots) {
-  const double e = p.b[1];
-  const double d = p.a[0];
-  const double rest = highest_harmonics(p);
-  if (!(std::abs(e) > 0) || std::abs(d) > std::abs(e) + rest) {
-    return;
-  }
-  const double sine = std::clamp(-d / e, -1.0, 1.0);
-  const auto f = [&](double theta) { return at(p, theta); };
-  const double guess = std::asin(sine);
-  if (std::abs(sine) < 0.98 && rest < 0.01 * std::abs(e)) {
-    for (double x : {guess, pi - guess}) {
-      for (int i = 0; i < 8; ++i) {
-        const auto [value, slope] = f(x);
-        const double step = value / slope;
-        x -= step;
-        if (std::abs(step) < 1e-9) {  // the next one would be its square
-          break;
-        }
-      }
-      roots.push_back(x);
-    }
-    return;
-  }
-  // Near the extrema the two roots run together, or there are none.
-  const double top = extremum(p, pi / 2);
-  const double bottom = extremum(p, -pi / 2);
-  if ((f(top).value < 0) == (f(bottom).value < 0)) {
-    return;
-  }
-  roots.push_back(bracketed_root(f, bottom, top, std::clamp(guess, bottom, top)));
-  roots.push_back(bracketed_root(f, top, bottom + 2 * pi,
-                                 std::clamp(pi - guess, top, bottom + 2 * pi)));
-}
-
-/// @brief Marks that can be the nearest one anywhere in front of the tool.
-///
-/// d + e u with u = sin(theta) is a line; one that lies above another at both ends of
-/// the range of u lies above it everywhere.
-std::vector<int> marks_that_matter(const ToothHarmonics& tooth) {
-  const int count = static_cast<int>(tooth.over_mark.size());
-  const auto line = [&](int m, double u) {
-    const TrigPolynomial& p = *tooth.over_mark[index(m)];
-    return p.a[0] + p.b[1] * u;
+/// Whether one chip is above another for certain for u = sin(theta) from lowest to 1.
+bool lies_above(const MarkEstimate& p, const MarkEstimate& q, double lowest) noexcept {
+  const double sine = p.sine - q.sine;
+  const double square = p.square - q.square;
+  const double skew = p.skew + q.skew;
+  const auto above = [&](double u) {
+    return p.mean - q.mean + sine * u + square * (1 - u * u) >
+           skew * std::abs(u) + p.rest + q.rest;
   };
-  double lowest_u = -1.0;
-  for (int m = 0; m < count; ++m) {
-    const TrigPolynomial& p = *tooth.over_mark[index(m)];
-    if (p.b[1] > 0) {  // h > 0 needs d + e u > -rest
-      lowest_u = std::max(lowest_u, (-p.a[0] - highest_harmonics(p)) / p.b[1]);
-    }
+  if (!above(lowest) || !above(1.0) || (lowest < 0 && !above(0.0))) {
+    return false;
   }
-  lowest_u = std::min(lowest_u, 1.0);
+  if (square >= 0) {  // bent downwards: lowest at an end
+    return true;
+  }
+  const auto above_inside = [&](double u, double from, double to) {
+    return !(u > from && u < to) || above(u);
+  };
+  return above_inside((sine + skew) / (2 * square), lowest, 0.0) &&
+         above_inside((sine - skew) / (2 * square), std::max(lowest, 0.0), 1.0);
+}
+
+/// @brief Marks that can be the nearest one where there is a chip at all.
+std::vector<int> marks_that_matter(const Passage& passage, const Slice& slice,
+                                   int tooth) {
+  std::vector<MarkEstimate> chips;
+  chips.reserve(index(passage.marks));
+  double lowest = -1.0;
+  for (int m = 1; m <= passage.marks; ++m) {
+    const MarkEstimate chip = estimate_over_mark(passage, slice, tooth, m);
+    if (chip.sine > chip.skew) {
+      const double most = chip.mean + chip.square + chip.rest;
+      const double slope = most > 0 ? chip.sine - chip.skew : chip.sine + chip.skew;
+      lowest = std::max(lowest, -most / slope);
+    }
+    chips.push_back(chip);
+  }
+  lowest = std::min(lowest, 1.0);
   std::vector<int> kept;
-  for (int m = 0; m < count; ++m) {
-    const bool beaten = [&] {
-      for (int other = 0; other < count; ++other) {
-        const double slack = highest_harmonics(*tooth.over_mark[index(m)]) +
-                             highest_harmonics(*tooth.over_mark[index(other)]);
-        if (other != m && line(m, lowest_u) > line(other, lowest_u) + slack &&
-            line(m, 1.0) > line(other, 1.0) + slack) {
-          return true;
-        }
-      }
-      return false;
-    }();
-    if (!beaten) {
-      kept.push_back(m);
+  kept.reserve(chips.size());
+  for (std::size_t m = 0; m < chips.size(); ++m) {
+    const auto below = [&](const MarkEstimate& other) {
+      return lies_above(chips[m], other, lowest);
+    };
+    if (std::none_of(chips.begin(), chips.end(), below)) {
+      kept.push_back(static_cast<int>(m));
     }
   }
   return kept;
@@ -162,8 +92,13 @@ std::vector<int> marks_that_matter(const ToothHarmonics& tooth) {
 
 /// In [start, start + 2 pi).
 double in_turn(double theta) noexcept {
-  const double u = theta - start;
-  return start + (u - unit::turn * std::floor(u / unit::turn));
+  while (theta < start) {
+    theta += unit::turn;
+  }
+  while (theta >= start + unit::turn) {
+    theta -= unit::turn;
+  }
+  return theta;
 }
 
 void sort_breaks(std::vector<double>& breaks) {
@@ -248,7 +183,7 @@ struct Search {
     double least = std::numeric_limits<double>::infinity();
     Winner winner;
     for (const int m : marks) {
-      const double h = evaluate(*tooth.over_mark[index(m)], s, c).value;
+      const double h = value(*tooth.over_mark[index(m)], s, c);
       if (h < least) {
         least = h;
         winner.mark = m + 1;
@@ -294,18 +229,24 @@ std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
                                               const Slice& slice, int tooth,
                                               double tolerance) {
   ToothHarmonics out;
-  for (int m = 1; m <= passage.marks; ++m) {
-    out.over_mark.push_back(harmonics_over_mark(passage, slice, tooth, m, tolerance));
-    if (!out.over_mark.back()) {
-      return std::nullopt;
-    }
-  }
   const geometry::EdgePosition& own = slice.teeth[index(tooth)];
   if (!(own.R > 0) || passage.feed <= 0) {
     return out;
   }
-  const Search search{passage, slice, out, marks_that_matter(out), own.R, own.epsilon};
+  const Search search{passage, slice,
+                      out,     marks_that_matter(passage, slice, tooth),
+                      own.R,   own.epsilon};
+  out.over_mark.resize(index(passage.marks));
+  for (const int m : search.marks) {
+    out.over_mark[index(m)] =
+        harmonics_over_mark(passage, slice, tooth, m + 1, tolerance);
+    if (!out.over_mark[index(m)]) {
+      return std::nullopt;
+    }
+  }
   std::vector<double> breaks;
+  breaks.reserve(32);
+  out.pieces.reserve(8);
   for (std::size_t i = 0; i < search.marks.size(); ++i) {
     const TrigPolynomial& p = *out.over_mark[index(search.marks[i])];
     TrigPolynomial in_cut = p;

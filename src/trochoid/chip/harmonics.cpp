@@ -16,6 +16,9 @@ using numerics::TrigPolynomial;
 constexpr int most = TrigPolynomial::most;
 using Powers = std::array<double, most + 1>;
 
+/// Above this f/(2 pi R) the series of C-9 may not converge for every mark.
+constexpr double largest_feed = 0.1;
+
 /// c^n = sum over k of of_power[n][k] cos(k theta).
 constexpr auto of_power = [] {
   std::array<Powers, most + 2> table{};
@@ -80,8 +83,8 @@ TrigPolynomial first_harmonic(double mean, double sine, double cosine) noexcept 
   return p;
 }
 
-TrigPolynomial exact(const MarkSeries& series, double spread, double R,
-                     double feed) noexcept {
+TrigPolynomial exact(const MarkSeries& series, double spread, double R, double feed,
+                     double tolerance) noexcept {
   TrigPolynomial p;
   p.highest = series.highest;
   for (int k = 0; k <= series.highest; ++k) {
@@ -102,48 +105,89 @@ TrigPolynomial exact(const MarkSeries& series, double spread, double R,
       p.a[index(k)] -= C * of_power[index(n)][index(k)];
     }
   }
+  // c^n is mostly low harmonics: the highest ones may go.
+  double dropped = 0.0;
+  while (p.highest > 1) {
+    const std::size_t k = index(p.highest);
+    dropped += std::abs(p.a[k]) + std::abs(p.b[k]);
+    if (dropped > tolerance) {
+      break;
+    }
+    --p.highest;
+  }
   return p;
 }
 
-}  // namespace
+/// A tooth before, as the tooth in cut sees it.
+struct Mark {
+  const geometry::EdgePosition& own;
+  const geometry::EdgePosition& other;
+  double back;     ///< how far it is ahead, without epsilon [rad]
+  double theta_p;  ///< and with it, in (0, 2 pi] [rad]
+};
 
-std::optional<TrigPolynomial> harmonics_over_mark(const Passage& passage,
-                                                  const Slice& slice, int tooth,
-                                                  int mark, double tolerance) noexcept {
+Mark mark_at(const Passage& passage, const Slice& slice, int tooth, int mark) noexcept {
   const int teeth = passage.teeth;
   const auto& own = slice.teeth[index(tooth)];
   const auto& other = slice.teeth[index((tooth - mark + teeth) % teeth)];
   const double back = passage.back[index(tooth * teeth + mark - 1)];
-  const double f_m = passage.feed * back;
-  // Simple models mean the nominal theta = effective theta - epsilon.
-  const double c = std::cos(own.epsilon);
-  const double s = std::sin(own.epsilon);
-  switch (passage.model.model) {
-    case Model::none:
-      return first_harmonic(0.0, f_m * c, -f_m * s);
-    case Model::feed: {
-      const double size = f_m + own.R - other.R;
-      return first_harmonic(0.0, size * c, -size * s);
-    }
-    case Model::radial:
-      return first_harmonic(own.R - other.R, f_m * c, -f_m * s);
-    case Model::trochoidal:
-      break;
-  }
   double theta_p = back;
   if (mark != teeth) {  // a tooth's own mark is one whole turn old
     theta_p += other.epsilon - own.epsilon;
     theta_p += theta_p <= 0 ? unit::turn : (theta_p > unit::turn ? -unit::turn : 0.0);
   }
-  if (!(other.R > 0)) {
+  return {own, other, back, theta_p};
+}
+
+}  // namespace
+
+MarkEstimate estimate_over_mark(const Passage& passage, const Slice& slice, int tooth,
+                                int mark) noexcept {
+  const Mark m = mark_at(passage, slice, tooth, mark);
+  const double f_m = passage.feed * m.back;
+  const double spread = m.own.R - m.other.R;
+  switch (passage.model.model) {
+    case Model::none:
+      return {.sine = f_m};
+    case Model::feed:
+      return {.sine = f_m + spread};
+    case Model::radial:
+      return {.mean = spread, .sine = f_m};
+    case Model::trochoidal:
+      break;
+  }
+  // delta = -x c + a x c^2 + ... in C-6, with x = a theta_p, c = cos(theta).
+  const double R = m.other.R;
+  const double a = passage.feed / R;
+  const double x = a * m.theta_p;
+  return {.mean = spread,
+          .sine = passage.feed * m.theta_p,
+          .square = 0.5 * R * x * x,
+          .skew = R * a * x,
+          .rest = R * x * (1.5 * a * (a + x) + 0.2 * x * x * x)};
+}
+
+std::optional<TrigPolynomial> harmonics_over_mark(const Passage& passage,
+                                                  const Slice& slice, int tooth,
+                                                  int mark, double tolerance) noexcept {
+  if (passage.model.model != Model::trochoidal) {
+    const MarkEstimate line = estimate_over_mark(passage, slice, tooth, mark);
+    // They mean the nominal theta = effective theta - epsilon.
+    const double epsilon = slice.teeth[index(tooth)].epsilon;
+    return first_harmonic(line.mean, line.sine * std::cos(epsilon),
+                          -line.sine * std::sin(epsilon));
+  }
+  const Mark m = mark_at(passage, slice, tooth, mark);
+  if (!(m.other.R > 0) || passage.feed > largest_feed * m.other.R) {
     return std::nullopt;
   }
   const MarkSeries series =
-      mark_series(passage.feed / other.R, theta_p, other.R, tolerance);
+      mark_series(passage.feed / m.other.R, m.theta_p, m.other.R, 0.5 * tolerance);
   if (!series.converged) {
     return std::nullopt;
   }
-  return exact(series, own.R - other.R, other.R, passage.feed);  // C-10
+  return exact(series, m.own.R - m.other.R, m.other.R, passage.feed,
+               0.5 * tolerance);  // C-10
 }
 
 }  // namespace trochoid::chip

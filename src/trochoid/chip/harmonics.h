@@ -7,6 +7,21 @@
 
 namespace trochoid::chip {
 
+/// @brief The chip over a mark to second order in the feed, with u = sin(theta): between
+/// mean + sine u + square (1 - u^2) - (skew |u| + rest) and the same plus.
+struct MarkEstimate {
+  double mean = 0.0;
+  double sine = 0.0;
+  double square = 0.0;
+  double skew = 0.0;
+  double rest = 0.0;
+};
+
+/// @param mark  teeth before, 1 ... teeth
+/// @note  Of the effective theta for the exact chip, of the nominal one for simple models.
+MarkEstimate estimate_over_mark(const Passage& passage, const Slice& slice, int tooth,
+                                int mark) noexcept;
+
 /// @brief R_j - L_k, the chip over the mark of one earlier tooth in a wide stock, as a
 /// trigonometric polynomial of the effective theta of the tooth.
 ///
@@ -23,7 +38,7 @@ namespace trochoid::chip {
 /// @param tooth      0-based
 /// @param mark       teeth before, 1 ... teeth
 /// @param tolerance  error allowed in the chip [m]
-/// @return nothing where that tooth left no mark on some ray, or where the series needs
+/// @return nothing where the feed is too large for the series (a above 0.1), or it needs
 ///         more harmonics than there are
 std::optional<numerics::TrigPolynomial> harmonics_over_mark(const Passage& passage,
                                                             const Slice& slice,

@@ -39,7 +39,7 @@ void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noe
 
 /// Error of the chips behind a TurnPolynomial, of the largest chip: one harmonic more
 /// costs little.
-constexpr double turn_tolerance = 1e-9;
+constexpr double turn_tolerance = 1e-8;
 /// The same where differences of matrices are taken.
 constexpr double smooth_turn_tolerance = 1e-11;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -19,7 +20,7 @@ namespace trochoid::force {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::ScalableTag<double>;
+using Tag = hn::CappedTag<double, 8>;
 using Vector = hn::Vec<Tag>;
 
 constexpr std::size_t chunk = 512;
@@ -28,6 +29,8 @@ constexpr Tag tag;
 
 /// Angles in [0, 2 pi) with their cosines and sines.
 struct Angles {
+  std::size_t count = 0;
+  double step = 0.0;  ///< from one to the next, where it is always the same; else 0
   HWY_ALIGN std::array<double, chunk + room> phi;
   HWY_ALIGN std::array<double, chunk + room> cosine;
   HWY_ALIGN std::array<double, chunk + room> sine;
@@ -40,17 +43,73 @@ struct Block {
   Vector z;
 };
 
+/// The step of angles that are equally spaced to rounding; 0 where they are not.
+double even_step(std::span<const double> phi) noexcept {
+  if (phi.size() < 3) {
+    return 0.0;
+  }
+  const double step = (phi.back() - phi.front()) / static_cast<double>(phi.size() - 1);
+  const double rounding = 1e-15 * std::max(std::abs(phi.front()), std::abs(phi.back()));
+  const std::size_t lanes = hn::Lanes(tag);
+  const Vector steps = hn::Set(tag, step);
+  Vector place = hn::Iota(tag, 0);
+  Vector worst = hn::Zero(tag);
+  std::size_t i = 0;
+  for (; i + lanes <= phi.size(); i += lanes) {
+    const Vector even = hn::MulAdd(place, steps, hn::Set(tag, phi.front()));
+    worst = hn::Max(worst, hn::Abs(hn::Sub(hn::LoadU(tag, &phi[i]), even)));
+    place = hn::Add(place, hn::Set(tag, static_cast<double>(lanes)));
+  }
+  double largest = hn::GetLane(hn::MaxOfLanes(tag, worst));
+  for (; i < phi.size(); ++i) {
+    const double even = phi.front() + static_cast<double>(i) * step;
+    largest = std::max(largest, std::abs(phi[i] - even));
+  }
+  return largest <= rounding ? step : 0.0;
+}
+
+void find_waves(Angles& angles) noexcept {
+  const std::size_t lanes = hn::Lanes(tag);
+  for (std::size_t i = 0; i < angles.count; i += lanes) {
+    const Vector u = hn::LoadU(tag, &angles.phi[i]);
+    hn::StoreU(hn::Cos(tag, u), tag, &angles.cosine[i]);
+    hn::StoreU(hn::Sin(tag, u), tag, &angles.sine[i]);
+  }
+}
+
+/// From the first block on, by turning.
+void find_even_waves(Angles& angles) noexcept {
+  const std::size_t lanes = hn::Lanes(tag);
+  const Vector u = hn::LoadU(tag, angles.phi.data());
+  Vector c = hn::Cos(tag, u);
+  Vector s = hn::Sin(tag, u);
+  const double turned = angles.step * static_cast<double>(lanes);
+  const Vector cosine = hn::Set(tag, std::cos(turned));
+  const Vector sine = hn::Set(tag, std::sin(turned));
+  for (std::size_t i = 0; i < angles.count; i += lanes) {
+    hn::StoreU(c, tag, &angles.cosine[i]);
+    hn::StoreU(s, tag, &angles.sine[i]);
+    const Vector next = hn::NegMulAdd(s, sine, hn::Mul(c, cosine));
+    s = hn::MulAdd(s, cosine, hn::Mul(c, sine));
+    c = next;
+  }
+}
+
 void prepare(std::span<const double> phi, Angles& angles) noexcept {
   constexpr double turn = 2 * std::numbers::pi;
+  angles.count = phi.size();
+  angles.step = even_step(phi);
   std::copy(phi.begin(), phi.end(), angles.phi.begin());
   std::fill_n(angles.phi.begin() + static_cast<std::ptrdiff_t>(phi.size()), room, 0.0);
   for (std::size_t i = 0; i < phi.size(); i += hn::Lanes(tag)) {
     const Vector given = hn::LoadU(tag, &angles.phi[i]);
     const Vector turns = hn::Floor(hn::Mul(given, hn::Set(tag, 1 / turn)));
-    const Vector u = hn::Sub(given, hn::Mul(turns, hn::Set(tag, turn)));
-    hn::StoreU(u, tag, &angles.phi[i]);
-    hn::StoreU(hn::Cos(tag, u), tag, &angles.cosine[i]);
-    hn::StoreU(hn::Sin(tag, u), tag, &angles.sine[i]);
+    hn::StoreU(hn::NegMulAdd(turns, hn::Set(tag, turn), given), tag, &angles.phi[i]);
+  }
+  if (angles.step != 0 && phi.size() >= hn::Lanes(tag)) {
+    find_even_waves(angles);
+  } else {
+    find_waves(angles);
   }
 }
 
@@ -61,28 +120,37 @@ HWY_INLINE void add(const Triple& factors, Vector value, Block& sum) noexcept {
   sum.z = hn::MulAdd(hn::Set(tag, factors[2]), value, sum.z);
 }
 
+/// cos((k + 1) x) = 2 cos(x) cos(k x) - cos((k - 1) x); the same for sines.
+HWY_INLINE Vector after(Vector now, Vector before, Vector twice) noexcept {
+  return hn::MulSub(twice, now, before);
+}
+
 HWY_INLINE Block block_of(const Triple* terms, int highest, const Angles& angles,
                           std::size_t i) noexcept {
-  Vector cosine = hn::LoadU(tag, &angles.cosine[i]);
-  Vector sine = hn::LoadU(tag, &angles.sine[i]);
+  Vector cosine_odd = hn::LoadU(tag, &angles.cosine[i]);
+  Vector sine_odd = hn::LoadU(tag, &angles.sine[i]);
+  Vector cosine_even = hn::Set(tag, 1.0);
+  Vector sine_even = hn::Zero(tag);
+  const Vector twice = hn::Add(cosine_odd, cosine_odd);
   Block sum{hn::Set(tag, terms[0][0]), hn::Set(tag, terms[0][1]),
             hn::Set(tag, terms[0][2])};
   add(terms[1], hn::LoadU(tag, &angles.phi[i]), sum);
-  add(terms[2], cosine, sum);
-  add(terms[3], sine, sum);
-  // cos((k + 1) x) = 2 cos(x) cos(k x) - cos((k - 1) x); the same for sines
-  const Vector twice = hn::Add(cosine, cosine);
-  Vector cosine_before = hn::Set(tag, 1.0);
-  Vector sine_before = hn::Zero(tag);
-  for (int k = 2; k <= highest; ++k) {
-    const Vector next_cosine = hn::MulSub(twice, cosine, cosine_before);
-    const Vector next_sine = hn::MulSub(twice, sine, sine_before);
-    cosine_before = cosine;
-    sine_before = sine;
-    cosine = next_cosine;
-    sine = next_sine;
-    add(terms[2 * k], cosine, sum);
-    add(terms[2 * k + 1], sine, sum);
+  add(terms[2], cosine_odd, sum);
+  add(terms[3], sine_odd, sum);
+  // Two harmonics at a time: the new ones take the place of the ones before.
+  const Triple* term = terms + 4;
+  for (int k = 2; k <= highest; k += 2, term += 4) {
+    cosine_even = after(cosine_odd, cosine_even, twice);
+    sine_even = after(sine_odd, sine_even, twice);
+    add(term[0], cosine_even, sum);
+    add(term[1], sine_even, sum);
+    if (k == highest) {
+      break;
+    }
+    cosine_odd = after(cosine_even, cosine_odd, twice);
+    sine_odd = after(sine_even, sine_odd, twice);
+    add(term[2], cosine_odd, sum);
+    add(term[3], sine_odd, sum);
   }
   return sum;
 }
@@ -135,31 +203,56 @@ void evaluate_segment(const TurnPolynomial& turn, std::size_t segment,
   }
 }
 
+/// The segment of an angle; the one of the angle before is a good guess.
+std::size_t segment_of(const TurnPolynomial& turn, double phi,
+                       std::size_t guess) noexcept {
+  for (const std::size_t i : {guess, guess + 1}) {
+    if (i < turn.ends.size() && phi < turn.ends[i] &&
+        (i == 0 || phi >= turn.ends[i - 1])) {
+      return i;
+    }
+  }
+  const auto at = std::upper_bound(turn.ends.begin(), turn.ends.end() - 1, phi);
+  return static_cast<std::size_t>(at - turn.ends.begin());
+}
+
+/// The first angle after i that is not between these.
+std::size_t end_of_stretch(const Angles& angles, std::size_t i, double from,
+                           double to) noexcept {
+  const auto inside = [&](std::size_t k) {
+    return angles.phi[k] >= from && angles.phi[k] < to;
+  };
+  std::size_t end = i + 1;
+  if (angles.step > 0) {
+    const double left = (to - angles.phi[i]) / angles.step;
+    const double most = static_cast<double>(angles.count - i);
+    end = i + std::max<std::size_t>(1, static_cast<std::size_t>(std::min(left, most)));
+    while (end > i + 1 && !inside(end - 1)) {
+      --end;
+    }
+  }
+  while (end < angles.count && inside(end)) {
+    ++end;
+  }
+  return end;
+}
+
 // Highway's table takes no noexcept functions.
 void evaluate_all(const TurnPolynomial& turn, std::span<const double> phi,
                   std::span<double> out) {
   Angles angles;
   std::size_t segment = 0;
   while (!phi.empty()) {
-    const std::size_t count = std::min(phi.size(), chunk);
-    prepare(phi.first(count), angles);
-    for (std::size_t i = 0; i < count;) {
-      const double u = angles.phi[i];
-      if (!(u < turn.ends[segment]) || (segment > 0 && u < turn.ends[segment - 1])) {
-        const auto at = std::upper_bound(turn.ends.begin(), turn.ends.end() - 1, u);
-        segment = static_cast<std::size_t>(at - turn.ends.begin());
-      }
+    prepare(phi.first(std::min(phi.size(), chunk)), angles);
+    for (std::size_t i = 0; i < angles.count;) {
+      segment = segment_of(turn, angles.phi[i], segment);
       const double from = segment == 0 ? 0.0 : turn.ends[segment - 1];
-      const double to = turn.ends[segment];
-      std::size_t end = i + 1;
-      while (end < count && angles.phi[end] >= from && angles.phi[end] < to) {
-        ++end;
-      }
+      const std::size_t end = end_of_stretch(angles, i, from, turn.ends[segment]);
       evaluate_segment(turn, segment, angles, {i, end}, out);
       i = end;
     }
-    phi = phi.subspan(count);
-    out = out.subspan(3 * count);
+    phi = phi.subspan(angles.count);
+    out = out.subspan(3 * angles.count);
   }
 }
 

@@ -23,14 +23,6 @@ constexpr double smallest_lag = 1e-6;
 /// A straight edge so close to where it starts or stops to cut does not cut [rad].
 constexpr double tie = 1e-11;
 
-Triple scaled(const Triple& v, double factor) noexcept {
-  Triple out;
-  for (std::size_t q = 0; q < wide; ++q) {
-    out[q] = factor * v[q];
-  }
-  return out;
-}
-
 /// Calls f with every multiple of a turn by which a stretch reaches into [0, 2 pi].
 template <class Function>
 void for_each_image(double from, double to, const Function& f) {

@@ -8,11 +8,16 @@ namespace trochoid::force {
 
 namespace {
 
-constexpr std::size_t wide = std::tuple_size_v<Triple>;
 /// Segments shorter than this are none [rad].
 constexpr double shortest = 1e-14;
 
 }  // namespace
+
+TurnSum::TurnSum(int highest) : highest_(highest) {
+  constexpr std::size_t usual = 32;  // rows, steps
+  rows_.reserve(usual * waves_of(highest));
+  steps_.reserve(usual);
+}
 
 WaveRow TurnSum::new_row(int& place) {
   const std::size_t first = rows_.size();
@@ -31,23 +36,14 @@ void TurnSum::step(double at, int place, double sign, const Triple& constant,
   if (at >= unit::turn) {
     return;
   }
-  const Triple& slope = row(place).front();
-  Step out{at, place, sign, sign, part, {}};
-  for (std::size_t q = 0; q < wide; ++q) {
-    out.constant[q] = sign * (constant[q] - slope[q] * at);
-  }
-  steps_.push_back(out);
+  steps_.push_back({at, place, sign, sign, part,
+                    mixed(constant, sign, row(place).front(), -sign * at)});
 }
 
 void TurnSum::jump(double at, int place, double sign, Part part) {
-  if (at >= unit::turn) {
-    return;
+  if (at < unit::turn) {
+    steps_.push_back({at, place, 0.0, sign, part, scaled(row(place).front(), sign)});
   }
-  Step out{at, place, 0.0, sign, part, row(place).front()};
-  for (double& value : out.constant) {
-    value *= sign;
-  }
-  steps_.push_back(out);
 }
 
 void TurnSum::constant(double at, const Triple& value, Part part) {
@@ -66,22 +62,14 @@ void TurnSum::panel(double from, double to, const TurnPanel& panel) {
   constant(to, {}, Part::last);
 }
 
-void TurnSum::apply(const Step& step, std::vector<Triple>& sum) const noexcept {
-  for (std::size_t q = 0; q < wide; ++q) {
-    sum[0][q] += step.constant[q];
-  }
+void TurnSum::apply(const Step& step, std::span<Triple> sum) const noexcept {
+  sum[0] = plus(sum[0], step.constant, 1.0);
   if (step.place < 0) {
     return;
   }
   const ConstWaveRow p = row(step.place);
-  for (std::size_t q = 0; q < wide; ++q) {
-    sum[1][q] += step.linear * p[0][q];
-  }
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    for (std::size_t q = 0; q < wide; ++q) {
-      sum[i + 1][q] += step.sign * p[i][q];
-    }
-  }
+  sum[1] = plus(sum[1], p[0], step.linear);
+  add(p.subspan(1), step.sign, sum.subspan(2));
 }
 
 TurnPolynomial TurnSum::finish() {

@@ -11,7 +11,7 @@ namespace trochoid::force {
 /// segments out.
 class TurnSum {
  public:
-  explicit TurnSum(int highest) : highest_(highest) {}
+  explicit TurnSum(int highest);
 
   /// @brief A row that steps can name; lasts until the next one is made.
   WaveRow new_row(int& place);
@@ -47,7 +47,7 @@ class TurnSum {
     double to;
     int panel;
   };
-  void apply(const Step& step, std::vector<Triple>& sum) const noexcept;
+  void apply(const Step& step, std::span<Triple> sum) const noexcept;
   void place_panels(TurnPolynomial& turn) const;
 
   int highest_;

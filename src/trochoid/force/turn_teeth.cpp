@@ -56,7 +56,7 @@ std::optional<TurnTeeth> turn_teeth(const Setup& setup, double tolerance) {
   }
   const double f_z = out.passage.feed * unit::turn / out.passage.teeth;
   // The edge force grows within a lag: there an angle counts for 1/lag of the chip.
-  const double allowed = tolerance * std::clamp(out.lag, 1e-4, 1.0) * f_z *
+  const double allowed = tolerance * std::clamp(2 * out.lag, 1e-4, 1.0) * f_z *
                          largest_sine(out.passage.stock, out.r);
   const std::size_t different =
       equal_teeth(setup.cutter, out.teeth) ? 1 : out.teeth.size();

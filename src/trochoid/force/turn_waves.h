@@ -10,6 +10,22 @@
 /// sin(x), cos(2 x), sin(2 x) ... up to a harmonic that all rows of a turn share.
 namespace trochoid::force {
 
+/// a + factor b. Read before anything is written, so that it becomes whole vectors.
+constexpr Triple plus(const Triple& a, const Triple& b, double factor) noexcept {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2],
+          a[3] + factor * b[3]};
+}
+/// factor a.
+constexpr Triple scaled(const Triple& a, double factor) noexcept {
+  return {factor * a[0], factor * a[1], factor * a[2], factor * a[3]};
+}
+/// factor_a a + factor_b b.
+constexpr Triple mixed(const Triple& a, double factor_a, const Triple& b,
+                       double factor_b) noexcept {
+  return {factor_a * a[0] + factor_b * b[0], factor_a * a[1] + factor_b * b[1],
+          factor_a * a[2] + factor_b * b[2], factor_a * a[3] + factor_b * b[3]};
+}
+
 using WaveRow = std::span<Triple>;
 using ConstWaveRow = std::span<const Triple>;
 
@@ -35,6 +51,9 @@ void integrate(ConstWaveRow g, double factor, WaveRow G) noexcept;
 
 /// @brief The same function of an angle that is ahead of x by a given one.
 void shift_back(ConstWaveRow p, const Turned& by, double factor, WaveRow out) noexcept;
+
+/// sum += factor p, row by row.
+void add(ConstWaveRow p, double factor, WaveRow sum) noexcept;
 
 /// @brief Value without the mean.
 Triple waves_at(ConstWaveRow p, double x) noexcept;

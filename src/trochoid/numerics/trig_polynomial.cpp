@@ -2,8 +2,27 @@
 
 namespace trochoid::numerics {
 
+double value(const TrigPolynomial& p, double sine, double cosine) noexcept {
+  // Clenshaw's rule.
+  const double twice = 2 * cosine;
+  double a = 0.0;
+  double a_before = 0.0;
+  double b = 0.0;
+  double b_before = 0.0;
+  for (int k = p.highest; k > 0; --k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double next_a = p.a[i] + twice * a - a_before;
+    const double next_b = p.b[i] + twice * b - b_before;
+    a_before = a;
+    b_before = b;
+    a = next_a;
+    b = next_b;
+  }
+  return p.a[0] + cosine * a - a_before + sine * b;
+}
+
 ValueAndSlope evaluate(const TrigPolynomial& p, double sine, double cosine) noexcept {
-  // cos(k x) and sin(k x) by turning on: as good as Clenshaw for the few harmonics here.
+  // cos(k x) and sin(k x) by turning on: both are needed.
   double c = 1.0;
   double s = 0.0;
   ValueAndSlope out{p.a[0], 0.0};

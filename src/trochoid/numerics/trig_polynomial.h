@@ -20,7 +20,8 @@ struct ValueAndSlope {
   double slope = 0.0;
 };
 
-/// @brief By Clenshaw's rule from the sine and cosine of x.
+/// @brief From the sine and cosine of x.
+double value(const TrigPolynomial& p, double sine, double cosine) noexcept;
 ValueAndSlope evaluate(const TrigPolynomial& p, double sine, double cosine) noexcept;
 
 /// @brief The product with A cos(x) + B sin(x) + C, one harmonic higher.

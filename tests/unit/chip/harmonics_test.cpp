@@ -73,6 +73,26 @@ TEST(Harmonics, AreTheChipOverAMark) {
   }
 }
 
+TEST(Harmonics, LieWithinTheirEstimates) {  // [C-10]
+  std::mt19937 random(8);
+  for (int i = 0; i < 600; ++i) {
+    MadeSlice made = random_slice(random, 1e-6 * (1 + i));
+    const Passage passage = made.passage();
+    for (int mark = 1; mark <= passage.marks; ++mark) {
+      const int tooth = i % passage.teeth;
+      const auto p = harmonics_over_mark(passage, made.slice(), tooth, mark, 1e-12);
+      if (!p) continue;
+      const MarkEstimate e = estimate_over_mark(passage, made.slice(), tooth, mark);
+      for (const double theta : steps(-3.1, pi, 0.07)) {
+        const double u = std::sin(theta);
+        const double middle = e.mean + e.sine * u + e.square * (1 - u * u);
+        EXPECT_LE(std::abs(value(*p, theta) - middle),
+                  e.skew * std::abs(u) + e.rest + 2e-12);
+      }
+    }
+  }
+}
+
 TEST(Harmonics, AreRefusedWhereTheFeedIsNotSmall) {
   const MadeSlice made = made_slice(1e-3, 2, 0.4e-3);
   EXPECT_FALSE(harmonics_over_mark(made.passage(), made.slice(), 0, 1, 1e-15));
