@@ -1,5 +1,9 @@
+#include <trochoid/base/units.h>
 #include <trochoid/force/axial.h>
+#include <trochoid/force/cumulative.h>
 #include <trochoid/force/forces.h>
+#include <trochoid/force/turn_kernel.h>
+#include <trochoid/force/turn_polynomial.h>
 
 #include <benchmark/benchmark.h>
 
@@ -15,16 +19,18 @@ namespace {
 
 constexpr double tolerance = 1e-6;
 
-/// Largest difference over samples and axes, as a part of the largest force.
+/// Largest difference from the quadrature along the edge, over samples and axes, as a part
+/// of the largest force.
 double error_of(const std::vector<force::Vector3>& forces, const force::Setup& setup,
                 std::span<const double> phi) {
-  const auto exact = force::forces(setup, paper_law(), phi, 1e-12);
+  const force::AxialForce exact(setup, paper_law(), 1e-11);
   double error = 0.0;
   double peak = 0.0;
   for (std::size_t i = 0; i < forces.size(); ++i) {
+    const auto F = exact.loads(phi[i], 0.0);
     for (std::size_t q = 0; q < 3; ++q) {
-      error = std::max(error, std::abs(forces[i][q] - exact[i][q]));
-      peak = std::max(peak, std::abs(exact[i][q]));
+      error = std::max(error, std::abs(forces[i][q] - F[q]));
+      peak = std::max(peak, std::abs(F[q]));
     }
   }
   return error / peak;
@@ -55,6 +61,68 @@ void whole_turn(benchmark::State& state, chip::Model model) {
   std::vector<force::Vector3> forces;
   for (auto _ : state) {
     forces = force::forces(setup, paper_law(), phi, tolerance);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  count(state, phi.size(), error_of(forces, setup, phi));
+}
+
+/// @brief The paper's cutter with other numbers of teeth and depths [mm].
+void other_cutters(benchmark::State& state) {
+  force::Setup setup = paper_cut();
+  setup.cutter.pitch = geometry::equal_pitch(static_cast<int>(state.range(0)));
+  setup.cut.a_p = static_cast<double>(state.range(1)) * unit::mm;
+  setup.runout.radial_offsets.clear();
+  for (int k = 0; k < setup.cutter.teeth(); ++k) {
+    setup.runout.radial_offsets.push_back(-(k * 5 % 8) * unit::um);
+  }
+  const auto phi = turns(720, 1);
+  std::vector<force::Vector3> forces;
+  for (auto _ : state) {
+    forces = force::forces(setup, paper_law(), phi, tolerance);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  count(state, phi.size(), error_of(forces, setup, phi));
+}
+
+/// What is done once for a turn.
+void set_up(benchmark::State& state, chip::Model model) {
+  const force::Setup setup = paper_cut(model);
+  const auto weights = force::force_weights(std::get<force::LinearEdge>(paper_law()));
+  for (auto _ : state) {
+    const auto turn = force::turn_polynomial(*force::turn_teeth(setup, 1e-8), weights);
+    benchmark::DoNotOptimize(turn.terms.data());
+    state.counters["harmonics"] = turn.highest;
+    state.counters["segments"] = static_cast<double>(turn.ends.size());
+  }
+}
+
+/// What is done for every sample.
+void samples(benchmark::State& state, chip::Model model) {
+  const force::Setup setup = paper_cut(model);
+  const auto turn = force::turn_polynomial(
+      *force::turn_teeth(setup, 1e-8),
+      force::force_weights(std::get<force::LinearEdge>(paper_law())));
+  const auto phi = turns(static_cast<int>(state.range(0)), 1);
+  std::vector<force::Vector3> forces(phi.size());
+  for (auto _ : state) {
+    force::evaluate(turn, phi, {forces.front().data(), 3 * forces.size()});
+    benchmark::DoNotOptimize(forces.data());
+  }
+  count(state, phi.size(), error_of(forces, setup, phi));
+}
+
+/// The tables of F-5, which serve the power laws.
+void by_tables(benchmark::State& state) {
+  const force::Setup setup = paper_cut();
+  const auto K = std::get<force::LinearEdge>(paper_law());
+  const force::MomentWeights weights = {
+      {{0, -K.K_tc, -K.K_rc, 0, 0, -K.K_re, -K.K_te, 0},
+       {K.K_tc, 0, 0, -K.K_rc, 0, K.K_te, -K.K_re, 0},
+       {0, 0, 0, 0, -K.K_ac, 0, 0, -K.K_ae}}};
+  const auto phi = turns(720, 1);
+  std::vector<force::Vector3> forces(phi.size());
+  for (auto _ : state) {
+    force::CumulativeForce(setup, K, tolerance).forces(weights, phi, forces);
     benchmark::DoNotOptimize(forces.data());
   }
   count(state, phi.size(), error_of(forces, setup, phi));
@@ -100,6 +168,25 @@ BENCHMARK_CAPTURE(whole_turn, feed, chip::Model::feed)
     ->Arg(720)
     ->Arg(3600)
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(set_up, trochoidal, chip::Model::trochoidal)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(set_up, feed, chip::Model::feed)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(samples, trochoidal, chip::Model::trochoidal)
+    ->Arg(720)
+    ->Arg(3600)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(samples, feed, chip::Model::feed)
+    ->Arg(720)
+    ->Arg(3600)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(other_cutters)
+    ->ArgNames({"teeth", "a_p"})
+    ->Args({2, 2})
+    ->Args({2, 60})
+    ->Args({4, 2})
+    ->Args({8, 2})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(by_tables)->Unit(benchmark::kMicrosecond);
 BENCHMARK(matrix_turn)->Unit(benchmark::kMicrosecond);
 BENCHMARK(along_the_edge)->Unit(benchmark::kMicrosecond);
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 #include <numbers>
 
 namespace trochoid::chip {
@@ -22,6 +23,9 @@ using numerics::evaluate;
 using numerics::TrigPolynomial;
 using numerics::value;
 using numerics::ValueAndSlope;
+
+using Breaks = std::pmr::vector<double>;
+using Marks = std::pmr::vector<int>;
 
 constexpr double pi = std::numbers::pi;
 constexpr double start = -pi / 2;
@@ -62,9 +66,9 @@ bool lies_above(const MarkEstimate& p, const MarkEstimate& q, double lowest) noe
 }
 
 /// @brief Marks that can be the nearest one where there is a chip at all.
-std::vector<int> marks_that_matter(const Passage& passage, const Slice& slice,
-                                   int tooth) {
-  std::vector<MarkEstimate> chips;
+Marks marks_that_matter(const Passage& passage, const Slice& slice, int tooth,
+                        std::pmr::memory_resource& memory) {
+  std::pmr::vector<MarkEstimate> chips(&memory);
   chips.reserve(index(passage.marks));
   double lowest = -1.0;
   for (int m = 1; m <= passage.marks; ++m) {
@@ -77,7 +81,7 @@ std::vector<int> marks_that_matter(const Passage& passage, const Slice& slice,
     chips.push_back(chip);
   }
   lowest = std::min(lowest, 1.0);
-  std::vector<int> kept;
+  Marks kept(&memory);
   kept.reserve(chips.size());
   for (std::size_t m = 0; m < chips.size(); ++m) {
     const auto below = [&](const MarkEstimate& other) {
@@ -101,7 +105,7 @@ double in_turn(double theta) noexcept {
   return theta;
 }
 
-void sort_breaks(std::vector<double>& breaks) {
+void sort_breaks(Breaks& breaks) {
   for (double& x : breaks) {
     x = in_turn(x);
   }
@@ -112,7 +116,7 @@ void sort_breaks(std::vector<double>& breaks) {
 
 /// Breaks of the window in which simple models cut: in front, within the stock.
 void add_window(const Passage& passage, const Slice& slice, double epsilon,
-                std::vector<double>& breaks) {
+                Breaks& breaks) {
   breaks.push_back(epsilon);
   breaks.push_back(pi + epsilon);
   for (const double y :
@@ -125,8 +129,8 @@ void add_window(const Passage& passage, const Slice& slice, double epsilon,
 
 /// @brief Breaks of the exact chip at an edge of the stock: where the tooth passes it,
 /// and where the mark does.
-void add_stock_edge(double y, double R, const ToothHarmonics& tooth,
-                    const std::vector<int>& marks, std::vector<double>& breaks) {
+void add_stock_edge(double y, double R, const ToothHarmonics& tooth, const Marks& marks,
+                    Breaks& breaks) {
   if (!std::isfinite(y)) {
     return;
   }
@@ -173,7 +177,7 @@ struct Search {
   const Passage& passage;
   const Slice& slice;
   const ToothHarmonics& tooth;
-  std::vector<int> marks;
+  Marks marks;
   double R = 0.0;
   double epsilon = 0.0;
 
@@ -233,8 +237,10 @@ std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
   if (!(own.R > 0) || passage.feed <= 0) {
     return out;
   }
+  std::array<std::byte, 2048> space;  // most often enough
+  std::pmr::monotonic_buffer_resource memory(space.data(), space.size());
   const Search search{passage, slice,
-                      out,     marks_that_matter(passage, slice, tooth),
+                      out,     marks_that_matter(passage, slice, tooth, memory),
                       own.R,   own.epsilon};
   out.over_mark.resize(index(passage.marks));
   for (const int m : search.marks) {
@@ -244,16 +250,14 @@ std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
       return std::nullopt;
     }
   }
-  std::vector<double> breaks;
+  Breaks breaks(&memory);
   breaks.reserve(32);
   out.pieces.reserve(8);
   for (std::size_t i = 0; i < search.marks.size(); ++i) {
     const TrigPolynomial& p = *out.over_mark[index(search.marks[i])];
-    TrigPolynomial in_cut = p;
-    in_cut.a[0] -= h_threshold;
-    add_roots(in_cut, breaks);
+    add_roots(p, h_threshold, breaks);
     for (std::size_t k = i + 1; k < search.marks.size(); ++k) {
-      add_roots(difference(p, *out.over_mark[index(search.marks[k])]), breaks);
+      add_roots(difference(p, *out.over_mark[index(search.marks[k])]), 0.0, breaks);
     }
   }
   if (passage.model.model == Model::trochoidal) {

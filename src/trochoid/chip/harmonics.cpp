@@ -40,16 +40,16 @@ constexpr auto of_power = [] {
 
 /// The coefficients of C-9 and how many of them matter.
 struct MarkSeries {
-  Powers y{};  ///< of theta_p + delta
-  Powers C{};  ///< of cos(delta)
+  Powers y;  ///< of theta_p + delta
+  Powers C;  ///< of cos(delta)
   int highest = 0;
   bool converged = false;
 };
 
 MarkSeries mark_series(double a, double theta_p, double R, double tolerance) noexcept {
   MarkSeries out;
-  Powers S{};
-  Powers d{};
+  Powers S;
+  Powers d;
   out.y[0] = theta_p;
   out.C[0] = 1.0;
   for (int n = 1; n <= most; ++n) {

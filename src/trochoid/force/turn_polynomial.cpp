@@ -81,19 +81,22 @@ class Turn {
                  MarkRows& rows) {
     const bool chip = highest_ > 1;
     std::array<Triple, waves_of(numerics::TrigPolynomial::most + 1)> space;
+    std::array<Triple, space.size()> other_space;
     const WaveRow g = std::span(space).first(waves_of(highest_));
+    const WaveRow other = std::span(other_space).first(waves_of(highest_));
     integrand(chip ? &h : nullptr, weights_, teeth_.edge_factor, g);
-    const WaveRow here = sum_.new_row(rows.here);
     if (long_lag_) {
-      integrate(g, factor_, here);
+      integrate(g, factor_, other);
+      rows.here = sum_.keep(other);
+      shift_back(other, tip_turned, 1.0, g);
     } else {
-      std::copy(g.begin(), g.end(), here.begin());
+      rows.here = sum_.keep(g);
+      shift_back(g, tip_turned, factor_, other);
+      std::copy(other.begin(), other.end(), g.begin());
     }
-    const double factor = long_lag_ ? 1.0 : factor_;
-    const WaveRow tip = sum_.new_row(rows.tip);
-    shift_back(sum_.row(rows.here), tip_turned, factor, tip);
-    const WaveRow top = sum_.new_row(rows.top);
-    shift_back(sum_.row(rows.tip), lag_turned_, 1.0, top);
+    rows.tip = sum_.keep(g);
+    shift_back(g, lag_turned_, 1.0, other);
+    rows.top = sum_.keep(other);
   }
 
   void add_piece(const HarmonicPiece& piece, const MarkRows& rows) {

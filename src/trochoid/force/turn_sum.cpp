@@ -19,11 +19,10 @@ TurnSum::TurnSum(int highest) : highest_(highest) {
   steps_.reserve(usual);
 }
 
-WaveRow TurnSum::new_row(int& place) {
-  const std::size_t first = rows_.size();
-  place = static_cast<int>(first / waves_of(highest_));
-  rows_.resize(first + waves_of(highest_));
-  return std::span(rows_).subspan(first);
+int TurnSum::keep(ConstWaveRow row) {
+  const std::size_t place = rows_.size() / waves_of(highest_);
+  rows_.insert(rows_.end(), row.begin(), row.end());
+  return static_cast<int>(place);
 }
 
 ConstWaveRow TurnSum::row(int place) const noexcept {
@@ -82,8 +81,14 @@ TurnPolynomial TurnSum::finish() {
   order.emplace_back(unit::turn, -1);
   TurnPolynomial turn;
   turn.highest = highest_;
-  turn.ends.reserve(order.size());
-  turn.terms.reserve(order.size() * turn.terms_of_segment());
+  std::size_t segments = 1;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    if (order[i + 1].first > std::max(order[i].first, 0.0) + shortest) {
+      ++segments;
+    }
+  }
+  turn.ends.reserve(segments);
+  turn.terms.reserve(segments * turn.terms_of_segment());
   std::vector<Triple> sum(turn.terms_of_segment());
   double from = 0.0;
   int open = 0;

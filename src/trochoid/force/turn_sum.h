@@ -13,8 +13,9 @@ class TurnSum {
  public:
   explicit TurnSum(int highest);
 
-  /// @brief A row that steps can name; lasts until the next one is made.
-  WaveRow new_row(int& place);
+  /// @brief Keep a copy of a row.
+  /// @return the place by which steps name it
+  int keep(ConstWaveRow row);
   [[nodiscard]] ConstWaveRow row(int place) const noexcept;
 
   /// Whether a step is the first or the last of what it belongs to. Where all is over,

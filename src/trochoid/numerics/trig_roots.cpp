@@ -47,10 +47,11 @@ SineCosine ahead(const SineCosine& x, double by) noexcept {
 }
 
 /// Root near x by Newton's steps.
-double near_root(const TrigPolynomial& p, double x, SineCosine at_x) noexcept {
+double near_root(const TrigPolynomial& p, double level, double x,
+                 SineCosine at_x) noexcept {
   for (int i = 0; i < 8; ++i) {
     const auto [value, slope] = evaluate(p, at_x.sine, at_x.cosine);
-    const double step = -value / slope;
+    const double step = (level - value) / slope;
     x += step;
     if (std::abs(step) < 1e-8) {  // the next one would be about its square
       break;
@@ -91,20 +92,23 @@ double extremum(const TrigPolynomial& p, double x) noexcept {
 
 }  // namespace
 
-void add_roots(const TrigPolynomial& p, std::vector<double>& roots) {
+void add_roots(const TrigPolynomial& p, double level, std::pmr::vector<double>& roots) {
   const double e = p.b[1];
-  const double d = p.a[0];
+  const double d = p.a[0] - level;
   const double rest = beyond_the_sine(p);
   if (!(std::abs(e) > 0) || std::abs(d) > std::abs(e) + rest) {
     return;
   }
   const double sine = std::clamp(-d / e, -1.0, 1.0);
-  const auto f = [&](double theta) { return at(p, theta); };
+  const auto f = [&](double theta) {
+    const ValueAndSlope found = at(p, theta);
+    return ValueAndSlope{found.value - level, found.slope};
+  };
   const double guess = std::asin(sine);
   const double cosine = std::sqrt(1 - sine * sine);
   if (rest < 0.2 * std::abs(e) * cosine * cosine) {
-    roots.push_back(near_root(p, guess, {sine, cosine}));
-    roots.push_back(near_root(p, pi - guess, {sine, -cosine}));
+    roots.push_back(near_root(p, level, guess, {sine, cosine}));
+    roots.push_back(near_root(p, level, pi - guess, {sine, -cosine}));
     return;
   }
   // Near the extrema the two roots run together, or there are none.

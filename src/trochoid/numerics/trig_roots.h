@@ -3,6 +3,7 @@
 #include <trochoid/numerics/trig_polynomial.h>
 
 #include <cmath>
+#include <memory_resource>
 #include <vector>
 
 namespace trochoid::numerics {
@@ -28,8 +29,8 @@ double bracketed_root(const Function& f, double lo, double hi, double x) noexcep
   return x;
 }
 
-/// @brief Add the roots of a polynomial that is mostly a_0 + b_1 sin(x): at most two in a
-/// turn, anywhere in it.
-void add_roots(const TrigPolynomial& p, std::vector<double>& roots);
+/// @brief Add the angles where a polynomial that is mostly a_0 + b_1 sin(x) passes a level:
+/// at most two in a turn, anywhere in it.
+void add_roots(const TrigPolynomial& p, double level, std::pmr::vector<double>& roots);
 
 }  // namespace trochoid::numerics
