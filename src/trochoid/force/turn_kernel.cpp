@@ -223,10 +223,10 @@ std::size_t end_of_stretch(const Angles& angles, std::size_t i, double from,
     return angles.phi[k] >= from && angles.phi[k] < to;
   };
   std::size_t end = i + 1;
-  if (angles.step > 0) {
-    const double left = (to - angles.phi[i]) / angles.step;
+  const double left = (to - angles.phi[i]) / angles.step;
+  if (angles.step > 0 && left > 1) {
     const double most = static_cast<double>(angles.count - i);
-    end = i + std::max<std::size_t>(1, static_cast<std::size_t>(std::min(left, most)));
+    end = i + static_cast<std::size_t>(std::min(left, most));
     while (end > i + 1 && !inside(end - 1)) {
       --end;
     }

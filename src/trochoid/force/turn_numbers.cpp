@@ -174,6 +174,22 @@ TurnPolynomial derivative(const TurnPolynomial& turn) {
   return out;
 }
 
+std::vector<double> jumps(const TurnPolynomial& turn, double least) {
+  std::vector<double> out;
+  for (const double end : turn.ends) {
+    const auto before = at(turn, std::nextafter(end, 0.0));
+    const auto after = at(turn, end);
+    double largest = 0.0;
+    for (std::size_t q = 0; q < before.size(); ++q) {
+      largest = std::max(largest, std::abs(after[q] - before[q]));
+    }
+    if (largest > least) {
+      out.push_back(end);
+    }
+  }
+  return out;
+}
+
 std::array<Extremes, 3> extremes(const TurnPolynomial& turn) {
   const TurnPolynomial slopes = derivative(turn);
   const auto start = at(turn, 0.0);

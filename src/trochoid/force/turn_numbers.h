@@ -4,6 +4,7 @@
 
 #include <array>
 #include <complex>
+#include <vector>
 
 namespace trochoid::force {
 
@@ -18,6 +19,11 @@ std::array<std::complex<double>, 3> harmonic(const TurnPolynomial& turn, int n);
 
 /// @brief The slopes of the three functions over phi, jumps left out.
 TurnPolynomial derivative(const TurnPolynomial& turn);
+
+/// @brief Where one of the three functions jumps [rad], ascending in (0, 2 pi]: a straight
+/// edge comes into the cut or leaves it.
+/// @param least  jump that counts, in the unit of the functions
+std::vector<double> jumps(const TurnPolynomial& turn, double least);
 
 /// A smallest or largest value and where it is.
 struct Extreme {

@@ -88,6 +88,26 @@ TEST(Turn, OfAStraightEdgeJumpsWhereItIsToldTo) {  // [F-13]
   EXPECT_EQ(F[5], Vector3{});
 }
 
+TEST(Turn, JumpsWhereAStraightEdgeComesInAndOut) {  // [F-13]
+  MadeCut s = slot(geometry::cylinder(8e-3), 3, 0);
+  s.chip.model = chip::Model::feed;
+  s.cut.engagement = geometry::UpMilling{2e-3};
+  const double exit = std::acos(0.5);
+  std::vector<double> expected;
+  for (int k = 0; k < 3; ++k) {
+    expected.push_back(k * 2 * pi / 3);
+    expected.push_back(k * 2 * pi / 3 + exit);
+  }
+  const auto found = jumps(turn_of(s), 1e-6);
+  ASSERT_EQ(found.size(), expected.size());
+  // just within what counts as in cut: sin(theta) f_z > 1e-15 m
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i], expected[i], 4e-11);
+  }
+  s.cutter.helix = 0.1;
+  EXPECT_TRUE(jumps(turn_of(s), 1e-6).empty());
+}
+
 TEST(Turn, OfAShortLagGrowsByDegrees) {  // [F-13]
   MadeCut s = slot(geometry::cylinder(8e-3), 1, 0);
   s.cut.engagement = geometry::DownMilling{2e-3};
