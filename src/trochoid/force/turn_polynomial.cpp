@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "turn_stock_edge.h"
 #include "turn_sum.h"
@@ -53,6 +54,7 @@ class Turn {
   void add_tooth(std::size_t tooth) {
     tooth_ = tooth;
     behind_ = teeth_.behind[tooth];
+    last_end_ = std::numeric_limits<double>::infinity();
     const chip::ToothHarmonics& harmonics = teeth_.harmonics_of(tooth);
     rows_.assign(harmonics.over_mark.size(), {});
     const Turned tip_turned(behind_, highest_);
@@ -100,8 +102,13 @@ class Turn {
   }
 
   void add_piece(const HarmonicPiece& piece, const MarkRows& rows) {
-    const Triple at_from = scaled(waves_at(sum_.row(rows.here), piece.from), -1.0);
-    const Triple at_to = scaled(waves_at(sum_.row(rows.here), piece.to), -1.0);
+    if (piece.from != last_end_) {
+      last_turned_ = Turned(piece.from, highest_);
+    }
+    const Triple at_from = scaled(waves_at(sum_.row(rows.here), last_turned_), -1.0);
+    last_end_ = piece.to;
+    last_turned_ = Turned(piece.to, highest_);
+    const Triple at_to = scaled(waves_at(sum_.row(rows.here), last_turned_), -1.0);
     const double from = piece.from + behind_;
     const double to = piece.to + behind_;
     for_each_image(from, to + teeth_.lag, [&](double turned) {  // F-11
@@ -134,8 +141,9 @@ class Turn {
   /// b)/lag = (1 + t)/2.
   [[nodiscard]] TurnPanel ramp(const MarkRows& rows, double b, double sign) const {
     const ConstWaveRow g = sum_.row(rows.here);
-    const Triple value = waves_at(g, b);
-    const Triple slope = wave_slope_at(g, b);
+    const Turned turned(b, highest_);
+    const Triple value = waves_at(g, turned);
+    const Triple slope = wave_slope_at(g, turned);
     TurnPanel panel{0.0, 2.0 / teeth_.lag};
     for (std::size_t q = 0; q < wide; ++q) {
       const double linear = sign * factor_ * (value[q] + g[0][q]) / 2;
@@ -231,6 +239,8 @@ class Turn {
   TurnSum sum_;
   int highest_;
   Turned lag_turned_;
+  double last_end_ = 0.0;  ///< of the piece before, where the next one mostly begins
+  Turned last_turned_{0.0, 0};
   std::size_t tooth_ = 0;
   double behind_ = 0.0;
   std::vector<MarkRows> rows_;

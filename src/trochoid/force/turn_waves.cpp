@@ -86,23 +86,21 @@ void add(ConstWaveRow p, double factor, WaveRow sum) noexcept {
   }
 }
 
-Triple waves_at(ConstWaveRow p, double x) noexcept {
-  const Turned turned(x, static_cast<int>(p.size() / 2));
+Triple waves_at(ConstWaveRow p, const Turned& x) noexcept {
   Triple out{};
   for (std::size_t i = 1; i + 1 < p.size(); i += 2) {
-    out = plus(out, p[i], turned.cosine[(i + 1) / 2]);
-    out = plus(out, p[i + 1], turned.sine[(i + 1) / 2]);
+    out = plus(out, p[i], x.cosine[(i + 1) / 2]);
+    out = plus(out, p[i + 1], x.sine[(i + 1) / 2]);
   }
   return out;
 }
 
-Triple wave_slope_at(ConstWaveRow p, double x) noexcept {
-  const Turned turned(x, static_cast<int>(p.size() / 2));
+Triple wave_slope_at(ConstWaveRow p, const Turned& x) noexcept {
   Triple out{};
   for (std::size_t i = 1; i + 1 < p.size(); i += 2) {
     const std::size_t k = (i + 1) / 2;
-    out = plus(out, p[i], -static_cast<double>(k) * turned.sine[k]);
-    out = plus(out, p[i + 1], static_cast<double>(k) * turned.cosine[k]);
+    out = plus(out, p[i], -static_cast<double>(k) * x.sine[k]);
+    out = plus(out, p[i + 1], static_cast<double>(k) * x.cosine[k]);
   }
   return out;
 }

@@ -55,10 +55,10 @@ void shift_back(ConstWaveRow p, const Turned& by, double factor, WaveRow out) no
 /// sum += factor p, row by row.
 void add(ConstWaveRow p, double factor, WaveRow sum) noexcept;
 
-/// @brief Value without the mean.
-Triple waves_at(ConstWaveRow p, double x) noexcept;
+/// Value at an angle, without the mean.
+Triple waves_at(ConstWaveRow p, const Turned& x) noexcept;
 
-/// @brief Slope.
-Triple wave_slope_at(ConstWaveRow p, double x) noexcept;
+/// Slope at an angle.
+Triple wave_slope_at(ConstWaveRow p, const Turned& x) noexcept;
 
 }  // namespace trochoid::force

@@ -46,14 +46,16 @@ SineCosine ahead(const SineCosine& x, double by) noexcept {
           x.cosine - (x.sine * s + x.cosine * less)};
 }
 
-/// Root near x by Newton's steps.
+/// Root near x by Newton's steps, bent as the first harmonic is.
 double near_root(const TrigPolynomial& p, double level, double x,
                  SineCosine at_x) noexcept {
   for (int i = 0; i < 8; ++i) {
     const auto [value, slope] = evaluate(p, at_x.sine, at_x.cosine);
-    const double step = (level - value) / slope;
+    const double bend = -(p.a[1] * at_x.cosine + p.b[1] * at_x.sine);
+    const double straight = (level - value) / slope;
+    const double step = straight * (1 - 0.5 * straight * bend / slope);
     x += step;
-    if (std::abs(step) < 1e-8) {  // the next one would be about its square
+    if (std::abs(step) < 1e-6) {  // the next one would be a hundredth of its square
       break;
     }
     at_x = ahead(at_x, step);
