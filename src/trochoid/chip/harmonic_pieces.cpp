@@ -28,7 +28,7 @@ using Breaks = std::pmr::vector<double>;
 using Marks = std::pmr::vector<int>;
 
 constexpr double pi = std::numbers::pi;
-constexpr double start = -pi / 2;
+constexpr double start = -pi / 2;  // of a turn: behind the tool
 /// Stretches shorter than this are none [rad].
 constexpr double shortest = 1e-13;
 
@@ -224,10 +224,6 @@ struct Search {
 };
 
 }  // namespace
-
-double harmonic_start() noexcept {
-  return start;
-}
 
 std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
                                               const Slice& slice, int tooth,

@@ -22,11 +22,8 @@ struct HarmonicPiece {
 struct ToothHarmonics {
   /// R_j - L_k of the marks 1, 2 ... that matter; the others are empty.
   std::vector<std::optional<numerics::TrigPolynomial>> over_mark;
-  std::vector<HarmonicPiece> pieces;  ///< ascending, within [start, start + 2 pi]
+  std::vector<HarmonicPiece> pieces;  ///< ascending, within [-90, 270] deg
 };
-
-/// Where a turn of the effective theta starts: behind the tool.
-double harmonic_start() noexcept;
 
 /// @brief The pieces of a tooth, as engaged_pieces finds them, in closed form but for
 /// Newton's steps.

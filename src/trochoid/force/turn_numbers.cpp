@@ -133,10 +133,11 @@ Sums harmonic(const TurnPolynomial& turn, int n) {
     add(terms[0], wave(-n, s), sums);
     add(terms[1], rising_wave(n, s), sums);
     for (int k = 1; k <= turn.highest; ++k) {
+      const std::size_t cosine = 2 * static_cast<std::size_t>(k);
       const Complex forward = wave(k - n, s);
       const Complex backward = wave(-k - n, s);
-      add(terms[2 * k], 0.5 * (forward + backward), sums);
-      add(terms[2 * k + 1], (forward - backward) / (2.0 * i), sums);
+      add(terms[cosine], 0.5 * (forward + backward), sums);
+      add(terms[cosine + 1], (forward - backward) / (2.0 * i), sums);
     }
     for (const int place : panels_of(turn, s.number)) {
       add_panel(turn.panels[static_cast<std::size_t>(place)], s, n, sums);
@@ -157,9 +158,10 @@ TurnPolynomial derivative(const TurnPolynomial& turn) {
     to[0] = from[1];
     to[1] = {};
     for (int k = 1; k <= turn.highest; ++k) {
+      const std::size_t cosine = 2 * static_cast<std::size_t>(k);
       for (std::size_t q = 0; q < to[0].size(); ++q) {
-        to[2 * k][q] = k * from[2 * k + 1][q];
-        to[2 * k + 1][q] = -k * from[2 * k][q];
+        to[cosine][q] = k * from[cosine + 1][q];
+        to[cosine + 1][q] = -k * from[cosine][q];
       }
     }
   }

@@ -60,7 +60,8 @@ void integrand(const numerics::TrigPolynomial* h, const TurnWeights& weights,
 void integrate(ConstWaveRow g, double factor, WaveRow G) noexcept {
   G[0] = scaled(g[0], factor);
   for (std::size_t i = 1; i + 1 < g.size(); i += 2) {
-    const double f = factor / static_cast<double>((i + 1) / 2);
+    const std::size_t k = (i + 1) / 2;
+    const double f = factor / static_cast<double>(k);
     G[i] = scaled(g[i + 1], -f);  // F-10
     G[i + 1] = scaled(g[i], f);
   }
