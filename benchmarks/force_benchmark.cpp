@@ -87,7 +87,7 @@ void other_cutters(benchmark::State& state) {
 /// What is done once for a turn.
 void set_up(benchmark::State& state, chip::Model model) {
   const force::Setup setup = paper_cut(model);
-  const auto weights = force::force_weights(std::get<force::LinearEdge>(paper_law()));
+  const auto weights = force::force_weights(force::terms(paper_law()));
   for (auto _ : state) {
     const auto turn = force::turn_polynomial(*force::turn_teeth(setup, 1e-8), weights);
     benchmark::DoNotOptimize(turn.terms.data());
@@ -100,8 +100,7 @@ void set_up(benchmark::State& state, chip::Model model) {
 void samples(benchmark::State& state, chip::Model model) {
   const force::Setup setup = paper_cut(model);
   const auto turn = force::turn_polynomial(
-      *force::turn_teeth(setup, 1e-8),
-      force::force_weights(std::get<force::LinearEdge>(paper_law())));
+      *force::turn_teeth(setup, 1e-8), force::force_weights(force::terms(paper_law())));
   const auto phi = turns(static_cast<int>(state.range(0)), 1);
   std::vector<force::Vector3> forces(phi.size());
   for (auto _ : state) {

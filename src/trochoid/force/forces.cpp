@@ -47,8 +47,7 @@ constexpr double smooth_turn_tolerance = 1e-11;
 /// harmonics.
 std::optional<TurnTeeth> linear_turn(const Setup& setup, const Law& law,
                                      double tolerance) {
-  return std::holds_alternative<LinearEdge>(law) ? turn_teeth(setup, tolerance)
-                                                 : std::nullopt;
+  return form(law).power ? std::nullopt : turn_teeth(setup, tolerance);
 }
 
 /// The six different entries of [C].
@@ -56,7 +55,8 @@ struct TurnMatrix {
   TurnPolynomial chip;  ///< integrals of h sin, h cos, h
   TurnPolynomial edge;  ///< of e sin, e cos, e
 
-  void evaluate(std::span<const double> phi, std::span<double> C) const noexcept {
+  void evaluate(std::span<const double> phi, std::size_t columns,
+                std::span<double> C) const noexcept {
     constexpr std::size_t chunk = 256;
     std::array<double, 3 * chunk> h;
     std::array<double, 3 * chunk> e;
@@ -66,8 +66,8 @@ struct TurnMatrix {
       force::evaluate(edge, some, std::span(e).first(3 * some.size()));
       for (std::size_t i = 0; i < 3 * some.size(); i += 3) {
         moments_to_matrix(
-            {h[i], h[i + 1], h[i], h[i + 1], h[i + 2], e[i], e[i + 1], e[i + 2]}, 6,
-            &C[6 * (3 * first + i)]);
+            {h[i], h[i + 1], h[i], h[i + 1], h[i + 2], e[i], e[i + 1], e[i + 2]},
+            columns, &C[columns * (3 * first + i)]);
       }
     }
   }
@@ -133,7 +133,7 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
                                 " angles of 3 x " + std::to_string(columns));
   }
   if (const auto* turn = std::get_if<TurnMatrix>(&parts_->method)) {
-    turn->evaluate(phi, C);
+    turn->evaluate(phi, columns, C);
     return;
   }
   if (const auto* cumulative = std::get_if<CumulativeForce>(&parts_->method)) {
@@ -161,7 +161,7 @@ std::vector<Vector3> forces(const Setup& setup, const Law& law,
   }
   if (const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
     std::vector<Vector3> out(phi.size());
-    evaluate(turn_polynomial(*teeth, force_weights(std::get<LinearEdge>(law))), phi,
+    evaluate(turn_polynomial(*teeth, force_weights(terms(law))), phi,
              std::span(out.front().data(), 3 * out.size()));
     return out;
   }

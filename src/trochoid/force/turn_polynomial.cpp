@@ -265,13 +265,15 @@ int highest_harmonic(const TurnTeeth& teeth, const TurnWeights& weights) noexcep
 
 }  // namespace
 
-TurnWeights force_weights(const LinearEdge& law) noexcept {
-  return {.h_cos = {-law.K_tc, -law.K_rc, 0.0},
-          .h_sin = {-law.K_rc, law.K_tc, 0.0},
-          .h_one = {0.0, 0.0, -law.K_ac},
-          .e_cos = {-law.K_te, -law.K_re, 0.0},
-          .e_sin = {-law.K_re, law.K_te, 0.0},
-          .e_one = {0.0, 0.0, -law.K_ae}};
+TurnWeights force_weights(const Terms& law) noexcept {
+  const auto& [K_t, K_r, K_a] = law.K;
+  const auto& [K_te, K_re, K_ae] = law.K_e;
+  return {.h_cos = {-K_t, -K_r, 0.0},
+          .h_sin = {-K_r, K_t, 0.0},
+          .h_one = {0.0, 0.0, -K_a},
+          .e_cos = {-K_te, -K_re, 0.0},
+          .e_sin = {-K_re, K_te, 0.0},
+          .e_one = {0.0, 0.0, -K_ae}};
 }
 
 TurnWeights chip_weights() noexcept {

@@ -26,7 +26,8 @@ struct TurnWeights {
 };
 
 /// The force in x, y, z by F-1 and F-3 with sin(kappa) = 1.
-TurnWeights force_weights(const LinearEdge& law) noexcept;
+/// @param law  whose form is linear in the chip
+TurnWeights force_weights(const Terms& law) noexcept;
 /// The integrals of h sin, h cos, h.
 TurnWeights chip_weights() noexcept;
 /// The integrals of e sin, e cos, e.

@@ -13,7 +13,7 @@ namespace {
 TurnPolynomial turn_of(const MadeCut& setup) {
   const auto teeth = turn_teeth(setup, 1e-12);
   EXPECT_TRUE(teeth);
-  return turn_polynomial(*teeth, force_weights(steel()));
+  return turn_polynomial(*teeth, force_weights(terms(steel())));
 }
 
 std::vector<Vector3> at(const TurnPolynomial& turn, std::span<const double> phi) {
