@@ -1,5 +1,13 @@
 #include <trochoid/identification/find_axes.h>
 
+#include <trochoid/identification/fit_at.h>
+#include <trochoid/identification/prepare.h>
+#include <trochoid/identification/readings.h>
+#include <trochoid/identification/residuals.h>
+#include <trochoid/identification/runout_starts.h>
+#include <trochoid/identification/search.h>
+#include <trochoid/identification/uncertainty.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,83 +20,211 @@ using Vector3 = std::array<double, 3>;
 
 /// Readings whose residuals differ by less than this are the same data.
 constexpr double same_rms = 1e-6;
+/// The next best reading is worth a warning below this many times the best.
+constexpr double close_rms = 1.5;
+/// A fit from a place of the scan leaves at least this part of what the scan does there,
+/// unless it is the right one.
+constexpr double least_gain = 0.5;
+/// Fitted in any case, so that the distance to the next best is known.
+constexpr std::size_t least_fits = 3;
+/// Beyond this many times the best, a reading need not be fitted to the last digit.
+constexpr double nearly_best = 1.02;
+/// Angles of the turn: the few harmonics ask for no more.
+constexpr int angles_of_low_band = 128;
 
-struct Reading {
-  signal::Matrix3 Q;
-  double rms = 0.0;
-  Vector3 K{};  ///< cutting coefficients t, r, a
-  Vector3 K_se{};
+/// Readings that leave the same.
+struct Family {
+  ReadingFamily readings;
+  std::vector<Candidate> candidates;
+  Minimum minimum = {};
+  double rms = INFINITY;  ///< of the scan, then of fits [N]
+  bool fitted = false;
+  Fit fit = {};  ///< of the first reading, to the last digit
 };
 
-Vector3 turned(const signal::Matrix3& turn, const Vector3& v) {
-  Vector3 out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      out[i] += turn[i][j] * v[j];
-    }
-  }
-  return out;
-}
-
-/// Fit with one reading of the channels; rms is infinite where there is no fit.
-Reading fitted(const AxesProblem& problem, std::span<const ChannelRun> runs,
-               const signal::Matrix3& Q, std::string& message) {
-  Reading reading{.Q = Q, .rms = INFINITY};
+Options low_band(const AxesProblem& problem) {
   Options options = problem.options;
   options.band_harmonics = std::max(2, problem.setup.cutter.teeth());
   if (problem.options.band_harmonics > 0) {
     options.band_harmonics =
         std::min(options.band_harmonics, problem.options.band_harmonics);
   }
-  const Fit fit = identify(problem.setup, problem.law, on_tool(runs, Q), options);
-  if (!fit.ok) {
-    message = fit.message;
-    if (!(fit.rms > 0)) {
-      return reading;
+  return options;
+}
+
+Vector3 turned(const signal::Matrix3& turn, const Vector3& v) {
+  Vector3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) out[i] += turn[i][j] * v[j];
+  }
+  return out;
+}
+
+/// The channels of the runs where their forces stand.
+std::vector<Run> as_forces(std::span<const ChannelRun> runs) {
+  std::vector<Run> out;
+  for (const ChannelRun& run : runs) {
+    Run& one = out.emplace_back(Run{run.cut, run.angle, {}});
+    for (std::size_t i = 0; i < run.channel[0].size(); ++i) {
+      one.force.push_back({run.channel[0][i], run.channel[1][i], run.channel[2][i]});
     }
+  }
+  return out;
+}
+
+/// What the records become within the low harmonics, whatever the channels read.
+class Search {
+ public:
+  Search(const AxesProblem& given, std::span<const ChannelRun> runs)
+      : given_(given), runs_(runs), options_(low_band(given)) {}
+
+  /// @return whether there is anything to search; else why not is in the message
+  bool prepare() {
+    const std::vector<Run> channels = as_forces(runs_);
+    Prepared prepared =
+        identification::prepare(given_.setup, given_.law, channels, options_);
+    message_ = prepared.refusal;
+    if (!message_.empty()) return false;
+    channels_ = *std::move(prepared.problem);
+    channels_.tolerance = final_tolerance;
+    channels_.angles = angles_of_low_band;
+    for (std::size_t r = 0; r < channels.size(); ++r) {
+      samples_ += static_cast<double>(channels[r].angle.size());
+      scatter_ += scatter_of(channels[r], channels_.runs[r]);
+    }
+    return true;
+  }
+
+  [[nodiscard]] const std::string& message() const noexcept { return message_; }
+
+  /// The families with what the scan says of them, the best first.
+  [[nodiscard]] std::vector<Family> scanned(std::vector<ReadingFamily> all) const {
+    std::vector<signal::Matrix3> first;
+    for (const ReadingFamily& family : all) first.push_back(family.front().Q);
+    auto found = scan(channels_, runout_starts(channels_), first);
+    std::vector<Family> out;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      Family& one = out.emplace_back(Family{std::move(all[k]), std::move(found[k])});
+      if (!one.candidates.empty()) one.rms = rms_of(one.candidates.front().rss);
+    }
+    std::ranges::stable_sort(out, {}, &Family::rms);
+    return out;
+  }
+
+  /// Fit as many as it takes to know the best and how far the next is.
+  void compare(std::vector<Family>& families,
+               const std::function<void(double)>& told) {
+    const std::size_t least =
+        force::keeps_radius(given_.setup) ? families.size() : least_fits;
+    double best = INFINITY;
+    std::size_t count = 0;
+    for (; count < families.size(); ++count) {
+      Family& family = families[count];
+      if (count >= least && least_gain * family.rms > close_rms * best) break;
+      if (told) told(static_cast<double>(count) / static_cast<double>(least + count));
+      rank(family);
+      best = std::min(best, family.rms);
+    }
+    families.resize(count);
+    while (fit_the_best(families)) {
+    }
+    if (told) told(1.0);
+  }
+
+ private:
+  [[nodiscard]] double rms_of(double rss) const {
+    return std::sqrt(std::max(0.0, rss + scatter_) / samples_);
+  }
+
+  /// Fits of the averaged data: near enough to compare.
+  void rank(Family& family) const {
+    if (family.candidates.empty()) return;
+    const Problem problem = read_by(channels_, family.readings.front().Q);
+    family.minimum = coarse_search(problem, family.candidates);
+    family.rms = rms_of(family.minimum.rss);
+  }
+
+  /// @return whether there was one that may be the best and was not fitted yet
+  bool fit_the_best(std::vector<Family>& families) {
+    std::ranges::stable_sort(families, {}, &Family::rms);
+    const double limit = nearly_best * families.front().rms;
+    bool any = false;
+    for (Family& family : families) {
+      if (family.fitted || !(family.rms <= limit)) continue;
+      fit(family);
+      any = true;
+    }
+    return any;
+  }
+
+  /// The fit to the last digit.
+  void fit(Family& family) {
+    family.fitted = true;
+    if (family.candidates.empty()) return;
+    const signal::Matrix3& Q = family.readings.front().Q;
+    Problem problem = read_by(channels_, Q);
+    family.minimum = search_from(problem, {{family.minimum.p, family.minimum.rss}});
+    family.rms = INFINITY;
+    if (!family.minimum.converged) {
+      message_ =
+          "the search for runout and phase did not converge: " + family.minimum.reason;
+      return;
+    }
+    restrict_eccentricity(problem, family.minimum.p);
+    family.fit.options = options_;
+    family.fit.law = given_.law;
+    family.fit.coefficients.resize(static_cast<std::size_t>(problem.columns));
+    fill_at(problem, on_tool(runs_, Q), family.minimum.p, family.fit);
+    if (!family.fit.ok) message_ = family.fit.message;
     // Refused, but what it leaves unexplained still tells how wrong this reading is.
+    if (family.fit.rms > 0) family.rms = family.fit.rms;
   }
-  reading.rms = fit.rms;
-  for (std::size_t q = 0; q < 3; ++q) {
-    if (fit.coefficients[q]) {
-      reading.K[q] = fit.coefficients[q]->value;
-      reading.K_se[q] = fit.coefficients[q]->se;
+
+  const AxesProblem& given_;
+  std::span<const ChannelRun> runs_;
+  Options options_;
+  Problem channels_;
+  double samples_ = 0.0;
+  double scatter_ = 0.0;  ///< of samples at the same angle [N^2]
+  std::string message_;
+};
+
+/// A reading with the coefficients that it takes.
+struct Judged {
+  signal::Matrix3 Q;
+  const Family* family = nullptr;
+  double rms = 0.0;
+  Vector3 K{};  ///< cutting coefficients t, r, a
+  Vector3 K_se{};
+};
+
+/// All readings of the families, in their order.
+std::vector<Judged> judged(const std::vector<Family>& families) {
+  std::vector<Judged> out;
+  for (const Family& family : families) {
+    Vector3 K{};
+    Vector3 se{};
+    for (std::size_t q = 0; q < 3 && family.fitted; ++q) {
+      const std::optional<Estimate>& found = family.fit.coefficients[q];
+      if (found) {
+        K[q] = found->value;
+        se[q] = found->se;
+      }
+    }
+    for (const Reading& reading : family.readings) {
+      const Vector3 turned_se = turned(reading.turn, se);
+      out.push_back(
+          {reading.Q,
+           &family,
+           family.rms,
+           turned(reading.turn, K),
+           {std::abs(turned_se[0]), std::abs(turned_se[1]), std::abs(turned_se[2])}});
     }
   }
-  return reading;
+  return out;
 }
 
-std::vector<Reading> all_readings(const AxesProblem& problem,
-                                  std::span<const ChannelRun> runs,
-                                  const std::function<void()>& told,
-                                  std::string& message) {
-  std::vector<Reading> readings;
-  const auto fit = [&](const signal::Matrix3& Q) {
-    if (told) {
-      told();
-    }
-    return fitted(problem, runs, Q, message);
-  };
-  if (!force::keeps_radius(problem.setup)) {
-    for (const signal::Matrix3& Q : signal::axes_candidates()) {
-      readings.push_back(fit(Q));
-    }
-    return readings;
-  }
-  for (const signal::AxesClass& c : signal::axes_classes()) {
-    const Reading first = fit(c.readings.front().Q);
-    for (const signal::AxesReading& r : c.readings) {
-      const Vector3 se = turned(r.turn, first.K_se);
-      readings.push_back({r.Q,
-                          first.rms,
-                          turned(r.turn, first.K),
-                          {std::abs(se[0]), std::abs(se[1]), std::abs(se[2])}});
-    }
-  }
-  return readings;
-}
-
-int positive(const Reading& r) {
+int positive(const Judged& r) {
   // The tangential force decides first, then the radial one.
   return (r.K[0] > 0 ? 4 : 0) + (r.K[1] > 0 ? 2 : 0) + (r.K[2] > 0 ? 1 : 0);
 }
@@ -108,20 +244,27 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
 }
 
 AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> runs,
-                     const std::function<void()>& told) {
+                     const std::function<void(double)>& told) {
   AxesChoice choice;
-  std::vector<Reading> readings = all_readings(problem, runs, told, choice.message);
-  std::stable_sort(readings.begin(), readings.end(),
-                   [](const Reading& a, const Reading& b) { return a.rms < b.rms; });
+  Search search(problem, runs);
+  const std::string none = "no reading of the channels could be fitted: ";
+  if (!search.prepare()) {
+    choice.message = none + search.message();
+    choice.rms = INFINITY;
+    return choice;
+  }
+  std::vector<Family> families = search.scanned(reading_families(problem.setup));
+  search.compare(families, told);
+  const std::vector<Judged> readings = judged(families);
   const double best = readings.front().rms;
-  const auto other = std::find_if(
-      readings.begin(), readings.end(),
-      [&](const Reading& r) { return r.rms > best * (1 + same_rms) + 1e-9; });
-  const Reading& chosen = *std::max_element(
+  const auto other = std::ranges::find_if(readings, [&](const Judged& r) {
+    return r.rms > best * (1 + same_rms) + 1e-9;
+  });
+  const Judged& chosen = *std::max_element(
       readings.begin(), other,
-      [](const Reading& a, const Reading& b) { return positive(a) < positive(b); });
+      [](const Judged& a, const Judged& b) { return positive(a) < positive(b); });
   if (!std::isfinite(chosen.rms) || positive(chosen) == 0) {
-    choice.message = "no reading of the channels could be fitted: " + choice.message;
+    choice.message = none + search.message();
     choice.rms = chosen.rms;
     return choice;
   }
@@ -132,13 +275,15 @@ AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> run
   const bool clear = positive(chosen) == 7 && chosen.K[0] > 2 * chosen.K_se[0] &&
                      chosen.K[1] > 2 * chosen.K_se[1];
   choice.signs_clear = clear || other - readings.begin() <= 1;
+  choice.start = {chosen.family->fit.runout, chosen.family->fit.phase};
   return choice;
 }
 
 double reading_rms(const AxesProblem& problem, std::span<const ChannelRun> runs,
                    const signal::Matrix3& M) {
-  std::string message;
-  return fitted(problem, runs, M, message).rms;
+  const Fit fit =
+      identify(problem.setup, problem.law, on_tool(runs, M), low_band(problem));
+  return fit.rms > 0 ? fit.rms : INFINITY;
 }
 
 }  // namespace trochoid::identification

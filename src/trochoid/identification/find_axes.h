@@ -39,16 +39,20 @@ struct AxesChoice {
   double rms = 0.0;          ///< of the low band with this choice [N]; infinite: no fit
   double next_rms = 0.0;     ///< of the best choice that is not the same data [N]
   bool signs_clear = true;   ///< false: decided by coefficients that may be negative
+  Start start;               ///< runout and phases of the fit with this choice
 };
 
 /// @brief Try the signed permutations of the channels.
 ///
 /// The residual of a fit within the lowest harmonics says which channel is z and which
-/// way round the others go. Readings that no residual can tell apart (on a cylinder
-/// always eight) are decided by K_tc, K_rc, K_ac > 0.
-/// @param told  called before each fit; may be empty
+/// way round the others go. All readings are scanned at once on the same force matrices
+/// (I-12), and fitted in the order of the scan until the rest could change neither the
+/// choice nor what is said about it. Readings that no residual can tell apart (on a
+/// cylinder always eight, else two: the same with all signs turned) are decided by K_tc,
+/// K_rc, K_ac > 0.
+/// @param told  the part that is done, from 0 to 1, at every step; may be empty
 AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> runs,
-                     const std::function<void()>& told);
+                     const std::function<void(double)>& told);
 
 /// @brief What a given reading of the channels leaves, as find_axes compares it [N];
 /// infinite where it cannot be fitted.

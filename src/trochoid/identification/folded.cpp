@@ -1,5 +1,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/identification/folded.h>
+#include <trochoid/identification/turn_rows.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
@@ -74,7 +75,8 @@ void take_means(const Run& run, bool drift, FoldedRun& out) {
   }
 }
 
-void make_band(int harmonics, FoldedRun& run) {
+void make_band(FoldedRun& run) {
+  const int harmonics = run.harmonics;
   if (harmonics == 0) return;
   run.band = 2 * harmonics + 1;
   const auto columns = static_cast<std::size_t>(run.band);
@@ -158,6 +160,20 @@ void add_slope_rows(const Run& source, FoldedRun& run) {
   run.rows += 3;
 }
 
+/// The rows of the slopes, which no binning changes.
+void copy_slope_rows(const FoldedRun& from, FoldedRun& to) {
+  const std::size_t all = from.b.size();
+  const std::size_t first =
+      3 * (from.band > 0 ? static_cast<std::size_t>(from.band) : from.angle.size());
+  for (std::size_t row = first; row < all; ++row) {
+    to.b.push_back(from.b[row]);
+    to.drift.insert(to.drift.end(),
+                    from.drift.begin() + static_cast<std::ptrdiff_t>(6 * row),
+                    from.drift.begin() + static_cast<std::ptrdiff_t>(6 * row + 6));
+    ++to.rows;
+  }
+}
+
 }  // namespace
 
 double slope_at(std::size_t i, std::size_t n) noexcept {
@@ -174,7 +190,9 @@ FoldedRun fold(const Run& run, const Options& options) {
   out.cut = run.cut;
   out.group = groups(run.angle);
   take_means(run, options.fit_channel_offsets, out);
-  make_band(options.band_harmonics, out);
+  out.harmonics = options.band_harmonics;
+  make_band(out);
+  map_turn(out);
   make_rows(options.fit_channel_offsets, out);
   if (options.fit_channel_offsets) add_slope_rows(run, out);
   return out;
@@ -183,15 +201,10 @@ FoldedRun fold(const Run& run, const Options& options) {
 FoldedRun coarsen(const FoldedRun& run, int bins) {
   const bool drift = !run.slope.empty();
   const auto count = static_cast<std::size_t>(bins);
+  if (run.angle.size() <= count || !run.turn_map.empty()) return run;
   FoldedRun out;
   out.cut = run.cut;
-  if (run.angle.size() <= count) {
-    out = run;
-    out.basis.clear();
-    out.band = 0;
-    make_rows(drift, out);
-    return out;
-  }
+  out.harmonics = run.harmonics;
   std::vector<double> n(count, 0.0);
   std::vector<std::array<double, 5>> sums(count, std::array<double, 5>{});
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
@@ -212,7 +225,9 @@ FoldedRun coarsen(const FoldedRun& run, int bins) {
     out.force.push_back({sums[bin][0], sums[bin][1], sums[bin][2]});
     if (drift) out.slope.push_back(sums[bin][4]);
   }
+  make_band(out);
   make_rows(drift, out);
+  if (drift && out.band > 0) copy_slope_rows(run, out);
   return out;
 }
 

@@ -24,6 +24,12 @@ struct FoldedRun {
   /// Orthonormal columns of the band over the weighted rows, shape (u, band); or empty.
   std::vector<double> basis;
   int band = 0;
+  int harmonics = 0;  ///< of the band; 0: no limit
+  /// Where the rows follow from the Fourier coefficients of the force over the turn, up
+  /// to this harmonic (map_turn): from a_0, a_1, b_1, ... to the band, shape (band,
+  /// 2 highest + 1); or empty.
+  std::vector<double> turn_map;
+  int highest = 0;
 
   int rows = 0;           ///< of b and drift
   std::vector<double> b;  ///< measured force, shape (rows)
@@ -37,7 +43,8 @@ double slope_at(std::size_t i, std::size_t n) noexcept;
 /// @throws std::invalid_argument when a run has not one force for each angle
 FoldedRun fold(const Run& run, const Options& options);
 
-/// @brief The same run in at most so many rows a channel, by means over equal bins.
+/// @brief The same run in at most so many angles, by means over equal bins; as it is
+/// where it has no more, or has its rows from the turn.
 FoldedRun coarsen(const FoldedRun& run, int bins);
 
 /// @brief Bring a quantity of the shape of a force into the rows of the problem.

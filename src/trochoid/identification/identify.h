@@ -43,6 +43,12 @@ constexpr std::string_view name_of(RunoutUnknowns unknowns) noexcept {
   return {};
 }
 
+/// Where to search first.
+struct Start {
+  geometry::Runout runout;
+  std::vector<double> phase;  ///< [rad], one a run
+};
+
 /// What is to be found, and how.
 struct Options {
   chip::Model chip_model = chip::Model::trochoidal;
@@ -51,6 +57,9 @@ struct Options {
   int band_harmonics = 0;       ///< 0: all; n: mean and spindle harmonics 1..n only
   bool fit_channel_offsets = false;  ///< one constant and one slope a channel and run
   bool fit_exponents = true;         ///< of a Power law; false: as given
+  /// Absent: the runout of the setup, where there is one, at any phase. Where it does not
+  /// lead to a good fit nearby, everything is searched.
+  std::optional<Start> start = std::nullopt;
 };
 
 /// Part of a channel that is not force: constant +

@@ -90,11 +90,8 @@ void improve_around(const Problem& problem, std::size_t phase, double cell,
 
 bool sum_of_squares_jumps(const Problem& problem) {
   if (problem.unknowns.phases == 0) return false;
-  if (!force::form(problem.law).edge) return false;
-  const geometry::Cutter& cutter = problem.setup.cutter;
   return std::ranges::any_of(problem.runs, [&](const FoldedRun& run) {
-    const double lag = 2.0 * run.cut.a_p * std::tan(cutter.helix) / cutter.lag_diameter;
-    return lag < 2.0 * spacing(run);
+    return run.turn_map.empty() && enters_suddenly(problem, run, spacing(run));
   });
 }
 

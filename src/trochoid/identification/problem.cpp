@@ -1,8 +1,11 @@
 #include <trochoid/identification/problem.h>
 
 #include <trochoid/base/index.h>
+#include <trochoid/base/units.h>
+#include <trochoid/identification/turn_rows.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace trochoid::identification {
@@ -18,62 +21,85 @@ force::Setup setup_of(const Problem& problem, const Point& point,
   return setup;
 }
 
-std::vector<double> matrix_at(const force::ForceMatrix& matrix, const FoldedRun& run,
-                              double phase) {
+/// The matrix at the angles of a run, in its rows.
+std::vector<double> rows_at(const force::ForceMatrix& matrix, const FoldedRun& run,
+                            double phase) {
   std::vector<double> phi(run.angle);
   for (double& a : phi) a += phase;
   std::vector<double> C(phi.size() * 3 * index(matrix.columns()));
   matrix.evaluate(phi, C);
-  return C;
+  return rows_of(run, C, matrix.columns());
 }
 
-/// out += factor C K, shape (u, 3).
-void add_force(std::span<const double> C, std::span<const double> K, double factor,
+/// The grid of a turn that serves a band: fine where angles cost little.
+TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
+  const int least = (force::keeps_radius(problem.setup) ? 4 : 1) * problem.angles;
+  const auto wanted = static_cast<unsigned>(std::max(least, 8 * run.harmonics));
+  const auto angles = static_cast<int>(std::bit_ceil(wanted));
+  return {angles, std::min(run.highest, angles / 2 - 1),
+          enters_suddenly(problem, run, unit::turn / angles)};
+}
+
+std::vector<double> rows_at(const Problem& problem, const Evaluation& at,
+                            std::size_t r) {
+  const FoldedRun& run = problem.runs[r];
+  const double phase = at.point.phase[r];
+  return run.turn_map.empty()
+             ? rows_at(at.matrix[r], run, phase)
+             : rows_of_turn(run, at_phase(at.turn[r], phase), problem.columns);
+}
+
+/// out += factor D K, D of shape (out, columns).
+void add_force(std::span<const double> D, std::span<const double> K, double factor,
                std::span<double> out) {
   const std::size_t columns = K.size();
   for (std::size_t i = 0; i < out.size(); ++i) {
     double sum = 0.0;
-    for (std::size_t c = 0; c < columns; ++c) sum += C[i * columns + c] * K[c];
+    for (std::size_t c = 0; c < columns; ++c) sum += D[i * columns + c] * K[c];
     out[i] += factor * sum;
   }
 }
 
-/// Difference of C K between two evaluations over their distance, all runs.
+/// Difference of [D] K between two evaluations over their distance, all runs.
 std::vector<double> quotient(const Problem& problem, const Evaluation& a,
                              const Evaluation& b, double distance,
                              std::span<const double> K) {
   std::vector<double> out;
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
-    std::vector<double> dF(3 * problem.runs[r].angle.size(), 0.0);
-    add_force(b.C[r], K, 1.0 / distance, dF);
-    add_force(a.C[r], K, -1.0 / distance, dF);
-    const std::vector<double> rows = rows_of(problem.runs[r], dF, 1);
-    out.insert(out.end(), rows.begin(), rows.end());
+    std::vector<double> dF(index(problem.runs[r].rows), 0.0);
+    add_force(b.rows[r], K, 1.0 / distance, dF);
+    add_force(a.rows[r], K, -1.0 / distance, dF);
+    out.insert(out.end(), dF.begin(), dF.end());
   }
   return out;
 }
 
-/// The same for a phase, which concerns one run and needs no new matrix.
-std::vector<double> phase_quotient(const Problem& problem, const Evaluation& at,
-                                   std::size_t run, std::span<const double> K,
-                                   const Step& step) {
-  std::vector<double> out;
-  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
-    std::vector<double> dF(3 * problem.runs[r].angle.size(), 0.0);
-    if (r == run) {
-      const double phase = at.point.phase[r];
-      const double d = step.central ? 2.0 * step.phase : step.phase;
-      add_force(matrix_at(at.matrix[r], problem.runs[r], phase + step.phase), K,
-                1.0 / d, dF);
-      add_force(step.central
-                    ? matrix_at(at.matrix[r], problem.runs[r], phase - step.phase)
-                    : at.C[r],
-                K, -1.0 / d, dF);
-    }
-    const std::vector<double> rows = rows_of(problem.runs[r], dF, 1);
-    out.insert(out.end(), rows.begin(), rows.end());
+/// The same for a phase, which concerns one run and needs no new matrix; and no
+/// difference where the rows are from the turn.
+std::vector<double> phase_slope(const Problem& problem, const Evaluation& at,
+                                std::size_t r, std::span<const double> K,
+                                const Step& step) {
+  const FoldedRun& run = problem.runs[r];
+  const double phase = at.point.phase[r];
+  std::vector<double> dF(index(run.rows), 0.0);
+  if (!run.turn_map.empty()) {
+    add_force(rows_of_turn(run, slope_at_phase(at.turn[r], phase), problem.columns), K,
+              1.0, dF);
+    return dF;
   }
-  return out;
+  const double d = step.central ? 2.0 * step.phase : step.phase;
+  add_force(rows_at(at.matrix[r], run, phase + step.phase), K, 1.0 / d, dF);
+  add_force(
+      step.central ? rows_at(at.matrix[r], run, phase - step.phase) : at.rows[r], K,
+      -1.0 / d, dF);
+  return dF;
+}
+
+/// Whether two points have the same matrices, before the phases.
+bool same_matrices(const Problem& problem, std::span<const double> a,
+                   std::span<const double> b) {
+  const std::size_t n = index(problem.unknowns.first_phase());
+  return a.size() == b.size() && std::ranges::equal(a.first(n), b.first(n));
 }
 
 }  // namespace
@@ -157,15 +183,32 @@ bool in_range(const Problem& problem, std::span<const double> p) {
   return true;
 }
 
-Evaluation evaluate(const Problem& problem, std::span<const double> p) {
+bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step) {
+  if (!force::form(problem.law).edge) return false;
+  const geometry::Cutter& cutter = problem.setup.cutter;
+  const double lag = 2.0 * run.cut.a_p * std::tan(cutter.helix) / cutter.lag_diameter;
+  return lag < 2.0 * step;
+}
+
+Evaluation evaluate(const Problem& problem, std::span<const double> p,
+                    const Evaluation* known) {
   Evaluation out;
   out.p.assign(p.begin(), p.end());
   out.point = point_of(problem, p);
+  if (known != nullptr && same_matrices(problem, p, known->p)) {
+    out.matrix = known->matrix;
+    out.turn = known->turn;
+  }
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
-    out.matrix.emplace_back(setup_of(problem, out.point, run), out.point.law,
-                            problem.tolerance);
-    out.C.push_back(matrix_at(out.matrix.back(), run, out.point.phase[r]));
+    if (out.matrix.size() == r) {
+      out.matrix.emplace_back(setup_of(problem, out.point, run), out.point.law,
+                              problem.tolerance);
+      out.turn.push_back(run.turn_map.empty()
+                             ? TurnMatrix{}
+                             : turn_matrix(out.matrix[r], grid_of(problem, run)));
+    }
+    out.rows.push_back(rows_at(problem, out, r));
   }
   return out;
 }
@@ -177,7 +220,7 @@ std::vector<double> design(const Problem& problem, const Evaluation& evaluation)
   std::size_t row = 0;
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
-    const std::vector<double> D = rows_of(run, evaluation.C[r], problem.columns);
+    const std::vector<double>& D = evaluation.rows[r];
     for (std::size_t i = 0; i < index(run.rows); ++i, ++row) {
       double* const to = &out[row * linear];
       std::copy_n(&D[i * columns], columns, to);
@@ -201,7 +244,13 @@ std::vector<double> derivative(const Problem& problem, const Evaluation& at, int
   const Unknowns& u = problem.unknowns;
   const std::span<const double> force_K = K.first(index(problem.columns));
   if (i >= u.first_phase()) {
-    return phase_quotient(problem, at, index(i - u.first_phase()), force_K, step);
+    const std::size_t own = index(i - u.first_phase());
+    std::vector<double> out(index(problem.rows()), 0.0);
+    std::size_t row = 0;
+    for (std::size_t r = 0; r < own; ++r) row += index(problem.runs[r].rows);
+    std::ranges::copy(phase_slope(problem, at, own, force_K, step),
+                      out.begin() + static_cast<std::ptrdiff_t>(row));
+    return out;
   }
   std::vector<double> moved = at.p;
   moved[index(i)] += step.parameter;

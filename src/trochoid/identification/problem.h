@@ -2,6 +2,7 @@
 
 #include <trochoid/force/forces.h>
 #include <trochoid/identification/folded.h>
+#include <trochoid/identification/turn_matrix.h>
 
 #include <optional>
 #include <span>
@@ -30,6 +31,13 @@ struct Unknowns {
   [[nodiscard]] int count() const noexcept { return first_phase() + phases; }
 };
 
+/// The physical meaning of p.
+struct Point {
+  geometry::Runout runout;
+  force::Law law;
+  std::vector<double> phase;  ///< [rad], one a run
+};
+
 /// @brief A fit to be made: data, model and unknowns. Constant once made.
 struct Problem {
   force::Setup setup;  ///< its cut is that of the run in question
@@ -38,18 +46,16 @@ struct Problem {
   Unknowns unknowns;
   double fixed_phase = 0.0;  ///< [rad], where the phases are not unknown
   double tolerance = 1e-7;   ///< of the force matrix
+  /// At so many angles of the turn at least the matrix of a run is evaluated that has
+  /// its rows from the turn; on a cylinder, where angles cost little, at four times as
+  /// many.
+  int angles = 256;
   int columns = 0;           ///< of the force matrix
+  std::optional<Point> start;  ///< where to search first
 
   [[nodiscard]] int drift_columns() const noexcept;
   [[nodiscard]] int linear() const noexcept { return columns + drift_columns(); }
   [[nodiscard]] int rows() const noexcept;
-};
-
-/// The physical meaning of p.
-struct Point {
-  geometry::Runout runout;
-  force::Law law;
-  std::vector<double> phase;  ///< [rad], one a run
 };
 
 Point point_of(const Problem& problem, std::span<const double> p);
@@ -62,13 +68,22 @@ struct Evaluation {
   std::vector<double> p;  ///< the unknowns
   Point point;            ///< the same, in words
   std::vector<force::ForceMatrix> matrix;
-  std::vector<std::vector<double>> C;  ///< shape (runs)(u, 3, columns)
+  std::vector<TurnMatrix> turn;  ///< empty where the rows are not from the turn
+  /// Of [C] in the rows of the problem, shape (runs)(rows, columns).
+  std::vector<std::vector<double>> rows;
 };
 
 /// @brief Whether p is in the range where the model means anything.
 bool in_range(const Problem& problem, std::span<const double> p);
 
-Evaluation evaluate(const Problem& problem, std::span<const double> p);
+/// @param known  an evaluation whose matrices serve again where only phases differ; or
+///               null
+Evaluation evaluate(const Problem& problem, std::span<const double> p,
+                    const Evaluation* known = nullptr);
+
+/// @brief Whether the edges of a run enter within less than two steps of that size
+/// [rad].
+bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step);
 
 /// @brief [D] with its channel columns, row-major, shape (rows, linear).
 std::vector<double> design(const Problem& problem, const Evaluation& evaluation);

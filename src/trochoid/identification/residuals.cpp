@@ -84,6 +84,15 @@ double part(double some, double whole) {
 
 }  // namespace
 
+double scatter_of(const Run& run, const FoldedRun& folded) {
+  if (folded.band > 0) return 0.0;
+  double measured = 0.0;
+  for (const auto& F : run.force) measured += F[0] * F[0] + F[1] * F[1] + F[2] * F[2];
+  double kept = 0.0;
+  for (const double b : folded.b) kept += b * b;
+  return std::max(0.0, measured - kept);
+}
+
 void fill_residuals(const Problem& problem, std::span<const Run> runs,
                     std::span<const double> left, Fit& fit) {
   Sums sums;

@@ -22,4 +22,8 @@ namespace trochoid::identification {
 void fill_residuals(const Problem& problem, std::span<const Run> runs,
                     std::span<const double> left, Fit& fit);
 
+/// @brief Sum of squares that the folded rows no longer hold, because no model changes
+/// it: the scatter of samples at the same angle [N^2]; 0 with a band limit.
+double scatter_of(const Run& run, const FoldedRun& folded);
+
 }  // namespace trochoid::identification

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
+#include <trochoid/identification/gauge.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,19 +40,39 @@ std::vector<double> scattered_offsets(std::size_t n, int i) {
   return out;
 }
 
+/// Directions of an eccentricity: over one pitch where all phases are tried and teeth
+/// can be renumbered, else over the turn.
+std::vector<double> directions(const Problem& problem, int over_turn) {
+  const int teeth = problem.setup.cutter.teeth();
+  const bool alike = teeth_are_alike(problem);
+  const int count = alike ? std::max(2, (over_turn + teeth - 1) / teeth) : over_turn;
+  const double span = alike ? unit::turn / teeth : unit::turn;
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) out.push_back(span * k / count);
+  return out;
+}
+
+void add_pair_starts(bool alike, std::vector<std::vector<double>>& out) {
+  for (const double s : {0.1, 0.4, 1.3}) {
+    out.push_back({s});
+    if (!alike) out.push_back({-s});
+  }
+}
+
 void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>& out) {
   const std::vector<double> psi = geometry::tooth_angles(problem.setup.cutter);
   const std::size_t n = psi.size();
+  const bool alike = teeth_are_alike(problem);
   if (n == 2) {
-    for (const double s : {0.4, -0.4, 1.3, -1.3}) out.push_back({s});
+    add_pair_starts(alike, out);
     return;
   }
-  for (const double amplitude : {0.3, 0.9}) {
-    for (int k = 0; k < 8; ++k) {
-      out.push_back(eccentric_offsets(psi, amplitude, 0.125 * unit::turn * k));
+  for (const double amplitude : {0.1, 0.3, 0.9}) {
+    for (const double lambda : directions(problem, 8)) {
+      out.push_back(eccentric_offsets(psi, amplitude, lambda));
     }
   }
-  for (std::size_t tooth = 0; tooth < n && n <= 8; ++tooth) {
+  for (std::size_t tooth = 0; tooth < (alike ? 1 : n) && n <= 8; ++tooth) {
     std::vector<double> s(n - 1, tooth == 0 ? 0.8 : 0.0);  // tooth 1 alone is short
     if (tooth > 0) s[tooth - 1] = -0.8;
     out.push_back(s);
@@ -62,31 +83,36 @@ void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>&
       std::vector<double> s(n - 1, 0.0);
       for (std::size_t k = 0; k < n - 1; k += 2) s[k] = sign;
       out.push_back(s);
+      if (alike) break;
     }
   }
 }
 
 }  // namespace
 
+std::vector<double> given_runout(const Problem& problem) {
+  std::vector<double> given =
+      parameters_of(problem, {problem.setup.runout, problem.law,
+                              std::vector<double>(problem.runs.size(), 0.0)});
+  given.resize(index(problem.unknowns.runout_count()));
+  return given;
+}
+
 std::vector<std::vector<double>> runout_starts(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
   std::vector<std::vector<double>> out = {
       std::vector<double>(index(u.runout_count()), 0.0)};
   if (u.runout_count() == 0) return out;
-  std::vector<double> given =
-      parameters_of(problem, {problem.setup.runout, problem.law,
-                              std::vector<double>(problem.runs.size(), 0.0)});
-  given.resize(index(u.runout_count()));
+  const std::vector<double> given = given_runout(problem);
   if (std::ranges::any_of(given, [](double v) { return v != 0.0; }))
     out.push_back(given);
   if (u.runout == RunoutUnknowns::offsets) {
     add_offset_starts(problem, out);
   } else if (u.direction) {
-    for (const double e : {0.3, -0.3, 0.8, -0.8}) out.push_back({e});
+    for (const double e : {0.1, -0.1, 0.3, -0.3, 0.8, -0.8}) out.push_back({e});
   } else {
-    for (const double rho : {0.3, 0.8}) {
-      for (int k = 0; k < 6; ++k) {
-        const double lambda = unit::turn * k / 6.0;
+    for (const double rho : {0.1, 0.3, 0.8}) {
+      for (const double lambda : directions(problem, 6)) {
         out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
       }
     }

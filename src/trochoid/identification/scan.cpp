@@ -1,147 +1,83 @@
+#include <trochoid/identification/scan.h>
+
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/identification/runout_starts.h>
-#include <trochoid/identification/scan.h>
+#include <trochoid/identification/cells.h>
 #include <trochoid/identification/variable_projection.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace trochoid::identification {
 namespace {
 
-/// Cells of the turn: 3 degrees, a fraction of
-/// what a force curve needs to show its shape.
-constexpr std::size_t cells = 120;
-
 using base::index;
 
-/// A run averaged over the cells of the turn.
-struct Cells {
-  std::vector<double> weight;                ///< number of samples
-  std::vector<std::array<double, 3>> force;  ///< mean [N]
-  bool even = false;                         ///< the weights are equal
-  double squares = 0.0;                      ///< weighted sum of F^2 [N^2]
-};
+constexpr signal::Matrix3 as_it_is = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr double scan_tolerance = 1e-4;
+/// Of the phases at which one run alone fits best, so many are looked at; at least one
+/// for each tooth that may be tooth 1.
+constexpr std::size_t most_minima = 4;
+constexpr int rounds = 3;
 
-Cells cells_of(const FoldedRun& run) {
-  Cells out{std::vector<double>(cells, 0.0), std::vector<std::array<double, 3>>(cells),
-            false, 0.0};
-  for (std::size_t g = 0; g < run.angle.size(); ++g) {
-    const double a = run.angle[g] / unit::turn;
-    const auto cell =
-        std::min(cells - 1, static_cast<std::size_t>((a - std::floor(a)) * cells));
-    const double w = run.weight[g] * run.weight[g];
-    out.weight[cell] += w;
-    for (std::size_t q = 0; q < 3; ++q) out.force[cell][q] += w * run.force[g][q];
-  }
-  for (std::size_t i = 0; i < cells; ++i) {
-    if (out.weight[i] == 0.0) continue;
-    for (double& f : out.force[i]) {
-      f /= out.weight[i];
-      out.squares += out.weight[i] * f * f;
-    }
-  }
-  out.even = std::ranges::all_of(out.weight, [&](double w) {
-    return std::abs(w - out.weight[0]) < 1e-9 * out.weight[0];
-  });
-  return out;
-}
-
-std::vector<double> cell_angles() {
-  std::vector<double> out(cells);
-  for (std::size_t i = 0; i < cells; ++i) {
-    out[i] = (static_cast<double>(i) + 0.5) * unit::turn / static_cast<double>(cells);
+/// G^-1 of a small positive semidefinite matrix, as solve_normal has it.
+std::vector<double> inverse(const std::vector<double>& G, std::size_t n) {
+  std::vector<double> out(n * n);
+  std::vector<double> unit(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    unit[i] = 1.0;
+    numerics::solve_normal(G, unit, std::span(out).subspan(i * n, n));
+    unit[i] = 0.0;
   }
   return out;
 }
 
-/// The force matrix over the cells, and whether the means of the channels are taken out
-/// (because the channels have an offset of their own).
-struct Grid {
-  std::vector<double> C;  ///< shape (cells, 3, columns)
-  std::size_t columns = 0;
-  bool centered = false;
-};
-
-/// Products of the columns, weighted as the data at one shift.
-struct Gram {
-  std::vector<double> G;
-  std::vector<double> sums;  ///< of the columns, shape (3, columns)
-  double weight = 0.0;
-};
-
-Gram gram_at(const Cells& data, const Grid& grid, std::size_t shift) {
-  const std::size_t n = grid.columns;
-  Gram out{std::vector<double>(n * n, 0.0), std::vector<double>(3 * n, 0.0), 0.0};
-  for (std::size_t i = 0; i < cells; ++i) {
-    const double w = data.weight[i];
-    if (w == 0.0) continue;
-    const double* const rows = &grid.C[((i + shift) % cells) * 3 * n];
-    out.weight += w;
-    for (std::size_t q = 0; q < 3; ++q) {
-      const double* const c = rows + q * n;
-      for (std::size_t a = 0; a < n; ++a) {
-        out.sums[q * n + a] += w * c[a];
-        for (std::size_t b = 0; b <= a; ++b) out.G[a * n + b] += w * c[a] * c[b];
-      }
-    }
-  }
+/// g^T A g.
+double quadratic(const std::vector<double>& A, std::span<const double> g) {
+  const std::size_t n = g.size();
+  double out = 0.0;
   for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = a + 1; b < n; ++b) out.G[a * n + b] = out.G[b * n + a];
+    double row = 0.0;
+    for (std::size_t b = 0; b < n; ++b) row += A[a * n + b] * g[b];
+    out += g[a] * row;
   }
   return out;
 }
 
-/// Normal equations of one run at one shift.
-struct Normal {
-  std::vector<double> G;
-  std::vector<double> g;
+/// A run against one runout: products at every shift, and the inverse of each G.
+struct RunScan {
+  std::vector<Products> at;
+  std::vector<std::vector<double>> inverse_G;  ///< one, if the cells are even
   double squares = 0.0;
 
-  void add(const Normal& other) {
-    for (std::size_t i = 0; i < G.size(); ++i) G[i] += other.G[i];
-    for (std::size_t i = 0; i < g.size(); ++i) g[i] += other.g[i];
-    squares += other.squares;
+  [[nodiscard]] const std::vector<double>& inverse_at(std::size_t shift) const {
+    return inverse_G[inverse_G.size() == 1 ? 0 : shift];
   }
 };
 
-void center(const Gram& gram, const std::array<double, 3>& sum_F, Normal& normal) {
-  const std::size_t n = normal.g.size();
+/// A phase of one run at which its own best fit is a local minimum.
+struct PhaseMinimum {
+  double phase = 0.0;
+  double rss = 0.0;
+  std::size_t shift = 0;
+  std::vector<double> g;
+};
+
+/// C^T W F at one shift when the channels read Q F.
+std::vector<double> right_side(const Products& at, const signal::Matrix3& Q) {
+  const std::size_t n = at.X.size() / 9;
+  std::vector<double> g(n, 0.0);
   for (std::size_t q = 0; q < 3; ++q) {
-    const double* const sum_C = &gram.sums[q * n];
-    for (std::size_t a = 0; a < n; ++a) {
-      const double c = sum_C[a] / gram.weight;
-      normal.g[a] -= c * sum_F[q];
-      for (std::size_t b = 0; b < n; ++b) normal.G[a * n + b] -= c * sum_C[b];
-    }
-    normal.squares -= sum_F[q] * sum_F[q] / gram.weight;
-  }
-}
-
-Normal normal_at(const Cells& data, const Grid& grid, std::size_t shift,
-                 const Gram& gram) {
-  const std::size_t n = grid.columns;
-  Normal out{gram.G, std::vector<double>(n, 0.0), data.squares};
-  std::array<double, 3> sum_F{};
-  for (std::size_t i = 0; i < cells; ++i) {
-    const double* const rows = &grid.C[((i + shift) % cells) * 3 * n];
-    for (std::size_t q = 0; q < 3; ++q) {
-      const double wF = data.weight[i] * data.force[i][q];
-      sum_F[q] += wF;
-      for (std::size_t a = 0; a < n; ++a) out.g[a] += wF * rows[q * n + a];
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (Q[c][q] == 0.0) continue;
+      const double* const X = &at.X[(3 * q + c) * n];
+      for (std::size_t a = 0; a < n; ++a) g[a] += Q[c][q] * X[a];
     }
   }
-  if (grid.centered) center(gram, sum_F, out);
-  return out;
-}
-
-double rss_of(const Normal& normal) {
-  std::vector<double> K(normal.g.size());
-  return normal.squares - numerics::solve_normal(normal.G, normal.g, K);
+  return g;
 }
 
 /// Minimum of a parabola through three equally spaced values, in steps from the middle.
@@ -151,109 +87,205 @@ double vertex(double left, double middle, double right) {
                          : 0.0;
 }
 
-/// A phase of one run at which its own best fit is a local minimum.
-struct PhaseMinimum {
-  double phase = 0.0;
-  double rss = 0.0;
-  Normal normal;
-};
-
-std::vector<PhaseMinimum> phase_minima(const Cells& data, const Grid& grid,
-                                       double span) {
-  const double width = unit::turn / static_cast<double>(cells);
-  const int half = static_cast<int>(std::ceil(0.5 * span / width));
-  const bool all = 2 * half >= static_cast<int>(cells);
-  const int first = all ? 0 : -half;
-  const int last = all ? static_cast<int>(cells) - 1 : half;
-  const Gram even = gram_at(data, grid, 0);
-  const auto at = [&](int k) {
-    const std::size_t shift = index(k + static_cast<int>(cells)) % cells;
-    // With equal weights a shift changes the order of the sums only.
-    return normal_at(data, grid, shift, data.even ? even : gram_at(data, grid, shift));
-  };
-  std::vector<double> rss;
-  for (int k = first; k <= last; ++k) rss.push_back(rss_of(at(k)));
+/// The phases of a run at which it fits best by itself, the best first.
+std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3& Q,
+                                       std::size_t most) {
+  const std::size_t count = run.at.size();
+  const double width = unit::turn / static_cast<double>(count);
+  std::vector<PhaseMinimum> all(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double> g = right_side(run.at[k], Q);
+    const double rss = run.squares - quadratic(run.inverse_at(k), g);  // I-12
+    all[k] = {0.0, rss, k, std::move(g)};
+  }
   std::vector<PhaseMinimum> out;
-  const std::size_t count = rss.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double left = i > 0 ? rss[i - 1] : (all ? rss[count - 1] : rss[i + 1]);
-    const double right = i + 1 < count ? rss[i + 1] : (all ? rss[0] : rss[i - 1]);
-    if (rss[i] > left || rss[i] > right) continue;
-    const double k = first + static_cast<double>(i);
-    out.push_back({(k + vertex(left, rss[i], right)) * width, rss[i], {}});
+  for (std::size_t k = 0; k < count; ++k) {
+    const double left = all[(k + count - 1) % count].rss;
+    const double right = all[(k + 1) % count].rss;
+    if (all[k].rss > left || all[k].rss > right) continue;
+    PhaseMinimum& found = out.emplace_back(all[k]);
+    found.phase = (static_cast<double>(k) + vertex(left, found.rss, right)) * width;
   }
-  std::ranges::sort(out, {}, &PhaseMinimum::rss);
-  if (out.size() > 2) out.resize(2);
-  for (PhaseMinimum& m : out) {
-    m.normal = at(static_cast<int>(std::lround(m.phase / width)));
-  }
+  std::ranges::stable_sort(out, {}, &PhaseMinimum::rss);
+  if (out.size() > most) out.resize(most);
   return out;
 }
 
-/// Candidates of one runout: the best phases of all
-/// runs, and each run at its second best.
-void combine(std::vector<double> p,
-             const std::vector<std::vector<PhaseMinimum>>& minima, int first_phase,
-             std::vector<Candidate>& out) {
-  for (std::size_t other = 0; other <= minima.size(); ++other) {
-    if (other < minima.size() && minima[other].size() < 2) continue;
-    Normal sum;
-    for (std::size_t r = 0; r < minima.size(); ++r) {
-      const PhaseMinimum& m = minima[r][r == other ? 1 : 0];
-      p[index(first_phase) + r] = m.phase;
-      if (r == 0) {
-        sum = m.normal;
-      } else {
-        sum.add(m.normal);
+/// Runs with one phase chosen for each.
+class Combination {
+ public:
+  Combination(const std::vector<RunScan>& runs,
+              const std::vector<std::vector<PhaseMinimum>>& minima)
+      : runs_(runs), minima_(minima), chosen_(runs.size(), 0) {
+    if (std::ranges::any_of(
+            runs, [](const RunScan& r) { return r.inverse_G.size() > 1; })) {
+      return;
+    }
+    inverse_ = inverse(total_G(), minima[0][0].g.size());
+  }
+
+  /// The first run at one of its phases, each other where it fits best together with
+  /// the rest: by the coefficients of the first run, then by those of all.
+  double settle(std::size_t first) {
+    chosen_[0] = first;
+    follow_first();
+    double least = rss();
+    for (int round = 0; round < rounds; ++round) {
+      bool better = false;
+      for (std::size_t r = 1; r < runs_.size(); ++r) {
+        better = improve(r, least) || better;
+      }
+      if (!better) break;
+    }
+    return least;
+  }
+
+  [[nodiscard]] const PhaseMinimum& of(std::size_t r) const {
+    return minima_[r][chosen_[r]];
+  }
+
+ private:
+  [[nodiscard]] const std::vector<double>& G_of(std::size_t r,
+                                                const PhaseMinimum& m) const {
+    return runs_[r].at[m.shift].G;
+  }
+
+  [[nodiscard]] std::vector<double> total_G() const {
+    std::vector<double> sum = G_of(0, of(0));
+    for (std::size_t r = 1; r < runs_.size(); ++r) {
+      const std::vector<double>& G = G_of(r, of(r));
+      std::ranges::transform(sum, G, sum.begin(), std::plus());
+    }
+    return sum;
+  }
+
+  void follow_first() {
+    const PhaseMinimum& m = of(0);
+    std::vector<double> K(m.g.size());
+    numerics::solve_normal(G_of(0, m), m.g, K);
+    for (std::size_t r = 1; r < runs_.size(); ++r) {
+      const auto misfit = [&](const PhaseMinimum& other) {
+        return quadratic(G_of(r, other), K) -
+               2.0 * std::inner_product(K.begin(), K.end(), other.g.begin(), 0.0);
+      };
+      const auto best = std::ranges::min_element(minima_[r], {}, misfit);
+      chosen_[r] = static_cast<std::size_t>(best - minima_[r].begin());
+    }
+  }
+
+  /// Sum of squares of all runs with the same coefficients.
+  [[nodiscard]] double rss() const {
+    std::vector<double> g(of(0).g.size(), 0.0);
+    double squares = 0.0;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      std::ranges::transform(g, of(r).g, g.begin(), std::plus());
+      squares += runs_[r].squares;
+    }
+    if (!inverse_.empty()) return squares - quadratic(inverse_, g);  // I-12
+    std::vector<double> K(g.size());
+    return squares - numerics::solve_normal(total_G(), g, K);
+  }
+
+  bool improve(std::size_t r, double& least) {
+    std::size_t best = chosen_[r];
+    const double before = least;
+    for (std::size_t m = 0; m < minima_[r].size(); ++m) {
+      chosen_[r] = m;
+      const double here = rss();
+      if (here < least) {
+        least = here;
+        best = m;
       }
     }
-    out.push_back({p, rss_of(sum)});
+    chosen_[r] = best;
+    return least < before;
   }
-}
 
-void scan_phases(const Problem& problem, const std::vector<Cells>& data, double span,
-                 std::vector<double> p, std::vector<Candidate>& out) {
+  const std::vector<RunScan>& runs_;
+  const std::vector<std::vector<PhaseMinimum>>& minima_;
+  std::vector<std::size_t> chosen_;
+  std::vector<double> inverse_;  ///< of the sum of all G, where no phase changes it
+};
+
+/// All runs against one runout.
+std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>& cells,
+                               std::span<const double> p, bool mixed) {
   const Point point = point_of(problem, p);
-  const auto n = index(problem.columns);
-  const std::vector<double> phi = cell_angles();
-  std::vector<std::vector<PhaseMinimum>> minima;
+  std::vector<RunScan> out;
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     force::Setup setup = problem.setup;
     setup.runout = point.runout;
     setup.cut = problem.runs[r].cut;
-    Grid grid{std::vector<double>(cells * 3 * n), n, !problem.runs[r].drift.empty()};
-    force::ForceMatrix(setup, point.law, 1e-4).evaluate(phi, grid.C);
-    minima.push_back(phase_minima(data[r], grid, r == 0 ? span : unit::turn));
+    const force::ForceMatrix matrix(setup, point.law, scan_tolerance);
+    const bool free = problem.unknowns.phases > 0;
+    const double given = free ? 0.0 : problem.fixed_phase;
+    RunScan& run = out.emplace_back();
+    run.at = products(cells[r], matrix_in_cells(matrix, cells[r], given),
+                      free ? cells[r].size() : 1, mixed);
+    run.squares = cells[r].squares;
+    const std::size_t grams = cells[r].even ? 1 : run.at.size();
+    for (std::size_t k = 0; k < grams; ++k) {
+      run.inverse_G.push_back(inverse(run.at[k].G, index(problem.columns)));
+    }
+  }
+  return out;
+}
+
+/// Candidates of one runout and reading.
+void add_candidates(const Problem& problem, const std::vector<RunScan>& runs,
+                    const signal::Matrix3& Q, std::vector<double> p,
+                    std::vector<Candidate>& out) {
+  const std::size_t most =
+      std::max(most_minima, index(problem.unknowns.phases > 0 ? problem.unknowns.teeth
+                                                               : 1));
+  std::vector<std::vector<PhaseMinimum>> minima;
+  for (const RunScan& run : runs) {
+    minima.push_back(phase_minima(run, Q, most));
     if (minima.back().empty()) return;
   }
-  combine(std::move(p), minima, problem.unknowns.first_phase(), out);
+  Combination combination(runs, minima);
+  for (std::size_t first = 0; first < minima[0].size(); ++first) {
+    const double rss = combination.settle(first);
+    for (std::size_t r = 0; r < index(problem.unknowns.phases); ++r) {
+      p[index(problem.unknowns.first_phase()) + r] = combination.of(r).phase;
+    }
+    out.push_back({p, rss});
+  }
 }
 
 }  // namespace
 
-std::vector<Candidate> scan(const Problem& problem, double span) {
-  const Unknowns& u = problem.unknowns;
-  std::vector<Cells> data;
-  for (const FoldedRun& run : problem.runs) data.push_back(cells_of(run));
+std::vector<std::vector<Candidate>> scan(
+    const Problem& problem, const std::vector<std::vector<double>>& runouts,
+    std::span<const signal::Matrix3> readings) {
+  const bool mixed = readings.size() > 1 || readings.front() != as_it_is;
+  std::vector<Cells> cells;
+  for (const FoldedRun& run : problem.runs) cells.push_back(cells_of(run));
   std::vector<double> p =
       parameters_of(problem, {problem.setup.runout, problem.law,
                               std::vector<double>(problem.runs.size(), 0.0)});
-  std::vector<Candidate> out;
-  for (const std::vector<double>& runout : runout_starts(problem)) {
+  std::vector<std::vector<Candidate>> out(readings.size());
+  for (const std::vector<double>& runout : runouts) {
     std::ranges::copy(runout, p.begin());
     if (!in_range(problem, p)) continue;
-    if (u.phases == 0) {
-      out.push_back({p, rss_at(problem, p)});
-      continue;
-    }
     try {
-      scan_phases(problem, data, span, p, out);
+      const std::vector<RunScan> runs = run_scans(problem, cells, p, mixed);
+      for (std::size_t k = 0; k < readings.size(); ++k) {
+        add_candidates(problem, runs, readings[k], p, out[k]);
+      }
     } catch (const std::invalid_argument&) {
       continue;  // no such cutter
     }
   }
-  std::ranges::stable_sort(out, {}, &Candidate::rss);
+  for (std::vector<Candidate>& one : out) {
+    std::ranges::stable_sort(one, {}, &Candidate::rss);
+  }
   return out;
+}
+
+std::vector<Candidate> scan(const Problem& problem,
+                            const std::vector<std::vector<double>>& runouts) {
+  return scan(problem, runouts, {&as_it_is, 1}).front();
 }
 
 }  // namespace trochoid::identification

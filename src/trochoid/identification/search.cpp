@@ -1,34 +1,33 @@
-#include <trochoid/base/units.h>
+#include <trochoid/identification/gauge.h>
 #include <trochoid/identification/jumps.h>
-#include <trochoid/identification/scan.h>
+#include <trochoid/identification/runout_starts.h>
 #include <trochoid/identification/search.h>
+#include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace trochoid::identification {
 namespace {
 
 constexpr int coarse_bins = 120;
+constexpr int coarse_angles = 64;
+constexpr auto no_start = "no start gives a force";
 
-bool equal_pitch(const geometry::Cutter& cutter) {
-  const double pitch = unit::turn / cutter.teeth();
-  return std::ranges::all_of(cutter.pitch,
-                             [&](double p) { return std::abs(p - pitch) < 1e-9; });
-}
+/// A given start counts where the fit stays this near to its runout, in feeds, and
+/// leaves no more than this part of how the force changes (rms).
+constexpr double near_start = 0.3;
+constexpr double little_left = 0.3;
 
-bool equal_offsets(const geometry::Runout& runout) {
-  const auto& s = runout.radial_offsets;
-  return std::ranges::all_of(s, [&](double v) { return v == s.front(); });
-}
-
-bool nearly_equal(const Minimum& a, const Minimum& b) {
-  double distance = 0.0;
-  for (std::size_t i = 0; i < a.p.size(); ++i) {
-    distance = std::max(distance, std::abs(a.p[i] - b.p[i]));
+bool nearly_equal(const std::vector<double>& a, const std::vector<double>& b,
+                  double distance) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!(std::abs(a[i] - b[i]) < distance)) return false;
   }
-  return distance < 1e-3;
+  return true;
 }
 
 constexpr Step coarse_step{1e-3, 1e-3, false};
@@ -78,21 +77,89 @@ void move_single_teeth(const Problem& coarse, Minimum& best) {
   }
 }
 
+/// The first so many candidates that are not the same one with other numbers of teeth.
+std::vector<std::vector<double>> first_starts(const Problem& problem,
+                                              const std::vector<Candidate>& candidates,
+                                              std::size_t count) {
+  std::vector<std::vector<double>> out;
+  for (const Candidate& candidate : candidates) {
+    if (out.size() == count) break;
+    std::vector<double> p = candidate.p;
+    apply_gauge(problem, p);
+    const auto same = [&](const auto& other) { return nearly_equal(p, other, 0.03); };
+    if (std::ranges::none_of(out, same)) out.push_back(std::move(p));
+  }
+  return out;
+}
+
 /// Local minima from the best candidates, the best first.
 std::vector<Minimum> coarse_minima(const Problem& coarse,
                                    const std::vector<Candidate>& candidates) {
   const std::size_t starts = coarse.unknowns.runout_count() > 2 ? 6 : 3;
   std::vector<Minimum> out;
-  for (std::size_t i = 0; i < std::min(starts, candidates.size()); ++i) {
-    Minimum m = refine(coarse, candidates[i].p, coarse_step, coarse_options());
+  for (std::vector<double>& start : first_starts(coarse, candidates, starts)) {
+    Minimum m = refine(coarse, std::move(start), coarse_step, coarse_options());
     apply_gauge(coarse, m.p);
     const bool known = std::ranges::any_of(
-        out, [&](const Minimum& other) { return nearly_equal(m, other); });
+        out, [&](const Minimum& other) { return nearly_equal(m.p, other.p, 1e-3); });
     if (!known) out.push_back(std::move(m));
   }
   std::ranges::stable_sort(out, {}, &Minimum::rss);
   move_single_teeth(coarse, out.front());
   return out;
+}
+
+/// With the names of the gauge, and still the minimum.
+Minimum named(const Problem& problem, Minimum best) {
+  const bool jumps = sum_of_squares_jumps(problem);
+  // Renumbering changes the common part of the offsets, which has a slight effect.
+  if (apply_gauge(problem, best.p) && !jumps) best = settle(problem, best.p);
+  return best;
+}
+
+/// The place that setup and options name, if they name any.
+std::optional<Candidate> given_start(const Problem& problem) {
+  if (problem.start) return Candidate{parameters_of(problem, *problem.start), 0.0};
+  const std::vector<double> runout = given_runout(problem);
+  if (std::ranges::all_of(runout, [](double v) { return v == 0.0; })) {
+    return std::nullopt;
+  }
+  const std::vector<Candidate> found = scan(problem, {runout});
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+/// The minimum near a given start, if the start is worth its name.
+std::optional<Minimum> from_given(const Problem& problem) {
+  const std::optional<Candidate> given = given_start(problem);
+  if (!given || !in_range(problem, given->p)) return std::nullopt;
+  Minimum m{given->p, 0.0, true, ""};
+  if (sum_of_squares_jumps(problem)) {
+    m = refine_by_sweeps(problem, m.p);
+  } else {
+    m = refine(coarse_problem(problem), m.p, coarse_step, coarse_options());
+    m = settle(problem, m.p);
+  }
+  const auto n = static_cast<std::size_t>(problem.unknowns.runout_count());
+  const std::vector<double> from(given->p.begin(),
+                                 given->p.begin() + static_cast<std::ptrdiff_t>(n));
+  const bool worth = m.converged && nearly_equal(from, m.p, near_start) &&
+                     m.rss < little_left * little_left * rss_of_means(problem);
+  return worth ? std::optional(named(problem, std::move(m))) : std::nullopt;
+}
+
+Minimum search_by_sweeps(const Problem& problem,
+                         const std::vector<Candidate>& candidates) {
+  std::vector<Minimum> swept;
+  for (std::vector<double>& start : first_starts(problem, candidates, 4)) {
+    swept.push_back(sweep_phases(problem, std::move(start)));
+  }
+  std::ranges::stable_sort(swept, {}, &Minimum::rss);
+  Minimum best = refine_by_sweeps(problem, swept.front().p);
+  if (swept.size() > 1 && swept[1].rss < 4.0 * best.rss) {
+    Minimum second = refine_by_sweeps(problem, swept[1].p);
+    if (second.rss < best.rss) best = std::move(second);
+  }
+  return best;
 }
 
 }  // namespace
@@ -101,6 +168,7 @@ Problem coarse_problem(const Problem& problem) {
   Problem out = problem;
   for (FoldedRun& run : out.runs) run = coarsen(run, coarse_bins);
   out.tolerance = std::max(problem.tolerance, 1e-6);
+  out.angles = coarse_angles;
   return out;
 }
 
@@ -119,71 +187,45 @@ Minimum settle(const Problem& problem, const std::vector<double>& start) {
   return again;
 }
 
-bool teeth_are_alike(const Problem& problem) {
-  const Unknowns& u = problem.unknowns;
-  if (u.phases == 0 || !equal_pitch(problem.setup.cutter)) return false;
-  const geometry::Runout& given = problem.setup.runout;
-  if (u.runout == RunoutUnknowns::offsets) return given.eccentricity == 0.0;
-  if (u.runout == RunoutUnknowns::eccentricity) return equal_offsets(given);
-  return given.eccentricity == 0.0 && equal_offsets(given);
+Minimum coarse_search(const Problem& problem,
+                      const std::vector<Candidate>& candidates) {
+  if (candidates.empty()) return {{}, 0.0, false, no_start};
+  if (problem.unknowns.count() == 0) return refine(problem, {}, {}, {});
+  return coarse_minima(coarse_problem(problem), candidates).front();
 }
 
-bool apply_gauge(const Problem& problem, std::vector<double>& p) {
-  const Unknowns& u = problem.unknowns;
-  if (u.phases == 0) return false;
-  Point point = point_of(problem, p);
-  const double pitch = unit::turn / u.teeth;
-  int shift = 0;
-  if (teeth_are_alike(problem)) {
-    const auto passed = static_cast<int>(std::floor(point.phase[0] / pitch + 0.5));
-    shift = ((passed % u.teeth) + u.teeth) % u.teeth;
-    for (double& phase : point.phase) phase -= passed * pitch;
-  }
-  if (u.runout == RunoutUnknowns::offsets && shift != 0) {
-    auto& s = point.runout.radial_offsets;
-    std::ranges::rotate(s, s.begin() + shift);
-  }
-  point.runout.angle -= shift * pitch;
-  for (std::size_t r = 0; r < point.phase.size(); ++r) {
-    double& phase = point.phase[r];
-    if (r > 0 || !teeth_are_alike(problem))
-      phase -= unit::turn * std::floor(phase / unit::turn + 0.5);
-  }
-  p = parameters_of(problem, point);
-  return shift != 0;
-}
-
-Minimum search(const Problem& problem) {
-  const Unknowns& u = problem.unknowns;
-  if (u.count() == 0) return refine(problem, {}, {}, {});
-  const double span = teeth_are_alike(problem) ? unit::turn / u.teeth : unit::turn;
-  const Problem coarse = coarse_problem(problem);
-  const std::vector<Candidate> candidates = scan(coarse, span);
-  if (candidates.empty()) return {{}, 0.0, false, "no start gives a force"};
-  Minimum best;
+Minimum search_from(const Problem& problem, const std::vector<Candidate>& candidates) {
+  if (candidates.empty()) return {{}, 0.0, false, no_start};
+  if (problem.unknowns.count() == 0) return refine(problem, {}, {}, {});
   if (sum_of_squares_jumps(problem)) {
-    std::vector<Minimum> swept;
-    for (std::size_t i = 0; i < std::min<std::size_t>(4, candidates.size()); ++i) {
-      swept.push_back(sweep_phases(problem, candidates[i].p));
-    }
-    std::ranges::stable_sort(swept, {}, &Minimum::rss);
-    best = refine_by_sweeps(problem, swept.front().p);
-    if (swept.size() > 1 && swept[1].rss < 4.0 * best.rss) {
-      Minimum second = refine_by_sweeps(problem, swept[1].p);
-      if (second.rss < best.rss) best = std::move(second);
-    }
-    apply_gauge(problem, best.p);
-    return best;
+    return named(problem, search_by_sweeps(problem, candidates));
   }
-  const std::vector<Minimum> minima = coarse_minima(coarse, candidates);
-  best = settle(problem, minima.front().p);
+  const std::vector<Minimum> minima =
+      coarse_minima(coarse_problem(problem), candidates);
+  Minimum best = settle(problem, minima.front().p);
   if (minima.size() > 1 && minima[1].rss < 1.02 * minima[0].rss) {
     Minimum second = settle(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }
-  // Renumbering changes the common part of the offsets, which has a slight effect.
-  if (apply_gauge(problem, best.p)) best = settle(problem, best.p);
-  return best;
+  return named(problem, std::move(best));
+}
+
+Minimum search(const Problem& problem) {
+  if (problem.unknowns.count() == 0) return refine(problem, {}, {}, {});
+  if (std::optional<Minimum> given = from_given(problem)) return *std::move(given);
+  return search_from(problem, scan(problem, runout_starts(problem)));
+}
+
+void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
+  if (problem.unknowns.runout != RunoutUnknowns::eccentricity) return;
+  const Point point = point_of(problem, p);
+  const Problem coarse = coarse_problem(problem);
+  std::vector<double> residual = measured(coarse);
+  const std::vector<double> K = numerics::project_out(
+      design(coarse, evaluate(coarse, p)), coarse.linear(), residual, 1);
+  problem.unknowns.direction = single_direction(coarse, p, K);
+  if (!problem.unknowns.direction) return;
+  p = settle(problem, parameters_of(problem, point)).p;
 }
 
 }  // namespace trochoid::identification

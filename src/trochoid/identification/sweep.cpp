@@ -1,25 +1,11 @@
 #include <trochoid/identification/identify.h>
 #include <trochoid/identification/problem.h>
+#include <trochoid/identification/residuals.h>
 #include <trochoid/numerics/least_squares.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace trochoid::identification {
-namespace {
-
-/// Sum of squares that the folded rows no longer hold, because no model changes it.
-double scatter_of(const Run& run, const FoldedRun& folded) {
-  if (folded.band > 0) return 0.0;
-  double measured = 0.0;
-  for (const auto& F : run.force) measured += F[0] * F[0] + F[1] * F[1] + F[2] * F[2];
-  double kept = 0.0;
-  for (const double b : folded.b) kept += b * b;
-  return std::max(0.0, measured - kept);
-}
-
-}  // namespace
-
 std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
                           std::span<const Run> runs, const Fit& fit,
                           std::span<const double> offsets) {

@@ -24,12 +24,13 @@ struct State {
   std::vector<double> residual;
 };
 
-std::optional<State> state_at(const Problem& problem, std::span<const double> p) {
+std::optional<State> state_at(const Problem& problem, std::span<const double> p,
+                              const Evaluation* known) {
   if (!in_range(problem, p)) return std::nullopt;
   State out;
   out.p.assign(p.begin(), p.end());
   try {
-    out.evaluation = evaluate(problem, p);
+    out.evaluation = evaluate(problem, p, known);
   } catch (const std::invalid_argument&) {
     return std::nullopt;  // a cutter that cannot be, such as a radius below zero
   }
@@ -60,8 +61,15 @@ void fill_jacobian(const Problem& problem, const State& state, const Step& step,
 }  // namespace
 
 double rss_at(const Problem& problem, std::span<const double> p) {
-  const std::optional<State> state = state_at(problem, p);
-  return state ? squared(state->residual) : std::numeric_limits<double>::infinity();
+  Evaluation last;
+  return rss_at(problem, p, last);
+}
+
+double rss_at(const Problem& problem, std::span<const double> p, Evaluation& last) {
+  std::optional<State> state = state_at(problem, p, &last);
+  if (!state) return std::numeric_limits<double>::infinity();
+  last = std::move(state->evaluation);
+  return squared(state->residual);
 }
 
 Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
@@ -76,8 +84,12 @@ Minimum refine(const Problem& problem, std::vector<double> start, const Step& st
   std::optional<State> last;
   const auto residuals = [&](std::span<const double> p, std::span<double> r,
                              std::span<double> jacobian) {
-    if (!last || !std::ranges::equal(last->p, p)) last = state_at(problem, p);
-    if (!last) return false;
+    if (!last || !std::ranges::equal(last->p, p)) {
+      std::optional<State> next =
+          state_at(problem, p, last ? &last->evaluation : nullptr);
+      if (!next) return false;
+      last = std::move(next);
+    }
     std::ranges::transform(last->residual, r.begin(),
                            [&](double v) { return v / scale; });
     if (!jacobian.empty()) {

@@ -19,6 +19,10 @@ struct Minimum {
 /// @brief Sum of squares at p with the best coefficients [N^2]; infinite out of range.
 double rss_at(const Problem& problem, std::span<const double> p);
 
+/// @brief The same beside an evaluation nearby.
+/// @param[in,out] last  serves again where only phases differ; becomes that at p
+double rss_at(const Problem& problem, std::span<const double> p, Evaluation& last);
+
 /// @brief Local minimum by Levenberg-Marquardt with the coefficients eliminated.
 ///
 /// @eq  I-3 r(p) = (1 - P) {F}, dr/dp = -(1 - P) d[D]/dp {K}, P the projection on [D]

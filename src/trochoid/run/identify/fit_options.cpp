@@ -1,5 +1,7 @@
 #include <trochoid/run/identify/fit_options.h>
 
+#include <fmt/core.h>
+
 namespace trochoid::run {
 
 identification::Options fit_options(const inputs::Case& given, chip::Model model) {
@@ -14,6 +16,10 @@ identification::Options fit_options(const inputs::Case& given, chip::Model model
 identification::AxesProblem axes_problem(const inputs::Case& given) {
   return {given.setup, given.law,
           fit_options(given, given.identify.chip_models.back())};
+}
+
+std::string axes_progress(double part) {
+  return fmt::format("finding the axes of the dynamometer, {:.0f} %", 100.0 * part);
 }
 
 }  // namespace trochoid::run

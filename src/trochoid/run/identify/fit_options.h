@@ -3,6 +3,8 @@
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/inputs/case.h>
 
+#include <string>
+
 namespace trochoid::run {
 
 /// @brief Options of one fit as [identify] asks for them.
@@ -10,5 +12,9 @@ identification::Options fit_options(const inputs::Case& given, chip::Model model
 
 /// @brief What is fitted to find out what the channels read.
 identification::AxesProblem axes_problem(const inputs::Case& given);
+
+/// @brief What to say while that is done.
+/// @param part  of it that is done, from 0 to 1
+std::string axes_progress(double part);
 
 }  // namespace trochoid::run

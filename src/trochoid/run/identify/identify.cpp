@@ -76,12 +76,15 @@ signal::OneRevolution folded(const identification::Run& run) {
 
 std::vector<Fit> all_fits(const inputs::Case& given,
                           std::span<const identification::Run> runs,
+                          const std::optional<identification::Start>& start,
                           const Progress& progress) {
   std::vector<Fit> fits;
   for (const chip::Model model : given.identify.chip_models) {
     progress(fmt::format("fitting, chip model {}", chip::name_of(model)));
-    fits.push_back(identification::identify(given.setup, given.law, runs,
-                                            fit_options(given, model)));
+    identification::Options options = fit_options(given, model);
+    options.start = start;
+    fits.push_back(
+        identification::identify(given.setup, given.law, runs, options));
   }
   return fits;
 }
@@ -170,7 +173,7 @@ struct Identification {
     }
     const AxesChoice axes = identification::find_axes(
         axes_problem(given), channels_of(measured),
-        [&] { progress("finding the axes of the dynamometer"); });
+        [&](double part) { progress(axes_progress(part)); });
     if (!axes.ok) {
       if (std::isfinite(axes.rms)) {
         add_causes();
@@ -220,7 +223,9 @@ struct Identification {
     }
     r.runs = identification::on_tool(channels_of(measured), r.channels);
     r.records = summaries(measured);
-    r.fits = all_fits(given, r.runs, progress);
+    std::optional<identification::Start> start;
+    if (r.axes) start = r.axes->start;
+    r.fits = all_fits(given, r.runs, start, progress);
     r.chosen = chosen_fit(r.fits);
     if (!r.chosen) {
       if (r.fits.back().rms > 0) {  // equations that could be solved, to no avail

@@ -32,7 +32,7 @@ std::vector<base::Warning> better_axes(const inputs::Case& given,
   const identification::AxesProblem problem = axes_problem(given);
   const auto channels = channels_of(runs);
   const auto other = identification::find_axes(
-      problem, channels, [&] { progress("finding the axes of the dynamometer"); });
+      problem, channels, [&](double part) { progress(axes_progress(part)); });
   const double now = identification::reading_rms(problem, channels, M);
   if (!other.ok || !(other.rms < much_better * now)) {
     return {};

@@ -1,0 +1,135 @@
+#include <trochoid/identification/fit_at.h>
+
+#include <trochoid/base/index.h>
+#include <trochoid/identification/answer.h>
+#include <trochoid/identification/prepare.h>
+#include <trochoid/identification/reliability.h>
+#include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::identification {
+namespace {
+
+/// A fit must explain so many times more than it would of noise (the F statistic): with
+/// all phases tried, noise alone reaches about 5.
+constexpr double least_F = 10.0;
+
+/// Part of the sum of squares of the force that a fit must explain, unless what it
+/// leaves is noise.
+constexpr double least_explained = 0.1;
+
+using base::index;
+
+/// Whether what the fit explains beyond the means is
+/// no more than a fit to noise explains.
+bool only_noise(const Problem& problem, const numerics::LeastSquares& linear,
+                double variance) {
+  const double unknowns = problem.linear() + problem.unknowns.count();
+  const double means = 3.0 * static_cast<double>(problem.runs.size());
+  return rss_of_means(problem) - linear.rss <
+         least_F * std::max(1.0, unknowns - means) * variance;
+}
+
+/// A fit that explains next to nothing of a force that is not noise: why, else empty.
+std::string nothing_explained(const Fit& fit) {
+  const Unexplained& u = fit.unexplained;
+  if (u.all * u.all <= 1.0 - least_explained || u.correlation <= noise_correlation) {
+    return "";  // I-9
+  }
+  return fmt::format(
+      "the best fit explains {:.1f} % of the force (sum of squares), and what it "
+      "leaves is not noise: this record and this tool and cut do not belong together",
+      100.0 * (1.0 - u.all * u.all));
+}
+
+double samples_of(std::span<const Run> runs) {
+  double sum = 0.0;
+  for (const Run& run : runs) sum += static_cast<double>(run.angle.size());
+  return sum;
+}
+
+/// Names of the columns of [D] that are zero or depend on one another.
+std::string dependent_names(const Problem& problem, const numerics::LeastSquares& fit) {
+  const std::vector<std::string> names = names_of(problem);
+  const std::size_t n = fit.x.size();
+  std::string list;
+  for (std::size_t c = 0; c < n; ++c) {
+    double part = 0.0;
+    for (std::size_t v = c; v < fit.null_space.size(); v += n) {
+      part = std::max(part, std::abs(fit.null_space[v]));
+    }
+    if (part > 1e-3) list += (list.empty() ? "" : ", ") + names[c];
+  }
+  return list;
+}
+
+/// [D] without its channel columns.
+std::vector<double> force_columns(const Problem& problem, std::span<const double> D) {
+  const std::size_t linear = index(problem.linear());
+  const std::size_t columns = index(problem.columns);
+  std::vector<double> out;
+  out.reserve(D.size() / linear * columns);
+  for (std::size_t row = 0; row < D.size(); row += linear) {
+    out.insert(out.end(), D.begin() + static_cast<std::ptrdiff_t>(row),
+               D.begin() + static_cast<std::ptrdiff_t>(row + columns));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string rank_refusal(const Problem& problem, std::span<const double> D,
+                         const numerics::LeastSquares& all) {
+  if (all.rank == problem.linear()) return "";
+  const numerics::LeastSquares force = numerics::least_squares(
+      force_columns(problem, D), problem.columns, measured(problem), rank_tolerance);
+  if (*std::ranges::max_element(force.norms) == 0.0) {
+    return "nothing is in cut at any of the measured angles";
+  }
+  if (force.rank == problem.columns) return "";
+  return fmt::format(
+      "the forces determine only {} of {} coefficients: {} cannot be told apart",
+      force.rank, problem.columns, dependent_names(problem, force));
+}
+
+void fill_at(const Problem& problem, std::span<const Run> runs,
+             const std::vector<double>& p, Fit& fit) {
+  const Evaluation at = evaluate(problem, p);
+  const std::vector<double> D = design(problem, at);
+  const numerics::LeastSquares linear =
+      numerics::least_squares(D, problem.linear(), measured(problem), rank_tolerance);
+  fit.rank = linear.rank;
+  fit.condition = linear.condition;
+  fit.message = rank_refusal(problem, D, linear);
+  if (!fit.message.empty()) {
+    refuse_coefficients(problem, fit);
+    return;
+  }
+  fill_fitted(problem, runs, at, linear, fit);
+  fit.message = nothing_explained(fit);
+  if (!fit.message.empty()) {
+    refuse_coefficients(problem, fit);
+    return;
+  }
+  const double equations = equations_of(problem, runs);
+  const double rss = fit.rms * fit.rms * samples_of(runs);
+  const Uncertainty known = uncertainty(problem, p, linear.x, rss, equations);
+  if (means_do_not_suffice(problem) &&
+      only_noise(problem, linear, rss / known.freedom)) {
+    fit.message =
+        "this model explains no more of how the force changes over the turn than it "
+        "would of noise; the three means alone cannot determine six coefficients";
+    refuse_coefficients(problem, fit);
+    return;
+  }
+  fill_estimates(problem, p, linear.x, known, fit);
+  fit.ok = std::ranges::any_of(fit.coefficients, [](const auto& K) { return !!K; });
+  if (!fit.ok) fit.message = "none of the coefficients can be told from the record";
+}
+
+}  // namespace trochoid::identification

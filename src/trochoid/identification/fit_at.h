@@ -1,0 +1,25 @@
+#pragma once
+
+#include <trochoid/identification/problem.h>
+#include <trochoid/numerics/least_squares.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// @brief Why coefficients cannot be had from [D]; empty: they can.
+///
+/// Coefficients that cannot be told apart from one another refuse the fit. One that
+/// only an unknown channel offset hides is absent, and the others stand.
+/// @param all  the least-squares fit of D
+std::string rank_refusal(const Problem& problem, std::span<const double> D,
+                         const numerics::LeastSquares& all);
+
+/// @brief The fit at a minimum, with all its numbers; `fit.ok` tells whether they stand.
+/// @param fit  with its options, chip and law
+void fill_at(const Problem& problem, std::span<const Run> runs,
+             const std::vector<double>& p, Fit& fit);
+
+}  // namespace trochoid::identification

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <trochoid/identification/problem.h>
+#include <trochoid/signal/axes.h>
+
+#include <array>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// One reading of the channels, and what makes it the same data as the first of its
+/// family.
+struct Reading {
+  signal::Matrix3 Q;     ///< channels = Q force
+  signal::Matrix3 turn;  ///< (K_t, K_r, K_a) = turn (K_t, K_r, K_a) of the first
+};
+
+/// Readings that fit a record equally well, the first of them to be fitted.
+using ReadingFamily = std::vector<Reading>;
+
+/// @brief The 48 signed permutations in families that no residual can tell apart.
+///
+/// On a cylinder 6 of 8 (signal::axes_classes); else 24 of 2, since the force is linear
+/// in the coefficients: all signs of Q and of K turned are the same data.
+std::vector<ReadingFamily> reading_families(const force::Setup& setup);
+
+/// @brief The problem with its runs, which hold the channels, read by Q.
+Problem read_by(Problem channels, const signal::Matrix3& Q);
+
+}  // namespace trochoid::identification
