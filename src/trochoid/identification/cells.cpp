@@ -12,11 +12,13 @@ namespace {
 
 using base::index;
 
-/// Cells of the turn: about 3 degrees, a fraction of what a force curve needs to show
-/// its shape; and as many as a narrow band needs.
-constexpr std::size_t fine_cells = 128;
-constexpr std::size_t band_cells = 64;
+/// Cells of the turn: 3 degrees, a fraction of what a force curve needs to show its
+/// shape; and as many as a band needs, a power of two.
+constexpr std::size_t fine_cells = 120;
+constexpr std::size_t cells_of_narrow_band = 64;
+constexpr std::size_t cells_of_wide_band = 128;
 constexpr int narrow_band = 8;
+constexpr int widest_band = 32;
 
 /// The force of a run, or the part of it that lies in its band.
 std::vector<std::array<double, 3>> force_of(const FoldedRun& run, bool in_band) {
@@ -109,13 +111,14 @@ std::vector<double> gram(const Cells& cells, const std::vector<double>& C,
 }  // namespace
 
 Cells cells_of(const FoldedRun& run) {
-  const bool narrow = run.band > 0 && run.harmonics <= narrow_band;
-  const std::size_t n = narrow ? band_cells : fine_cells;
+  const bool banded = run.band > 0 && run.harmonics <= widest_band;
+  const std::size_t n = !banded                        ? fine_cells
+                        : run.harmonics <= narrow_band ? cells_of_narrow_band
+                                                       : cells_of_wide_band;
   Cells out;
   out.weight.assign(n, 0.0);
   out.force.assign(n, {});
   out.centered = !run.drift.empty();
-  const bool banded = run.band > 0 && 2 * index(run.harmonics) < n;
   take_means(run, force_of(run, banded), out);
   const double full = *std::ranges::max_element(out.weight);
   if (banded && *std::ranges::min_element(out.weight) > 0.1 * full) {

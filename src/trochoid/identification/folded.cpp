@@ -21,6 +21,9 @@ constexpr double same_angle = 1e-9;
 constexpr std::size_t most_angles = 4000;
 constexpr std::size_t bins_of_many = 3600;
 
+/// So few different angles are looked at one by one.
+constexpr std::size_t few_angles = 1000;
+
 double within_turn(double angle) noexcept {
   const double a = angle - unit::turn * std::floor(angle / unit::turn);
   return a >= unit::turn - 0.5 * same_angle ? 0.0 : a;
@@ -192,7 +195,7 @@ FoldedRun fold(const Run& run, const Options& options) {
   take_means(run, options.fit_channel_offsets, out);
   out.harmonics = options.band_harmonics;
   make_band(out);
-  map_turn(out);
+  map_turn(out, few_angles);
   make_rows(options.fit_channel_offsets, out);
   if (options.fit_channel_offsets) add_slope_rows(run, out);
   return out;
@@ -228,6 +231,18 @@ FoldedRun coarsen(const FoldedRun& run, int bins) {
   make_band(out);
   make_rows(drift, out);
   if (drift && out.band > 0) copy_slope_rows(run, out);
+  return out;
+}
+
+FoldedRun from_turn(const FoldedRun& run, int harmonics) {
+  if (!run.turn_map.empty()) return run;
+  const bool drift = !run.slope.empty();
+  FoldedRun out = run;
+  out.harmonics = run.band > 0 ? std::min(run.harmonics, harmonics) : harmonics;
+  make_band(out);
+  map_turn(out, 0);
+  make_rows(drift, out);
+  if (drift) copy_slope_rows(run, out);
   return out;
 }
 

@@ -47,6 +47,10 @@ FoldedRun fold(const Run& run, const Options& options);
 /// where it has no more, or has its rows from the turn.
 FoldedRun coarsen(const FoldedRun& run, int bins);
 
+/// @brief The same run in no more than so many harmonics, its rows from the turn: what it
+/// tells then depends smoothly on runout and phase, also where edges enter suddenly.
+FoldedRun from_turn(const FoldedRun& run, int harmonics);
+
 /// @brief Bring a quantity of the shape of a force into the rows of the problem.
 /// @param X  at each angle of the run, row-major, shape (u, 3, columns)
 /// @return   row-major, shape (rows, columns)

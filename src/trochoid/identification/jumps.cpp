@@ -11,36 +11,49 @@ namespace {
 
 using base::index;
 
+/// Harmonics that a smooth problem keeps at most, and one of so many samples.
+constexpr int most_harmonics = 16;
+constexpr int samples_a_harmonic = 6;
+/// Equal steps of the turn in which jumps are looked for.
+constexpr int steps_of_turn = 256;
+/// Phases are compared within so many samples of the present one, at so many places.
+constexpr double reach = 1.5;
+constexpr std::size_t most_places = 24;
+/// From so many of them the sum of squares is followed downhill.
+constexpr std::size_t followed = 2;
+
 double spacing(const FoldedRun& run) {
   return unit::turn / static_cast<double>(run.angle.size());
 }
 
-/// Best value of one unknown among those within reach of the present one.
-void sweep_one(const Problem& problem, std::size_t i, double reach, int steps,
-               Minimum& at) {
-  std::vector<double> p = at.p;
-  const double middle = p[i];
-  for (int k = -steps; k <= steps; ++k) {
-    p[i] = middle + reach * k / steps;
-    const double rss = rss_at(problem, p);
-    if (rss < at.rss) {
-      at.rss = rss;
-      at.p = p;
-    }
-  }
+bool jumps(const Problem& problem, const FoldedRun& run) {
+  return run.turn_map.empty() && enters_suddenly(problem, run, spacing(run));
 }
 
+/// A minimum on the way, and the evaluation there.
+struct Place {
+  const Problem& problem;
+  Minimum at;
+  Evaluation last;
+
+  /// @return whether p is better
+  bool try_at(std::vector<double> p) {
+    const double rss = rss_at(problem, p, last);
+    if (!(rss < at.rss)) return false;
+    at.rss = rss;
+    at.p = std::move(p);
+    return true;
+  }
+};
+
 /// One round of a pattern search: every unknown up and down by its step.
-bool explore(const Problem& problem, std::span<const double> steps, Minimum& at) {
+bool explore(std::span<const double> steps, Place& place) {
   bool better = false;
-  for (std::size_t i = 0; i < at.p.size(); ++i) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
     for (const double sign : {1.0, -1.0}) {
-      std::vector<double> p = at.p;
+      std::vector<double> p = place.at.p;
       p[i] += sign * steps[i];
-      const double rss = rss_at(problem, p);
-      if (!(rss < at.rss)) continue;
-      at.rss = rss;
-      at.p = std::move(p);
+      if (!place.try_at(std::move(p))) continue;
       better = true;
       break;
     }
@@ -48,41 +61,75 @@ bool explore(const Problem& problem, std::span<const double> steps, Minimum& at)
   return better;
 }
 
-void pattern_search(const Problem& problem, std::vector<double> steps, Minimum& at) {
-  for (int round = 0; round < 400; ++round) {
-    const std::vector<double> before = at.p;
-    if (explore(problem, steps, at)) {
-      std::vector<double> ahead = at.p;
+/// Over the edges of the smooth pieces, which the smooth steps do not cross.
+void pattern_search(std::vector<double> steps, Place& place) {
+  for (int round = 0; round < 40; ++round) {
+    const std::vector<double> before = place.at.p;
+    if (explore(steps, place)) {
+      std::vector<double> ahead = place.at.p;
       for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += ahead[i] - before[i];
-      const double rss = rss_at(problem, ahead);
-      if (rss < at.rss) at = {ahead, rss, true, at.reason};
+      place.try_at(std::move(ahead));
       continue;
     }
-    for (double& s : steps) s *= 0.4;
-    if (*std::ranges::max_element(steps) < 1e-7) return;
+    for (double& s : steps) s *= 0.3;
+    if (*std::ranges::max_element(steps) < 1e-5) return;
   }
 }
 
 /// Smooth steps; those that a jump makes worse are taken back.
-void improve(const Problem& problem, Minimum& at) {
+void improve(Place& place) {
   numerics::LevenbergMarquardtOptions options;
   options.max_iterations = 15;
   options.parameter_tolerance = 1e-8;
-  const Minimum smooth = refine(problem, at.p, {1e-5, 1e-6, false}, options);
-  if (smooth.rss < at.rss) at = {smooth.p, smooth.rss, true, at.reason};
+  options.function_tolerance = 1e-16;
+  Minimum smooth = refine(place.problem, place.at.p, {1e-5, 1e-6, false}, options);
+  if (smooth.rss < place.at.rss) {
+    place.at.p = std::move(smooth.p);
+    place.at.rss = smooth.rss;
+  }
 }
 
-/// Smooth steps from phases within one and a half samples of the present one.
-void improve_around(const Problem& problem, std::size_t phase, double cell,
-                    Minimum& at) {
-  const std::vector<double> middle = at.p;
-  for (int k = -6; k <= 6; ++k) {
-    Minimum near = at;
-    near.p = middle;
-    near.p[phase] += cell * k / 4.0;
-    near.rss = rss_at(problem, near.p);
-    improve(problem, near);
-    if (near.rss < at.rss) at = std::move(near);
+/// Phases of a run, one in each smooth piece of the sum of squares near the present one.
+std::vector<double> phases_between_jumps(const FoldedRun& run,
+                                         const force::ForceMatrix& matrix,
+                                         double phase) {
+  const double width = reach * spacing(run);
+  std::vector<double> edges = {phase - width, phase + width};
+  for (const double jump : jump_angles(matrix, steps_of_turn)) {
+    for (const double angle : run.angle) {
+      const double off = jump - angle - phase;
+      const double from_phase = off - unit::turn * std::round(off / unit::turn);
+      if (std::abs(from_phase) < width) edges.push_back(phase + from_phase);
+    }
+  }
+  std::ranges::sort(edges);
+  const std::size_t stride = 1 + edges.size() / most_places;
+  std::vector<double> out;
+  for (std::size_t i = 0; i + 1 < edges.size(); i += stride) {
+    if (edges[i + 1] - edges[i] > 1e-9) out.push_back(0.5 * (edges[i] + edges[i + 1]));
+  }
+  return out;
+}
+
+/// The best smooth pieces of one phase, followed downhill.
+void improve_around(std::size_t run, Place& place) {
+  const Problem& problem = place.problem;
+  const std::size_t i = index(problem.unknowns.first_phase()) + run;
+  const Evaluation here = evaluate(problem, place.at.p, &place.last);
+  std::vector<Minimum> found;
+  for (const double phase :
+       phases_between_jumps(problem.runs[run], here.matrix[run], place.at.p[i])) {
+    std::vector<double> p = place.at.p;
+    p[i] = phase;
+    const double rss = rss_at(problem, p, place.last);
+    found.push_back({std::move(p), rss, true, place.at.reason});
+  }
+  std::ranges::stable_sort(found, {}, &Minimum::rss);
+  if (found.size() > followed) found.resize(followed);
+  for (Minimum& m : found) {
+    Place other{problem, std::move(m), here};
+    improve(other);
+    if (other.at.rss < place.at.rss) place.at = std::move(other.at);
   }
 }
 
@@ -91,42 +138,37 @@ void improve_around(const Problem& problem, std::size_t phase, double cell,
 bool sum_of_squares_jumps(const Problem& problem) {
   if (problem.unknowns.phases == 0) return false;
   return std::ranges::any_of(problem.runs, [&](const FoldedRun& run) {
-    return run.turn_map.empty() && enters_suddenly(problem, run, spacing(run));
+    return jumps(problem, run);
   });
 }
 
-Minimum sweep_phases(const Problem& problem, std::vector<double> start) {
-  Minimum at{std::move(start), 0.0, true, "the sweeps no longer changed anything"};
-  at.rss = rss_at(problem, at.p);
-  const int first_phase = problem.unknowns.first_phase();
-  for (int r = 0; r < problem.unknowns.phases; ++r) {
-    const double cell = spacing(problem.runs[index(r)]);
-    sweep_one(problem, index(first_phase + r), std::max(2.0 * cell, 0.06), 24, at);
+Problem smooth_problem(const Problem& problem) {
+  Problem out = problem;
+  out.tolerance = std::max(problem.tolerance, 1e-6);
+  for (FoldedRun& run : out.runs) {
+    const int samples = static_cast<int>(run.angle.size());
+    run = from_turn(run, std::clamp(samples / samples_a_harmonic, 1, most_harmonics));
   }
-  improve(problem, at);
-  return at;
+  return out;
 }
 
-Minimum refine_by_sweeps(const Problem& problem, std::vector<double> start) {
-  Minimum at = sweep_phases(problem, std::move(start));
-  const int first_phase = problem.unknowns.first_phase();
-  std::vector<double> steps(at.p.size(), 0.02);
+Minimum refine_between_jumps(const Problem& problem, std::vector<double> start) {
+  Place place{problem, {std::move(start), 0.0, true, "nothing better is near"}, {}};
+  place.at.rss = rss_at(problem, place.at.p, place.last);
   for (int round = 0; round < 4; ++round) {
-    const double before = at.rss;
+    const double before = place.at.rss;
+    std::vector<double> steps(place.at.p.size(), 0.01);
     for (int r = 0; r < problem.unknowns.phases; ++r) {
-      const double cell = spacing(problem.runs[index(r)]);
-      sweep_one(problem, index(first_phase + r), 2.0 * cell, 16, at);
-      steps[index(first_phase + r)] = 0.3 * cell;
+      const FoldedRun& run = problem.runs[index(r)];
+      if (!jumps(problem, run)) continue;
+      improve_around(index(r), place);
+      steps[index(problem.unknowns.first_phase() + r)] = 0.3 * spacing(run);
     }
-    pattern_search(problem, steps, at);
-    improve(problem, at);
-    for (int r = 0; r < problem.unknowns.phases; ++r) {
-      improve_around(problem, index(first_phase + r), spacing(problem.runs[index(r)]),
-                     at);
-    }
-    if (!(at.rss < before * (1.0 - 1e-9))) break;
+    pattern_search(steps, place);
+    improve(place);
+    if (!(place.at.rss < before * (1.0 - 1e-9))) break;
   }
-  return at;
+  return place.at;
 }
 
 }  // namespace trochoid::identification

@@ -8,11 +8,14 @@ namespace trochoid::identification {
 /// them passes a sample.
 bool sum_of_squares_jumps(const Problem& problem);
 
-/// @brief Refine a start: sweeps of the phases,
-/// then smooth steps where nothing switches.
-Minimum sweep_phases(const Problem& problem, std::vector<double> start);
+/// @brief The same problem without the jumps: its runs in a band, with rows from the
+/// turn. Its minimum is near.
+Problem smooth_problem(const Problem& problem);
 
-/// @brief The same and a pattern search, until nothing changes any more.
-Minimum refine_by_sweeps(const Problem& problem, std::vector<double> start);
+/// @brief The minimum near a start.
+///
+/// The phases at which an edge passes a sample are known: the sum of squares is compared
+/// between them, and followed downhill from the best places, until nothing changes.
+Minimum refine_between_jumps(const Problem& problem, std::vector<double> start);
 
 }  // namespace trochoid::identification

@@ -33,11 +33,11 @@ std::vector<double> rows_at(const force::ForceMatrix& matrix, const FoldedRun& r
 
 /// The grid of a turn that serves a band: fine where angles cost little.
 TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
-  const int least = (force::keeps_radius(problem.setup) ? 4 : 1) * problem.angles;
-  const auto wanted = static_cast<unsigned>(std::max(least, 8 * run.harmonics));
-  const auto angles = static_cast<int>(std::bit_ceil(wanted));
-  return {angles, std::min(run.highest, angles / 2 - 1),
-          enters_suddenly(problem, run, unit::turn / angles)};
+  const int least = std::max(problem.angles, 8 * run.harmonics);
+  const auto angles = static_cast<int>(std::bit_ceil(static_cast<unsigned>(least)));
+  const bool sudden = enters_suddenly(problem, run, unit::turn / angles);
+  const int fine = force::keeps_radius(problem.setup) && !sudden ? 4 * angles : angles;
+  return {fine, std::min(run.highest, fine / 2 - 1), sudden};
 }
 
 std::vector<double> rows_at(const Problem& problem, const Evaluation& at,
@@ -195,7 +195,9 @@ Evaluation evaluate(const Problem& problem, std::span<const double> p,
   Evaluation out;
   out.p.assign(p.begin(), p.end());
   out.point = point_of(problem, p);
-  if (known != nullptr && same_matrices(problem, p, known->p)) {
+  const bool again = known != nullptr && !known->matrix.empty() &&
+                     same_matrices(problem, p, known->p);
+  if (again) {
     out.matrix = known->matrix;
     out.turn = known->turn;
   }
@@ -208,7 +210,8 @@ Evaluation evaluate(const Problem& problem, std::span<const double> p,
                              ? TurnMatrix{}
                              : turn_matrix(out.matrix[r], grid_of(problem, run)));
     }
-    out.rows.push_back(rows_at(problem, out, r));
+    const bool same = again && out.point.phase[r] == known->point.phase[r];
+    out.rows.push_back(same ? known->rows[r] : rows_at(problem, out, r));
   }
   return out;
 }

@@ -47,8 +47,8 @@ struct Problem {
   double fixed_phase = 0.0;  ///< [rad], where the phases are not unknown
   double tolerance = 1e-7;   ///< of the force matrix
   /// At so many angles of the turn at least the matrix of a run is evaluated that has
-  /// its rows from the turn; on a cylinder, where angles cost little, at four times as
-  /// many.
+  /// its rows from the turn; at four times as many on a cylinder whose edges lag, where
+  /// they cost little.
   int angles = 256;
   int columns = 0;           ///< of the force matrix
   std::optional<Point> start;  ///< where to search first

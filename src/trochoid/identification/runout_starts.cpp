@@ -12,6 +12,8 @@ namespace {
 
 /// Starts for three and more teeth beyond the regular patterns.
 constexpr int scattered_starts = 16;
+/// Feeds below this part of the largest have runouts of their own to start from.
+constexpr double different_feeds = 0.6;
 
 using base::index;
 
@@ -52,8 +54,19 @@ std::vector<double> directions(const Problem& problem, int over_turn) {
   return out;
 }
 
-void add_pair_starts(bool alike, std::vector<std::vector<double>>& out) {
-  for (const double s : {0.1, 0.4, 1.3}) {
+/// Amplitudes in feeds; with feeds that differ much, those of the smallest as well.
+std::vector<double> amplitudes(const Problem& problem, double some, double much) {
+  double least = problem.unknowns.length;
+  for (const FoldedRun& run : problem.runs) least = std::min(least, run.cut.f_z);
+  const double ratio = least / problem.unknowns.length;
+  return ratio > 0.0 && ratio < different_feeds
+             ? std::vector<double>{some * ratio, some, much}
+             : std::vector<double>{some, much};
+}
+
+void add_pair_starts(const Problem& problem, std::vector<std::vector<double>>& out) {
+  const bool alike = teeth_are_alike(problem);
+  for (const double s : amplitudes(problem, 0.4, 1.3)) {
     out.push_back({s});
     if (!alike) out.push_back({-s});
   }
@@ -64,10 +77,10 @@ void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>&
   const std::size_t n = psi.size();
   const bool alike = teeth_are_alike(problem);
   if (n == 2) {
-    add_pair_starts(alike, out);
+    add_pair_starts(problem, out);
     return;
   }
-  for (const double amplitude : {0.1, 0.3, 0.9}) {
+  for (const double amplitude : amplitudes(problem, 0.3, 0.9)) {
     for (const double lambda : directions(problem, 8)) {
       out.push_back(eccentric_offsets(psi, amplitude, lambda));
     }
@@ -109,9 +122,12 @@ std::vector<std::vector<double>> runout_starts(const Problem& problem) {
   if (u.runout == RunoutUnknowns::offsets) {
     add_offset_starts(problem, out);
   } else if (u.direction) {
-    for (const double e : {0.1, -0.1, 0.3, -0.3, 0.8, -0.8}) out.push_back({e});
+    for (const double e : amplitudes(problem, 0.3, 0.8)) {
+      out.push_back({e});
+      out.push_back({-e});
+    }
   } else {
-    for (const double rho : {0.1, 0.3, 0.8}) {
+    for (const double rho : amplitudes(problem, 0.3, 0.8)) {
       for (const double lambda : directions(problem, 6)) {
         out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
       }

@@ -47,14 +47,17 @@ double quadratic(const std::vector<double>& A, std::span<const double> g) {
   return out;
 }
 
-/// A run against one runout: products at every shift, and the inverse of each G.
+/// A run against one runout: products at every shift.
 struct RunScan {
   std::vector<Products> at;
-  std::vector<std::vector<double>> inverse_G;  ///< one, if the cells are even
+  std::vector<double> inverse_G;  ///< where it is the same at every shift; else empty
   double squares = 0.0;
 
-  [[nodiscard]] const std::vector<double>& inverse_at(std::size_t shift) const {
-    return inverse_G[inverse_G.size() == 1 ? 0 : shift];
+  /// g^T G^-1 g.
+  [[nodiscard]] double explained(std::size_t shift, std::span<const double> g) const {
+    if (!inverse_G.empty()) return quadratic(inverse_G, g);
+    std::vector<double> K(g.size());
+    return numerics::solve_normal(at[shift].G, g, K);
   }
 };
 
@@ -95,7 +98,7 @@ std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3
   std::vector<PhaseMinimum> all(count);
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<double> g = right_side(run.at[k], Q);
-    const double rss = run.squares - quadratic(run.inverse_at(k), g);  // I-12
+    const double rss = run.squares - run.explained(k, g);  // I-12
     all[k] = {0.0, rss, k, std::move(g)};
   }
   std::vector<PhaseMinimum> out;
@@ -117,8 +120,8 @@ class Combination {
   Combination(const std::vector<RunScan>& runs,
               const std::vector<std::vector<PhaseMinimum>>& minima)
       : runs_(runs), minima_(minima), chosen_(runs.size(), 0) {
-    if (std::ranges::any_of(
-            runs, [](const RunScan& r) { return r.inverse_G.size() > 1; })) {
+    if (std::ranges::any_of(runs,
+                            [](const RunScan& r) { return r.inverse_G.empty(); })) {
       return;
     }
     inverse_ = inverse(total_G(), minima[0][0].g.size());
@@ -223,10 +226,7 @@ std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>&
     run.at = products(cells[r], matrix_in_cells(matrix, cells[r], given),
                       free ? cells[r].size() : 1, mixed);
     run.squares = cells[r].squares;
-    const std::size_t grams = cells[r].even ? 1 : run.at.size();
-    for (std::size_t k = 0; k < grams; ++k) {
-      run.inverse_G.push_back(inverse(run.at[k].G, index(problem.columns)));
-    }
+    if (cells[r].even) run.inverse_G = inverse(run.at[0].G, index(problem.columns));
   }
   return out;
 }

@@ -15,6 +15,8 @@ namespace {
 
 constexpr int coarse_bins = 120;
 constexpr int coarse_angles = 64;
+/// A second minimum this near to the first is followed to its end as well.
+constexpr double near_tie = 1.02;
 constexpr auto no_start = "no start gives a force";
 
 /// A given start counts where the fit stays this near to its runout, in feeds, and
@@ -134,7 +136,8 @@ std::optional<Minimum> from_given(const Problem& problem) {
   if (!given || !in_range(problem, given->p)) return std::nullopt;
   Minimum m{given->p, 0.0, true, ""};
   if (sum_of_squares_jumps(problem)) {
-    m = refine_by_sweeps(problem, m.p);
+    m = refine(smooth_problem(problem), m.p, coarse_step, coarse_options());
+    m = refine_between_jumps(problem, m.p);
   } else {
     m = refine(coarse_problem(problem), m.p, coarse_step, coarse_options());
     m = settle(problem, m.p);
@@ -147,16 +150,13 @@ std::optional<Minimum> from_given(const Problem& problem) {
   return worth ? std::optional(named(problem, std::move(m))) : std::nullopt;
 }
 
-Minimum search_by_sweeps(const Problem& problem,
-                         const std::vector<Candidate>& candidates) {
-  std::vector<Minimum> swept;
-  for (std::vector<double>& start : first_starts(problem, candidates, 4)) {
-    swept.push_back(sweep_phases(problem, std::move(start)));
-  }
-  std::ranges::stable_sort(swept, {}, &Minimum::rss);
-  Minimum best = refine_by_sweeps(problem, swept.front().p);
-  if (swept.size() > 1 && swept[1].rss < 4.0 * best.rss) {
-    Minimum second = refine_by_sweeps(problem, swept[1].p);
+Minimum search_between_jumps(const Problem& problem,
+                             const std::vector<Candidate>& candidates) {
+  const Problem smooth = smooth_problem(problem);
+  const std::vector<Minimum> minima = coarse_minima(smooth, candidates);
+  Minimum best = refine_between_jumps(problem, minima.front().p);
+  if (minima.size() > 1 && minima[1].rss < near_tie * minima[0].rss) {
+    Minimum second = refine_between_jumps(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }
   return best;
@@ -173,7 +173,7 @@ Problem coarse_problem(const Problem& problem) {
 }
 
 Minimum settle(const Problem& problem, const std::vector<double>& start) {
-  if (sum_of_squares_jumps(problem)) return refine_by_sweeps(problem, start);
+  if (sum_of_squares_jumps(problem)) return refine_between_jumps(problem, start);
   numerics::LevenbergMarquardtOptions options;
   options.max_iterations = 40;
   options.parameter_tolerance = 1e-7;
@@ -198,12 +198,12 @@ Minimum search_from(const Problem& problem, const std::vector<Candidate>& candid
   if (candidates.empty()) return {{}, 0.0, false, no_start};
   if (problem.unknowns.count() == 0) return refine(problem, {}, {}, {});
   if (sum_of_squares_jumps(problem)) {
-    return named(problem, search_by_sweeps(problem, candidates));
+    return named(problem, search_between_jumps(problem, candidates));
   }
   const std::vector<Minimum> minima =
       coarse_minima(coarse_problem(problem), candidates);
   Minimum best = settle(problem, minima.front().p);
-  if (minima.size() > 1 && minima[1].rss < 1.02 * minima[0].rss) {
+  if (minima.size() > 1 && minima[1].rss < near_tie * minima[0].rss) {
     Minimum second = settle(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }

@@ -14,10 +14,9 @@ namespace {
 
 using base::index;
 
-/// A step in which an entry changes by more than this part of its range may hold a jump.
+/// A step over which an entry changes by more than this part of its range may hold a
+/// jump; one within a step is larger than that too.
 constexpr double large_change = 0.1;
-/// A middle that is off the mean of its ends by more than this part does hold one.
-constexpr double large_bend = 0.02;
 /// Halvings of a step until a jump counts as found: a millionth of a step.
 constexpr int halvings = 20;
 
@@ -38,51 +37,70 @@ class Jumps {
     }
   }
 
-  /// Replace what the sum over equal steps makes of this one.
+  /// Both sides of each jump of a step, between its ends; nothing without a jump.
+  [[nodiscard]] std::vector<Node> found(const Node& a, const Node& b) const {
+    std::vector<Node> ends = {a};
+    if (changes(a, b)) find(a, b, 0, ends);
+    if (ends.size() == 1) return {};
+    ends.push_back(b);
+    return ends;
+  }
+
+  /// Replace what the sum over equal steps makes of this one: between jumps, lines.
   void add_step(const Node& a, const Node& b) {
-    if (largest(a, b, nullptr) <= large_change) return;
-    add_trapezoid(a, b, -1.0);
-    halve(a, b, 0);
+    const std::vector<Node> ends = found(a, b);
+    if (ends.empty()) return;
+    add_line(a, b, -1.0);
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+      add_line(ends[i], ends[i + 1], 1.0);
+    }
   }
 
  private:
-  /// Change over a step, or bend at its middle, of the entry where it is largest.
-  [[nodiscard]] double largest(const Node& a, const Node& b, const Node* middle) const {
-    double out = 0.0;
+  [[nodiscard]] bool changes(const Node& a, const Node& b) const {
     for (std::size_t c = 0; c < scale_.size(); ++c) {
-      if (scale_[c] == 0.0) continue;
-      const double d = middle == nullptr ? b.C[c] - a.C[c]
-                                         : middle->C[c] - 0.5 * (a.C[c] + b.C[c]);
-      out = std::max(out, std::abs(d) / scale_[c]);
+      if (std::abs(b.C[c] - a.C[c]) > large_change * scale_[c]) return true;
     }
-    return out;
+    return false;
   }
 
-  void halve(const Node& a, const Node& b, int depth) {
-    Node middle{0.5 * (a.phi + b.phi), std::vector<double>(scale_.size())};
-    matrix_.evaluate({&middle.phi, 1}, middle.C);
-    if (depth == halvings || largest(a, b, &middle) <= large_bend) {
-      add_trapezoid(a, middle, 1.0);
-      add_trapezoid(middle, b, 1.0);
+  /// Add both sides of each jump.
+  void find(const Node& a, const Node& b, int depth, std::vector<Node>& ends) const {
+    if (depth == halvings) {
+      ends.push_back(a);
+      ends.push_back(b);
       return;
     }
-    halve(a, middle, depth + 1);
-    halve(middle, b, depth + 1);
+    Node middle{0.5 * (a.phi + b.phi), std::vector<double>(scale_.size())};
+    matrix_.evaluate({&middle.phi, 1}, middle.C);
+    if (changes(a, middle)) find(a, middle, depth + 1, ends);
+    if (changes(middle, b)) find(middle, b, depth + 1, ends);
   }
 
-  void add_trapezoid(const Node& a, const Node& b, double sign) {
-    const double half = sign * 0.5 * (b.phi - a.phi) / std::numbers::pi;
-    for (const Node* node : {&a, &b}) {
-      for (std::size_t row = 0; row < out_.coefficients.size() / out_.width; ++row) {
-        const double angle = static_cast<double>((row + 1) / 2) * node->phi;
-        const double weight = row == 0       ? 0.5 * half
-                              : row % 2 == 1 ? half * std::cos(angle)
-                                             : half * std::sin(angle);
-        for (std::size_t c = 0; c < out_.width; ++c) {
-          out_.coefficients[row * out_.width + c] += weight * node->C[c];
-        }
-      }
+  void add_line(const Node& a, const Node& b, double sign) {
+    const double weight = sign * 0.5 * (b.phi - a.phi) / std::numbers::pi;
+    add(a, weight);
+    add(b, weight);
+  }
+
+  void add(const Node& node, double weight) {
+    const double c = std::cos(node.phi);
+    const double s = std::sin(node.phi);
+    add_row(0, 0.5 * weight, node);
+    double cosine = weight * c;
+    double sine = weight * s;
+    for (std::size_t m = 1; m <= index(out_.highest); ++m) {
+      add_row(2 * m - 1, cosine, node);
+      add_row(2 * m, sine, node);
+      const double next = cosine * c - sine * s;
+      sine = sine * c + cosine * s;
+      cosine = next;
     }
+  }
+
+  void add_row(std::size_t row, double weight, const Node& node) {
+    double* const to = &out_.coefficients[row * out_.width];
+    for (std::size_t c = 0; c < out_.width; ++c) to[c] += weight * node.C[c];
   }
 
   const force::ForceMatrix& matrix_;
@@ -90,26 +108,52 @@ class Jumps {
   TurnMatrix& out_;
 };
 
+/// The matrix at equal steps over the turn.
+struct Steps {
+  std::vector<double> phi;
+  std::vector<double> C;
+
+  Steps(const force::ForceMatrix& matrix, int angles)
+      : phi(index(angles)), C(phi.size() * 3 * index(matrix.columns())) {
+    for (std::size_t k = 0; k < phi.size(); ++k) {
+      phi[k] = unit::turn * static_cast<double>(k) / angles;
+    }
+    matrix.evaluate(phi, C);
+  }
+
+  [[nodiscard]] Node node(std::size_t k) const {
+    const std::size_t n = phi.size();
+    const std::size_t width = C.size() / n;
+    const auto at = C.begin() + static_cast<std::ptrdiff_t>(k % n * width);
+    return {k < n ? phi[k] : unit::turn,
+            {at, at + static_cast<std::ptrdiff_t>(width)}};
+  }
+};
+
 }  // namespace
 
 TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid) {
   TurnMatrix out{grid.highest, 3 * index(matrix.columns()), {}};
-  const std::size_t n = index(grid.angles);
-  std::vector<double> phi(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    phi[k] = unit::turn * static_cast<double>(k) / static_cast<double>(n);
-  }
-  std::vector<double> C(n * out.width);
-  matrix.evaluate(phi, C);
-  out.coefficients = numerics::fourier_coefficients(C, out.width, grid.highest);
+  const Steps steps(matrix, grid.angles);
+  out.coefficients =
+      numerics::fourier_coefficients(steps.C, out.width, grid.highest);
   if (!grid.sudden) return out;
-  Jumps jumps(matrix, C, out);
-  const auto node = [&](std::size_t k) {
-    const auto at = C.begin() + static_cast<std::ptrdiff_t>(k % n * out.width);
-    return Node{k < n ? phi[k] : unit::turn,
-                {at, at + static_cast<std::ptrdiff_t>(out.width)}};
-  };
-  for (std::size_t k = 0; k < n; ++k) jumps.add_step(node(k), node(k + 1));
+  Jumps jumps(matrix, steps.C, out);
+  for (std::size_t k = 0; k < steps.phi.size(); ++k) {
+    jumps.add_step(steps.node(k), steps.node(k + 1));
+  }
+  return out;
+}
+
+std::vector<double> jump_angles(const force::ForceMatrix& matrix, int angles) {
+  const Steps steps(matrix, angles);
+  TurnMatrix unused{0, 3 * index(matrix.columns()), {}};
+  const Jumps jumps(matrix, steps.C, unused);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < steps.phi.size(); ++k) {
+    const std::vector<Node> ends = jumps.found(steps.node(k), steps.node(k + 1));
+    for (std::size_t i = 1; i + 1 < ends.size(); i += 2) out.push_back(ends[i].phi);
+  }
   return out;
 }
 

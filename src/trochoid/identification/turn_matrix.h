@@ -28,6 +28,9 @@ struct TurnGrid {
 /// @brief Fourier coefficients of [C] over the turn.
 TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid);
 
+/// @brief Angles of a turn at which the matrix jumps, found in so many equal steps [rad].
+std::vector<double> jump_angles(const force::ForceMatrix& matrix, int angles);
+
 /// @brief The coefficients of [C](phi + phase) as functions of phi.
 ///
 /// @eq I-10 a_m(phase) = a_m cos(m phase) + b_m sin(m phase),

@@ -10,8 +10,6 @@ namespace {
 
 using base::index;
 
-/// Fewer different angles than this are looked at one by one.
-constexpr std::size_t few_angles = 1000;
 /// Beyond this band nearly every harmonic counts, and the angles serve as well.
 constexpr int widest_band = 32;
 
@@ -23,7 +21,7 @@ int highest_of(int harmonics) noexcept {
 
 }  // namespace
 
-void map_turn(FoldedRun& run) {
+void map_turn(FoldedRun& run, std::size_t few_angles) {
   if (run.band == 0 || run.harmonics > widest_band ||
       run.angle.size() <= few_angles) {
     return;

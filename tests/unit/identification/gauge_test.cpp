@@ -1,7 +1,8 @@
 #include "made_record.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/identification/search.h>
+#include <trochoid/identification/gauge.h>
+#include <trochoid/identification/variable_projection.h>
 
 #include <cmath>
 
