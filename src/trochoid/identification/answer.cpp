@@ -2,6 +2,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/identification/answer.h>
 #include <trochoid/identification/residuals.h>
+#include <trochoid/identification/turn_force.h>
 #include <trochoid/numerics/student.h>
 
 #include <fmt/core.h>
@@ -13,15 +14,17 @@ namespace trochoid::identification {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+/// Of the peak force, for what is a tenth of a per mille of the noise of any record.
+constexpr double interpolation_tolerance = 2e-7;
+/// Fewer different angles than this are computed one by one.
+constexpr std::size_t few_angles = 1500;
 
 using base::index;
 
-/// Force at every sample, shape (n).
-std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
-                                            const Run& run, double phase,
+/// Force at angles of the tip of tooth 1, shape (n).
+std::vector<std::array<double, 3>> force_at(const force::ForceMatrix& matrix,
+                                            std::span<const double> phi,
                                             std::span<const double> K) {
-  std::vector<double> phi(run.angle);
-  for (double& a : phi) a += phase;
   std::vector<double> C(3 * K.size() * phi.size());
   matrix.evaluate(phi, C);
   std::vector<std::array<double, 3>> out(phi.size());
@@ -33,6 +36,24 @@ std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
       }
     }
   }
+  return out;
+}
+
+/// Force at every sample, shape (n); interpolated where samples are many and each costs
+/// a quadrature.
+std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
+                                            const Run& run, double phase,
+                                            std::span<const double> K,
+                                            bool interpolated) {
+  std::vector<double> phi(run.angle);
+  for (double& a : phi) a += phase;
+  if (!interpolated) return force_at(matrix, phi, K);
+  const TurnForce turn(
+      [&](std::span<const double> angles) { return force_at(matrix, angles, K); },
+      interpolation_tolerance);
+  std::vector<std::array<double, 3>> out;
+  out.reserve(phi.size());
+  for (const double angle : phi) out.push_back(turn.at(angle));
   return out;
 }
 
@@ -173,8 +194,11 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
       for (std::size_t q = 0; q < 3; ++q) offsets[q] = {own[2 * q], own[2 * q + 1]};
       fit.channel_offsets.push_back(offsets);
     }
-    std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(force_of(
-        at.matrix[r], runs[r], at.point.phase[r], x.first(index(problem.columns))));
+    const bool interpolated =
+        !force::keeps_radius(problem.setup) && folded.angle.size() > few_angles;
+    std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(
+        force_of(at.matrix[r], runs[r], at.point.phase[r],
+                 x.first(index(problem.columns)), interpolated));
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t q = 0; q < 3; ++q) {
         fitted[i][q] += offsets[q].constant + offsets[q].slope * slope_at(i, n);  // I-7

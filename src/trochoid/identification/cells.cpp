@@ -42,9 +42,9 @@ void take_means(const FoldedRun& run, const std::vector<std::array<double, 3>>& 
                 Cells& out) {
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
     const double a = run.angle[g] / unit::turn;
-    const auto cell =
-        std::min(out.size() - 1, static_cast<std::size_t>((a - std::floor(a)) *
-                                                          static_cast<double>(out.size())));
+    const auto cell = std::min(
+        out.size() - 1, static_cast<std::size_t>((a - std::floor(a)) *
+                                                 static_cast<double>(out.size())));
     const double w = run.weight[g] * run.weight[g];
     out.weight[cell] += w;
     for (std::size_t q = 0; q < 3; ++q) out.force[cell][q] += w * force[g][q];
@@ -89,8 +89,7 @@ std::vector<double> gram(const Cells& cells, const std::vector<double>& C,
     if (w == 0.0) continue;
     weight += w;
     for (std::size_t q = 0; q < 3; ++q) {
-      const double* const c =
-          &C[(((i + shift) % cells.size()) * 3 + q) * columns];
+      const double* const c = &C[(((i + shift) % cells.size()) * 3 + q) * columns];
       for (std::size_t a = 0; a < columns; ++a) {
         sums[q * columns + a] += w * c[a];
         for (std::size_t b = 0; b <= a; ++b) G[a * columns + b] += w * c[a] * c[b];
@@ -144,7 +143,8 @@ std::vector<double> matrix_in_cells(const force::ForceMatrix& matrix,
   const std::size_t width = 3 * index(matrix.columns());
   std::vector<double> phi(n);
   for (std::size_t i = 0; i < n; ++i) {
-    phi[i] = phase + (static_cast<double>(i) + 0.5) * unit::turn / static_cast<double>(n);
+    phi[i] =
+        phase + (static_cast<double>(i) + 0.5) * unit::turn / static_cast<double>(n);
   }
   std::vector<double> C(n * width);
   matrix.evaluate(phi, C);
@@ -155,7 +155,8 @@ std::vector<double> matrix_in_cells(const force::ForceMatrix& matrix,
     double* const row = &C[i * width];
     std::copy_n(a.begin(), width, row);
     for (std::size_t m = 1; m <= index(cells.harmonics); ++m) {
-      const double x = unit::turn * static_cast<double>(m * i % n) / static_cast<double>(n);
+      const double x =
+          unit::turn * static_cast<double>(m * i % n) / static_cast<double>(n);
       const double* const cosines = &a[(2 * m - 1) * width];
       for (std::size_t c = 0; c < width; ++c) {
         row[c] += cosines[c] * std::cos(x) + cosines[width + c] * std::sin(x);

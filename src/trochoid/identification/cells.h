@@ -13,7 +13,7 @@ struct Cells {
   std::vector<double> weight;                ///< number of samples
   std::vector<std::array<double, 3>> force;  ///< mean [N]; of a band, its part in it
   bool even = false;                         ///< the weights are equal
-  int harmonics = 0;  ///< of the band that the force is limited to; 0: no limit
+  int harmonics = 0;      ///< of the band that the force is limited to; 0: no limit
   bool centered = false;  ///< the means of the channels count for nothing
   double squares = 0.0;   ///< weighted sum of F^2, centered if so [N^2]
 

@@ -22,9 +22,8 @@ using Vector3 = std::array<double, 3>;
 constexpr double same_rms = 1e-6;
 /// The next best reading is worth a warning below this many times the best.
 constexpr double close_rms = 1.5;
-/// A fit from a place of the scan leaves at least this part of what the scan does there,
-/// unless it is the right one.
-constexpr double least_gain = 0.5;
+/// A fit leaves at least this part of what the scan leads to expect.
+constexpr double least_part = 0.25;
 /// Fitted in any case, so that the distance to the next best is known.
 constexpr std::size_t least_fits = 3;
 /// Beyond this many times the best, a reading need not be fitted to the last digit.
@@ -112,15 +111,18 @@ class Search {
   }
 
   /// Fit as many as it takes to know the best and how far the next is.
-  void compare(std::vector<Family>& families,
-               const std::function<void(double)>& told) {
+  void compare(std::vector<Family>& families, const std::function<void(double)>& told) {
     const std::size_t least =
         force::keeps_radius(given_.setup) ? families.size() : least_fits;
     double best = INFINITY;
     std::size_t count = 0;
+    const double scanned = families.front().rms;
     for (; count < families.size(); ++count) {
       Family& family = families[count];
-      if (count >= least && least_gain * family.rms > close_rms * best) break;
+      // A start that is off adds about the same to the squares of every reading.
+      const double own = family.rms * family.rms - scanned * scanned;
+      const double expected = std::sqrt(own + best * best);
+      if (count >= least && least_part * expected > close_rms * best) break;
       if (told) told(static_cast<double>(count) / static_cast<double>(least + count));
       rank(family);
       best = std::min(best, family.rms);
@@ -257,9 +259,8 @@ AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> run
   search.compare(families, told);
   const std::vector<Judged> readings = judged(families);
   const double best = readings.front().rms;
-  const auto other = std::ranges::find_if(readings, [&](const Judged& r) {
-    return r.rms > best * (1 + same_rms) + 1e-9;
-  });
+  const auto other = std::ranges::find_if(
+      readings, [&](const Judged& r) { return r.rms > best * (1 + same_rms) + 1e-9; });
   const Judged& chosen = *std::max_element(
       readings.begin(), other,
       [](const Judged& a, const Judged& b) { return positive(a) < positive(b); });

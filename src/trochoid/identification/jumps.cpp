@@ -137,9 +137,8 @@ void improve_around(std::size_t run, Place& place) {
 
 bool sum_of_squares_jumps(const Problem& problem) {
   if (problem.unknowns.phases == 0) return false;
-  return std::ranges::any_of(problem.runs, [&](const FoldedRun& run) {
-    return jumps(problem, run);
-  });
+  return std::ranges::any_of(problem.runs,
+                             [&](const FoldedRun& run) { return jumps(problem, run); });
 }
 
 Problem smooth_problem(const Problem& problem) {

@@ -89,9 +89,8 @@ std::vector<double> phase_slope(const Problem& problem, const Evaluation& at,
   }
   const double d = step.central ? 2.0 * step.phase : step.phase;
   add_force(rows_at(at.matrix[r], run, phase + step.phase), K, 1.0 / d, dF);
-  add_force(
-      step.central ? rows_at(at.matrix[r], run, phase - step.phase) : at.rows[r], K,
-      -1.0 / d, dF);
+  add_force(step.central ? rows_at(at.matrix[r], run, phase - step.phase) : at.rows[r],
+            K, -1.0 / d, dF);
   return dF;
 }
 
@@ -195,8 +194,8 @@ Evaluation evaluate(const Problem& problem, std::span<const double> p,
   Evaluation out;
   out.p.assign(p.begin(), p.end());
   out.point = point_of(problem, p);
-  const bool again = known != nullptr && !known->matrix.empty() &&
-                     same_matrices(problem, p, known->p);
+  const bool again =
+      known != nullptr && !known->matrix.empty() && same_matrices(problem, p, known->p);
   if (again) {
     out.matrix = known->matrix;
     out.turn = known->turn;

@@ -50,7 +50,7 @@ struct Problem {
   /// its rows from the turn; at four times as many on a cylinder whose edges lag, where
   /// they cost little.
   int angles = 256;
-  int columns = 0;           ///< of the force matrix
+  int columns = 0;             ///< of the force matrix
   std::optional<Point> start;  ///< where to search first
 
   [[nodiscard]] int drift_columns() const noexcept;

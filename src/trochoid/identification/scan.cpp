@@ -235,9 +235,8 @@ std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>&
 void add_candidates(const Problem& problem, const std::vector<RunScan>& runs,
                     const signal::Matrix3& Q, std::vector<double> p,
                     std::vector<Candidate>& out) {
-  const std::size_t most =
-      std::max(most_minima, index(problem.unknowns.phases > 0 ? problem.unknowns.teeth
-                                                               : 1));
+  const std::size_t most = std::max(
+      most_minima, index(problem.unknowns.phases > 0 ? problem.unknowns.teeth : 1));
   std::vector<std::vector<PhaseMinimum>> minima;
   for (const RunScan& run : runs) {
     minima.push_back(phase_minima(run, Q, most));

@@ -17,6 +17,10 @@ constexpr int coarse_bins = 120;
 constexpr int coarse_angles = 64;
 /// A second minimum this near to the first is followed to its end as well.
 constexpr double near_tie = 1.02;
+/// A tooth somewhere else that leaves so many times more is not where it belongs.
+constexpr double hopeless = 10.0;
+/// Candidates that are enough to rank problems.
+constexpr std::size_t starts_to_rank = 2;
 constexpr auto no_start = "no start gives a force";
 
 /// A given start counts where the fit stays this near to its runout, in feeds, and
@@ -43,19 +47,14 @@ numerics::LevenbergMarquardtOptions coarse_options() {
 }
 
 /// The best place on a line through one offset, the others kept.
-std::vector<double> best_on_line(const Problem& coarse, std::vector<double> p,
-                                 std::size_t i) {
-  std::vector<double> best = p;
-  double least = std::numeric_limits<double>::infinity();
+Candidate best_on_line(const Problem& coarse, std::vector<double> p, std::size_t i) {
+  Candidate best{p, std::numeric_limits<double>::infinity()};
   const double here = p[i];
   for (int k = -4; k <= 4; ++k) {
     if (k == 0) continue;
     p[i] = here + 0.3 * k;
     const double rss = rss_at(coarse, p);
-    if (rss < least) {
-      least = rss;
-      best = p;
-    }
+    if (rss < best.rss) best = {p, rss};
   }
   return best;
 }
@@ -70,8 +69,9 @@ void move_single_teeth(const Problem& coarse, Minimum& best) {
   for (int round = 0; better && round < 3; ++round) {
     better = false;
     for (std::size_t i = 0; i < count; ++i) {
-      Minimum m = refine(coarse, best_on_line(coarse, best.p, i), coarse_step,
-                         coarse_options());
+      Candidate moved = best_on_line(coarse, best.p, i);
+      if (!(moved.rss < hopeless * best.rss)) continue;
+      Minimum m = refine(coarse, std::move(moved.p), coarse_step, coarse_options());
       if (!(m.rss < 0.999 * best.rss)) continue;
       best = std::move(m);
       better = true;
@@ -94,19 +94,48 @@ std::vector<std::vector<double>> first_starts(const Problem& problem,
   return out;
 }
 
+/// Leave a local minimum in which the teeth of one run are numbered otherwise than those
+/// of another, or a phase is off by a pitch: with the runout found, all phases again.
+void renumber(const Problem& coarse, Minimum& m) {
+  const auto n = static_cast<std::ptrdiff_t>(coarse.unknowns.runout_count());
+  if (n == 0 || coarse.unknowns.phases < 2) return;
+  for (int round = 0; round < 3; ++round) {
+    const std::vector<double> runout(m.p.begin(), m.p.begin() + n);
+    const std::vector<Candidate> found = scan(coarse, {runout});
+    if (found.empty()) return;
+    std::vector<double> p = m.p;
+    const auto phases = static_cast<std::ptrdiff_t>(coarse.unknowns.first_phase());
+    std::copy(found.front().p.begin() + phases, found.front().p.end(),
+              p.begin() + phases);
+    if (!(rss_at(coarse, p) < 0.9 * m.rss)) return;
+    Minimum better = refine(coarse, std::move(p), coarse_step, coarse_options());
+    if (!(better.rss < 0.99 * m.rss)) return;
+    m = std::move(better);
+  }
+}
+
 /// Local minima from the best candidates, the best first.
 std::vector<Minimum> coarse_minima(const Problem& coarse,
-                                   const std::vector<Candidate>& candidates) {
-  const std::size_t starts = coarse.unknowns.runout_count() > 2 ? 6 : 3;
+                                   const std::vector<Candidate>& candidates,
+                                   std::size_t starts) {
   std::vector<Minimum> out;
   for (std::vector<double>& start : first_starts(coarse, candidates, starts)) {
     Minimum m = refine(coarse, std::move(start), coarse_step, coarse_options());
+    renumber(coarse, m);
     apply_gauge(coarse, m.p);
     const bool known = std::ranges::any_of(
         out, [&](const Minimum& other) { return nearly_equal(m.p, other.p, 1e-3); });
     if (!known) out.push_back(std::move(m));
   }
   std::ranges::stable_sort(out, {}, &Minimum::rss);
+  return out;
+}
+
+/// The same from as many as make the best of them the global one.
+std::vector<Minimum> coarse_minima(const Problem& coarse,
+                                   const std::vector<Candidate>& candidates) {
+  const std::size_t starts = coarse.unknowns.runout_count() > 2 ? 6 : 3;
+  std::vector<Minimum> out = coarse_minima(coarse, candidates, starts);
   move_single_teeth(coarse, out.front());
   return out;
 }
@@ -134,14 +163,11 @@ std::optional<Candidate> given_start(const Problem& problem) {
 std::optional<Minimum> from_given(const Problem& problem) {
   const std::optional<Candidate> given = given_start(problem);
   if (!given || !in_range(problem, given->p)) return std::nullopt;
-  Minimum m{given->p, 0.0, true, ""};
-  if (sum_of_squares_jumps(problem)) {
-    m = refine(smooth_problem(problem), m.p, coarse_step, coarse_options());
-    m = refine_between_jumps(problem, m.p);
-  } else {
-    m = refine(coarse_problem(problem), m.p, coarse_step, coarse_options());
-    m = settle(problem, m.p);
-  }
+  const bool jumps = sum_of_squares_jumps(problem);
+  const Problem coarse = jumps ? smooth_problem(problem) : coarse_problem(problem);
+  Minimum m = refine(coarse, given->p, coarse_step, coarse_options());
+  move_single_teeth(coarse, m);
+  m = jumps ? refine_between_jumps(problem, m.p) : settle(problem, m.p);
   const auto n = static_cast<std::size_t>(problem.unknowns.runout_count());
   const std::vector<double> from(given->p.begin(),
                                  given->p.begin() + static_cast<std::ptrdiff_t>(n));
@@ -191,7 +217,7 @@ Minimum coarse_search(const Problem& problem,
                       const std::vector<Candidate>& candidates) {
   if (candidates.empty()) return {{}, 0.0, false, no_start};
   if (problem.unknowns.count() == 0) return refine(problem, {}, {}, {});
-  return coarse_minima(coarse_problem(problem), candidates).front();
+  return coarse_minima(coarse_problem(problem), candidates, starts_to_rank).front();
 }
 
 Minimum search_from(const Problem& problem, const std::vector<Candidate>& candidates) {

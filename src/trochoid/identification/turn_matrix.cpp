@@ -125,8 +125,7 @@ struct Steps {
     const std::size_t n = phi.size();
     const std::size_t width = C.size() / n;
     const auto at = C.begin() + static_cast<std::ptrdiff_t>(k % n * width);
-    return {k < n ? phi[k] : unit::turn,
-            {at, at + static_cast<std::ptrdiff_t>(width)}};
+    return {k < n ? phi[k] : unit::turn, {at, at + static_cast<std::ptrdiff_t>(width)}};
   }
 };
 
@@ -135,8 +134,7 @@ struct Steps {
 TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid) {
   TurnMatrix out{grid.highest, 3 * index(matrix.columns()), {}};
   const Steps steps(matrix, grid.angles);
-  out.coefficients =
-      numerics::fourier_coefficients(steps.C, out.width, grid.highest);
+  out.coefficients = numerics::fourier_coefficients(steps.C, out.width, grid.highest);
   if (!grid.sudden) return out;
   Jumps jumps(matrix, steps.C, out);
   for (std::size_t k = 0; k < steps.phi.size(); ++k) {

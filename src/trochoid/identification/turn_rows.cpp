@@ -22,8 +22,7 @@ int highest_of(int harmonics) noexcept {
 }  // namespace
 
 void map_turn(FoldedRun& run, std::size_t few_angles) {
-  if (run.band == 0 || run.harmonics > widest_band ||
-      run.angle.size() <= few_angles) {
+  if (run.band == 0 || run.harmonics > widest_band || run.angle.size() <= few_angles) {
     return;
   }
   run.highest = highest_of(run.harmonics);

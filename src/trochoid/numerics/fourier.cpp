@@ -42,8 +42,8 @@ void transform(std::vector<Complex>& z, std::span<const Complex> roots) noexcept
 std::vector<Complex> unit_roots(std::size_t n) {
   std::vector<Complex> out(n / 2);
   for (std::size_t k = 0; k < out.size(); ++k) {
-    out[k] = std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(k) /
-                                 static_cast<double>(n));
+    out[k] = std::polar(
+        1.0, -2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n));
   }
   return out;
 }

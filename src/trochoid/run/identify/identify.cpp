@@ -83,8 +83,7 @@ std::vector<Fit> all_fits(const inputs::Case& given,
     progress(fmt::format("fitting, chip model {}", chip::name_of(model)));
     identification::Options options = fit_options(given, model);
     options.start = start;
-    fits.push_back(
-        identification::identify(given.setup, given.law, runs, options));
+    fits.push_back(identification::identify(given.setup, given.law, runs, options));
   }
   return fits;
 }
@@ -171,9 +170,9 @@ struct Identification {
     if (!dynamometer.automatic) {
       return "";
     }
-    const AxesChoice axes = identification::find_axes(
-        axes_problem(given), channels_of(measured),
-        [&](double part) { progress(axes_progress(part)); });
+    const AxesChoice axes =
+        identification::find_axes(axes_problem(given), channels_of(measured),
+                                  [&](double part) { progress(axes_progress(part)); });
     if (!axes.ok) {
       if (std::isfinite(axes.rms)) {
         add_causes();
