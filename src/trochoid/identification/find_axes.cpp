@@ -26,6 +26,8 @@ constexpr double close_rms = 1.5;
 constexpr double least_part = 0.25;
 /// Fitted in any case, so that the distance to the next best is known.
 constexpr std::size_t least_fits = 3;
+/// Within this many times the best, a reading is searched with all starts.
+constexpr double worth_searching = 3.0;
 /// Beyond this many times the best, a reading need not be fitted to the last digit.
 constexpr double nearly_best = 1.02;
 /// Angles of the turn: the few harmonics ask for no more.
@@ -37,6 +39,7 @@ struct Family {
   std::vector<Candidate> candidates;
   Minimum minimum = {};
   double rms = INFINITY;  ///< of the scan, then of fits [N]
+  bool settled = false;  ///< searched with all starts
   bool fitted = false;
   Fit fit = {};  ///< of the first reading, to the last digit
 };
@@ -128,7 +131,7 @@ class Search {
       best = std::min(best, family.rms);
     }
     families.resize(count);
-    while (fit_the_best(families)) {
+    while (settle_next(families)) {
     }
     if (told) told(1.0);
   }
@@ -146,32 +149,44 @@ class Search {
     family.rms = rms_of(family.minimum.rss);
   }
 
-  /// @return whether there was one that may be the best and was not fitted yet
-  bool fit_the_best(std::vector<Family>& families) {
+  /// Search with all starts the first family within so many times the best, or take the
+  /// numbers of a fit that may be the best.
+  /// @return whether there was anything to do
+  bool settle_next(std::vector<Family>& families) {
     std::ranges::stable_sort(families, {}, &Family::rms);
-    const double limit = nearly_best * families.front().rms;
-    bool any = false;
+    const double best = families.front().rms;
     for (Family& family : families) {
-      if (family.fitted || !(family.rms <= limit)) continue;
-      fit(family);
-      any = true;
+      if (family.settled || !(family.rms <= worth_searching * best)) continue;
+      settle(family);
+      return true;
     }
-    return any;
+    for (Family& family : families) {
+      if (family.fitted || !(family.rms <= nearly_best * best)) continue;
+      fit(family);
+      return true;
+    }
+    return false;
   }
 
-  /// The fit to the last digit.
+  /// The minimum of all starts, to the last digit.
+  void settle(Family& family) {
+    family.settled = true;
+    if (family.candidates.empty()) return;
+    const Problem problem = read_by(channels_, family.readings.front().Q);
+    std::vector<Candidate> starts = {{family.minimum.p, family.minimum.rss}};
+    starts.insert(starts.end(), family.candidates.begin(), family.candidates.end());
+    family.minimum = search_from(problem, starts);
+    family.rms = family.minimum.converged ? rms_of(family.minimum.rss) : INFINITY;
+    if (family.minimum.converged) return;
+    message_ =
+        "the search for runout and phase did not converge: " + family.minimum.reason;
+  }
+
   void fit(Family& family) {
     family.fitted = true;
-    if (family.candidates.empty()) return;
+    if (!std::isfinite(family.rms)) return;
     const signal::Matrix3& Q = family.readings.front().Q;
     Problem problem = read_by(channels_, Q);
-    family.minimum = search_from(problem, {{family.minimum.p, family.minimum.rss}});
-    family.rms = INFINITY;
-    if (!family.minimum.converged) {
-      message_ =
-          "the search for runout and phase did not converge: " + family.minimum.reason;
-      return;
-    }
     restrict_eccentricity(problem, family.minimum.p);
     family.fit.options = options_;
     family.fit.law = given_.law;
@@ -179,7 +194,7 @@ class Search {
     fill_at(problem, on_tool(runs_, Q), family.minimum.p, family.fit);
     if (!family.fit.ok) message_ = family.fit.message;
     // Refused, but what it leaves unexplained still tells how wrong this reading is.
-    if (family.fit.rms > 0) family.rms = family.fit.rms;
+    family.rms = family.fit.rms > 0 ? family.fit.rms : INFINITY;
   }
 
   const AxesProblem& given_;

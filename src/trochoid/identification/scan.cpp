@@ -7,6 +7,7 @@
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -90,6 +91,16 @@ double vertex(double left, double middle, double right) {
                          : 0.0;
 }
 
+/// Values between three equally spaced ones, x in steps from the middle.
+std::vector<double> on_parabola(const std::array<std::span<const double>, 3>& g,
+                                double x) {
+  std::vector<double> out(g[1].begin(), g[1].end());
+  for (std::size_t a = 0; a < out.size(); ++a) {
+    out[a] += 0.5 * x * (g[2][a] - g[0][a] + x * (g[2][a] - 2.0 * g[1][a] + g[0][a]));
+  }
+  return out;
+}
+
 /// The phases of a run at which it fits best by itself, the best first.
 std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3& Q,
                                        std::size_t most) {
@@ -107,7 +118,13 @@ std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3
     const double right = all[(k + 1) % count].rss;
     if (all[k].rss > left || all[k].rss > right) continue;
     PhaseMinimum& found = out.emplace_back(all[k]);
-    found.phase = (static_cast<double>(k) + vertex(left, found.rss, right)) * width;
+    const double x = vertex(left, found.rss, right);
+    found.phase = (static_cast<double>(k) + x) * width;
+    if (run.inverse_G.empty() || count < 3) continue;
+    found.g = on_parabola({all[(k + count - 1) % count].g, all[k].g,
+                           all[(k + 1) % count].g},
+                          x);
+    found.rss = run.squares - quadratic(run.inverse_G, found.g);
   }
   std::ranges::stable_sort(out, {}, &PhaseMinimum::rss);
   if (out.size() > most) out.resize(most);
