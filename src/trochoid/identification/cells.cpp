@@ -3,6 +3,7 @@
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/fourier.h>
+#include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,26 +21,57 @@ constexpr std::size_t cells_of_wide_band = 128;
 constexpr int narrow_band = 8;
 constexpr int widest_band = 32;
 
-/// The force of a run, or the part of it that lies in its band.
-std::vector<std::array<double, 3>> force_of(const FoldedRun& run, bool in_band) {
-  if (!in_band) return run.force;
-  const std::size_t band = index(run.band);
-  std::vector<std::array<double, 3>> out(run.angle.size());
-  for (std::size_t g = 0; g < out.size(); ++g) {
-    for (std::size_t q = 0; q < 3; ++q) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < band; ++k) {
-        sum += run.basis[g * band + k] * run.b[3 * k + q];
-      }
-      out[g][q] = sum / run.weight[g];
+/// Whether the samples of a run leave no gap in which its band could hide anything.
+bool fills_the_turn(const FoldedRun& run) {
+  std::vector<double> angle(run.angle);
+  std::ranges::sort(angle);
+  double gap = angle.front() + unit::turn - angle.back();
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    gap = std::max(gap, angle[i] - angle[i - 1]);
+  }
+  return gap * (2 * run.harmonics + 2) < unit::turn;
+}
+
+/// 1, cos, sin, cos 2, ... of an angle.
+void harmonics_at(double phi, int harmonics, std::vector<double>& out) {
+  out.push_back(1.0);
+  for (int m = 1; m <= harmonics; ++m) {
+    out.push_back(std::cos(m * phi));
+    out.push_back(std::sin(m * phi));
+  }
+}
+
+double middle_of(std::size_t cell, std::size_t cells) noexcept {
+  return (static_cast<double>(cell) + 0.5) * unit::turn / static_cast<double>(cells);
+}
+
+/// The part of the force within the band in the middle of each cell, all weighing alike.
+void take_band(const FoldedRun& run, Cells& out) {
+  const std::size_t terms = 2 * index(run.harmonics) + 1;
+  std::vector<double> A;
+  std::vector<double> B;
+  double weight = 0.0;
+  for (std::size_t g = 0; g < run.angle.size(); ++g) {
+    const std::size_t row = A.size();
+    harmonics_at(run.angle[g], run.harmonics, A);
+    for (std::size_t k = row; k < A.size(); ++k) A[k] *= run.weight[g];
+    for (const double f : run.force[g]) B.push_back(run.weight[g] * f);
+    weight += run.weight[g] * run.weight[g];
+  }
+  const std::vector<double> X = numerics::project_out(A, static_cast<int>(terms), B, 3);
+  std::ranges::fill(out.weight, weight / static_cast<double>(out.size()));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    std::vector<double> wave;
+    harmonics_at(middle_of(i, out.size()), run.harmonics, wave);
+    for (std::size_t k = 0; k < terms; ++k) {
+      for (std::size_t q = 0; q < 3; ++q) out.force[i][q] += wave[k] * X[3 * k + q];
     }
   }
-  return out;
+  out.harmonics = run.harmonics;
 }
 
 /// Weighted means; a cell without samples keeps zeros.
-void take_means(const FoldedRun& run, const std::vector<std::array<double, 3>>& force,
-                Cells& out) {
+void take_means(const FoldedRun& run, Cells& out) {
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
     const double a = run.angle[g] / unit::turn;
     const auto cell = std::min(
@@ -47,19 +79,12 @@ void take_means(const FoldedRun& run, const std::vector<std::array<double, 3>>& 
                                                  static_cast<double>(out.size())));
     const double w = run.weight[g] * run.weight[g];
     out.weight[cell] += w;
-    for (std::size_t q = 0; q < 3; ++q) out.force[cell][q] += w * force[g][q];
+    for (std::size_t q = 0; q < 3; ++q) out.force[cell][q] += w * run.force[g][q];
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (out.weight[i] == 0.0) continue;
     for (double& f : out.force[i]) f /= out.weight[i];
   }
-}
-
-/// The weights of a record that fills the turn count alike within a band.
-void make_even(Cells& out) {
-  double sum = 0.0;
-  for (const double w : out.weight) sum += w;
-  std::ranges::fill(out.weight, sum / static_cast<double>(out.size()));
 }
 
 struct Sums {
@@ -110,7 +135,8 @@ std::vector<double> gram(const Cells& cells, const std::vector<double>& C,
 }  // namespace
 
 Cells cells_of(const FoldedRun& run) {
-  const bool banded = run.band > 0 && run.harmonics <= widest_band;
+  const bool banded =
+      run.band > 0 && run.harmonics <= widest_band && fills_the_turn(run);
   const std::size_t n = !banded                        ? fine_cells
                         : run.harmonics <= narrow_band ? cells_of_narrow_band
                                                        : cells_of_wide_band;
@@ -118,12 +144,7 @@ Cells cells_of(const FoldedRun& run) {
   out.weight.assign(n, 0.0);
   out.force.assign(n, {});
   out.centered = !run.drift.empty();
-  take_means(run, force_of(run, banded), out);
-  const double full = *std::ranges::max_element(out.weight);
-  if (banded && *std::ranges::min_element(out.weight) > 0.1 * full) {
-    make_even(out);
-    out.harmonics = run.harmonics;
-  }
+  banded ? take_band(run, out) : take_means(run, out);
   out.even = std::ranges::all_of(out.weight, [&](double w) {
     return std::abs(w - out.weight[0]) < 1e-9 * out.weight[0];
   });
@@ -143,8 +164,7 @@ std::vector<double> matrix_in_cells(const force::ForceMatrix& matrix,
   const std::size_t width = 3 * index(matrix.columns());
   std::vector<double> phi(n);
   for (std::size_t i = 0; i < n; ++i) {
-    phi[i] =
-        phase + (static_cast<double>(i) + 0.5) * unit::turn / static_cast<double>(n);
+    phi[i] = phase + middle_of(i, n);
   }
   std::vector<double> C(n * width);
   matrix.evaluate(phi, C);

@@ -11,7 +11,7 @@ namespace trochoid::identification {
 /// @brief A run averaged over equal cells of the turn: there a phase is a shift.
 struct Cells {
   std::vector<double> weight;                ///< number of samples
-  std::vector<std::array<double, 3>> force;  ///< mean [N]; of a band, its part in it
+  std::vector<std::array<double, 3>> force;  ///< mean [N], or part within the band
   bool even = false;                         ///< the weights are equal
   int harmonics = 0;      ///< of the band that the force is limited to; 0: no limit
   bool centered = false;  ///< the means of the channels count for nothing

@@ -28,6 +28,8 @@ constexpr double least_part = 0.25;
 constexpr std::size_t least_fits = 3;
 /// Within this many times the best, a reading is searched with all starts.
 constexpr double worth_searching = 3.0;
+/// A reading that is alone in this and leaves so little of the force is clear as it is.
+constexpr double little_left = 0.02;
 /// Beyond this many times the best, a reading need not be fitted to the last digit.
 constexpr double nearly_best = 1.02;
 /// Angles of the turn: the few harmonics ask for no more.
@@ -39,7 +41,7 @@ struct Family {
   std::vector<Candidate> candidates;
   Minimum minimum = {};
   double rms = INFINITY;  ///< of the scan, then of fits [N]
-  bool settled = false;  ///< searched with all starts
+  bool settled = false;   ///< searched with all starts
   bool fitted = false;
   Fit fit = {};  ///< of the first reading, to the last digit
 };
@@ -94,6 +96,7 @@ class Search {
       samples_ += static_cast<double>(channels[r].angle.size());
       scatter_ += scatter_of(channels[r], channels_.runs[r]);
     }
+    force_ = rms_of(rss_of_means(channels_));
     return true;
   }
 
@@ -155,9 +158,12 @@ class Search {
   bool settle_next(std::vector<Family>& families) {
     std::ranges::stable_sort(families, {}, &Family::rms);
     const double best = families.front().rms;
+    const double limit = worth_searching * best;
+    const bool alone = families.size() > 1 && !(families[1].rms <= limit);
     for (Family& family : families) {
-      if (family.settled || !(family.rms <= worth_searching * best)) continue;
-      settle(family);
+      if (family.settled || !(family.rms <= limit)) continue;
+      const bool clear = alone && family.rms < little_left * force_;
+      settle(family, clear ? std::vector<Candidate>{} : family.candidates);
       return true;
     }
     for (Family& family : families) {
@@ -168,13 +174,13 @@ class Search {
     return false;
   }
 
-  /// The minimum of all starts, to the last digit.
-  void settle(Family& family) {
+  /// The minimum of more starts, to the last digit.
+  void settle(Family& family, const std::vector<Candidate>& more) {
     family.settled = true;
     if (family.candidates.empty()) return;
     const Problem problem = read_by(channels_, family.readings.front().Q);
     std::vector<Candidate> starts = {{family.minimum.p, family.minimum.rss}};
-    starts.insert(starts.end(), family.candidates.begin(), family.candidates.end());
+    starts.insert(starts.end(), more.begin(), more.end());
     family.minimum = search_from(problem, starts);
     family.rms = family.minimum.converged ? rms_of(family.minimum.rss) : INFINITY;
     if (family.minimum.converged) return;
@@ -202,6 +208,7 @@ class Search {
   Options options_;
   Problem channels_;
   double samples_ = 0.0;
+  double force_ = 0.0;    ///< that changes over the turn [N], rms
   double scatter_ = 0.0;  ///< of samples at the same angle [N^2]
   std::string message_;
 };

@@ -121,9 +121,8 @@ std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3
     const double x = vertex(left, found.rss, right);
     found.phase = (static_cast<double>(k) + x) * width;
     if (run.inverse_G.empty() || count < 3) continue;
-    found.g = on_parabola({all[(k + count - 1) % count].g, all[k].g,
-                           all[(k + 1) % count].g},
-                          x);
+    found.g = on_parabola(
+        {all[(k + count - 1) % count].g, all[k].g, all[(k + 1) % count].g}, x);
     found.rss = run.squares - quadratic(run.inverse_G, found.g);
   }
   std::ranges::stable_sort(out, {}, &PhaseMinimum::rss);

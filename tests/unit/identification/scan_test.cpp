@@ -40,6 +40,20 @@ TEST(Scan, LeavesWhatAFitLeaves) {  // [I-12]
   }
 }
 
+/// The same within a band, of records as coarse as they come.
+TEST(Scan, LeavesWhatAFitOfABandLeaves) {  // [I-12]
+  for (const int per_turn : {24, 48, 300}) {
+    const std::vector<Record> runs = {
+        made_record(with_offset(), steel(), {0.0, per_turn, 2.0, 3.0, 4})};
+    const Problem problem = problem_of(runs, {.band_harmonics = 4});
+    const std::vector<Candidate> found = scan(problem, {{0.4}});
+    ASSERT_FALSE(found.empty());
+    // What 24 samples a turn mistake for lower harmonics is not in the scan.
+    EXPECT_NEAR(found.front().rss / rss_at(problem, found.front().p), 1.0, 0.1)
+        << per_turn;
+  }
+}
+
 TEST(Scan, ReadsTheChannelsEachWay) {  // [I-12]
   const Record record = made_record(with_offset(), steel(), {0.3, 120, 1.0, 0.0, 1});
   const signal::Matrix3 Q = {{{0, -1, 0}, {0, 0, 1}, {1, 0, 0}}};
@@ -55,8 +69,9 @@ TEST(Scan, ReadsTheChannelsEachWay) {  // [I-12]
   for (const int band : {0, 4}) {
     const Options options{.band_harmonics = band};
     const auto direct = scan(problem_of({record}, options), {{0.4}});
-    const auto read = scan(problem_of({channels}, options), {{0.4}},
-                           std::vector<signal::Matrix3>{Q}).front();
+    const auto read =
+        scan(problem_of({channels}, options), {{0.4}}, std::vector<signal::Matrix3>{Q})
+            .front();
     ASSERT_EQ(read.size(), direct.size());
     EXPECT_NEAR(read.front().rss, direct.front().rss, 1e-6 * direct.front().rss);
     EXPECT_NEAR(read.front().p[1], direct.front().p[1], 1e-9);

@@ -49,8 +49,7 @@ TEST(Search, SmoothProblemIsNearTheOneThatJumps) {
   const force::Setup setup = with_offsets(2, 0.0);
   const std::vector<Record> runs = {
       made_record(setup, steel(), {0.301, 180, 1.0, 0.0, 1})};
-  const Problem problem =
-      *prepare(without_runout(setup), steel(), runs, {}).problem;
+  const Problem problem = *prepare(without_runout(setup), steel(), runs, {}).problem;
   ASSERT_TRUE(sum_of_squares_jumps(problem));
   const Problem smooth = smooth_problem(problem);
   EXPECT_FALSE(sum_of_squares_jumps(smooth));
@@ -67,8 +66,8 @@ TEST(Search, OneStartServesAllNumbersOfTheTeeth) {
   const force::Setup setup = without_runout(with_offsets(4, 30.0));
   const Problem free = *prepare(setup, steel(), runs, {}).problem;
   const Problem known = *prepare(setup, steel(), runs, {.phase = 0.0}).problem;
-  EXPECT_LT(runout_starts(free).size(), 0.7 * static_cast<double>(
-                                                  runout_starts(known).size()));
+  EXPECT_LT(runout_starts(free).size(),
+            0.7 * static_cast<double>(runout_starts(known).size()));
 }
 
 }  // namespace

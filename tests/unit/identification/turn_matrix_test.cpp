@@ -54,9 +54,9 @@ TEST(TurnMatrix, APhaseIsARotation) {  // [I-10]
   const force::ForceMatrix matrix(with_offset(30.0), steel(), 1e-8);
   const TurnMatrix turn = turn_matrix(matrix, {128, 40, false});
   const std::vector<double> turned = at_phase(turn, 0.7);
-  EXPECT_LT(largest_difference(value(turned, 18, 1.1),
-                               value(turn.coefficients, 18, 1.8)),
-            1e-15);
+  EXPECT_LT(
+      largest_difference(value(turned, 18, 1.1), value(turn.coefficients, 18, 1.8)),
+      1e-15);
   const double d = 1e-5;
   std::vector<double> slope = at_phase(turn, 0.7 + d);
   const std::vector<double> behind = at_phase(turn, 0.7 - d);

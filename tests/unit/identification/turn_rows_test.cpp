@@ -30,8 +30,7 @@ Record asynchronous(const force::Setup& setup, int samples, double noise) {
 TEST(TurnRows, AreTheRowsOfTheSamples) {  // [I-11]
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
   setup.runout.radial_offsets = {0.0, -8.0 * unit::um};
-  const FoldedRun run =
-      fold(asynchronous(setup, 3000, 0.0), {.band_harmonics = 6});
+  const FoldedRun run = fold(asynchronous(setup, 3000, 0.0), {.band_harmonics = 6});
   ASSERT_FALSE(run.turn_map.empty());
   const force::ForceMatrix matrix(setup, steel(), 1e-9);
   std::vector<double> phi(run.angle);
@@ -55,8 +54,8 @@ TEST(TurnRows, AreTheRowsOfTheSamples) {  // [I-11]
 
 TEST(TurnRows, FewAnglesAndWideBandsKeepTheirSamples) {
   const force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
-  EXPECT_TRUE(fold(made_record(setup, steel(), {}), {.band_harmonics = 6})
-                  .turn_map.empty());
+  EXPECT_TRUE(
+      fold(made_record(setup, steel(), {}), {.band_harmonics = 6}).turn_map.empty());
   EXPECT_TRUE(
       fold(asynchronous(setup, 2000, 0.0), {.band_harmonics = 33}).turn_map.empty());
   EXPECT_TRUE(fold(asynchronous(setup, 2000, 0.0), {}).turn_map.empty());
