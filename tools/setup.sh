@@ -27,7 +27,7 @@ test_libraries=(libgtest-dev libbenchmark-dev python3-numpy python3-scipy)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make)
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags
-  pkg-config=pkg-config)
+  pkg-config=pkg-config valgrind=valgrind)
 
 # One argument, one line.
 say() { printf '%s\n' "$@" >&2; }

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""Count the instructions of the main kernels, and compare them with those on record.
+
+Usage: instructions.py PROGRAM [--renew]   PROGRAM: trochoid_instructions
+
+Times depend on who else uses the machine, instructions hardly: a count more than a tenth
+above the record fails. --renew writes the record anew, which is done where a change is worth
+its instructions, or saves some.
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+RECORD = pathlib.Path(__file__).with_suffix(".json")
+ALLOWED = 1.1
+
+
+def collected(program, kernel, times):
+    """Instructions of a whole run of the program."""
+    run = subprocess.run(
+        ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, kernel, str(times)],
+        capture_output=True, text=True, check=True)
+    return int(re.search(r"Collected\s*:\s*(\d+)", run.stderr)[1])
+
+
+def count(program, kernel):
+    """Instructions of a kernel after its first run, which also fills what is kept."""
+    return (collected(program, kernel, 3) - collected(program, kernel, 1)) // 2
+
+
+def main(program, renew):
+    if shutil.which("valgrind") is None or "avx2" not in pathlib.Path("/proc/cpuinfo").read_text():
+        print("skipped: this needs valgrind, and vectors as wide as those of the record (AVX2)")
+        return 77
+    kernels = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
+    counts = {kernel: count(program, kernel) for kernel in kernels}
+    if renew:
+        RECORD.write_text(json.dumps(counts, indent=1) + "\n")
+    record = json.loads(RECORD.read_text())
+    wrong = 0
+    for kernel, now in counts.items():
+        ratio = now / record[kernel] if kernel in record else float("inf")
+        print(f"{now:>14,}  {ratio:6.3f} of the record  {kernel}")
+        wrong += ratio > ALLOWED
+    if wrong:
+        print(f"{wrong} kernels take a tenth more than on record: find out why, or run with --renew and say why")
+    return min(wrong, 1)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], "--renew" in sys.argv[2:]))
