@@ -177,11 +177,20 @@ PeriodicPieces PeriodicPieces::combined(std::span<const double> weights) const {
   result.ends_ = ends_;
   const std::size_t rows = coefficients_.size() / functions_;
   result.coefficients_.assign(rows * result.functions_, 0.0);
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t p = 0; p < result.functions_; ++p) {
+  std::vector<std::size_t> used;  // most weights are zeros
+  for (std::size_t p = 0; p < result.functions_; ++p) {
+    const double* w = weights.data() + p * functions_;
+    used.clear();
+    for (std::size_t q = 0; q < functions_; ++q) {
+      if (w[q] != 0) {
+        used.push_back(q);
+      }
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double* from = coefficients_.data() + i * functions_;
       double sum = 0.0;
-      for (std::size_t q = 0; q < functions_; ++q) {
-        sum += weights[p * functions_ + q] * coefficients_[i * functions_ + q];
+      for (const std::size_t q : used) {
+        sum += w[q] * from[q];
       }
       result.coefficients_[i * result.functions_ + p] = sum;
     }

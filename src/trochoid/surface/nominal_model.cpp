@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -88,13 +89,15 @@ NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows
       stations_(std::move(stations)),
       edges_(without_runout(setting.setup), setting.law, stations_->basis()),
       unit_(unit_moments(edges_, setting.tolerance)) {
+  std::map<std::pair<double, double>, std::size_t> known;
   for (const Nominal& row : rows) {
-    const auto same = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) {
-      return kind.height == row.height && kind.travel == row.travel;
-    });
-    kind_of_row_.push_back(static_cast<std::size_t>(same - kinds_.begin()));
-    if (same == kinds_.end()) {
-      Kind kind{row.height, row.travel};
+    // Where along the wall a mean lies, the stations say; a pulse has its angle as well.
+    const double travel = setting.model == Model::quasi_static ? row.travel : 0.0;
+    const auto [same, is_new] =
+        known.try_emplace({row.height, travel}, kinds_.size());
+    kind_of_row_.push_back(same->second);
+    if (is_new) {
+      Kind kind{row.height, travel};
       const auto around = heights_around(row.height, setting.setup.cut.a_p);
       for (std::size_t i = 0; i < around.size(); ++i) {
         kind.rows[i] = stations_->height_index(around[i]);
