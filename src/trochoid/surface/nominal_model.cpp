@@ -35,6 +35,24 @@ std::vector<double> places(std::span<const Nominal> rows) {
 /// Forces are known to so many tolerances of their largest value.
 constexpr double uncertain = 3;
 
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += a[i] * b[i];
+  }
+  return sum;
+}
+
+/// What each coefficient does to a place, added to what it did before.
+/// @param values  of the moments of with_sum, or the sum alone: then nothing is known
+void add_effects(std::span<const double> values, std::span<const double> row,
+                 double share, std::array<double, columns>& per_K) {
+  const std::size_t n = row.size() + 2;
+  for (std::size_t c = 0; (c + 1) * n < values.size(); ++c) {
+    per_K[c] += share * dot(row, values.subspan((c + 1) * n, row.size()));
+  }
+}
+
 /// Coefficients first, then the sum with K: the search for the envelope wants the sum.
 numerics::PeriodicPieces with_sum(const numerics::PeriodicPieces& unit,
                                   std::span<const double, columns> K) {
@@ -73,8 +91,7 @@ std::shared_ptr<const Stations> NominalModel::stations_for(
   const double a_p = setting.setup.cut.a_p;
   std::vector<double> heights;
   for (const Nominal& row : rows) {
-    const auto around = heights_around(row.height, a_p);
-    heights.insert(heights.end(), around.begin(), around.end());
+    heights.push_back(row.height);
   }
   return std::make_shared<Stations>(setting.bodies, places(rows), heights, a_p,
                                     setting.load);
@@ -89,85 +106,72 @@ NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows
       stations_(std::move(stations)),
       edges_(without_runout(setting.setup), setting.law, stations_->basis()),
       unit_(unit_moments(edges_, setting.tolerance)) {
-  std::map<std::pair<double, double>, std::size_t> known;
+  std::map<std::pair<std::size_t, double>, std::size_t> known;
   for (const Nominal& row : rows) {
     // Where along the wall a mean lies, the stations say; a pulse has its angle as well.
     const double travel = setting.model == Model::quasi_static ? row.travel : 0.0;
-    const auto [same, is_new] =
-        known.try_emplace({row.height, travel}, kinds_.size());
-    kind_of_row_.push_back(same->second);
-    if (is_new) {
-      Kind kind{row.height, travel};
-      const auto around = heights_around(row.height, setting.setup.cut.a_p);
-      for (std::size_t i = 0; i < around.size(); ++i) {
-        kind.rows[i] = stations_->height_index(around[i]);
+    Row place{.x = row.x, .share = stations_->grid().at(row.height)};
+    for (std::size_t i = 0; i < place.share.count; ++i) {
+      const Kind kind{place.share.first + i, travel};
+      const auto [same, is_new] =
+          known.try_emplace({kind.node, kind.travel}, kinds_.size());
+      place.kinds[i] = same->second;
+      if (is_new) {
+        kinds_.push_back(kind);
       }
-      kinds_.push_back(kind);
     }
-    weights_.push_back(stations_->weights(row.x));
+    rows_.push_back(place);
   }
 }
 
-void NominalModel::add_largest(const numerics::PeriodicPieces& deflections,
-                               Value& value) const {
+double NominalModel::largest_effect(const numerics::PeriodicPieces& moments) const {
   constexpr int samples = 24;
-  std::vector<double> values(deflections.functions());
-  for (int i = 0; i < samples && values.size() > columns; ++i) {
-    deflections.value(unit::turn * (i + 0.3) / samples, values);
-    value.largest = std::max({value.largest, std::abs(values[1]), std::abs(values[2])});
+  const std::size_t n = edges_.values();
+  const std::size_t points = n - 2;
+  std::vector<double> values(moments.functions());
+  double largest = 0.0;
+  for (int i = 0; i < samples && values.size() > columns * n; ++i) {
+    moments.value(unit::turn * (i + 0.3) / samples, values);
+    for (std::size_t s = 0; s < stations_->count(); ++s) {
+      for (std::size_t node = 0; node < stations_->grid().nodes().size(); ++node) {
+        const auto row = stations_->row(s, node);
+        largest = std::max(
+            {largest, std::abs(dot(row, std::span(values).subspan(n, points))),
+             std::abs(dot(row, std::span(values).subspan(2 * n, points)))});
+      }
+    }
   }
+  return largest;
 }
 
-NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments,
-                                         std::span<const double> row,
-                                         const Kind& kind) const {
+NominalModel::Value NominalModel::envelope(const numerics::PeriodicPieces& moments,
+                                           std::span<const double> row,
+                                           double height) const {
   const Side side = *side_of(setting_.setup.cut.engagement);
   const geometry::Cutter& cutter = edges_.setup().cutter;
-  const double feed = cutter.teeth() * setting_.setup.cut.f_z;
-  const numerics::PeriodicPieces all = deflection(moments, row, side.sigma);
-  std::vector<double> values(all.functions());
-  Value value;
-  add_largest(all, value);
-  const auto add = [&](double phi, double share) {
-    all.value(phi, values);
-    for (std::size_t c = 0; c + 1 < values.size(); ++c) {
-      value.per_K[c] += share * values[c + 1];
-    }
-  };
-  const int cycles = edges_.equal_teeth() ? 1 : cutter.teeth();
-  if (setting_.model == Model::quasi_static) {
-    for (int g = 0; g < cycles; ++g) {
-      const double travel = kind.travel + g * setting_.setup.cut.f_z;
-      add(setting_.phase + unit::turn * travel / feed, 1.0 / cycles);
-      value.error += values[0] / cycles;
-    }
-    return value;
+  std::vector<double> only_sum(moments.functions());
+  for (std::size_t q = 0; q < row.size(); ++q) {
+    only_sum[q] = side.sigma * row[q];  // E-4
   }
-  std::vector<double> only_sum(all.functions());
-  only_sum[0] = 1.0;
   const HeightCut cut{side,
                       cutter.profile.D / 2,
-                      feed,
+                      cutter.teeth() * setting_.setup.cut.f_z,
                       0.0,
-                      edge_places(edges_.setup(), kind.height),
-                      all.combined(only_sum)};
-  if (setting_.model == Model::imprint) {
-    for (const SurfacePoint& point : imprint_errors(cut)) {
-      const double share = 1.0 / cutter.teeth();
-      value.error += share * point.error;
-      add(point.phi, share);
-    }
-    return value;
-  }
+                      edge_places(edges_.setup(), height),
+                      moments.combined(only_sum)};
+  const int cycles = edges_.equal_teeth() ? 1 : cutter.teeth();
   const std::size_t points = points_per_feed * static_cast<std::size_t>(cycles);
   const auto share = 1.0 / static_cast<double>(points);
-  std::vector<double> profile(points);
   const double step = setting_.setup.cut.f_z / points_per_feed;
+  std::vector<double> profile(points);
+  std::vector<double> values(moments.functions());
+  Value value;
   for (std::size_t i = 0; i < points; ++i) {
     const SurfacePoint point =
         envelope_error(cut, (static_cast<double>(i) + 0.5) * step);
     profile[i] = point.error;
-    add(point.phi, share);
+    moments.value(point.phi, values);
+    add_effects(values, row, share * side.sigma, value.per_K);
   }
   if (setting_.probe_radius > 0) {
     profile = probe_reading(profile, step, setting_.probe_radius);
@@ -178,18 +182,49 @@ NominalModel::Value NominalModel::at_row(const numerics::PeriodicPieces& moments
   return value;
 }
 
+NominalModel::Value NominalModel::at_level(const numerics::PeriodicPieces& moments,
+                                           std::size_t station, const Kind& kind,
+                                           Level level) const {
+  const auto row = stations_->row(station, kind.node, level);
+  const double height = stations_->height(kind.node, level);
+  if (setting_.model == Model::envelope) {
+    return envelope(moments, row, height);
+  }
+  const Side side = *side_of(setting_.setup.cut.engagement);
+  const geometry::Cutter& cutter = edges_.setup().cutter;
+  std::vector<double> values(moments.functions());
+  Value value;
+  const auto add = [&](double phi, double share) {
+    moments.value(phi, values);
+    value.error += share * side.sigma * dot(row, std::span(values).first(row.size()));
+    add_effects(values, row, share * side.sigma, value.per_K);
+  };
+  if (setting_.model == Model::quasi_static) {
+    const int cycles = edges_.equal_teeth() ? 1 : cutter.teeth();
+    for (int g = 0; g < cycles; ++g) {
+      const double travel = kind.travel + g * setting_.setup.cut.f_z;
+      add(setting_.phase +
+              unit::turn * travel / (cutter.teeth() * setting_.setup.cut.f_z),
+          1.0 / cycles);
+    }
+    return value;
+  }
+  for (const EdgePlace& tooth : edge_places(edges_.setup(), height)) {  // E-8
+    const double share = 1.0 / cutter.teeth();
+    add(side.theta + tooth.behind, share);
+    value.error -= share * (tooth.R - cutter.profile.D / 2);
+  }
+  return value;
+}
+
 NominalModel::Value NominalModel::value(const numerics::PeriodicPieces& moments,
                                         std::size_t station, const Kind& kind) const {
-  Value value = at_row(moments, stations_->row(station, kind.rows[1]), kind);
+  Value value = at_level(moments, station, kind, Level::there);
   if (setting_.model == Model::envelope && setting_.probe_radius > 0) {
-    const auto around = heights_around(kind.height, setting_.setup.cut.a_p);
-    Kind below = kind;
-    Kind above = kind;
-    below.height = around[0];
-    above.height = around[2];
-    const Value low = at_row(moments, stations_->row(station, kind.rows[0]), below);
-    const Value high = at_row(moments, stations_->row(station, kind.rows[2]), above);
-    const double dz = above.height - below.height;
+    const Value low = at_level(moments, station, kind, Level::below);
+    const Value high = at_level(moments, station, kind, Level::above);
+    const double dz = stations_->height(kind.node, Level::above) -
+                      stations_->height(kind.node, Level::below);
     const double r = setting_.probe_radius;
     const double slope = (high.error - low.error) / dz;
     value.error += reading_on_slope(r, slope);
@@ -202,19 +237,20 @@ NominalModel::Value NominalModel::value(const numerics::PeriodicPieces& moments,
 }
 
 Prediction NominalModel::along_the_wall(const std::vector<Value>& grid) const {
-  const std::size_t rows = kind_of_row_.size();
-  Prediction result{std::vector<double>(rows), std::vector<double>(rows * columns),
-                    true};
-  for (const Value& value : grid) {
-    result.blind =
-        std::max(result.blind, uncertain * setting_.tolerance * value.largest);
-  }
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t s = 0; s < stations_->count(); ++s) {
-      const Value& value = grid[s * kinds_.size() + kind_of_row_[i]];
-      result.error[i] += weights_[i][s] * value.error;
-      for (std::size_t c = 0; c < columns; ++c) {
-        result.per_K[i * columns + c] += weights_[i][s] * value.per_K[c];
+  Prediction result{std::vector<double>(rows_.size()),
+                    std::vector<double>(rows_.size() * columns), true};
+  std::vector<double> weights(stations_->count());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    stations_->weights(row.x, weights);
+    for (std::size_t s = 0; s < weights.size(); ++s) {
+      for (std::size_t k = 0; weights[s] != 0 && k < row.share.count; ++k) {
+        const Value& value = grid[s * kinds_.size() + row.kinds[k]];
+        const double w = weights[s] * row.share.weights[k];
+        result.error[i] += w * value.error;
+        for (std::size_t c = 0; c < columns; ++c) {
+          result.per_K[i * columns + c] += w * value.per_K[c];
+        }
       }
     }
   }
@@ -227,7 +263,9 @@ Prediction NominalModel::rigid(std::span<const double, columns> K) const {
   numerics::for_each_index(grid.size(), [&](std::size_t i) {
     grid[i] = value(moments, i / kinds_.size(), kinds_[i % kinds_.size()]);
   });
-  return along_the_wall(grid);
+  Prediction result = along_the_wall(grid);
+  result.blind = uncertain * setting_.tolerance * largest_effect(moments);
+  return result;
 }
 
 Prediction NominalModel::with_feedback_once(std::span<const double, columns> K,

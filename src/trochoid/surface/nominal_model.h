@@ -40,31 +40,38 @@ class NominalModel {
   [[nodiscard]] std::size_t stations() const noexcept { return stations_->count(); }
 
  private:
-  /// Rows that differ in x only.
+  /// Rows that differ in x only are of one kind, or lie between a few kinds.
   struct Kind {
-    double height = 0.0;
-    double travel = 0.0;
-    std::array<std::size_t, 3> rows{};  ///< of the compliance: below, at, above
+    std::size_t node = 0;  ///< of the heights
+    double travel = 0.0;   ///< quasi_static [m]
   };
   struct Value {
     double error = 0.0;
     std::array<double, columns> per_K{};
-    double largest = 0.0;  ///< by K_tc or K_rc anywhere in the turn [m per N/m^2]
+  };
+  /// A row, as the kinds at the nodes around its height.
+  struct Row {
+    double x = 0.0;  ///< [m]
+    HeightShare share;
+    std::array<std::size_t, 4> kinds{};
   };
 
   [[nodiscard]] Value value(const numerics::PeriodicPieces& moments,
                             std::size_t station, const Kind& kind) const;
-  void add_largest(const numerics::PeriodicPieces& deflections, Value& value) const;
-  [[nodiscard]] Value at_row(const numerics::PeriodicPieces& moments,
-                             std::span<const double> row, const Kind& kind) const;
+  [[nodiscard]] Value at_level(const numerics::PeriodicPieces& moments,
+                               std::size_t station, const Kind& kind,
+                               Level level) const;
+  [[nodiscard]] Value envelope(const numerics::PeriodicPieces& moments,
+                               std::span<const double> row, double height) const;
+  /// By K_tc or K_rc anywhere in the turn [m per N/m^2].
+  [[nodiscard]] double largest_effect(const numerics::PeriodicPieces& moments) const;
   [[nodiscard]] Prediction with_feedback_once(std::span<const double, columns> K,
                                               Feedback feedback) const;
   [[nodiscard]] Prediction along_the_wall(const std::vector<Value>& grid) const;
 
   Setting setting_;
   std::vector<Kind> kinds_;
-  std::vector<std::size_t> kind_of_row_;
-  std::vector<std::vector<double>> weights_;  ///< of the stations, shape (rows)
+  std::vector<Row> rows_;
   std::shared_ptr<const Stations> stations_;
   EdgeMoments edges_;
   numerics::PeriodicPieces unit_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 namespace trochoid::surface {
 
@@ -47,7 +46,11 @@ std::array<double, 3> heights_around(double height, double a_p) {
 
 Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
                    std::span<const double> heights, double a_p, Load load)
-    : x_(distinct(x)), heights_(distinct(heights)), along_(x_.front(), x_.back(), 1) {
+    : x_(distinct(x)), grid_(heights), along_(x_.front(), x_.back(), 1) {
+  for (const double node : grid_.nodes()) {
+    const auto around = heights_around(node, a_p);
+    heights_.insert(heights_.end(), around.begin(), around.end());
+  }
   const Bodies first = bodies(x_.front());
   const std::size_t enough = station_count(first.wall, x_.back() - x_.front());
   const double first_x = x_.front();
@@ -69,25 +72,16 @@ Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
   }
 }
 
-std::size_t Stations::height_index(double height) const {
-  const auto found = std::lower_bound(heights_.begin(), heights_.end(), height);
-  if (found == heights_.end() || *found != height) {
-    throw std::out_of_range("no compliance was made for this height");
-  }
-  return static_cast<std::size_t>(found - heights_.begin());
-}
-
-std::vector<double> Stations::weights(double x) const {
-  std::vector<double> weights(x_.size());
+void Stations::weights(double x, std::span<double> out) const noexcept {
   if (interpolated_) {
-    along_.weights(x, weights);
-    return weights;
+    along_.weights(x, out);
+    return;
   }
   const auto nearest = std::min_element(x_.begin(), x_.end(), [x](double a, double b) {
     return std::abs(a - x) < std::abs(b - x);
   });
-  weights[static_cast<std::size_t>(nearest - x_.begin())] = 1.0;
-  return weights;
+  std::fill(out.begin(), out.end(), 0.0);
+  out[static_cast<std::size_t>(nearest - x_.begin())] = 1.0;
 }
 
 }  // namespace trochoid::surface

@@ -2,6 +2,7 @@
 
 #include <trochoid/numerics/lagrange.h>
 #include <trochoid/surface/bodies.h>
+#include <trochoid/surface/height_grid.h>
 
 #include <array>
 #include <span>
@@ -12,11 +13,14 @@ namespace trochoid::surface {
 /// @brief Just below a height, there, and just above it: for slopes over the height.
 std::array<double, 3> heights_around(double height, double a_p);
 
+/// Which of heights_around.
+enum class Level : std::size_t { below = 0, there = 1, above = 2 };
+
 /// @brief The compliance at some heights, anywhere along a stretch of the wall.
 ///
 /// A wall is solved where the readings are; where these are many,
 /// at Chebyshev points along the stretch, more on a longer one,
-/// and what follows is interpolated between them.
+/// and what follows is interpolated between them. The same holds of the heights.
 class Stations {
  public:
   /// @param x        where the cutter comes along the wall [m], not empty
@@ -29,28 +33,40 @@ class Stations {
     return compliances_.front().basis();
   }
   [[nodiscard]] std::size_t count() const noexcept { return x_.size(); }
-  /// @brief Number of a height that was asked for at the start.
-  /// @throws std::out_of_range for any other
-  [[nodiscard]] std::size_t height_index(double height) const;
+  [[nodiscard]] const HeightGrid& grid() const noexcept { return grid_; }
+  /// Height of a node of the grid, or just below or above it [m].
+  [[nodiscard]] double height(std::size_t node, Level level) const noexcept {
+    return heights_[node * levels + static_cast<std::size_t>(level)];
+  }
   [[nodiscard]] const Compliance& compliance(std::size_t station) const {
     return compliances_[station];
   }
-  /// @brief G_q of a height, by its number, at a station [m/N], shape (basis points).
-  [[nodiscard]] std::span<const double> row(std::size_t station,
-                                            std::size_t height) const {
+  /// @brief G_q at a node of the grid at a station [m/N], shape (basis points).
+  [[nodiscard]] std::span<const double> row(std::size_t station, std::size_t node,
+                                            Level level = Level::there) const {
     const std::size_t points = basis().size();
+    const std::size_t height = node * levels + static_cast<std::size_t>(level);
     return std::span(rows_[station]).subspan(height * points, points);
   }
-  /// @brief What the stations count for at x, shape (count()); mostly zeros where few.
-  [[nodiscard]] std::vector<double> weights(double x) const;
+  /// @brief What the stations count for at x; mostly zeros where they are few.
+  /// @param[out] out  shape (count())
+  void weights(double x, std::span<double> out) const noexcept;
+  [[nodiscard]] std::vector<double> weights(double x) const {
+    std::vector<double> out(count());
+    weights(x, out);
+    return out;
+  }
 
  private:
+  static constexpr std::size_t levels = 3;
+
   std::vector<double> x_;
   bool interpolated_ = false;
-  std::vector<double> heights_;  ///< ascending [m]
+  HeightGrid grid_;
+  std::vector<double> heights_;  ///< around the nodes [m], shape (nodes, levels)
   numerics::LagrangeBasis along_;
   std::vector<Compliance> compliances_;
-  std::vector<std::vector<double>> rows_;  ///< shape (stations)(heights, points)
+  std::vector<std::vector<double>> rows_;  ///< shape (stations)(nodes, levels, points)
 };
 
 }  // namespace trochoid::surface

@@ -33,6 +33,10 @@ class ToothModel {
   }
   /// Are the teeth known, or may all be renumbered?
   [[nodiscard]] bool labelled() const noexcept { return labelled_; }
+  /// The tooth that made a reading, 0-based; of a real surface none did alone.
+  [[nodiscard]] std::size_t tooth(std::size_t reading) const noexcept {
+    return places_[reading].tooth;
+  }
   /// Does the model depend on where a turn begins?
   [[nodiscard]] bool has_phase() const noexcept {
     return setting_.model == Model::envelope;
@@ -43,7 +47,7 @@ class ToothModel {
     RunoutVector runout;
     std::vector<double> angles;  ///< where single values are known [rad], ascending
     std::vector<double> values;  ///< shape (angles, columns x values of EdgeMoments)
-    numerics::PeriodicPieces table;  ///< envelope
+    numerics::PeriodicPieces table;  ///< envelope, and pulses at many angles
   };
   [[nodiscard]] Forces forces(RunoutVector runout) const;
 
@@ -57,30 +61,40 @@ class ToothModel {
 
  private:
   struct Place {
-    double phi = 0.0;       ///< quasi_static [rad]
+    double phi = 0.0;       ///< quasi_static, within a turn [rad]
     std::size_t tooth = 0;  ///< imprint
-    std::size_t height = 0;
-    std::vector<double> weights;  ///< of the stations
+    HeightShare height;
   };
 
   void find_teeth();
-  [[nodiscard]] double slope(const numerics::PeriodicPieces& moments,
-                             std::size_t station, double height,
-                             const force::Setup& setup) const;
+  /// In [0, a turn) [rad]: single values are known at such angles.
+  [[nodiscard]] static double within_turn(double phi) noexcept;
   [[nodiscard]] force::Setup with(RunoutVector runout) const;
-  [[nodiscard]] double angle_of(const Place& place, const force::Setup& setup) const;
-  [[nodiscard]] double deflection_at(const Forces& forces,
-                                     std::span<const double, columns> K,
-                                     const Place& place) const;
+  /// Angles at which single values of the force are wanted, ascending [rad].
+  [[nodiscard]] std::vector<double> angles(const force::Setup& setup) const;
+  /// Sums over the coefficients of what `forces` knows at an angle, shape (values).
+  void moments_at(const Forces& forces, std::span<const double, columns> K, double phi,
+                  std::span<double> out) const;
+  /// At the stations and nodes, from one error of each, shape (readings).
+  template <class ErrorAt>
+  [[nodiscard]] std::vector<double> along_the_wall(const ErrorAt& error_at) const;
+
+  [[nodiscard]] std::vector<double> predict_pulses(const Forces& forces,
+                                                   std::span<const double, columns> K,
+                                                   const force::Setup& setup) const;
+  [[nodiscard]] std::vector<double> predict_imprints(const Forces& forces,
+                                                     std::span<const double, columns> K,
+                                                     const force::Setup& setup) const;
   [[nodiscard]] std::vector<double> predict_envelope(const Forces& forces,
                                                      std::span<const double, columns> K,
                                                      const force::Setup& setup,
                                                      double x_0) const;
+  [[nodiscard]] std::vector<double> profiles(const numerics::PeriodicPieces& moments,
+                                             const force::Setup& setup,
+                                             std::size_t node) const;
 
   Setting setting_;
   std::vector<Reading> readings_;
-  std::vector<double> heights_;    ///< distinct [m]
-  std::vector<std::size_t> rows_;  ///< of the stations, shape (heights)
   std::vector<Place> places_;
   std::shared_ptr<const Stations> stations_;
   bool labelled_ = true;
