@@ -4,18 +4,23 @@
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
 #include <trochoid/surface/datum.h>
+#include <trochoid/surface/folded_readings.h>
+#include <trochoid/surface/runout_problem.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace trochoid::surface {
 
 namespace {
 
+using namespace runout;
 using Values = std::vector<double>;
 
-constexpr double um = 1e-6;    // scale of errors and runout
-constexpr double MN_m2 = 1e8;  // scale of coefficients
+std::ptrdiff_t at(std::size_t i) {
+  return static_cast<std::ptrdiff_t>(i);
+}
 
 double sum_of_squares(std::span<const double> r) {
   double sum = 0.0;
@@ -23,112 +28,6 @@ double sum_of_squares(std::span<const double> r) {
     sum += x * x;
   }
   return sum;
-}
-
-/// Which unknowns a fit has, scaled to about one: c, s, [start], [K_tc, K_rc, datum].
-struct Unknowns {
-  bool start = false;
-  bool all = false;
-  std::size_t datum = 0;
-
-  [[nodiscard]] std::size_t count() const {
-    return 2 + (start ? 1 : 0) + (all ? 2 + datum : 0);
-  }
-};
-
-struct State {
-  RunoutVector runout;
-  double start = 0.0;
-  std::array<double, columns> K{};
-  Values datum;
-};
-
-struct Problem {
-  const ToothModel& model;
-  std::span<const Reading> readings;
-  const DatumColumns& columns_of_datum;
-  double f_z;
-
-  [[nodiscard]] Values pack(const State& s, const Unknowns& u) const {
-    Values p = {s.runout.c / um, s.runout.s / um};
-    if (u.start) {
-      p.push_back(s.start / f_z);
-    }
-    if (u.all) {
-      p.push_back(s.K[0] / MN_m2);
-      p.push_back(s.K[1] / MN_m2);
-      for (const double d : s.datum) {
-        p.push_back(d / um);
-      }
-    }
-    return p;
-  }
-
-  [[nodiscard]] State unpack(std::span<const double> p, const Unknowns& u,
-                             State s) const {
-    std::size_t i = 0;
-    s.runout = {p[0] * um, p[1] * um};
-    i = 2;
-    if (u.start) {
-      s.start = p[i++] * f_z;
-    }
-    if (u.all) {
-      s.K[0] = p[i++] * MN_m2;
-      s.K[1] = p[i++] * MN_m2;
-      for (double& d : s.datum) {
-        d = p[i++] * um;
-      }
-    }
-    return s;
-  }
-
-  /// Predicted errors with the datum [m].
-  [[nodiscard]] Values errors(const State& s, const ToothModel::Forces& forces) const {
-    Values e = model.predict(forces, s.K, s.runout, s.start);
-    const std::size_t n = columns_of_datum.count;
-    for (std::size_t i = 0; i < e.size(); ++i) {
-      for (std::size_t k = 0; k < n; ++k) {
-        e[i] += columns_of_datum.values[i * n + k] * s.datum[k];
-      }
-    }
-    return e;
-  }
-
-  void residuals(const State& s, const ToothModel::Forces& forces,
-                 std::span<double> r) const {
-    const Values e = errors(s, forces);
-    for (std::size_t i = 0; i < e.size(); ++i) {
-      r[i] = (readings[i].error - e[i]) / um;
-    }
-  }
-};
-
-/// Residuals and their differences; forces change with the runout only, and with
-/// `frozen` not even then.
-numerics::Residuals residuals_of(const Problem& problem, const Unknowns& u,
-                                 const State& about, const ToothModel::Forces* frozen) {
-  return [=, &problem](std::span<const double> p, std::span<double> r,
-                       std::span<double> jacobian) {
-    constexpr double step = 1e-3;
-    const auto forces_at = [&](const State& s) {
-      return frozen != nullptr ? *frozen : problem.model.forces(s.runout);
-    };
-    const State here = problem.unpack(p, u, about);
-    const ToothModel::Forces forces = forces_at(here);
-    problem.residuals(here, forces, r);
-    Values q(p.begin(), p.end());
-    Values moved(r.size());
-    for (std::size_t k = 0; !jacobian.empty() && k < q.size(); ++k) {
-      q[k] = p[k] + step;
-      const State s = problem.unpack(q, u, about);
-      problem.residuals(s, k < 2 ? forces_at(s) : forces, moved);
-      q[k] = p[k];
-      for (std::size_t i = 0; i < r.size(); ++i) {
-        jacobian[k * r.size() + i] = (moved[i] - r[i]) / step;
-      }
-    }
-    return true;
-  };
 }
 
 /// A reading counts where the mean that it belongs to lies, so that the datum has the
@@ -152,27 +51,52 @@ std::vector<Spot> spots_of(std::span<const Reading> readings) {
   return spots;
 }
 
+/// Readings with how many each is the mean of.
+struct Sample {
+  std::vector<Reading> readings;
+  Values count;
+};
+
 /// Readings at a few heights, as if all were taken at one place along the wall.
-std::vector<Reading> sample_of(std::span<const Reading> readings) {
+Sample sample_of(const FoldedReadings& all, bool few_heights) {
   constexpr std::size_t most_heights = 5;
+  constexpr std::size_t enough = 4000;
   Values heights;
   double x = 0.0;
-  for (const Reading& r : readings) {
+  for (const Reading& r : all.means) {
     heights.push_back(r.height);
-    x += r.x / static_cast<double>(readings.size());
+    x += r.x / static_cast<double>(all.means.size());
   }
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   const std::size_t every = (heights.size() + most_heights - 1) / most_heights;
-  std::vector<Reading> sample;
-  for (Reading r : readings) {
+  const std::size_t one_of = 1 + all.means.size() / enough;  // of a scan
+  Sample sample;
+  for (std::size_t i = 0; i < all.means.size(); ++i) {
+    Reading r = all.means[i];
     const auto at = std::lower_bound(heights.begin(), heights.end(), r.height);
-    if (static_cast<std::size_t>(at - heights.begin()) % every == 0) {
+    const bool taken = few_heights
+                           ? static_cast<std::size_t>(at - heights.begin()) % every == 0
+                           : i % one_of == 0;
+    if (taken) {
       r.x = x;
-      sample.push_back(r);
+      sample.readings.push_back(r);
+      sample.count.push_back(all.count[i]);
     }
   }
   return sample;
+}
+
+/// The datum of means, from that of their readings.
+DatumColumns folded_datum(const DatumColumns& datum, const FoldedReadings& folded) {
+  DatumColumns means{datum.count, Values(folded.means.size() * datum.count)};
+  for (std::size_t i = 0; i < folded.of.size(); ++i) {
+    for (std::size_t k = 0; k < datum.count; ++k) {
+      means.values[folded.of[i] * datum.count + k] +=
+          datum.values[i * datum.count + k] / folded.count[folded.of[i]];
+    }
+  }
+  return means;
 }
 
 /// The best of many starts, from a sample of the readings and with the forces of a
@@ -210,9 +134,8 @@ State first_guess(const Problem& problem, const State& about, double amplitude) 
   return best;
 }
 
-/// Of all readings about the means that a fit without runout predicts [m].
-double rms_of_means(const ModelFits& found, std::span<const Reading> readings) {
-  const Values predicted = predicted_means(found, readings.size());
+/// Of all readings about what is predicted of them [m].
+double rms_about(std::span<const double> predicted, std::span<const Reading> readings) {
   double sum = 0.0;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const double r = readings[i].error - predicted[i];
@@ -221,9 +144,76 @@ double rms_of_means(const ModelFits& found, std::span<const Reading> readings) {
   return std::sqrt(sum / static_cast<double>(readings.size()));
 }
 
+/// Sum over all readings of each derivative of the residual times the residual.
+Values gradient_at(const Problem& every, const Values& p, const Unknowns& u,
+                   const State& about) {
+  constexpr double step = 1e-3;
+  const std::size_t m = every.readings.size();
+  const State here = every.unpack(p, u, about);
+  const ToothModel::Forces forces = every.model.forces(here.runout);
+  Values r(m);
+  Values moved(m);
+  every.residuals(here, forces, r);
+  Values gradient(p.size());
+  Values q = p;
+  const std::size_t datum = p.size() - u.datum;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if (k >= datum) {  // linear, and known
+      for (std::size_t i = 0; i < m; ++i) {
+        gradient[k] -= every.columns_of_datum.values[i * u.datum + k - datum] * r[i];
+      }
+      continue;
+    }
+    q[k] = p[k] + step;
+    const State s = every.unpack(q, u, about);
+    every.residuals(s, k < 2 ? every.model.forces(s.runout) : forces, moved);
+    q[k] = p[k];
+    for (std::size_t i = 0; i < m; ++i) {
+      gradient[k] += r[i] * (moved[i] - r[i]) / step;
+    }
+  }
+  return gradient;
+}
+
+/// From the best state of the means to that of all readings, which differ where a mean
+/// holds a kink: Gauss-Newton with the matrix of the means and the gradient of all.
+State refined(const Problem& every, const Problem& means, const Unknowns& u,
+              State best) {
+  constexpr int most_steps = 3;
+  constexpr double negligible = 1e-2;  // of a variance: a step of 0.1 se
+  const std::size_t m = means.readings.size();
+  const std::size_t n = u.count();
+  Values p = means.pack(best, u);
+  Values r(m);
+  Values J(m * n);
+  residuals_of(means, u, best, nullptr)(p, r, J);
+  Values gram(n * n);
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) {
+      gram[a * n + b] = std::inner_product(
+          J.begin() + at(a * m), J.begin() + at(a * m + m), J.begin() + at(b * m), 0.0);
+    }
+  }
+  const double s2 = sum_of_squares(r) / static_cast<double>(m);
+  for (int k = 0; k < most_steps; ++k) {
+    const Values right = gradient_at(every, p, u, best);
+    Values step(n);
+    const double gain = numerics::solve_normal(gram, right, step);
+    const double share = k == 0 ? 1.0 : 0.5;  // a kink sends whole steps to and fro
+    for (std::size_t i = 0; i < n; ++i) {
+      p[i] -= share * step[i];
+    }
+    if (gain <= negligible * s2) {
+      break;
+    }
+  }
+  return every.unpack(p, u, best);
+}
+
 /// Values and errors of the last fit.
+/// @param readings  how many there are; fit.rms is that of all of them
 void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
-                  RunoutFit& fit) {
+                  std::size_t readings, RunoutFit& fit) {
   const std::size_t m = problem.readings.size();
   const std::size_t n = u.count();
   Values r(m);
@@ -237,13 +227,13 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
     }
   }
   const auto solved = numerics::least_squares(rows, static_cast<int>(n), r, 1e-7);
-  const double sum = sum_of_squares(r);
-  fit.rms = um * std::sqrt(sum / static_cast<double>(m));
   if (solved.inverse_gram.empty()) {
     fit.message = "the readings do not tell runout and coefficients apart";
     return;
   }
-  const int freedom = static_cast<int>(m) - static_cast<int>(n);
+  // What the means scatter about the model and the readings about their means (E-19).
+  const double sum = static_cast<double>(readings) * fit.rms * fit.rms / (um * um);
+  const int freedom = static_cast<int>(readings) - static_cast<int>(n);
   const double s2 = freedom > 0 ? sum / freedom : 0.0;
   const auto G = [&](std::size_t i, std::size_t k) {
     return s2 * solved.inverse_gram[i * n + k];
@@ -273,12 +263,43 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
   fit.message.clear();
 }
 
+/// Where the search begins: from the fit of the means, without runout.
+State start_of(const Setting& setting, const CoefficientFit& means) {
+  State about{.K = wall_coefficients(setting.law)};
+  about.K[0] = means.K_tc.value;
+  about.K[1] = means.K_rc.value;
+  for (const Estimate& d : means.datum) {
+    about.datum.push_back(d.value);
+  }
+  return about;
+}
+
+/// What a search starts from.
+struct Measured {
+  const Setting& setting;
+  std::span<const Datum> datum;
+  const FoldedReadings& folded;
+  double scatter;  ///< of the readings, runout left out [m]
+};
+
+/// A state near the best, from a sample where that has all that is needed.
+State search(const Measured& from, const Problem& problem, const State& about,
+             const Unknowns& all) {
+  const Sample sample = sample_of(from.folded, problem.model.heights().exact());
+  const ToothModel model(from.setting, sample.readings);
+  const DatumColumns columns = datum_columns(spots_of(sample.readings), from.datum);
+  const bool enough = model.why_no_runout().empty() &&
+                      sample.readings.size() > all.count() &&
+                      columns.count == problem.columns_of_datum.count;
+  const Problem part{model, sample.readings, sample.count, columns, problem.f_z};
+  return first_guess(enough ? part : problem, about, std::max(from.scatter, 0.1 * um));
+}
+
 }  // namespace
 
 RunoutFit find_runout(const Setting& setting, std::span<const Reading> readings,
                       std::span<const Datum> datum, const ModelFits& found) {
   RunoutFit fit;
-  const CoefficientFit& start = chosen_fit(found);
   const ToothModel model(setting, readings, found.stations);
   fit.labelled = model.labelled();
   const DatumColumns datum_part =
@@ -291,35 +312,34 @@ RunoutFit find_runout(const Setting& setting, std::span<const Reading> readings,
                       : model.why_no_runout();
     return fit;
   }
-  const Problem problem{model, readings, datum_part, setting.setup.cut.f_z};
-  State about{.K = wall_coefficients(setting.law)};
-  about.K[0] = start.K_tc.value;
-  about.K[1] = start.K_rc.value;
-  for (const Estimate& d : start.datum) {
-    about.datum.push_back(d.value);
-  }
-  Values r(readings.size());
-  problem.residuals(about, model.forces({}), r);
-  fit.rms_without = um * std::sqrt(sum_of_squares(r) / static_cast<double>(r.size()));
-  const std::vector<Reading> sample = sample_of(readings);
-  const ToothModel sampled(setting, sample);
-  const DatumColumns sampled_datum = datum_columns(spots_of(sample), datum);
-  const bool enough = sampled.why_no_runout().empty() && sample.size() > all.count() &&
-                      sampled_datum.count == datum_part.count;
-  const Problem part{sampled, sample, sampled_datum, problem.f_z};
-  State best =
-      first_guess(enough ? part : problem, about, std::max(fit.rms_without, 0.1 * um));
+  const double f_z = setting.setup.cut.f_z;
+  const Values ones(readings.size(), 1.0);
+  const Problem every{model, readings, ones, datum_part, f_z};
+  const State about = start_of(setting, chosen_fit(found));
+  fit.rms_without = rms_about(every.errors(about, model.forces({})), readings);
+  const FoldedReadings folded = fold_readings(setting, readings, model);
+  const ToothModel of_means(setting, folded.means, found.stations);
+  const DatumColumns datum_of_means = folded_datum(datum_part, folded);
+  const Problem problem{of_means, folded.means, folded.count, datum_of_means, f_z};
+  State best = search({setting, datum, folded, fit.rms_without}, problem, about, all);
   const auto fitted = numerics::levenberg_marquardt(
-      residuals_of(problem, all, best, nullptr), static_cast<int>(readings.size()),
+      residuals_of(problem, all, best, nullptr), static_cast<int>(folded.means.size()),
       problem.pack(best, all), {.max_iterations = 30, .parameter_tolerance = 1e-9});
   best = problem.unpack(fitted.p, all, best);
-  describe_fit(problem, all, best, fit);
-  if (fit.ok && fit.rms > rms_of_means(found, readings)) {
+  if (folded.means.size() < readings.size()) {
+    best = refined(every, problem, all, best);
+  }
+  fit.predicted = every.errors(best, model.forces(best.runout));
+  fit.rms = rms_about(fit.predicted, readings);
+  describe_fit(problem, all, best, readings.size(), fit);
+  if (fit.ok &&
+      fit.rms > rms_about(predicted_means(found, readings.size()), readings)) {
     fit.ok = false;
     fit.message = "no runout was found that explains the readings better than none";
-    return fit;
   }
-  fit.predicted = problem.errors(best, model.forces(best.runout));
+  if (!fit.ok) {
+    fit.predicted.clear();
+  }
   return fit;
 }
 

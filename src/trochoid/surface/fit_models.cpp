@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace trochoid::surface {
 
@@ -28,17 +29,24 @@ std::array<double, columns> start_at(const CoefficientFit& fit,
   return K;
 }
 
-/// The same places at another height.
+/// The same places at another height; of very many angles of pulses, some.
 std::vector<Nominal> candidates_at(double height, std::span<const Nominal> nominal,
                                    Model model) {
-  std::vector<Nominal> rows;
+  constexpr std::size_t most_angles = 100;
+  std::map<double, const Nominal*> angles;
   for (const Nominal& n : nominal) {
-    const bool known = std::any_of(rows.begin(), rows.end(), [&](const Nominal& row) {
-      return model != Model::quasi_static || row.travel == n.travel;
-    });
-    if (!known) {
-      rows.push_back(n);
-      rows.back().height = height;
+    angles.try_emplace(model == Model::quasi_static ? n.travel : 0.0, &n);
+  }
+  const std::size_t every = (angles.size() + most_angles - 1) / most_angles;
+  std::vector<Nominal> rows;
+  std::size_t count = 0;
+  for (const auto& [angle, place] : angles) {
+    if (count++ % every == 0) {
+      rows.push_back({.x = place->x,
+                      .travel = place->travel,
+                      .height = height,
+                      .set = place->set,
+                      .readings = {}});
     }
   }
   return rows;

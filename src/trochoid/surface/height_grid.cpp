@@ -25,8 +25,8 @@ HeightGrid::HeightGrid(std::span<const double> heights)
   const double high = nodes_.back();
   nodes_.resize(interpolated);
   for (std::size_t i = 0; i < interpolated; ++i) {
-    nodes_[i] =
-        low + (high - low) * static_cast<double>(i) / static_cast<double>(interpolated - 1);
+    nodes_[i] = low + (high - low) * static_cast<double>(i) /
+                          static_cast<double>(interpolated - 1);
   }
   nodes_.back() = high;
 }

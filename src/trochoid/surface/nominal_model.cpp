@@ -135,9 +135,9 @@ double NominalModel::largest_effect(const numerics::PeriodicPieces& moments) con
     for (std::size_t s = 0; s < stations_->count(); ++s) {
       for (std::size_t node = 0; node < stations_->grid().nodes().size(); ++node) {
         const auto row = stations_->row(s, node);
-        largest = std::max(
-            {largest, std::abs(dot(row, std::span(values).subspan(n, points))),
-             std::abs(dot(row, std::span(values).subspan(2 * n, points)))});
+        largest =
+            std::max({largest, std::abs(dot(row, std::span(values).subspan(n, points))),
+                      std::abs(dot(row, std::span(values).subspan(2 * n, points)))});
       }
     }
   }

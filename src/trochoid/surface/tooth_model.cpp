@@ -38,8 +38,8 @@ std::vector<double> places_along(std::span<const Reading> readings) {
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings)
     : ToothModel(setting, readings,
                  std::make_shared<Stations>(setting.bodies, places_along(readings),
-                                            heights_of(readings),
-                                            setting.setup.cut.a_p, setting.load)) {}
+                                            heights_of(readings), setting.setup.cut.a_p,
+                                            setting.load)) {}
 
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings,
                        std::shared_ptr<const Stations> stations)

@@ -37,6 +37,8 @@ class ToothModel {
   [[nodiscard]] std::size_t tooth(std::size_t reading) const noexcept {
     return places_[reading].tooth;
   }
+  /// Where the model is computed.
+  [[nodiscard]] const HeightGrid& heights() const noexcept { return stations_->grid(); }
   /// Does the model depend on where a turn begins?
   [[nodiscard]] bool has_phase() const noexcept {
     return setting_.model == Model::envelope;

@@ -144,7 +144,8 @@ std::vector<double> ToothModel::profiles(const numerics::PeriodicPieces& moments
                                          const force::Setup& setup,
                                          std::size_t node) const {
   const auto n = static_cast<std::size_t>(setup.cutter.teeth()) * points_per_feed;
-  auto all = StationEnvelopes(*stations_, moments, setup, node, Level::there).profiles(n);
+  auto all =
+      StationEnvelopes(*stations_, moments, setup, node, Level::there).profiles(n);
   if (setting_.probe_radius <= 0) {
     return all;
   }
