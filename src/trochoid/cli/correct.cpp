@@ -1,4 +1,5 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/progress_line.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/correct/correct.h>
 
@@ -9,10 +10,13 @@ namespace trochoid::cli {
 int correct(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::correct,
                                                result_folder(options, "correct"));
-  ProgressLine progress(options.quiet);
-  return deliver(results::answer_of(run::correct(given, options.simulate_controller,
-                                                 std::ref(progress))),
-                 options);
+  const auto answer = [&] {
+    ProgressLine progress(options.quiet);
+    return results::answer_of(
+        run::correct(given, options.simulate_controller, std::ref(progress)));
+  };
+  // What the run knows is let go of before it is written.
+  return deliver(answer(), options);
 }
 
 }  // namespace trochoid::cli

@@ -1,27 +1,16 @@
 #include <trochoid/cli/deliver.h>
 
 #include <trochoid/base/error.h>
+#include <trochoid/cli/progress_line.h>
 #include <trochoid/report/report.h>
 #include <trochoid/results/folder.h>
 
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 
 namespace trochoid::cli {
-
-namespace {
-
-double seconds() {
-  return std::chrono::duration<double>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
 
 std::filesystem::path result_folder(const Options& options,
                                     const std::string& command) {
@@ -37,9 +26,11 @@ std::filesystem::path result_folder(const Options& options,
 int deliver(const results::Answer& answer, const Options& options) {
   const std::filesystem::path folder = result_folder(options, answer.command);
   const std::string summary = results::summary_json(answer);
-  const std::string page = options.no_report ? "" : report::html(answer, summary);
   try {
-    results::write_folder(folder, answer, page);
+    ProgressLine progress(options.quiet);
+    progress("Writing the results");
+    results::write_folder(folder, answer,
+                          options.no_report ? "" : report::html(answer, summary));
   } catch (const std::runtime_error& error) {  // the place is wrong, not the program
     throw base::InputError({error.what()});
   }
@@ -62,24 +53,6 @@ int deliver(const results::Answer& answer, const Options& options) {
     fmt::print(stderr, "trochoid {}: {}\n", answer.command, answer.heading.message);
   }
   return answer.heading.ok ? answered : no_answer;
-}
-
-ProgressLine::ProgressLine(bool quiet)
-    : wanted_(!quiet && isatty(STDERR_FILENO) == 1), started_(seconds()) {}
-
-ProgressLine::~ProgressLine() {
-  if (shown_) {
-    std::fputs("\r\033[K", stderr);
-  }
-}
-
-void ProgressLine::operator()(const std::string& what) {
-  const double elapsed = seconds() - started_;
-  if (wanted_ && elapsed > 1.0) {
-    std::fprintf(stderr, "\r\033[K%s ... %.0f s", what.c_str(), elapsed);
-    std::fflush(stderr);
-    shown_ = true;
-  }
 }
 
 }  // namespace trochoid::cli

@@ -14,19 +14,4 @@ std::filesystem::path result_folder(const Options& options, const std::string& c
 /// @return exit code
 int deliver(const results::Answer& answer, const Options& options);
 
-/// @brief Tells a person on a terminal what takes longer than a second.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet);
-  ~ProgressLine();
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  void operator()(const std::string& what);
-
- private:
-  bool shown_ = false;
-  bool wanted_ = false;
-  double started_ = 0.0;  ///< [s]
-};
-
 }  // namespace trochoid::cli

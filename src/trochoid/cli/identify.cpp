@@ -1,4 +1,5 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/progress_line.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/identify/identify.h>
 
@@ -9,8 +10,12 @@ namespace trochoid::cli {
 int identify(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::identify,
                                                result_folder(options, "identify"));
-  ProgressLine progress(options.quiet);
-  return deliver(results::answer_of(run::identify(given, std::ref(progress))), options);
+  const auto answer = [&] {
+    ProgressLine progress(options.quiet);
+    return results::answer_of(run::identify(given, std::ref(progress)));
+  };
+  // What the run knows is let go of before it is written.
+  return deliver(answer(), options);
 }
 
 }  // namespace trochoid::cli

@@ -1,4 +1,5 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/progress_line.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/simulate/simulate.h>
 
@@ -7,7 +8,13 @@ namespace trochoid::cli {
 int simulate(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, inputs::Command::simulate,
                                                result_folder(options, "simulate"));
-  return deliver(results::answer_of(run::simulate(given)), options);
+  const auto answer = [&] {
+    ProgressLine progress(options.quiet);
+    progress("Forces over the turns");
+    return results::answer_of(run::simulate(given));
+  };
+  // What the run knows is let go of before it is written.
+  return deliver(answer(), options);
 }
 
 }  // namespace trochoid::cli

@@ -1,21 +1,40 @@
 #include <trochoid/results/folder.h>
 #include <trochoid/results/number.h>
 
+#include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 namespace trochoid::results {
 
-std::string csv(const base::Table& table) {
+namespace {
+
+/// Text is handed on in pieces about as long.
+constexpr std::size_t block = std::size_t{1} << 18;
+
+std::size_t rows_of(const base::Table& table) {
   const std::size_t rows =
       table.columns.empty() ? 0 : table.columns.front().values.size();
-  std::string text;
-  text.reserve((rows + 1) * table.columns.size() * 12);
   for (const auto& column : table.columns) {
     if (column.values.size() != rows) {
       throw std::invalid_argument(table.file + ": column " + column.name + " has " +
                                   std::to_string(column.values.size()) +
                                   " values, the first column " + std::to_string(rows));
     }
+  }
+  return rows;
+}
+
+}  // namespace
+
+void write_csv(std::ostream& out, const base::Table& table) {
+  const std::size_t rows = rows_of(table);
+  std::string text;
+  const auto hand_on = [&] {
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    text.clear();
+  };
+  for (const auto& column : table.columns) {
     if (&column != &table.columns.front()) text += ',';
     text += column.name;
   }
@@ -26,8 +45,15 @@ std::string csv(const base::Table& table) {
       append_number(text, table.columns[i].values[row]);
     }
     text += '\n';
+    if (text.size() >= block) hand_on();
   }
-  return text;
+  hand_on();
+}
+
+std::string csv(const base::Table& table) {
+  std::ostringstream out;
+  write_csv(out, table);
+  return std::move(out).str();
 }
 
 }  // namespace trochoid::results

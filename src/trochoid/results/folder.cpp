@@ -25,15 +25,23 @@ namespace {
   fail(path, error.message());
 }
 
-void write_file(const fs::path& path, const std::string& text) {
+/// @param put  puts the content into the stream
+template <class Put>
+void write_with(const fs::path& path, const Put& put) {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  put(file);
   file.close();
   if (!file) {
     fail(path, errno != 0 ? std::generic_category().message(errno)
                           : "not everything could be written");
   }
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  write_with(path, [&](std::ostream& file) {
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  });
 }
 
 void check_names(const Answer& answer) {
@@ -74,7 +82,10 @@ void check_replaceable(const fs::path& folder) {
 void write_files(const fs::path& folder, const Answer& answer,
                  const std::string& report_html) {
   write_file(folder / "case.toml", answer.heading.case_toml);
-  for (const auto& table : answer.tables) write_file(folder / table.file, csv(table));
+  for (const auto& table : answer.tables) {
+    write_with(folder / table.file,
+               [&](std::ostream& file) { write_csv(file, table); });
+  }
   for (const auto& text : answer.texts) write_file(folder / text.file, text.text);
   if (!report_html.empty()) write_file(folder / "report.html", report_html);
   write_file(folder / "summary.json", summary_json(answer));

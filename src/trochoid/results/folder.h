@@ -4,6 +4,7 @@
 #include <trochoid/results/answer.h>
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 
 namespace trochoid::results {
@@ -12,7 +13,11 @@ namespace trochoid::results {
 std::string summary_json(const Answer& answer);
 
 /// @brief CSV text of a table; every number is the shortest that reads back the same.
+/// @throws std::invalid_argument when the columns are not equally long; nothing is
+///         written then
 std::string csv(const base::Table& table);
+/// @brief The same, handed on piece by piece: the text as a whole is in no memory.
+void write_csv(std::ostream& out, const base::Table& table);
 
 /// @brief Write the folder of an answer whole or not at all (a sibling, then a rename).
 ///

@@ -163,12 +163,14 @@ std::string short_table(const SimulateResult& r) {
 }  // namespace
 
 Answer answer_of(const SimulateResult& r) {
-  Answer answer{
-      .command = "simulate",
-      .heading = r.heading,
-      .result = result_of(r),
-      .short_table = short_table(r),
-      .tables = {force_table(r), chip_table(r.chips), chip_curve_table(r.curve)}};
+  Answer answer{.command = "simulate",
+                .heading = r.heading,
+                .result = result_of(r),
+                .short_table = short_table(r)};
+  // One by one: a list in braces would copy what may be a million rows.
+  answer.tables.push_back(force_table(r));
+  answer.tables.push_back(chip_table(r.chips));
+  answer.tables.push_back(chip_curve_table(r.curve));
   if (!r.comparison.empty()) {
     std::vector<identification::Run> runs;
     ComputedForces computed{"computed", {}};

@@ -1,11 +1,18 @@
 #include <gtest/gtest.h>
+
 #include <trochoid/results/folder.h>
 #include <trochoid/results/json.h>
 #include <trochoid/results/number.h>
 #include <trochoid/results/provenance.h>
+#include <algorithm>
+#include <ostream>
+#include <sstream>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 namespace trochoid::results {
@@ -96,6 +103,26 @@ TEST(Csv, LeavesACellEmptyWhereThereIsNoNumber) {
 TEST(Csv, RefusesColumnsOfDifferentLengths) {
   const base::Table table{"forces.csv", {{"a", {1.0, 2.0}}, {"b", {1.0}}}};
   EXPECT_THROW(static_cast<void>(csv(table)), std::invalid_argument);
+}
+
+TEST(Csv, ALongTableIsHandedOnInPieces) {
+  // what a stream gets at once stays small, and is the same text
+  struct Pieces : std::stringbuf {
+    std::streamsize longest = 0;
+    std::streamsize xsputn(const char* text, std::streamsize size) override {
+      longest = std::max(longest, size);
+      return std::stringbuf::xsputn(text, size);
+    }
+  };
+  base::Table table{"long.csv", {}};
+  base::add_column(table, "a", 100000,
+                   [](std::size_t i) { return static_cast<double>(i) / 7.0; });
+  Pieces pieces;
+  std::ostream out(&pieces);
+  write_csv(out, table);
+  EXPECT_EQ(pieces.str(), csv(table));
+  EXPECT_GT(pieces.str().size(), 1000000U);
+  EXPECT_LT(pieces.longest, 300000);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ results::StabilityResult stability(const inputs::Case& given,
       .problem = stability_problem(given)};
   r.stability = dynamics::stability(r.problem, [&](const char* what, double done) {
     if (progress) {
-      progress(fmt::format("{}: {:.0f} %", what, 100 * done));
+      progress({what, done});
     }
   });
   r.heading.warnings = stability_warnings(given, r.problem.options, r.stability);

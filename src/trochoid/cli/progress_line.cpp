@@ -1,0 +1,76 @@
+#include <trochoid/cli/progress_line.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace trochoid::cli {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto first = 2s;
+constexpr auto on_terminal = 1s;
+constexpr auto plain_lines = 3s;
+
+double seconds() {
+  return std::chrono::duration<double>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet)
+    : terminal_(isatty(STDERR_FILENO) == 1),
+      started_(seconds()),
+      step_started_(started_),
+      step_("Reading") {
+  if (!quiet) {
+    teller_ = std::thread([this] { tell_until_done(); });
+  }
+}
+
+ProgressLine::~ProgressLine() {
+  {
+    const std::lock_guard lock(mutex_);
+    done_ = true;
+  }
+  ended_.notify_all();
+  if (teller_.joinable()) {
+    teller_.join();
+  }
+  if (shown_ && terminal_) {
+    std::fputs("\r\033[K", stderr);
+  }
+}
+
+void ProgressLine::operator()(const run::Step& step) {
+  const std::lock_guard lock(mutex_);
+  if (step.what != step_.what) {
+    step_started_ = seconds();
+  }
+  step_ = step;
+}
+
+void ProgressLine::tell_until_done() {
+  std::unique_lock lock(mutex_);
+  std::chrono::seconds wait = first;
+  while (!ended_.wait_for(lock, wait, [this] { return done_; })) {
+    tell();
+    wait = terminal_ ? on_terminal : plain_lines;
+  }
+}
+
+void ProgressLine::tell() {
+  const double now = seconds();
+  const std::string text =
+      run::progress_text(step_, now - started_, now - step_started_);
+  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", text.c_str());
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+}  // namespace trochoid::cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <trochoid/run/shared/progress.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace trochoid::cli {
+
+/// @brief Tells a person what takes longer than two seconds, on the standard error.
+///
+/// On a terminal one line that is written over every second; elsewhere, a file or a
+/// pipe, a plain line every three.
+class ProgressLine {
+ public:
+  /// @param quiet  say nothing
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// From any thread.
+  void operator()(const run::Step& step);
+
+ private:
+  void tell_until_done();
+  void tell();
+
+  bool terminal_;
+  bool shown_ = false;
+  bool done_ = false;
+  double started_ = 0.0;       ///< [s]
+  double step_started_ = 0.0;  ///< [s]
+  run::Step step_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::thread teller_;  ///< speaks up while a step takes its time
+};
+
+}  // namespace trochoid::cli
