@@ -1,0 +1,40 @@
+"""What takes longer than two seconds says so on the standard error, in plain lines on a pipe."""
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+from in_folder import InFolder, ROOT, main, program
+
+
+class Progress(InFolder):
+    def said(self, *options):
+        """What a run says that was held up for three seconds while it fitted."""
+        for name in ("case.toml", "profile.csv"):
+            shutil.copy(ROOT / "examples/thin_wall_calibrate" / name, self.folder)
+        run = subprocess.Popen(
+            [program.PROGRAM, "calibrate", "case.toml", "--no-report", *options],
+            cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, text=True)
+        time.sleep(0.15)  # of more than a second that it needs
+        run.send_signal(signal.SIGSTOP)
+        time.sleep(3.0)
+        run.send_signal(signal.SIGCONT)
+        _, said = run.communicate(timeout=program.HANGS)
+        self.assertEqual(run.returncode, 0, said)
+        return said
+
+    def test_a_pipe_gets_plain_lines(self):
+        said = self.said()
+        self.assertRegex(said, r"^[A-Z][a-z ]+, \d+ s\n")
+        self.assertNotIn("\r", said)
+        for line in said.splitlines():
+            self.assertIsNotNone(re.fullmatch(r"[A-Z][a-z ]+, \d+ s", line), line)
+
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.said("--quiet"), "")
+
+
+if __name__ == "__main__":
+    main()
