@@ -4,6 +4,7 @@
 #include <trochoid/numerics/dominant_eigenvalue.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,21 +14,42 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Largest amplitude over the components of q of one Fourier coefficient.
-double amplitude(const std::vector<Complex>& disturbance,
-                 const std::vector<PeriodMap::Node>& nodes, std::size_t components,
-                 Complex rate) {
-  double square = 0.0;
-  for (std::size_t c = 0; c < components; ++c) {
-    Complex sum = 0.0;
+/// Amplitudes of one Fourier coefficient of q after another.
+class Coefficients {
+ public:
+  /// @param rate  of the first [1/s]
+  /// @param step  from one to the next [rad/s]
+  Coefficients(const std::vector<PeriodMap::Node>& nodes, Complex rate, double step)
+      : nodes_(nodes) {
     for (const PeriodMap::Node& node : nodes) {
-      sum += node.weight * disturbance[node.first + c * node.step] *
-             std::exp(-rate * node.t);
+      factor_.push_back(node.weight * std::exp(-rate * node.t));
+      turn_.push_back(std::polar(1.0, -step * node.t));
     }
-    square += std::norm(sum);
   }
-  return std::sqrt(square);
-}
+
+  /// Of all components together, and on to the next.
+  double next(const std::vector<Complex>& disturbance, std::size_t components) {
+    std::array<Complex, 2> sum{};
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      for (std::size_t c = 0; c < components; ++c) {
+        sum[c] += times(factor_[i], disturbance[nodes_[i].first + c * nodes_[i].step]);
+      }
+      factor_[i] = times(factor_[i], turn_[i]);
+    }
+    return std::sqrt(std::norm(sum[0]) + std::norm(sum[1]));
+  }
+
+ private:
+  /// Without the care for infinite numbers of the language's own.
+  static Complex times(Complex a, Complex b) {
+    return {a.real() * b.real() - a.imag() * b.imag(),
+            a.real() * b.imag() + a.imag() * b.real()};
+  }
+
+  const std::vector<PeriodMap::Node>& nodes_;
+  std::vector<Complex> factor_;
+  std::vector<Complex> turn_;
+};
 
 /// A flip has each frequency twice: as itself and as its mirror image.
 void add_line(std::vector<ChatterLine>& lines, double frequency, double share) {
@@ -53,8 +75,7 @@ Bifurcation bifurcation_of(std::complex<double> multiplier) noexcept {
 std::vector<ChatterLine> chatter_lines(const Directional& directional,
                                        const System& system, double Omega,
                                        double factor, double least) {
-  const PeriodMap map(directional, system, Omega,
-                      {.factor = factor, .whole_period = true});
+  PeriodMap map(directional, system, Omega, {.factor = factor, .whole_period = true});
   const auto found = numerics::dominant_eigenvalue(
       [&](std::span<const double> in, std::span<double> out) { map.apply(in, out); },
       map.size(), 1e-9);
@@ -69,10 +90,13 @@ std::vector<ChatterLine> chatter_lines(const Directional& directional,
   const int most = static_cast<int>(std::ceil(1.5 * fastest * P)) + 3;
   const auto nodes = map.disturbance_nodes();
   std::vector<ChatterLine> lines;
+  Coefficients coefficients(nodes,
+                            (std::log(found.value) - Complex(0, unit::turn * most)) / P,
+                            unit::turn / P);
   for (int k = -most; k <= most; ++k) {
     const Complex rate = (std::log(found.value) + Complex(0, unit::turn * k)) / P;
     add_line(lines, std::abs(rate.imag()) / unit::turn,  // D-12
-             amplitude(found.vector, nodes, map.components(), rate));
+             coefficients.next(found.vector, map.components()));
   }
   std::sort(lines.begin(), lines.end(), [](const ChatterLine& a, const ChatterLine& b) {
     return a.share > b.share;

@@ -123,26 +123,56 @@ struct DirectionalModel::Parts {
   double tolerance;
   CylinderArcs cylinder;  ///< empty where the cutter is another one
   bool keeps_radius;
+  Directional unit;  ///< of straight edges one metre deep; empty for others
+
+  [[nodiscard]] Directional sampled(double a_p) const;
 };
 
 DirectionalModel::DirectionalModel(const force::Setup& setup, const force::Law& law,
-                                   double h_floor, double tolerance)
-    : parts_(std::make_shared<const Parts>(
-          Parts{setup, force::terms(law), h_floor, tolerance,
-                force::keeps_radius(setup)
-                    ? cylinder_arcs(setup, force::terms(law), h_floor, tolerance)
-                    : CylinderArcs{},
-                force::keeps_radius(setup)})) {}
+                                   double h_floor, double tolerance) {
+  auto parts = std::make_shared<Parts>(Parts{setup,
+                                             force::terms(law),
+                                             h_floor,
+                                             tolerance,
+                                             {},
+                                             force::keeps_radius(setup),
+                                             {}});
+  if (parts->keeps_radius) {
+    parts->cylinder = cylinder_arcs(setup, parts->law, h_floor, tolerance);
+    if (parts->cylinder.lag_per_height == 0) {
+      parts->unit = parts->sampled(1.0);
+    }
+  }
+  parts_ = std::move(parts);
+}
+
+bool DirectionalModel::proportional() const noexcept {
+  return !parts_->unit.elements.empty();
+}
 
 Directional DirectionalModel::at_depth(double a_p) const {
-  const Parts& p = *parts_;
+  if (!proportional()) {
+    return parts_->sampled(a_p);
+  }
+  Directional out = parts_->unit;
+  for (DirectionalElement& element : out.elements) {
+    for (std::vector<Matrix2>& channel : element.matrices) {
+      for (Matrix2& matrix : channel) {
+        for (double& value : matrix) value *= a_p;
+      }
+    }
+  }
+  return out;
+}
+
+Directional DirectionalModel::Parts::sampled(double a_p) const {
   Directional out;
   std::vector<double> breaks;
   Evaluate evaluate;
   double largest = 0.0;
   AxialArcs axial;
-  if (p.keeps_radius) {
-    const CylinderArcs& arcs = p.cylinder;
+  if (keeps_radius) {
+    const CylinderArcs& arcs = cylinder;
     const double lag =
         arcs.lag_per_height * a_p < 1e-8 ? 0.0 : arcs.lag_per_height * a_p;
     out.period = arcs.passes.period;
@@ -158,7 +188,7 @@ Directional DirectionalModel::at_depth(double a_p) const {
       }
     };
   } else {
-    axial = axial_arcs(p.setup, p.law, p.h_floor, a_p, p.tolerance);
+    axial = axial_arcs(setup, law, h_floor, a_p, tolerance);
     out.period = axial.passes.period;
     out.delays = axial.passes.delays;
     breaks = axial.breaks;
@@ -166,7 +196,7 @@ Directional DirectionalModel::at_depth(double a_p) const {
     evaluate = [&axial](double phi, double, Sample& sample) { axial.add(phi, sample); };
   }
   const std::vector<double> ends = ordered_breaks(std::move(breaks), out.period);
-  Sampler sampler(out, evaluate, std::max(p.tolerance * largest, 1e-300));
+  Sampler sampler(out, evaluate, std::max(tolerance * largest, 1e-300));
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     sampler.add(ends[i], ends[i + 1], 0);
   }

@@ -46,6 +46,8 @@ class DirectionalModel {
 
   /// @param a_p  axial depth [m], positive
   [[nodiscard]] Directional at_depth(double a_p) const;
+  /// Is all of it proportional to a_p? So it is on straight edges of a cylinder.
+  [[nodiscard]] bool proportional() const noexcept;
 
  private:
   struct Parts;

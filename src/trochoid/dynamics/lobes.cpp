@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/lobes.h>
 
+#include <trochoid/dynamics/depth_sweep.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
@@ -18,8 +19,12 @@ constexpr int halvings = 3;
 constexpr double near_limit = 0.1;
 /// The deepest cut of a diagram, far beyond the limit, may be known that much worse.
 constexpr double deepest_share = 10.0;
-/// Of multipliers that only say where to look further.
+/// Of multipliers that only say where to look further, and of |ln |mu|| below which the
+/// better one of the two is needed.
 constexpr LobeAccuracy enough_to_look{.near = 1e-5, .far = 1e-3};
+constexpr double doubtful = 5e-3;
+/// Of the nodes a limit is searched with first.
+constexpr double first_factor = 0.8;
 
 /// Work of which somebody is told.
 void tell(std::size_t n, double from, double to, const LobeProgress& progress,
@@ -39,88 +44,150 @@ void tell(std::size_t n, double from, double to, const LobeProgress& progress,
 /// Multipliers at one speed.
 class Speed {
  public:
-  /// @param ends  the shallowest and the deepest cut: what they need is enough for all
-  Speed(const System& system, double Omega, const LobeAccuracy& accuracy,
-        const std::array<const Directional*, 2>& ends)
-      : system_(system), Omega_(Omega), accuracy_(accuracy) {
+  /// What the shallowest and the deepest cut need is enough for all.
+  Speed(const Cuts& cuts, const System& system, double Omega,
+        const LobeAccuracy& accuracy)
+      : sweep_(cuts, system, Omega), accuracy_(accuracy) {
     const double share = accuracy.near < accuracy.far ? deepest_share : 1.0;
-    factor_ =
-        std::max(multiplier(*ends[0], system, Omega, accuracy.far).factor,
-                 multiplier(*ends[1], system, Omega, share * accuracy.far).factor);
+    factor_ = std::max(sweep_.checked(cuts.depth.front(), accuracy.far).factor,
+                       sweep_.checked(cuts.depth.back(), share * accuracy.far).factor);
   }
 
-  [[nodiscard]] std::complex<double> at(const Directional& cut) {
-    const Multiplier far =
-        multiplier_with(cut, system_, Omega_, factor_, 0.1 * accuracy_.far);
-    const bool is_near = std::abs(std::log(std::abs(far.value))) < near_limit;
-    return is_near && accuracy_.near < accuracy_.far ? near(cut) : far.value;
+  /// @param within  of |ln |mu||, where |mu| is to be known better
+  [[nodiscard]] std::complex<double> at(double depth, double within) {
+    const Multiplier far = sweep_.at(depth, factor_, 0.1 * accuracy_.far);
+    const bool is_near = std::abs(std::log(std::abs(far.value))) < within;
+    return is_near && accuracy_.near < accuracy_.far ? near(depth) : far.value;
   }
+
+  [[nodiscard]] DepthSweep& sweep() noexcept { return sweep_; }
 
  private:
-  [[nodiscard]] std::complex<double> near(const Directional& cut) {
-    const Multiplier mu =
-        near_factor_ > 0
-            ? multiplier_with(cut, system_, Omega_, near_factor_, 0.1 * accuracy_.near)
-            : multiplier(cut, system_, Omega_, accuracy_.near);
+  [[nodiscard]] std::complex<double> near(double depth) {
+    const Multiplier mu = near_factor_ > 0
+                              ? sweep_.at(depth, near_factor_, 0.1 * accuracy_.near)
+                              : sweep_.checked(depth, accuracy_.near);
     near_factor_ = mu.factor;
     return mu.value;
   }
 
-  const System& system_;
-  double Omega_;
+  DepthSweep sweep_;
   LobeAccuracy accuracy_;
   double factor_ = 1.0;
   double near_factor_ = 0.0;  ///< 0: not known yet
 };
 
-/// Between a stable and an unstable depth: chords, halved where one end stays.
-Limit between(const DirectionalModel& model, const System& system, double Omega,
-              std::array<double, 2> ends, double tolerance) {
-  auto [lo, hi] = ends;
-  const double factor =
-      multiplier(model.at_depth(hi), system, Omega, 0.1 * tolerance).factor;
-  Limit limit{Omega, hi, {}, 1.0};
-  const auto excess = [&](double depth) {
-    const Multiplier mu =
-        multiplier_with(model.at_depth(depth), system, Omega, factor, 0.01 * tolerance);
-    limit = {Omega, depth, mu.value, mu.factor};
-    return std::log(std::abs(mu.value));
-  };
-  double g_lo = lo > 0 ? excess(lo) : -0.1;
-  double g_hi = excess(hi);
-  int kept = 0;
-  for (int i = 0; i < 60 && hi - lo > tolerance * hi; ++i) {
-    double x = lo - g_lo * (hi - lo) / (g_hi - g_lo);
-    if (i % 4 == 3 || !(x > lo && x < hi)) {
-      x = 0.5 * (lo + hi);
+/// A depth and ln |mu| there.
+struct Tried {
+  double depth = 0.0;  ///< [m]
+  double g = 0.0;
+};
+
+/// A stable depth and an unstable one.
+struct Bracket {
+  Tried stable{0.0, -0.1};  ///< depth 0: some damping
+  Tried unstable;
+};
+
+/// The root of g between two depths: inverse quadratic interpolation where three points
+/// allow it, else halves (Chandrupatla).
+Limit root(DepthSweep& sweep, const Bracket& bracket, double factor, double tolerance) {
+  Tried a = bracket.unstable;  // the newest
+  Tried b = bracket.stable;    // on the other side
+  double t = a.g / (a.g - b.g);
+  Limit limit;
+  for (int i = 0; i < 60; ++i) {
+    const double least = 0.5 * tolerance * a.depth / std::abs(b.depth - a.depth);
+    const double part = std::clamp(t, std::min(0.5, least), std::max(0.5, 1 - least));
+    const double depth = a.depth + part * (b.depth - a.depth);
+    const Multiplier mu = sweep.at(depth, factor, 0.01 * tolerance);
+    const Tried x{depth, std::log(std::abs(mu.value))};
+    limit = {sweep.Omega(), depth, mu.value, factor};
+    Tried c = a;
+    if ((x.g > 0) != (a.g > 0)) {
+      c = b;
+      b = a;
     }
-    const double g = excess(x);
-    if (std::abs(g) < 0.1 * tolerance) {
+    a = x;
+    if (std::abs(a.g) < 0.1 * tolerance ||
+        std::abs(b.depth - a.depth) <= tolerance * a.depth) {
       break;
     }
-    if (g < 0) {
-      lo = x;
-      g_lo = g;
-      g_hi *= kept == -1 ? 0.5 : 1.0;
-      kept = -1;
-    } else {
-      hi = x;
-      g_hi = g;
-      g_lo *= kept == 1 ? 0.5 : 1.0;
-      kept = 1;
-    }
+    const double xi = (a.depth - b.depth) / (c.depth - b.depth);
+    const double phi = (a.g - b.g) / (c.g - b.g);
+    const bool smooth = phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi;
+    t = smooth ? a.g / (b.g - a.g) * c.g / (b.g - c.g) +
+                     (c.depth - a.depth) / (b.depth - a.depth) * a.g / (c.g - a.g) *
+                         b.g / (c.g - b.g)
+               : 0.5;
   }
   return limit;
 }
 
+/// The limit between two depths, with nodes added until more of them agree.
+Limit limit_between(DepthSweep& sweep, const Bracket& bracket, double factor,
+                    double tolerance) {
+  constexpr double most = 4.0;
+  while (true) {
+    const Limit found = root(sweep, bracket, factor, tolerance);
+    const Multiplier finer =
+        sweep.at(found.depth, more_nodes * factor, 0.01 * tolerance);
+    const double change = std::abs(std::abs(finer.value) - std::abs(found.multiplier));
+    factor *= more_nodes;
+    if (change <= 0.3 * tolerance || factor > most) {
+      return found;
+    }
+  }
+}
+
+/// ln |mu| with its sign right, unless it is nothing.
+double looked_at(DepthSweep& sweep, double depth, double factor) {
+  const double g =
+      std::log(std::abs(sweep.at(depth, factor, 0.1 * enough_to_look.far).value));
+  return std::abs(g) > doubtful
+             ? g
+             : std::log(
+                   std::abs(sweep.at(depth, factor, 0.1 * enough_to_look.near).value));
+}
+
+/// The step of the depths in which the cut becomes unstable, searched from a depth.
+std::optional<Bracket> bracket_from(DepthSweep& sweep, const std::vector<double>& depth,
+                                    double from, double factor) {
+  const auto above = std::upper_bound(depth.begin(), depth.end(), from);
+  auto k =
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - depth.begin(), 1)) - 1;
+  Tried here{depth[k], looked_at(sweep, depth[k], factor)};
+  while (here.g > 0) {
+    if (k == 0) {
+      return Bracket{.unstable = here};
+    }
+    --k;
+    const Tried below{depth[k], looked_at(sweep, depth[k], factor)};
+    if (below.g <= 0) {
+      return Bracket{below, here};
+    }
+    here = below;
+  }
+  while (++k < depth.size()) {
+    const Tried deeper{depth[k], looked_at(sweep, depth[k], factor)};
+    if (deeper.g > 0) {
+      return Bracket{here, deeper};
+    }
+    here = deeper;
+  }
+  return std::nullopt;
+}
+
 using Limits = std::vector<Limit>;
 
-using LimitAt = std::function<std::optional<Limit>(double Omega)>;
+/// The limit at a speed between two others.
+using LimitAt =
+    std::function<std::optional<Limit>(double Omega, const Limit& a, const Limit& b)>;
 
 /// Speeds between two, where the limit is not straight.
 void add_between(const LimitAt& limit_at, const Limit& a, const Limit& b, int left,
                  Limits& out) {
-  const auto middle = limit_at(0.5 * (a.Omega + b.Omega));
+  const auto middle = limit_at(0.5 * (a.Omega + b.Omega), a, b);
   if (!middle) {
     return;
   }
@@ -137,6 +204,26 @@ void add_between(const LimitAt& limit_at, const Limit& a, const Limit& b, int le
   }
 }
 
+/// The limit at a speed of a grid.
+std::optional<Limit> limit_of(const Cuts& cuts, const System& system,
+                              const LobeGrid& grid, std::size_t i, double tolerance) {
+  const std::size_t depths = grid.depth.size();
+  const auto tried = [&](std::size_t k) {
+    return Tried{grid.depth[k], std::log(std::abs(grid.multiplier[i * depths + k]))};
+  };
+  for (std::size_t k = 0; k < depths; ++k) {
+    if (tried(k).g > 0) {
+      DepthSweep sweep(cuts, system, grid.Omega[i]);
+      Bracket bracket{.unstable = tried(k)};
+      if (k > 0) {
+        bracket.stable = tried(k - 1);
+      }
+      return limit_between(sweep, bracket, first_factor, tolerance);  // D-13
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 // six parameters: both axes of the diagram, and who is told how far it is
@@ -145,13 +232,11 @@ LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
                    const LobeAccuracy& accuracy, const LobeProgress& progress) {
   LobeGrid grid{{Omega.begin(), Omega.end()}, {depth.begin(), depth.end()}, {}};
   grid.multiplier.resize(Omega.size() * depth.size());
-  std::vector<Directional> cuts(depth.size());
-  numerics::for_each_index(
-      depth.size(), [&](std::size_t k) { cuts[k] = model.at_depth(grid.depth[k]); });
+  const Cuts cuts = cuts_at(model, depth);
   tell(Omega.size(), 0.0, 1.0, progress, [&](std::size_t i) {
-    Speed speed(system, grid.Omega[i], accuracy, {&cuts.front(), &cuts.back()});
+    Speed speed(cuts, system, grid.Omega[i], accuracy);
     for (std::size_t k = 0; k < depth.size(); ++k) {
-      grid.multiplier[i * depth.size() + k] = speed.at(cuts[k]);
+      grid.multiplier[i * depth.size() + k] = speed.at(grid.depth[k], near_limit);
     }
   });
   return grid;
@@ -163,15 +248,16 @@ std::optional<Limit> limit_depth(const DirectionalModel& model, const System& sy
   if (depth.empty()) {
     return std::nullopt;
   }
-  const Directional first = model.at_depth(depth.front());
-  const Directional deepest = model.at_depth(depth.back());
-  Speed speed(system, Omega, enough_to_look, {&first, &deepest});
-  double stable = 0.0;
+  const Cuts cuts{model, {depth.front(), depth.back()}, {}};
+  Speed speed(cuts, system, Omega, enough_to_look);
+  Bracket bracket;
   for (const double d : depth) {
-    if (std::abs(speed.at(model.at_depth(d))) > 1) {
-      return between(model, system, Omega, {stable, d}, tolerance);  // D-13
+    const double g = std::log(std::abs(speed.at(d, doubtful)));
+    if (g > 0) {
+      bracket.unstable = {d, g};
+      return limit_between(speed.sweep(), bracket, first_factor, tolerance);  // D-13
     }
-    stable = d;
+    bracket.stable = {d, g};
   }
   return std::nullopt;
 }
@@ -180,20 +266,20 @@ std::vector<Limit> limit_curve(const DirectionalModel& model, const System& syst
                                const LobeGrid& grid, double tolerance,
                                const LobeProgress& progress) {
   const std::size_t speeds = grid.Omega.size();
-  const std::size_t depths = grid.depth.size();
+  const Cuts cuts = cuts_at(model, grid.depth);
   std::vector<std::optional<Limit>> limits(speeds);
-  tell(speeds, 0.0, 0.5, progress, [&](std::size_t i) {
-    for (std::size_t k = 0; k < depths; ++k) {
-      if (std::abs(grid.multiplier[i * depths + k]) > 1) {
-        limits[i] =
-            between(model, system, grid.Omega[i],
-                    {k == 0 ? 0.0 : grid.depth[k - 1], grid.depth[k]}, tolerance);
-        return;
-      }
+  tell(speeds, 0.0, 0.5, progress,
+       [&](std::size_t i) { limits[i] = limit_of(cuts, system, grid, i, tolerance); });
+  const LimitAt limit_at = [&](double Omega, const Limit& a,
+                               const Limit& b) -> std::optional<Limit> {
+    DepthSweep sweep(cuts, system, Omega);
+    const double factor = std::max(a.factor, b.factor);
+    const auto bracket =
+        bracket_from(sweep, cuts.depth, std::min(a.depth, b.depth), factor);
+    if (!bracket) {
+      return std::nullopt;
     }
-  });
-  const LimitAt limit_at = [&](double Omega) {
-    return limit_depth(model, system, Omega, grid.depth, tolerance);
+    return limit_between(sweep, *bracket, factor, tolerance);
   };
   std::vector<Limits> further(speeds);
   tell(speeds - 1, 0.5, 1.0, progress, [&](std::size_t i) {

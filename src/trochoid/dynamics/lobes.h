@@ -57,7 +57,8 @@ std::optional<Limit> limit_depth(const DirectionalModel& model, const System& sy
                                  double Omega, std::span<const double> depth,
                                  double tolerance);
 
-/// @brief The limit over the speed, with further speeds where it bends.
+/// @brief The limit over the speed, with further speeds where it bends: there searched from the
+/// lower of the limits on both sides.
 /// @return ascending in Omega; speeds without a limit are left out
 std::vector<Limit> limit_curve(const DirectionalModel& model, const System& system,
                                const LobeGrid& grid, double tolerance,

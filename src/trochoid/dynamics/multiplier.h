@@ -5,6 +5,7 @@
 #include <trochoid/dynamics/system.h>
 
 #include <complex>
+#include <functional>
 
 namespace trochoid::dynamics {
 
@@ -16,10 +17,24 @@ struct Multiplier {
   double factor = 1.0;         ///< of the nodes that were enough
 };
 
+/// With so many times the nodes a multiplier is checked.
+inline constexpr double more_nodes = 1.25;
+
 /// @brief The multiplier with the nodes given.
 /// @param tolerance  of the eigenvalue only
 Multiplier multiplier_with(const Directional& directional, const System& system,
                            double Omega, double factor, double tolerance);
+
+/// @brief The multiplier of a map that is there.
+/// @param factor     of its nodes, for the answer
+/// @param tolerance  of the eigenvalue only
+Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance);
+
+/// @brief A multiplier that nodes are added to until it stays.
+/// @param with       the multiplier with a factor of the nodes
+/// @param tolerance  as below
+Multiplier settled(const std::function<Multiplier(double factor)>& with,
+                   double tolerance);
 
 /// @brief The multiplier with nodes added until it stays.
 /// @param tolerance  of |mu|, at least 1e-11; relative where |mu| is above 1

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 /// No element holds more cycles of the fastest mode: more cost more to solve.
-constexpr double most_cycles = 2.0;
+constexpr double most_cycles = 3.0;
 /// A kink closer to an end than this many cycles does no harm.
 constexpr double near_end = 0.1;
 

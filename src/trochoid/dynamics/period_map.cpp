@@ -1,15 +1,13 @@
 #include <trochoid/dynamics/period_map.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/dynamics/element_response.h>
 #include <trochoid/dynamics/nodes.h>
-#include <trochoid/dynamics/oscillator.h>
 #include <trochoid/numerics/dense.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
-#include <optional>
 
 namespace trochoid::dynamics {
 
@@ -17,78 +15,21 @@ namespace {
 
 using numerics::Matrix;
 
-/// What an element of a length and degree does, whatever cuts in it.
-struct Response {
-  int degree = 0;
-  double duration = 0.0;  ///< [s]
-  Matrix free;            ///< q at the nodes from the states at the start
-  Matrix over;            ///< the states at the end from those at the start
-  Matrix ends;            ///< the states at the end from the forces at the nodes
-  /// Blocks of G of D-11 from one component to another; empty: zero.
-  std::array<Matrix, 4> compliance;
-};
-
 struct Solved {
   std::size_t response = 0;
   numerics::Lu lu;  ///< of I - G A_0, where that is not I
 };
 
-/// @param eta  row-major, shape (n, n)
-void add_compliance(double factor, std::span<const double> eta, std::size_t n,
-                    Matrix& block) {
-  if (block.values.empty()) {
-    if (factor == 0) return;
-    block = numerics::zeros(n, n);
+/// Sum of products, in four chains: one would wait for itself.
+double dot(std::span<const double> a, const double* b) noexcept {
+  std::array<double, 4> sum{};
+  const std::size_t n = a.size();
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < n; ++k) block(i, k) += factor * eta[i * n + k];
-  }
-}
-
-void add_mode(Response& response, const DrivenMotion& motion, std::size_t r,
-              const std::array<double, 2>& direction, std::size_t count) {
-  const std::size_t n = motion.end_velocity.size();
-  const std::span<const double> at_end = std::span(motion.eta).last(n);
-  for (std::size_t c = 0; c < count; ++c) {
-    const double along = direction[c];
-    for (std::size_t i = 0; i < n; ++i) {
-      response.free(c * n + i, 2 * r) = along * motion.free[i][0];
-      response.free(c * n + i, 2 * r + 1) = along * motion.free[i][1];
-      response.ends(2 * r, c * n + i) = along * at_end[i];
-      response.ends(2 * r + 1, c * n + i) = along * motion.end_velocity[i];
-    }
-    for (std::size_t b = 0; b < count; ++b) {
-      add_compliance(along * direction[b], motion.eta, n,
-                     response.compliance[2 * c + b]);
-    }
-  }
-}
-
-Response response_of(const std::vector<ChipMode>& modes, const Components& components,
-                     int degree, double duration) {
-  const std::size_t values = components.count * (static_cast<std::size_t>(degree) + 1);
-  const std::size_t states = 2 * modes.size();
-  Response response{degree,
-                    duration,
-                    numerics::zeros(values, states),
-                    numerics::zeros(states, states),
-                    numerics::zeros(states, values),
-                    {}};
-  std::optional<DrivenMotion> motion;
-  for (std::size_t r = 0; r < modes.size(); ++r) {
-    const bool alike = r > 0 && modes[r].mass == modes[r - 1].mass &&
-                       modes[r].damping == modes[r - 1].damping &&
-                       modes[r].stiffness == modes[r - 1].stiffness;
-    if (!alike) {
-      motion = driven_motion(modes[r], degree, duration);
-    }
-    add_mode(response, *motion, r, components.modes[r], components.count);
-    const auto over = free_motion(modes[r], duration);
-    for (std::size_t i = 0; i < 4; ++i) {
-      response.over(2 * r + i / 2, 2 * r + i % 2) = over[i];
-    }
-  }
-  return response;
+  for (; i < n; ++i) sum[0] += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /// What one pass through the period works with.
@@ -97,6 +38,7 @@ struct Work {
   std::vector<double> before;  ///< the state at the start of the element
   std::vector<double> force;   ///< of an element
   std::vector<double> values;  ///< q of an element
+  std::vector<double> q;       ///< of the period
 };
 
 }  // namespace
@@ -107,14 +49,16 @@ struct PeriodMap::Parts {
   double Omega = 0.0;
   double speed = 1.0;  ///< scale of eta' in a disturbance [rad/s]
   PeriodElements elements;
-  std::vector<Response> responses;
+  std::vector<ElementResponse> responses;
   std::vector<Solved> solved;
+  double force = 1.0;  ///< times the matrices of the elements
+  Work work;
 
   std::size_t response_at(const PeriodElement& element);
-  void solve(const PeriodElement& element);
+  void factorize(std::size_t k);
   void delayed_force(const PeriodElement& element, std::span<const double> before,
-                     std::span<const double> now, std::vector<double>& force) const;
-  void step(std::size_t k, Work& work, std::span<double> q) const;
+                     std::span<const double> now, std::vector<double>& out) const;
+  void step(std::size_t k);
 };
 
 /// Elements of one length share one.
@@ -126,43 +70,46 @@ std::size_t PeriodMap::Parts::response_at(const PeriodElement& element) {
       return i;
     }
   }
-  responses.push_back(response_of(modes, components, element.degree, duration));
+  responses.push_back(element_response(modes, components, element.degree, duration));
   return responses.size() - 1;
 }
 
-void PeriodMap::Parts::solve(const PeriodElement& e) {
-  solved.push_back({response_at(e), {}});
+void PeriodMap::Parts::factorize(std::size_t k) {
+  const PeriodElement& e = elements.all[k];
   if (e.own.at_nodes.empty()) {
     return;
   }
-  const Response& response = responses[solved.back().response];
+  const ElementResponse& response = responses[solved[k].response];
   const std::size_t n = e.nodes();
   const std::size_t count = components.count;
-  Matrix system = numerics::zeros(count * n, count * n);
+  Matrix& system = solved[k].lu.factors;
+  system.rows = system.columns = count * n;
+  system.values.assign(count * n * count * n, 0.0);
   for (std::size_t i = 0; i < system.rows; ++i) system(i, i) = 1.0;
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t c = 0; c < count; ++c) {
       const Matrix& G = response.compliance[2 * c + a];
       for (std::size_t b = 0; b < count && !G.values.empty(); ++b) {
-        for (std::size_t k = 0; k < n; ++k) {
-          const double A = e.own.at_nodes[k][2 * a + b];
+        for (std::size_t j = 0; j < n; ++j) {
+          const double A = force * e.own.at_nodes[j][2 * a + b];
+          double* const column = &system(c * n, b * n + j);
           for (std::size_t i = 0; i < n; ++i) {
-            system(c * n + i, b * n + k) -= G(i, k) * A;
+            column[i] -= G(i, j) * A;
           }
         }
       }
     }
   }
-  solved.back().lu = numerics::lu(system);  // D-11
+  numerics::factorize(solved[k].lu);  // D-11
 }
 
 void PeriodMap::Parts::delayed_force(const PeriodElement& e,
                                      std::span<const double> before,
                                      std::span<const double> now,
-                                     std::vector<double>& force) const {
+                                     std::vector<double>& out) const {
   const std::size_t n = e.nodes();
   const std::size_t count = components.count;
-  force.assign(count * n, 0.0);
+  out.assign(count * n, 0.0);
   for (const Channel& channel : e.delayed) {
     for (std::size_t i = 0; i < channel.sources.size(); ++i) {
       const Source& source = channel.sources[i];
@@ -171,24 +118,21 @@ void PeriodMap::Parts::delayed_force(const PeriodElement& e,
       std::array<double, 2> value{};
       for (std::size_t b = 0; b < count; ++b) {
         const double* values = q + b * from.nodes();
-        value[b] =
-            source.row.empty()
-                ? values[i]
-                : std::inner_product(source.row.begin(), source.row.end(), values, 0.0);
+        value[b] = source.row.empty() ? values[i] : dot(source.row, values);
       }
       const Matrix2& A = channel.at_nodes[i];
       for (std::size_t c = 0; c < count; ++c) {
-        force[c * n + i] -= A[2 * c] * value[0] + A[2 * c + 1] * value[1];
+        out[c * n + i] -= force * (A[2 * c] * value[0] + A[2 * c + 1] * value[1]);
       }
     }
   }
 }
 
 /// From the start of an element to its end.
-/// @param[in,out] work  force: of the delayed motion; then with that of the motion now
-void PeriodMap::Parts::step(std::size_t k, Work& work, std::span<double> q) const {
+/// The force at work is that of the delayed motion; then with that of the motion now.
+void PeriodMap::Parts::step(std::size_t k) {
   const PeriodElement& e = elements.all[k];
-  const Response& response = responses[solved[k].response];
+  const ElementResponse& response = responses[solved[k].response];
   const std::size_t count = components.count;
   const std::size_t n = e.nodes();
   work.before.swap(work.state);
@@ -199,14 +143,14 @@ void PeriodMap::Parts::step(std::size_t k, Work& work, std::span<double> q) cons
   }
   work.values.assign(count * n, 0.0);
   const std::span<double> values(work.values);
-  const std::span<double> force(work.force);
-  const std::span<double> here = q.subspan(e.place, count * n);
+  const std::span<double> forces(work.force);
+  const std::span<double> here = std::span(work.q).subspan(e.place, count * n);
   numerics::add_product(1.0, response.free.values, work.before, values);
   for (std::size_t c = 0; c < count && e.forced; ++c) {
     for (std::size_t b = 0; b < count; ++b) {
       const Matrix& G = response.compliance[2 * c + b];
       if (!G.values.empty()) {
-        numerics::add_product(1.0, G.values, force.subspan(b * n, n),
+        numerics::add_product(1.0, G.values, forces.subspan(b * n, n),
                               values.subspan(c * n, n));
       }
     }
@@ -220,12 +164,12 @@ void PeriodMap::Parts::step(std::size_t k, Work& work, std::span<double> q) cons
     const Matrix2& A = e.own.at_nodes[i];
     for (std::size_t c = 0; c < count; ++c) {
       for (std::size_t b = 0; b < count; ++b) {
-        force[c * n + i] += A[2 * c + b] * here[b * n + i];
+        forces[c * n + i] += force * A[2 * c + b] * here[b * n + i];
       }
     }
   }
   if (e.forced) {
-    numerics::add_product(1.0, response.ends.values, force, work.state);
+    numerics::add_product(1.0, response.ends.values, forces, work.state);
   }
 }
 
@@ -239,10 +183,21 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
   parts->speed = unit::turn * fastest;
   parts->elements =
       period_elements(directional, parts->components, Omega, fastest, resolution);
-  for (const PeriodElement& element : parts->elements.all) {
-    parts->solve(element);
+  for (std::size_t k = 0; k < parts->elements.all.size(); ++k) {
+    parts->solved.push_back({parts->response_at(parts->elements.all[k]), {}});
+    parts->factorize(k);
   }
   parts_ = std::move(parts);
+}
+
+void PeriodMap::scale_forces(double factor) {
+  if (parts_->force == factor) {
+    return;
+  }
+  parts_->force = factor;
+  for (std::size_t k = 0; k < parts_->elements.all.size(); ++k) {
+    parts_->factorize(k);
+  }
 }
 
 PeriodMap::~PeriodMap() = default;
@@ -257,29 +212,29 @@ std::size_t PeriodMap::components() const noexcept {
   return parts_->components.count;
 }
 
-void PeriodMap::apply(std::span<const double> in, std::span<double> out) const {
-  const Parts& p = *parts_;
+void PeriodMap::apply(std::span<const double> in, std::span<double> out) {
+  Parts& p = *parts_;
   const std::size_t states = p.elements.kept_values;
-  Work work;
-  work.state.resize(2 * p.modes.size());
-  for (std::size_t i = 0; i < work.state.size(); ++i) {
-    work.state[i] = in[states + i] * (i % 2 == 0 ? 1 : p.speed);
+  std::vector<double>& state = p.work.state;
+  state.resize(2 * p.modes.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state[i] = in[states + i] * (i % 2 == 0 ? 1 : p.speed);
   }
-  std::vector<double> q(p.elements.wanted_values);
+  p.work.q.resize(p.elements.wanted_values);
   for (std::size_t k = 0; k < p.elements.all.size(); ++k) {
     const PeriodElement& e = p.elements.all[k];
     if (e.forced) {
-      p.delayed_force(e, in, q, work.force);
+      p.delayed_force(e, in, p.work.q, p.work.force);
     }
-    p.step(k, work, q);
+    p.step(k);
     if (e.kept) {
-      std::copy_n(q.begin() + static_cast<std::ptrdiff_t>(e.place),
+      std::copy_n(p.work.q.begin() + static_cast<std::ptrdiff_t>(e.place),
                   p.components.count * e.nodes(),
                   out.begin() + static_cast<std::ptrdiff_t>(e.first));
     }
   }
-  for (std::size_t i = 0; i < work.state.size(); ++i) {
-    out[states + i] = i % 2 == 0 ? work.state[i] : work.state[i] / p.speed;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    out[states + i] = i % 2 == 0 ? state[i] : state[i] / p.speed;
   }
 }
 

@@ -31,12 +31,16 @@ class PeriodMap {
   PeriodMap(PeriodMap&&) noexcept;
   PeriodMap& operator=(PeriodMap&&) noexcept;
 
+  /// @brief The same cut with all forces times a factor of those given: what does not
+  /// depend on them stays, and nothing is allocated.
+  void scale_forces(double factor);
+
   /// @brief Length of a disturbance: q at the nodes that a later period needs, and the
   /// states at the end of the period.
   [[nodiscard]] std::size_t size() const noexcept;
   /// @param[in]  in   shape (size)
   /// @param[out] out  one period later, shape (size)
-  void apply(std::span<const double> in, std::span<double> out) const;
+  void apply(std::span<const double> in, std::span<double> out);
 
   /// A node of a disturbance.
   struct Node {
@@ -51,7 +55,7 @@ class PeriodMap {
 
  private:
   struct Parts;
-  std::unique_ptr<const Parts> parts_;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace trochoid::dynamics

@@ -165,6 +165,19 @@ TEST(Directional, IsTheSameWithoutHelixAndWithHardlyAny) {  // [D-9]
   }
 }
 
+TEST(Directional, OfStraightEdgesIsProportionalToTheDepth) {  // [D-9]
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  const DirectionalModel straight(setup, benchmark_law(), 1e-6, 1e-11);
+  EXPECT_TRUE(straight.proportional());
+  const Directional once = straight.at_depth(0.5e-3);
+  const Directional twice = straight.at_depth(1e-3);
+  const double one = once.elements[0].matrices[0][5][0];
+  EXPECT_NE(one, 0);
+  EXPECT_NEAR(twice.elements[0].matrices[0][5][0], 2 * one, 1e-12 * std::abs(one));
+  setup.cutter.helix = 0.01;
+  EXPECT_FALSE(DirectionalModel(setup, benchmark_law(), 1e-6, 1e-11).proportional());
+}
+
 TEST(Directional, AlongTheEdgeAsOverTheAngle) {  // [D-9]
   // An eccentricity of nothing makes the cutter go through the quadrature along z.
   force::Setup setup = straight_cut(2, geometry::DownMilling{3 * unit::mm});

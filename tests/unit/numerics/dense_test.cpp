@@ -47,6 +47,23 @@ TEST(Dense, ConditionOfAKnownMatrix) {
   EXPECT_LT(reciprocal_condition(singular, lu(singular)), 1e-15);
 }
 
+TEST(Dense, FactorsInPlaceAreThoseOfACopy) {
+  constexpr std::size_t n = 23;
+  Matrix A = zeros(n, n);
+  double x = 0.3;
+  for (double& value : A.values) {
+    x = 3.9 * x * (1 - x);  // chaotic: no two entries alike
+    value = x - 0.5;
+  }
+  Lu own{A, {7, 7}};
+  factorize(own);
+  const Lu wanted = lu(A);
+  EXPECT_EQ(own.place, wanted.place);
+  for (std::size_t i = 0; i < A.values.size(); ++i) {
+    EXPECT_NEAR(own.factors.values[i], wanted.factors.values[i], 1e-12);
+  }
+}
+
 TEST(Dense, EigenvaluesOfACompanionMatrix) {
   // Roots of (x - 2)(x^2 + 2 x + 5) = x^3 + x - 10.
   auto roots = eigenvalues(matrix(3, {0, -1, 10, 1, 0, 0, 0, 1, 0}));
