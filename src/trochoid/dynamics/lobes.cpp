@@ -102,7 +102,7 @@ Limit root(DepthSweep& sweep, const Bracket& bracket, double factor, double tole
     const double depth = a.depth + part * (b.depth - a.depth);
     const Multiplier mu = sweep.at(depth, factor, 0.01 * tolerance);
     const Tried x{depth, std::log(std::abs(mu.value))};
-    limit = {sweep.Omega(), depth, mu.value, factor};
+    limit = {sweep.Omega(), depth, mu.value, factor, mu.error};
     Tried c = a;
     if ((x.g > 0) != (a.g > 0)) {
       c = b;
@@ -124,17 +124,24 @@ Limit root(DepthSweep& sweep, const Bracket& bracket, double factor, double tole
   return limit;
 }
 
+/// How far |mu| at a limit is from that of more nodes.
+double error_of(DepthSweep& sweep, const Limit& limit, double tolerance) {
+  if (limit.error > 0) {
+    return limit.error;
+  }
+  const Multiplier finer =
+      sweep.at(limit.depth, more_nodes * limit.factor, 0.01 * tolerance);
+  return std::abs(std::abs(finer.value) - std::abs(limit.multiplier));
+}
+
 /// The limit between two depths, with nodes added until more of them agree.
 Limit limit_between(DepthSweep& sweep, const Bracket& bracket, double factor,
                     double tolerance) {
   constexpr double most = 4.0;
   while (true) {
     const Limit found = root(sweep, bracket, factor, tolerance);
-    const Multiplier finer =
-        sweep.at(found.depth, more_nodes * factor, 0.01 * tolerance);
-    const double change = std::abs(std::abs(finer.value) - std::abs(found.multiplier));
     factor *= more_nodes;
-    if (change <= 0.3 * tolerance || factor > most) {
+    if (factor > most || error_of(sweep, found, tolerance) <= 0.3 * tolerance) {
       return found;
     }
   }

@@ -43,6 +43,7 @@ struct Limit {
   double depth = 0.0;                 ///< [m]
   std::complex<double> multiplier{};  ///< there
   double factor = 1.0;                ///< of the nodes that were enough
+  double error = 0.0;                 ///< of |mu|, estimated; 0: not estimated
 };
 
 /// @brief The least depth with |mu| = 1 among depths looked at.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace trochoid::dynamics {
 
@@ -11,7 +12,16 @@ Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance) {
   const auto found = numerics::dominant_eigenvalue(
       [&](std::span<const double> in, std::span<double> out) { map.apply(in, out); },
       map.size(), tolerance);
-  return {.value = found.value, .error = 0.0, .factor = factor};
+  Multiplier mu{.value = found.value, .error = 0.0, .factor = factor};
+  if (map.smooth()) {
+    std::vector<double> disturbance(map.size());
+    for (std::size_t i = 0; i < disturbance.size(); ++i) {
+      disturbance[i] = found.vector[i].real() + found.vector[i].imag();
+    }
+    const double e = map.unresolved(disturbance);
+    mu.error = std::max((30 * e + 1e-3) * e * std::abs(mu.value), 1e-16);  // D-14
+  }
+  return mu;
 }
 
 Multiplier multiplier_with(const Directional& directional, const System& system,
@@ -25,16 +35,22 @@ Multiplier settled(const std::function<Multiplier(double factor)>& with,
   constexpr double most = 4.0;
   double factor = tolerance < 1e-4 ? 0.8 : 0.64;
   Multiplier last = with(factor);
-  while (true) {
+  const bool compared = last.error == 0;  // with fewer nodes
+  while (compared || last.error > tolerance * std::max(1.0, std::abs(last.value))) {
+    if (factor > most) {
+      break;
+    }
     factor *= more_nodes;
     Multiplier next = with(factor);
-    next.error = std::abs(std::abs(next.value) - std::abs(last.value));
-    const double scale = std::max(1.0, std::abs(next.value));
-    if (next.error <= tolerance * scale || factor > most) {
-      return next;
+    if (compared) {
+      next.error = std::abs(std::abs(next.value) - std::abs(last.value));
+      if (next.error <= tolerance * std::max(1.0, std::abs(next.value))) {
+        return next;
+      }
     }
     last = next;
   }
+  return last;
 }
 
 Multiplier multiplier(const Directional& directional, const System& system,

@@ -13,7 +13,7 @@ namespace trochoid::dynamics {
 /// grows in a period.
 struct Multiplier {
   std::complex<double> value;  ///< imaginary part not negative
-  double error = 0.0;          ///< estimated from coarser nodes; 0: not estimated
+  double error = 0.0;          ///< estimated; 0: not estimated
   double factor = 1.0;         ///< of the nodes that were enough
 };
 
@@ -25,7 +25,10 @@ inline constexpr double more_nodes = 1.25;
 Multiplier multiplier_with(const Directional& directional, const System& system,
                            double Omega, double factor, double tolerance);
 
-/// @brief The multiplier of a map that is there.
+/// @brief The multiplier of a map that is there; its error where all is smooth.
+///
+/// @eq  D-14 error of mu = (30 e^2 + e/1000) |mu|
+/// @src derived; the numbers bound what was measured
 /// @param factor     of its nodes, for the answer
 /// @param tolerance  of the eigenvalue only
 Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance);

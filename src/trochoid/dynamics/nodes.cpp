@@ -75,18 +75,18 @@ void lagrange_row(const ElementNodes& nodes, double t, std::span<double> row) no
 }
 
 double chebyshev_tail(std::span<const double> values) noexcept {
-  const std::size_t n = values.size() - 1;
-  double tail = 0.0;
-  for (const std::size_t k : {n - 1, n}) {
-    double c = 0.0;
-    for (std::size_t i = 0; i <= n; ++i) {
-      const double end = i == 0 || i == n ? 0.5 : 1.0;
-      c += end * values[i] *
-           std::cos(pi * static_cast<double>(k * (n - i)) / static_cast<double>(n));
-    }
-    tail = std::max(tail, std::abs(c) * (k == n ? 1.0 : 2.0) / static_cast<double>(n));
+  // The barycentric weights are the last Chebyshev polynomial at the nodes, halved at
+  // the ends; times t they are the one before it.
+  const ElementNodes& nodes = element_nodes(static_cast<int>(values.size()) - 1);
+  double last = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double weighted = nodes.weights[i] * values[i];
+    last += weighted;
+    before += weighted * nodes.t[i];
   }
-  return tail;
+  return std::max(std::abs(last), 2 * std::abs(before)) /
+         static_cast<double>(values.size() - 1);
 }
 
 }  // namespace trochoid::dynamics

@@ -14,6 +14,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 /// No element holds more cycles of the fastest mode: more cost more to solve.
 constexpr double most_cycles = 3.0;
+/// In an element of more cycles a kink that comes back is an end.
+constexpr double long_cycles = 2.0;
 /// A kink closer to an end than this many cycles does no harm.
 constexpr double near_end = 0.1;
 
@@ -42,23 +44,35 @@ Source source_of(const std::vector<PeriodElement>& elements, double phi, double 
   return source;
 }
 
-/// Values at the nodes of a part of a directional element.
-std::vector<Matrix2> sampled(const std::vector<Matrix2>& given,
-                             const DirectionalElement& whole, const PeriodElement& part,
-                             const Components& components) {
+/// How to interpolate a directional element at the nodes of a part of it, row by row.
+std::vector<double> rows_of(const DirectionalElement& whole,
+                            const PeriodElement& part) {
   const ElementNodes& coarse = element_nodes(directional_degree);
-  const ElementNodes& fine = element_nodes(part.degree);
-  std::vector<double> row(coarse.t.size());
-  std::vector<Matrix2> out;
-  for (const double t : fine.t) {
+  const std::size_t columns = coarse.t.size();
+  std::vector<double> rows(part.nodes() * columns);
+  std::size_t i = 0;
+  for (const double t : element_nodes(part.degree).t) {
     const double phi = 0.5 * (part.from + part.to) + 0.5 * (part.to - part.from) * t;
     const double u = (2 * phi - whole.from - whole.to) / (whole.to - whole.from);
-    lagrange_row(coarse, std::clamp(u, -1.0, 1.0), row);
+    lagrange_row(coarse, std::clamp(u, -1.0, 1.0),
+                 std::span(rows).subspan(columns * i++, columns));
+  }
+  return rows;
+}
+
+/// Values at the nodes of a part of a directional element.
+std::vector<Matrix2> sampled(const std::vector<Matrix2>& given,
+                             const std::vector<double>& rows,
+                             const Components& components) {
+  std::vector<Matrix2> out;
+  out.reserve(rows.size() / given.size());
+  for (auto row = rows.begin(); row != rows.end();) {
     Matrix2 value{};
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    for (const Matrix2& matrix : given) {
       for (std::size_t q = 0; q < value.size(); ++q) {
-        value[q] += row[i] * given[i][q];
+        value[q] += *row * matrix[q];
       }
+      ++row;
     }
     out.push_back(components.of(value));
   }
@@ -89,7 +103,7 @@ std::vector<double> parts_of(const DirectionalElement& whole,
                              double longest) {
   std::vector<double> ends = {whole.from};
   const double apart = near_end * cycle;
-  const bool is_long = whole.to - whole.from > most_cycles * cycle;
+  const bool is_long = whole.to - whole.from > long_cycles * cycle;
   for (const double kink : kinks) {
     if (is_long && kink > ends.back() + apart && kink < whole.to - apart) {
       ends.push_back(kink);
@@ -184,10 +198,11 @@ PeriodElements period_elements(const Directional& directional,
       const double n = 10 + 10 * length / pi + 3.5 * length / cycle;
       const int even = 2 * static_cast<int>(std::ceil(0.5 * n * resolution.factor));
       e.degree = std::clamp(even, 4, largest_degree);
+      const std::vector<double> rows = rows_of(whole, e);
       const auto channel_of = [&](const std::vector<Matrix2>& given) {
         e.forced = e.forced || !given.empty();
         return given.empty() ? Channel{}
-                             : Channel{sampled(given, whole, e, components), {}};
+                             : Channel{sampled(given, rows, components), {}};
       };
       e.own = channel_of(whole.matrices[0]);
       for (std::size_t d = 1; d < whole.matrices.size(); ++d) {

@@ -41,6 +41,18 @@ struct Work {
   std::vector<double> q;       ///< of the period
 };
 
+/// The largest value of an element's and the largest last coefficient.
+struct Tail {
+  double most = 0.0;
+  double last = 0.0;
+
+  void add(std::span<const double> values) noexcept {
+    for (const double value : values) most = std::max(most, std::abs(value));
+    last = std::max(last, chebyshev_tail(values));
+  }
+  [[nodiscard]] double share() const noexcept { return most > 0 ? last / most : 0.0; }
+};
+
 }  // namespace
 
 struct PeriodMap::Parts {
@@ -52,6 +64,7 @@ struct PeriodMap::Parts {
   std::vector<ElementResponse> responses;
   std::vector<Solved> solved;
   double force = 1.0;  ///< times the matrices of the elements
+  bool smooth = false;
   Work work;
 
   std::size_t response_at(const PeriodElement& element);
@@ -59,6 +72,8 @@ struct PeriodMap::Parts {
   void delayed_force(const PeriodElement& element, std::span<const double> before,
                      std::span<const double> now, std::vector<double>& out) const;
   void step(std::size_t k);
+  void start(std::span<const double> in);
+  void advance(std::size_t k, std::span<const double> in);
 };
 
 /// Elements of one length share one.
@@ -179,6 +194,8 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
   parts->components = components_of(system);
   parts->modes = system.modes;
   parts->Omega = Omega;
+  parts->smooth = directional.delays.size() == 1 &&
+                  std::abs(directional.delays.front() - directional.period) < 1e-9;
   const double fastest = fastest_frequency(system);
   parts->speed = unit::turn * fastest;
   parts->elements =
@@ -212,30 +229,63 @@ std::size_t PeriodMap::components() const noexcept {
   return parts_->components.count;
 }
 
+void PeriodMap::Parts::start(std::span<const double> in) {
+  work.state.resize(2 * modes.size());
+  for (std::size_t i = 0; i < work.state.size(); ++i) {
+    work.state[i] = in[elements.kept_values + i] * (i % 2 == 0 ? 1 : speed);
+  }
+  work.q.resize(elements.wanted_values);
+}
+
+void PeriodMap::Parts::advance(std::size_t k, std::span<const double> in) {
+  const PeriodElement& e = elements.all[k];
+  if (e.forced) {
+    delayed_force(e, in, work.q, work.force);
+  }
+  step(k);
+}
+
 void PeriodMap::apply(std::span<const double> in, std::span<double> out) {
   Parts& p = *parts_;
-  const std::size_t states = p.elements.kept_values;
-  std::vector<double>& state = p.work.state;
-  state.resize(2 * p.modes.size());
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    state[i] = in[states + i] * (i % 2 == 0 ? 1 : p.speed);
-  }
-  p.work.q.resize(p.elements.wanted_values);
+  p.start(in);
   for (std::size_t k = 0; k < p.elements.all.size(); ++k) {
     const PeriodElement& e = p.elements.all[k];
-    if (e.forced) {
-      p.delayed_force(e, in, p.work.q, p.work.force);
-    }
-    p.step(k);
+    p.advance(k, in);
     if (e.kept) {
       std::copy_n(p.work.q.begin() + static_cast<std::ptrdiff_t>(e.place),
                   p.components.count * e.nodes(),
                   out.begin() + static_cast<std::ptrdiff_t>(e.first));
     }
   }
+  const std::vector<double>& state = p.work.state;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    out[states + i] = i % 2 == 0 ? state[i] : state[i] / p.speed;
+    out[p.elements.kept_values + i] = i % 2 == 0 ? state[i] : state[i] / p.speed;
   }
+}
+
+bool PeriodMap::smooth() const noexcept {
+  return parts_->smooth;
+}
+
+double PeriodMap::unresolved(std::span<const double> in) {
+  Parts& p = *parts_;
+  p.start(in);
+  Tail motion;
+  Tail force;
+  for (std::size_t k = 0; k < p.elements.all.size(); ++k) {
+    const PeriodElement& e = p.elements.all[k];
+    p.advance(k, in);
+    const std::size_t n = e.nodes();
+    for (std::size_t c = 0; c < p.components.count; ++c) {
+      if (e.forced) {
+        force.add(std::span(p.work.force).subspan(c * n, n));
+      }
+      if (e.wanted) {
+        motion.add(std::span(p.work.q).subspan(e.place + c * n, n));
+      }
+    }
+  }
+  return std::max(motion.share(), force.share());  // D-14
 }
 
 std::vector<PeriodMap::Node> PeriodMap::disturbance_nodes() const {

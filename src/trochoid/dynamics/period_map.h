@@ -42,6 +42,17 @@ class PeriodMap {
   /// @param[out] out  one period later, shape (size)
   void apply(std::span<const double> in, std::span<double> out);
 
+  /// @brief What of a disturbance and its forces the nodes do not hold, estimated over
+  /// the period that follows it.
+  ///
+  /// @eq  D-14 e = largest |c_(n-1)|, |c_n| of any element's q or force over their
+  ///      largest values; c_k its Chebyshev coefficients
+  /// @src derived
+  [[nodiscard]] double unresolved(std::span<const double> in);
+  /// Does every delay lead from a node to a node? Then no kink of the motion comes back
+  /// inside an element.
+  [[nodiscard]] bool smooth() const noexcept;
+
   /// A node of a disturbance.
   struct Node {
     double t = 0.0;         ///< since the start of the period [s]

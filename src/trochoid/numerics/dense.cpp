@@ -38,6 +38,40 @@ double sum_of_sizes(std::span<const double> column) {
   return sum;
 }
 
+using Complex = std::complex<double>;
+
+/// Of unit length, by two steps of inverse iteration.
+std::vector<Complex> hessenberg_vector(const Columns& H, Complex eigenvalue) {
+  const Eigen::Index n = H.rows();
+  const double size = H.cwiseAbs().maxCoeff();
+  const double least = size > 0 ? 1e-16 * size : 1.0;
+  Eigen::MatrixXcd U = H.cast<Complex>();
+  U.diagonal().array() -= eigenvalue;
+  Eigen::VectorXcd y = Eigen::VectorXcd::Ones(n);
+  std::vector<char> exchanged(static_cast<std::size_t>(n));
+  for (int step = 0; step < 2; ++step) {
+    for (Eigen::Index k = 0; k + 1 < n; ++k) {
+      char& swapped = exchanged[static_cast<std::size_t>(k)];
+      const Eigen::Index rest = n - k - 1;
+      if (step == 0) {  // the factor takes the place of what it takes away
+        swapped = std::norm(U(k + 1, k)) > std::norm(U(k, k)) ? 1 : 0;
+        if (swapped != 0) U.row(k).tail(rest + 1).swap(U.row(k + 1).tail(rest + 1));
+        U(k + 1, k) = U(k, k) == 0.0 ? 0.0 : U(k + 1, k) / U(k, k);
+        U.row(k + 1).tail(rest) -= U(k + 1, k) * U.row(k).tail(rest);
+      } else {
+        if (swapped != 0) std::swap(y(k), y(k + 1));
+        y(k + 1) -= U(k + 1, k) * y(k);
+      }
+    }
+    for (Eigen::Index k = n; k-- > 0;) {
+      const Complex above = (U.row(k).tail(n - k - 1) * y.tail(n - k - 1)).value();
+      y(k) = (y(k) - above) / (std::abs(U(k, k)) < least ? least : U(k, k));
+    }
+    y /= y.norm();
+  }
+  return {y.data(), y.data() + n};
+}
+
 }  // namespace
 
 void add_product(double factor, std::span<const double> A, std::span<const double> x,
@@ -139,6 +173,26 @@ Eigenpair largest_eigenpair(const Matrix& A) {
     out.vector[i] = {columns(index(i), best) / length, imaginary / length};
   }
   return out;
+}
+
+Eigenpair largest_hessenberg_pair(const Matrix& H) {
+  const Columns h = columns_of(H);
+  const Eigen::Index n = h.rows();
+  Eigen::RealSchur<Dense> schur(n);
+  schur.computeFromHessenberg(h, Dense::Identity(n, n), false);
+  const Dense& T = schur.matrixT();
+  Complex best = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Complex value = T(i, i);
+    if (i + 1 < n && T(i + 1, i) != 0) {  // a conjugate pair
+      const double half = 0.5 * (T(i, i) - T(i + 1, i + 1));
+      const Complex root = std::sqrt(Complex(half * half + T(i, i + 1) * T(i + 1, i)));
+      value = T(i + 1, i + 1) + half + Complex(root.real(), std::abs(root.imag()));
+      ++i;
+    }
+    best = std::abs(value) > std::abs(best) || i == 0 ? value : best;
+  }
+  return {best, hessenberg_vector(h, best)};
 }
 
 Matrix exponential(const Matrix& A) {

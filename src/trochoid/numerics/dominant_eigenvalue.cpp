@@ -69,7 +69,7 @@ Eigenpair ritz(const std::vector<Projection>& columns) {
     std::copy(along.begin(), along.end(), &H(0, j));
     if (j + 1 < k) H(j + 1, j) = columns[j].left;
   }
-  return largest_eigenpair(H);
+  return largest_hessenberg_pair(H);
 }
 
 /// V times complex coordinates.

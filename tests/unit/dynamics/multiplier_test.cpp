@@ -99,6 +99,25 @@ TEST(Multiplier, SaysHowGoodItIs) {
   }
 }
 
+TEST(Multiplier, KnowsItsErrorWithoutMoreNodes) {  // [D-14]
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  for (const double rpm : {2500.0, 5000.0, 12000.0}) {
+    setup.cut.Omega = rpm * unit::rpm;
+    const Directional d =
+        DirectionalModel(setup, benchmark_law(), 1e-6, 1e-11).at_depth(1 * unit::mm);
+    const auto with = [&](double factor) {
+      return multiplier_with(d, benchmark_system(), setup.cut.Omega, factor, 1e-12);
+    };
+    const double exact = std::abs(with(2.2).value);
+    for (const double factor : {0.64, 0.8, 1.0}) {
+      const Multiplier mu = with(factor);
+      const double error = std::abs(std::abs(mu.value) - exact);
+      EXPECT_GT(mu.error, error) << rpm << ' ' << factor;
+      EXPECT_LT(mu.error, 1e5 * error + 1e-9) << rpm << ' ' << factor;
+    }
+  }
+}
+
 TEST(Multiplier, OfManyCyclesATooth) {  // [D-11]
   // 55 cycles between two teeth, in elements of at most seven: more nodes agree.
   force::Setup setup = straight_cut(2, geometry::Slot{});

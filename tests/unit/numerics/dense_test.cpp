@@ -64,6 +64,29 @@ TEST(Dense, FactorsInPlaceAreThoseOfACopy) {
   }
 }
 
+TEST(Dense, PairOfAHessenbergMatrixIsThatOfAnyMatrix) {
+  for (const std::size_t n : {1U, 2U, 7U, 20U}) {
+    Matrix H = zeros(n, n);
+    double x = 0.3;
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t i = 0; i < std::min(n, j + 2); ++i) {
+        x = 3.9 * x * (1 - x);
+        H(i, j) = x - 0.5;
+      }
+    }
+    const Eigenpair own = largest_hessenberg_pair(H);
+    EXPECT_LT(std::abs(own.value - largest_eigenpair(H).value), 1e-12);
+    double length = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      std::complex<double> row = 0.0;
+      for (std::size_t j = 0; j < n; ++j) row += H(i, j) * own.vector[j];
+      EXPECT_LT(std::abs(row - own.value * own.vector[i]), 1e-11);
+      length += std::norm(own.vector[i]);
+    }
+    EXPECT_NEAR(length, 1.0, 1e-12);
+  }
+}
+
 TEST(Dense, EigenvaluesOfACompanionMatrix) {
   // Roots of (x - 2)(x^2 + 2 x + 5) = x^3 + x - 10.
   auto roots = eigenvalues(matrix(3, {0, -1, 10, 1, 0, 0, 0, 1, 0}));
