@@ -47,7 +47,8 @@ void add_mode(ElementResponse& response, const DrivenMotion& motion, std::size_t
 ElementResponse element_response(const std::vector<ChipMode>& modes,
                                  const Components& components, int degree,
                                  double duration) {
-  const std::size_t values = components.count * (static_cast<std::size_t>(degree) + 1);
+  const std::size_t values =
+      degree > 0 ? components.count * (static_cast<std::size_t>(degree) + 1) : 0;
   const std::size_t states = 2 * modes.size();
   ElementResponse response{degree,
                            duration,
@@ -57,13 +58,15 @@ ElementResponse element_response(const std::vector<ChipMode>& modes,
                            {}};
   std::optional<DrivenMotion> motion;
   for (std::size_t r = 0; r < modes.size(); ++r) {
-    const bool alike = r > 0 && modes[r].mass == modes[r - 1].mass &&
+    const bool alike = motion && modes[r].mass == modes[r - 1].mass &&
                        modes[r].damping == modes[r - 1].damping &&
                        modes[r].stiffness == modes[r - 1].stiffness;
-    if (!alike) {
+    if (!alike && degree > 0) {
       motion = driven_motion(modes[r], degree, duration);
     }
-    add_mode(response, *motion, r, components.modes[r], components.count);
+    if (motion) {
+      add_mode(response, *motion, r, components.modes[r], components.count);
+    }
     const auto over = free_motion(modes[r], duration);
     for (std::size_t i = 0; i < 4; ++i) {
       response.over(2 * r + i / 2, 2 * r + i % 2) = over[i];

@@ -23,6 +23,7 @@ struct ElementResponse {
   std::array<numerics::Matrix, 4> compliance;
 };
 
+/// @param degree    0: nothing but `over`, for free flight that nothing looks at
 /// @param duration  of the element [s]
 ElementResponse element_response(const std::vector<ChipMode>& modes,
                                  const Components& components, int degree,

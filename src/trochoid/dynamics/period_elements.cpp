@@ -198,7 +198,10 @@ PeriodElements period_elements(const Directional& directional,
       const double n = 10 + 10 * length / pi + 3.5 * length / cycle;
       const int even = 2 * static_cast<int>(std::ceil(0.5 * n * resolution.factor));
       e.degree = std::clamp(even, 4, largest_degree);
-      const std::vector<double> rows = rows_of(whole, e);
+      const bool cuts =
+          std::any_of(whole.matrices.begin(), whole.matrices.end(),
+                      [](const auto& channel) { return !channel.empty(); });
+      const std::vector<double> rows = cuts ? rows_of(whole, e) : std::vector<double>();
       const auto channel_of = [&](const std::vector<Matrix2>& given) {
         e.forced = e.forced || !given.empty();
         return given.empty() ? Channel{}

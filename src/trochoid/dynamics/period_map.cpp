@@ -79,13 +79,14 @@ struct PeriodMap::Parts {
 /// Elements of one length share one.
 std::size_t PeriodMap::Parts::response_at(const PeriodElement& element) {
   const double duration = (element.to - element.from) / Omega;
+  const int degree = element.wanted ? element.degree : 0;
   for (std::size_t i = 0; i < responses.size(); ++i) {
-    if (responses[i].degree == element.degree &&
+    if (responses[i].degree == degree &&
         std::abs(responses[i].duration - duration) < 1e-13 * duration) {
       return i;
     }
   }
-  responses.push_back(element_response(modes, components, element.degree, duration));
+  responses.push_back(element_response(modes, components, degree, duration));
   return responses.size() - 1;
 }
 
