@@ -18,6 +18,8 @@ import tempfile
 
 BLOCK = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
 STEP = re.compile(r"^\$ ((?:.*\\\n)*.*\n)((?:(?!\$ ).*\n)*)", re.MULTILINE)
+# What is said of long work: how much depends on the machine.
+PROGRESS = re.compile(r"^[^:\n]+(: \d+ %)?, \d+ (s|min)(, about \d+ (s|min) left)?\n", re.MULTILINE)
 RULES = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
@@ -34,7 +36,7 @@ def output(command, folder):
     done = subprocess.run(command, shell=True, cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=1200, check=False)
-    return done.stdout.replace(f"{folder}/", "")
+    return PROGRESS.sub("", done.stdout).replace(f"{folder}/", "")
 
 
 def differences(top, page, renew):

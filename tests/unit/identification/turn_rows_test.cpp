@@ -20,9 +20,9 @@ Record asynchronous(const force::Setup& setup, int samples, double noise) {
   }
   out.force = force::forces(setup, steel(), phi, 1e-9);
   std::mt19937 random(3);
-  std::normal_distribution<double> normal(0.0, noise);
+  std::normal_distribution<double> normal;
   for (auto& F : out.force) {
-    for (double& f : F) f += noise > 0.0 ? normal(random) : 0.0;
+    for (double& f : F) f += noise * normal(random);
   }
   return out;
 }
