@@ -1,4 +1,6 @@
 """What takes longer than two seconds says so on the standard error, in plain lines on a pipe."""
+import os
+import pathlib
 import re
 import shutil
 import signal
@@ -6,6 +8,12 @@ import subprocess
 import time
 
 from in_folder import InFolder, ROOT, main, program
+
+
+def processor_time(pid):
+    """What a process has computed so far, in seconds."""
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return int(fields[11]) / os.sysconf("SC_CLK_TCK")
 
 
 class Progress(InFolder):
@@ -17,7 +25,8 @@ class Progress(InFolder):
             [program.PROGRAM, "calibrate", "case.toml", "--no-report", *options],
             cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, text=True)
-        time.sleep(0.15)  # of more than a second that it needs
+        while run.poll() is None and processor_time(run.pid) < 0.15:  # of more than a second
+            time.sleep(0.01)
         run.send_signal(signal.SIGSTOP)
         time.sleep(3.0)
         run.send_signal(signal.SIGCONT)
