@@ -25,9 +25,9 @@ programs=(g++=g++ cmake=cmake ninja=ninja-build git=git)
 report_programs=(node=nodejs npm=npm)
 test_libraries=(libgtest-dev libbenchmark-dev python3-numpy python3-scipy)
 # What the tests can do without: where it is missing, theirs are skipped.
-optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make)
+optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind)
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags
-  pkg-config=pkg-config valgrind=valgrind)
+  pkg-config=pkg-config)
 
 # One argument, one line.
 say() { printf '%s\n' "$@" >&2; }
