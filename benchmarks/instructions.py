@@ -36,9 +36,17 @@ def count(program, kernel):
     return (collected(program, kernel, 1 + more) - first) // more
 
 
-def main(program, renew):
+def can_count():
+    """Is there a valgrind that works, and are vectors as wide as those of the record?"""
     if shutil.which("valgrind") is None or "avx2" not in pathlib.Path("/proc/cpuinfo").read_text():
-        print("skipped: this needs valgrind, and vectors as wide as those of the record (AVX2)")
+        return False
+    return subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "true"],
+                          capture_output=True, check=False).returncode == 0
+
+
+def main(program, renew):
+    if not can_count():
+        print("skipped: this needs a valgrind that works, and AVX2")
         return 77
     kernels = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
     counts = {kernel: count(program, kernel) for kernel in kernels}
