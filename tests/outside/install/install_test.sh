@@ -58,6 +58,11 @@ for internal in numerics/dense.h inputs/schema.h dynamics/stepper.h report/page.
   ! grep -qx "trochoid/$internal" "$scratch/headers" || { echo "$internal is installed"; exit 1; }
 done
 
+# What the page of the headers names is there.
+grep -oE '`[a-z_/]+\.h`' "$here/../../../docs/cpp.md" | tr -d '`' | while read -r header; do
+  grep -qx "trochoid/$header" "$scratch/headers" || { echo "$header is not installed"; exit 1; }
+done
+
 # The examples are projects of a stranger, too.
 cmake -G Ninja -S "$here/../../../examples/cpp" -B "$scratch/examples" -DCMAKE_PREFIX_PATH="$prefix"
 cmake --build "$scratch/examples"
