@@ -3,13 +3,15 @@ import csv
 import json
 import os
 import pathlib
+import re
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TROCHOID", str(ROOT / "build/release/src/trochoid/cli/trochoid"))
 
-
 HANGS = 1200  # s; for a program that never ends, not for one on a busy machine
+# What is said of long work: how much depends on the machine.
+PROGRESS = re.compile(r"^[^:\n]+(: \d+ %)?, \d+ (s|min)(, about \d+ (s|min) left)?\n", re.MULTILINE)
 
 
 def toml(value):

@@ -3,7 +3,6 @@ import hashlib
 import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -13,9 +12,6 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tests/reference"))
 import program  # noqa: E402
-
-# What is said of long work: how much depends on the machine.
-PROGRESS = re.compile(r"^[^:\n]+(: \d+ %)?, \d+ (s|min)(, about \d+ (s|min) left)?\n", re.MULTILINE)
 
 TABLES = {
     "tool": {"shape": "cylinder", "teeth": 2, "diameter_mm": 8.0, "helix_deg": 30.0},
@@ -66,7 +62,7 @@ class InFolder(unittest.TestCase):
             [program.PROGRAM, *map(str, arguments)], cwd=self.folder, timeout=program.HANGS,
             stdin=subprocess.DEVNULL, capture_output=True, env={**os.environ, **environment})
         done.stdout = done.stdout.decode(errors="replace")
-        done.stderr = PROGRESS.sub("", done.stderr.decode(errors="replace"))
+        done.stderr = program.PROGRESS.sub("", done.stderr.decode(errors="replace"))
         self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
         return done
 

@@ -16,10 +16,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
+import program  # noqa: E402
+
 BLOCK = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
 STEP = re.compile(r"^\$ ((?:.*\\\n)*.*\n)((?:(?!\$ ).*\n)*)", re.MULTILINE)
-# What is said of long work: how much depends on the machine.
-PROGRESS = re.compile(r"^[^:\n]+(: \d+ %)?, \d+ (s|min)(, about \d+ (s|min) left)?\n", re.MULTILINE)
 RULES = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
@@ -36,7 +37,7 @@ def output(command, folder):
     done = subprocess.run(command, shell=True, cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=1200, check=False)
-    return PROGRESS.sub("", done.stdout).replace(f"{folder}/", "")
+    return program.PROGRESS.sub("", done.stdout).replace(f"{folder}/", "")
 
 
 def differences(top, page, renew):
