@@ -1,6 +1,7 @@
 #include <trochoid/correction/shapes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/geometry/cutter.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
@@ -123,9 +124,7 @@ std::vector<Comparison> comparisons(const RigidCut& cut,
 /// Harmonics that change a chip.
 std::vector<int> visible(const RigidCut& cut, int n_max) {
   const auto& pitch = cut.pitch();
-  const bool equal = std::all_of(pitch.begin(), pitch.end(), [&](double p) {
-    return std::abs(p - pitch.front()) < 1e-12;
-  });
+  const bool equal = geometry::equally_pitched(pitch);
   std::vector<int> n;
   for (int k = 1; k <= n_max; ++k) {
     if (pitch.size() > 1 && !(equal && k % cut.teeth() == 0)) {

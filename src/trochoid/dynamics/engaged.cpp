@@ -16,17 +16,10 @@ constexpr double same_delay = 1e-9;  // [rad]
 /// Break points along an edge are found to this part of it.
 constexpr double relative_resolution = 1e-12;
 
-bool all_same(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [&](double v) {
-    return std::abs(v - values.front()) < same_delay;
-  });
-}
-
 }  // namespace
 
 Passes passes_of(const force::Setup& setup) {
-  const bool alike = geometry::runs_true(force::runout_of(setup));
-  Passes passes{.equal = alike && all_same(setup.cutter.pitch),
+  Passes passes{.equal = force::teeth_alike(setup),
                 .psi = geometry::tooth_angles(setup.cutter)};
   passes.period = passes.equal ? unit::turn / setup.cutter.teeth() : unit::turn;
   if (passes.equal) {

@@ -46,16 +46,11 @@ std::vector<double> steps_of(double length, double longest) {
   return steps;
 }
 
-bool equally_spaced(const std::vector<double>& pitch) {
-  return std::none_of(pitch.begin(), pitch.end(),
-                      [&](double x) { return std::abs(x - pitch.front()) > 1e-12; });
-}
-
 /// Nodes of one revolution: those of one pitch repeated where pitches are equal.
 void add_nodes(const force::Setup& setup, const EdgePoints& points, int steps,
                EngagedGrid& grid) {
   const auto& pitch = setup.cutter.pitch;
-  const bool equal = equally_spaced(pitch);
+  const bool equal = geometry::equally_pitched(pitch);
   const double period =
       equal ? unit::turn / static_cast<double>(pitch.size()) : unit::turn;
   const double smallest = *std::min_element(pitch.begin(), pitch.end());

@@ -80,7 +80,7 @@ struct Balance {
   }
 };
 
-Trial settled(const Balance& balance, const Force& guess, double tolerance) {
+Trial nearest_balance(const Balance& balance, const Force& guess, double tolerance) {
   Trial best = balance.trial(guess);
   for (int k = 0; k < most_directions && size_of(best.r) > tolerance; ++k) {
     Trial next = balance.best_along(best, balance.newton(best));  // T-12
@@ -106,7 +106,7 @@ Trial yielding_by_degrees(const Balance& whole, double tolerance) {
     for (double& p : part.P) {
       p *= part.share;
     }
-    at = settled(part, F, tolerance);
+    at = nearest_balance(part, F, tolerance);
     const bool found = size_of(at.r) <= tolerance;
     F = found ? at.guess : F;
     reached = found ? part.share : reached;
@@ -121,7 +121,7 @@ ForceBalance balanced_force(const ResponseOf& response_of,
                             const std::array<double, 3>& P, const Force& F_g,
                             double tolerance) {
   const Balance balance{response_of, P};
-  Trial best = settled(balance, F_g, tolerance);
+  Trial best = nearest_balance(balance, F_g, tolerance);
   if (size_of(best.r) > tolerance) {
     const Trial other = yielding_by_degrees(balance, tolerance);
     if (size_of(other.r) < size_of(best.r)) {

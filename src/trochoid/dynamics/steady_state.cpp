@@ -16,17 +16,6 @@ constexpr double chatter_persistence = 0.7;
 constexpr int most_doublings = 3;
 /// Difference of the peaks above which teeth that are alike do not cut alike.
 constexpr double unequal_peaks = 0.02;
-/// Pitches that differ by less are equal [rad].
-constexpr double equal_angle = 1e-9;
-
-/// Equal pitch, no runout and no command: what one tooth does, all do.
-bool teeth_alike(const MotionProblem& problem) {
-  const auto& pitch = problem.setup.cutter.pitch;
-  return !problem.command && geometry::runs_true(problem.setup.runout) &&
-         std::all_of(pitch.begin(), pitch.end(), [&](double p) {
-           return std::abs(p - pitch.front()) < equal_angle;
-         });
-}
 
 bool grows(const Motion& m) {
   return m.growth.value_or(0.0) > chatter_growth;
@@ -37,8 +26,9 @@ Verdict verdict_of(const MotionProblem& problem, const Motion& m) {
     return Verdict::chatter;
   }
   if (m.periodic) {
-    const bool several_teeth =
-        teeth_alike(problem) && peak_difference(m) > unequal_peaks;
+    // What one tooth does, all do, unless a command or chatter tells them apart.
+    const bool several_teeth = !problem.command && force::teeth_alike(problem.setup) &&
+                               peak_difference(m) > unequal_peaks;
     return several_teeth ? Verdict::chatter : Verdict::periodic;
   }
   const bool stays = late_change(m.once).value_or(0.0) > chatter_persistence;

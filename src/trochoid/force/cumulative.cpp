@@ -19,16 +19,6 @@ constexpr double smallest_lag = 1e-8;
 /// Sines are resolved to 1e-13 on panels of this length [rad].
 constexpr double longest_panel = 0.8;
 
-bool equal_teeth(const geometry::Cutter& cutter,
-                 const std::vector<geometry::EdgePosition>& teeth) {
-  const auto same = [&](const geometry::EdgePosition& p) {
-    return p.R == teeth.front().R && p.epsilon == teeth.front().epsilon;
-  };
-  return std::all_of(teeth.begin(), teeth.end(), same) &&
-         std::all_of(cutter.pitch.begin(), cutter.pitch.end(),
-                     [&](double p) { return p == cutter.pitch.front(); });
-}
-
 }  // namespace
 
 CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tolerance)
@@ -45,7 +35,7 @@ CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tole
   }
   geometry::edge_positions(runout_of(setup), psi_, r_, 0.0, teeth_);
   if (lag_ > 0) {
-    const std::size_t tables = equal_teeth(setup.cutter, teeth_) ? 1 : psi_.size();
+    const std::size_t tables = teeth_alike(setup) ? 1 : psi_.size();
     tables_.reserve(tables);
     for (std::size_t j = 0; j < tables; ++j) {
       tabulate(j, tolerance);

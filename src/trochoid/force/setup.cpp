@@ -2,6 +2,11 @@
 
 namespace trochoid::force {
 
+bool teeth_alike(const Setup& setup) noexcept {
+  return geometry::runs_true(runout_of(setup)) &&
+         geometry::equally_pitched(setup.cutter.pitch);
+}
+
 bool keeps_radius(const Setup& setup) noexcept {
   const geometry::Profile& p = setup.cutter.profile;
   const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;

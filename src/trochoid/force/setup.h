@@ -22,6 +22,9 @@ inline geometry::Runout runout_of(const Setup& setup) {
   return chip::feels_runout(setup.chip.model) ? setup.runout : geometry::Runout{};
 }
 
+/// @brief Whether what one tooth does all do: equal pitch, and no runout that counts.
+bool teeth_alike(const Setup& setup) noexcept;
+
 /// @brief Whether the teeth keep radius and angle along the edge: a cylinder of constant
 /// lead whose runout is the same at every height.
 bool keeps_radius(const Setup& setup) noexcept;

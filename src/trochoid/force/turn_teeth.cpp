@@ -12,16 +12,6 @@ namespace trochoid::force {
 
 namespace {
 
-bool equal_teeth(const geometry::Cutter& cutter,
-                 const std::vector<geometry::EdgePosition>& teeth) {
-  const auto same = [&](const geometry::EdgePosition& p) {
-    return p.R == teeth.front().R && p.epsilon == teeth.front().epsilon;
-  };
-  return std::all_of(teeth.begin(), teeth.end(), same) &&
-         std::all_of(cutter.pitch.begin(), cutter.pitch.end(),
-                     [&](double p) { return p == cutter.pitch.front(); });
-}
-
 /// Largest sin(theta) within the stock: how much of the feed a chip can be.
 double largest_sine(const geometry::Band& stock, double r) noexcept {
   const double lowest = std::clamp(stock.y_lo / r, -1.0, 1.0);
@@ -58,8 +48,7 @@ std::optional<TurnTeeth> turn_teeth(const Setup& setup, double tolerance) {
   // The edge force grows within a lag: there an angle counts for 1/lag of the chip.
   const double allowed = tolerance * std::clamp(2 * out.lag, 1e-4, 1.0) * f_z *
                          largest_sine(out.passage.stock, out.r);
-  const std::size_t different =
-      equal_teeth(setup.cutter, out.teeth) ? 1 : out.teeth.size();
+  const std::size_t different = teeth_alike(setup) ? 1 : out.teeth.size();
   out.harmonics.reserve(different);
   for (std::size_t j = 0; j < different; ++j) {
     auto harmonics =

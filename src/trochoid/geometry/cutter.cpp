@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -27,6 +28,12 @@ Profile taper(double D, double beta, double R) {
 
 std::vector<double> equal_pitch(int teeth) {
   return std::vector<double>(static_cast<std::size_t>(teeth), unit::turn / teeth);
+}
+
+bool equally_pitched(std::span<const double> pitch) noexcept {
+  constexpr double rounding = 1e-9;  // [rad]
+  return std::all_of(pitch.begin(), pitch.end(),
+                     [&](double p) { return std::abs(p - pitch.front()) < rounding; });
 }
 
 Cutter end_mill(double D, int teeth, double helix) {

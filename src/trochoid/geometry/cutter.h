@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -57,6 +58,9 @@ struct Cutter {
 
 /// Equal pitches of a cutter with so many teeth [rad].
 std::vector<double> equal_pitch(int teeth);
+
+/// @brief Whether pitches are equal, but for rounding: to 1e-9 rad.
+bool equally_pitched(std::span<const double> pitch) noexcept;
 
 /// @brief A cylinder of equal pitch and constant lead.
 /// @param D      diameter [m], above 0

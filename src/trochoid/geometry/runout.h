@@ -32,12 +32,16 @@ struct Runout {
   EccentricityOrder order = EccentricityOrder::exact;
 };
 
+/// @brief Whether no tooth is longer than another.
+inline bool equal_offsets(const Runout& runout) noexcept {
+  const auto& offsets = runout.radial_offsets;
+  return std::all_of(offsets.begin(), offsets.end(),
+                     [&](double offset) { return offset == offsets.front(); });
+}
+
 /// @brief Whether the runout leaves all teeth alike.
 inline bool runs_true(const Runout& runout) noexcept {
-  const auto& offsets = runout.radial_offsets;
-  return runout.eccentricity == 0 &&
-         std::all_of(offsets.begin(), offsets.end(),
-                     [&](double offset) { return offset == offsets.front(); });
+  return runout.eccentricity == 0 && equal_offsets(runout);
 }
 
 /// @brief Where the runout puts an edge point, seen from the axis of rotation.

@@ -6,28 +6,15 @@
 #include <cmath>
 
 namespace trochoid::identification {
-namespace {
-
-bool equal_pitch(const geometry::Cutter& cutter) {
-  const double pitch = unit::turn / cutter.teeth();
-  return std::ranges::all_of(cutter.pitch,
-                             [&](double p) { return std::abs(p - pitch) < 1e-9; });
-}
-
-bool equal_offsets(const geometry::Runout& runout) {
-  const auto& s = runout.radial_offsets;
-  return std::ranges::all_of(s, [&](double v) { return v == s.front(); });
-}
-
-}  // namespace
 
 bool teeth_are_alike(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
-  if (u.phases == 0 || !equal_pitch(problem.setup.cutter)) return false;
+  if (u.phases == 0 || !geometry::equally_pitched(problem.setup.cutter.pitch))
+    return false;
   const geometry::Runout& given = problem.setup.runout;
   if (u.runout == RunoutUnknowns::offsets) return given.eccentricity == 0.0;
-  if (u.runout == RunoutUnknowns::eccentricity) return equal_offsets(given);
-  return given.eccentricity == 0.0 && equal_offsets(given);
+  if (u.runout == RunoutUnknowns::eccentricity) return geometry::equal_offsets(given);
+  return geometry::runs_true(given);
 }
 
 bool apply_gauge(const Problem& problem, std::vector<double>& p) {

@@ -99,10 +99,7 @@ std::vector<double> EdgeMoments::kinks() const {
 }
 
 bool EdgeMoments::equal_teeth() const noexcept {
-  const std::vector<double>& pitch = edges_.setup.cutter.pitch;
-  return geometry::runs_true(edges_.setup.runout) &&
-         std::all_of(pitch.begin(), pitch.end(),
-                     [&](double p) { return p == pitch.front(); });
+  return force::teeth_alike(edges_.setup);
 }
 
 }  // namespace trochoid::surface

@@ -171,6 +171,19 @@ TEST(Methods, TheFormulaIsSilentWhereItDoesNotHold) {  // [F-8]
   EXPECT_FALSE(closed_form_mean(ball, steel()));
 }
 
+TEST(Setup, TeethAreAlikeWithoutRunoutThatCounts) {
+  MadeCut s = slot(geometry::cylinder(8e-3), 3, 30);
+  EXPECT_TRUE(teeth_alike(s));
+  s.runout.radial_offsets = {5e-6, 5e-6, 5e-6};
+  EXPECT_TRUE(teeth_alike(s));
+  s.runout.radial_offsets = {5e-6, 5e-6, 0.0};
+  EXPECT_FALSE(teeth_alike(s));
+  s.chip.model = chip::Model::none;  // it feels no runout
+  EXPECT_TRUE(teeth_alike(s));
+  s.cutter.pitch = {2.0, 2.0, 2 * pi - 4.0};
+  EXPECT_FALSE(teeth_alike(s));
+}
+
 TEST(Methods, TurnsRepeatToTheLastBit) {
   MadeCut s = slot(geometry::ball(8e-3), 2, 30);
   s.runout.eccentricity = 6e-6;

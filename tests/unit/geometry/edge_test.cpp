@@ -118,6 +118,13 @@ TEST(Cutter, ToothAnglesAddUpThePitches) {  // [G-1]
   EXPECT_EQ(equal_pitch(4), std::vector(4, pi / 2));
 }
 
+TEST(Cutter, PitchesAreEqualButForRounding) {
+  EXPECT_TRUE(equally_pitched(equal_pitch(7)));
+  EXPECT_TRUE(equally_pitched(std::vector{2 * pi}));
+  EXPECT_TRUE(equally_pitched(std::vector{1.0, 1.0 + 1e-10}));
+  EXPECT_FALSE(equally_pitched(std::vector{1.0, 1.0 + 1e-8}));
+}
+
 TEST(Cut, RadialDepthsAreBandsOfTheStock) {  // [G-11]
   const double inf = std::numeric_limits<double>::infinity();
   const Band slot = stock_band(Slot{}, 10e-3);
