@@ -14,6 +14,8 @@
 #include <unordered_map>
 #include <variant>
 
+#include "node_force.h"
+
 namespace trochoid::force {
 
 namespace {
@@ -42,6 +44,8 @@ void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noe
 constexpr double turn_tolerance = 1e-8;
 /// The same where differences of matrices are taken.
 constexpr double smooth_turn_tolerance = 1e-11;
+/// Chips at nodes are followed at least so closely: it costs next to nothing.
+constexpr double node_tolerance = 1e-6;
 
 /// @brief How the teeth cut, where forces are linear in the chip and the chips have few
 /// harmonics.
@@ -73,38 +77,92 @@ struct TurnMatrix {
   }
 };
 
-/// @brief Evaluate once for every angle of a turn; turns repeat to the last digit.
-template <class Value, class Evaluate>
-std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
+/// Angles of which each turn of a record has the same.
+struct Different {
+  std::vector<double> angles;
+  std::vector<std::size_t> place;  ///< which of them is the i-th; empty: i
+};
+
+/// @brief The different angles of a turn; turns repeat to the last digit.
+Different different_angles(std::span<const double> phi) {
   constexpr double same = 1e-11;  // angles closer than this are one angle [rad]
+  Different out;
+  const auto [lo, hi] = std::minmax_element(phi.begin(), phi.end());
+  if (phi.empty() || *hi - *lo < unit::turn) {
+    out.angles.assign(phi.begin(), phi.end());
+    return out;
+  }
   std::unordered_map<long long, std::size_t> seen;
-  std::vector<double> angles;      // different ones
-  std::vector<std::size_t> place;  // which of them is the i-th
-  place.reserve(phi.size());
+  out.place.reserve(phi.size());
   for (const double angle : phi) {
     const double u = angle - unit::turn * std::floor(angle / unit::turn);
-    const auto [at, is_new] = seen.try_emplace(std::llround(u / same), angles.size());
+    const auto [at, is_new] =
+        seen.try_emplace(std::llround(u / same), out.angles.size());
     if (is_new) {
-      angles.push_back(u);
+      out.angles.push_back(u);
     }
-    place.push_back(at->second);
+    out.place.push_back(at->second);
   }
-  std::vector<Value> different(angles.size());
-  numerics::for_each_index(angles.size(),
-                           [&](std::size_t i) { different[i] = evaluate(angles[i]); });
-  std::vector<Value> values;
-  values.reserve(phi.size());
-  for (const std::size_t i : place) {
-    values.push_back(different[i]);
+  return out;
+}
+
+/// Values of the different angles, given to all of them.
+template <class Value>
+std::vector<Value> to_all(const Different& different, std::vector<Value> values) {
+  if (different.place.empty()) {
+    return values;
   }
-  return values;
+  std::vector<Value> out;
+  out.reserve(different.place.size());
+  for (const std::size_t i : different.place) {
+    out.push_back(values[i]);
+  }
+  return out;
+}
+
+/// @brief Evaluate once for every angle of a turn.
+template <class Value, class Evaluate>
+std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
+  const Different different = different_angles(phi);
+  std::vector<Value> values(different.angles.size());
+  numerics::for_each_index(values.size(), [&](std::size_t i) {
+    values[i] = evaluate(different.angles[i]);
+  });
+  return to_all(different, std::move(values));
+}
+
+/// @brief The same for what takes many angles at once: evaluate(angles, numbers).
+template <class Value, class Evaluate>
+std::vector<Value> in_stretches(std::span<const double> phi, const Evaluate& evaluate) {
+  constexpr std::size_t stretch = 128;
+  const Different different = different_angles(phi);
+  const std::span<const double> angles = different.angles;
+  std::vector<Value> values(angles.size());
+  numerics::for_each_index(
+      (angles.size() + stretch - 1) / stretch, [&](std::size_t k) {
+        const auto some = angles.subspan(
+            k * stretch, std::min(stretch, angles.size() - k * stretch));
+        evaluate(some, std::span(values).subspan(k * stretch, some.size()));
+      });
+  return to_all(different, std::move(values));
+}
+
+using Matrix = std::array<double, 18>;
+
+/// @brief [C] of a method that gives one matrix at a time or many.
+/// @param C  shape (angles, 3, columns)
+void copy_matrices(const std::vector<Matrix>& matrices, std::size_t columns,
+                   std::span<double> C) {
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
+  }
 }
 
 }  // namespace
 
 struct ForceMatrix::Parts {
   std::size_t columns;
-  std::variant<TurnMatrix, CumulativeForce, AxialForce> method;
+  std::variant<TurnMatrix, CumulativeForce, NodeForce, AxialForce> method;
 };
 
 ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
@@ -115,8 +173,13 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
       return Parts{columns, TurnMatrix{turn_polynomial(*teeth, chip_weights()),
                                        turn_polynomial(*teeth, edge_weights())}};
     }
-    return keeps_radius(setup) ? Parts{columns, CumulativeForce(setup, law, tolerance)}
-                               : Parts{columns, AxialForce(setup, law, tolerance)};
+    if (keeps_radius(setup)) {
+      return Parts{columns, CumulativeForce(setup, law, tolerance)};
+    }
+    if (auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance))) {
+      return Parts{columns, std::move(*nodes)};
+    }
+    return Parts{columns, AxialForce(setup, law, tolerance)};
   };
   parts_ = std::make_shared<const Parts>(parts());
 }
@@ -142,16 +205,24 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
     }
     return;
   }
-  const auto& axial = std::get<AxialForce>(parts_->method);
-  using Matrix = std::array<double, 18>;
-  const auto matrices = over_turns<Matrix>(phi, [&](double angle) {
-    Matrix m{};
-    axial.matrix(angle, std::span(m).first(3 * columns));
-    return m;
-  });
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
+  if (const auto* nodes = std::get_if<NodeForce>(&parts_->method)) {
+    copy_matrices(
+        in_stretches<Matrix>(
+            phi, [&](std::span<const double> some, std::span<Matrix> matrices) {
+              nodes->matrices(some, matrices);
+            }),
+        columns, C);
+    return;
   }
+  const auto& axial = std::get<AxialForce>(parts_->method);
+  copy_matrices(over_turns<Matrix>(phi,
+                                   [&](double angle) {
+                                     Matrix m{};
+                                     axial.matrix(angle,
+                                                  std::span(m).first(3 * columns));
+                                     return m;
+                                   }),
+                columns, C);
 }
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
@@ -169,6 +240,13 @@ std::vector<Vector3> forces(const Setup& setup, const Law& law,
     std::vector<Vector3> out(phi.size());
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
     return out;
+  }
+  if (const auto nodes =
+          NodeForce::make(setup, law, std::min(tolerance, node_tolerance))) {
+    return in_stretches<Vector3>(
+        phi, [&](std::span<const double> some, std::span<Vector3> out) {
+          nodes->forces(some, out);
+        });
   }
   const AxialForce axial(setup, law, tolerance);
   return over_turns<Vector3>(phi, [&](double angle) {

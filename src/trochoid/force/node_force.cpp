@@ -1,0 +1,143 @@
+#include "node_force.h"
+
+#include <trochoid/base/units.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trochoid::force {
+
+namespace {
+
+/// The 16 integrals of NodeMoments.
+using Sums = std::array<double, NodeMoments::count>;
+
+/// @brief One matrix [C] from its integrals: F-3 and F-4.
+/// @param[out] C  row-major, 3 x 6
+void to_matrix(const Sums& m, std::array<double, 18>& C) noexcept {
+  for (std::size_t part = 0; part < 2; ++part) {
+    const double* x = &m[8 * part];
+    double* c = &C[3 * part];
+    c[0] = -x[1];  // F-3: rows x, y, z; columns t, r, a
+    c[1] = -x[2];
+    c[2] = -x[5];
+    c[6] = x[0];
+    c[7] = -x[3];
+    c[8] = -x[6];
+    c[12] = 0.0;
+    c[13] = x[4];
+    c[14] = -x[7];
+  }
+}
+
+/// Sums over all edges at one angle.
+class Summer {
+ public:
+  explicit Summer(const NodePanels& all) : all_(all) {
+    chips_.over.resize(static_cast<std::size_t>(all.passage.marks) * all.rule->width);
+  }
+
+  Sums at(double phi) {
+    sum_ = {};
+    const std::array<double, 2> tip{std::sin(phi), std::cos(phi)};
+    for (const NodePanel& panel : all_.panels) {
+      const double reach = panel.reach + panel.half_turn;
+      for (const NodeTooth& tooth : panel.teeth) {
+        const double theta = phi + tooth.middle - panel.centre;
+        const double off = theta - unit::turn * std::floor(theta / unit::turn + 0.5);
+        if (std::abs(off) > reach) {
+          continue;
+        }
+        node_chips(all_, panel, tooth, tip, chips_);
+        if (weigh(all_, panel, tooth, chips_, scratch_, weights_)) {
+          add_moments(panel, chips_, weights_, sum_);
+        }
+      }
+    }
+    Sums sums{};
+    for (std::size_t q = 0; q < sums.size(); ++q) {
+      for (const double lane : sum_.lanes[q]) {
+        sums[q] += lane;
+      }
+    }
+    return sums;
+  }
+
+ private:
+  const NodePanels& all_;
+  NodeChips chips_;
+  NodeScratch scratch_;
+  NodeWeights weights_;
+  NodeMoments sum_;
+};
+
+}  // namespace
+
+NodeForce::NodeForce(NodePanels panels, const Law& law)
+    : panels_(std::move(panels)), terms_(terms(law)) {}
+
+std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
+                                         double tolerance) {
+  if (form(law).power) {
+    return std::nullopt;
+  }
+  const Edges edges(setup);
+  auto panels = node_panels(edges, tolerance);
+  if (!panels) {
+    return std::nullopt;
+  }
+  NodeForce force(std::move(*panels), law);
+  if (force.panels_.begin > 0) {
+    Setup tip = setup;
+    tip.cut.a_p = edges.point(force.panels_.begin).meridian.z;
+    const double share = force.panels_.begin / edges.ends.back();
+    force.tip_.emplace(tip, law, std::min(1e-2, tolerance / share));
+  }
+  return force;
+}
+
+template <class Take>
+void NodeForce::over_angles(std::span<const double> phi, const Take& take) const {
+  Summer summer(panels_);
+  const std::size_t columns = terms_.form.columns();
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    std::array<double, 18> C{};
+    to_matrix(summer.at(phi[i]), C);
+    if (tip_) {
+      std::array<double, 18> at_tip{};
+      tip_->matrix(phi[i], std::span(at_tip).first(3 * columns));
+      for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t q = 0; q < columns; ++q) {
+          C[6 * row + q] += at_tip[row * columns + q];
+        }
+      }
+    }
+    take(i, C);
+  }
+}
+
+void NodeForce::matrices(std::span<const double> phi,
+                         std::span<std::array<double, 18>> C) const {
+  const std::size_t columns = terms_.form.columns();
+  over_angles(phi, [&](std::size_t i, const std::array<double, 18>& all) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      std::copy_n(&all[6 * row], columns, &C[i][row * columns]);
+    }
+  });
+}
+
+void NodeForce::forces(std::span<const double> phi,
+                       std::span<std::array<double, 3>> F) const {
+  over_angles(phi, [&](std::size_t i, const std::array<double, 18>& C) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      double sum = 0.0;
+      for (std::size_t q = 0; q < 3; ++q) {
+        sum += C[6 * row + q] * terms_.K[q] + C[6 * row + 3 + q] * terms_.K_e[q];
+      }
+      F[i][row] = sum;
+    }
+  });
+}
+
+}  // namespace trochoid::force

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <trochoid/force/axial.h>
+
+#include "node_pieces.h"
+
+#include <optional>
+#include <span>
+
+namespace trochoid::force {
+
+/// @brief Forces of any cutter under a law linear in the chip, from chips at fixed nodes
+/// along the edges.
+///
+/// What does not depend on the spindle angle is worked out once a node. At an angle the
+/// chips over all marks are polynomials through their values at the nodes; where they
+/// cross one another, zero or the edge of the stock, pieces begin and end.
+///
+/// @eq F-15
+/// @src derived
+class NodeForce {
+ public:
+  /// @param tolerance  relative to the largest possible value of each entry
+  static std::optional<NodeForce> make(const Setup& setup, const Law& law,
+                                       double tolerance);
+
+  /// @param[out] C  row-major, the first 3 x columns of each, shape (angles)
+  void matrices(std::span<const double> phi,
+                std::span<std::array<double, 18>> C) const;
+
+  /// @param[out] F  force on the tool [N], shape (angles)
+  void forces(std::span<const double> phi, std::span<std::array<double, 3>> F) const;
+
+ private:
+  NodeForce(NodePanels panels, const Law& law);
+  template <class Take>
+  void over_angles(std::span<const double> phi, const Take& take) const;
+
+  NodePanels panels_;
+  Terms terms_;
+  std::optional<AxialForce> tip_;  ///< of the edge near the axis, where it gets there
+};
+
+}  // namespace trochoid::force

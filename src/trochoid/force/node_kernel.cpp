@@ -1,0 +1,171 @@
+#include "node_kernel.h"
+
+// Highway compiles this file once for each kind of vectors, and picks one when it runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trochoid/force/node_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace trochoid::force {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<double, 8>;
+using Vector = hn::Vec<Tag>;
+constexpr Tag tag;
+
+struct Angle {
+  Vector sine;
+  Vector cosine;
+};
+
+HWY_INLINE Angle turned(const Angle& tip, const double* cosine,
+                        const double* sine) noexcept {
+  const Vector c = hn::LoadU(tag, cosine);
+  const Vector s = hn::LoadU(tag, sine);
+  return {hn::MulAdd(tip.sine, c, hn::Mul(tip.cosine, s)),
+          hn::MulSub(tip.cosine, c, hn::Mul(tip.sine, s))};
+}
+
+/// The rows of a mark, at one block.
+struct Mark {
+  Vector apart;
+  Vector back;
+  Vector R;
+  Vector bend;
+};
+
+HWY_INLINE Vector constant(double x) noexcept {
+  return hn::Set(tag, x);
+}
+
+/// x times a polynomial of u = x^2, to rounding for |x| <= 0.2.
+HWY_INLINE Vector sine_of(Vector x, Vector u) noexcept {
+  Vector p = hn::MulAdd(u, constant(1.0 / 362880), constant(-1.0 / 5040));
+  p = hn::MulAdd(u, p, constant(1.0 / 120));
+  p = hn::MulAdd(u, p, constant(-1.0 / 6));
+  return hn::MulAdd(hn::Mul(x, u), p, x);
+}
+
+/// C-5 by its third-order start and Newton, C-6 without a difference of radii.
+HWY_INLINE Vector over_path(const Mark& mark, const Angle& theta, double feed,
+                            bool two_steps) noexcept {
+  const Vector A = hn::Mul(mark.bend, theta.cosine);
+  const Vector inverse = hn::Div(constant(1.0), hn::Add(constant(1.0), A));
+  const Vector turn = hn::Mul(A, mark.back);
+  const Vector x0 = hn::Mul(turn, inverse);  // the negative of the start
+  const Vector cube = hn::Mul(hn::Mul(x0, x0), hn::Mul(x0, constant(1.0 / 6)));
+  Vector x = hn::Neg(hn::Mul(hn::Add(turn, cube), inverse));
+  for (int i = 0; i < (two_steps ? 2 : 1); ++i) {
+    const Vector u = hn::Mul(x, x);
+    const Vector g = hn::Add(sine_of(x, u), hn::MulAdd(A, x, turn));
+    const Vector slope = hn::Mul(hn::Mul(u, constant(0.5)), inverse);
+    x = hn::NegMulAdd(hn::Mul(g, inverse), hn::Add(constant(1.0), slope), x);
+  }
+  const Vector u = hn::Mul(x, x);
+  Vector fall = hn::MulAdd(u, constant(-1.0 / 40320), constant(1.0 / 720));
+  fall = hn::MulAdd(u, fall, constant(-1.0 / 24));
+  fall = hn::Mul(u, hn::MulAdd(u, fall, constant(0.5)));  // 1 - cos(x)
+  const Vector along =
+      hn::Mul(hn::Mul(hn::Add(mark.back, x), theta.sine), constant(feed));
+  return hn::Add(hn::MulAdd(mark.R, fall, mark.apart), along);
+}
+
+// Highway's table takes no noexcept functions; five parameters, one the answer.
+void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
+                    const NodeTooth& tooth, const double* sine_cosine, NodeChips& out) {
+  const std::size_t width = all.rule->width;
+  const bool exact = all.passage.model.model == chip::Model::trochoidal;
+  const double* const rows = tooth.rows.data();
+  const Angle tip{constant(sine_cosine[0]), constant(sine_cosine[1])};
+  for (std::size_t i = 0; i < width; i += hn::Lanes(tag)) {
+    const Angle theta = turned(tip, rows + NodeTooth::cosine * width + i,
+                               rows + NodeTooth::sine * width + i);
+    const Angle seen =
+        exact ? theta
+              : turned(tip, rows + NodeTooth::chip_cosine * width + i,
+                       rows + NodeTooth::chip_sine * width + i);
+    hn::StoreU(theta.sine, tag, &out.sine[i]);
+    hn::StoreU(theta.cosine, tag, &out.cosine[i]);
+    hn::StoreU(seen.sine, tag, &out.chip_sine[i]);
+    hn::StoreU(seen.cosine, tag, &out.chip_cosine[i]);
+    Vector least = constant(1e300);
+    const double* row = rows + NodeTooth::first_mark * width + i;
+    for (std::size_t m = 0; m < static_cast<std::size_t>(all.passage.marks); ++m) {
+      const Mark mark{hn::LoadU(tag, row), hn::LoadU(tag, row + width),
+                      hn::LoadU(tag, row + 2 * width), hn::LoadU(tag, row + 3 * width)};
+      row += NodeTooth::rows_of_mark * width;
+      const Vector h = exact ? over_path(mark, seen, all.passage.feed, panel.two_steps)
+                             : hn::MulAdd(mark.back, seen.sine, mark.apart);
+      hn::StoreU(h, tag, &out.over[m * width + i]);
+      least = hn::Min(least, h);
+    }
+    hn::StoreU(least, tag, &out.least[i]);
+  }
+}
+
+HWY_INLINE void add(double* lanes, Vector a, Vector b) noexcept {
+  hn::StoreU(hn::MulAdd(a, b, hn::LoadU(tag, lanes)), tag, lanes);
+}
+
+/// Eight moments of one weight.
+HWY_INLINE void add_eight(double* lanes, Vector q, const Angle& theta, Vector sin_kappa,
+                          Vector cos_kappa) noexcept {
+  const Vector qs = hn::Mul(q, sin_kappa);
+  const Vector qc = hn::Mul(q, cos_kappa);
+  add(lanes, q, theta.sine);
+  add(lanes + 8, q, theta.cosine);
+  add(lanes + 16, qs, theta.sine);
+  add(lanes + 24, qs, theta.cosine);
+  hn::StoreU(hn::Add(qc, hn::LoadU(tag, lanes + 32)), tag, lanes + 32);
+  add(lanes + 40, qc, theta.sine);
+  add(lanes + 48, qc, theta.cosine);
+  hn::StoreU(hn::Add(qs, hn::LoadU(tag, lanes + 56)), tag, lanes + 56);
+}
+
+void add_at_nodes(const NodePanel& panel, const NodeChips& chips,
+                  const NodeWeights& weights, NodeMoments& sum) {
+  double* const lanes = sum.lanes.front().data();
+  for (std::size_t i = 0; i < node_room; i += hn::Lanes(tag)) {
+    if (i == 8 && panel.edge[8] == 0) {
+      return;  // a rule of eight nodes
+    }
+    const Angle theta{hn::LoadU(tag, &chips.sine[i]), hn::LoadU(tag, &chips.cosine[i])};
+    const Vector sin_kappa = hn::LoadU(tag, &panel.sin_kappa[i]);
+    const Vector cos_kappa = hn::LoadU(tag, &panel.cos_kappa[i]);
+    const Vector chip =
+        hn::Mul(hn::LoadU(tag, &weights.chip[i]), hn::LoadU(tag, &panel.width[i]));
+    const Vector edge =
+        hn::Mul(hn::LoadU(tag, &weights.edge[i]), hn::LoadU(tag, &panel.edge[i]));
+    add_eight(lanes, chip, theta, sin_kappa, cos_kappa);
+    add_eight(lanes + 64, edge, theta, sin_kappa, cos_kappa);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trochoid::force
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trochoid::force {
+
+namespace {
+
+HWY_EXPORT(chips_at_nodes);
+HWY_EXPORT(add_at_nodes);
+
+}  // namespace
+
+void node_chips(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
+                std::array<double, 2> sine_cosine, NodeChips& out) noexcept {
+  HWY_DYNAMIC_DISPATCH(chips_at_nodes)(all, panel, tooth, sine_cosine.data(), out);
+}
+
+void add_moments(const NodePanel& panel, const NodeChips& chips,
+                 const NodeWeights& weights, NodeMoments& sum) noexcept {
+  HWY_DYNAMIC_DISPATCH(add_at_nodes)(panel, chips, weights, sum);
+}
+
+}  // namespace trochoid::force
+#endif

@@ -1,0 +1,266 @@
+#include "node_pieces.h"
+
+#include <trochoid/numerics/gauss_kronrod.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::force {
+
+namespace {
+
+/// One tooth on one panel.
+struct Look {
+  const NodePanels& all;
+  const NodePanel& panel;
+  const double* radius;  ///< R_j of the trochoidal model, r of the others
+  const NodeChips& chips;
+  NodeScratch& scratch;
+
+  [[nodiscard]] const NodeRule& rule() const noexcept { return *all.rule; }
+  [[nodiscard]] bool exact() const noexcept {
+    return all.passage.model.model == chip::Model::trochoidal;
+  }
+  [[nodiscard]] const double* over(std::size_t mark) const noexcept {
+    return &chips.over[mark * rule().width];
+  }
+};
+
+/// Marks that may be the closest somewhere between two nodes.
+void choose_marks(const Look& look) {
+  look.scratch.marks.clear();
+  for (std::size_t m = 0; m < static_cast<std::size_t>(look.all.passage.marks); ++m) {
+    double nearest = look.panel.slack + 1.0;
+    for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+      nearest = std::min(nearest, look.over(m)[i] - look.chips.least[i]);
+    }
+    if (nearest <= look.panel.slack) {
+      look.scratch.marks.push_back(m);
+    }
+  }
+}
+
+void add_breaks(const Look& look, const double* values, double slack) {
+  const NodeRoots roots = roots_of(look.rule(), values, slack);
+  look.scratch.breaks.insert(look.scratch.breaks.end(), roots.t.begin(),
+                             roots.t.begin() + static_cast<std::ptrdiff_t>(roots.count));
+}
+
+void add_mark_breaks(const Look& look) {
+  NodeRow& difference = look.scratch.difference;
+  const auto& marks = look.scratch.marks;
+  for (std::size_t a = 0; a < marks.size(); ++a) {
+    add_breaks(look, look.over(marks[a]), look.panel.slack);
+    for (std::size_t b = 0; b < a; ++b) {
+      for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+        difference[i] = look.over(marks[a])[i] - look.over(marks[b])[i];
+      }
+      add_breaks(look, difference.data(), look.panel.slack);
+    }
+  }
+}
+
+/// Where the edge, and the end of each mark on its ray, pass the edge of the stock.
+void add_stock_breaks(const Look& look, double y) {
+  if (!std::isfinite(y)) {
+    return;
+  }
+  NodeRow& beyond = look.scratch.difference;
+  const NodeRow& cosine = look.chips.chip_cosine;
+  const std::size_t n = look.rule().nodes;
+  for (std::size_t i = 0; i < n; ++i) {
+    beyond[i] = look.radius[i] * cosine[i] - y;
+  }
+  add_breaks(look, beyond.data(), look.panel.stock_slack);
+  if (!look.exact()) {
+    return;
+  }
+  for (const std::size_t m : look.scratch.marks) {
+    for (std::size_t i = 0; i < n; ++i) {
+      beyond[i] = (look.radius[i] - look.over(m)[i]) * cosine[i] - y;
+    }
+    add_breaks(look, beyond.data(), look.panel.stock_slack);
+  }
+}
+
+/// @brief The edge at one place of a panel.
+struct Place {
+  double least = 0.0;  ///< chip over the closest mark [m]
+  std::size_t mark = 0;
+  double radius = 0.0;
+  double sine = 0.0;
+  double cosine = 0.0;
+};
+
+Place place_at(const Look& look, const NodeRow& basis) noexcept {
+  Place p{.least = 1e300};
+  const auto at = [&](const double* values) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+      sum += basis[i] * values[i];
+    }
+    return sum;
+  };
+  for (const std::size_t m : look.scratch.marks) {
+    const double h = at(look.over(m));
+    if (h < p.least) {
+      p.least = h;
+      p.mark = m;
+    }
+  }
+  p.radius = at(look.radius);
+  p.sine = at(look.chips.chip_sine.data());
+  p.cosine = at(look.chips.chip_cosine.data());
+  return p;
+}
+
+struct Clipped {
+  double h = 0.0;
+  bool by_stock = false;
+};
+
+/// C-7: what the stock leaves of a chip.
+Clipped clip(const Look& look, const Place& p) noexcept {
+  const geometry::Band& stock = look.all.passage.stock;
+  const double y = p.radius * p.cosine;
+  if (!look.exact()) {
+    const bool inside = p.sine > 0 && y > stock.y_lo && y < stock.y_hi;
+    return {inside ? p.least : 0.0, false};
+  }
+  double inner = p.radius - p.least;
+  double outer = p.radius;
+  for (const double side : {1.0, -1.0}) {  // y >= y_lo, and then -y >= -y_hi
+    const double edge = side > 0 ? stock.y_lo : -stock.y_hi;
+    const double c = side * p.cosine;
+    if (edge > 0) {
+      inner = c > 0 ? std::max(inner, edge / c) : p.radius;
+    } else if (c < 0) {
+      outer = std::min(outer, edge / c);
+    }
+  }
+  const bool by_stock = inner > p.radius - p.least || outer < p.radius;
+  return {by_stock ? outer - inner : p.least, by_stock};
+}
+
+void add_whole(const Look& look, std::size_t mark, const NodeRow& w,
+               NodeWeights& weights) {
+  for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+    weights.chip[i] += w[i] * look.over(mark)[i];
+    weights.edge[i] += w[i];
+  }
+}
+
+/// Where the stock cuts the chip short h is no polynomial: Gauss' nodes between.
+void add_clipped(const Look& look, double from, double to, NodeWeights& weights) {
+  const numerics::KronrodRule& gauss = numerics::kronrod_rule();
+  const double half = 0.5 * (to - from);
+  for (std::size_t k = 0; k < gauss.t.size(); ++k) {
+    if (gauss.gauss[k] == 0) {
+      continue;
+    }
+    const NodeRow basis = basis_at(look.rule(), from + half * (1 + gauss.t[k]));
+    const double h = clip(look, place_at(look, basis)).h * half * gauss.gauss[k];
+    for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+      weights.chip[i] += h * basis[i];
+    }
+  }
+}
+
+void add_pieces(const Look& look, NodeWeights& weights) {
+  std::vector<double>& breaks = look.scratch.breaks;
+  std::sort(breaks.begin(), breaks.end());
+  breaks.push_back(1.0);
+  double from = -1.0;
+  NodeRow before = area_at(look.rule(), from);
+  for (const double to : breaks) {
+    if (!(to - from > 1e-14)) {
+      continue;
+    }
+    const Place p = place_at(look, basis_at(look.rule(), 0.5 * (from + to)));
+    const Clipped chip = clip(look, p);
+    NodeRow after = area_at(look.rule(), to);
+    NodeRow w;
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      w[i] = after[i] - before[i];
+    }
+    if (chip.h > chip::h_threshold && !chip.by_stock) {
+      add_whole(look, p.mark, w, weights);
+    } else if (chip.h > chip::h_threshold) {
+      add_clipped(look, from, to, weights);
+      for (std::size_t i = 0; i < w.size(); ++i) {
+        weights.edge[i] += w[i];
+      }
+    }
+    from = to;
+    before = after;
+  }
+}
+
+enum class Inside { everywhere, nowhere, partly };
+
+/// Where the nodes lie by y, or by the front of the tool for the simplified models.
+Inside inside_stock(const Look& look) noexcept {
+  const geometry::Band& stock = look.all.passage.stock;
+  const double far = look.panel.stock_slack;
+  const double thick = look.exact() ? look.all.passage.feed * 7 : 0.0;
+  bool all_in = true;
+  bool low = true;
+  bool high = true;
+  bool behind = !look.exact();
+  for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+    const double y = look.radius[i] * look.chips.chip_cosine[i];
+    all_in = all_in && y > stock.y_lo + far + thick && y < stock.y_hi - far - thick;
+    low = low && y < stock.y_lo - far - thick;
+    high = high && y > stock.y_hi + far + thick;
+    if (!look.exact()) {
+      const double x = look.radius[i] * look.chips.chip_sine[i];
+      all_in = all_in && x > far;
+      behind = behind && x < -far;
+    }
+  }
+  return low || high || behind ? Inside::nowhere
+                               : (all_in ? Inside::everywhere : Inside::partly);
+}
+
+}  // namespace
+
+// six parameters: what is looked at, where, and where the answer goes
+bool weigh(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
+           const NodeChips& chips, NodeScratch& scratch, NodeWeights& weights) {
+  const bool exact = all.passage.model.model == chip::Model::trochoidal;
+  const Look look{all, panel,
+                  exact ? &tooth.rows[NodeTooth::radius * all.rule->width]
+                        : panel.r.data(),
+                  chips, scratch};
+  const std::size_t n = all.rule->nodes;
+  const auto [least, most] = std::minmax_element(
+      chips.least.begin(), chips.least.begin() + static_cast<std::ptrdiff_t>(n));
+  if (*most < -panel.slack) {
+    return false;
+  }
+  const Inside inside =
+      panel.at_stock_edge || !exact ? inside_stock(look) : Inside::everywhere;
+  if (inside == Inside::nowhere) {
+    return false;
+  }
+  weights = {};
+  choose_marks(look);
+  if (inside == Inside::everywhere && *least > panel.slack &&
+      scratch.marks.size() == 1) {
+    add_whole(look, scratch.marks.front(), all.rule->whole, weights);
+    return true;
+  }
+  scratch.breaks.clear();
+  add_mark_breaks(look);
+  if (inside == Inside::partly) {
+    add_stock_breaks(look, all.passage.stock.y_lo);
+    add_stock_breaks(look, all.passage.stock.y_hi);
+    if (!exact) {
+      add_breaks(look, chips.chip_sine.data(), panel.stock_slack);
+    }
+  }
+  add_pieces(look, weights);
+  return true;
+}
+
+}  // namespace trochoid::force
