@@ -154,7 +154,7 @@ double size(const Vector3& F) {
 
 TEST(Nodes, GiveTheForceOfTheChipAlone) {  // [F-15]
   Random random(7);
-  for (int n = 0; n < 400; ++n) {
+  for (int n = 0; n < 6000; ++n) {
     const Cut cut = random_cut(random);
     const Edges edges(cut);
     std::vector<double> phi;

@@ -26,18 +26,64 @@ struct Look {
   }
 };
 
-/// Marks that may be the closest somewhere between two nodes.
-void choose_marks(const Look& look) {
-  look.scratch.marks.clear();
-  for (std::size_t m = 0; m < static_cast<std::size_t>(look.all.passage.marks); ++m) {
-    double nearest = look.panel.slack + 1.0;
-    for (std::size_t i = 0; i < look.rule().nodes; ++i) {
-      nearest = std::min(nearest, look.over(m)[i] - look.chips.least[i]);
+/// Whether a mark may be the closest one between two nodes although it is so at neither:
+/// the closest ones there lie above it where they change places.
+bool may_be_between(const Look& look, std::size_t m) noexcept {
+  const NodeRow& least = look.chips.least;
+  const double slack = look.panel.slack;
+  for (std::size_t i = 0; i + 1 < look.rule().nodes; ++i) {
+    bool below_another = false;
+    for (const std::size_t k : look.scratch.marks) {
+      const double* other = look.over(k);
+      below_another = below_another ||
+                      ((other[i] == least[i] || other[i + 1] == least[i + 1]) &&
+                       other[i] < look.over(m)[i] - slack &&
+                       other[i + 1] < look.over(m)[i + 1] - slack);
     }
-    if (nearest <= look.panel.slack) {
-      look.scratch.marks.push_back(m);
+    if (!below_another) {
+      return true;
     }
   }
+  return false;
+}
+
+/// Marks that may be the closest somewhere on the panel.
+void choose_marks(const Look& look) {
+  const auto all = static_cast<std::size_t>(look.all.passage.marks);
+  std::vector<std::size_t>& marks = look.scratch.marks;
+  marks.clear();
+  for (std::size_t m = 0; m < all; ++m) {
+    const double* h = look.over(m);
+    double nearest = h[0] - look.chips.least[0];
+    for (std::size_t i = 1; i < look.rule().nodes; ++i) {
+      nearest = std::min(nearest, h[i] - look.chips.least[i]);
+    }
+    if (nearest <= look.panel.slack) {
+      marks.push_back(m);
+    }
+  }
+  const std::size_t near = marks.size();
+  for (std::size_t m = 0; near > 1 && m < all; ++m) {
+    if (std::find(marks.begin(), marks.end(), m) == marks.end() &&
+        may_be_between(look, m)) {
+      marks.push_back(m);
+    }
+  }
+}
+
+/// Whether one mark alone leaves nothing between any two neighbouring nodes.
+bool in_air(const Look& look) noexcept {
+  const double above = -look.panel.slack;
+  for (std::size_t i = 0; i + 1 < look.rule().nodes; ++i) {
+    bool air = false;
+    for (const std::size_t m : look.scratch.marks) {
+      air = air || (look.over(m)[i] < above && look.over(m)[i + 1] < above);
+    }
+    if (!air) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void add_breaks(const Look& look, const double* values, double slack) {
@@ -235,16 +281,16 @@ bool weigh(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth
   const std::size_t n = all.rule->nodes;
   const auto [least, most] = std::minmax_element(
       chips.least.begin(), chips.least.begin() + static_cast<std::ptrdiff_t>(n));
-  if (*most < -panel.slack) {
-    return false;
-  }
   const Inside inside =
       panel.at_stock_edge || !exact ? inside_stock(look) : Inside::everywhere;
   if (inside == Inside::nowhere) {
     return false;
   }
-  weights = {};
   choose_marks(look);
+  if (*most < -panel.slack && in_air(look)) {
+    return false;
+  }
+  weights = {};
   if (inside == Inside::everywhere && *least > panel.slack &&
       scratch.marks.size() == 1) {
     add_whole(look, scratch.marks.front(), all.rule->whole, weights);
