@@ -27,15 +27,28 @@ double length_on_ray(double R_k, double turned, double feed, double sin_theta,
 double bracketed_root(double A, double theta_p, double lo, double hi) noexcept {
   // Where the root is nearly double, no better x exists than one with g at rounding.
   const double rounding = 2e-16 * (1 + std::abs(A) * theta_p);
-  double x = 0.5 * (lo + hi);
+  const double x0 = -A * theta_p / (1 + A);
+  double x = -(A * theta_p - x0 * x0 * x0 / 6) / (1 + A);
+  if (!(x > lo && x < hi)) {
+    x = 0.5 * (lo + hi);
+  }
   for (int i = 0; i < 64; ++i) {
     const double g = std::sin(x) + A * (theta_p + x);
     (g < 0 ? lo : hi) = x;
     if (std::abs(g) <= rounding) {
       break;
     }
-    const double next = x - g / (std::cos(x) + A);
-    x = next > lo && next < hi ? next : 0.5 * (lo + hi);
+    const double slope = std::cos(x) + A;
+    const double next = x - g / slope;
+    if (!(next > lo && next < hi)) {
+      x = 0.5 * (lo + hi);
+      continue;
+    }
+    const double step = next - x;
+    x = next;
+    if (step * step <= 1e-17 * slope) {  // what is left is its square
+      break;
+    }
   }
   return x;
 }

@@ -14,7 +14,11 @@ namespace {
 constexpr double longest_panel = 0.7;
 /// Grid points of a panel, beside its ends.
 constexpr int inner_points = 4;
-constexpr int inner_points_at_tip = 64;
+/// The same of a panel from the axis on that is so many feeds of a turn long, and the
+/// least of a shorter one.
+constexpr double inner_points_at_tip = 64;
+constexpr double feeds_of_tip_panel = 30;
+constexpr double least_inner_points_at_tip = 24;
 
 double lag_between(const Setup& setup, const geometry::Meridian& m, double a,
                    double b) {
@@ -47,11 +51,17 @@ std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) 
   return ends;
 }
 
-std::vector<double> scan_grid(const std::vector<double>& ends, bool from_the_axis) {
+/// @param feed  of a turn, where the edge begins at the axis; else 0 [m]
+std::vector<double> scan_grid(const std::vector<double>& ends, double feed) {
+  const bool from_the_axis = feed > 0;
+  const double feeds = from_the_axis ? (ends[1] - ends[0]) / feed : 1.0;
+  const int at_tip = static_cast<int>(std::clamp(
+      inner_points_at_tip * std::sqrt(std::sqrt(feeds / feeds_of_tip_panel)),
+      least_inner_points_at_tip, inner_points_at_tip));
   std::vector<double> grid = {ends.front()};
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const bool tip = from_the_axis && i == 0;
-    const int count = (tip ? inner_points_at_tip : inner_points) + 1;
+    const int count = (tip ? at_tip : inner_points) + 1;
     for (int k = 1; k <= count; ++k) {
       const double t = static_cast<double>(k) / count;
       // Near the axis everything happens within a feed or two of it.
@@ -71,7 +81,9 @@ Edges::Edges(const Setup& given)
       psi(geometry::tooth_angles(given.cutter)),
       ends(panel_ends(given, meridian)),
       grid(scan_grid(ends, geometry::point_at(meridian, 0).r <
-                               1e-3 * given.cut.a_p + given.cut.f_z)) {
+                                   1e-3 * given.cut.a_p + given.cut.f_z
+                               ? passage.feed * unit::turn
+                               : 0.0)) {
   for (const double s : ends) {
     lag_at_ends.push_back(geometry::lag_at(setup.cutter, meridian, s).angle);
   }
