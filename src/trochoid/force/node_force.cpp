@@ -97,47 +97,42 @@ std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
   return force;
 }
 
-template <class Take>
-void NodeForce::over_angles(std::span<const double> phi, const Take& take) const {
+void NodeForce::matrices(std::span<const double> phi,
+                         std::span<std::array<double, 18>> C) const {
   Summer summer(panels_);
   const std::size_t columns = terms_.form.columns();
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    std::array<double, 18> C{};
-    to_matrix(summer.at(phi[i]), C);
+    std::array<double, 18> all{};
+    to_matrix(summer.at(phi[i]), all);
+    C[i] = {};
     if (tip_) {
-      std::array<double, 18> at_tip{};
-      tip_->matrix(phi[i], std::span(at_tip).first(3 * columns));
-      for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t q = 0; q < columns; ++q) {
-          C[6 * row + q] += at_tip[row * columns + q];
-        }
+      tip_->matrix(phi[i], std::span(C[i]).first(3 * columns));
+    }
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t q = 0; q < columns; ++q) {
+        C[i][row * columns + q] += all[6 * row + q];
       }
     }
-    take(i, C);
   }
-}
-
-void NodeForce::matrices(std::span<const double> phi,
-                         std::span<std::array<double, 18>> C) const {
-  const std::size_t columns = terms_.form.columns();
-  over_angles(phi, [&](std::size_t i, const std::array<double, 18>& all) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      std::copy_n(&all[6 * row], columns, &C[i][row * columns]);
-    }
-  });
 }
 
 void NodeForce::forces(std::span<const double> phi,
                        std::span<std::array<double, 3>> F) const {
-  over_angles(phi, [&](std::size_t i, const std::array<double, 18>& C) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      double sum = 0.0;
-      for (std::size_t q = 0; q < 3; ++q) {
-        sum += C[6 * row + q] * terms_.K[q] + C[6 * row + 3 + q] * terms_.K_e[q];
-      }
-      F[i][row] = sum;
+  Summer summer(panels_);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    std::array<double, 18> C{};
+    to_matrix(summer.at(phi[i]), C);
+    F[i] = {};
+    if (tip_) {
+      const auto at_tip = tip_->loads(phi[i], 0.0);
+      std::copy_n(at_tip.begin(), 3, F[i].begin());
     }
-  });
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t q = 0; q < 3; ++q) {
+        F[i][row] += C[6 * row + q] * terms_.K[q] + C[6 * row + 3 + q] * terms_.K_e[q];
+      }
+    }
+  }
 }
 
 }  // namespace trochoid::force

@@ -33,8 +33,6 @@ class NodeForce {
 
  private:
   NodeForce(NodePanels panels, const Law& law);
-  template <class Take>
-  void over_angles(std::span<const double> phi, const Take& take) const;
 
   NodePanels panels_;
   Terms terms_;

@@ -40,36 +40,46 @@ HWY_INLINE Vector constant(double x) noexcept {
   return hn::Set(tag, x);
 }
 
-/// x times a polynomial of u = x^2, to rounding for |x| <= 0.2.
+/// sin(x) with u = x^2, to 1e-11 for |x| <= 0.8.
 HWY_INLINE Vector sine_of(Vector x, Vector u) noexcept {
-  Vector p = hn::MulAdd(u, constant(1.0 / 362880), constant(-1.0 / 5040));
+  Vector p = hn::MulAdd(u, constant(-1.0 / 39916800), constant(1.0 / 362880));
+  p = hn::MulAdd(u, p, constant(-1.0 / 5040));
   p = hn::MulAdd(u, p, constant(1.0 / 120));
   p = hn::MulAdd(u, p, constant(-1.0 / 6));
   return hn::MulAdd(hn::Mul(x, u), p, x);
 }
 
+/// 1 - cos(x), to 1e-10 for |x| <= 0.8.
+HWY_INLINE Vector fall_of(Vector u) noexcept {
+  Vector p = hn::MulAdd(u, constant(1.0 / 3628800), constant(-1.0 / 40320));
+  p = hn::MulAdd(u, p, constant(1.0 / 720));
+  p = hn::MulAdd(u, p, constant(-1.0 / 24));
+  return hn::Mul(u, hn::MulAdd(u, p, constant(0.5)));
+}
+
 /// C-5 by its third-order start and Newton, C-6 without a difference of radii.
 HWY_INLINE Vector over_path(const Mark& mark, const Angle& theta, double feed,
-                            bool two_steps) noexcept {
+                            int steps) noexcept {
   const Vector A = hn::Mul(mark.bend, theta.cosine);
   const Vector inverse = hn::Div(constant(1.0), hn::Add(constant(1.0), A));
   const Vector turn = hn::Mul(A, mark.back);
   const Vector x0 = hn::Mul(turn, inverse);  // the negative of the start
   const Vector cube = hn::Mul(hn::Mul(x0, x0), hn::Mul(x0, constant(1.0 / 6)));
   Vector x = hn::Neg(hn::Mul(hn::Add(turn, cube), inverse));
-  for (int i = 0; i < (two_steps ? 2 : 1); ++i) {
+  for (int i = 0; i < steps; ++i) {
     const Vector u = hn::Mul(x, x);
     const Vector g = hn::Add(sine_of(x, u), hn::MulAdd(A, x, turn));
+    if (steps > 2) {
+      x = hn::Sub(x, hn::Div(g, hn::Sub(hn::Add(constant(1.0), A), fall_of(u))));
+      continue;
+    }
     const Vector slope = hn::Mul(hn::Mul(u, constant(0.5)), inverse);
     x = hn::NegMulAdd(hn::Mul(g, inverse), hn::Add(constant(1.0), slope), x);
   }
   const Vector u = hn::Mul(x, x);
-  Vector fall = hn::MulAdd(u, constant(-1.0 / 40320), constant(1.0 / 720));
-  fall = hn::MulAdd(u, fall, constant(-1.0 / 24));
-  fall = hn::Mul(u, hn::MulAdd(u, fall, constant(0.5)));  // 1 - cos(x)
   const Vector along =
       hn::Mul(hn::Mul(hn::Add(mark.back, x), theta.sine), constant(feed));
-  return hn::Add(hn::MulAdd(mark.R, fall, mark.apart), along);
+  return hn::Add(hn::MulAdd(mark.R, fall_of(u), mark.apart), along);
 }
 
 // Highway's table takes no noexcept functions; five parameters, one the answer.
@@ -96,7 +106,7 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
       const Mark mark{hn::LoadU(tag, row), hn::LoadU(tag, row + width),
                       hn::LoadU(tag, row + 2 * width), hn::LoadU(tag, row + 3 * width)};
       row += NodeTooth::rows_of_mark * width;
-      const Vector h = exact ? over_path(mark, seen, all.passage.feed, panel.two_steps)
+      const Vector h = exact ? over_path(mark, seen, all.passage.feed, panel.steps)
                              : hn::MulAdd(mark.back, seen.sine, mark.apart);
       hn::StoreU(h, tag, &out.over[m * width + i]);
       least = hn::Min(least, h);

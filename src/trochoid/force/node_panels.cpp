@@ -16,9 +16,11 @@ constexpr double pi = std::numbers::pi;
 /// A panel turns by no more than this, along the edge and around the corner [rad].
 constexpr double longest_panel = 1.3;
 /// Marks by series need a radius of so many feeds per radian.
-constexpr double largest_bend = 0.03;
-/// Above it the start of the series needs a second Newton step.
+constexpr double largest_bend = 0.1;
+/// Up to these the start of the series needs one or two of Newton's steps.
 constexpr double bend_of_one_step = 0.005;
+constexpr double bend_of_two_steps = 0.025;
+constexpr int most_steps = 4;
 
 /// How far offsets and eccentricity move a tooth.
 double reach_of_runout(const geometry::Runout& runout) {
@@ -248,7 +250,9 @@ void set_slack(NodePanel& panel, const Edges& edges, const NodeRule& rule) {
       (rule.t[rule.nodes / 2] - rule.t[rule.nodes / 2 - 1]) * turned * 1.2;
   const double bend = 0.25 * step * step;
   const double f = edges.passage.feed * unit::turn;
-  panel.slack = bend * (f + 2 * reach_of_runout(edges.setup.runout)) + 1e-14;
+  const double least_r = std::min(panel.r[0], panel.r[rule.nodes - 1]);
+  const double curved = least_r > 0.5 * f ? 1 + 2 * f / least_r : 5.0;
+  panel.slack = bend * curved * (f + 2 * reach_of_runout(edges.setup.runout)) + 1e-14;
   panel.stock_slack = bend * p.D + 1e-12;
 }
 
@@ -297,6 +301,11 @@ std::optional<NodePanels> node_panels(const Edges& edges, double tolerance) {
   for (double from = all.begin; !ends.empty();) {
     NodePanel panel{.from = from, .to = ends.back()};
     filler.fill(panel);
+    const double least_r = std::min(panel.r[0], panel.r[all.rule->nodes - 1]);
+    const double bend = edges.passage.feed / std::max(least_r, 1e-9);
+    panel.steps = bend <= bend_of_one_step    ? 1
+                  : bend <= bend_of_two_steps ? 2
+                                              : most_steps;
     limit(panel, edges);
     const bool finest = panel.to - panel.from < shortest;
     if (!finest &&
@@ -305,8 +314,6 @@ std::optional<NodePanels> node_panels(const Edges& edges, double tolerance) {
       continue;
     }
     set_slack(panel, edges, *all.rule);
-    const double least_r = std::min(panel.r[0], panel.r[all.rule->nodes - 1]);
-    panel.two_steps = edges.passage.feed > bend_of_one_step * least_r;
     panel.at_stock_edge = std::isfinite(edges.passage.stock.y_lo) ||
                           std::isfinite(edges.passage.stock.y_hi);
     from = panel.to;

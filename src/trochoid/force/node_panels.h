@@ -31,7 +31,7 @@ struct NodePanel {
   double reach = 0.0;      ///< half of what they span [rad]
   double slack = 0.0;      ///< how far a chip may bend between two nodes [m]
   double stock_slack = 0.0;  ///< the same for y of the edge [m]
-  bool two_steps = false;    ///< whether Newton needs a second step
+  int steps = 1;             ///< of Newton's; more than 2: with the full slope
   bool at_stock_edge = false;
   NodeRow r{};      ///< nominal radius [m]
   NodeRow width{};  ///< half sin(kappa) dS: of a chip [m]
