@@ -127,6 +127,62 @@ void by_tables(benchmark::State& state) {
   count(state, phi.size(), error_of(forces, setup, phi));
 }
 
+/// The paper's slot with four teeth on a helix, off centre; or another cutter.
+enum class Tool { eccentric, bull_nose, ball, taper };
+
+force::Setup general_cut(Tool tool) {
+  force::Setup setup = paper_cut();
+  setup.runout.radial_offsets = {0.0, -8 * unit::um};
+  const double D = setup.cutter.profile.D;
+  switch (tool) {
+    case Tool::eccentric:
+      setup.cutter.pitch = geometry::equal_pitch(4);
+      setup.runout = {
+          .radial_offsets = {0.0, -8 * unit::um, 3 * unit::um, 1 * unit::um},
+          .eccentricity = 6 * unit::um,
+          .angle = 0.7};
+      break;
+    case Tool::bull_nose:
+      setup.cutter.profile = geometry::bull_nose(D, D / 5);
+      break;
+    case Tool::ball:
+      setup.cutter.profile = geometry::ball(D);
+      break;
+    case Tool::taper:
+      setup.cutter.profile = geometry::taper(D, 3 * unit::deg);
+      break;
+  }
+  return setup;
+}
+
+/// Cutters that no polynomial of a turn serves, at depths in mm.
+void general_turn(benchmark::State& state, Tool tool) {
+  force::Setup setup = general_cut(tool);
+  setup.cut.a_p = static_cast<double>(state.range(0)) * unit::mm;
+  const auto phi = turns(720, 1);
+  std::vector<force::Vector3> forces;
+  for (auto _ : state) {
+    forces = force::forces(setup, paper_law(), phi, tolerance);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  count(state, phi.size(), error_of(forces, setup, phi));
+}
+
+/// The same by adaptive quadrature.
+void general_along_the_edge(benchmark::State& state, Tool tool) {
+  const force::Setup setup = general_cut(tool);
+  const auto phi = turns(90, 1);
+  const force::AxialForce axial(setup, paper_law(), tolerance);
+  for (auto _ : state) {
+    for (const double angle : phi) {
+      benchmark::DoNotOptimize(axial.loads(angle, 0.0));
+    }
+  }
+  state.counters["per_sample"] = benchmark::Counter(
+      static_cast<double>(phi.size()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 void matrix_turn(benchmark::State& state) {
   const force::Setup setup = paper_cut();
   const auto phi = turns(720, 1);
@@ -188,5 +244,26 @@ BENCHMARK(other_cutters)
 BENCHMARK(by_tables)->Unit(benchmark::kMicrosecond);
 BENCHMARK(matrix_turn)->Unit(benchmark::kMicrosecond);
 BENCHMARK(along_the_edge)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_turn, eccentric, Tool::eccentric)
+    ->Arg(2)
+    ->Arg(60)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_turn, bull_nose, Tool::bull_nose)
+    ->Arg(2)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_turn, ball, Tool::ball)
+    ->Arg(2)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_turn, taper, Tool::taper)
+    ->Arg(2)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_along_the_edge, eccentric, Tool::eccentric)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_along_the_edge, bull_nose, Tool::bull_nose)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_along_the_edge, ball, Tool::ball)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_along_the_edge, taper, Tool::taper)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace trochoid::benchmarks

@@ -55,9 +55,9 @@ std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) 
 std::vector<double> scan_grid(const std::vector<double>& ends, double feed) {
   const bool from_the_axis = feed > 0;
   const double feeds = from_the_axis ? (ends[1] - ends[0]) / feed : 1.0;
-  const int at_tip = static_cast<int>(std::clamp(
-      inner_points_at_tip * std::sqrt(std::sqrt(feeds / feeds_of_tip_panel)),
-      least_inner_points_at_tip, inner_points_at_tip));
+  const int at_tip = static_cast<int>(
+      std::clamp(inner_points_at_tip * std::sqrt(std::sqrt(feeds / feeds_of_tip_panel)),
+                 least_inner_points_at_tip, inner_points_at_tip));
   std::vector<double> grid = {ends.front()};
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const bool tip = from_the_axis && i == 0;
@@ -80,10 +80,10 @@ Edges::Edges(const Setup& given)
       passage(chip::passage(given.cutter, given.cut, given.chip)),
       psi(geometry::tooth_angles(given.cutter)),
       ends(panel_ends(given, meridian)),
-      grid(scan_grid(ends, geometry::point_at(meridian, 0).r <
-                                   1e-3 * given.cut.a_p + given.cut.f_z
-                               ? passage.feed * unit::turn
-                               : 0.0)) {
+      grid(scan_grid(
+          ends, geometry::point_at(meridian, 0).r < 1e-3 * given.cut.a_p + given.cut.f_z
+                    ? passage.feed * unit::turn
+                    : 0.0)) {
   for (const double s : ends) {
     lag_at_ends.push_back(geometry::lag_at(setup.cutter, meridian, s).angle);
   }

@@ -125,9 +125,8 @@ template <class Value, class Evaluate>
 std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
   const Different different = different_angles(phi);
   std::vector<Value> values(different.angles.size());
-  numerics::for_each_index(values.size(), [&](std::size_t i) {
-    values[i] = evaluate(different.angles[i]);
-  });
+  numerics::for_each_index(
+      values.size(), [&](std::size_t i) { values[i] = evaluate(different.angles[i]); });
   return to_all(different, std::move(values));
 }
 
@@ -138,12 +137,11 @@ std::vector<Value> in_stretches(std::span<const double> phi, const Evaluate& eva
   const Different different = different_angles(phi);
   const std::span<const double> angles = different.angles;
   std::vector<Value> values(angles.size());
-  numerics::for_each_index(
-      (angles.size() + stretch - 1) / stretch, [&](std::size_t k) {
-        const auto some = angles.subspan(
-            k * stretch, std::min(stretch, angles.size() - k * stretch));
-        evaluate(some, std::span(values).subspan(k * stretch, some.size()));
-      });
+  numerics::for_each_index((angles.size() + stretch - 1) / stretch, [&](std::size_t k) {
+    const auto some =
+        angles.subspan(k * stretch, std::min(stretch, angles.size() - k * stretch));
+    evaluate(some, std::span(values).subspan(k * stretch, some.size()));
+  });
   return to_all(different, std::move(values));
 }
 
@@ -208,9 +206,8 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
   if (const auto* nodes = std::get_if<NodeForce>(&parts_->method)) {
     copy_matrices(
         in_stretches<Matrix>(
-            phi, [&](std::span<const double> some, std::span<Matrix> matrices) {
-              nodes->matrices(some, matrices);
-            }),
+            phi, [&](std::span<const double> some,
+                     std::span<Matrix> matrices) { nodes->matrices(some, matrices); }),
         columns, C);
     return;
   }

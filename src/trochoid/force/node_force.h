@@ -25,8 +25,7 @@ class NodeForce {
                                        double tolerance);
 
   /// @param[out] C  row-major, the first 3 x columns of each, shape (angles)
-  void matrices(std::span<const double> phi,
-                std::span<std::array<double, 18>> C) const;
+  void matrices(std::span<const double> phi, std::span<std::array<double, 18>> C) const;
 
   /// @param[out] F  force on the tool [N], shape (angles)
   void forces(std::span<const double> phi, std::span<std::array<double, 3>> F) const;

@@ -92,10 +92,9 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
   for (std::size_t i = 0; i < width; i += hn::Lanes(tag)) {
     const Angle theta = turned(tip, rows + NodeTooth::cosine * width + i,
                                rows + NodeTooth::sine * width + i);
-    const Angle seen =
-        exact ? theta
-              : turned(tip, rows + NodeTooth::chip_cosine * width + i,
-                       rows + NodeTooth::chip_sine * width + i);
+    const Angle seen = exact ? theta
+                             : turned(tip, rows + NodeTooth::chip_cosine * width + i,
+                                      rows + NodeTooth::chip_sine * width + i);
     hn::StoreU(theta.sine, tag, &out.sine[i]);
     hn::StoreU(theta.cosine, tag, &out.cosine[i]);
     hn::StoreU(seen.sine, tag, &out.chip_sine[i]);

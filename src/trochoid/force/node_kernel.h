@@ -9,7 +9,7 @@ namespace trochoid::force {
 
 /// @brief What the nodes of a panel see of one tooth at one spindle angle.
 struct NodeChips {
-  alignas(64) NodeRow sine{};    ///< of theta, effective
+  alignas(64) NodeRow sine{};  ///< of theta, effective
   alignas(64) NodeRow cosine{};
   alignas(64) NodeRow chip_sine{};  ///< of the theta that the chip model takes
   alignas(64) NodeRow chip_cosine{};

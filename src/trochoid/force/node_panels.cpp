@@ -46,9 +46,8 @@ class Filler {
       tooth.rows.assign(rows * rule_.width, 1.0);
     }
     for (std::size_t i = 0; i < rule_.nodes; ++i) {
-      const double s =
-          std::clamp(0.5 * (panel.from + panel.to) + half * rule_.t[i], panel.from,
-                     std::nextafter(panel.to, panel.from));
+      const double s = std::clamp(0.5 * (panel.from + panel.to) + half * rule_.t[i],
+                                  panel.from, std::nextafter(panel.to, panel.from));
       const EdgePoint point = edges_.point(s);
       panel.r[i] = point.meridian.r;
       panel.sin_kappa[i] = point.meridian.sin_kappa;
@@ -87,8 +86,7 @@ class Filler {
     for (std::size_t m = 1; m <= static_cast<std::size_t>(edges_.passage.marks); ++m) {
       const geometry::EdgePosition& other = positions_[(j + teeth - m % teeth) % teeth];
       const double back = edges_.passage.back[j * teeth + m - 1];
-      const std::size_t row =
-          NodeTooth::first_mark + (m - 1) * NodeTooth::rows_of_mark;
+      const std::size_t row = NodeTooth::first_mark + (m - 1) * NodeTooth::rows_of_mark;
       at(row + NodeTooth::apart) = own.R - other.R;
       at(row + NodeTooth::back) =
           back + (exact && m != teeth ? other.epsilon - own.epsilon : 0.0);
@@ -136,8 +134,8 @@ double rear_sine(const Edges& edges, double r, double runout) {
     return 1.2 * f / (2 * r);  // its own mark of one turn before
   }
   const double least =
-      passage.feed *
-      *std::min_element(edges.setup.cutter.pitch.begin(), edges.setup.cutter.pitch.end());
+      passage.feed * *std::min_element(edges.setup.cutter.pitch.begin(),
+                                       edges.setup.cutter.pitch.end());
   return 1.3 * (2 * runout + f * f / (2 * r)) / least;
 }
 
@@ -243,9 +241,8 @@ class Resolution {
 void set_slack(NodePanel& panel, const Edges& edges, const NodeRule& rule) {
   const geometry::Profile& p = edges.setup.cutter.profile;
   const double around = p.R > 0 ? (panel.to - panel.from) / (2 * p.R) : 0.0;
-  const double turned = std::max(panel.half_turn, panel.from < edges.meridian.s_N
-                                                      ? around
-                                                      : 0.0);
+  const double turned =
+      std::max(panel.half_turn, panel.from < edges.meridian.s_N ? around : 0.0);
   const double step =
       (rule.t[rule.nodes / 2] - rule.t[rule.nodes / 2 - 1]) * turned * 1.2;
   const double bend = 0.25 * step * step;
@@ -260,9 +257,11 @@ void set_slack(NodePanel& panel, const Edges& edges, const NodeRule& rule) {
 double begin_of_panels(const Edges& edges) {
   const double runout = reach_of_runout(edges.setup.runout);
   const bool exact = edges.setup.chip.model == chip::Model::trochoidal;
-  const double least = exact ? std::max(edges.passage.feed / largest_bend, 8 * runout)
-                             : 8 * runout;
-  const auto far = [&](double s) { return edges.point(s).meridian.r - runout >= least; };
+  const double least =
+      exact ? std::max(edges.passage.feed / largest_bend, 8 * runout) : 8 * runout;
+  const auto far = [&](double s) {
+    return edges.point(s).meridian.r - runout >= least;
+  };
   const double end = edges.ends.back();
   if (!far(end)) {
     return -1.0;
@@ -308,8 +307,7 @@ std::optional<NodePanels> node_panels(const Edges& edges, double tolerance) {
                                               : most_steps;
     limit(panel, edges);
     const bool finest = panel.to - panel.from < shortest;
-    if (!finest &&
-        (2 * panel.half_turn > longest_panel || !resolution.enough(panel))) {
+    if (!finest && (2 * panel.half_turn > longest_panel || !resolution.enough(panel))) {
       ends.push_back(0.5 * (panel.from + panel.to));
       continue;
     }

@@ -26,10 +26,10 @@ struct NodeTooth {
 struct NodePanel {
   double from = 0.0;  ///< arc length along the meridian [m]
   double to = 0.0;
-  double half_turn = 0.0;  ///< half of what the edge turns by, and epsilon [rad]
-  double centre = 0.0;     ///< of the angles theta where there may be a chip [rad]
-  double reach = 0.0;      ///< half of what they span [rad]
-  double slack = 0.0;      ///< how far a chip may bend between two nodes [m]
+  double half_turn = 0.0;    ///< half of what the edge turns by, and epsilon [rad]
+  double centre = 0.0;       ///< of the angles theta where there may be a chip [rad]
+  double reach = 0.0;        ///< half of what they span [rad]
+  double slack = 0.0;        ///< how far a chip may bend between two nodes [m]
   double stock_slack = 0.0;  ///< the same for y of the edge [m]
   int steps = 1;             ///< of Newton's; more than 2: with the full slope
   bool at_stock_edge = false;
@@ -46,7 +46,8 @@ struct NodePanels {
   chip::Passage passage;
   std::vector<double> psi;  ///< [rad]
   const NodeRule* rule = nullptr;
-  double begin = 0.0;  ///< arc length where the panels begin; before, they do not hold [m]
+  double begin =
+      0.0;  ///< arc length where the panels begin; before, they do not hold [m]
   std::vector<NodePanel> panels;
 };
 

@@ -35,10 +35,10 @@ bool may_be_between(const Look& look, std::size_t m) noexcept {
     bool below_another = false;
     for (const std::size_t k : look.scratch.marks) {
       const double* other = look.over(k);
-      below_another = below_another ||
-                      ((other[i] == least[i] || other[i + 1] == least[i + 1]) &&
-                       other[i] < look.over(m)[i] - slack &&
-                       other[i + 1] < look.over(m)[i + 1] - slack);
+      below_another =
+          below_another || ((other[i] == least[i] || other[i + 1] == least[i + 1]) &&
+                            other[i] < look.over(m)[i] - slack &&
+                            other[i + 1] < look.over(m)[i + 1] - slack);
     }
     if (!below_another) {
       return true;
@@ -88,8 +88,9 @@ bool in_air(const Look& look) noexcept {
 
 void add_breaks(const Look& look, const double* values, double slack) {
   const NodeRoots roots = roots_of(look.rule(), values, slack);
-  look.scratch.breaks.insert(look.scratch.breaks.end(), roots.t.begin(),
-                             roots.t.begin() + static_cast<std::ptrdiff_t>(roots.count));
+  look.scratch.breaks.insert(
+      look.scratch.breaks.end(), roots.t.begin(),
+      roots.t.begin() + static_cast<std::ptrdiff_t>(roots.count));
 }
 
 void add_mark_breaks(const Look& look) {
@@ -274,10 +275,10 @@ Inside inside_stock(const Look& look) noexcept {
 bool weigh(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
            const NodeChips& chips, NodeScratch& scratch, NodeWeights& weights) {
   const bool exact = all.passage.model.model == chip::Model::trochoidal;
-  const Look look{all, panel,
-                  exact ? &tooth.rows[NodeTooth::radius * all.rule->width]
-                        : panel.r.data(),
-                  chips, scratch};
+  const Look look{
+      all, panel,
+      exact ? &tooth.rows[NodeTooth::radius * all.rule->width] : panel.r.data(), chips,
+      scratch};
   const std::size_t n = all.rule->nodes;
   const auto [least, most] = std::minmax_element(
       chips.least.begin(), chips.least.begin() + static_cast<std::ptrdiff_t>(n));

@@ -19,9 +19,9 @@ struct NodeRule {
   std::size_t nodes = 0;
   std::size_t width = 0;  ///< nodes, filled up to a multiple of 8
   NodeRow t{};
-  NodeRow whole{};                     ///< W_i(1) - W_i(-1)
-  std::array<NodeRow, node_room> l{};  ///< [k][i]: factor of t^k in Lagrange's i-th
-  std::array<NodeRow, node_room> power{};     ///< [i][k]: the same, the other way round
+  NodeRow whole{};                         ///< W_i(1) - W_i(-1)
+  std::array<NodeRow, node_room> l{};      ///< [k][i]: factor of t^k in Lagrange's i-th
+  std::array<NodeRow, node_room> power{};  ///< [i][k]: the same, the other way round
   std::array<NodeRow, node_room + 1> area{};  ///< [k][i]: factor of t^k in W_i
   /// From node values to the last two Chebyshev coefficients: what a panel leaves out.
   std::array<NodeRow, 2> tail{};
