@@ -10,6 +10,11 @@ namespace trochoid::force {
 
 namespace {
 
+/// The quadrature keeps its error so much below its tolerance, at the least.
+constexpr double caution_of_quadrature = 10.0;
+/// Tolerance of a tip that is next to nothing of the edge.
+constexpr double coarsest_at_tip = 1e-2;
+
 /// The 16 integrals of NodeMoments.
 using Sums = std::array<double, NodeMoments::count>;
 
@@ -92,7 +97,8 @@ std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
     Setup tip = setup;
     tip.cut.a_p = edges.point(force.panels_.begin).meridian.z;
     const double share = force.panels_.begin / edges.ends.back();
-    force.tip_.emplace(tip, law, std::min(1e-2, tolerance / share));
+    force.tip_.emplace(
+        tip, law, std::min(coarsest_at_tip, caution_of_quadrature * tolerance / share));
   }
   return force;
 }
