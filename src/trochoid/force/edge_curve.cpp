@@ -92,7 +92,7 @@ Edges::Edges(const Setup& given)
 
 EdgePoint Edges::point(double s) const noexcept {
   EdgePoint p{.s = s, .meridian = geometry::point_at(meridian, s)};
-  const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s);
+  const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s, p.meridian);
   p.lag = lag.angle;
   p.dS = setup.edge_length == EdgeLength::axial
              ? p.meridian.sin_kappa

@@ -20,9 +20,13 @@ double angle_of(double x, double y) noexcept {
 }  // namespace
 
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept {
+  return lag_at(cutter, m, s, point_at(m, s));
+}
+
+Lag lag_at(const Cutter& cutter, const Meridian& m, double s,
+           const MeridianPoint& p) noexcept {
   const double t = std::tan(cutter.helix);
   const double lead = 2 * t / cutter.lag_diameter;
-  const MeridianPoint p = point_at(m, s);
   if (cutter.lag_law == LagLaw::constant_lead || s < m.s_N) {
     return {lead * p.z, lead * p.sin_kappa};  // G-7
   }

@@ -22,6 +22,10 @@ struct Lag {
 ///      d lag = tan(helix) dz / (r cos(beta))
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept;
 
+/// @brief The same where the point at s is known.
+Lag lag_at(const Cutter& cutter, const Meridian& m, double s,
+           const MeridianPoint& p) noexcept;
+
 /// @brief Length of edge in space per length of meridian, dS/ds, at least 1.
 /// @eq G-6 dS = sqrt(1 + (r dlag/ds)^2) ds
 /// @src [riviere2009] eq. 14 (dS), derived
