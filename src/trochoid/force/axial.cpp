@@ -118,7 +118,7 @@ void AxialForce::matrix(double phi, std::span<double> C) const {
   }
 }
 
-std::array<double, 6> AxialForce::loads(double phi, double gauge_length) const {
+SixLoads AxialForce::loads(double phi, double gauge_length) const {
   const auto largest = [](const std::array<double, 3>& v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   };
@@ -126,31 +126,24 @@ std::array<double, 6> AxialForce::loads(double phi, double gauge_length) const {
       allowed_cutting_ * largest(terms_.K) + allowed_edge_ * largest(terms_.K_e);
   const double arm = edges_.setup.cutter.profile.D / 2;
   const double reach = std::max({arm, edges_.setup.cut.a_p, gauge_length});
-  const std::array<double, 6> allowed{force,       force,         force,
-                                      force * arm, force * reach, force * reach};
-  std::array<double, 6> sum{};
+  const SixLoads allowed{force,       force,         force,
+                         force * arm, force * reach, force * reach};
+  SixLoads sum{};
   const auto element = [&](const EdgePoint& point, const EdgeState& state,
-                           double weight, std::array<double, 6>& out) {
-    const Frame B = frame(state.theta, point.meridian);
+                           double weight, SixLoads& out) {
     const ColumnWeights w =
         column_weights(terms_.form, state.chip.h, point.meridian.sin_kappa, point.dS);
-    std::array<double, 3> edge{};
+    std::array<double, 3> tra{};
     for (std::size_t q = 0; q < 3; ++q) {
-      edge[q] = weight * (terms_.K[q] * w.cutting[q] + terms_.K_e[q] * w.edge);
+      tra[q] = weight * (terms_.K[q] * w.cutting[q] + terms_.K_e[q] * w.edge);
     }
-    std::array<double, 3> F{};
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t q = 0; q < 3; ++q) {
-        F[row] += B[row][q] * edge[q];
-      }
-      out[row] += F[row];
-    }
-    const double x = state.R * std::sin(state.theta);
-    const double y = state.R * std::cos(state.theta);
-    const double z = point.meridian.z - gauge_length;
-    out[3] += state.R * edge[0];    // F-6
-    out[4] += y * F[2] - z * F[1];  // F-7
-    out[5] += z * F[0] - x * F[2];
+    add_loads({.sine = std::sin(state.theta),
+               .cosine = std::cos(state.theta),
+               .sin_kappa = point.meridian.sin_kappa,
+               .cos_kappa = point.meridian.cos_kappa,
+               .R = state.R,
+               .z = point.meridian.z - gauge_length},
+              tra, out);
   };
   integrate(phi, allowed, element, sum);
   return sum;

@@ -1,6 +1,7 @@
 #include <trochoid/force/edge_curve.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/force/edge_meetings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,14 @@ namespace {
 
 /// Panels turn by no more than this, along the edge and around the corner [rad].
 constexpr double longest_panel = 0.7;
+/// So near to a jump the edge is looked at, as a part of its length.
+constexpr double relative_gap = 1e-12;
 /// Grid points of a panel, beside its ends.
 constexpr int inner_points = 4;
-/// The same of a panel from the axis on that is so many feeds of a turn long, and the
-/// least of a shorter one.
-constexpr double inner_points_at_tip = 64;
-constexpr double feeds_of_tip_panel = 30;
-constexpr double least_inner_points_at_tip = 24;
+/// The same of an edge that begins at the axis, up to a feed of a turn from there.
+constexpr int points_within_a_feed = 128;
+/// Beyond, a step is about a tenth of the distance.
+constexpr double log_step_beyond = 0.1;
 
 double lag_between(const Setup& setup, const geometry::Meridian& m, double a,
                    double b) {
@@ -51,22 +53,33 @@ std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) 
   return ends;
 }
 
+/// Up to a feed of a turn from the axis, where nearly everything happens, and from there
+/// in steps that grow with the distance.
+void add_tip_grid(double end, double feed, std::vector<double>& grid) {
+  const double near = std::min(feed, end);
+  for (int k = 1; k <= points_within_a_feed; ++k) {
+    const double t = static_cast<double>(k) / points_within_a_feed;
+    grid.push_back(k == points_within_a_feed ? near : near * t * t * t * t);
+  }
+  const double growth = std::log(end / near);
+  const int count = static_cast<int>(std::ceil(growth / log_step_beyond));
+  for (int k = 1; k <= count; ++k) {
+    grid.push_back(k == count ? end : near * std::exp(growth * k / count));
+  }
+}
+
 /// @param feed  of a turn, where the edge begins at the axis; else 0 [m]
 std::vector<double> scan_grid(const std::vector<double>& ends, double feed) {
-  const bool from_the_axis = feed > 0;
-  const double feeds = from_the_axis ? (ends[1] - ends[0]) / feed : 1.0;
-  const int at_tip = static_cast<int>(
-      std::clamp(inner_points_at_tip * std::sqrt(std::sqrt(feeds / feeds_of_tip_panel)),
-                 least_inner_points_at_tip, inner_points_at_tip));
   std::vector<double> grid = {ends.front()};
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const bool tip = from_the_axis && i == 0;
-    const int count = (tip ? at_tip : inner_points) + 1;
+    if (i == 0 && feed > 0) {
+      add_tip_grid(ends[1], feed, grid);
+      continue;
+    }
+    constexpr int count = inner_points + 1;
     for (int k = 1; k <= count; ++k) {
-      const double t = static_cast<double>(k) / count;
-      // Near the axis everything happens within a feed or two of it.
-      const double u = tip ? t * t * t * t : t;
-      grid.push_back(k == count ? ends[i + 1] : ends[i] + u * (ends[i + 1] - ends[i]));
+      grid.push_back(k == count ? ends[i + 1]
+                                : ends[i] + (ends[i + 1] - ends[i]) * k / count);
     }
   }
   return grid;
@@ -88,6 +101,7 @@ Edges::Edges(const Setup& given)
     lag_at_ends.push_back(geometry::lag_at(setup.cutter, meridian, s).angle);
   }
   setup.runout = runout_of(setup);
+  meetings = force::meetings(*this);
 }
 
 EdgePoint Edges::point(double s) const noexcept {
@@ -156,12 +170,20 @@ void EdgeCurve::add_stock_edge(double y, std::vector<double>& grid) const {
 }
 
 void EdgeCurve::add_seeds(std::vector<double>& grid) const {
-  if (edges_.lag_at_ends.back() == 0) {
+  const std::size_t given = grid.size();
+  for (const double s : edges_.meetings[tooth_]) {  // chips jump there
+    const double beside = relative_gap * edges_.ends.back();
+    grid.push_back(std::max(0.0, s - beside));
+    grid.push_back(std::min(edges_.ends.back(), s + beside));
+  }
+  if (edges_.lag_at_ends.back() != 0) {
+    add_passages(std::numbers::pi / 2, grid);
+    add_stock_edge(edges_.passage.stock.y_lo, grid);
+    add_stock_edge(edges_.passage.stock.y_hi, grid);
+  }
+  if (grid.size() == given) {
     return;
   }
-  add_passages(std::numbers::pi / 2, grid);
-  add_stock_edge(edges_.passage.stock.y_lo, grid);
-  add_stock_edge(edges_.passage.stock.y_hi, grid);
   std::sort(grid.begin(), grid.end());
 }
 

@@ -41,6 +41,7 @@ struct Edges {
   std::vector<double> ends;  ///< where the profile or the panels end [m], ascending
   std::vector<double> lag_at_ends;  ///< [rad]
   std::vector<double> grid;         ///< ends and points between them [m], ascending
+  std::vector<std::vector<double>> meetings;  ///< of each tooth with others [m]
 };
 
 /// @brief How the axis of a bent cutter stands in y, at one spindle angle.
@@ -69,7 +70,8 @@ class EdgeCurve {
   }
 
   /// @brief Add the points near which a short cut along the edge can hide, and sort:
-  /// where the edge passes the front of the tool and the edges of the stock.
+  /// where the edge passes the front of the tool and the edges of the stock, and where
+  /// it meets another tooth.
   void add_seeds(std::vector<double>& grid) const;
 
   [[nodiscard]] EdgeState state(double s) const;

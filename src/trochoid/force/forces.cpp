@@ -120,40 +120,44 @@ std::vector<Value> to_all(const Different& different, std::vector<Value> values)
   return out;
 }
 
-/// @brief Evaluate once for every angle of a turn.
+/// @brief Evaluate once for every angle of a turn, some at a time:
+/// evaluate(angles, values).
 template <class Value, class Evaluate>
 std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
-  const Different different = different_angles(phi);
-  std::vector<Value> values(different.angles.size());
-  numerics::for_each_index(
-      values.size(), [&](std::size_t i) { values[i] = evaluate(different.angles[i]); });
-  return to_all(different, std::move(values));
-}
-
-/// @brief The same for what takes many angles at once: evaluate(angles, numbers).
-template <class Value, class Evaluate>
-std::vector<Value> in_stretches(std::span<const double> phi, const Evaluate& evaluate) {
-  constexpr std::size_t stretch = 128;
+  constexpr std::size_t at_a_time = 32;
   const Different different = different_angles(phi);
   const std::span<const double> angles = different.angles;
   std::vector<Value> values(angles.size());
-  numerics::for_each_index((angles.size() + stretch - 1) / stretch, [&](std::size_t k) {
-    const auto some =
-        angles.subspan(k * stretch, std::min(stretch, angles.size() - k * stretch));
-    evaluate(some, std::span(values).subspan(k * stretch, some.size()));
-  });
+  numerics::for_each_index(
+      (angles.size() + at_a_time - 1) / at_a_time, [&](std::size_t k) {
+        const std::size_t from = k * at_a_time;
+        const auto some =
+            angles.subspan(from, std::min(at_a_time, angles.size() - from));
+        evaluate(some, std::span(values).subspan(from, some.size()));
+      });
   return to_all(different, std::move(values));
 }
 
 using Matrix = std::array<double, 18>;
 
-/// @brief [C] of a method that gives one matrix at a time or many.
-/// @param C  shape (angles, 3, columns)
-void copy_matrices(const std::vector<Matrix>& matrices, std::size_t columns,
-                   std::span<double> C) {
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
+/// Force, torque and bending of any cutter.
+std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
+                                   std::span<const double> phi, double gauge_length,
+                                   double tolerance) {
+  const auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance));
+  if (nodes) {
+    return over_turns<SixLoads>(
+        phi, [&](std::span<const double> some, std::span<SixLoads> out) {
+          nodes->loads(some, gauge_length, out);
+        });
   }
+  const AxialForce axial(setup, law, tolerance);
+  return over_turns<SixLoads>(
+      phi, [&](std::span<const double> some, std::span<SixLoads> out) {
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          out[i] = axial.loads(some[i], gauge_length);
+        }
+      });
 }
 
 }  // namespace
@@ -203,23 +207,20 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
     }
     return;
   }
-  if (const auto* nodes = std::get_if<NodeForce>(&parts_->method)) {
-    copy_matrices(
-        in_stretches<Matrix>(
-            phi, [&](std::span<const double> some,
-                     std::span<Matrix> matrices) { nodes->matrices(some, matrices); }),
-        columns, C);
-    return;
+  const auto matrices =
+      over_turns<Matrix>(phi, [&](std::span<const double> some, std::span<Matrix> out) {
+        if (const auto* nodes = std::get_if<NodeForce>(&parts_->method)) {
+          nodes->matrices(some, out);
+          return;
+        }
+        const auto& axial = std::get<AxialForce>(parts_->method);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          axial.matrix(some[i], std::span(out[i]).first(3 * columns));
+        }
+      });
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
   }
-  const auto& axial = std::get<AxialForce>(parts_->method);
-  copy_matrices(over_turns<Matrix>(phi,
-                                   [&](double angle) {
-                                     Matrix m{};
-                                     axial.matrix(angle,
-                                                  std::span(m).first(3 * columns));
-                                     return m;
-                                   }),
-                columns, C);
 }
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
@@ -240,26 +241,29 @@ std::vector<Vector3> forces(const Setup& setup, const Law& law,
   }
   if (const auto nodes =
           NodeForce::make(setup, law, std::min(tolerance, node_tolerance))) {
-    return in_stretches<Vector3>(
+    return over_turns<Vector3>(
         phi, [&](std::span<const double> some, std::span<Vector3> out) {
           nodes->forces(some, out);
         });
   }
   const AxialForce axial(setup, law, tolerance);
-  return over_turns<Vector3>(phi, [&](double angle) {
-    const auto v = axial.loads(angle, 0.0);
-    return Vector3{v[0], v[1], v[2]};
-  });
+  return over_turns<Vector3>(phi,
+                             [&](std::span<const double> some, std::span<Vector3> out) {
+                               for (std::size_t i = 0; i < some.size(); ++i) {
+                                 const SixLoads all = axial.loads(some[i], 0.0);
+                                 out[i] = {all[0], all[1], all[2]};
+                               }
+                             });
 }
 
 std::vector<Loads> loads(const Setup& setup, const Law& law,
                          std::span<const double> phi, double gauge_length,
                          double tolerance) {
-  const AxialForce axial(setup, law, tolerance);
-  auto loads = over_turns<Loads>(phi, [&](double angle) {
-    const auto v = axial.loads(angle, gauge_length);
-    return Loads{{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])};
-  });
+  std::vector<Loads> loads;
+  loads.reserve(phi.size());
+  for (const SixLoads& v : loads_of_any(setup, law, phi, gauge_length, tolerance)) {
+    loads.push_back({{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])});
+  }
   if (keeps_radius(setup)) {  // good to more digits, and costs nothing
     const auto exact = forces(setup, law, phi, tolerance);
     for (std::size_t i = 0; i < loads.size(); ++i) {

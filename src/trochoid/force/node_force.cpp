@@ -19,12 +19,13 @@ constexpr double coarsest_at_tip = 1e-2;
 using Sums = std::array<double, NodeMoments::count>;
 
 /// @brief One matrix [C] from its integrals: F-3 and F-4.
-/// @param[out] C  row-major, 3 x 6
-void to_matrix(const Sums& m, std::array<double, 18>& C) noexcept {
+/// @return row-major, 3 x 6
+std::array<double, 18> to_matrix(const Sums& m) noexcept {
+  std::array<double, 18> C{};
   for (std::size_t part = 0; part < 2; ++part) {
     const double* x = &m[8 * part];
     double* c = &C[3 * part];
-    c[0] = -x[1];  // F-3: rows x, y, z; columns t, r, a
+    c[0] = -x[1];  // rows x, y, z; columns t, r, a
     c[1] = -x[2];
     c[2] = -x[5];
     c[6] = x[0];
@@ -34,17 +35,19 @@ void to_matrix(const Sums& m, std::array<double, 18>& C) noexcept {
     c[13] = x[4];
     c[14] = -x[7];
   }
+  return C;
 }
 
-/// Sums over all edges at one angle.
-class Summer {
+/// @brief Walks along all edges, one angle after the other.
+class Walk {
  public:
-  explicit Summer(const NodePanels& all) : all_(all) {
+  explicit Walk(const NodePanels& all) : all_(all) {
     chips_.over.resize(static_cast<std::size_t>(all.passage.marks) * all.rule->width);
   }
 
-  Sums at(double phi) {
-    sum_ = {};
+  /// @param visit  takes panel, tooth, chips and weights of what is in cut
+  template <class Visit>
+  void at(double phi, const Visit& visit) {
     const std::array<double, 2> tip{std::sin(phi), std::cos(phi)};
     for (const NodePanel& panel : all_.panels) {
       const double reach = panel.reach + panel.half_turn;
@@ -55,18 +58,11 @@ class Summer {
           continue;
         }
         node_chips(all_, panel, tooth, tip, chips_);
-        if (weigh(all_, panel, tooth, chips_, scratch_, weights_)) {
-          add_moments(panel, chips_, weights_, sum_);
+        if (weigh(all_, panel, chips_, scratch_, weights_)) {
+          visit(panel, tooth, chips_, weights_);
         }
       }
     }
-    Sums sums{};
-    for (std::size_t q = 0; q < sums.size(); ++q) {
-      for (const double lane : sum_.lanes[q]) {
-        sums[q] += lane;
-      }
-    }
-    return sums;
   }
 
  private:
@@ -74,8 +70,22 @@ class Summer {
   NodeChips chips_;
   NodeScratch scratch_;
   NodeWeights weights_;
-  NodeMoments sum_;
 };
+
+Sums moments_at(Walk& walk, double phi) {
+  NodeMoments sum;
+  walk.at(phi, [&](const NodePanel& panel, const NodeTooth& /*tooth*/,
+                   const NodeChips& chips, const NodeWeights& weights) {
+    add_moments(panel, chips, weights, sum);
+  });
+  Sums sums{};
+  for (std::size_t q = 0; q < sums.size(); ++q) {
+    for (const double lane : sum.lanes[q]) {
+      sums[q] += lane;
+    }
+  }
+  return sums;
+}
 
 }  // namespace
 
@@ -105,11 +115,10 @@ std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
 
 void NodeForce::matrices(std::span<const double> phi,
                          std::span<std::array<double, 18>> C) const {
-  Summer summer(panels_);
+  Walk walk(panels_);
   const std::size_t columns = terms_.form.columns();
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    std::array<double, 18> all{};
-    to_matrix(summer.at(phi[i]), all);
+    const std::array<double, 18> all = to_matrix(moments_at(walk, phi[i]));
     C[i] = {};
     if (tip_) {
       tip_->matrix(phi[i], std::span(C[i]).first(3 * columns));
@@ -124,13 +133,12 @@ void NodeForce::matrices(std::span<const double> phi,
 
 void NodeForce::forces(std::span<const double> phi,
                        std::span<std::array<double, 3>> F) const {
-  Summer summer(panels_);
+  Walk walk(panels_);
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    std::array<double, 18> C{};
-    to_matrix(summer.at(phi[i]), C);
+    const std::array<double, 18> C = to_matrix(moments_at(walk, phi[i]));
     F[i] = {};
     if (tip_) {
-      const auto at_tip = tip_->loads(phi[i], 0.0);
+      const SixLoads at_tip = tip_->loads(phi[i], 0.0);
       std::copy_n(at_tip.begin(), 3, F[i].begin());
     }
     for (std::size_t row = 0; row < 3; ++row) {
@@ -138,6 +146,33 @@ void NodeForce::forces(std::span<const double> phi,
         F[i][row] += C[6 * row + q] * terms_.K[q] + C[6 * row + 3 + q] * terms_.K_e[q];
       }
     }
+  }
+}
+
+void NodeForce::loads(std::span<const double> phi, double gauge_length,
+                      std::span<SixLoads> all) const {
+  Walk walk(panels_);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    SixLoads sum = tip_ ? tip_->loads(phi[i], gauge_length) : SixLoads{};
+    walk.at(phi[i], [&](const NodePanel& panel, const NodeTooth& tooth,
+                        const NodeChips& chips, const NodeWeights& weights) {
+      const double* R = &tooth.rows[NodeTooth::radius * panels_.rule->width];
+      for (std::size_t k = 0; k < panels_.rule->nodes; ++k) {
+        const double h = weights.chip[k] * panel.width[k];
+        const double edge = weights.edge[k] * panel.edge[k];
+        add_loads({.sine = chips.sine[k],
+                   .cosine = chips.cosine[k],
+                   .sin_kappa = panel.sin_kappa[k],
+                   .cos_kappa = panel.cos_kappa[k],
+                   .R = R[k],
+                   .z = panel.z[k] - gauge_length},
+                  {terms_.K[0] * h + terms_.K_e[0] * edge,
+                   terms_.K[1] * h + terms_.K_e[1] * edge,
+                   terms_.K[2] * h + terms_.K_e[2] * edge},
+                  sum);
+      }
+    });
+    all[i] = sum;
   }
 }
 

@@ -30,6 +30,11 @@ class NodeForce {
   /// @param[out] F  force on the tool [N], shape (angles)
   void forces(std::span<const double> phi, std::span<std::array<double, 3>> F) const;
 
+  /// @param      gauge_length  height of the section that bends above the tip [m]
+  /// @param[out] all           force, torque and bending moments (F-6, F-7), shape (angles)
+  void loads(std::span<const double> phi, double gauge_length,
+             std::span<SixLoads> all) const;
+
  private:
   NodeForce(NodePanels panels, const Law& law);
 

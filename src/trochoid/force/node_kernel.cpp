@@ -95,6 +95,8 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
     const Angle seen = exact ? theta
                              : turned(tip, rows + NodeTooth::chip_cosine * width + i,
                                       rows + NodeTooth::chip_sine * width + i);
+    const double* radius = exact ? rows + NodeTooth::radius * width + i : &panel.r[i];
+    hn::StoreU(hn::LoadU(tag, radius), tag, &out.radius[i]);
     hn::StoreU(theta.sine, tag, &out.sine[i]);
     hn::StoreU(theta.cosine, tag, &out.cosine[i]);
     hn::StoreU(seen.sine, tag, &out.chip_sine[i]);

@@ -13,8 +13,9 @@ struct NodeChips {
   alignas(64) NodeRow cosine{};
   alignas(64) NodeRow chip_sine{};  ///< of the theta that the chip model takes
   alignas(64) NodeRow chip_cosine{};
-  alignas(64) NodeRow least{};  ///< over all marks [m]
-  std::vector<double> over;     ///< chip over each mark [m], shape (marks, width)
+  alignas(64) NodeRow radius{};  ///< that the chip model takes [m]
+  alignas(64) NodeRow least{};   ///< chip over the closest mark [m]
+  std::vector<double> over;      ///< chip over each mark [m], shape (marks, width)
 };
 
 /// @brief Moments of the chip and of the edge: integrals of sin, cos, sin sin(kappa),

@@ -2,6 +2,8 @@
 
 #include <trochoid/numerics/gauss_kronrod.h>
 
+#include "node_marks.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +15,6 @@ namespace {
 struct Look {
   const NodePanels& all;
   const NodePanel& panel;
-  const double* radius;  ///< R_j of the trochoidal model, r of the others
   const NodeChips& chips;
   NodeScratch& scratch;
 
@@ -25,66 +26,6 @@ struct Look {
     return &chips.over[mark * rule().width];
   }
 };
-
-/// Whether a mark may be the closest one between two nodes although it is so at neither:
-/// the closest ones there lie above it where they change places.
-bool may_be_between(const Look& look, std::size_t m) noexcept {
-  const NodeRow& least = look.chips.least;
-  const double slack = look.panel.slack;
-  for (std::size_t i = 0; i + 1 < look.rule().nodes; ++i) {
-    bool below_another = false;
-    for (const std::size_t k : look.scratch.marks) {
-      const double* other = look.over(k);
-      below_another =
-          below_another || ((other[i] == least[i] || other[i + 1] == least[i + 1]) &&
-                            other[i] < look.over(m)[i] - slack &&
-                            other[i + 1] < look.over(m)[i + 1] - slack);
-    }
-    if (!below_another) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Marks that may be the closest somewhere on the panel.
-void choose_marks(const Look& look) {
-  const auto all = static_cast<std::size_t>(look.all.passage.marks);
-  std::vector<std::size_t>& marks = look.scratch.marks;
-  marks.clear();
-  for (std::size_t m = 0; m < all; ++m) {
-    const double* h = look.over(m);
-    double nearest = h[0] - look.chips.least[0];
-    for (std::size_t i = 1; i < look.rule().nodes; ++i) {
-      nearest = std::min(nearest, h[i] - look.chips.least[i]);
-    }
-    if (nearest <= look.panel.slack) {
-      marks.push_back(m);
-    }
-  }
-  const std::size_t near = marks.size();
-  for (std::size_t m = 0; near > 1 && m < all; ++m) {
-    if (std::find(marks.begin(), marks.end(), m) == marks.end() &&
-        may_be_between(look, m)) {
-      marks.push_back(m);
-    }
-  }
-}
-
-/// Whether one mark alone leaves nothing between any two neighbouring nodes.
-bool in_air(const Look& look) noexcept {
-  const double above = -look.panel.slack;
-  for (std::size_t i = 0; i + 1 < look.rule().nodes; ++i) {
-    bool air = false;
-    for (const std::size_t m : look.scratch.marks) {
-      air = air || (look.over(m)[i] < above && look.over(m)[i + 1] < above);
-    }
-    if (!air) {
-      return false;
-    }
-  }
-  return true;
-}
 
 void add_breaks(const Look& look, const double* values, double slack) {
   const NodeRoots roots = roots_of(look.rule(), values, slack);
@@ -116,7 +57,7 @@ void add_stock_breaks(const Look& look, double y) {
   const NodeRow& cosine = look.chips.chip_cosine;
   const std::size_t n = look.rule().nodes;
   for (std::size_t i = 0; i < n; ++i) {
-    beyond[i] = look.radius[i] * cosine[i] - y;
+    beyond[i] = look.chips.radius[i] * cosine[i] - y;
   }
   add_breaks(look, beyond.data(), look.panel.stock_slack);
   if (!look.exact()) {
@@ -124,7 +65,7 @@ void add_stock_breaks(const Look& look, double y) {
   }
   for (const std::size_t m : look.scratch.marks) {
     for (std::size_t i = 0; i < n; ++i) {
-      beyond[i] = (look.radius[i] - look.over(m)[i]) * cosine[i] - y;
+      beyond[i] = (look.chips.radius[i] - look.over(m)[i]) * cosine[i] - y;
     }
     add_breaks(look, beyond.data(), look.panel.stock_slack);
   }
@@ -155,7 +96,7 @@ Place place_at(const Look& look, const NodeRow& basis) noexcept {
       p.mark = m;
     }
   }
-  p.radius = at(look.radius);
+  p.radius = at(look.chips.radius.data());
   p.sine = at(look.chips.chip_sine.data());
   p.cosine = at(look.chips.chip_cosine.data());
   return p;
@@ -255,12 +196,12 @@ Inside inside_stock(const Look& look) noexcept {
   bool high = true;
   bool behind = !look.exact();
   for (std::size_t i = 0; i < look.rule().nodes; ++i) {
-    const double y = look.radius[i] * look.chips.chip_cosine[i];
+    const double y = look.chips.radius[i] * look.chips.chip_cosine[i];
     all_in = all_in && y > stock.y_lo + far + thick && y < stock.y_hi - far - thick;
     low = low && y < stock.y_lo - far - thick;
     high = high && y > stock.y_hi + far + thick;
     if (!look.exact()) {
-      const double x = look.radius[i] * look.chips.chip_sine[i];
+      const double x = look.chips.radius[i] * look.chips.chip_sine[i];
       all_in = all_in && x > far;
       behind = behind && x < -far;
     }
@@ -271,24 +212,20 @@ Inside inside_stock(const Look& look) noexcept {
 
 }  // namespace
 
-// six parameters: what is looked at, where, and where the answer goes
-bool weigh(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
-           const NodeChips& chips, NodeScratch& scratch, NodeWeights& weights) {
-  const bool exact = all.passage.model.model == chip::Model::trochoidal;
-  const Look look{
-      all, panel,
-      exact ? &tooth.rows[NodeTooth::radius * all.rule->width] : panel.r.data(), chips,
-      scratch};
-  const std::size_t n = all.rule->nodes;
-  const auto [least, most] = std::minmax_element(
-      chips.least.begin(), chips.least.begin() + static_cast<std::ptrdiff_t>(n));
+bool weigh(const NodePanels& all, const NodePanel& panel, const NodeChips& chips,
+           NodeScratch& scratch, NodeWeights& weights) {
+  const Look look{all, panel, chips, scratch};
+  const auto n = static_cast<std::ptrdiff_t>(all.rule->nodes);
+  const auto [least, most] =
+      std::minmax_element(chips.least.begin(), chips.least.begin() + n);
   const Inside inside =
-      panel.at_stock_edge || !exact ? inside_stock(look) : Inside::everywhere;
+      all.at_stock_edge || !look.exact() ? inside_stock(look) : Inside::everywhere;
   if (inside == Inside::nowhere) {
     return false;
   }
-  choose_marks(look);
-  if (*most < -panel.slack && in_air(look)) {
+  const NodeMarks marks{chips, *all.rule, panel.slack};
+  marks.choose(scratch.marks);
+  if (*most < -panel.slack && marks.leave_air(scratch.marks)) {
     return false;
   }
   weights = {};
@@ -302,7 +239,7 @@ bool weigh(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth
   if (inside == Inside::partly) {
     add_stock_breaks(look, all.passage.stock.y_lo);
     add_stock_breaks(look, all.passage.stock.y_hi);
-    if (!exact) {
+    if (!look.exact()) {
       add_breaks(look, chips.chip_sine.data(), panel.stock_slack);
     }
   }

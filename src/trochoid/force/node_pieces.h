@@ -15,7 +15,7 @@ struct NodeScratch {
 
 /// @brief Which parts of a panel are in cut, over which mark, and what its nodes count.
 /// @return whether anything is in cut
-bool weigh(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
-           const NodeChips& chips, NodeScratch& scratch, NodeWeights& weights);
+bool weigh(const NodePanels& all, const NodePanel& panel, const NodeChips& chips,
+           NodeScratch& scratch, NodeWeights& weights);
 
 }  // namespace trochoid::force
