@@ -146,8 +146,8 @@ void feedback_with_runout(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(envelope_map)->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(calibrate)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(feedback_with_runout)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(envelope_map)->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(calibrate)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(feedback_with_runout)->Unit(benchmark::kMillisecond);
 
 }  // namespace trochoid::benchmarks

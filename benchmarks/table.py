@@ -36,15 +36,16 @@ def medians(program, which):
 def main(program, which):
     found = medians(program, which)
     textbook = found[TEXTBOOK][1]["per_sample"]
-    print(f"Medians of {REPETITIONS}, interleaved; CPU time.\n")
+    print(f"Medians of {REPETITIONS}, interleaved; CPU time on one thread.\n")
     print("| benchmark | CPU time | a sample | error / peak | textbook / this, a sample |")
     print("|---|---|---|---|---|")
     for name, (ns, one) in found.items():
         sample = one.get("per_sample")
-        print(f"| {name} | {time_text(ns)} | {time_text(1e9 * sample) if sample else ''} "
-              f"| {one['error']:.1e} | " if "error" in one else
-              f"| {name} | {time_text(ns)} | {time_text(1e9 * sample) if sample else ''} | | ",
-              f"{textbook / sample:.0f} |" if sample else "|", sep="")
+        cells = [name, time_text(ns),
+                 time_text(1e9 * sample) if sample else "",
+                 f"{one['error']:.1e}" if "error" in one else "",
+                 f"{textbook / sample:.0f}" if sample else ""]
+        print("| " + " | ".join(cells) + " |")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 #include <trochoid/force/forces.h>
 
-#include <trochoid/base/units.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
 #include <trochoid/force/turn_kernel.h>
@@ -11,10 +10,10 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <unordered_map>
 #include <variant>
 
 #include "node_force.h"
+#include "over_turns.h"
 
 namespace trochoid::force {
 
@@ -77,87 +76,56 @@ struct TurnMatrix {
   }
 };
 
-/// Angles of which each turn of a record has the same.
-struct Different {
-  std::vector<double> angles;
-  std::vector<std::size_t> place;  ///< which of them is the i-th; empty: i
-};
-
-/// @brief The different angles of a turn; turns repeat to the last digit.
-Different different_angles(std::span<const double> phi) {
-  constexpr double same = 1e-11;  // angles closer than this are one angle [rad]
-  Different out;
-  const auto [lo, hi] = std::minmax_element(phi.begin(), phi.end());
-  if (phi.empty() || *hi - *lo < unit::turn) {
-    out.angles.assign(phi.begin(), phi.end());
-    return out;
-  }
-  std::unordered_map<long long, std::size_t> seen;
-  out.place.reserve(phi.size());
-  for (const double angle : phi) {
-    const double u = angle - unit::turn * std::floor(angle / unit::turn);
-    const auto [at, is_new] =
-        seen.try_emplace(std::llround(u / same), out.angles.size());
-    if (is_new) {
-      out.angles.push_back(u);
-    }
-    out.place.push_back(at->second);
-  }
-  return out;
-}
-
-/// Values of the different angles, given to all of them.
-template <class Value>
-std::vector<Value> to_all(const Different& different, std::vector<Value> values) {
-  if (different.place.empty()) {
-    return values;
-  }
-  std::vector<Value> out;
-  out.reserve(different.place.size());
-  for (const std::size_t i : different.place) {
-    out.push_back(values[i]);
-  }
-  return out;
-}
-
-/// @brief Evaluate once for every angle of a turn, some at a time:
-/// evaluate(angles, values).
-template <class Value, class Evaluate>
-std::vector<Value> over_turns(std::span<const double> phi, const Evaluate& evaluate) {
-  constexpr std::size_t at_a_time = 32;
-  const Different different = different_angles(phi);
-  const std::span<const double> angles = different.angles;
-  std::vector<Value> values(angles.size());
-  numerics::for_each_index(
-      (angles.size() + at_a_time - 1) / at_a_time, [&](std::size_t k) {
-        const std::size_t from = k * at_a_time;
-        const auto some =
-            angles.subspan(from, std::min(at_a_time, angles.size() - from));
-        evaluate(some, std::span(values).subspan(from, some.size()));
-      });
-  return to_all(different, std::move(values));
-}
-
 using Matrix = std::array<double, 18>;
 
 /// Force, torque and bending of any cutter.
 std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
                                    std::span<const double> phi, double gauge_length,
                                    double tolerance) {
+  std::vector<SixLoads> out(phi.size());
   const auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance));
   if (nodes) {
-    return over_turns<SixLoads>(
-        phi, [&](std::span<const double> some, std::span<SixLoads> out) {
-          nodes->loads(some, gauge_length, out);
-        });
+    over_turns(phi, std::span(out),
+               [&](std::span<const double> some, std::span<SixLoads> all) {
+                 nodes->loads(some, gauge_length, all);
+               });
+    return out;
   }
   const AxialForce axial(setup, law, tolerance);
-  return over_turns<SixLoads>(
-      phi, [&](std::span<const double> some, std::span<SixLoads> out) {
-        for (std::size_t i = 0; i < some.size(); ++i) {
-          out[i] = axial.loads(some[i], gauge_length);
-        }
-      });
+  over_turns(phi, std::span(out),
+             [&](std::span<const double> some, std::span<SixLoads> all) {
+               for (std::size_t i = 0; i < some.size(); ++i) {
+                 all[i] = axial.loads(some[i], gauge_length);
+               }
+             });
+  return out;
+}
+
+void forces_of_one(const Setup& setup, const Law& law, std::span<const double> phi,
+                   double tolerance, std::span<Vector3> out) {
+  if (phi.empty()) {
+    return;
+  }
+  if (const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
+    evaluate(turn_polynomial(*teeth, force_weights(terms(law))), phi,
+             std::span(out.front().data(), 3 * out.size()));
+    return;
+  }
+  if (keeps_radius(setup)) {
+    CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
+    return;
+  }
+  const auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance));
+  if (nodes) {
+    over_turns(phi, out, [&](std::span<const double> some, std::span<Vector3> F) {
+      nodes->forces(some, F);
+    });
+    return;
+  }
+  const auto all = loads_of_any(setup, law, phi, 0.0, tolerance);
+  std::ranges::transform(all, out.begin(), [](const SixLoads& one) {
+    return Vector3{one[0], one[1], one[2]};
+  });
 }
 
 }  // namespace
@@ -207,17 +175,18 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
     }
     return;
   }
-  const auto matrices =
-      over_turns<Matrix>(phi, [&](std::span<const double> some, std::span<Matrix> out) {
-        if (const auto* nodes = std::get_if<NodeForce>(&parts_->method)) {
-          nodes->matrices(some, out);
-          return;
-        }
-        const auto& axial = std::get<AxialForce>(parts_->method);
-        for (std::size_t i = 0; i < some.size(); ++i) {
-          axial.matrix(some[i], std::span(out[i]).first(3 * columns));
-        }
-      });
+  std::vector<Matrix> matrices(phi.size());
+  over_turns(phi, std::span(matrices),
+             [&](std::span<const double> some, std::span<Matrix> out) {
+               if (const auto* nodes = std::get_if<NodeForce>(&parts_->method)) {
+                 nodes->matrices(some, out);
+                 return;
+               }
+               const auto& axial = std::get<AxialForce>(parts_->method);
+               for (std::size_t i = 0; i < some.size(); ++i) {
+                 axial.matrix(some[i], std::span(out[i]).first(3 * columns));
+               }
+             });
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
   }
@@ -225,35 +194,18 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance) {
-  if (phi.empty()) {
-    return {};
-  }
-  if (const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
-    std::vector<Vector3> out(phi.size());
-    evaluate(turn_polynomial(*teeth, force_weights(terms(law))), phi,
-             std::span(out.front().data(), 3 * out.size()));
-    return out;
-  }
-  if (keeps_radius(setup)) {
-    std::vector<Vector3> out(phi.size());
-    CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
-    return out;
-  }
-  if (const auto nodes =
-          NodeForce::make(setup, law, std::min(tolerance, node_tolerance))) {
-    return over_turns<Vector3>(
-        phi, [&](std::span<const double> some, std::span<Vector3> out) {
-          nodes->forces(some, out);
-        });
-  }
-  const AxialForce axial(setup, law, tolerance);
-  return over_turns<Vector3>(phi,
-                             [&](std::span<const double> some, std::span<Vector3> out) {
-                               for (std::size_t i = 0; i < some.size(); ++i) {
-                                 const SixLoads all = axial.loads(some[i], 0.0);
-                                 out[i] = {all[0], all[1], all[2]};
-                               }
-                             });
+  std::vector<Vector3> out(phi.size());
+  forces_of_one(setup, law, phi, tolerance, out);
+  return out;
+}
+
+void forces_of_many(std::span<const Setup> setups, const Law& law,
+                    std::span<const double> phi, double tolerance,
+                    std::span<Vector3> F) {
+  numerics::for_each_index(setups.size(), [&](std::size_t i) {
+    forces_of_one(setups[i], law, phi, tolerance,
+                  F.subspan(i * phi.size(), phi.size()));
+  });
 }
 
 std::vector<Loads> loads(const Setup& setup, const Law& law,

@@ -37,6 +37,12 @@ class ForceMatrix {
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance);
 
+/// @brief Forces of many cuts over the same angles, shared between the cores.
+/// @param[out] F  [N], shape (setups, n, 3); the same bits for any number of threads
+void forces_of_many(std::span<const Setup> setups, const Law& law,
+                    std::span<const double> phi, double tolerance,
+                    std::span<Vector3> F);
+
 /// What the workpiece, the spindle and the tool holder feel.
 struct Loads {
   Vector3 force{};       ///< on the tool [N], workpiece frame
