@@ -46,7 +46,7 @@ double thickest_chip(const Edges& edges) {
 }  // namespace
 
 AxialForce::AxialForce(const Setup& setup, const Law& law, double tolerance)
-    : edges_(setup), terms_(terms(law)) {
+    : edges_(setup, tolerance), terms_(terms(law)) {
   const double h = thickest_chip(edges_);
   const double length = edges_.ends.back();
   if (h > 0) {

@@ -19,6 +19,9 @@ constexpr double relative_gap = 1e-12;
 constexpr int inner_points = 4;
 /// The same of an edge that begins at the axis, up to a feed of a turn from there.
 constexpr int points_within_a_feed = 128;
+/// The same for forces that need not be good to coarse_tolerance.
+constexpr int few_points_within_a_feed = 40;
+constexpr double coarse_tolerance = 1e-3;
 /// Beyond, a step is about a tenth of the distance.
 constexpr double log_step_beyond = 0.1;
 
@@ -55,11 +58,14 @@ std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) 
 
 /// Up to a feed of a turn from the axis, where nearly everything happens, and from there
 /// in steps that grow with the distance.
-void add_tip_grid(double end, double feed, std::vector<double>& grid) {
+void add_tip_grid(double end, double feed, double tolerance,
+                  std::vector<double>& grid) {
   const double near = std::min(feed, end);
-  for (int k = 1; k <= points_within_a_feed; ++k) {
-    const double t = static_cast<double>(k) / points_within_a_feed;
-    grid.push_back(k == points_within_a_feed ? near : near * t * t * t * t);
+  const int points =
+      tolerance > coarse_tolerance ? few_points_within_a_feed : points_within_a_feed;
+  for (int k = 1; k <= points; ++k) {
+    const double t = static_cast<double>(k) / points;
+    grid.push_back(k == points ? near : near * t * t * t * t);
   }
   const double growth = std::log(end / near);
   const int count = static_cast<int>(std::ceil(growth / log_step_beyond));
@@ -69,11 +75,12 @@ void add_tip_grid(double end, double feed, std::vector<double>& grid) {
 }
 
 /// @param feed  of a turn, where the edge begins at the axis; else 0 [m]
-std::vector<double> scan_grid(const std::vector<double>& ends, double feed) {
+std::vector<double> scan_grid(const std::vector<double>& ends, double feed,
+                              double tolerance) {
   std::vector<double> grid = {ends.front()};
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     if (i == 0 && feed > 0) {
-      add_tip_grid(ends[1], feed, grid);
+      add_tip_grid(ends[1], feed, tolerance, grid);
       continue;
     }
     constexpr int count = inner_points + 1;
@@ -87,20 +94,28 @@ std::vector<double> scan_grid(const std::vector<double>& ends, double feed) {
 
 }  // namespace
 
-Edges::Edges(const Setup& given)
+Edges::Edges(const Setup& given, double tolerance)
     : setup(given),
       meridian(geometry::meridian(given.cutter.profile)),
       passage(chip::passage(given.cutter, given.cut, given.chip)),
       psi(geometry::tooth_angles(given.cutter)),
       ends(panel_ends(given, meridian)),
       grid(scan_grid(
-          ends, geometry::point_at(meridian, 0).r < 1e-3 * given.cut.a_p + given.cut.f_z
-                    ? passage.feed * unit::turn
-                    : 0.0)) {
+          ends,
+          geometry::point_at(meridian, 0).r < 1e-3 * given.cut.a_p + given.cut.f_z
+              ? passage.feed * unit::turn
+              : 0.0,
+          tolerance)) {
   for (const double s : ends) {
     lag_at_ends.push_back(geometry::lag_at(setup.cutter, meridian, s).angle);
   }
   setup.runout = runout_of(setup);
+  grid_teeth.resize(grid.size() * psi.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const EdgePoint& p = grid_points.emplace_back(point(grid[i]));
+    geometry::edge_positions(setup.runout, psi, p.meridian.r, p.lag,
+                             std::span(grid_teeth).subspan(i * psi.size(), psi.size()));
+  }
   meetings = force::meetings(*this);
 }
 
@@ -187,16 +202,28 @@ void EdgeCurve::add_seeds(std::vector<double>& grid) const {
   std::sort(grid.begin(), grid.end());
 }
 
-EdgeState EdgeCurve::state(const EdgePoint& point) const {
-  const chip::Slice teeth = slice(point);
+EdgeState EdgeCurve::state(const EdgePoint& point, const chip::Slice& teeth) const {
   const double theta = theta_tip_ - point.lag;
-  const geometry::EdgePosition& own = teeth_[tooth_];
+  const geometry::EdgePosition& own = teeth.teeth[tooth_];
   return {chip::chip_at(edges_.passage, teeth, static_cast<int>(tooth_), theta),
           theta + own.epsilon, own.R};
 }
 
+EdgeState EdgeCurve::state(const EdgePoint& point) const {
+  return state(point, slice(point));
+}
+
 EdgeState EdgeCurve::state(double s) const {
-  return state(edges_.point(s));
+  const auto at = std::lower_bound(edges_.grid.begin(), edges_.grid.end(), s);
+  if (bend_ != nullptr || at == edges_.grid.end() || *at != s) {
+    return state(edges_.point(s));
+  }
+  // What does not depend on the spindle angle is known on the grid.
+  const auto i = static_cast<std::size_t>(at - edges_.grid.begin());
+  const EdgePoint& point = edges_.grid_points[i];
+  const std::size_t teeth = edges_.psi.size();
+  return state(point, {point.meridian.r,
+                       std::span(edges_.grid_teeth).subspan(i * teeth, teeth)});
 }
 
 double EdgeCurve::boundary(double s, const EdgeState& a, const EdgeState& b) const {

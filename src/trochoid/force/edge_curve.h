@@ -30,7 +30,8 @@ struct EdgeState {
 
 /// @brief The edges of a cutter within the axial depth.
 struct Edges {
-  explicit Edges(const Setup& given);
+  /// @param tolerance  of forces, relative; decides how closely the tip is looked at
+  explicit Edges(const Setup& given, double tolerance = 1e-6);
 
   [[nodiscard]] EdgePoint point(double s) const noexcept;
 
@@ -39,9 +40,11 @@ struct Edges {
   chip::Passage passage;
   std::vector<double> psi;   ///< [rad], shape (teeth)
   std::vector<double> ends;  ///< where the profile or the panels end [m], ascending
-  std::vector<double> lag_at_ends;  ///< [rad]
-  std::vector<double> grid;         ///< ends and points between them [m], ascending
-  std::vector<std::vector<double>> meetings;  ///< of each tooth with others [m]
+  std::vector<double> lag_at_ends;     ///< [rad]
+  std::vector<double> grid;            ///< ends and points between them [m], ascending
+  std::vector<EdgePoint> grid_points;  ///< shape (grid)
+  std::vector<geometry::EdgePosition> grid_teeth;  ///< there, shape (grid, teeth)
+  std::vector<std::vector<double>> meetings;       ///< of each tooth with others [m]
 };
 
 /// @brief How the axis of a bent cutter stands in y, at one spindle angle.
@@ -79,6 +82,7 @@ class EdgeCurve {
   [[nodiscard]] double boundary(double s, const EdgeState& a, const EdgeState& b) const;
 
  private:
+  [[nodiscard]] EdgeState state(const EdgePoint& point, const chip::Slice& teeth) const;
   [[nodiscard]] chip::Slice slice(const EdgePoint& point) const;
   /// Where the edge passes an angle.
   void add_passages(double target, std::vector<double>& grid) const;

@@ -43,8 +43,6 @@ void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noe
 constexpr double turn_tolerance = 1e-8;
 /// The same where differences of matrices are taken.
 constexpr double smooth_turn_tolerance = 1e-11;
-/// Chips at nodes are followed at least so closely: it costs next to nothing.
-constexpr double node_tolerance = 1e-6;
 
 /// @brief How the teeth cut, where forces are linear in the chip and the chips have few
 /// harmonics.
@@ -83,7 +81,7 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
                                    std::span<const double> phi, double gauge_length,
                                    double tolerance) {
   std::vector<SixLoads> out(phi.size());
-  const auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance));
+  const auto nodes = NodeForce::make(setup, law, tolerance);
   if (nodes) {
     over_turns(phi, std::span(out),
                [&](std::span<const double> some, std::span<SixLoads> all) {
@@ -115,7 +113,7 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
     return;
   }
-  const auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance));
+  const auto nodes = NodeForce::make(setup, law, tolerance);
   if (nodes) {
     over_turns(phi, out, [&](std::span<const double> some, std::span<Vector3> F) {
       nodes->forces(some, F);
@@ -146,7 +144,7 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
     if (keeps_radius(setup)) {
       return Parts{columns, CumulativeForce(setup, law, tolerance)};
     }
-    if (auto nodes = NodeForce::make(setup, law, std::min(tolerance, node_tolerance))) {
+    if (auto nodes = NodeForce::make(setup, law, tolerance)) {
       return Parts{columns, std::move(*nodes)};
     }
     return Parts{columns, AxialForce(setup, law, tolerance)};

@@ -10,6 +10,8 @@ namespace trochoid::force {
 
 namespace {
 
+/// Chips are followed at least so closely: it costs next to nothing.
+constexpr double coarsest_at_nodes = 1e-6;
 /// The quadrature keeps its error so much below its tolerance, at the least.
 constexpr double caution_of_quadrature = 10.0;
 /// Tolerance of a tip that is next to nothing of the edge.
@@ -98,7 +100,7 @@ std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
     return std::nullopt;
   }
   const Edges edges(setup);
-  auto panels = node_panels(edges, tolerance);
+  auto panels = node_panels(edges, std::min(tolerance, coarsest_at_nodes));
   if (!panels) {
     return std::nullopt;
   }
