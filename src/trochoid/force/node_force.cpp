@@ -68,10 +68,10 @@ class Walk {
   }
 
  private:
-  const NodePanels& all_;
   NodeChips chips_;
-  NodeScratch scratch_;
   NodeWeights weights_;
+  NodeScratch scratch_;
+  const NodePanels& all_;
 };
 
 Sums moments_at(Walk& walk, double phi) {
