@@ -1,7 +1,5 @@
 #include <trochoid/run/identify/fit_options.h>
 
-#include <fmt/core.h>
-
 namespace trochoid::run {
 
 identification::Options fit_options(const inputs::Case& given, chip::Model model) {
@@ -18,8 +16,8 @@ identification::AxesProblem axes_problem(const inputs::Case& given) {
           fit_options(given, given.identify.chip_models.back())};
 }
 
-std::string axes_progress(double part) {
-  return fmt::format("finding the axes of the dynamometer, {:.0f} %", 100.0 * part);
+Step axes_progress(double part) {
+  return {"finding the axes of the dynamometer", part};
 }
 
 }  // namespace trochoid::run

@@ -2,8 +2,7 @@
 
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/inputs/case.h>
-
-#include <string>
+#include <trochoid/run/shared/progress.h>
 
 namespace trochoid::run {
 
@@ -15,6 +14,6 @@ identification::AxesProblem axes_problem(const inputs::Case& given);
 
 /// @brief What to say while that is done.
 /// @param part  of it that is done, from 0 to 1
-std::string axes_progress(double part);
+Step axes_progress(double part);
 
 }  // namespace trochoid::run

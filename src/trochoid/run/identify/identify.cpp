@@ -79,8 +79,10 @@ std::vector<Fit> all_fits(const inputs::Case& given,
                           const std::optional<identification::Start>& start,
                           const Progress& progress) {
   std::vector<Fit> fits;
+  const auto models = static_cast<double>(given.identify.chip_models.size());
   for (const chip::Model model : given.identify.chip_models) {
-    progress(fmt::format("fitting, chip model {}", chip::name_of(model)));
+    progress({"fitting, one chip model after the other",
+              static_cast<double>(fits.size()) / models});
     identification::Options options = fit_options(given, model);
     options.start = start;
     fits.push_back(identification::identify(given.setup, given.law, runs, options));
