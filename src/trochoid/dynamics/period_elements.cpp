@@ -2,22 +2,14 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/nodes.h>
+#include <trochoid/dynamics/period_parts.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::dynamics {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-/// No element holds more cycles of the fastest mode: more cost more to solve.
-constexpr double most_cycles = 3.0;
-/// In an element of more cycles a kink that comes back is an end.
-constexpr double long_cycles = 2.0;
-/// A kink closer to an end than this many cycles does no harm.
-constexpr double near_end = 0.1;
 
 std::size_t place_of(const std::vector<PeriodElement>& elements, double phi) {
   const auto after = std::lower_bound(
@@ -79,68 +71,41 @@ std::vector<Matrix2> sampled(const std::vector<Matrix2>& given,
   return out;
 }
 
-/// Angles where a kink of the motion comes back, ascending.
-std::vector<double> returning_kinks(const Directional& directional) {
-  std::vector<double> kinks;
-  const double start = directional.elements.front().from;
-  for (const double delay : directional.delays) {
-    if (std::abs(delay - directional.period) < 1e-9) {
-      continue;  // back at a switch
-    }
-    for (const DirectionalElement& element : directional.elements) {
-      const double at = element.from + delay - start;
-      kinks.push_back(start + at -
-                      directional.period * std::floor(at / directional.period));
-    }
+/// Where the nodes of an element were one delay before.
+std::vector<Source> sources_of(const PeriodElements& elements, std::size_t self,
+                               double delay, const Directional& directional) {
+  const PeriodElement& e = elements.all[self];
+  const double period = directional.period;
+  const std::size_t count = elements.all.size();
+  if (elements.pitches > 0) {  // node by node, some pitches before
+    const auto pitches =
+        std::lround(delay / period * static_cast<double>(elements.pitches));
+    const std::size_t back =
+        static_cast<std::size_t>(pitches) * (count / elements.pitches);
+    const bool previous = self < back;
+    return {Source{self + (previous ? count : 0) - back, previous, {}}};
   }
-  std::sort(kinks.begin(), kinks.end());
-  return kinks;
+  std::vector<Source> sources;
+  for (const double t : element_nodes(e.degree).t) {
+    const double phi = 0.5 * (e.from + e.to) + 0.5 * (e.to - e.from) * t;
+    sources.push_back(source_of(elements.all, phi, delay, period));
+  }
+  return sources;
 }
 
-/// Ends of the parts of a directional element.
-std::vector<double> parts_of(const DirectionalElement& whole,
-                             const std::vector<double>& kinks, double cycle,
-                             double longest) {
-  std::vector<double> ends = {whole.from};
-  const double apart = near_end * cycle;
-  const bool is_long = whole.to - whole.from > long_cycles * cycle;
-  for (const double kink : kinks) {
-    if (is_long && kink > ends.back() + apart && kink < whole.to - apart) {
-      ends.push_back(kink);
-    }
-  }
-  ends.push_back(whole.to);
-  std::vector<double> out = {whole.from};
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const double length = ends[i + 1] - ends[i];
-    const int count =
-        std::max({1, static_cast<int>(std::ceil(length / (most_cycles * cycle) - 1e-9)),
-                  static_cast<int>(std::ceil(length / longest - 1e-9))});
-    for (int k = 1; k <= count; ++k) {
-      out.push_back(k == count ? ends[i + 1] : ends[i] + length * k / count);
-    }
-  }
-  return out;
-}
-
-void add_sources(std::vector<PeriodElement>& elements, const Directional& directional) {
-  for (PeriodElement& e : elements) {
-    const auto self = static_cast<std::size_t>(&e - elements.data());
+void add_sources(PeriodElements& elements, const Directional& directional) {
+  for (std::size_t self = 0; self < elements.all.size(); ++self) {
+    PeriodElement& e = elements.all[self];
     for (std::size_t d = 0; d < e.delayed.size(); ++d) {
       Channel& channel = e.delayed[d];
       if (channel.at_nodes.empty()) {
         continue;
       }
-      const double delay = directional.delays[d];
-      const bool same = std::abs(delay - directional.period) < 1e-9;
-      for (const double t : element_nodes(e.degree).t) {
-        const double phi = 0.5 * (e.from + e.to) + 0.5 * (e.to - e.from) * t;
-        channel.sources.push_back(
-            same ? Source{self, true, {}}
-                 : source_of(elements, phi, delay, directional.period));
-        PeriodElement& from = elements[channel.sources.back().element];
+      channel.sources = sources_of(elements, self, directional.delays[d], directional);
+      for (const Source& source : channel.sources) {
+        PeriodElement& from = elements.all[source.element];
         from.wanted = true;
-        from.kept = from.kept || channel.sources.back().previous;
+        from.kept = from.kept || source.previous;
       }
     }
   }
@@ -186,35 +151,27 @@ PeriodElements period_elements(const Directional& directional,
                                const Components& components, double Omega,
                                double fastest, const Resolution& resolution) {
   PeriodElements out;
-  const double longest =
-      directional.delays.empty() ? directional.period : directional.delays.front();
   const double cycle = Omega / fastest;  // [rad]
-  const std::vector<double> kinks = returning_kinks(directional);
-  for (const DirectionalElement& whole : directional.elements) {
-    const std::vector<double> ends = parts_of(whole, kinks, cycle, longest);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      PeriodElement e{.from = ends[i], .to = ends[i + 1], .delayed = {}};
-      const double length = e.to - e.from;
-      const double n = 10 + 10 * length / pi + 3.5 * length / cycle;
-      const int even = 2 * static_cast<int>(std::ceil(0.5 * n * resolution.factor));
-      e.degree = std::clamp(even, 4, largest_degree);
-      const bool cuts =
-          std::any_of(whole.matrices.begin(), whole.matrices.end(),
-                      [](const auto& channel) { return !channel.empty(); });
-      const std::vector<double> rows = cuts ? rows_of(whole, e) : std::vector<double>();
-      const auto channel_of = [&](const std::vector<Matrix2>& given) {
-        e.forced = e.forced || !given.empty();
-        return given.empty() ? Channel{}
-                             : Channel{sampled(given, rows, components), {}};
-      };
-      e.own = channel_of(whole.matrices[0]);
-      for (std::size_t d = 1; d < whole.matrices.size(); ++d) {
-        e.delayed.push_back(channel_of(whole.matrices[d]));
-      }
-      out.all.push_back(std::move(e));
+  const PeriodParts parts = period_parts(directional, cycle);
+  out.pitches = parts.pitches;
+  for (const PeriodPart& part : parts.all) {
+    const DirectionalElement& whole = directional.elements[part.whole];
+    PeriodElement e{.from = part.from, .to = part.to, .delayed = {}};
+    e.degree = part_degree(e.to - e.from, cycle, resolution.factor);
+    const bool cuts = std::any_of(whole.matrices.begin(), whole.matrices.end(),
+                                  [](const auto& channel) { return !channel.empty(); });
+    const std::vector<double> rows = cuts ? rows_of(whole, e) : std::vector<double>();
+    const auto channel_of = [&](const std::vector<Matrix2>& given) {
+      e.forced = e.forced || !given.empty();
+      return given.empty() ? Channel{} : Channel{sampled(given, rows, components), {}};
+    };
+    e.own = channel_of(whole.matrices[0]);
+    for (std::size_t d = 1; d < whole.matrices.size(); ++d) {
+      e.delayed.push_back(channel_of(whole.matrices[d]));
     }
+    out.all.push_back(std::move(e));
   }
-  add_sources(out.all, directional);
+  add_sources(out, directional);
   for (PeriodElement& e : out.all) {
     e.kept = e.kept || resolution.whole_period;
     e.wanted = e.wanted || e.kept || e.forced;

@@ -31,13 +31,13 @@ double fastest_frequency(const System& system) noexcept;
 struct Source {
   std::size_t element = 0;
   bool previous = false;    ///< in the period before
-  std::vector<double> row;  ///< empty: the node itself, a period before
+  std::vector<double> row;  ///< empty: at the node of the same number
 };
 
 /// Matrices of one channel of D-8 at the nodes of an element, in the components of q.
 struct Channel {
   std::vector<Matrix2> at_nodes;  ///< empty: zero
-  std::vector<Source> sources;    ///< of a delay; shape (nodes)
+  std::vector<Source> sources;    ///< of a delay; shape (nodes), or one for all of them
 };
 
 /// A part of a period in which all is smooth.
@@ -65,11 +65,9 @@ struct Resolution {
 };
 
 /// @brief One period in elements.
-///
-/// A switch of the forces leaves a kink in the motion, which comes back one delay
-/// later: long elements are cut there too.
 struct PeriodElements {
   std::vector<PeriodElement> all;
+  std::size_t pitches = 0;        ///< of equal elements; 0: delays do not lead to nodes
   std::size_t kept_values = 0;    ///< in a disturbance
   std::size_t wanted_values = 0;  ///< in a period
 };

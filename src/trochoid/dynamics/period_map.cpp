@@ -127,8 +127,9 @@ void PeriodMap::Parts::delayed_force(const PeriodElement& e,
   const std::size_t count = components.count;
   out.assign(count * n, 0.0);
   for (const Channel& channel : e.delayed) {
-    for (std::size_t i = 0; i < channel.sources.size(); ++i) {
-      const Source& source = channel.sources[i];
+    const std::size_t many = channel.sources.size() > 1 ? 1 : 0;
+    for (std::size_t i = 0; i < channel.at_nodes.size(); ++i) {
+      const Source& source = channel.sources[many * i];
       const PeriodElement& from = elements.all[source.element];
       const double* q = source.previous ? &before[from.first] : &now[from.place];
       std::array<double, 2> value{};
@@ -195,12 +196,11 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
   parts->components = components_of(system);
   parts->modes = system.modes;
   parts->Omega = Omega;
-  parts->smooth = directional.delays.size() == 1 &&
-                  std::abs(directional.delays.front() - directional.period) < 1e-9;
   const double fastest = fastest_frequency(system);
   parts->speed = unit::turn * fastest;
   parts->elements =
       period_elements(directional, parts->components, Omega, fastest, resolution);
+  parts->smooth = parts->elements.pitches > 0;
   for (std::size_t k = 0; k < parts->elements.all.size(); ++k) {
     parts->solved.push_back({parts->response_at(parts->elements.all[k]), {}});
     parts->factorize(k);

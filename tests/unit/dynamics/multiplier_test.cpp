@@ -118,6 +118,32 @@ TEST(Multiplier, KnowsItsErrorWithoutMoreNodes) {  // [D-14]
   }
 }
 
+TEST(Multiplier, KnowsItsErrorWithRunout) {  // [D-14]
+  // Kinks of one tooth come back one or two pitches later, where all pitches are cut up
+  // alike: at ends of elements.
+  force::Setup setup = straight_cut(3, geometry::UpMilling{4 * unit::mm});
+  setup.cutter.helix = 0.5;
+  setup.chip = {chip::Model::radial, chip::Lookback::all};
+  setup.runout.radial_offsets = {10e-6, -20e-6, 5e-6};
+  const System system{
+      {mode_of(0.03993, 922, 0.011, 1, 0), mode_of(0.03, 700, 0.02, 0, 1)}};
+  for (const double rpm : {800.0, 2500.0, 5000.0}) {
+    setup.cut.Omega = rpm * unit::rpm;
+    const Directional d =
+        DirectionalModel(setup, benchmark_law(), 1e-6, 1e-11).at_depth(1 * unit::mm);
+    const auto with = [&](double factor) {
+      return multiplier_with(d, system, setup.cut.Omega, factor, 1e-11);
+    };
+    const double exact = std::abs(with(2.2).value);
+    for (const double factor : {0.5, 0.64, 0.8, 1.0}) {
+      const Multiplier mu = with(factor);
+      const double error = std::abs(std::abs(mu.value) - exact);
+      EXPECT_GT(mu.error, 0.0);
+      EXPECT_GT(mu.error, error - 1e-9 * exact) << rpm << ' ' << factor;
+    }
+  }
+}
+
 TEST(Multiplier, OfManyCyclesATooth) {  // [D-11]
   // 55 cycles between two teeth, in elements of at most seven: more nodes agree.
   force::Setup setup = straight_cut(2, geometry::Slot{});
@@ -131,8 +157,8 @@ TEST(Multiplier, OfManyCyclesATooth) {  // [D-11]
 }
 
 TEST(Multiplier, OfManyCyclesATurnWithRunout) {  // [D-11]
-  // A kink of one tooth comes back half a turn later, in the middle of a long element:
-  // without a cut there twice the nodes do not settle the eighth digit.
+  // A kink of one tooth comes back half a turn later: without a cut there twice the nodes
+  // do not settle the eighth digit.
   force::Setup setup = straight_cut(2, geometry::Slot{});
   setup.chip = {chip::Model::radial, chip::Lookback::all};
   setup.runout.radial_offsets = {13.9e-6, -13.9e-6};
