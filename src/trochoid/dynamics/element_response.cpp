@@ -2,6 +2,7 @@
 
 #include <trochoid/dynamics/oscillator.h>
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -9,35 +10,26 @@ namespace trochoid::dynamics {
 
 namespace {
 
-using numerics::Matrix;
-
-/// @param eta  row-major, shape (n, n)
-void add_compliance(double factor, std::span<const double> eta, std::size_t n,
-                    Matrix& block) {
-  if (block.values.empty()) {
-    if (factor == 0) return;
-    block = numerics::zeros(n, n);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < n; ++k) block(i, k) += factor * eta[i * n + k];
-  }
-}
-
+/// @param r      number of the mode
+/// @param count  components of q
 void add_mode(ElementResponse& response, const DrivenMotion& motion, std::size_t r,
               const std::array<double, 2>& direction, std::size_t count) {
   const std::size_t n = motion.end_velocity.size();
   const std::span<const double> at_end = std::span(motion.eta).last(n);
+  const std::size_t state = count * n + 2 * r;
   for (std::size_t c = 0; c < count; ++c) {
-    const double along = direction[c];
     for (std::size_t i = 0; i < n; ++i) {
-      response.free(c * n + i, 2 * r) = along * motion.free[i][0];
-      response.free(c * n + i, 2 * r + 1) = along * motion.free[i][1];
-      response.ends(2 * r, c * n + i) = along * at_end[i];
-      response.ends(2 * r + 1, c * n + i) = along * motion.end_velocity[i];
+      response.motion.column(state)[c * n + i] = direction[c] * motion.free[i][0];
+      response.motion.column(state + 1)[c * n + i] = direction[c] * motion.free[i][1];
+      response.end.column(c * n + i)[2 * r] = direction[c] * at_end[i];
+      response.end.column(c * n + i)[2 * r + 1] = direction[c] * motion.end_velocity[i];
     }
     for (std::size_t b = 0; b < count; ++b) {
-      add_compliance(along * direction[b], motion.eta, n,
-                     response.compliance[2 * c + b]);
+      const double factor = direction[c] * direction[b];
+      for (std::size_t k = 0; k < n && factor != 0; ++k) {
+        double* const column = response.motion.column(b * n + k) + c * n;
+        for (std::size_t i = 0; i < n; ++i) column[i] += factor * motion.eta[i * n + k];
+      }
     }
   }
 }
@@ -50,12 +42,9 @@ ElementResponse element_response(const std::vector<ChipMode>& modes,
   const std::size_t values =
       degree > 0 ? components.count * (static_cast<std::size_t>(degree) + 1) : 0;
   const std::size_t states = 2 * modes.size();
-  ElementResponse response{degree,
-                           duration,
-                           numerics::zeros(values, states),
-                           numerics::zeros(states, states),
-                           numerics::zeros(states, values),
-                           {}};
+  ElementResponse response{degree, duration,
+                           numerics::padded_zeros(values, values + states),
+                           numerics::padded_zeros(states, values + states)};
   std::optional<DrivenMotion> motion;
   for (std::size_t r = 0; r < modes.size(); ++r) {
     const bool alike = motion && modes[r].mass == modes[r - 1].mass &&
@@ -69,10 +58,38 @@ ElementResponse element_response(const std::vector<ChipMode>& modes,
     }
     const auto over = free_motion(modes[r], duration);
     for (std::size_t i = 0; i < 4; ++i) {
-      response.over(2 * r + i / 2, 2 * r + i % 2) = over[i];
+      response.end.column(values + 2 * r + i % 2)[2 * r + i / 2] = over[i];
     }
   }
   return response;
+}
+
+void answer_cut(const numerics::PaddedMatrix& given, std::span<const double> matrices,
+                double force, Elimination& work, numerics::PaddedMatrix& motion) {
+  const std::size_t values = given.rows;
+  const std::size_t count = matrices.size() > values ? 2 : 1;
+  const std::size_t n = values / count;
+  const std::size_t room = numerics::padded(values);
+  numerics::PaddedMatrix& system = work.system;
+  system.rows = values;
+  system.columns = values + given.columns;
+  system.values.assign(values * room, 0.0);
+  for (std::size_t j = 0; j < values; ++j) {
+    double* const column = system.column(j);
+    for (std::size_t a = 0; a < count; ++a) {
+      const double A = force * matrices[(a * count + j / n) * n + j % n];
+      const double* const G = given.column(a * n + j % n);
+      for (std::size_t i = 0; i < room; ++i) column[i] -= G[i] * A;
+    }
+    column[j] += 1.0;
+  }
+  system.values.insert(system.values.end(), given.values.begin(), given.values.end());
+  work.room.resize(2 * system.columns);
+  numerics::eliminate(system, work.room);  // D-11
+  const std::span<const double> solved = system.from(values);
+  motion.rows = values;
+  motion.columns = given.columns;
+  motion.values.assign(solved.begin(), solved.end());
 }
 
 }  // namespace trochoid::dynamics

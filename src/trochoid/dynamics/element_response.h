@@ -2,9 +2,9 @@
 
 #include <trochoid/dynamics/period_elements.h>
 #include <trochoid/dynamics/system.h>
-#include <trochoid/numerics/dense.h>
+#include <trochoid/numerics/padded.h>
 
-#include <array>
+#include <span>
 #include <vector>
 
 namespace trochoid::dynamics {
@@ -16,17 +16,34 @@ namespace trochoid::dynamics {
 struct ElementResponse {
   int degree = 0;
   double duration = 0.0;  ///< [s]
-  numerics::Matrix free;  ///< q at the nodes from the states at the start
-  numerics::Matrix over;  ///< the states at the end from those at the start
-  numerics::Matrix ends;  ///< the states at the end from the forces at the nodes
-  /// Blocks of G of D-11 from one component to another; empty: zero.
-  std::array<numerics::Matrix, 4> compliance;
+  /// q at the nodes from the forces there (G of D-11) and the states at the start.
+  numerics::PaddedMatrix motion;
+  /// The states at the end from the same.
+  numerics::PaddedMatrix end;
 };
 
-/// @param degree    0: nothing but `over`, for free flight that nothing looks at
+/// @param degree    0: nothing but the states, for free flight that nothing looks at
 /// @param duration  of the element [s]
 ElementResponse element_response(const std::vector<ChipMode>& modes,
                                  const Components& components, int degree,
                                  double duration);
+
+/// Room for one elimination after another.
+struct Elimination {
+  numerics::PaddedMatrix system;
+  std::vector<double> room;
+};
+
+/// @brief What an element answers while it cuts, whatever the delayed forces and the
+/// states at its start are.
+///
+/// @eq D-11 (I - G A_0)^-1 [G, sum over modes of (x, y) Phi]
+/// @src elementary
+/// @param[in]  given     `motion` of the response
+/// @param[in]  matrices  A_0, shape (components, components, nodes) [N/m]
+/// @param[in]  force     times these
+/// @param[out] motion    of the shape of `given`
+void answer_cut(const numerics::PaddedMatrix& given, std::span<const double> matrices,
+                double force, Elimination& work, numerics::PaddedMatrix& motion);
 
 }  // namespace trochoid::dynamics

@@ -52,13 +52,15 @@ std::vector<double> rows_of(const DirectionalElement& whole,
   return rows;
 }
 
-/// Values at the nodes of a part of a directional element.
-std::vector<Matrix2> sampled(const std::vector<Matrix2>& given,
-                             const std::vector<double>& rows,
-                             const Components& components) {
-  std::vector<Matrix2> out;
-  out.reserve(rows.size() / given.size());
-  for (auto row = rows.begin(); row != rows.end();) {
+/// Matrices at the nodes of a part of a directional element.
+std::vector<double> sampled(const std::vector<Matrix2>& given,
+                            const std::vector<double>& rows,
+                            const Components& components) {
+  const std::size_t nodes = rows.size() / given.size();
+  const std::size_t count = components.count;
+  std::vector<double> out(count * count * nodes);
+  auto row = rows.begin();
+  for (std::size_t i = 0; i < nodes; ++i) {
     Matrix2 value{};
     for (const Matrix2& matrix : given) {
       for (std::size_t q = 0; q < value.size(); ++q) {
@@ -66,7 +68,8 @@ std::vector<Matrix2> sampled(const std::vector<Matrix2>& given,
       }
       ++row;
     }
-    out.push_back(components.of(value));
+    const Matrix2 own = components.of(value);
+    for (std::size_t q = 0; q < count * count; ++q) out[q * nodes + i] = own[q];
   }
   return out;
 }
@@ -98,7 +101,7 @@ void add_sources(PeriodElements& elements, const Directional& directional) {
     PeriodElement& e = elements.all[self];
     for (std::size_t d = 0; d < e.delayed.size(); ++d) {
       Channel& channel = e.delayed[d];
-      if (channel.at_nodes.empty()) {
+      if (channel.matrices.empty()) {
         continue;
       }
       channel.sources = sources_of(elements, self, directional.delays[d], directional);

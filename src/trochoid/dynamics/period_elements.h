@@ -36,8 +36,8 @@ struct Source {
 
 /// Matrices of one channel of D-8 at the nodes of an element, in the components of q.
 struct Channel {
-  std::vector<Matrix2> at_nodes;  ///< empty: zero
-  std::vector<Source> sources;    ///< of a delay; shape (nodes), or one for all of them
+  std::vector<double> matrices;  ///< shape (components, components, nodes); empty: zero
+  std::vector<Source> sources;   ///< of a delay; shape (nodes), or one for all of them
 };
 
 /// A part of a period in which all is smooth.

@@ -3,21 +3,21 @@
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/element_response.h>
 #include <trochoid/dynamics/nodes.h>
-#include <trochoid/numerics/dense.h>
+#include <trochoid/numerics/padded.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
 namespace trochoid::dynamics {
 
 namespace {
 
-using numerics::Matrix;
-
+/// How an element answers while it cuts.
 struct Solved {
   std::size_t response = 0;
-  numerics::Lu lu;  ///< of I - G A_0, where that is not I
+  /// (I - G A_0)^-1 times the motion of the response; empty where A_0 = 0.
+  numerics::PaddedMatrix motion;
 };
 
 /// Sum of products, in four chains: one would wait for itself.
@@ -34,11 +34,11 @@ double dot(std::span<const double> a, const double* b) noexcept {
 
 /// What one pass through the period works with.
 struct Work {
-  std::vector<double> state;
-  std::vector<double> before;  ///< the state at the start of the element
-  std::vector<double> force;   ///< of an element
-  std::vector<double> values;  ///< q of an element
+  std::vector<double> state;   ///< at the start of the element
+  std::vector<double> input;   ///< forces of an element, then the state
+  std::vector<double> output;  ///< padded
   std::vector<double> q;       ///< of the period
+  Elimination elimination;
 };
 
 /// The largest value of an element's and the largest last coefficient.
@@ -52,6 +52,20 @@ struct Tail {
   }
   [[nodiscard]] double share() const noexcept { return most > 0 ? last / most : 0.0; }
 };
+
+/// F += factor A q at the nodes of an element, component by component.
+void add_force(const Channel& channel, double factor, std::span<const double> q,
+               std::span<double> F, std::size_t n) noexcept {
+  const std::size_t count = F.size() / n;
+  for (std::size_t c = 0; c < count; ++c) {
+    for (std::size_t b = 0; b < count; ++b) {
+      const double* const A = &channel.matrices[(c * count + b) * n];
+      const double* const from = &q[b * n];
+      double* const to = &F[c * n];
+      for (std::size_t i = 0; i < n; ++i) to[i] += factor * A[i] * from[i];
+    }
+  }
+}
 
 }  // namespace
 
@@ -68,9 +82,9 @@ struct PeriodMap::Parts {
   Work work;
 
   std::size_t response_at(const PeriodElement& element);
-  void factorize(std::size_t k);
+  void solve(std::size_t k);
   void delayed_force(const PeriodElement& element, std::span<const double> before,
-                     std::span<const double> now, std::vector<double>& out) const;
+                     std::span<const double> now, std::span<double> out) const;
   void step(std::size_t k);
   void start(std::span<const double> in);
   void advance(std::size_t k, std::span<const double> in);
@@ -90,58 +104,44 @@ std::size_t PeriodMap::Parts::response_at(const PeriodElement& element) {
   return responses.size() - 1;
 }
 
-void PeriodMap::Parts::factorize(std::size_t k) {
-  const PeriodElement& e = elements.all[k];
-  if (e.own.at_nodes.empty()) {
-    return;
+void PeriodMap::Parts::solve(std::size_t k) {
+  const Channel& own = elements.all[k].own;
+  if (!own.matrices.empty()) {
+    const ElementResponse& response = responses[solved[k].response];
+    answer_cut(response.motion, own.matrices, force, work.elimination,
+               solved[k].motion);
   }
-  const ElementResponse& response = responses[solved[k].response];
-  const std::size_t n = e.nodes();
-  const std::size_t count = components.count;
-  Matrix& system = solved[k].lu.factors;
-  system.rows = system.columns = count * n;
-  system.values.assign(count * n * count * n, 0.0);
-  for (std::size_t i = 0; i < system.rows; ++i) system(i, i) = 1.0;
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t c = 0; c < count; ++c) {
-      const Matrix& G = response.compliance[2 * c + a];
-      for (std::size_t b = 0; b < count && !G.values.empty(); ++b) {
-        for (std::size_t j = 0; j < n; ++j) {
-          const double A = force * e.own.at_nodes[j][2 * a + b];
-          double* const column = &system(c * n, b * n + j);
-          for (std::size_t i = 0; i < n; ++i) {
-            column[i] -= G(i, j) * A;
-          }
-        }
-      }
-    }
-  }
-  numerics::factorize(solved[k].lu);  // D-11
 }
 
 void PeriodMap::Parts::delayed_force(const PeriodElement& e,
                                      std::span<const double> before,
                                      std::span<const double> now,
-                                     std::vector<double>& out) const {
+                                     std::span<double> out) const {
   const std::size_t n = e.nodes();
   const std::size_t count = components.count;
-  out.assign(count * n, 0.0);
+  std::array<double, 2 * (largest_degree + 1)> between;
+  std::fill(out.begin(), out.end(), 0.0);
   for (const Channel& channel : e.delayed) {
-    const std::size_t many = channel.sources.size() > 1 ? 1 : 0;
-    for (std::size_t i = 0; i < channel.at_nodes.size(); ++i) {
-      const Source& source = channel.sources[many * i];
+    if (channel.matrices.empty()) {
+      continue;
+    }
+    const auto values_at = [&](const Source& source) {
       const PeriodElement& from = elements.all[source.element];
-      const double* q = source.previous ? &before[from.first] : &now[from.place];
-      std::array<double, 2> value{};
+      return source.previous ? &before[from.first] : &now[from.place];
+    };
+    const Source& first = channel.sources.front();
+    if (first.row.empty()) {
+      add_force(channel, -force, {values_at(first), count * n}, out, n);
+      continue;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Source& source = channel.sources[i];
+      const double* const values = values_at(source);
       for (std::size_t b = 0; b < count; ++b) {
-        const double* values = q + b * from.nodes();
-        value[b] = source.row.empty() ? values[i] : dot(source.row, values);
-      }
-      const Matrix2& A = channel.at_nodes[i];
-      for (std::size_t c = 0; c < count; ++c) {
-        out[c * n + i] -= force * (A[2 * c] * value[0] + A[2 * c + 1] * value[1]);
+        between[b * n + i] = dot(source.row, values + b * source.row.size());
       }
     }
+    add_force(channel, -force, {between.data(), count * n}, out, n);
   }
 }
 
@@ -150,44 +150,30 @@ void PeriodMap::Parts::delayed_force(const PeriodElement& e,
 void PeriodMap::Parts::step(std::size_t k) {
   const PeriodElement& e = elements.all[k];
   const ElementResponse& response = responses[solved[k].response];
-  const std::size_t count = components.count;
-  const std::size_t n = e.nodes();
-  work.before.swap(work.state);
-  work.state.assign(work.before.size(), 0.0);
-  numerics::add_product(1.0, response.over.values, work.before, work.state);
-  if (!e.wanted) {
-    return;
-  }
-  work.values.assign(count * n, 0.0);
-  const std::span<double> values(work.values);
-  const std::span<double> forces(work.force);
-  const std::span<double> here = std::span(work.q).subspan(e.place, count * n);
-  numerics::add_product(1.0, response.free.values, work.before, values);
-  for (std::size_t c = 0; c < count && e.forced; ++c) {
-    for (std::size_t b = 0; b < count; ++b) {
-      const Matrix& G = response.compliance[2 * c + b];
-      if (!G.values.empty()) {
-        numerics::add_product(1.0, G.values, forces.subspan(b * n, n),
-                              values.subspan(c * n, n));
-      }
+  const std::size_t values = response.motion.rows;
+  const auto begin = work.input.begin() + static_cast<std::ptrdiff_t>(values);
+  std::copy(work.state.begin(), work.state.end(), begin);
+  // Without forces nothing but the columns of the states counts.
+  const std::size_t first = e.forced ? 0 : values;
+  const std::span<const double> input =
+      std::span(work.input).subspan(first, values + work.state.size() - first);
+  if (e.wanted) {
+    const bool cuts = !e.own.matrices.empty();
+    const numerics::PaddedMatrix& motion = cuts ? solved[k].motion : response.motion;
+    const std::span<double> here =
+        std::span(work.output).first(numerics::padded(values));
+    numerics::padded_product(motion.from(first), input, here);
+    std::copy_n(here.begin(), values,
+                work.q.begin() + static_cast<std::ptrdiff_t>(e.place));
+    if (cuts) {
+      add_force(e.own, force, here.first(values), std::span(work.input).first(values),
+                e.nodes());
     }
   }
-  if (e.own.at_nodes.empty()) {
-    std::copy(values.begin(), values.end(), here.begin());
-  } else {
-    numerics::solve(solved[k].lu, values, here);
-  }
-  for (std::size_t i = 0; i < e.own.at_nodes.size(); ++i) {
-    const Matrix2& A = e.own.at_nodes[i];
-    for (std::size_t c = 0; c < count; ++c) {
-      for (std::size_t b = 0; b < count; ++b) {
-        forces[c * n + i] += force * A[2 * c + b] * here[b * n + i];
-      }
-    }
-  }
-  if (e.forced) {
-    numerics::add_product(1.0, response.ends.values, forces, work.state);
-  }
+  const std::span<double> end =
+      std::span(work.output).first(numerics::padded(work.state.size()));
+  numerics::padded_product(response.end.from(first), input, end);
+  std::copy_n(end.begin(), work.state.size(), work.state.begin());
 }
 
 PeriodMap::PeriodMap(const Directional& directional, const System& system, double Omega,
@@ -203,7 +189,7 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
   parts->smooth = parts->elements.pitches > 0;
   for (std::size_t k = 0; k < parts->elements.all.size(); ++k) {
     parts->solved.push_back({parts->response_at(parts->elements.all[k]), {}});
-    parts->factorize(k);
+    parts->solve(k);
   }
   parts_ = std::move(parts);
 }
@@ -214,7 +200,7 @@ void PeriodMap::scale_forces(double factor) {
   }
   parts_->force = factor;
   for (std::size_t k = 0; k < parts_->elements.all.size(); ++k) {
-    parts_->factorize(k);
+    parts_->solve(k);
   }
 }
 
@@ -236,12 +222,19 @@ void PeriodMap::Parts::start(std::span<const double> in) {
     work.state[i] = in[elements.kept_values + i] * (i % 2 == 0 ? 1 : speed);
   }
   work.q.resize(elements.wanted_values);
+  std::size_t most = work.state.size();
+  for (const ElementResponse& response : responses) {
+    most = std::max(most, response.motion.rows);
+  }
+  work.input.resize(most + work.state.size());
+  work.output.resize(numerics::padded(most));
 }
 
 void PeriodMap::Parts::advance(std::size_t k, std::span<const double> in) {
   const PeriodElement& e = elements.all[k];
   if (e.forced) {
-    delayed_force(e, in, work.q, work.force);
+    delayed_force(e, in, work.q,
+                  std::span(work.input).first(components.count * e.nodes()));
   }
   step(k);
 }
@@ -279,7 +272,7 @@ double PeriodMap::unresolved(std::span<const double> in) {
     const std::size_t n = e.nodes();
     for (std::size_t c = 0; c < p.components.count; ++c) {
       if (e.forced) {
-        force.add(std::span(p.work.force).subspan(c * n, n));
+        force.add(std::span(p.work.input).subspan(c * n, n));
       }
       if (e.wanted) {
         motion.add(std::span(p.work.q).subspan(e.place + c * n, n));

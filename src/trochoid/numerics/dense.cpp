@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace trochoid::numerics {
@@ -91,32 +90,6 @@ Lu lu(const Matrix& A) {
   const Eigen::PartialPivLU<Dense> own(columns_of(A));
   const auto& place = own.permutationP().indices();
   return {plain(own.matrixLU()), {place.data(), place.data() + place.size()}};
-}
-
-void factorize(Lu& lu) {
-  Matrix& A = lu.factors;
-  const std::size_t n = A.rows;
-  lu.place.resize(n);
-  std::iota(lu.place.begin(), lu.place.end(), 0);
-  for (std::size_t k = 0; k < n; ++k) {
-    double* const pivots = &A.values[k * n];
-    const auto largest =
-        std::max_element(pivots + k, pivots + n,
-                         [](double a, double b) { return std::abs(a) < std::abs(b); });
-    const auto p = static_cast<std::size_t>(largest - pivots);
-    if (p != k) {
-      std::iter_swap(std::find(lu.place.begin(), lu.place.end(), static_cast<int>(k)),
-                     std::find(lu.place.begin(), lu.place.end(), static_cast<int>(p)));
-      for (std::size_t j = 0; j < n; ++j) std::swap(A(k, j), A(p, j));
-    }
-    const double share = 1 / pivots[k];
-    for (std::size_t i = k + 1; i < n; ++i) pivots[i] *= share;
-    for (std::size_t j = k + 1; j < n; ++j) {
-      double* const column = &A.values[j * n];
-      const double top = column[k];
-      for (std::size_t i = k + 1; i < n; ++i) column[i] -= pivots[i] * top;
-    }
-  }
 }
 
 void solve(const Lu& lu, std::span<const double> b, std::span<double> x) noexcept {

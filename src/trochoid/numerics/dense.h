@@ -48,10 +48,6 @@ struct Lu {
 /// @param A  square; the factors of a singular one solve nothing: not finite
 Lu lu(const Matrix& A);
 
-/// @brief The same in place, without a new allocation: for many small matrices.
-/// @param[in,out] lu  factors: A, then U and L; place: anything, then the rows
-void factorize(Lu& lu);
-
 /// @brief A x = b.
 /// @param[in]  b  shape (n)
 /// @param[out] x  shape (n), not part of b

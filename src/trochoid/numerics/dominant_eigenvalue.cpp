@@ -1,5 +1,6 @@
 #include <trochoid/numerics/dense.h>
 #include <trochoid/numerics/dominant_eigenvalue.h>
+#include <trochoid/numerics/padded.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +12,26 @@ namespace {
 
 constexpr std::size_t first_check = 9;
 
+/// @param v  padded
 double length(std::span<const double> v) {
-  double sum = 0.0;
-  for (const double value : v) sum += value * value;
-  return std::sqrt(sum);
+  double square = 0.0;
+  padded_transposed_product(v, v, {&square, 1});
+  return std::sqrt(square);
+}
+
+void divide(std::span<double> v, double by) {
+  for (double& value : v) value /= by;
 }
 
 /// A start that no symmetry of a map makes special, the same each time.
 std::vector<double> start_vector(std::size_t n) {
-  std::vector<double> v(n);
+  std::vector<double> v(padded(n));
   double x = 0.37;
-  for (double& value : v) {
+  for (std::size_t i = 0; i < n; ++i) {
     x = std::fmod(x + 0.6180339887498949, 1.0);
-    value = x - 0.3;
+    v[i] = x - 0.3;
   }
-  const double norm = length(v);
-  for (double& value : v) value /= norm;
+  divide(v, length(v));
   return v;
 }
 
@@ -37,25 +42,25 @@ struct Projection {
   bool ended = false;  ///< nothing is left
 };
 
-/// @param[in]     V  orthonormal columns, shape (w.size(), count)
-/// @param[in,out] w  then the rest, of length one unless nothing is left
+/// @param[in]     V  orthonormal padded columns, shape (w.size(), count)
+/// @param[in,out] w  padded; then the rest, of length one unless nothing is left
 Projection orthogonalize(std::span<const double> V, std::size_t count,
                          std::span<double> w) {
   const double before = length(w);
   Projection p{std::vector<double>(count), 0.0, false};
-  transposed_product(V, w, p.along);
-  add_product(-1.0, V, p.along, w);
+  padded_transposed_product(V, w, p.along);
+  subtract_padded_product(V, p.along, w);
   p.left = length(w);
   if (p.left < 0.7 * before) {  // twice is enough, and needed only here
     std::vector<double> more(count);
-    transposed_product(V, w, more);
-    add_product(-1.0, V, more, w);
+    padded_transposed_product(V, w, more);
+    subtract_padded_product(V, more, w);
     for (std::size_t i = 0; i < count; ++i) p.along[i] += more[i];
     p.left = length(w);
   }
   p.ended = p.left <= 1e-14 * before;
   if (!p.ended) {
-    for (double& value : w) value /= p.left;
+    divide(w, p.left);
   }
   return p;
 }
@@ -73,8 +78,10 @@ Eigenpair ritz(const std::vector<Projection>& columns) {
 }
 
 /// V times complex coordinates.
+/// @param V  padded columns of n numbers
 std::vector<std::complex<double>> combined(
-    std::span<const double> V, const std::vector<std::complex<double>>& coordinates) {
+    std::span<const double> V, const std::vector<std::complex<double>>& coordinates,
+    std::size_t n) {
   const std::size_t k = coordinates.size();
   std::vector<double> x(k);
   std::vector<double> y(k);
@@ -82,12 +89,12 @@ std::vector<std::complex<double>> combined(
     x[i] = coordinates[i].real();
     y[i] = coordinates[i].imag();
   }
-  std::vector<double> real(V.size() / k);
-  std::vector<double> imaginary(V.size() / k);
-  add_product(1.0, V, x, real);
-  add_product(1.0, V, y, imaginary);
-  std::vector<std::complex<double>> out(real.size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {real[i], imaginary[i]};
+  std::vector<double> real(padded(n));
+  std::vector<double> imaginary(padded(n));
+  padded_product(V, x, real);
+  padded_product(V, y, imaginary);
+  std::vector<std::complex<double>> out(n);
+  for (std::size_t i = 0; i < n; ++i) out[i] = {real[i], imaginary[i]};
   return out;
 }
 
@@ -96,16 +103,17 @@ std::vector<std::complex<double>> combined(
 DominantEigenvalue dominant_eigenvalue(const LinearMap& map, std::size_t size,
                                        double tolerance) {
   const std::size_t n = size;
-  std::vector<double> V = start_vector(n);  // column-major, shape (n, k + 1)
+  const std::size_t room = padded(n);
+  std::vector<double> V = start_vector(n);  // padded columns, k + 1 of them
   std::vector<Projection> H;                // its columns
   std::size_t check = std::min(n, first_check);
   Eigenpair found;
   double residual = 0.0;
   for (std::size_t k = 1; k <= n; ++k) {
-    V.resize((k + 1) * n);
-    const std::span<const double> before(V.data(), k * n);
-    const std::span<double> next(V.data() + k * n, n);
-    map(before.last(n), next);
+    V.resize((k + 1) * room);
+    const std::span<const double> before(V.data(), k * room);
+    const std::span<double> next(V.data() + k * room, room);
+    map(before.last(room).first(n), next.first(n));
     H.push_back(orthogonalize(before, k, next));
     const bool ended = k == n || H.back().ended;
     if (k < check && !ended) {
@@ -121,9 +129,8 @@ DominantEigenvalue dominant_eigenvalue(const LinearMap& map, std::size_t size,
     }
     check = k + std::max<std::size_t>(3, k / 4);
   }
-  const std::span<const double> basis(V.data(), found.vector.size() * n);
   return {.value = found.value,
-          .vector = combined(basis, found.vector),
+          .vector = combined(V, found.vector, n),
           .residual = residual,
           .steps = static_cast<int>(found.vector.size())};
 }

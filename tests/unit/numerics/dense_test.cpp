@@ -47,23 +47,6 @@ TEST(Dense, ConditionOfAKnownMatrix) {
   EXPECT_LT(reciprocal_condition(singular, lu(singular)), 1e-15);
 }
 
-TEST(Dense, FactorsInPlaceAreThoseOfACopy) {
-  constexpr std::size_t n = 23;
-  Matrix A = zeros(n, n);
-  double x = 0.3;
-  for (double& value : A.values) {
-    x = 3.9 * x * (1 - x);  // chaotic: no two entries alike
-    value = x - 0.5;
-  }
-  Lu own{A, {7, 7}};
-  factorize(own);
-  const Lu wanted = lu(A);
-  EXPECT_EQ(own.place, wanted.place);
-  for (std::size_t i = 0; i < A.values.size(); ++i) {
-    EXPECT_NEAR(own.factors.values[i], wanted.factors.values[i], 1e-12);
-  }
-}
-
 TEST(Dense, PairOfAHessenbergMatrixIsThatOfAnyMatrix) {
   for (const std::size_t n : {1U, 2U, 7U, 20U}) {
     Matrix H = zeros(n, n);
