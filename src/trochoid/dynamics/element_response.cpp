@@ -64,6 +64,30 @@ ElementResponse element_response(const std::vector<ChipMode>& modes,
   return response;
 }
 
+ElementResponse response_along_normals(const ElementResponse& response,
+                                       const PeriodElement& e) {
+  const std::size_t n = e.nodes();
+  const std::size_t states = response.end.rows;
+  ElementResponse out{response.degree, response.duration,
+                      numerics::padded_zeros(n, n + states),
+                      numerics::padded_zeros(states, n + states)};
+  const auto add = [&](std::size_t from, std::size_t to, double factor) {
+    const double* const motion = response.motion.column(from);
+    const double* const end = response.end.column(from);
+    for (std::size_t i = 0; i < n; ++i) {
+      out.motion.column(to)[i] +=
+          factor * (e.normal[i][0] * motion[i] + e.normal[i][1] * motion[n + i]);
+    }
+    for (std::size_t i = 0; i < states; ++i) out.end.column(to)[i] += factor * end[i];
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    add(k, k, e.push[k][0]);  // D-15
+    add(n + k, k, e.push[k][1]);
+  }
+  for (std::size_t r = 0; r < states; ++r) add(2 * n + r, n + r, 1.0);
+  return out;
+}
+
 void answer_cut(const numerics::PaddedMatrix& given, std::span<const double> matrices,
                 double force, Elimination& work, numerics::PaddedMatrix& motion) {
   const std::size_t values = given.rows;

@@ -28,6 +28,13 @@ ElementResponse element_response(const std::vector<ChipMode>& modes,
                                  const Components& components, int degree,
                                  double duration);
 
+/// @brief The same for motion along normals and forces along given directions.
+///
+/// @eq  D-15 n . (motion of a force along u)
+/// @src elementary
+ElementResponse response_along_normals(const ElementResponse& response,
+                                       const PeriodElement& element);
+
 /// Room for one elimination after another.
 struct Elimination {
   numerics::PaddedMatrix system;

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/nodes.h>
+#include <trochoid/dynamics/normal_motion.h>
 #include <trochoid/dynamics/period_parts.h>
 
 #include <algorithm>
@@ -157,10 +158,15 @@ PeriodElements period_elements(const Directional& directional,
   const double cycle = Omega / fastest;  // [rad]
   const PeriodParts parts = period_parts(directional, cycle);
   out.pitches = parts.pitches;
+  out.components = components.count;
+  const std::size_t a_pitch =
+      parts.all.size() / std::max<std::size_t>(1, parts.pitches);
   for (const PeriodPart& part : parts.all) {
     const DirectionalElement& whole = directional.elements[part.whole];
     PeriodElement e{.from = part.from, .to = part.to, .delayed = {}};
-    e.degree = part_degree(e.to - e.from, cycle, resolution.factor);
+    e.degree = out.all.size() < a_pitch
+                   ? part_degree(e.to - e.from, cycle, resolution.factor)
+                   : out.all[out.all.size() - a_pitch].degree;
     const bool cuts = std::any_of(whole.matrices.begin(), whole.matrices.end(),
                                   [](const auto& channel) { return !channel.empty(); });
     const std::vector<double> rows = cuts ? rows_of(whole, e) : std::vector<double>();
@@ -175,13 +181,16 @@ PeriodElements period_elements(const Directional& directional,
     out.all.push_back(std::move(e));
   }
   add_sources(out, directional);
+  if (!resolution.whole_period) {
+    follow_normals(out);
+  }
   for (PeriodElement& e : out.all) {
     e.kept = e.kept || resolution.whole_period;
     e.wanted = e.wanted || e.kept || e.forced;
     e.first = out.kept_values;
     e.place = out.wanted_values;
-    out.kept_values += e.kept ? components.count * e.nodes() : 0;
-    out.wanted_values += e.wanted ? components.count * e.nodes() : 0;
+    out.kept_values += e.kept ? out.components * e.nodes() : 0;
+    out.wanted_values += e.wanted ? out.components * e.nodes() : 0;
   }
   return out;
 }

@@ -36,8 +36,9 @@ struct Source {
 
 /// Matrices of one channel of D-8 at the nodes of an element, in the components of q.
 struct Channel {
-  std::vector<double> matrices;  ///< shape (components, components, nodes); empty: zero
-  std::vector<Source> sources;   ///< of a delay; shape (nodes), or one for all of them
+  /// Shape (components, components, nodes); empty: zero.
+  std::vector<double> matrices;
+  std::vector<Source> sources;  ///< of a delay; shape (nodes), or one for all of them
 };
 
 /// A part of a period in which all is smooth.
@@ -52,6 +53,8 @@ struct PeriodElement {
   std::size_t place = 0;  ///< place of its q among those of the period
   Channel own;
   std::vector<Channel> delayed;
+  std::vector<std::array<double, 2>> normal;  ///< n of D-15 at the nodes; or empty
+  std::vector<std::array<double, 2>> push;    ///< u of D-15
 
   [[nodiscard]] std::size_t nodes() const noexcept {
     return static_cast<std::size_t>(degree) + 1;
@@ -68,6 +71,7 @@ struct Resolution {
 struct PeriodElements {
   std::vector<PeriodElement> all;
   std::size_t pitches = 0;        ///< of equal elements; 0: delays do not lead to nodes
+  std::size_t components = 2;     ///< of motion and force at a node
   std::size_t kept_values = 0;    ///< in a disturbance
   std::size_t wanted_values = 0;  ///< in a period
 };

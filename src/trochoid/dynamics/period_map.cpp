@@ -81,7 +81,7 @@ struct PeriodMap::Parts {
   bool smooth = false;
   Work work;
 
-  std::size_t response_at(const PeriodElement& element);
+  std::size_t response_at(std::size_t k);
   void solve(std::size_t k);
   void delayed_force(const PeriodElement& element, std::span<const double> before,
                      std::span<const double> now, std::span<double> out) const;
@@ -90,17 +90,26 @@ struct PeriodMap::Parts {
   void advance(std::size_t k, std::span<const double> in);
 };
 
-/// Elements of one length share one.
-std::size_t PeriodMap::Parts::response_at(const PeriodElement& element) {
-  const double duration = (element.to - element.from) / Omega;
-  const int degree = element.wanted ? element.degree : 0;
-  for (std::size_t i = 0; i < responses.size(); ++i) {
-    if (responses[i].degree == degree &&
-        std::abs(responses[i].duration - duration) < 1e-13 * duration) {
-      return i;
-    }
+/// Elements of one length share one, unless they follow normals of their own.
+std::size_t PeriodMap::Parts::response_at(std::size_t k) {
+  const PeriodElement& e = elements.all[k];
+  const bool along = e.wanted && !e.normal.empty();
+  const double duration = (e.to - e.from) / Omega;
+  const int degree = e.wanted ? e.degree : 0;
+  const std::size_t rows = e.wanted ? components.count * e.nodes() : 0;
+  const auto known = std::find_if(
+      responses.begin(), responses.end(), [&](const ElementResponse& response) {
+        return response.degree == degree && response.motion.rows == rows &&
+               std::abs(response.duration - duration) < 1e-13 * duration;
+      });
+  const auto i = static_cast<std::size_t>(known - responses.begin());
+  if (known == responses.end()) {
+    responses.push_back(element_response(modes, components, degree, duration));
   }
-  responses.push_back(element_response(modes, components, degree, duration));
+  if (!along) {
+    return i;
+  }
+  responses.push_back(response_along_normals(responses[i], e));
   return responses.size() - 1;
 }
 
@@ -118,7 +127,7 @@ void PeriodMap::Parts::delayed_force(const PeriodElement& e,
                                      std::span<const double> now,
                                      std::span<double> out) const {
   const std::size_t n = e.nodes();
-  const std::size_t count = components.count;
+  const std::size_t count = elements.components;
   std::array<double, 2 * (largest_degree + 1)> between;
   std::fill(out.begin(), out.end(), 0.0);
   for (const Channel& channel : e.delayed) {
@@ -188,7 +197,7 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
       period_elements(directional, parts->components, Omega, fastest, resolution);
   parts->smooth = parts->elements.pitches > 0;
   for (std::size_t k = 0; k < parts->elements.all.size(); ++k) {
-    parts->solved.push_back({parts->response_at(parts->elements.all[k]), {}});
+    parts->solved.push_back({parts->response_at(k), {}});
     parts->solve(k);
   }
   parts_ = std::move(parts);
@@ -213,7 +222,7 @@ std::size_t PeriodMap::size() const noexcept {
 }
 
 std::size_t PeriodMap::components() const noexcept {
-  return parts_->components.count;
+  return parts_->elements.components;
 }
 
 void PeriodMap::Parts::start(std::span<const double> in) {
@@ -234,7 +243,7 @@ void PeriodMap::Parts::advance(std::size_t k, std::span<const double> in) {
   const PeriodElement& e = elements.all[k];
   if (e.forced) {
     delayed_force(e, in, work.q,
-                  std::span(work.input).first(components.count * e.nodes()));
+                  std::span(work.input).first(elements.components * e.nodes()));
   }
   step(k);
 }
@@ -247,7 +256,7 @@ void PeriodMap::apply(std::span<const double> in, std::span<double> out) {
     p.advance(k, in);
     if (e.kept) {
       std::copy_n(p.work.q.begin() + static_cast<std::ptrdiff_t>(e.place),
-                  p.components.count * e.nodes(),
+                  p.elements.components * e.nodes(),
                   out.begin() + static_cast<std::ptrdiff_t>(e.first));
     }
   }
@@ -270,7 +279,7 @@ double PeriodMap::unresolved(std::span<const double> in) {
     const PeriodElement& e = p.elements.all[k];
     p.advance(k, in);
     const std::size_t n = e.nodes();
-    for (std::size_t c = 0; c < p.components.count; ++c) {
+    for (std::size_t c = 0; c < p.elements.components; ++c) {
       if (e.forced) {
         force.add(std::span(p.work.input).subspan(c * n, n));
       }

@@ -61,7 +61,8 @@ class PeriodMap {
     std::size_t step = 0;   ///< from one component of q to the next
   };
   [[nodiscard]] std::vector<Node> disturbance_nodes() const;
-  /// Components of q: 1 where all modes move along one line, else 2.
+  /// Numbers of a node: 1 where all modes move along one line, or where only the motion
+  /// along a normal counts (not with `whole_period`), else 2.
   [[nodiscard]] std::size_t components() const noexcept;
 
  private:

@@ -3,6 +3,7 @@
 #include "milling_cut.h"
 
 #include <gtest/gtest.h>
+#include <trochoid/numerics/dominant_eigenvalue.h>
 
 #include <cmath>
 
@@ -86,6 +87,31 @@ TEST(Multiplier, OfARevolutionIsThePowerOfThatOfAPitch) {  // [D-8] [D-11]
   setup.cutter.pitch = {third + 1e-7, third - 1e-7, third};
   const double turn = growth(setup, benchmark_law(), benchmark_system());
   EXPECT_NEAR(turn, std::pow(equal, 3), 1e-5);
+}
+
+TEST(Multiplier, FollowsTheNormalsOfAnOnlyTooth) {  // [D-15]
+  // Straight edges, two teeth, a slot: one cuts at a time. What is kept of the whole
+  // period has both components all the same.
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  setup.chip = {chip::Model::radial, chip::Lookback::all};
+  setup.runout.radial_offsets = {10e-6, -10e-6};
+  const force::Power law{.K_t1 = 600e6, .K_r1 = 250e6, .m_t = 0.3, .m_r = 0.4};
+  const System system{
+      {mode_of(0.03993, 922, 0.011, 1, 0), mode_of(0.03, 700, 0.02, 0.6, 0.8)}};
+  const auto largest = [&](const Resolution& resolution, std::size_t components) {
+    const Directional d =
+        DirectionalModel(setup, law, 1e-6, 1e-11).at_depth(setup.cut.a_p);
+    PeriodMap map(d, system, setup.cut.Omega, resolution);
+    EXPECT_EQ(map.components(), components);
+    return numerics::dominant_eigenvalue([&](auto in, auto out) { map.apply(in, out); },
+                                         map.size(), 1e-10)
+        .value;
+  };
+  const auto along = largest({.factor = 1.5}, 1);
+  const auto plane = largest({.factor = 1.5, .whole_period = true}, 2);
+  EXPECT_NEAR(std::abs(along - plane), 0.0, 1e-7 * std::abs(plane));
+  setup.cutter.helix = 0.3;  // the edge has many normals at a time
+  largest({}, 2);
 }
 
 TEST(Multiplier, SaysHowGoodItIs) {
