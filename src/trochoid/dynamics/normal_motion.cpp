@@ -117,6 +117,21 @@ void reduce(Channel& channel, const PeriodElement& e) {
   channel.matrices = std::move(shares);
 }
 
+/// No matrix that turns more than one direction into a force: soon seen where there is one.
+bool each_has_one_normal(const PeriodElements& elements, double largest) {
+  return std::all_of(
+      elements.all.begin(), elements.all.end(), [&](const PeriodElement& e) {
+        bool one = true;
+        each_channel(e, [&](const Channel& channel) {
+          for (std::size_t i = 0; i < e.nodes() && one; ++i) {
+            const Matrix2 A = matrix_at(channel, i);
+            one = std::abs(A[0] * A[3] - A[1] * A[2]) <= nothing * largest * size_of(A);
+          }
+        });
+        return one;
+      });
+}
+
 /// The directions of all elements, the normals the same in every pitch.
 void add_directions(PeriodElements& elements) {
   const std::size_t a_pitch = elements.all.size() / elements.pitches;
@@ -154,8 +169,12 @@ void follow_normals(PeriodElements& elements) {
   if (elements.pitches == 0 || elements.components != 2) {
     return;
   }
+  const double largest = largest_entry(elements);
+  if (!each_has_one_normal(elements, largest)) {
+    return;
+  }
   add_directions(elements);
-  const double allowed = nothing * largest_entry(elements);
+  const double allowed = nothing * largest;
   const bool all =
       std::all_of(elements.all.begin(), elements.all.end(),
                   [&](const PeriodElement& e) { return are_products(e, allowed); });
