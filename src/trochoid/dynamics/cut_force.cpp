@@ -13,9 +13,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// q at the delayed moment.
-std::array<double, 2> delayed(const EngagedGrid& grid, std::size_t node,
-                              std::size_t tooth, std::size_t m,
-                              const History& past) noexcept {
+Displaced delayed(const EngagedGrid& grid, std::size_t node, std::size_t tooth,
+                  std::size_t m, const History& past) noexcept {
   if (grid.delays.empty()) {
     const auto back = -static_cast<std::ptrdiff_t>((m + 1) * grid.pitch);
     return {past.x[back], past.y[back]};
@@ -63,7 +62,7 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
     }
   }
   constant_.resize(most);
-  h_.resize(most);
+  marks_.resize(grid.lookback);
   watched_.assign(grid.teeth, none);
   crossings_.reserve(grid.teeth);
   const auto& [form, K, K_e] = law_;
@@ -75,12 +74,7 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
   const auto& m = form.m;
   axial_ = K[2] != 0 || K_e[2] != 0;
   for (std::size_t e = 0; e < m.size(); ++e) {
-    directions_[e] = {m[e],
-                      1 - m[e],
-                      K[e],
-                      e,
-                      NearPower(m[e], grid.teeth),
-                      std::vector<double>(most)};
+    directions_[e] = {m[e], 1 - m[e], K[e], e, NearPower(m[e], grid.teeth)};
     for (std::size_t other = e; other-- > 0;) {
       if (directions_[other].same_as == other && (m[other] == m[e] || K[e] == 0)) {
         directions_[e].same_as = other;
@@ -91,86 +85,31 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
 
 void CutForce::prepare_edges(std::size_t node, const History& past) noexcept {
   double* least = constant_.data();
+  const std::size_t begin =
+      contacts_.first < contacts_.last ? grid_.stretches[contacts_.first].first : 0;
+  points_ = points_at(begin, 0);
   for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
     const Stretch& stretch = grid_.stretches[k];
-    const double* sine = grid_.sine.data() + stretch.first;
-    const double* cosine = grid_.cosine.data() + stretch.first;
-    const double* above = grid_.above.data() + stretch.marks;
-    for (std::size_t i = 0; i < stretch.count; ++i) {
-      least[i] = above[i];  // the stock
-    }
     for (std::size_t m = 0; m < grid_.lookback; ++m) {
-      above += stretch.count;
-      const auto [x, y] = delayed(grid_, node, stretch.tooth, m, past);
-      for (std::size_t i = 0; i < stretch.count; ++i) {
-        least[i] = std::min(least[i], above[i] - x * sine[i] - y * cosine[i]);  // T-1
-      }
+      marks_[m] = delayed(grid_, node, stretch.tooth, m, past);
     }
+    chips_over_marks(points_at(stretch.first, stretch.count),
+                     grid_.above.data() + stretch.marks, marks_, least);
     least += stretch.count;
+    points_.count += stretch.count;
   }
 }
 
-Response CutForce::linear_response(double q_x, double q_y) const noexcept {
-  Response out;
-  const auto& [form, K, K_e] = law_;
-  std::size_t at = 0;
-  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
-    const Stretch& stretch = grid_.stretches[k];
-    for (std::size_t i = stretch.first; i < stretch.first + stretch.count; ++i, ++at) {
-      const double h = chip(at, i, q_x, q_y);
-      if (!(h > chip::h_threshold)) {
-        continue;
-      }
-      const double w = grid_.width[i];
-      const double e = grid_.edge[i];
-      const std::array<double, 3> slope = {K[0] * w, K[1] * w, K[2] * w};
-      add(grid_.sine[i], grid_.cosine[i],
-          {slope[0] * h + K_e[0] * e, slope[1] * h + K_e[1] * e,
-           slope[2] * h + K_e[2] * e},
-          slope, out);
-    }
-  }
-  return out;
+PointsInCut CutForce::points_at(std::size_t first, std::size_t count) const noexcept {
+  return {count, grid_.sine.data() + first, grid_.cosine.data() + first,
+          grid_.width.data() + first, grid_.edge.data() + first};
 }
 
-Response CutForce::power_response(double q_x, double q_y) noexcept {
+Response CutForce::edge_response(double q_x, double q_y) const noexcept {
+  const ForceSums sums = force_of_points(points_, constant_.data(), {q_x, q_y}, law_);
   Response out;
-  std::size_t count = 0;
-  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
-    const Stretch& stretch = grid_.stretches[k];
-    for (std::size_t i = 0; i < stretch.count; ++i, ++count) {
-      h_[count] = std::max(chip(count, stretch.first + i, q_x, q_y), chip::h_threshold);
-    }
-  }
-  for (std::size_t e = 0; e < directions_.size(); ++e) {
-    Direction& d = directions_[e];
-    if (d.same_as == e) {
-      const double* h = h_.data();
-      double* g = d.g.data();
-      for (std::size_t i = 0; i < count; ++i) {
-        g[i] = power_of(h[i] * (1 / force::h_0), -d.m);
-      }
-    }
-  }
-  std::size_t at = 0;
-  for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
-    const Stretch& stretch = grid_.stretches[k];
-    for (std::size_t i = stretch.first; i < stretch.first + stretch.count; ++i, ++at) {
-      const double h = h_[at];
-      if (!(h > chip::h_threshold)) {
-        continue;
-      }
-      std::array<double, 3> f;
-      std::array<double, 3> slope;
-      for (std::size_t e = 0; e < directions_.size(); ++e) {
-        const Direction& d = directions_[e];
-        const double K = d.K * grid_.width[i] * directions_[d.same_as].g[at];
-        f[e] = K * h + law_.K_e[e] * grid_.edge[i];  // K_q1 h_0 (h/h_0)^(1 - m) + K_qe
-        slope[e] = d.slope * K;
-      }
-      add(grid_.sine[i], grid_.cosine[i], f, slope, out);
-    }
-  }
+  std::copy_n(sums.begin(), out.F.size(), out.F.begin());
+  std::copy_n(sums.begin() + out.F.size(), out.per_q.size(), out.per_q.begin());
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/chip/chip.h>
+#include <trochoid/dynamics/edge_force.h>
 #include <trochoid/dynamics/engaged_grid.h>
 #include <trochoid/force/law.h>
 
@@ -100,7 +101,7 @@ class CutForce {
     if (grid_.one_point) {
       return point_response(q_x, q_y);
     }
-    return law_.form.power ? power_response(q_x, q_y) : linear_response(q_x, q_y);
+    return edge_response(q_x, q_y);
   }
 
   /// @return tooth and chip [m] of the lowest point
@@ -132,14 +133,14 @@ class CutForce {
     double K = 0.0;           ///< [N/m^2]
     std::size_t same_as = 0;  ///< the first direction with the same m
     NearPower near;
-    std::vector<double> g;  ///< (h/h_0)^-m of the points prepared
   };
 
   void prepare_points(const History& past) noexcept;
   void prepare_edges(std::size_t node, const History& past) noexcept;
   [[nodiscard]] Response point_response(double q_x, double q_y) noexcept;
-  [[nodiscard]] Response linear_response(double q_x, double q_y) const noexcept;
-  [[nodiscard]] Response power_response(double q_x, double q_y) noexcept;
+  [[nodiscard]] Response edge_response(double q_x, double q_y) const noexcept;
+  [[nodiscard]] PointsInCut points_at(std::size_t first,
+                                      std::size_t count) const noexcept;
   void remember_chips(double q_x, double q_y) noexcept;
   void find_crossings(double q_x, double q_y) noexcept;
   [[nodiscard]] double chip(std::size_t at, std::size_t point, double q_x,
@@ -157,8 +158,9 @@ class CutForce {
   std::array<Direction, 3> directions_;  ///< t, r, a
   Contacts contacts_;
   std::vector<double> constant_;
-  std::vector<double> h_;
-  std::vector<double> watched_;  ///< chip of each tooth, NaN: not there
+  PointsInCut points_;            ///< with helix: all of the contacts, side by side
+  std::vector<Displaced> marks_;  ///< of a tooth, in one stretch after another
+  std::vector<double> watched_;   ///< chip of each tooth, NaN: not there
   std::vector<Crossing> crossings_;
 };
 
