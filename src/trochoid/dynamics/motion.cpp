@@ -5,6 +5,8 @@
 #include <trochoid/dynamics/force_balance.h>
 #include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion_record.h>
+#include <trochoid/dynamics/newton_step.h>
+#include <trochoid/dynamics/past.h>
 #include <trochoid/dynamics/stepper.h>
 
 #include <fmt/core.h>
@@ -29,81 +31,9 @@ constexpr double too_much = 1e-6;
 constexpr double small_change = 0.2;
 /// A displacement that no cut has [m]: the motion has run away.
 constexpr double run_away = 0.1;
-/// Remembered beyond the oldest delay, for the places between nodes.
-constexpr std::size_t spare = 4;
-
 double size_of(const Force& F) {
   return std::abs(F[0]) + std::abs(F[1]);
 }
-
-/// q of all nodes that delays may ask for, and of the current turn.
-class Past {
- public:
-  explicit Past(const EngagedGrid& grid)
-      : turn_(grid.angle.size()), memory_(grid.memory() + spare), now_(memory_) {
-    for (auto* values : {&x_, &y_, &dx_, &dy_}) {
-      values->assign(memory_ + turns * turn_ + 1, 0.0);
-    }
-  }
-
-  /// Index 0 is the node that comes next.
-  [[nodiscard]] History next() const noexcept {
-    const std::size_t i = now_ + 1;
-    return {x_.data() + i, y_.data() + i, dx_.data() + i, dy_.data() + i};
-  }
-
-  /// Index 0 is the last node.
-  [[nodiscard]] History last() const noexcept {
-    return {x_.data() + now_, y_.data() + now_, dx_.data() + now_, dy_.data() + now_};
-  }
-
-  void set(const std::array<double, 2>& q, const std::array<double, 2>& slope) {
-    x_[now_] = q[0];
-    y_[now_] = q[1];
-    dx_[now_] = slope[0];
-    dy_[now_] = slope[1];
-  }
-
-  void add(const std::array<double, 2>& q, const std::array<double, 2>& slope) {
-    ++now_;
-    set(q, slope);
-  }
-
-  [[nodiscard]] std::array<double, 2> q() const { return {x_[now_], y_[now_]}; }
-
-  /// After a turn: forget what no delay reaches any more, if room is needed.
-  void finish_turn() {
-    if (now_ < memory_ + turns * turn_) {
-      return;
-    }
-    for (auto* values : {&x_, &y_, &dx_, &dy_}) {
-      std::copy(values->end() - static_cast<std::ptrdiff_t>(memory_ + 1), values->end(),
-                values->begin());
-    }
-    now_ = memory_;
-  }
-
-  /// After a turn: as if there had been many like it.
-  void repeat_turn() {
-    for (auto* values : {&x_, &y_, &dx_, &dy_}) {
-      for (std::size_t i = memory_; i-- > 0;) {
-        (*values)[i] = (*values)[i + turn_];
-      }
-    }
-    now_ = memory_;
-  }
-
- private:
-  static constexpr std::size_t turns = 4;  ///< that there is room for
-
-  std::size_t turn_;
-  std::size_t memory_;
-  std::size_t now_;
-  std::vector<double> x_;
-  std::vector<double> y_;
-  std::vector<double> dx_;
-  std::vector<double> dy_;
-};
 
 std::vector<double> times_of(const EngagedGrid& grid, double omega) {
   std::vector<double> times;
@@ -122,40 +52,6 @@ int steps_of(const MotionProblem& problem) {
   }
   return steps;
 }
-
-/// (I - J P)^-1 with J = dF/dq and P = dq/dF: from how far a force is off to what it
-/// should be.
-struct Newton {
-  double xx = 1.0;
-  double xy = 0.0;
-  double yx = 0.0;
-  double yy = 1.0;
-  double strength = 0.0;  ///< size of J P
-  /// A feedback within a step weaker than this may be met with an old slope, and to
-  /// first order.
-  static constexpr double mild = 0.03;
-
-  Newton() = default;
-  Newton(const Response& r, const std::array<double, 3>& P) noexcept {
-    const auto& J = r.per_q;
-    const double a = J[0] * P[0] + J[1] * P[1];
-    const double b = J[0] * P[1] + J[1] * P[2];
-    const double c = J[2] * P[0] + J[3] * P[1];
-    const double d = J[2] * P[1] + J[3] * P[2];
-    strength = std::abs(a) + std::abs(b) + std::abs(c) + std::abs(d);
-    xx = 1 + a;
-    xy = b;
-    yx = c;
-    yy = 1 + d;
-    if (strength > mild) {
-      const double whole = 1 / ((1 - a) * (1 - d) - b * c);
-      xx = (1 - d) * whole;
-      xy = b * whole;
-      yx = c * whole;
-      yy = (1 - a) * whole;
-    }
-  }
-};
 
 class Run {
  public:
@@ -216,9 +112,8 @@ class Run {
 
   /// The motion that a turn of forces without vibration keeps up, and a past like it.
   void start_periodic() {
-    const std::vector<double> zero(grid_.memory() + spare, 0.0);
-    const double* end = zero.data() + grid_.memory() + spare - 1;
-    const History still{end, end, end, end};
+    const Past nothing_moved(grid_);
+    const History still = nothing_moved.last();
     for (const bool first : {true, false}) {
       past_.set(stepper_.place(), slope());
       for (std::size_t i = 0; i < grid_.angle.size(); ++i) {
@@ -305,8 +200,8 @@ class Run {
     for (int round = 0; round < most_rounds; ++round) {
       const auto q = stepper_.end({guess[0], guess[1], 0.0});
       const Response r = cut_.response(q[0], q[1]);
-      const Newton fresh(r, P);
-      const Newton& use = round == 0 ? newton_ : fresh;
+      const NewtonStep fresh(r, P);
+      const NewtonStep& use = round == 0 ? newton_ : fresh;
       const std::array<double, 2> off = {r.F[0] - guess[0], r.F[1] - guess[1]};
       const std::array<double, 2> change = {use.xx * off[0] + use.xy * off[1],
                                             use.yx * off[0] + use.yy * off[1]};
@@ -315,7 +210,7 @@ class Run {
       const double moved = std::abs(change[0]) + std::abs(change[1]);
       const double size = size_of(r.F);
       const bool stiff =
-          round == 0 && std::max(newton_.strength, fresh.strength) > Newton::mild;
+          round == 0 && std::max(newton_.strength, fresh.strength) > NewtonStep::mild;
       newton_ = fresh;
       largest_ = std::max(largest_, size);
       if ((!stiff && moved <= near * size) || moved <= settled * largest_) {
@@ -377,7 +272,7 @@ class Run {
   int with_slope_;  ///< turns at the end in which slopes of the past are asked for
   std::vector<double> ratio_;  ///< of each step to the one before
   TakenStep step_;
-  Newton newton_;
+  NewtonStep newton_;
   Force before_{};  ///< force one step earlier
   double largest_ = 0.0;
   Motion motion_;
