@@ -138,6 +138,7 @@ class CutForce {
   void prepare_points(const History& past) noexcept;
   void prepare_edges(std::size_t node, const History& past) noexcept;
   [[nodiscard]] Response point_response(double q_x, double q_y) noexcept;
+  void add_point(std::size_t k, double h, Response& out) noexcept;
   [[nodiscard]] Response edge_response(double q_x, double q_y) const noexcept;
   [[nodiscard]] PointsInCut points_at(std::size_t first,
                                       std::size_t count) const noexcept;
@@ -201,34 +202,39 @@ inline Response CutForce::point_response(double q_x, double q_y) noexcept {
   Response out;
   for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
     const double h = chip(k - contacts_.first, k, q_x, q_y);
-    if (!(h > chip::h_threshold)) {
-      continue;
-    }
-    const double w = grid_.width[k];
-    const double edge = grid_.edge[k];
-    if (law_.form.power) {
-      const std::size_t tooth = grid_.stretches[k].tooth;
-      std::array<double, 3> g{directions_[0].near(tooth, h)};
-      std::array<double, 3> f{};
-      std::array<double, 3> slope{};
-      for (std::size_t e = 0; e < (axial_ ? 3 : 2); ++e) {
-        Direction& d = directions_[e];
-        g[e] = d.same_as == e && e > 0 ? d.near(tooth, h) : g[d.same_as];
-        const double K = d.K * w * g[e];
-        f[e] = K * h + law_.K_e[e] * edge;  // K_q1 h_0 (h/h_0)^(1 - m) + K_qe
-        slope[e] = d.slope * K;
-      }
-      add(grid_.sine[k], grid_.cosine[k], f, slope, out);
-    } else {
-      const auto& K_e = law_.K_e;
-      const std::array<double, 3> slope = {law_.K[0] * w, law_.K[1] * w, law_.K[2] * w};
-      add(grid_.sine[k], grid_.cosine[k],
-          {slope[0] * h + K_e[0] * edge, slope[1] * h + K_e[1] * edge,
-           slope[2] * h + K_e[2] * edge},
-          slope, out);
+    if (h > chip::h_threshold) {
+      add_point(k, h, out);
     }
   }
   return out;
+}
+
+inline void CutForce::add_point(std::size_t k, double h, Response& out) noexcept {
+  const double w = grid_.width[k];
+  const double edge = grid_.edge[k];
+  std::array<double, 3> f{};
+  std::array<double, 3> slope{};
+  const auto along = [&](std::size_t e, double K, double share) {
+    f[e] = K * h + law_.K_e[e] * edge;  // K_q1 h_0 (h/h_0)^(1 - m) + K_qe
+    slope[e] = share * K;
+  };
+  if (law_.form.power) {
+    const std::size_t tooth = grid_.stretches[k].tooth;
+    auto& [t, r, a] = directions_;
+    const double g_t = t.near(tooth, h);
+    const double g_r = r.same_as == 0 ? g_t : r.near(tooth, h);
+    along(0, t.K * w * g_t, t.slope);
+    along(1, r.K * w * g_r, r.slope);
+    if (axial_) {
+      const double g_a = a.same_as == 0   ? g_t
+                         : a.same_as == 1 ? g_r
+                                          : a.near(tooth, h);
+      along(2, a.K * w * g_a, a.slope);
+    }
+  } else {
+    for (std::size_t e = 0; e < 3; ++e) along(e, law_.K[e] * w, 1.0);
+  }
+  add(grid_.sine[k], grid_.cosine[k], f, slope, out);
 }
 
 }  // namespace trochoid::dynamics
