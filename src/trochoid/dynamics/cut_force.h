@@ -226,9 +226,7 @@ inline void CutForce::add_point(std::size_t k, double h, Response& out) noexcept
     along(0, t.K * w * g_t, t.slope);
     along(1, r.K * w * g_r, r.slope);
     if (axial_) {
-      const double g_a = a.same_as == 0   ? g_t
-                         : a.same_as == 1 ? g_r
-                                          : a.near(tooth, h);
+      const double g_a = a.same_as == 0 ? g_t : a.same_as == 1 ? g_r : a.near(tooth, h);
       along(2, a.K * w * g_a, a.slope);
     }
   } else {

@@ -94,6 +94,9 @@ class Run {
       }
       past_.finish_turn();
       ++motion_.turns_done;
+      if (problem_.turned) {
+        problem_.turned(motion_.turns_done);
+      }
     }
     motion_.growth =
         growth_per_turn(motion_.once, small_change * problem_.setup.cut.f_z);
@@ -154,9 +157,12 @@ class Run {
     stepper_.begin(i, F, command);
     cut_.prepare(next, grid_.before[next], past_.next());
     const Force end = force_at_end(i, F);
-    const bool jumped = add_crossings(end);
+    auto q = stepper_.end(end);
+    const bool jumped = add_crossings(q);
+    if (jumped) {
+      q = stepper_.end(end);
+    }
     stepper_.accept(end);
-    const auto q = stepper_.end(end);
     past_.add(q, left <= with_slope_ ? slope() : std::array<double, 2>{});
     motion_.finite = std::abs(q[0]) + std::abs(q[1]) < run_away;
     step_.past = past_.last();
@@ -240,8 +246,7 @@ class Run {
 
   /// An edge force that came or went in the step acted over a part of it, not as the
   /// straight line between its ends has it.
-  bool add_crossings(const Force& end) {
-    const auto q = stepper_.end(end);
+  bool add_crossings(const std::array<double, 2>& q) {
     const auto& crossings = cut_.crossings(q[0], q[1]);
     for (const Crossing& crossing : crossings) {
       Force mean;

@@ -45,6 +45,8 @@ struct MotionProblem {
   /// force jumps it is the one just after.
   std::function<void(double t, const std::array<double, 3>& force, double table)>
       observe;
+  /// Called after every revolution: how many are done. May be empty.
+  std::function<void(int done)> turned;
   GridOptions grid;
   Start start = Start::rest;
   int revolutions = 20;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 namespace trochoid::dynamics {
 
@@ -248,6 +249,15 @@ TEST(Motion, TheLongFluteTakesWhatTheShortOneLeaves) {  // [T-1]
   const double both = m.flutes[0].chip_area + m.flutes[1].chip_area;
   EXPECT_NEAR(both, 4 * 0.05e-3, 1e-3 * both);  // all that there is
   EXPECT_GT(m.flutes[0].chip_area, 3 * m.flutes[1].chip_area);
+}
+
+TEST(Motion, TellsOfEveryRevolution) {
+  MotionProblem p = small_tool();
+  std::vector<int> told;
+  p.turned = [&](int done) { told.push_back(done); };
+  p.revolutions = 3;
+  motion(p);
+  EXPECT_EQ(told, (std::vector<int>{1, 2, 3}));
 }
 
 TEST(EngagedGrid, RefusesWhatItCannotShift) {

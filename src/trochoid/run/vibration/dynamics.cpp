@@ -36,6 +36,23 @@ MotionResult result_of(const inputs::Case& given, const MotionProblem& problem) 
   return r;
 }
 
+/// The motion until it repeats, with what share of the turns asked for is done.
+SteadyState followed(MotionProblem problem, const Progress& progress) {
+  if (!progress) {
+    return dynamics::steady_state(problem);
+  }
+  int asked = problem.revolutions;
+  const auto tell = [&](int done) {
+    progress(
+        {fmt::format("Cutting, {} turns", asked), static_cast<double>(done) / asked});
+  };
+  problem.turned = tell;
+  return dynamics::steady_state(problem, [&](int turns) {
+    asked = turns;
+    tell(0);
+  });
+}
+
 }  // namespace
 
 MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
@@ -44,11 +61,7 @@ MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
   if (problem.grid.steps_per_tooth > dynamics::most_steps) {
     return failed(std::move(r), too_many_steps(problem.grid.steps_per_tooth));
   }
-  SteadyState steady = dynamics::steady_state(problem, [&](int turns) {
-    if (progress) {
-      progress(fmt::format("Cutting, {} turns", turns));
-    }
-  });
+  SteadyState steady = followed(problem, progress);
   if (steady.motion.finite && !steady.motion.solved) {
     return failed(std::move(r),
                   "no force was found that agrees with the motion it makes: a mode is "
