@@ -18,21 +18,27 @@ Cuts cuts_at(const DirectionalModel& model, std::span<const double> depth) {
 }
 
 Multiplier DepthSweep::at(double depth, double factor, double tolerance) {
+  int& steps = steps_[factor];
+  const auto found = [&](PeriodMap& map) {
+    const Multiplier mu = multiplier_of(map, factor, tolerance, steps);
+    steps = mu.steps;
+    return mu;
+  };
   if (cuts_.model.proportional()) {
-    auto found = maps_.find(factor);
-    if (found == maps_.end()) {
+    auto known = maps_.find(factor);
+    if (known == maps_.end()) {
       PeriodMap map(cuts_.model.at_depth(1.0), system_, Omega_, {.factor = factor});
-      found = maps_.emplace(factor, std::move(map)).first;
+      known = maps_.emplace(factor, std::move(map)).first;
     }
-    found->second.scale_forces(depth);
-    return multiplier_of(found->second, factor, tolerance);
+    known->second.scale_forces(depth);
+    return found(known->second);
   }
   const auto known = std::find(cuts_.depth.begin(), cuts_.depth.end(), depth);
   const auto k = static_cast<std::size_t>(known - cuts_.depth.begin());
-  return k < cuts_.at_depth.size()
-             ? multiplier_with(cuts_.at_depth[k], system_, Omega_, factor, tolerance)
-             : multiplier_with(cuts_.model.at_depth(depth), system_, Omega_, factor,
-                               tolerance);
+  const bool at_hand = k < cuts_.at_depth.size();
+  PeriodMap map(at_hand ? cuts_.at_depth[k] : cuts_.model.at_depth(depth), system_,
+                Omega_, {.factor = factor});
+  return found(map);
 }
 
 Multiplier DepthSweep::checked(double depth, double tolerance) {

@@ -38,6 +38,7 @@ class DepthSweep {
   const Cuts& cuts_;
   const System& system_;
   double Omega_;
+  std::map<double, int> steps_;       ///< that the last search took, by factor
   std::map<double, PeriodMap> maps_;  ///< by factor, of a cut one metre deep
 };
 

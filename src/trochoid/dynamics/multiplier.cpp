@@ -8,11 +8,13 @@
 
 namespace trochoid::dynamics {
 
-Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance) {
+Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance,
+                         int expected) {
   const auto found = numerics::dominant_eigenvalue(
       [&](std::span<const double> in, std::span<double> out) { map.apply(in, out); },
-      map.size(), tolerance);
-  Multiplier mu{.value = found.value, .error = 0.0, .factor = factor};
+      map.size(), tolerance, expected);
+  Multiplier mu{
+      .value = found.value, .error = 0.0, .factor = factor, .steps = found.steps};
   if (map.smooth()) {
     std::vector<double> disturbance(map.size());
     for (std::size_t i = 0; i < disturbance.size(); ++i) {

@@ -15,6 +15,7 @@ struct Multiplier {
   std::complex<double> value;  ///< imaginary part not negative
   double error = 0.0;          ///< estimated; 0: not estimated
   double factor = 1.0;         ///< of the nodes that were enough
+  int steps = 0;               ///< that its search took
 };
 
 /// With so many times the nodes a multiplier is checked.
@@ -31,7 +32,9 @@ Multiplier multiplier_with(const Directional& directional, const System& system,
 /// @src derived; the numbers bound what was measured
 /// @param factor     of its nodes, for the answer
 /// @param tolerance  of the eigenvalue only
-Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance);
+/// @param expected   steps that a map like this took; 0: not known
+Multiplier multiplier_of(PeriodMap& map, double factor, double tolerance,
+                         int expected = 0);
 
 /// @brief A multiplier that nodes are added to until it stays.
 /// @param with       the multiplier with a factor of the nodes

@@ -11,6 +11,8 @@ namespace trochoid::numerics {
 namespace {
 
 constexpr std::size_t first_check = 9;
+/// Steps less than expected that may be enough.
+constexpr int fewer = 2;
 
 /// @param v  padded
 double length(std::span<const double> v) {
@@ -101,12 +103,16 @@ std::vector<std::complex<double>> combined(
 }  // namespace
 
 DominantEigenvalue dominant_eigenvalue(const LinearMap& map, std::size_t size,
-                                       double tolerance) {
+                                       double tolerance, int expected) {
   const std::size_t n = size;
   const std::size_t room = padded(n);
   std::vector<double> V = start_vector(n);  // padded columns, k + 1 of them
   std::vector<Projection> H;                // its columns
-  std::size_t check = std::min(n, first_check);
+  // A check costs as much as some steps: none long before it can succeed.
+  const std::size_t first =
+      expected > 0 ? static_cast<std::size_t>(std::max(expected - fewer, 4))
+                   : first_check;
+  std::size_t check = std::min(n, first);
   Eigenpair found;
   double residual = 0.0;
   for (std::size_t k = 1; k <= n; ++k) {
@@ -123,7 +129,7 @@ DominantEigenvalue dominant_eigenvalue(const LinearMap& map, std::size_t size,
     residual = ended ? 0.0 : H.back().left * std::abs(found.vector.back());
     const double scale = std::abs(found.value);
     if (ended || residual <= tolerance * scale ||
-        (residual <= 1e-2 * scale && k > first_check &&
+        (residual <= 1e-2 * scale && k > first &&
          std::abs(found.value - last.value) <= 0.1 * tolerance * scale)) {
       break;
     }

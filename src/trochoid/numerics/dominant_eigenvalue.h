@@ -25,8 +25,9 @@ struct DominantEigenvalue {
 /// @src [arnoldi1951]; [saad2011] ch. 6
 /// @param size       of the vectors, at least 1
 /// @param tolerance  of the eigenvalue, relative
+/// @param expected   steps that a map like this took; 0: not known
 /// @note Meant for compact maps, whose eigenvalues fall off fast: no restarts.
 DominantEigenvalue dominant_eigenvalue(const LinearMap& map, std::size_t size,
-                                       double tolerance);
+                                       double tolerance, int expected = 0);
 
 }  // namespace trochoid::numerics
