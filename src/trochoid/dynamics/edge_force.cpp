@@ -75,6 +75,21 @@ HWY_INLINE V power_of_two(D d, V y) {
   return hn::Mul(exponential, hn::BitCast(d, exponent));
 }
 
+/// What makes a force.
+struct Cutting {
+  const PointsInCut& points;
+  const double* constant;
+  const Displaced& q;
+  const force::Terms& law;
+};
+
+/// What a chip is the least of.
+struct Surfaces {
+  const PointsInCut& points;
+  const double* above;
+  std::span<const Displaced> marks;
+};
+
 /// Three directions of a law, t, r, a, at the points of one vector.
 template <class V>
 struct Directions {
@@ -108,9 +123,9 @@ HWY_INLINE Directions<V> of_law(D d, const force::Terms& law, V h, V width, V ed
 /// @param directions  2: without forces along the axis
 /// @return the first point that is left
 template <std::size_t directions, class D>
-HWY_INLINE std::size_t add_points(D d, std::size_t i, const PointsInCut& points,
-                                  const double* constant, const Displaced& q,
-                                  const force::Terms& law, ForceSums& total) {
+HWY_INLINE std::size_t add_points(D d, std::size_t i, const Cutting& cut,
+                                  ForceSums& total) {
+  const auto& [points, constant, q, law] = cut;
   using V = hn::Vec<D>;
   const std::size_t lanes = hn::Lanes(d);
   if (i + lanes > points.count) {
@@ -150,30 +165,27 @@ HWY_INLINE std::size_t add_points(D d, std::size_t i, const PointsInCut& points,
 }
 
 template <std::size_t directions>
-HWY_INLINE void add_all(const PointsInCut& points, const double* constant,
-                        const Displaced& q, const force::Terms& law, ForceSums& total) {
-  const hn::CappedTag<double, 8> most;
-  const hn::CappedTag<double, 4> some;
-  const hn::CappedTag<double, 1> one;
-  std::size_t i = add_points<directions>(most, 0, points, constant, q, law, total);
-  i = add_points<directions>(some, i, points, constant, q, law, total);
-  add_points<directions>(one, i, points, constant, q, law, total);
+HWY_INLINE void add_all(const Cutting& cut, ForceSums& total) {
+  std::size_t i = add_points<directions>(hn::CappedTag<double, 8>(), 0, cut, total);
+  i = add_points<directions>(hn::CappedTag<double, 4>(), i, cut, total);
+  add_points<directions>(hn::CappedTag<double, 1>(), i, cut, total);
 }
 
 // Highway's table takes no noexcept functions.
 void force_sums(const PointsInCut& points, const double* constant, const Displaced& q,
                 const force::Terms& law, ForceSums& total) {
+  const Cutting cut{points, constant, q, law};
   if (law.K[2] != 0 || law.K_e[2] != 0) {
-    add_all<3>(points, constant, q, law, total);
+    add_all<3>(cut, total);
   } else {
-    add_all<2>(points, constant, q, law, total);
+    add_all<2>(cut, total);
   }
 }
 
 template <class D>
-HWY_INLINE std::size_t least_chips(D d, std::size_t i, const PointsInCut& points,
-                                   const double* above,
-                                   std::span<const Displaced> marks, double* least) {
+HWY_INLINE std::size_t least_chips(D d, std::size_t i, const Surfaces& surfaces,
+                                   double* least) {
+  const auto& [points, above, marks] = surfaces;
   using V = hn::Vec<D>;
   const std::size_t lanes = hn::Lanes(d);
   for (; i + lanes <= points.count; i += lanes) {
@@ -195,10 +207,10 @@ HWY_INLINE std::size_t least_chips(D d, std::size_t i, const PointsInCut& points
 
 void all_least_chips(const PointsInCut& points, const double* above,
                      std::span<const Displaced> marks, double* least) {
-  std::size_t i =
-      least_chips(hn::CappedTag<double, 8>(), 0, points, above, marks, least);
-  i = least_chips(hn::CappedTag<double, 4>(), i, points, above, marks, least);
-  least_chips(hn::CappedTag<double, 1>(), i, points, above, marks, least);
+  const Surfaces surfaces{points, above, marks};
+  std::size_t i = least_chips(hn::CappedTag<double, 8>(), 0, surfaces, least);
+  i = least_chips(hn::CappedTag<double, 4>(), i, surfaces, least);
+  least_chips(hn::CappedTag<double, 1>(), i, surfaces, least);
 }
 
 }  // namespace HWY_NAMESPACE
