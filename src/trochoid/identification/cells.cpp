@@ -103,35 +103,6 @@ Sums sums_of(const Cells& cells) {
   return out;
 }
 
-/// C^T W C at one shift, about the means of the axes where they do not count.
-std::vector<double> gram(const Cells& cells, const std::vector<double>& C,
-                         std::size_t columns, std::size_t shift) {
-  std::vector<double> G(columns * columns, 0.0);
-  std::vector<double> sums(3 * columns, 0.0);
-  double weight = 0.0;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const double w = cells.weight[i];
-    if (w == 0.0) continue;
-    weight += w;
-    for (std::size_t q = 0; q < 3; ++q) {
-      const double* const c = &C[(((i + shift) % cells.size()) * 3 + q) * columns];
-      for (std::size_t a = 0; a < columns; ++a) {
-        sums[q * columns + a] += w * c[a];
-        for (std::size_t b = 0; b <= a; ++b) G[a * columns + b] += w * c[a] * c[b];
-      }
-    }
-  }
-  for (std::size_t a = 0; a < columns; ++a) {
-    for (std::size_t b = 0; b <= a; ++b) {
-      for (std::size_t q = 0; cells.centered && q < 3; ++q) {
-        G[a * columns + b] -= sums[q * columns + a] * sums[q * columns + b] / weight;
-      }
-      G[b * columns + a] = G[a * columns + b];
-    }
-  }
-  return G;
-}
-
 }  // namespace
 
 Cells cells_of(const FoldedRun& run) {
@@ -184,34 +155,6 @@ std::vector<double> matrix_in_cells(const force::ForceMatrix& matrix,
     }
   }
   return C;
-}
-
-std::vector<Products> products(const Cells& cells, const std::vector<double>& C,
-                               std::size_t count, bool mixed) {
-  const std::size_t n = cells.size();
-  const std::size_t columns = C.size() / (3 * n);
-  const Sums sums = sums_of(cells);
-  std::vector<Products> out(count);
-  for (std::size_t shift = 0; shift < count; ++shift) {  // I-12
-    Products& at = out[shift];
-    // With equal weights a shift changes the order of the sums only.
-    at.G = cells.even && shift > 0 ? out[0].G : gram(cells, C, columns, shift);
-    at.X.assign(9 * columns, 0.0);
-    for (std::size_t q = 0; q < 3; ++q) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (c != q && !mixed) continue;
-        double* const X = &at.X[(3 * q + c) * columns];
-        for (std::size_t i = 0; i < n; ++i) {
-          // About the mean of the channel it is about that of the axis too.
-          const double mean = cells.centered ? sums.force[c] / sums.weight : 0.0;
-          const double wF = cells.weight[i] * (cells.force[i][c] - mean);
-          const double* const row = &C[(((i + shift) % n) * 3 + q) * columns];
-          for (std::size_t a = 0; a < columns; ++a) X[a] += wF * row[a];
-        }
-      }
-    }
-  }
-  return out;
 }
 
 }  // namespace trochoid::identification

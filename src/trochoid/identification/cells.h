@@ -28,22 +28,4 @@ Cells cells_of(const FoldedRun& run);
 std::vector<double> matrix_in_cells(const force::ForceMatrix& matrix,
                                     const Cells& cells, double phase);
 
-/// @brief Products of force matrix and channels at one shift.
-struct Products {
-  std::vector<double> G;  ///< C^T W C, shape (columns, columns)
-  /// Of axis q of the matrix with channel c: at (3 q + c) columns, shape (3, 3,
-  /// columns).
-  std::vector<double> X;
-};
-
-/// @brief Products at every shift of the matrix against the record.
-///
-/// @eq I-12 G(s) = sum_i w_i C_(i+s)^T C_(i+s),
-///          X_qc(s) = sum_i w_i C_q,(i+s) F_c,i
-/// @param C      of matrix_in_cells
-/// @param count  of shifts, from 0: all, or the first alone
-/// @param mixed  whether each axis may be read by any channel
-std::vector<Products> products(const Cells& cells, const std::vector<double>& C,
-                               std::size_t count, bool mixed);
-
 }  // namespace trochoid::identification

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/identification/cells.h>
+#include <trochoid/identification/products.h>
 #include <trochoid/identification/variable_projection.h>
 #include <trochoid/numerics/least_squares.h>
 
@@ -25,7 +25,7 @@ constexpr std::size_t most_minima = 4;
 constexpr int rounds = 3;
 
 /// G^-1 of a small positive semidefinite matrix, as solve_normal has it.
-std::vector<double> inverse(const std::vector<double>& G, std::size_t n) {
+std::vector<double> inverse(std::span<const double> G, std::size_t n) {
   std::vector<double> out(n * n);
   std::vector<double> unit(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -37,7 +37,7 @@ std::vector<double> inverse(const std::vector<double>& G, std::size_t n) {
 }
 
 /// g^T A g.
-double quadratic(const std::vector<double>& A, std::span<const double> g) {
+double quadratic(std::span<const double> A, std::span<const double> g) {
   const std::size_t n = g.size();
   double out = 0.0;
   for (std::size_t a = 0; a < n; ++a) {
@@ -48,17 +48,43 @@ double quadratic(const std::vector<double>& A, std::span<const double> g) {
   return out;
 }
 
+/// C^T W F at all shifts when the channels read Q F, shape (shifts, columns).
+std::vector<double> right_sides(const Products& at, const signal::Matrix3& Q) {
+  if (!at.mixed) return at.X;
+  const std::size_t n = at.columns;
+  std::vector<double> out(at.shifts * n, 0.0);
+  for (std::size_t s = 0; s < at.shifts; ++s) {
+    const std::span<const double> X = at.X_at(s);
+    for (std::size_t q = 0; q < 3; ++q) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (Q[c][q] == 0.0) continue;
+        for (std::size_t a = 0; a < n; ++a) {
+          out[s * n + a] += Q[c][q] * X[(3 * q + c) * n + a];
+        }
+      }
+    }
+  }
+  return out;
+}
+
 /// A run against one runout: products at every shift.
 struct RunScan {
-  std::vector<Products> at;
+  Products at;
   std::vector<double> inverse_G;  ///< where it is the same at every shift; else empty
   double squares = 0.0;
 
-  /// g^T G^-1 g.
-  [[nodiscard]] double explained(std::size_t shift, std::span<const double> g) const {
-    if (!inverse_G.empty()) return quadratic(inverse_G, g);
-    std::vector<double> K(g.size());
-    return numerics::solve_normal(at[shift].G, g, K);
+  /// What the best coefficients leave at every shift [N^2].
+  [[nodiscard]] std::vector<double> left(std::span<const double> g) const {
+    const std::size_t n = at.columns;
+    std::vector<double> out(at.shifts);
+    std::vector<double> K(n);
+    for (std::size_t s = 0; s < out.size(); ++s) {
+      const std::span<const double> own = g.subspan(s * n, n);
+      out[s] = squares - (inverse_G.empty()  // I-12
+                              ? numerics::solve_normal(at.G_at(s), own, K)
+                              : quadratic(inverse_G, own));
+    }
+    return out;
   }
 };
 
@@ -69,20 +95,6 @@ struct PhaseMinimum {
   std::size_t shift = 0;
   std::vector<double> g;
 };
-
-/// C^T W F at one shift when the channels read Q F.
-std::vector<double> right_side(const Products& at, const signal::Matrix3& Q) {
-  const std::size_t n = at.X.size() / 9;
-  std::vector<double> g(n, 0.0);
-  for (std::size_t q = 0; q < 3; ++q) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (Q[c][q] == 0.0) continue;
-      const double* const X = &at.X[(3 * q + c) * n];
-      for (std::size_t a = 0; a < n; ++a) g[a] += Q[c][q] * X[a];
-    }
-  }
-  return g;
-}
 
 /// Minimum of a parabola through three equally spaced values, in steps from the middle.
 double vertex(double left, double middle, double right) {
@@ -104,25 +116,25 @@ std::vector<double> on_parabola(const std::array<std::span<const double>, 3>& g,
 /// The phases of a run at which it fits best by itself, the best first.
 std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3& Q,
                                        std::size_t most) {
-  const std::size_t count = run.at.size();
+  const std::size_t count = run.at.shifts;
+  const std::size_t n = run.at.columns;
   const double width = unit::turn / static_cast<double>(count);
-  std::vector<PhaseMinimum> all(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<double> g = right_side(run.at[k], Q);
-    const double rss = run.squares - run.explained(k, g);  // I-12
-    all[k] = {0.0, rss, k, std::move(g)};
-  }
+  const std::vector<double> all = right_sides(run.at, Q);
+  const std::vector<double> rss = run.left(all);
+  const auto g_at = [&](std::size_t k) { return std::span(all).subspan(k * n, n); };
   std::vector<PhaseMinimum> out;
   for (std::size_t k = 0; k < count; ++k) {
-    const double left = all[(k + count - 1) % count].rss;
-    const double right = all[(k + 1) % count].rss;
-    if (all[k].rss > left || all[k].rss > right) continue;
-    PhaseMinimum& found = out.emplace_back(all[k]);
-    const double x = vertex(left, found.rss, right);
+    const std::size_t before = (k + count - 1) % count;
+    const std::size_t after = (k + 1) % count;
+    if (rss[k] > rss[before] || rss[k] > rss[after]) continue;
+    const double x = vertex(rss[before], rss[k], rss[after]);
+    PhaseMinimum& found = out.emplace_back();
     found.phase = (static_cast<double>(k) + x) * width;
+    found.rss = rss[k];
+    found.shift = k;
+    found.g.assign(g_at(k).begin(), g_at(k).end());
     if (run.inverse_G.empty() || count < 3) continue;
-    found.g = on_parabola(
-        {all[(k + count - 1) % count].g, all[k].g, all[(k + 1) % count].g}, x);
+    found.g = on_parabola({g_at(before), g_at(k), g_at(after)}, x);
     found.rss = run.squares - quadratic(run.inverse_G, found.g);
   }
   std::ranges::stable_sort(out, {}, &PhaseMinimum::rss);
@@ -164,16 +176,16 @@ class Combination {
   }
 
  private:
-  [[nodiscard]] const std::vector<double>& G_of(std::size_t r,
-                                                const PhaseMinimum& m) const {
-    return runs_[r].at[m.shift].G;
+  [[nodiscard]] std::span<const double> G_of(std::size_t r,
+                                             const PhaseMinimum& m) const {
+    return runs_[r].at.G_at(m.shift);
   }
 
   [[nodiscard]] std::vector<double> total_G() const {
-    std::vector<double> sum = G_of(0, of(0));
+    const std::span<const double> first = G_of(0, of(0));
+    std::vector<double> sum(first.begin(), first.end());
     for (std::size_t r = 1; r < runs_.size(); ++r) {
-      const std::vector<double>& G = G_of(r, of(r));
-      std::ranges::transform(sum, G, sum.begin(), std::plus());
+      std::ranges::transform(sum, G_of(r, of(r)), sum.begin(), std::plus());
     }
     return sum;
   }
@@ -242,7 +254,7 @@ std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>&
     run.at = products(cells[r], matrix_in_cells(matrix, cells[r], given),
                       free ? cells[r].size() : 1, mixed);
     run.squares = cells[r].squares;
-    if (cells[r].even) run.inverse_G = inverse(run.at[0].G, index(problem.columns));
+    if (cells[r].even) run.inverse_G = inverse(run.at.G_at(0), run.at.columns);
   }
   return out;
 }

@@ -33,15 +33,36 @@ Vector inverse_or_zero(const Vector& norms) {
   return norms.unaryExpr([](double v) { return v > 0.0 ? 1.0 / v : 0.0; });
 }
 
-Vector solve_scaled(const Dense& gram, const Vector& right) {
-  const Vector scale = inverse_or_zero(gram.diagonal().cwiseSqrt());
-  Dense unit = scale.asDiagonal() * gram * scale.asDiagonal();
+/// The most unknowns that are solved for without asking for memory.
+constexpr int few = 16;
+using FewByFew =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, few, few>;
+using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, few, 1>;
+
+template <class Matrix, class Column>
+void solve_scaled_as(const Eigen::Ref<const Dense>& gram, Eigen::Ref<Dense> right) {
+  const Column scale = gram.diagonal().unaryExpr(
+      [](double v) { return v > 0.0 ? 1.0 / std::sqrt(v) : 0.0; });
+  Matrix unit = scale.asDiagonal() * gram * scale.asDiagonal();
   unit.diagonal().array() += ridge;
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
     if (scale[i] == 0.0) unit(i, i) = 1.0;
   }
-  return scale.cwiseProduct(
-      Eigen::LDLT<Dense>(unit).solve(scale.cwiseProduct(right)).eval());
+  const Eigen::LDLT<Matrix> factors(unit);
+  for (Eigen::Index j = 0; j < right.cols(); ++j) {
+    const Column scaled = scale.cwiseProduct(right.col(j));
+    right.col(j) = scale.cwiseProduct(factors.solve(scaled));
+  }
+}
+
+/// @param[in]     gram   symmetric
+/// @param[in,out] right  right sides, become solutions
+void solve_scaled(const Eigen::Ref<const Dense>& gram, Eigen::Ref<Dense> right) {
+  if (gram.rows() <= few) {
+    solve_scaled_as<FewByFew, Few>(gram, right);
+  } else {
+    solve_scaled_as<Dense, Vector>(gram, right);
+  }
 }
 
 /// @brief Take B to H_k B, H_k the reflection number k of Q = H_0 H_1 ...
@@ -130,9 +151,9 @@ std::vector<double> project_out(std::span<const double> A, int n, std::span<doub
   const Eigen::Map<const RowMajor> a(A.data(), m, n);
   Eigen::Map<RowMajor> b(B.data(), m, k);
   const Dense gram = a.transpose() * a;
-  const Dense right = a.transpose() * b;
-  RowMajor x(n, k);
-  for (int j = 0; j < k; ++j) x.col(j) = solve_scaled(gram, right.col(j));
+  Dense right = a.transpose() * b;
+  solve_scaled(gram, right);
+  const RowMajor x = right;
   b.noalias() -= a * x;
   return {x.data(), x.data() + x.size()};
 }
@@ -140,10 +161,11 @@ std::vector<double> project_out(std::span<const double> A, int n, std::span<doub
 double solve_normal(std::span<const double> G, std::span<const double> g,
                     std::span<double> x) {
   const auto n = static_cast<Eigen::Index>(g.size());
-  const Eigen::Map<const RowMajor> gram(G.data(), n, n);
+  const Eigen::Map<const Dense> gram(G.data(), n, n);  // symmetric
   const Eigen::Map<const Vector> right(g.data(), n);
   Eigen::Map<Vector> solution(x.data(), n);
-  solution = solve_scaled(gram, right);
+  solution = right;
+  solve_scaled(gram, solution);
   return right.dot(solution);
 }
 

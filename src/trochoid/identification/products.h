@@ -1,0 +1,41 @@
+#pragma once
+
+#include <trochoid/identification/cells.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace trochoid::identification {
+
+/// @brief Products of force matrix and channels at every shift.
+struct Products {
+  std::size_t columns = 0;
+  std::size_t shifts = 0;
+  bool mixed = false;
+  std::vector<double> G;  ///< C^T W C, shape (shifts or 1: all alike, columns, columns)
+  /// Of axis q of the matrix with channel c, shape (shifts, 3, 3, columns); not mixed:
+  /// the sum over c = q, shape (shifts, columns).
+  std::vector<double> X;
+
+  [[nodiscard]] std::span<const double> G_at(std::size_t shift) const noexcept {
+    const std::size_t size = columns * columns;
+    return std::span(G).subspan(G.size() == size ? 0 : shift * size, size);
+  }
+  [[nodiscard]] std::span<const double> X_at(std::size_t shift) const noexcept {
+    const std::size_t size = mixed ? 9 * columns : columns;
+    return std::span(X).subspan(shift * size, size);
+  }
+};
+
+/// @brief Products at every shift of the matrix against the record.
+///
+/// @eq I-12 G(s) = sum_i w_i C_(i+s)^T C_(i+s),
+///          X_qc(s) = sum_i w_i C_q,(i+s) F_c,i
+/// @param C      of matrix_in_cells
+/// @param count  of shifts, from 0: all, or the first alone
+/// @param mixed  whether each axis may be read by any channel
+Products products(const Cells& cells, std::span<const double> C, std::size_t count,
+                  bool mixed);
+
+}  // namespace trochoid::identification
