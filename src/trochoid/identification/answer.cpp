@@ -39,14 +39,11 @@ std::vector<std::array<double, 3>> force_at(const force::ForceMatrix& matrix,
   return out;
 }
 
-/// Force at every sample, shape (n); interpolated where samples are many and each costs
-/// a quadrature.
+/// The same, interpolated where the angles are many and each costs a quadrature.
 std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
-                                            const Run& run, double phase,
+                                            std::span<const double> phi,
                                             std::span<const double> K,
                                             bool interpolated) {
-  std::vector<double> phi(run.angle);
-  for (double& a : phi) a += phase;
   if (!interpolated) return force_at(matrix, phi, K);
   const TurnForce turn(
       [&](std::span<const double> angles) { return force_at(matrix, angles, K); },
@@ -54,6 +51,25 @@ std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
   std::vector<std::array<double, 3>> out;
   out.reserve(phi.size());
   for (const double angle : phi) out.push_back(turn.at(angle));
+  return out;
+}
+
+/// Force at every sample of a run, shape (n); samples at the same angle share it.
+std::vector<std::array<double, 3>> force_of_run(const Problem& problem, const Run& run,
+                                                const Evaluation& at, std::size_t r,
+                                                std::span<const double> K) {
+  const FoldedRun& folded = problem.runs[r];
+  const bool shared = !folded.binned && folded.angle.size() < run.angle.size();
+  std::vector<double> phi(shared ? folded.angle : run.angle);
+  for (double& a : phi) a += at.point.phase[r];
+  const bool interpolated =
+      !force::keeps_radius(problem.setup) && folded.angle.size() > few_angles;
+  std::vector<std::array<double, 3>> values =
+      force_of(at.matrix[r], phi, K, interpolated);
+  if (!shared) return values;
+  std::vector<std::array<double, 3>> out;
+  out.reserve(run.angle.size());
+  for (const std::size_t g : folded.group) out.push_back(values[g]);
   return out;
 }
 
@@ -194,11 +210,8 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
       for (std::size_t q = 0; q < 3; ++q) offsets[q] = {own[2 * q], own[2 * q + 1]};
       fit.channel_offsets.push_back(offsets);
     }
-    const bool interpolated =
-        !force::keeps_radius(problem.setup) && folded.angle.size() > few_angles;
     std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(
-        force_of(at.matrix[r], runs[r], at.point.phase[r],
-                 x.first(index(problem.columns)), interpolated));
+        force_of_run(problem, runs[r], at, r, x.first(index(problem.columns))));
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t q = 0; q < 3; ++q) {
         fitted[i][q] += offsets[q].constant + offsets[q].slope * slope_at(i, n);  // I-7

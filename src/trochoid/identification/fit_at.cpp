@@ -118,7 +118,7 @@ void fill_at(const Problem& problem, std::span<const Run> runs,
   }
   const double equations = equations_of(problem, runs);
   const double rss = fit.rms * fit.rms * samples_of(runs);
-  const Uncertainty known = uncertainty(problem, p, linear.x, rss, equations);
+  const Uncertainty known = uncertainty(problem, at, linear.x, rss, equations);
   if (means_do_not_suffice(problem) &&
       only_noise(problem, linear, rss / known.freedom)) {
     fit.message =

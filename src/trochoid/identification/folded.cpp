@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace trochoid::identification {
 namespace {
@@ -29,8 +30,13 @@ double within_turn(double angle) noexcept {
   return a >= unit::turn - 0.5 * same_angle ? 0.0 : a;
 }
 
+struct Groups {
+  std::vector<std::size_t> of_sample;
+  bool binned = false;
+};
+
 /// Groups of samples at the same angle, or nearly so if there are very many angles.
-std::vector<std::size_t> groups(std::span<const double> angle) {
+Groups groups(std::span<const double> angle) {
   const std::size_t n = angle.size();
   std::vector<double> in_turn(n);
   std::ranges::transform(angle, in_turn.begin(), within_turn);
@@ -43,7 +49,7 @@ std::vector<std::size_t> groups(std::span<const double> angle) {
     if (in_turn[order[k]] - in_turn[order[k - 1]] > same_angle) ++current;
     group[order[k]] = current;
   }
-  if (current < most_angles) return group;
+  if (current < most_angles) return {std::move(group), false};
   std::vector<std::size_t> number(bins_of_many, n);
   std::size_t next = 0;
   for (const std::size_t i : order) {
@@ -52,7 +58,7 @@ std::vector<std::size_t> groups(std::span<const double> angle) {
     if (at == n) at = next++;
     group[i] = at;
   }
-  return group;
+  return {std::move(group), true};
 }
 
 /// Means of the samples of each group.
@@ -191,7 +197,9 @@ FoldedRun fold(const Run& run, const Options& options) {
   }
   FoldedRun out;
   out.cut = run.cut;
-  out.group = groups(run.angle);
+  Groups same = groups(run.angle);
+  out.group = std::move(same.of_sample);
+  out.binned = same.binned;
   take_means(run, options.fit_channel_offsets, out);
   out.harmonics = options.band_harmonics;
   make_band(out);

@@ -21,6 +21,7 @@ struct FoldedRun {
   std::vector<std::array<double, 3>> force;  ///< mean [N], shape (u)
   std::vector<double> slope;                 ///< mean of the slope column, shape (u)
   std::vector<std::size_t> group;            ///< index into angle, one a sample
+  bool binned = false;                       ///< a group holds different angles
   /// Orthonormal columns of the band over the weighted rows, shape (u, band); or empty.
   std::vector<double> basis;
   int band = 0;

@@ -19,6 +19,11 @@ constexpr int coarse_angles = 64;
 constexpr double near_tie = 1.02;
 /// A tooth somewhere else that leaves so many times more is not where it belongs.
 constexpr double hopeless = 10.0;
+/// Two coarse minima nearer to one another than this are one.
+constexpr double same_minimum = 5e-3;
+/// The last steps are as small as this against a standard error: what kinks of the sum
+/// of squares allow.
+constexpr double last_step = 1e-3;
 /// Candidates that are enough to rank problems.
 constexpr std::size_t starts_to_rank = 2;
 constexpr auto no_start = "no start gives a force";
@@ -27,6 +32,9 @@ constexpr auto no_start = "no start gives a force";
 /// leaves no more than this part of how the force changes (rms).
 constexpr double near_start = 0.3;
 constexpr double little_left = 0.3;
+/// The correlation of so much white noise is larger than this over the root of its
+/// length in one case of 40.
+constexpr double white = 2.0;
 
 bool nearly_equal(const std::vector<double>& a, const std::vector<double>& b,
                   double distance) {
@@ -41,7 +49,7 @@ constexpr Step coarse_step{1e-3, 1e-3, false};
 numerics::LevenbergMarquardtOptions coarse_options() {
   numerics::LevenbergMarquardtOptions out;
   out.max_iterations = 25;
-  out.parameter_tolerance = 1e-4;
+  out.parameter_tolerance = 5e-4;
   out.function_tolerance = 1e-7;
   return out;
 }
@@ -123,8 +131,9 @@ std::vector<Minimum> coarse_minima(const Problem& coarse,
     Minimum m = refine(coarse, std::move(start), coarse_step, coarse_options());
     renumber(coarse, m);
     apply_gauge(coarse, m.p);
-    const bool known = std::ranges::any_of(
-        out, [&](const Minimum& other) { return nearly_equal(m.p, other.p, 1e-3); });
+    const bool known = std::ranges::any_of(out, [&](const Minimum& other) {
+      return nearly_equal(m.p, other.p, same_minimum);
+    });
     if (!known) out.push_back(std::move(m));
   }
   std::ranges::stable_sort(out, {}, &Minimum::rss);
@@ -159,6 +168,27 @@ std::optional<Candidate> given_start(const Problem& problem) {
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
+/// Whether neighbouring residuals are no more alike than those of white noise: what then
+/// is left to explain is hardly more than chance. Rows of a band do not tell.
+bool leaves_noise(const Problem& problem, std::span<const double> p) {
+  const auto banded = [](const FoldedRun& run) { return run.band > 0; };
+  if (std::ranges::any_of(problem.runs, banded)) return false;
+  const std::vector<double> left = residual_at(problem, p);
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 3; i < left.size(); ++i) {
+    products += left[i] * left[i - 3];
+    squares += left[i] * left[i];
+  }
+  return products <= squares * white / std::sqrt(static_cast<double>(left.size()));
+}
+
+/// Whether a minimum leaves little of how the force changes, or nothing but noise.
+bool explains(const Problem& problem, const Minimum& m) {
+  return m.rss < little_left * little_left * rss_of_means(problem) ||
+         leaves_noise(problem, m.p);
+}
+
 /// The minimum near a given start, if the start is worth its name.
 std::optional<Minimum> from_given(const Problem& problem) {
   const std::optional<Candidate> given = given_start(problem);
@@ -171,8 +201,8 @@ std::optional<Minimum> from_given(const Problem& problem) {
   const auto n = static_cast<std::size_t>(problem.unknowns.runout_count());
   const std::vector<double> from(given->p.begin(),
                                  given->p.begin() + static_cast<std::ptrdiff_t>(n));
-  const bool worth = m.converged && nearly_equal(from, m.p, near_start) &&
-                     m.rss < little_left * little_left * rss_of_means(problem);
+  const bool worth =
+      m.converged && nearly_equal(from, m.p, near_start) && explains(problem, m);
   return worth ? std::optional(named(problem, std::move(m))) : std::nullopt;
 }
 
@@ -204,6 +234,7 @@ Minimum settle(const Problem& problem, const std::vector<double>& start) {
   options.max_iterations = 40;
   options.parameter_tolerance = 1e-7;
   options.function_tolerance = 1e-24;
+  options.standard_errors = last_step;
   Minimum out = refine(problem, start, {}, options);
   if (out.converged) return out;
   // Kinks of the sum of squares can keep the steps from vanishing; what counts is that

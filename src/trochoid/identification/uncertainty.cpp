@@ -72,18 +72,17 @@ struct Jacobian {
   std::vector<bool> on_edge;  ///< shape (linear + count)
 };
 
-Jacobian full_jacobian(const Problem& problem, std::span<const double> p,
+Jacobian full_jacobian(const Problem& problem, const Evaluation& at,
                        std::span<const double> K) {
-  const Evaluation at = evaluate(problem, p);
   const std::vector<double> D = design(problem, at);
   const std::size_t linear = index(problem.linear());
-  const std::size_t width = linear + p.size();
+  const std::size_t width = linear + at.p.size();
   const std::size_t rows = index(problem.rows());
   Jacobian out{std::vector<double>(rows * width), std::vector<bool>(width, false)};
   for (std::size_t k = 0; k < rows; ++k) {
     std::copy_n(&D[k * linear], linear, &out.J[k * width]);
   }
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < at.p.size(); ++i) {
     const Slope slope = slope_of(problem, at, static_cast<int>(i), K);
     out.on_edge[linear + i] = slope.on_edge;
     for (std::size_t k = 0; k < rows; ++k) {
@@ -167,12 +166,12 @@ std::vector<std::string> names_of(const Problem& problem) {
   return out;
 }
 
-Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
+Uncertainty uncertainty(const Problem& problem, const Evaluation& at,
                         std::span<const double> K, double rss, double equations) {
   const std::vector<std::string> names = names_of(problem);
   const std::size_t width = names.size();
   const std::size_t linear = index(problem.linear());
-  const auto [J, on_edge] = full_jacobian(problem, p, K);
+  const auto [J, on_edge] = full_jacobian(problem, at, K);
   const std::vector<double> b = measured(problem);
   Uncertainty out;
   out.reason.assign(width, "");
@@ -195,6 +194,11 @@ Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
     }
   }
   return out;
+}
+
+Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
+                        std::span<const double> K, double rss, double equations) {
+  return uncertainty(problem, evaluate(problem, p), K, rss, equations);
 }
 
 double rss_of_means(const Problem& problem) {
@@ -223,7 +227,7 @@ std::optional<double> single_direction(const Problem& problem,
   if (u.runout != RunoutUnknowns::eccentricity || u.direction) return std::nullopt;
   Problem first = problem;
   first.setup.runout.order = geometry::EccentricityOrder::first;
-  const std::vector<double> J = full_jacobian(first, p, K).J;
+  const std::vector<double> J = full_jacobian(first, evaluate(first, p), K).J;
   const std::size_t linear = index(problem.linear());
   const std::size_t width = linear + p.size();
   std::vector<std::size_t> others(linear);

@@ -35,9 +35,14 @@ std::vector<std::string> names_of(const Problem& problem);
 /// Not determined is an unknown whose whole range changes the force by less than 1e-6
 /// of it, and one that takes part in a combination whose singular value, with columns
 /// of unit norm, is below 1e-6 of the largest.
-/// @param K    at p, shape (linear)
+/// @param at   at the minimum
+/// @param K    there, shape (linear)
 /// @param rss  of all samples [N^2]
 /// @param equations  number of equations that rss stands for
+Uncertainty uncertainty(const Problem& problem, const Evaluation& at,
+                        std::span<const double> K, double rss, double equations);
+
+/// @brief The same, evaluated at p.
 Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
                         std::span<const double> K, double rss, double equations);
 

@@ -1,12 +1,15 @@
 #include <trochoid/identification/variable_projection.h>
 #include <trochoid/numerics/least_squares.h>
+#include <trochoid/numerics/secant_levenberg_marquardt.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace trochoid::identification {
 namespace {
@@ -72,6 +75,11 @@ double rss_at(const Problem& problem, std::span<const double> p, Evaluation& las
   return squared(state->residual);
 }
 
+std::vector<double> residual_at(const Problem& problem, std::span<const double> p) {
+  std::optional<State> state = state_at(problem, p, nullptr);
+  return state ? std::move(state->residual) : measured(problem);
+}
+
 Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
                const numerics::LevenbergMarquardtOptions& options) {
   Minimum out{std::move(start), 0.0, true, "nothing to search"};
@@ -81,25 +89,34 @@ Minimum refine(const Problem& problem, std::vector<double> start, const Step& st
   }
   const double scale = std::sqrt(squared(measured(problem)));
   if (!(scale > 0.0)) return out;
-  std::optional<State> last;
+  // The last place, and the one before it: steps that gain nothing lead back there.
+  std::array<std::optional<State>, 2> known;
+  const auto state = [&](std::span<const double> p) -> const State* {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!known[i] || !std::ranges::equal(known[i]->p, p)) continue;
+      std::swap(known[0], known[i]);
+      return &*known[0];
+    }
+    std::optional<State> next =
+        state_at(problem, p, known[0] ? &known[0]->evaluation : nullptr);
+    if (!next) return nullptr;
+    known[1] = std::exchange(known[0], std::move(next));
+    return &*known[0];
+  };
   const auto residuals = [&](std::span<const double> p, std::span<double> r,
                              std::span<double> jacobian) {
-    if (!last || !std::ranges::equal(last->p, p)) {
-      std::optional<State> next =
-          state_at(problem, p, last ? &last->evaluation : nullptr);
-      if (!next) return false;
-      last = std::move(next);
-    }
-    std::ranges::transform(last->residual, r.begin(),
+    const State* const here = state(p);
+    if (here == nullptr) return false;
+    std::ranges::transform(here->residual, r.begin(),
                            [&](double v) { return v / scale; });
     if (!jacobian.empty()) {
-      fill_jacobian(problem, *last, step, jacobian);
+      fill_jacobian(problem, *here, step, jacobian);
       for (double& j : jacobian) j /= scale;
     }
     return true;
   };
   const auto summary =
-      numerics::levenberg_marquardt(residuals, problem.rows(), out.p, options);
+      numerics::secant_levenberg_marquardt(residuals, problem.rows(), out.p, options);
   out.p = summary.p;
   out.rss = 2.0 * summary.final_cost * scale * scale;
   out.converged = summary.converged;

@@ -23,10 +23,14 @@ double rss_at(const Problem& problem, std::span<const double> p);
 /// @param[in,out] last  serves again where only phases differ; becomes that at p
 double rss_at(const Problem& problem, std::span<const double> p, Evaluation& last);
 
+/// Measured less fitted force at p, shape (rows) [N]; p is in range.
+std::vector<double> residual_at(const Problem& problem, std::span<const double> p);
+
 /// @brief Local minimum by Levenberg-Marquardt with the coefficients eliminated.
 ///
 /// @eq  I-3 r(p) = (1 - P) {F}, dr/dp = -(1 - P) d[D]/dp {K}, P the projection on [D]
-/// @src [golub1973], in the form of [kaufman1975]: exact gradient, Gauss-Newton Hessian
+/// @src [golub1973], in the form of [kaufman1975]: exact gradient, Gauss-Newton Hessian;
+///      Jacobians are kept from step to step (secant_levenberg_marquardt)
 Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
                const numerics::LevenbergMarquardtOptions& options);
 

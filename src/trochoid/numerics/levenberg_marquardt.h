@@ -20,6 +20,9 @@ struct LevenbergMarquardtOptions {
   double gradient_tolerance = 1e-14;   ///< largest |J^T r|
   double parameter_tolerance = 1e-10;  ///< |step| relative to |p|
   double function_tolerance = 1e-22;   ///< change of |r|^2
+  /// A step that promises to change |r|^2 by less than one of so many standard errors
+  /// would, what is left taken for noise, is negligible. The secant version alone asks.
+  double standard_errors = 0.0;
 };
 
 struct LevenbergMarquardtSummary {
