@@ -38,6 +38,25 @@ void moments_to_matrix(const EdgeMoments& m, std::size_t columns, double* C) noe
   }
 }
 
+/// @brief Three columns of [C] at one angle, t, r and a.
+/// @param m  integrals of sin, cos, 1 times the chip, or times the edge
+void moments_to_columns(const double* m, double weight, std::size_t stride,
+                        double* C) noexcept {
+  const double sine = weight * m[0];
+  const double cosine = weight * m[1];
+  C[0] = -cosine;
+  C[1] = sine;
+  C[2] = 0.0;
+  C += stride;
+  C[0] = -sine;
+  C[1] = -cosine;
+  C[2] = 0.0;
+  C += stride;
+  C[0] = 0.0;
+  C[1] = 0.0;
+  C[2] = -weight * m[2];
+}
+
 /// Error of the chips behind a TurnPolynomial, of the largest chip: one harmonic more
 /// costs little.
 constexpr double turn_tolerance = 1e-8;
@@ -58,6 +77,26 @@ struct TurnMatrix {
 
   void evaluate(std::span<const double> phi, std::size_t columns,
                 std::span<double> C) const noexcept {
+    for_each_angle(phi, [&](std::size_t i, const double* h, const double* e) {
+      moments_to_matrix({h[0], h[1], h[0], h[1], h[2], e[0], e[1], e[2]}, columns,
+                        &C[columns * 3 * i]);
+    });
+  }
+
+  void evaluate_columns(std::span<const double> phi, std::span<const double> weight,
+                        std::span<double> C, std::size_t stride) const noexcept {
+    for_each_angle(phi, [&](std::size_t i, const double* h, const double* e) {
+      moments_to_columns(h, weight[i], stride, &C[3 * i]);
+      if (C.size() > 3 * stride) {
+        moments_to_columns(e, weight[i], stride, &C[3 * stride + 3 * i]);
+      }
+    });
+  }
+
+ private:
+  /// f(i, h, e) with the integrals at the i-th angle.
+  template <class Function>
+  void for_each_angle(std::span<const double> phi, const Function& f) const noexcept {
     constexpr std::size_t chunk = 256;
     std::array<double, 3 * chunk> h;
     std::array<double, 3 * chunk> e;
@@ -65,11 +104,7 @@ struct TurnMatrix {
       const auto some = phi.subspan(first, std::min(chunk, phi.size() - first));
       force::evaluate(chip, some, std::span(h).first(3 * some.size()));
       force::evaluate(edge, some, std::span(e).first(3 * some.size()));
-      for (std::size_t i = 0; i < 3 * some.size(); i += 3) {
-        moments_to_matrix(
-            {h[i], h[i + 1], h[i], h[i + 1], h[i + 2], e[i], e[i + 1], e[i + 2]},
-            columns, &C[columns * (3 * first + i)]);
-      }
+      for (std::size_t i = 0; i < some.size(); ++i) f(first + i, &h[3 * i], &e[3 * i]);
     }
   }
 };
@@ -187,6 +222,29 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
              });
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);
+  }
+}
+
+void ForceMatrix::evaluate_columns(std::span<const double> phi,
+                                   std::span<const double> weight, std::span<double> C,
+                                   std::size_t stride) const {
+  const auto columns = static_cast<std::size_t>(this->columns());
+  if (weight.size() != phi.size() || stride < 3 * phi.size() ||
+      C.size() < (columns - 1) * stride + 3 * phi.size()) {
+    throw std::invalid_argument("force matrix: " + std::to_string(C.size()) +
+                                " numbers by columns " + std::to_string(stride) +
+                                " apart for " + std::to_string(phi.size()) + " angles");
+  }
+  if (const auto* turn = std::get_if<TurnMatrix>(&parts_->method)) {
+    turn->evaluate_columns(phi, weight, C, stride);
+    return;
+  }
+  std::vector<double> rows(phi.size() * 3 * columns);
+  evaluate(phi, rows);
+  for (std::size_t i = 0; i < 3 * phi.size(); ++i) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      C[c * stride + i] = weight[i / 3] * rows[i * columns + c];
+    }
   }
 }
 

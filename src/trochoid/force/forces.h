@@ -4,6 +4,7 @@
 #include <trochoid/force/setup.h>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,6 +26,13 @@ class ForceMatrix {
   /// @param[in]  phi  angles of the tip of tooth 1 [rad], shape (n)
   /// @param[out] C    row-major, shape (n, 3, columns)
   void evaluate(std::span<const double> phi, std::span<double> C) const;
+
+  /// @brief The same by columns, for least squares.
+  /// @param[in]  phi     angles of the tip of tooth 1 [rad], shape (n)
+  /// @param[in]  weight  factors of the rows of each angle, shape (n)
+  /// @param[out] C       column c from c stride on: three rows an angle
+  void evaluate_columns(std::span<const double> phi, std::span<const double> weight,
+                        std::span<double> C, std::size_t stride) const;
 
  private:
   struct Parts;

@@ -68,26 +68,13 @@ std::string dependent_names(const Problem& problem, const numerics::LeastSquares
   return list;
 }
 
-/// [D] without its channel columns.
-std::vector<double> force_columns(const Problem& problem, std::span<const double> D) {
-  const std::size_t linear = index(problem.linear());
-  const std::size_t columns = index(problem.columns);
-  std::vector<double> out;
-  out.reserve(D.size() / linear * columns);
-  for (std::size_t row = 0; row < D.size(); row += linear) {
-    out.insert(out.end(), D.begin() + static_cast<std::ptrdiff_t>(row),
-               D.begin() + static_cast<std::ptrdiff_t>(row + columns));
-  }
-  return out;
-}
-
 }  // namespace
 
-std::string rank_refusal(const Problem& problem, std::span<const double> D,
+std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
                          const numerics::LeastSquares& all) {
   if (all.rank == problem.linear()) return "";
   const numerics::LeastSquares force = numerics::least_squares(
-      force_columns(problem, D), problem.columns, measured(problem), rank_tolerance);
+      D.first(index(problem.columns)), measured(problem), rank_tolerance);
   if (*std::ranges::max_element(force.norms) == 0.0) {
     return "nothing is in cut at any of the measured angles";
   }
@@ -100,9 +87,9 @@ std::string rank_refusal(const Problem& problem, std::span<const double> D,
 void fill_at(const Problem& problem, std::span<const Run> runs,
              const std::vector<double>& p, Fit& fit) {
   const Evaluation at = evaluate(problem, p);
-  const std::vector<double> D = design(problem, at);
+  const numerics::Columns D = design(problem, at);
   const numerics::LeastSquares linear =
-      numerics::least_squares(D, problem.linear(), measured(problem), rank_tolerance);
+      numerics::least_squares(D, measured(problem), rank_tolerance);
   fit.rank = linear.rank;
   fit.condition = linear.condition;
   fit.message = rank_refusal(problem, D, linear);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/identification/problem.h>
+#include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <span>
@@ -14,7 +15,7 @@ namespace trochoid::identification {
 /// Coefficients that cannot be told apart from one another refuse the fit. One that
 /// only an unknown channel offset hides is absent, and the others stand.
 /// @param all  the least-squares fit of D
-std::string rank_refusal(const Problem& problem, std::span<const double> D,
+std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
                          const numerics::LeastSquares& all);
 
 /// @brief The fit at a minimum, with all its numbers; `fit.ok` tells whether they stand.

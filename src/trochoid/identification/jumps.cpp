@@ -82,7 +82,7 @@ void improve(Place& place) {
   options.max_iterations = 15;
   options.parameter_tolerance = 1e-8;
   options.function_tolerance = 1e-16;
-  Minimum smooth = refine(place.problem, place.at.p, {1e-5, 1e-6, false}, options);
+  Minimum smooth = refine(place.problem, place.at.p, {1e-5, 1e-6}, options);
   if (smooth.rss < place.at.rss) {
     place.at.p = std::move(smooth.p);
     place.at.rss = smooth.rss;

@@ -21,16 +21,6 @@ force::Setup setup_of(const Problem& problem, const Point& point,
   return setup;
 }
 
-/// The matrix at the angles of a run, in its rows.
-std::vector<double> rows_at(const force::ForceMatrix& matrix, const FoldedRun& run,
-                            double phase) {
-  std::vector<double> phi(run.angle);
-  for (double& a : phi) a += phase;
-  std::vector<double> C(phi.size() * 3 * index(matrix.columns()));
-  matrix.evaluate(phi, C);
-  return rows_of(run, C, matrix.columns());
-}
-
 /// The grid of a turn that serves a band: fine where angles cost little.
 TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
   const int least = std::max(problem.angles, 8 * run.harmonics);
@@ -40,58 +30,91 @@ TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
   return {fine, std::min(run.highest, fine / 2 - 1), sudden};
 }
 
-std::vector<double> rows_at(const Problem& problem, const Evaluation& at,
-                            std::size_t r) {
-  const FoldedRun& run = problem.runs[r];
-  const double phase = at.point.phase[r];
-  return run.turn_map.empty()
-             ? rows_at(at.matrix[r], run, phase)
-             : rows_of_turn(run, at_phase(at.turn[r], phase), problem.columns);
-}
+/// Rows of a run in [D], between those of the others.
+struct Place {
+  std::size_t first = 0;
+  std::size_t rows = 0;
+};
 
-/// out += factor D K, D of shape (out, columns).
-void add_force(std::span<const double> D, std::span<const double> K, double factor,
-               std::span<double> out) {
-  const std::size_t columns = K.size();
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    double sum = 0.0;
-    for (std::size_t c = 0; c < columns; ++c) sum += D[i * columns + c] * K[c];
-    out[i] += factor * sum;
-  }
-}
-
-/// Difference of [D] K between two evaluations over their distance, all runs.
-std::vector<double> quotient(const Problem& problem, const Evaluation& a,
-                             const Evaluation& b, double distance,
-                             std::span<const double> K) {
-  std::vector<double> out;
-  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
-    std::vector<double> dF(index(problem.runs[r].rows), 0.0);
-    add_force(b.rows[r], K, 1.0 / distance, dF);
-    add_force(a.rows[r], K, -1.0 / distance, dF);
-    out.insert(out.end(), dF.begin(), dF.end());
-  }
+Place place_of(const Problem& problem, std::size_t r) {
+  Place out{0, index(problem.runs[r].rows)};
+  for (std::size_t i = 0; i < r; ++i) out.first += index(problem.runs[i].rows);
   return out;
 }
 
-/// The same for a phase, which concerns one run and needs no new matrix; and no
-/// difference where the rows are from the turn.
-std::vector<double> phase_slope(const Problem& problem, const Evaluation& at,
-                                std::size_t r, std::span<const double> K,
-                                const Step& step) {
-  const FoldedRun& run = problem.runs[r];
-  const double phase = at.point.phase[r];
-  std::vector<double> dF(index(run.rows), 0.0);
-  if (!run.turn_map.empty()) {
-    add_force(rows_of_turn(run, slope_at_phase(at.turn[r], phase), problem.columns), K,
-              1.0, dF);
-    return dF;
+/// Row-major, shape (n, columns), into columns that are a stride apart.
+void by_columns(std::span<const double> rows, std::size_t columns, std::size_t stride,
+                std::span<double> out) {
+  for (std::size_t i = 0; i * columns < rows.size(); ++i) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      out[c * stride + i] = rows[i * columns + c];
+    }
   }
-  const double d = step.central ? 2.0 * step.phase : step.phase;
-  add_force(rows_at(at.matrix[r], run, phase + step.phase), K, 1.0 / d, dF);
-  add_force(step.central ? rows_at(at.matrix[r], run, phase - step.phase) : at.rows[r],
-            K, -1.0 / d, dF);
-  return dF;
+}
+
+/// The force columns of a run at its phase.
+/// @param C  by columns that are so many rows of the problem apart
+void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
+              std::span<double> C) {
+  const FoldedRun& run = problem.runs[r];
+  const std::size_t stride = index(problem.rows());
+  const double phase = at.point.phase[r];
+  if (!run.turn_map.empty()) {
+    by_columns(rows_of_turn(run, at_phase(at.turn[r], phase), problem.columns),
+               index(problem.columns), stride, C);
+    return;
+  }
+  std::vector<double> phi(run.angle);
+  for (double& a : phi) a += phase;
+  if (run.band == 0) {
+    at.matrix[r].evaluate_columns(phi, run.weight, C, stride);
+    return;
+  }
+  std::vector<double> all(phi.size() * 3 * index(problem.columns));
+  at.matrix[r].evaluate(phi, all);
+  by_columns(rows_of(run, all, problem.columns), index(problem.columns), stride, C);
+}
+
+/// The columns of the channels, and zeros elsewhere.
+void fill_drift(const Problem& problem, std::span<double> D) {
+  const std::size_t rows = index(problem.rows());
+  std::ranges::fill(D, 0.0);
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const FoldedRun& run = problem.runs[r];
+    if (run.drift.empty()) continue;
+    by_columns(run.drift, 6, rows,
+               D.subspan((index(problem.columns) + 6 * r) * rows +
+                         place_of(problem, r).first));
+  }
+}
+
+/// The derivative by a phase, which concerns one run and needs no new matrix; and no
+/// difference where the rows are from the turn.
+void phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                 std::span<const double> K, const Step& step, Evaluation& scratch,
+                 std::span<double> out) {
+  const FoldedRun& run = problem.runs[r];
+  const Place place = place_of(problem, r);
+  const std::size_t rows = index(problem.rows());
+  const auto force_of_run = [&](std::span<const double> D, double factor) {
+    const numerics::Columns own(D.subspan(place.first), place.rows, rows);
+    numerics::add_combination(own.first(K.size()), K, factor,
+                              out.subspan(place.first, place.rows));
+  };
+  scratch.D.resize(at.D.size());
+  const std::span<double> D(scratch.D);
+  if (!run.turn_map.empty()) {
+    by_columns(rows_of_turn(run, slope_at_phase(at.turn[r], at.point.phase[r]),
+                            problem.columns),
+               K.size(), rows, D.subspan(place.first));
+    force_of_run(D, 1.0);
+    return;
+  }
+  Evaluation moved{{}, at.point, at.matrix, {}, {}};
+  moved.point.phase[r] += step.phase;
+  fill_run(problem, moved, r, D.subspan(place.first));
+  force_of_run(D, 1.0 / step.phase);
+  force_of_run(at.D, -1.0 / step.phase);
 }
 
 /// Whether two points have the same matrices, before the phases.
@@ -189,16 +212,22 @@ bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step) 
   return lag < 2.0 * step;
 }
 
-Evaluation evaluate(const Problem& problem, std::span<const double> p,
-                    const Evaluation* known) {
-  Evaluation out;
+numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {
+  return {at.D, index(problem.rows())};
+}
+
+void evaluate(const Problem& problem, std::span<const double> p,
+              const Evaluation* known, Evaluation& out) {
   out.p.assign(p.begin(), p.end());
   out.point = point_of(problem, p);
   const bool again =
       known != nullptr && !known->matrix.empty() && same_matrices(problem, p, known->p);
-  if (again) {
-    out.matrix = known->matrix;
-    out.turn = known->turn;
+  out.matrix = again ? known->matrix : std::vector<force::ForceMatrix>{};
+  out.turn = again ? known->turn : std::vector<TurnMatrix>{};
+  const std::size_t rows = index(problem.rows());
+  if (out.D.size() != rows * index(problem.linear())) {
+    out.D.resize(rows * index(problem.linear()));
+    fill_drift(problem, out.D);
   }
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
@@ -209,26 +238,22 @@ Evaluation evaluate(const Problem& problem, std::span<const double> p,
                              ? TurnMatrix{}
                              : turn_matrix(out.matrix[r], grid_of(problem, run)));
     }
-    const bool same = again && out.point.phase[r] == known->point.phase[r];
-    out.rows.push_back(same ? known->rows[r] : rows_at(problem, out, r));
+    const Place place = place_of(problem, r);
+    const std::size_t width = index(problem.columns) * rows;
+    if (again && out.point.phase[r] == known->point.phase[r]) {
+      for (std::size_t at = place.first; at < width; at += rows) {
+        std::copy_n(&known->D[at], place.rows, &out.D[at]);
+      }
+      continue;
+    }
+    fill_run(problem, out, r, std::span(out.D).first(width).subspan(place.first));
   }
-  return out;
 }
 
-std::vector<double> design(const Problem& problem, const Evaluation& evaluation) {
-  const std::size_t columns = index(problem.columns);
-  const std::size_t linear = index(problem.linear());
-  std::vector<double> out(index(problem.rows()) * linear, 0.0);
-  std::size_t row = 0;
-  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
-    const FoldedRun& run = problem.runs[r];
-    const std::vector<double>& D = evaluation.rows[r];
-    for (std::size_t i = 0; i < index(run.rows); ++i, ++row) {
-      double* const to = &out[row * linear];
-      std::copy_n(&D[i * columns], columns, to);
-      if (!run.drift.empty()) std::copy_n(&run.drift[6 * i], 6, to + columns + 6 * r);
-    }
-  }
+Evaluation evaluate(const Problem& problem, std::span<const double> p,
+                    const Evaluation* known) {
+  Evaluation out;
+  evaluate(problem, p, known, out);
   return out;
 }
 
@@ -241,26 +266,25 @@ std::vector<double> measured(const Problem& problem) {
   return out;
 }
 
-std::vector<double> derivative(const Problem& problem, const Evaluation& at, int i,
-                               std::span<const double> K, const Step& step) {
+void derivative(const Problem& problem, const Evaluation& at, int i,
+                std::span<const double> K, const Step& step, Evaluation& scratch,
+                std::span<double> out) {
   const Unknowns& u = problem.unknowns;
   const std::span<const double> force_K = K.first(index(problem.columns));
+  std::ranges::fill(out, 0.0);
   if (i >= u.first_phase()) {
-    const std::size_t own = index(i - u.first_phase());
-    std::vector<double> out(index(problem.rows()), 0.0);
-    std::size_t row = 0;
-    for (std::size_t r = 0; r < own; ++r) row += index(problem.runs[r].rows);
-    std::ranges::copy(phase_slope(problem, at, own, force_K, step),
-                      out.begin() + static_cast<std::ptrdiff_t>(row));
-    return out;
+    phase_slope(problem, at, index(i - u.first_phase()), force_K, step, scratch, out);
+    return;
   }
   std::vector<double> moved = at.p;
   moved[index(i)] += step.parameter;
-  const Evaluation plus = evaluate(problem, moved);
-  if (!step.central) return quotient(problem, at, plus, step.parameter, force_K);
-  moved[index(i)] -= 2.0 * step.parameter;
-  const Evaluation minus = evaluate(problem, moved);
-  return quotient(problem, minus, plus, 2.0 * step.parameter, force_K);
+  evaluate(problem, moved, nullptr, scratch);
+  const auto add = [&](const Evaluation& from, double factor) {
+    numerics::add_combination(design(problem, from).first(force_K.size()), force_K,
+                              factor, out);
+  };
+  add(scratch, 1.0 / step.parameter);
+  add(at, -1.0 / step.parameter);
 }
 
 }  // namespace trochoid::identification

@@ -3,6 +3,7 @@
 #include <trochoid/force/forces.h>
 #include <trochoid/identification/folded.h>
 #include <trochoid/identification/turn_matrix.h>
+#include <trochoid/numerics/columns.h>
 
 #include <optional>
 #include <span>
@@ -69,24 +70,28 @@ struct Evaluation {
   Point point;            ///< the same, in words
   std::vector<force::ForceMatrix> matrix;
   std::vector<TurnMatrix> turn;  ///< empty where the rows are not from the turn
-  /// Of [C] in the rows of the problem, shape (runs)(rows, columns).
-  std::vector<std::vector<double>> rows;
+  std::vector<double> D;  ///< with its channel columns, by columns: (linear, rows)
 };
+
+/// [D] at an evaluation.
+numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept;
 
 /// @brief Whether p is in the range where the model means anything.
 bool in_range(const Problem& problem, std::span<const double> p);
 
 /// @param known  an evaluation whose matrices serve again where only phases differ; or
 ///               null
+/// @param[in,out] out  another one of this problem, whose memory serves again; or an
+///                     empty one
+void evaluate(const Problem& problem, std::span<const double> p,
+              const Evaluation* known, Evaluation& out);
+
 Evaluation evaluate(const Problem& problem, std::span<const double> p,
                     const Evaluation* known = nullptr);
 
 /// @brief Whether the edges of a run enter within less than two steps of that size
 /// [rad].
 bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step);
-
-/// @brief [D] with its channel columns, row-major, shape (rows, linear).
-std::vector<double> design(const Problem& problem, const Evaluation& evaluation);
 
 /// Measured force of all runs, shape (rows).
 std::vector<double> measured(const Problem& problem);
@@ -95,11 +100,13 @@ std::vector<double> measured(const Problem& problem);
 struct Step {
   double parameter = 1e-4;  ///< of the scaled runout and of the exponents
   double phase = 1e-4;      ///< [rad]
-  bool central = false;
 };
 
-/// @brief d[D]/dp_i {K}, shape (rows).
-std::vector<double> derivative(const Problem& problem, const Evaluation& at, int i,
-                               std::span<const double> K, const Step& step);
+/// @brief d[D]/dp_i {K} as the quotient of differences over one step.
+/// @param scratch   memory that serves again
+/// @param[out] out  shape (rows)
+void derivative(const Problem& problem, const Evaluation& at, int i,
+                std::span<const double> K, const Step& step, Evaluation& scratch,
+                std::span<double> out);
 
 }  // namespace trochoid::identification

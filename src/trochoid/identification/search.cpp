@@ -44,7 +44,7 @@ bool nearly_equal(const std::vector<double>& a, const std::vector<double>& b,
   return true;
 }
 
-constexpr Step coarse_step{1e-3, 1e-3, false};
+constexpr Step coarse_step{1e-3, 1e-3};
 
 numerics::LevenbergMarquardtOptions coarse_options() {
   numerics::LevenbergMarquardtOptions out;
@@ -277,9 +277,10 @@ void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
   if (problem.unknowns.runout != RunoutUnknowns::eccentricity) return;
   const Point point = point_of(problem, p);
   const Problem coarse = coarse_problem(problem);
+  const Evaluation at = evaluate(coarse, p);
+  const numerics::Columns D = design(coarse, at);
   std::vector<double> residual = measured(coarse);
-  const std::vector<double> K = numerics::project_out(
-      design(coarse, evaluate(coarse, p)), coarse.linear(), residual, 1);
+  const std::vector<double> K = numerics::project_out(D, gram_of(D), residual);
   problem.unknowns.direction = single_direction(coarse, p, K);
   if (!problem.unknowns.direction) return;
   p = settle(problem, parameters_of(problem, point)).p;

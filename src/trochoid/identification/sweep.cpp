@@ -34,9 +34,8 @@ std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
     problem.setup.runout.radial_offsets.resize(teeth, 0.0);
     problem.setup.runout.radial_offsets[1] = offset;
     const Evaluation at = evaluate(problem, {});
-    const double rss = numerics::least_squares(design(problem, at), problem.linear(),
-                                               measured(problem), 1e-8)
-                           .rss;
+    const double rss =
+        numerics::least_squares(design(problem, at), measured(problem), 1e-8).rss;
     out.push_back(std::sqrt((rss + scatter) / samples));
   }
   return out;

@@ -1,6 +1,7 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <fmt/core.h>
@@ -17,7 +18,8 @@ constexpr double dependent = 1e-6;    ///< of the largest singular value
 constexpr double separable = 0.01;
 constexpr double takes_part = 1e-3;  ///< of the largest part in a null direction
 
-constexpr Step fine_step{1e-4, 1e-5, true};
+constexpr Step fine_step{1e-4, 1e-5};
+constexpr Step fine_step_back{-1e-4, -1e-5};
 /// Slopes to either side that differ by more than this are those of an edge.
 constexpr double edge_ratio = 3.0;
 
@@ -27,67 +29,65 @@ double norm(std::span<const double> v) {
   return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
 }
 
-/// Columns of a row-major matrix that are kept, in their order.
-std::vector<double> keep_columns(std::span<const double> A, std::size_t width,
+/// Columns that are kept, in their order.
+std::vector<double> keep_columns(const numerics::Columns& A,
                                  const std::vector<std::size_t>& kept) {
   std::vector<double> out;
-  out.reserve(A.size() / width * kept.size());
-  for (std::size_t row = 0; row < A.size(); row += width) {
-    for (const std::size_t c : kept) out.push_back(A[row + c]);
-  }
+  out.reserve(A.rows * kept.size());
+  for (const std::size_t c : kept) out.insert(out.end(), A[c].begin(), A[c].end());
   return out;
 }
 
-/// The change of the force with an unknown.
-struct Slope {
-  std::vector<double> column;
-  bool on_edge = false;  ///< very different to either side
+/// The derivatives of the force by all unknowns, one after the other.
+class Slopes {
+ public:
+  Slopes(const Problem& problem, const Evaluation& at, std::span<const double> K)
+      : problem_(problem), at_(at), K_(K), behind_(index(problem.rows())) {}
+
+  /// Where the force jumps as an unknown passes a value, the jump
+  /// itself says nothing about the neighbourhood: of both
+  /// one-sided differences the smaller one is without it.
+  /// @param[out] column  shape (rows)
+  /// @return whether the slopes to either side are very different
+  bool find(int i, std::span<double> column) {
+    derivative(problem_, at_, i, K_, fine_step, scratch_, column);
+    derivative(problem_, at_, i, K_, fine_step_back, scratch_, behind_);
+    const double a = norm(column);
+    const double b = norm(behind_);
+    if (sum_of_squares_jumps(problem_)) {
+      if (b <= a) std::ranges::copy(behind_, column.begin());
+      return false;
+    }
+    std::ranges::transform(column, behind_, column.begin(),
+                           [](double x, double y) { return 0.5 * (x + y); });
+    return std::max(a, b) > edge_ratio * std::min(a, b);
+  }
+
+ private:
+  const Problem& problem_;
+  const Evaluation& at_;
+  std::span<const double> K_;
+  Evaluation scratch_;
+  std::vector<double> behind_;
 };
-
-/// Where the force jumps as an unknown passes a value, the jump
-/// itself says nothing about the neighbourhood: of both
-/// one-sided differences the smaller one is without it.
-Slope slope_of(const Problem& problem, const Evaluation& at, int i,
-               std::span<const double> K) {
-  Slope out{
-      derivative(problem, at, i, K, {fine_step.parameter, fine_step.phase, false}),
-      false};
-  const std::vector<double> behind =
-      derivative(problem, at, i, K, {-fine_step.parameter, -fine_step.phase, false});
-  const double a = norm(out.column);
-  const double b = norm(behind);
-  if (sum_of_squares_jumps(problem)) {
-    if (b <= a) out.column = behind;
-    return out;
-  }
-  out.on_edge = std::max(a, b) > edge_ratio * std::min(a, b);
-  std::ranges::transform(out.column, behind, out.column.begin(),
-                         [](double x, double y) { return 0.5 * (x + y); });
-  return out;
-}
 
 /// Derivatives of the force by all unknowns.
 struct Jacobian {
-  std::vector<double> J;      ///< [D] and the derivatives beside it, row-major
+  std::vector<double> J;      ///< [D] and the derivatives beside it, by columns
   std::vector<bool> on_edge;  ///< shape (linear + count)
 };
 
 Jacobian full_jacobian(const Problem& problem, const Evaluation& at,
                        std::span<const double> K) {
-  const std::vector<double> D = design(problem, at);
   const std::size_t linear = index(problem.linear());
   const std::size_t width = linear + at.p.size();
   const std::size_t rows = index(problem.rows());
-  Jacobian out{std::vector<double>(rows * width), std::vector<bool>(width, false)};
-  for (std::size_t k = 0; k < rows; ++k) {
-    std::copy_n(&D[k * linear], linear, &out.J[k * width]);
-  }
+  Jacobian out{at.D, std::vector<bool>(width, false)};
+  out.J.resize(rows * width);
+  Slopes slopes(problem, at, K);
   for (std::size_t i = 0; i < at.p.size(); ++i) {
-    const Slope slope = slope_of(problem, at, static_cast<int>(i), K);
-    out.on_edge[linear + i] = slope.on_edge;
-    for (std::size_t k = 0; k < rows; ++k) {
-      out.J[k * width + linear + i] = slope.column[k];
-    }
+    out.on_edge[linear + i] = slopes.find(
+        static_cast<int>(i), std::span(out.J).subspan((linear + i) * rows, rows));
   }
   return out;
 }
@@ -101,28 +101,26 @@ std::string together(const std::vector<std::string>& names,
   return "cannot be told apart from " + list;
 }
 
-void drop_insensitive(std::span<const double> J, std::size_t width, std::size_t linear,
-                      double force_norm, Uncertainty& out) {
-  for (std::size_t c = linear; c < width; ++c) {
-    double sum = 0.0;
-    for (std::size_t k = c; k < J.size(); k += width) sum += J[k] * J[k];
-    if (!(std::sqrt(sum) > insensitive * force_norm)) {
+void drop_insensitive(const numerics::Columns& J, std::size_t linear, double force_norm,
+                      Uncertainty& out) {
+  for (std::size_t c = linear; c < J.count(); ++c) {
+    if (!(norm(J[c]) > insensitive * force_norm)) {
       out.reason[c] = "the force does not depend on it";
     }
   }
 }
 
 /// Mark what takes part in null directions; the rest of the unknowns is not concerned.
-numerics::LeastSquares drop_dependent(std::span<const double> J,
+numerics::LeastSquares drop_dependent(const numerics::Columns& J,
                                       const std::vector<std::string>& names,
                                       std::span<const double> b,
                                       std::vector<std::size_t>& kept,
                                       Uncertainty& out) {
-  const std::size_t width = names.size();
   for (;;) {
-    const std::vector<double> A = keep_columns(J, width, kept);
-    numerics::LeastSquares fit =
-        numerics::least_squares(A, static_cast<int>(kept.size()), b, dependent);
+    const std::vector<double> A =
+        kept.size() < J.count() ? keep_columns(J, kept) : std::vector<double>{};
+    numerics::LeastSquares fit = numerics::least_squares(
+        A.empty() ? J : numerics::Columns(A, J.rows), b, dependent);
     if (fit.null_space.empty()) return fit;
     const std::span<const double> v(fit.null_space.data(), kept.size());
     const auto size = [](double a, double c) { return std::abs(a) < std::abs(c); };
@@ -171,12 +169,13 @@ Uncertainty uncertainty(const Problem& problem, const Evaluation& at,
   const std::vector<std::string> names = names_of(problem);
   const std::size_t width = names.size();
   const std::size_t linear = index(problem.linear());
-  const auto [J, on_edge] = full_jacobian(problem, at, K);
+  const auto [all, on_edge] = full_jacobian(problem, at, K);
+  const numerics::Columns J(all, index(problem.rows()));
   const std::vector<double> b = measured(problem);
   Uncertainty out;
   out.reason.assign(width, "");
   out.on_edge.assign(width, false);
-  drop_insensitive(J, width, linear, norm(b), out);
+  drop_insensitive(J, linear, norm(b), out);
   std::vector<std::size_t> kept;
   const std::size_t runout_end = linear + index(problem.unknowns.runout_count());
   for (std::size_t c = 0; c < width; ++c) {
@@ -227,23 +226,21 @@ std::optional<double> single_direction(const Problem& problem,
   if (u.runout != RunoutUnknowns::eccentricity || u.direction) return std::nullopt;
   Problem first = problem;
   first.setup.runout.order = geometry::EccentricityOrder::first;
-  const std::vector<double> J = full_jacobian(first, evaluate(first, p), K).J;
+  const std::vector<double> all = full_jacobian(first, evaluate(first, p), K).J;
+  const numerics::Columns J(all, index(problem.rows()));
   const std::size_t linear = index(problem.linear());
   const std::size_t width = linear + p.size();
   std::vector<std::size_t> others(linear);
   std::iota(others.begin(), others.end(), std::size_t{0});
   for (std::size_t c = linear + 2; c < width; ++c) others.push_back(c);
-  std::vector<double> E = keep_columns(J, width, {linear, linear + 1});
-  numerics::project_out(keep_columns(J, width, others), static_cast<int>(others.size()),
-                        E, 2);
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-  for (std::size_t k = 0; k < E.size(); k += 2) {
-    xx += E[k] * E[k];
-    xy += E[k] * E[k + 1];
-    yy += E[k + 1] * E[k + 1];
-  }
+  std::vector<double> E = keep_columns(J, {linear, linear + 1});
+  const std::vector<double> rest = keep_columns(J, others);
+  const numerics::Columns A(rest, J.rows);
+  numerics::project_out(A, numerics::gram_of(A), E);
+  const std::vector<double> squares = numerics::gram_of({E, J.rows});
+  const double xx = squares[0];
+  const double xy = squares[1];
+  const double yy = squares[3];
   const double half = 0.5 * (xx + yy);
   const double swing = std::hypot(0.5 * (xx - yy), xy);
   if (half - swing > separable * separable * (half + swing)) return std::nullopt;

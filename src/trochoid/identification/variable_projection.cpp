@@ -1,4 +1,5 @@
 #include <trochoid/identification/variable_projection.h>
+#include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/secant_levenberg_marquardt.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -20,46 +20,88 @@ double squared(std::span<const double> v) {
 
 /// Everything known at one p.
 struct State {
-  std::vector<double> p;
-  Evaluation evaluation;
-  std::vector<double> D;
+  bool known = false;
+  Evaluation at;
+  std::vector<double> gram;  ///< of [D]
   std::vector<double> K;
   std::vector<double> residual;
 };
 
-std::optional<State> state_at(const Problem& problem, std::span<const double> p,
-                              const Evaluation* known) {
-  if (!in_range(problem, p)) return std::nullopt;
-  State out;
-  out.p.assign(p.begin(), p.end());
+/// @param near  another state, whose matrices serve again where only phases differ
+/// @param[in,out] out  its memory serves again
+/// @return whether there is a force at p
+bool fill_state(const Problem& problem, std::span<const double> p, const State& near,
+                State& out) {
+  out.known = false;
+  if (!in_range(problem, p)) return false;
   try {
-    out.evaluation = evaluate(problem, p, known);
+    evaluate(problem, p, near.known ? &near.at : nullptr, out.at);
   } catch (const std::invalid_argument&) {
-    return std::nullopt;  // a cutter that cannot be, such as a radius below zero
+    return false;  // a cutter that cannot be, such as a radius below zero
   }
-  out.D = design(problem, out.evaluation);
-  out.residual = measured(problem);
-  out.K = numerics::project_out(out.D, problem.linear(), out.residual, 1);
-  return out;
+  const numerics::Columns D = design(problem, out.at);
+  out.gram.resize(D.count() * D.count());
+  numerics::inner_products(D, D, out.gram);
+  out.residual.clear();
+  for (const FoldedRun& run : problem.runs) {
+    out.residual.insert(out.residual.end(), run.b.begin(), run.b.end());
+  }
+  out.K = numerics::project_out(D, out.gram, out.residual);
+  out.known = true;
+  return true;
 }
 
 /// Derivatives of the residual: column-major, shape (rows, unknowns).
 void fill_jacobian(const Problem& problem, const State& state, const Step& step,
-                   std::span<double> jacobian) {
+                   Evaluation& scratch, std::span<double> jacobian) {
   const auto rows = static_cast<std::size_t>(problem.rows());
-  const int count = problem.unknowns.count();
-  const auto width = static_cast<std::size_t>(count);
-  std::vector<double> B(rows * width);
-  for (std::size_t i = 0; i < width; ++i) {
-    const std::vector<double> column =
-        derivative(problem, state.evaluation, static_cast<int>(i), state.K, step);
-    for (std::size_t k = 0; k < rows; ++k) B[k * width + i] = -column[k];
+  for (int i = 0; i < problem.unknowns.count(); ++i) {
+    derivative(problem, state.at, i, state.K, step, scratch,
+               jacobian.subspan(static_cast<std::size_t>(i) * rows, rows));
   }
-  numerics::project_out(state.D, problem.linear(), B, count);
-  for (std::size_t k = 0; k < rows; ++k) {
-    for (std::size_t i = 0; i < width; ++i) jacobian[i * rows + k] = B[k * width + i];
-  }
+  numerics::project_out(design(problem, state.at), state.gram, jacobian);
 }
+
+/// Residuals over their scale, for a search: the last place is known, and the one before
+/// it, to which steps that gain nothing lead back.
+class ScaledResiduals {
+ public:
+  ScaledResiduals(const Problem& problem, const Step& step, double scale)
+      : problem_(problem), step_(step), scale_(scale) {}
+
+  bool operator()(std::span<const double> p, std::span<double> r,
+                  std::span<double> jacobian) {
+    if (!find(p)) return false;
+    const State& here = states_[last_];
+    std::ranges::transform(here.residual, r.begin(),
+                           [&](double v) { return v / scale_; });
+    if (jacobian.empty()) return true;
+    fill_jacobian(problem_, here, step_, scratch_, jacobian);
+    for (double& j : jacobian) j /= -scale_;
+    return true;
+  }
+
+ private:
+  /// Let the last state be that at p.
+  bool find(std::span<const double> p) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!states_[i].known || !std::ranges::equal(states_[i].at.p, p)) continue;
+      last_ = i;
+      return true;
+    }
+    const std::size_t other = 1 - last_;
+    if (!fill_state(problem_, p, states_[last_], states_[other])) return false;
+    last_ = other;
+    return true;
+  }
+
+  const Problem& problem_;
+  Step step_;
+  double scale_;
+  std::array<State, 2> states_;
+  std::size_t last_ = 0;
+  Evaluation scratch_;
+};
 
 }  // namespace
 
@@ -69,15 +111,16 @@ double rss_at(const Problem& problem, std::span<const double> p) {
 }
 
 double rss_at(const Problem& problem, std::span<const double> p, Evaluation& last) {
-  std::optional<State> state = state_at(problem, p, &last);
-  if (!state) return std::numeric_limits<double>::infinity();
-  last = std::move(state->evaluation);
-  return squared(state->residual);
+  State near{!last.matrix.empty(), std::move(last), {}, {}, {}};
+  State state;
+  const bool good = fill_state(problem, p, near, state);
+  last = std::move(good ? state.at : near.at);
+  return good ? squared(state.residual) : std::numeric_limits<double>::infinity();
 }
 
 std::vector<double> residual_at(const Problem& problem, std::span<const double> p) {
-  std::optional<State> state = state_at(problem, p, nullptr);
-  return state ? std::move(state->residual) : measured(problem);
+  State state;
+  return fill_state(problem, p, {}, state) ? state.residual : measured(problem);
 }
 
 Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
@@ -89,34 +132,8 @@ Minimum refine(const Problem& problem, std::vector<double> start, const Step& st
   }
   const double scale = std::sqrt(squared(measured(problem)));
   if (!(scale > 0.0)) return out;
-  // The last place, and the one before it: steps that gain nothing lead back there.
-  std::array<std::optional<State>, 2> known;
-  const auto state = [&](std::span<const double> p) -> const State* {
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (!known[i] || !std::ranges::equal(known[i]->p, p)) continue;
-      std::swap(known[0], known[i]);
-      return &*known[0];
-    }
-    std::optional<State> next =
-        state_at(problem, p, known[0] ? &known[0]->evaluation : nullptr);
-    if (!next) return nullptr;
-    known[1] = std::exchange(known[0], std::move(next));
-    return &*known[0];
-  };
-  const auto residuals = [&](std::span<const double> p, std::span<double> r,
-                             std::span<double> jacobian) {
-    const State* const here = state(p);
-    if (here == nullptr) return false;
-    std::ranges::transform(here->residual, r.begin(),
-                           [&](double v) { return v / scale; });
-    if (!jacobian.empty()) {
-      fill_jacobian(problem, *here, step, jacobian);
-      for (double& j : jacobian) j /= scale;
-    }
-    return true;
-  };
-  const auto summary =
-      numerics::secant_levenberg_marquardt(residuals, problem.rows(), out.p, options);
+  const auto summary = numerics::secant_levenberg_marquardt(
+      ScaledResiduals(problem, step, scale), problem.rows(), out.p, options);
   out.p = summary.p;
   out.rss = 2.0 * summary.final_cost * scale * scale;
   out.converged = summary.converged;

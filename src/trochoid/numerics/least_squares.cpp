@@ -105,15 +105,11 @@ void fill_singular(const Dense& R, double rank_tolerance, LeastSquares& out) {
   }
 }
 
-}  // namespace
-
-LeastSquares least_squares(std::span<const double> A, int n, std::span<const double> b,
-                           double rank_tolerance) {
-  check_shape(A.size(), n, b.size());
-  const auto m = static_cast<Eigen::Index>(b.size());
-  const Eigen::Map<const RowMajor> a(A.data(), m, n);
-  const Eigen::Map<const Vector> right(b.data(), m);
-
+template <class Matrix>
+LeastSquares by_reflections(const Matrix& a, const Vector& right,
+                            double rank_tolerance) {
+  const Eigen::Index m = a.rows();
+  const Eigen::Index n = a.cols();
   LeastSquares out;
   const Vector norms = a.colwise().norm();
   out.norms.assign(norms.data(), norms.data() + n);
@@ -142,6 +138,78 @@ LeastSquares least_squares(std::span<const double> A, int n, std::span<const dou
   return out;
 }
 
+/// Beyond this condition the normal equations lose what is asked of them: their relative
+/// error is this squared times rounding.
+constexpr double worst_condition = 3e3;
+
+/// (L L^T)^-1 right, L row-major in the lower triangle of a scaled gram.
+struct Normal {
+  Vector scale;
+  Eigen::LLT<Dense> factors;
+
+  explicit Normal(const Dense& gram)
+      : scale(inverse_or_zero(gram.diagonal().cwiseSqrt())),
+        factors(scale.asDiagonal() * gram * scale.asDiagonal()) {}
+
+  [[nodiscard]] Vector solve(const Vector& right) const {
+    return scale.cwiseProduct(factors.solve(scale.cwiseProduct(right)));
+  }
+};
+
+std::span<const double> as_span(const Vector& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+Vector products_with(const Columns& A, std::span<const double> b) {
+  Vector out(static_cast<Eigen::Index>(A.count()));
+  inner_products(A, {b, A.rows}, {out.data(), A.count()});
+  return out;
+}
+
+}  // namespace
+
+LeastSquares least_squares(std::span<const double> A, int n, std::span<const double> b,
+                           double rank_tolerance) {
+  check_shape(A.size(), n, b.size());
+  const auto m = static_cast<Eigen::Index>(b.size());
+  return by_reflections(Eigen::Map<const RowMajor>(A.data(), m, n),
+                        Eigen::Map<const Vector>(b.data(), m), rank_tolerance);
+}
+
+LeastSquares least_squares(const Columns& A, std::span<const double> b,
+                           double rank_tolerance) {
+  check_shape(A.values.size(), static_cast<int>(A.count()), b.size());
+  const auto n = static_cast<Eigen::Index>(A.count());
+  Dense gram(n, n);  // symmetric
+  inner_products(A, A, {gram.data(), A.count() * A.count()});
+  const Normal normal(gram);
+  LeastSquares out;
+  if (normal.scale.minCoeff() > 0.0 && normal.factors.info() == Eigen::Success) {
+    fill_singular(normal.factors.matrixU(), rank_tolerance, out);  // I-6
+  }
+  if (out.rank < n || !(out.condition < worst_condition)) {
+    const auto m = static_cast<Eigen::Index>(b.size());
+    return by_reflections(Eigen::Map<const Dense>(A.values.data(), m, n),
+                          Eigen::Map<const Vector>(b.data(), m), rank_tolerance);
+  }
+  const Vector norms = gram.diagonal().cwiseSqrt();
+  out.norms.assign(norms.begin(), norms.end());
+  out.x.assign(A.count(), 0.0);
+  out.residual.assign(b.begin(), b.end());
+  for (int step = 0; step < 2; ++step) {  // I-1
+    const Vector dx = normal.solve(products_with(A, out.residual));
+    add_combination(A, as_span(dx), -1.0, out.residual);
+    Eigen::Map<Vector>(out.x.data(), n) += dx;
+  }
+  out.rss =
+      Eigen::Map<const Vector>(out.residual.data(), static_cast<Eigen::Index>(b.size()))
+          .squaredNorm();
+  const Dense half = normal.factors.matrixL().solve(Dense(normal.scale.asDiagonal()));
+  out.inverse_gram.resize(A.count() * A.count());
+  Eigen::Map<Dense>(out.inverse_gram.data(), n, n) = half.transpose() * half;
+  return out;
+}
+
 std::vector<double> project_out(std::span<const double> A, int n, std::span<double> B,
                                 int k) {
   if (k == 0) return {};
@@ -156,6 +224,24 @@ std::vector<double> project_out(std::span<const double> A, int n, std::span<doub
   const RowMajor x = right;
   b.noalias() -= a * x;
   return {x.data(), x.data() + x.size()};
+}
+
+std::vector<double> project_out(const Columns& A, std::span<const double> gram,
+                                std::span<double> B) {
+  const auto n = static_cast<Eigen::Index>(A.count());
+  const std::size_t k = B.size() / A.rows;
+  Dense right(n, static_cast<Eigen::Index>(k));
+  for (std::size_t j = 0; j < k; ++j) {
+    right.col(static_cast<Eigen::Index>(j)) =
+        products_with(A, B.subspan(j * A.rows, A.rows));
+  }
+  solve_scaled(Eigen::Map<const Dense>(gram.data(), n, n), right);
+  const std::vector<double> x(right.data(), right.data() + right.size());
+  for (std::size_t j = 0; j < k; ++j) {
+    add_combination(A, std::span(x).subspan(j * A.count(), A.count()), -1.0,
+                    B.subspan(j * A.rows, A.rows));
+  }
+  return x;
 }
 
 double solve_normal(std::span<const double> G, std::span<const double> g,

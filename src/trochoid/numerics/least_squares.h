@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/numerics/columns.h>
+
 #include <span>
 #include <vector>
 
@@ -34,6 +36,11 @@ struct LeastSquares {
 LeastSquares least_squares(std::span<const double> A, int n, std::span<const double> b,
                            double rank_tolerance);
 
+/// @brief The same of columns: by the normal equations of the scaled A with one step of
+/// refinement, where these keep the accuracy; else by QR.
+LeastSquares least_squares(const Columns& A, std::span<const double> b,
+                           double rank_tolerance);
+
 /// @brief Take the columns of A out of the columns of B: fast, for A of fair condition.
 ///
 /// Solves the normal equations of the scaled A; good to condition^2 times rounding.
@@ -44,6 +51,13 @@ LeastSquares least_squares(std::span<const double> A, int n, std::span<const dou
 /// @return X, row-major, shape (n, k)
 std::vector<double> project_out(std::span<const double> A, int n, std::span<double> B,
                                 int k);
+
+/// @brief The same of columns whose products are known.
+/// @param[in]     gram  A^T A (gram_of)
+/// @param[in,out] B     one or more columns: becomes B - A X
+/// @return X by columns, shape (columns of B, columns of A)
+std::vector<double> project_out(const Columns& A, std::span<const double> gram,
+                                std::span<double> B);
 
 /// @brief min over x of x^T G x - 2 g^T x, for a small positive semidefinite G.
 /// @param[in]  G  row-major, shape (n, n)
