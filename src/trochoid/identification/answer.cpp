@@ -54,23 +54,36 @@ std::vector<std::array<double, 3>> force_of(const force::ForceMatrix& matrix,
   return out;
 }
 
-/// Force at every sample of a run, shape (n); samples at the same angle share it.
+/// What the rows of a run say of the force at its samples: those at the same angle share
+/// it.
+std::vector<std::array<double, 3>> force_of_rows(const Problem& problem,
+                                                 const Evaluation& at, std::size_t r,
+                                                 std::span<const double> K) {
+  const FoldedRun& folded = problem.runs[r];
+  std::vector<double> rows(3 * folded.angle.size());
+  const numerics::Columns D(std::span(at.D).subspan(first_row(problem, r)), rows.size(),
+                            index(problem.rows()));
+  numerics::add_combination(D.first(K.size()), K, 1.0, rows);
+  std::vector<std::array<double, 3>> out;
+  out.reserve(folded.group.size());
+  for (const std::size_t g : folded.group) {
+    const double w = folded.weight[g];
+    out.push_back({rows[3 * g] / w, rows[3 * g + 1] / w, rows[3 * g + 2] / w});
+  }
+  return out;
+}
+
+/// Force at every sample of a run, shape (n).
 std::vector<std::array<double, 3>> force_of_run(const Problem& problem, const Run& run,
                                                 const Evaluation& at, std::size_t r,
                                                 std::span<const double> K) {
   const FoldedRun& folded = problem.runs[r];
-  const bool shared = !folded.binned && folded.angle.size() < run.angle.size();
-  std::vector<double> phi(shared ? folded.angle : run.angle);
+  if (folded.band == 0 && !folded.binned) return force_of_rows(problem, at, r, K);
+  std::vector<double> phi(run.angle);
   for (double& a : phi) a += at.point.phase[r];
   const bool interpolated =
       !force::keeps_radius(problem.setup) && folded.angle.size() > few_angles;
-  std::vector<std::array<double, 3>> values =
-      force_of(at.matrix[r], phi, K, interpolated);
-  if (!shared) return values;
-  std::vector<std::array<double, 3>> out;
-  out.reserve(run.angle.size());
-  for (const std::size_t g : folded.group) out.push_back(values[g]);
-  return out;
+  return force_of(at.matrix[r], phi, K, interpolated);
 }
 
 /// Why each unknown has no value, over those that have none.

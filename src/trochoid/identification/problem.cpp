@@ -30,18 +30,6 @@ TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
   return {fine, std::min(run.highest, fine / 2 - 1), sudden};
 }
 
-/// Rows of a run in [D], between those of the others.
-struct Place {
-  std::size_t first = 0;
-  std::size_t rows = 0;
-};
-
-Place place_of(const Problem& problem, std::size_t r) {
-  Place out{0, index(problem.runs[r].rows)};
-  for (std::size_t i = 0; i < r; ++i) out.first += index(problem.runs[i].rows);
-  return out;
-}
-
 /// Row-major, shape (n, columns), into columns that are a stride apart.
 void by_columns(std::span<const double> rows, std::size_t columns, std::size_t stride,
                 std::span<double> out) {
@@ -52,69 +40,16 @@ void by_columns(std::span<const double> rows, std::size_t columns, std::size_t s
   }
 }
 
-/// The force columns of a run at its phase.
-/// @param C  by columns that are so many rows of the problem apart
-void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
-              std::span<double> C) {
-  const FoldedRun& run = problem.runs[r];
-  const std::size_t stride = index(problem.rows());
-  const double phase = at.point.phase[r];
-  if (!run.turn_map.empty()) {
-    by_columns(rows_of_turn(run, at_phase(at.turn[r], phase), problem.columns),
-               index(problem.columns), stride, C);
-    return;
-  }
-  std::vector<double> phi(run.angle);
-  for (double& a : phi) a += phase;
-  if (run.band == 0) {
-    at.matrix[r].evaluate_columns(phi, run.weight, C, stride);
-    return;
-  }
-  std::vector<double> all(phi.size() * 3 * index(problem.columns));
-  at.matrix[r].evaluate(phi, all);
-  by_columns(rows_of(run, all, problem.columns), index(problem.columns), stride, C);
-}
-
-/// The columns of the channels, and zeros elsewhere.
+/// The columns of the channels; the rest is zero before.
 void fill_drift(const Problem& problem, std::span<double> D) {
   const std::size_t rows = index(problem.rows());
-  std::ranges::fill(D, 0.0);
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
     if (run.drift.empty()) continue;
-    by_columns(run.drift, 6, rows,
-               D.subspan((index(problem.columns) + 6 * r) * rows +
-                         place_of(problem, r).first));
+    by_columns(
+        run.drift, 6, rows,
+        D.subspan((index(problem.columns) + 6 * r) * rows + first_row(problem, r)));
   }
-}
-
-/// The derivative by a phase, which concerns one run and needs no new matrix; and no
-/// difference where the rows are from the turn.
-void phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                 std::span<const double> K, const Step& step, Evaluation& scratch,
-                 std::span<double> out) {
-  const FoldedRun& run = problem.runs[r];
-  const Place place = place_of(problem, r);
-  const std::size_t rows = index(problem.rows());
-  const auto force_of_run = [&](std::span<const double> D, double factor) {
-    const numerics::Columns own(D.subspan(place.first), place.rows, rows);
-    numerics::add_combination(own.first(K.size()), K, factor,
-                              out.subspan(place.first, place.rows));
-  };
-  scratch.D.resize(at.D.size());
-  const std::span<double> D(scratch.D);
-  if (!run.turn_map.empty()) {
-    by_columns(rows_of_turn(run, slope_at_phase(at.turn[r], at.point.phase[r]),
-                            problem.columns),
-               K.size(), rows, D.subspan(place.first));
-    force_of_run(D, 1.0);
-    return;
-  }
-  Evaluation moved{{}, at.point, at.matrix, {}, {}};
-  moved.point.phase[r] += step.phase;
-  fill_run(problem, moved, r, D.subspan(place.first));
-  force_of_run(D, 1.0 / step.phase);
-  force_of_run(at.D, -1.0 / step.phase);
 }
 
 /// Whether two points have the same matrices, before the phases.
@@ -212,6 +147,41 @@ bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step) 
   return lag < 2.0 * step;
 }
 
+std::size_t first_row(const Problem& problem, std::size_t r) noexcept {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < r; ++i) out += index(problem.runs[i].rows);
+  return out;
+}
+
+void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
+              std::span<double> C) {
+  const FoldedRun& run = problem.runs[r];
+  const std::size_t stride = index(problem.rows());
+  const double phase = at.point.phase[r];
+  if (!run.turn_map.empty()) {
+    by_columns(rows_of_turn(run, at_phase(at.turn[r], phase), problem.columns),
+               index(problem.columns), stride, C);
+    return;
+  }
+  std::vector<double> phi(run.angle);
+  for (double& a : phi) a += phase;
+  if (run.band == 0) {
+    at.matrix[r].evaluate_columns(phi, run.weight, C, stride);
+    return;
+  }
+  std::vector<double> all(phi.size() * 3 * index(problem.columns));
+  at.matrix[r].evaluate(phi, all);
+  by_columns(rows_of(run, all, problem.columns), index(problem.columns), stride, C);
+}
+
+void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                      std::span<double> C) {
+  by_columns(
+      rows_of_turn(problem.runs[r], slope_at_phase(at.turn[r], at.point.phase[r]),
+                   problem.columns),
+      index(problem.columns), index(problem.rows()), C);
+}
+
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {
   return {at.D, index(problem.rows())};
 }
@@ -226,7 +196,7 @@ void evaluate(const Problem& problem, std::span<const double> p,
   out.turn = again ? known->turn : std::vector<TurnMatrix>{};
   const std::size_t rows = index(problem.rows());
   if (out.D.size() != rows * index(problem.linear())) {
-    out.D.resize(rows * index(problem.linear()));
+    out.D.assign(rows * index(problem.linear()), 0.0);
     fill_drift(problem, out.D);
   }
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
@@ -238,15 +208,15 @@ void evaluate(const Problem& problem, std::span<const double> p,
                              ? TurnMatrix{}
                              : turn_matrix(out.matrix[r], grid_of(problem, run)));
     }
-    const Place place = place_of(problem, r);
+    const std::size_t first = first_row(problem, r);
     const std::size_t width = index(problem.columns) * rows;
     if (again && out.point.phase[r] == known->point.phase[r]) {
-      for (std::size_t at = place.first; at < width; at += rows) {
-        std::copy_n(&known->D[at], place.rows, &out.D[at]);
+      for (std::size_t at = first; at < width; at += rows) {
+        std::copy_n(&known->D[at], index(run.rows), &out.D[at]);
       }
       continue;
     }
-    fill_run(problem, out, r, std::span(out.D).first(width).subspan(place.first));
+    fill_run(problem, out, r, std::span(out.D).first(width).subspan(first));
   }
 }
 
@@ -264,27 +234,6 @@ std::vector<double> measured(const Problem& problem) {
     out.insert(out.end(), run.b.begin(), run.b.end());
   }
   return out;
-}
-
-void derivative(const Problem& problem, const Evaluation& at, int i,
-                std::span<const double> K, const Step& step, Evaluation& scratch,
-                std::span<double> out) {
-  const Unknowns& u = problem.unknowns;
-  const std::span<const double> force_K = K.first(index(problem.columns));
-  std::ranges::fill(out, 0.0);
-  if (i >= u.first_phase()) {
-    phase_slope(problem, at, index(i - u.first_phase()), force_K, step, scratch, out);
-    return;
-  }
-  std::vector<double> moved = at.p;
-  moved[index(i)] += step.parameter;
-  evaluate(problem, moved, nullptr, scratch);
-  const auto add = [&](const Evaluation& from, double factor) {
-    numerics::add_combination(design(problem, from).first(force_K.size()), force_K,
-                              factor, out);
-  };
-  add(scratch, 1.0 / step.parameter);
-  add(at, -1.0 / step.parameter);
 }
 
 }  // namespace trochoid::identification

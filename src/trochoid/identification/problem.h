@@ -73,6 +73,18 @@ struct Evaluation {
   std::vector<double> D;  ///< with its channel columns, by columns: (linear, rows)
 };
 
+/// Where the rows of a run begin.
+std::size_t first_row(const Problem& problem, std::size_t r) noexcept;
+
+/// @brief The force columns of a run at its phase.
+/// @param[out] C  its rows, by columns that are the rows of the problem apart
+void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
+              std::span<double> C);
+
+/// @brief Their derivatives by the phase, where the rows are from the turn.
+void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                      std::span<double> C);
+
 /// [D] at an evaluation.
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept;
 
@@ -95,18 +107,5 @@ bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step);
 
 /// Measured force of all runs, shape (rows).
 std::vector<double> measured(const Problem& problem);
-
-/// How to take derivatives.
-struct Step {
-  double parameter = 1e-4;  ///< of the scaled runout and of the exponents
-  double phase = 1e-4;      ///< [rad]
-};
-
-/// @brief d[D]/dp_i {K} as the quotient of differences over one step.
-/// @param scratch   memory that serves again
-/// @param[out] out  shape (rows)
-void derivative(const Problem& problem, const Evaluation& at, int i,
-                std::span<const double> K, const Step& step, Evaluation& scratch,
-                std::span<double> out);
 
 }  // namespace trochoid::identification

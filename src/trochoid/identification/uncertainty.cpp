@@ -1,4 +1,5 @@
 #include <trochoid/base/index.h>
+#include <trochoid/identification/derivatives.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/columns.h>
@@ -42,7 +43,11 @@ std::vector<double> keep_columns(const numerics::Columns& A,
 class Slopes {
  public:
   Slopes(const Problem& problem, const Evaluation& at, std::span<const double> K)
-      : problem_(problem), at_(at), K_(K), behind_(index(problem.rows())) {}
+      : problem_(problem),
+        at_(at),
+        K_(K),
+        derivatives_(problem),
+        behind_(index(problem.rows())) {}
 
   /// Where the force jumps as an unknown passes a value, the jump
   /// itself says nothing about the neighbourhood: of both
@@ -50,8 +55,8 @@ class Slopes {
   /// @param[out] column  shape (rows)
   /// @return whether the slopes to either side are very different
   bool find(int i, std::span<double> column) {
-    derivative(problem_, at_, i, K_, fine_step, scratch_, column);
-    derivative(problem_, at_, i, K_, fine_step_back, scratch_, behind_);
+    derivatives_.find(at_, K_, i, fine_step, column);
+    derivatives_.find(at_, K_, i, fine_step_back, behind_);
     const double a = norm(column);
     const double b = norm(behind_);
     if (sum_of_squares_jumps(problem_)) {
@@ -67,7 +72,7 @@ class Slopes {
   const Problem& problem_;
   const Evaluation& at_;
   std::span<const double> K_;
-  Evaluation scratch_;
+  Derivatives derivatives_;
   std::vector<double> behind_;
 };
 
@@ -200,21 +205,50 @@ Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
   return uncertainty(problem, evaluate(problem, p), K, rss, equations);
 }
 
+namespace {
+
+/// Sum of squares of the samples of a run about the means of its channels.
+double squares_about_means(const FoldedRun& run) {
+  double out = 0.0;
+  for (std::size_t q = 0; q < 3; ++q) {
+    double weight = 0.0;
+    double sum = 0.0;
+    for (std::size_t g = 0; g < run.angle.size(); ++g) {
+      const double w = run.weight[g] * run.weight[g];
+      weight += w;
+      sum += w * run.force[g][q];
+    }
+    for (std::size_t g = 0; g < run.angle.size(); ++g) {
+      const double d = run.weight[g] * (run.force[g][q] - sum / weight);
+      out += d * d;
+    }
+  }
+  return out;
+}
+
+/// The same of rows of a band, or about constants and slopes.
+double squares_about_columns(const FoldedRun& run) {
+  std::vector<double> A = run.drift;
+  if (A.empty()) {
+    const std::size_t u = run.angle.size();
+    std::vector<double> ones(9 * u, 0.0);
+    for (std::size_t g = 0; g < u; ++g) {
+      for (std::size_t q = 0; q < 3; ++q) ones[9 * g + 4 * q] = 1.0;
+    }
+    A = rows_of(run, ones, 3);
+  }
+  std::vector<double> b = run.b;
+  numerics::project_out(A, run.drift.empty() ? 3 : 6, b, 1);
+  return std::inner_product(b.begin(), b.end(), b.begin(), 0.0);
+}
+
+}  // namespace
+
 double rss_of_means(const Problem& problem) {
   double sum = 0.0;
   for (const FoldedRun& run : problem.runs) {
-    std::vector<double> A = run.drift;
-    if (A.empty()) {
-      const std::size_t u = run.angle.size();
-      std::vector<double> ones(9 * u, 0.0);
-      for (std::size_t g = 0; g < u; ++g) {
-        for (std::size_t q = 0; q < 3; ++q) ones[9 * g + 4 * q] = 1.0;
-      }
-      A = rows_of(run, ones, 3);
-    }
-    std::vector<double> b = run.b;
-    numerics::project_out(A, run.drift.empty() ? 3 : 6, b, 1);
-    sum += std::inner_product(b.begin(), b.end(), b.begin(), 0.0);
+    sum += run.band == 0 && run.drift.empty() ? squares_about_means(run)
+                                              : squares_about_columns(run);
   }
   return sum;
 }

@@ -53,11 +53,11 @@ bool fill_state(const Problem& problem, std::span<const double> p, const State& 
 
 /// Derivatives of the residual: column-major, shape (rows, unknowns).
 void fill_jacobian(const Problem& problem, const State& state, const Step& step,
-                   Evaluation& scratch, std::span<double> jacobian) {
+                   Derivatives& derivatives, std::span<double> jacobian) {
   const auto rows = static_cast<std::size_t>(problem.rows());
   for (int i = 0; i < problem.unknowns.count(); ++i) {
-    derivative(problem, state.at, i, state.K, step, scratch,
-               jacobian.subspan(static_cast<std::size_t>(i) * rows, rows));
+    derivatives.find(state.at, state.K, i, step,
+                     jacobian.subspan(static_cast<std::size_t>(i) * rows, rows));
   }
   numerics::project_out(design(problem, state.at), state.gram, jacobian);
 }
@@ -67,7 +67,7 @@ void fill_jacobian(const Problem& problem, const State& state, const Step& step,
 class ScaledResiduals {
  public:
   ScaledResiduals(const Problem& problem, const Step& step, double scale)
-      : problem_(problem), step_(step), scale_(scale) {}
+      : problem_(problem), step_(step), scale_(scale), derivatives_(problem) {}
 
   bool operator()(std::span<const double> p, std::span<double> r,
                   std::span<double> jacobian) {
@@ -76,7 +76,7 @@ class ScaledResiduals {
     std::ranges::transform(here.residual, r.begin(),
                            [&](double v) { return v / scale_; });
     if (jacobian.empty()) return true;
-    fill_jacobian(problem_, here, step_, scratch_, jacobian);
+    fill_jacobian(problem_, here, step_, derivatives_, jacobian);
     for (double& j : jacobian) j /= -scale_;
     return true;
   }
@@ -100,7 +100,7 @@ class ScaledResiduals {
   double scale_;
   std::array<State, 2> states_;
   std::size_t last_ = 0;
-  Evaluation scratch_;
+  Derivatives derivatives_;
 };
 
 }  // namespace

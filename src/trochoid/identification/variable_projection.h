@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/identification/problem.h>
+#include <trochoid/identification/derivatives.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
 
 #include <string>
