@@ -7,46 +7,84 @@ namespace trochoid::identification {
 
 using base::index;
 
-void Derivatives::find(const Evaluation& at, std::span<const double> K, int i,
-                       const Step& step, std::span<double> out) {
-  const Unknowns& u = problem_.unknowns;
-  const std::span<const double> force_K = K.first(index(problem_.columns));
-  std::ranges::fill(out, 0.0);
-  if (i >= u.first_phase()) {
-    find_by_phase(at, force_K, index(i - u.first_phase()), step.phase, out);
-    return;
-  }
-  std::vector<double> p = at.p;
-  p[index(i)] += step.parameter;
-  evaluate(problem_, p, nullptr, moved_);
-  const auto add = [&](const Evaluation& from, double factor) {
-    numerics::add_combination(design(problem_, from).first(force_K.size()), force_K,
-                              factor, out);
-  };
-  add(moved_, 1.0 / step.parameter);
-  add(at, -1.0 / step.parameter);
+Derivatives::Derivatives(const Problem& problem, const Evaluation& at,
+                         std::span<const double> K)
+    : problem_(problem),
+      at_(at),
+      K_(K.begin(), K.begin() + problem.columns),
+      force_(index(problem.rows()), 0.0) {
+  numerics::add_combination(design(problem, at).first(K_.size()), K_, 1.0, force_);
 }
 
-void Derivatives::find_by_phase(const Evaluation& at, std::span<const double> K,
-                                std::size_t r, double step, std::span<double> out) {
-  const std::size_t first = first_row(problem_, r);
-  const std::size_t own = index(problem_.runs[r].rows);
-  const std::size_t rows = index(problem_.rows());
-  const auto add = [&](std::span<const double> C, double factor) {
-    numerics::add_combination(numerics::Columns(C, own, rows).first(K.size()), K,
-                              factor, out.subspan(first, own));
-  };
-  C_.resize(rows * K.size());
-  if (!problem_.runs[r].turn_map.empty()) {
-    fill_phase_slope(problem_, at, r, C_);
-    add(C_, 1.0);
+void Derivatives::find(int i, const Step& step, std::span<double> out) const {
+  const Unknowns& u = problem_.unknowns;
+  std::ranges::fill(out, 0.0);
+  if (i >= u.first_phase()) {
+    find_by_phase(index(i - u.first_phase()), step.phase, out);
     return;
   }
-  Evaluation ahead{{}, at.point, at.matrix, {}, {}};
-  ahead.point.phase[r] += step;
-  fill_run(problem_, ahead, r, C_);
-  add(C_, 1.0 / step);
-  add(std::span(at.D).subspan(first), -1.0 / step);
+  const auto from_turn = [](const FoldedRun& run) { return !run.turn_map.empty(); };
+  if (std::ranges::any_of(problem_.runs, from_turn)) {
+    find_by_evaluation(i, step.parameter, out);
+    return;
+  }
+  std::vector<double> p = at_.p;
+  p[index(i)] += step.parameter;
+  const Point point = point_of(problem_, p);
+  for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
+    add_force(point, r, 1.0 / step.parameter, out);
+  }
+  numerics::add_combination({force_, force_.size()}, {{1.0}}, -1.0 / step.parameter,
+                            out);
+}
+
+/// Add what the coefficients make of a run at a point.
+void Derivatives::add_force(const Point& point, std::size_t r, double factor,
+                            std::span<double> out) const {
+  const FoldedRun& run = problem_.runs[r];
+  std::vector<double> phi(run.angle);
+  for (double& a : phi) a += point.phase[r];
+  const std::vector<force::Vector3> F =
+      force::forces(setup_of(problem_, point, run),
+                    force::with_coefficients(point.law, K_), phi, problem_.tolerance);
+  double* const to = &out[first_row(problem_, r)];
+  if (run.band == 0) {
+    for (std::size_t g = 0; g < F.size(); ++g) {
+      const double w = factor * run.weight[g];
+      for (std::size_t q = 0; q < 3; ++q) to[3 * g + q] += w * F[g][q];
+    }
+    return;
+  }
+  const std::vector<double> rows = rows_of(run, {F.front().data(), 3 * F.size()}, 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) to[i] += factor * rows[i];
+}
+
+void Derivatives::find_by_evaluation(int i, double step, std::span<double> out) const {
+  std::vector<double> p = at_.p;
+  p[index(i)] += step;
+  const Evaluation moved = evaluate(problem_, p);
+  numerics::add_combination(design(problem_, moved).first(K_.size()), K_, 1.0 / step,
+                            out);
+  numerics::add_combination({force_, force_.size()}, {{1.0}}, -1.0 / step, out);
+}
+
+void Derivatives::find_by_phase(std::size_t r, double step,
+                                std::span<double> out) const {
+  const std::size_t first = first_row(problem_, r);
+  const std::size_t own = index(problem_.runs[r].rows);
+  if (!problem_.runs[r].turn_map.empty()) {
+    const std::size_t rows = index(problem_.rows());
+    std::vector<double> C(rows * K_.size());
+    fill_phase_slope(problem_, at_, r, C);
+    numerics::add_combination(numerics::Columns(C, own, rows).first(K_.size()), K_, 1.0,
+                              out.subspan(first, own));
+    return;
+  }
+  Point point = at_.point;
+  point.phase[r] += step;
+  add_force(point, r, 1.0 / step, out);
+  numerics::add_combination({std::span(force_).subspan(first, own), own}, {{1.0}},
+                            -1.0 / step, out.subspan(first, own));
 }
 
 }  // namespace trochoid::identification

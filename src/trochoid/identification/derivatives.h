@@ -3,6 +3,7 @@
 #include <trochoid/identification/problem.h>
 
 #include <span>
+#include <vector>
 
 namespace trochoid::identification {
 
@@ -12,27 +13,28 @@ struct Step {
   double phase = 1e-4;      ///< [rad]
 };
 
-/// @brief d[D]/dp_i {K} as quotients of differences over one step: one more evaluation
-/// each.
-///
-/// A phase concerns one run and needs no new matrix, and no difference where the rows are
-/// from the turn.
+/// @brief d[D]/dp_i {K} at one place, as quotients of differences over one step: the force
+/// of these coefficients once more for each. Where rows are from the turn, a phase needs
+/// no difference.
 class Derivatives {
  public:
-  explicit Derivatives(const Problem& problem) : problem_(problem) {}
+  /// @param at  whose [D] is asked for here only
+  /// @param K   shape (columns) or more
+  Derivatives(const Problem& problem, const Evaluation& at, std::span<const double> K);
 
-  /// @param K    shape (columns) or more
   /// @param[out] out  shape (rows)
-  void find(const Evaluation& at, std::span<const double> K, int i, const Step& step,
-            std::span<double> out);
+  void find(int i, const Step& step, std::span<double> out) const;
 
  private:
-  void find_by_phase(const Evaluation& at, std::span<const double> K, std::size_t r,
-                     double step, std::span<double> out);
+  void add_force(const Point& point, std::size_t r, double factor,
+                 std::span<double> out) const;
+  void find_by_evaluation(int i, double step, std::span<double> out) const;
+  void find_by_phase(std::size_t r, double step, std::span<double> out) const;
 
   const Problem& problem_;
-  Evaluation moved_;       ///< whose memory serves again
-  std::vector<double> C_;  ///< of one run
+  const Evaluation& at_;
+  std::vector<double> K_;
+  std::vector<double> force_;  ///< [D] {K} at the place
 };
 
 }  // namespace trochoid::identification

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trochoid::identification {
 namespace {
@@ -86,7 +87,7 @@ std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
 
 void fill_at(const Problem& problem, std::span<const Run> runs,
              const std::vector<double>& p, Fit& fit) {
-  const Evaluation at = evaluate(problem, p);
+  Evaluation at = evaluate(problem, p);
   const numerics::Columns D = design(problem, at);
   const numerics::LeastSquares linear =
       numerics::least_squares(D, measured(problem), rank_tolerance);
@@ -105,7 +106,8 @@ void fill_at(const Problem& problem, std::span<const Run> runs,
   }
   const double equations = equations_of(problem, runs);
   const double rss = fit.rms * fit.rms * samples_of(runs);
-  const Uncertainty known = uncertainty(problem, at, linear.x, rss, equations);
+  const Uncertainty known =
+      uncertainty(problem, std::move(at), linear.x, rss, equations);
   if (means_do_not_suffice(problem) &&
       only_noise(problem, linear, rss / known.freedom)) {
     fit.message =

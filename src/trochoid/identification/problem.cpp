@@ -13,14 +13,6 @@ namespace {
 
 using base::index;
 
-force::Setup setup_of(const Problem& problem, const Point& point,
-                      const FoldedRun& run) {
-  force::Setup setup = problem.setup;
-  setup.runout = point.runout;
-  setup.cut = run.cut;
-  return setup;
-}
-
 /// The grid of a turn that serves a band: fine where angles cost little.
 TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
   const int least = std::max(problem.angles, 8 * run.harmonics);
@@ -147,6 +139,14 @@ bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step) 
   return lag < 2.0 * step;
 }
 
+force::Setup setup_of(const Problem& problem, const Point& point,
+                      const FoldedRun& run) {
+  force::Setup setup = problem.setup;
+  setup.runout = point.runout;
+  setup.cut = run.cut;
+  return setup;
+}
+
 std::size_t first_row(const Problem& problem, std::size_t r) noexcept {
   std::size_t out = 0;
   for (std::size_t i = 0; i < r; ++i) out += index(problem.runs[i].rows);
@@ -196,6 +196,7 @@ void evaluate(const Problem& problem, std::span<const double> p,
   out.turn = again ? known->turn : std::vector<TurnMatrix>{};
   const std::size_t rows = index(problem.rows());
   if (out.D.size() != rows * index(problem.linear())) {
+    out.D.reserve(rows * index(problem.linear() + problem.unknowns.count()));
     out.D.assign(rows * index(problem.linear()), 0.0);
     fill_drift(problem, out.D);
   }

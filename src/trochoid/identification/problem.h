@@ -70,8 +70,12 @@ struct Evaluation {
   Point point;            ///< the same, in words
   std::vector<force::ForceMatrix> matrix;
   std::vector<TurnMatrix> turn;  ///< empty where the rows are not from the turn
-  std::vector<double> D;  ///< with its channel columns, by columns: (linear, rows)
+  std::vector<double> D;  ///< with its channel columns, by columns: (linear, rows);
+                          ///< with room for the derivatives beside it
 };
+
+/// What the force of a run is computed from.
+force::Setup setup_of(const Problem& problem, const Point& point, const FoldedRun& run);
 
 /// Where the rows of a run begin.
 std::size_t first_row(const Problem& problem, std::size_t r) noexcept;

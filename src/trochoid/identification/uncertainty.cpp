@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace trochoid::identification {
 namespace {
@@ -39,42 +40,26 @@ std::vector<double> keep_columns(const numerics::Columns& A,
   return out;
 }
 
-/// The derivatives of the force by all unknowns, one after the other.
-class Slopes {
- public:
-  Slopes(const Problem& problem, const Evaluation& at, std::span<const double> K)
-      : problem_(problem),
-        at_(at),
-        K_(K),
-        derivatives_(problem),
-        behind_(index(problem.rows())) {}
-
-  /// Where the force jumps as an unknown passes a value, the jump
-  /// itself says nothing about the neighbourhood: of both
-  /// one-sided differences the smaller one is without it.
-  /// @param[out] column  shape (rows)
-  /// @return whether the slopes to either side are very different
-  bool find(int i, std::span<double> column) {
-    derivatives_.find(at_, K_, i, fine_step, column);
-    derivatives_.find(at_, K_, i, fine_step_back, behind_);
-    const double a = norm(column);
-    const double b = norm(behind_);
-    if (sum_of_squares_jumps(problem_)) {
-      if (b <= a) std::ranges::copy(behind_, column.begin());
-      return false;
-    }
-    std::ranges::transform(column, behind_, column.begin(),
-                           [](double x, double y) { return 0.5 * (x + y); });
-    return std::max(a, b) > edge_ratio * std::min(a, b);
+/// The change of the force with an unknown. Where the force jumps as the unknown passes a
+/// value, the jump itself says nothing about the neighbourhood: of both one-sided
+/// differences the smaller one is without it.
+/// @param[out] column  shape (rows)
+/// @param behind       as much memory
+/// @return whether the slopes to either side are very different
+bool find_slope(const Derivatives& derivatives, int i, bool jumps,
+                std::span<double> column, std::span<double> behind) {
+  derivatives.find(i, fine_step, column);
+  derivatives.find(i, fine_step_back, behind);
+  const double a = norm(column);
+  const double b = norm(behind);
+  if (jumps) {
+    if (b <= a) std::ranges::copy(behind, column.begin());
+    return false;
   }
-
- private:
-  const Problem& problem_;
-  const Evaluation& at_;
-  std::span<const double> K_;
-  Derivatives derivatives_;
-  std::vector<double> behind_;
-};
+  std::ranges::transform(column, behind, column.begin(),
+                         [](double x, double y) { return 0.5 * (x + y); });
+  return std::max(a, b) > edge_ratio * std::min(a, b);
+}
 
 /// Derivatives of the force by all unknowns.
 struct Jacobian {
@@ -82,17 +67,20 @@ struct Jacobian {
   std::vector<bool> on_edge;  ///< shape (linear + count)
 };
 
-Jacobian full_jacobian(const Problem& problem, const Evaluation& at,
+Jacobian full_jacobian(const Problem& problem, Evaluation at,
                        std::span<const double> K) {
   const std::size_t linear = index(problem.linear());
   const std::size_t width = linear + at.p.size();
   const std::size_t rows = index(problem.rows());
-  Jacobian out{at.D, std::vector<bool>(width, false)};
+  const Derivatives derivatives(problem, at, K);
+  const bool jumps = sum_of_squares_jumps(problem);
+  Jacobian out{std::move(at.D), std::vector<bool>(width, false)};
   out.J.resize(rows * width);
-  Slopes slopes(problem, at, K);
+  std::vector<double> behind(rows);
   for (std::size_t i = 0; i < at.p.size(); ++i) {
-    out.on_edge[linear + i] = slopes.find(
-        static_cast<int>(i), std::span(out.J).subspan((linear + i) * rows, rows));
+    out.on_edge[linear + i] =
+        find_slope(derivatives, static_cast<int>(i), jumps,
+                   std::span(out.J).subspan((linear + i) * rows, rows), behind);
   }
   return out;
 }
@@ -169,12 +157,12 @@ std::vector<std::string> names_of(const Problem& problem) {
   return out;
 }
 
-Uncertainty uncertainty(const Problem& problem, const Evaluation& at,
+Uncertainty uncertainty(const Problem& problem, Evaluation at,
                         std::span<const double> K, double rss, double equations) {
   const std::vector<std::string> names = names_of(problem);
   const std::size_t width = names.size();
   const std::size_t linear = index(problem.linear());
-  const auto [all, on_edge] = full_jacobian(problem, at, K);
+  const auto [all, on_edge] = full_jacobian(problem, std::move(at), K);
   const numerics::Columns J(all, index(problem.rows()));
   const std::vector<double> b = measured(problem);
   Uncertainty out;

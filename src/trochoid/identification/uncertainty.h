@@ -35,11 +35,11 @@ std::vector<std::string> names_of(const Problem& problem);
 /// Not determined is an unknown whose whole range changes the force by less than 1e-6
 /// of it, and one that takes part in a combination whose singular value, with columns
 /// of unit norm, is below 1e-6 of the largest.
-/// @param at   at the minimum
+/// @param at   at the minimum; given away, its memory serves
 /// @param K    there, shape (linear)
 /// @param rss  of all samples [N^2]
 /// @param equations  number of equations that rss stands for
-Uncertainty uncertainty(const Problem& problem, const Evaluation& at,
+Uncertainty uncertainty(const Problem& problem, Evaluation at,
                         std::span<const double> K, double rss, double equations);
 
 /// @brief The same, evaluated at p.

@@ -53,10 +53,11 @@ bool fill_state(const Problem& problem, std::span<const double> p, const State& 
 
 /// Derivatives of the residual: column-major, shape (rows, unknowns).
 void fill_jacobian(const Problem& problem, const State& state, const Step& step,
-                   Derivatives& derivatives, std::span<double> jacobian) {
+                   std::span<double> jacobian) {
   const auto rows = static_cast<std::size_t>(problem.rows());
+  const Derivatives derivatives(problem, state.at, state.K);
   for (int i = 0; i < problem.unknowns.count(); ++i) {
-    derivatives.find(state.at, state.K, i, step,
+    derivatives.find(i, step,
                      jacobian.subspan(static_cast<std::size_t>(i) * rows, rows));
   }
   numerics::project_out(design(problem, state.at), state.gram, jacobian);
@@ -67,7 +68,7 @@ void fill_jacobian(const Problem& problem, const State& state, const Step& step,
 class ScaledResiduals {
  public:
   ScaledResiduals(const Problem& problem, const Step& step, double scale)
-      : problem_(problem), step_(step), scale_(scale), derivatives_(problem) {}
+      : problem_(problem), step_(step), scale_(scale) {}
 
   bool operator()(std::span<const double> p, std::span<double> r,
                   std::span<double> jacobian) {
@@ -76,7 +77,7 @@ class ScaledResiduals {
     std::ranges::transform(here.residual, r.begin(),
                            [&](double v) { return v / scale_; });
     if (jacobian.empty()) return true;
-    fill_jacobian(problem_, here, step_, derivatives_, jacobian);
+    fill_jacobian(problem_, here, step_, jacobian);
     for (double& j : jacobian) j /= -scale_;
     return true;
   }
@@ -100,7 +101,6 @@ class ScaledResiduals {
   double scale_;
   std::array<State, 2> states_;
   std::size_t last_ = 0;
-  Derivatives derivatives_;
 };
 
 }  // namespace
