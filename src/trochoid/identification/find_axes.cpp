@@ -197,7 +197,7 @@ class Search {
     family.fit.options = options_;
     family.fit.law = given_.law;
     family.fit.coefficients.resize(static_cast<std::size_t>(problem.columns));
-    fill_at(problem, on_tool(runs_, Q), family.minimum.p, family.fit);
+    fill_at(problem, on_tool(runs_, Q), family.minimum, family.fit);
     if (!family.fit.ok) message_ = family.fit.message;
     // Refused, but what it leaves unexplained still tells how wrong this reading is.
     family.rms = family.fit.rms > 0 ? family.fit.rms : INFINITY;

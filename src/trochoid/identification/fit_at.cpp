@@ -85,9 +85,12 @@ std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
       force.rank, problem.columns, dependent_names(problem, force));
 }
 
-void fill_at(const Problem& problem, std::span<const Run> runs,
-             const std::vector<double>& p, Fit& fit) {
-  Evaluation at = evaluate(problem, p);
+void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum,
+             Fit& fit) {
+  const std::vector<double>& p = minimum.p;
+  Evaluation at = minimum.at && serves(problem, *minimum.at, p) ? std::move(*minimum.at)
+                                                                : evaluate(problem, p);
+  minimum.at.reset();
   const numerics::Columns D = design(problem, at);
   const numerics::LeastSquares linear =
       numerics::least_squares(D, measured(problem), rank_tolerance);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/identification/problem.h>
+#include <trochoid/identification/variable_projection.h>
 #include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 
@@ -19,8 +19,9 @@ std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
                          const numerics::LeastSquares& all);
 
 /// @brief The fit at a minimum, with all its numbers; `fit.ok` tells whether they stand.
+/// @param minimum  what was evaluated there is used up
 /// @param fit  with its options, chip and law
-void fill_at(const Problem& problem, std::span<const Run> runs,
-             const std::vector<double>& p, Fit& fit);
+void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum,
+             Fit& fit);
 
 }  // namespace trochoid::identification

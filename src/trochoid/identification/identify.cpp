@@ -29,7 +29,7 @@ Fit identify(const force::Setup& setup, const force::Law& law,
     return fit;
   }
   restrict_eccentricity(problem, minimum.p);
-  fill_at(problem, runs, minimum.p, fit);
+  fill_at(problem, runs, minimum, fit);
   if (setup.cutter.teeth() == 1) refuse_runout_of_one_tooth(fit);
   return fit;
 }

@@ -189,6 +189,7 @@ numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept 
 void evaluate(const Problem& problem, std::span<const double> p,
               const Evaluation* known, Evaluation& out) {
   out.p.assign(p.begin(), p.end());
+  out.tolerance = problem.tolerance;
   out.point = point_of(problem, p);
   const bool again =
       known != nullptr && !known->matrix.empty() && same_matrices(problem, p, known->p);
@@ -219,6 +220,12 @@ void evaluate(const Problem& problem, std::span<const double> p,
     }
     fill_run(problem, out, r, std::span(out.D).first(width).subspan(first));
   }
+}
+
+bool serves(const Problem& problem, const Evaluation& at, std::span<const double> p) {
+  const std::size_t size = index(problem.rows()) * index(problem.linear());
+  return std::ranges::equal(at.p, p) && at.D.size() == size &&
+         at.tolerance == problem.tolerance;
 }
 
 Evaluation evaluate(const Problem& problem, std::span<const double> p,

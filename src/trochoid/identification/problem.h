@@ -66,8 +66,9 @@ std::vector<double> parameters_of(const Problem& problem, const Point& point);
 
 /// Force matrices of all runs at one p.
 struct Evaluation {
-  std::vector<double> p;  ///< the unknowns
-  Point point;            ///< the same, in words
+  std::vector<double> p;   ///< the unknowns
+  double tolerance = 0.0;  ///< of the force matrices
+  Point point;             ///< the same, in words
   std::vector<force::ForceMatrix> matrix;
   std::vector<TurnMatrix> turn;  ///< empty where the rows are not from the turn
   std::vector<double> D;  ///< with its channel columns, by columns: (linear, rows);
@@ -104,6 +105,9 @@ void evaluate(const Problem& problem, std::span<const double> p,
 
 Evaluation evaluate(const Problem& problem, std::span<const double> p,
                     const Evaluation* known = nullptr);
+
+/// @brief Whether an evaluation is what evaluate would give at p.
+bool serves(const Problem& problem, const Evaluation& at, std::span<const double> p);
 
 /// @brief Whether the edges of a run enter within less than two steps of that size
 /// [rad].

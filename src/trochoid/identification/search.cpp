@@ -170,23 +170,16 @@ std::optional<Candidate> given_start(const Problem& problem) {
 
 /// Whether neighbouring residuals are no more alike than those of white noise: what then
 /// is left to explain is hardly more than chance. Rows of a band do not tell.
-bool leaves_noise(const Problem& problem, std::span<const double> p) {
+bool leaves_noise(const Problem& problem, const Minimum& m) {
   const auto banded = [](const FoldedRun& run) { return run.band > 0; };
-  if (std::ranges::any_of(problem.runs, banded)) return false;
-  const std::vector<double> left = residual_at(problem, p);
-  double products = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 3; i < left.size(); ++i) {
-    products += left[i] * left[i - 3];
-    squares += left[i] * left[i];
-  }
-  return products <= squares * white / std::sqrt(static_cast<double>(left.size()));
+  return std::ranges::none_of(problem.runs, banded) &&
+         m.correlation <= white / std::sqrt(static_cast<double>(problem.rows()));
 }
 
 /// Whether a minimum leaves little of how the force changes, or nothing but noise.
 bool explains(const Problem& problem, const Minimum& m) {
   return m.rss < little_left * little_left * rss_of_means(problem) ||
-         leaves_noise(problem, m.p);
+         leaves_noise(problem, m);
 }
 
 /// The minimum near a given start, if the start is worth its name.

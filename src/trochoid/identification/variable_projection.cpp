@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -51,6 +52,17 @@ bool fill_state(const Problem& problem, std::span<const double> p, const State& 
   return true;
 }
 
+/// Of each channel between one angle and the next, where rows are angles.
+double correlation(std::span<const double> residual) {
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 3; i < residual.size(); ++i) {
+    products += residual[i] * residual[i - 3];
+    squares += residual[i] * residual[i];
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
 /// Derivatives of the residual: column-major, shape (rows, unknowns).
 void fill_jacobian(const Problem& problem, const State& state, const Step& step,
                    std::span<double> jacobian) {
@@ -72,30 +84,30 @@ class ScaledResiduals {
 
   bool operator()(std::span<const double> p, std::span<double> r,
                   std::span<double> jacobian) {
-    if (!find(p)) return false;
-    const State& here = states_[last_];
-    std::ranges::transform(here.residual, r.begin(),
+    const State* const here = find(p);
+    if (here == nullptr) return false;
+    std::ranges::transform(here->residual, r.begin(),
                            [&](double v) { return v / scale_; });
     if (jacobian.empty()) return true;
-    fill_jacobian(problem_, here, step_, jacobian);
+    fill_jacobian(problem_, *here, step_, jacobian);
     for (double& j : jacobian) j /= -scale_;
     return true;
   }
 
- private:
-  /// Let the last state be that at p.
-  bool find(std::span<const double> p) {
+  /// The state at p, or null.
+  State* find(std::span<const double> p) {
     for (std::size_t i = 0; i < 2; ++i) {
       if (!states_[i].known || !std::ranges::equal(states_[i].at.p, p)) continue;
       last_ = i;
-      return true;
+      return &states_[i];
     }
     const std::size_t other = 1 - last_;
-    if (!fill_state(problem_, p, states_[last_], states_[other])) return false;
+    if (!fill_state(problem_, p, states_[last_], states_[other])) return nullptr;
     last_ = other;
-    return true;
+    return &states_[other];
   }
 
+ private:
   const Problem& problem_;
   Step step_;
   double scale_;
@@ -118,11 +130,6 @@ double rss_at(const Problem& problem, std::span<const double> p, Evaluation& las
   return good ? squared(state.residual) : std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> residual_at(const Problem& problem, std::span<const double> p) {
-  State state;
-  return fill_state(problem, p, {}, state) ? state.residual : measured(problem);
-}
-
 Minimum refine(const Problem& problem, std::vector<double> start, const Step& step,
                const numerics::LevenbergMarquardtOptions& options) {
   Minimum out{std::move(start), 0.0, true, "nothing to search"};
@@ -132,12 +139,17 @@ Minimum refine(const Problem& problem, std::vector<double> start, const Step& st
   }
   const double scale = std::sqrt(squared(measured(problem)));
   if (!(scale > 0.0)) return out;
+  ScaledResiduals residuals(problem, step, scale);
   const auto summary = numerics::secant_levenberg_marquardt(
-      ScaledResiduals(problem, step, scale), problem.rows(), out.p, options);
+      std::ref(residuals), problem.rows(), out.p, options);
   out.p = summary.p;
   out.rss = 2.0 * summary.final_cost * scale * scale;
   out.converged = summary.converged;
   out.reason = summary.reason;
+  if (State* const end = residuals.find(out.p)) {
+    out.correlation = correlation(end->residual);
+    out.at = std::make_shared<Evaluation>(std::move(end->at));
+  }
   return out;
 }
 

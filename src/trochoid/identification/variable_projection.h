@@ -3,6 +3,7 @@
 #include <trochoid/identification/derivatives.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct Minimum {
   double rss = 0.0;  ///< [N^2], over the rows of the problem
   bool converged = false;
   std::string reason;
+  double correlation =
+      1.0;  ///< of residuals at neighbouring angles, where refine ended
+  std::shared_ptr<Evaluation> at;  ///< where refine ended; or null
 };
 
 /// @brief Sum of squares at p with the best coefficients [N^2]; infinite out of range.
@@ -22,9 +26,6 @@ double rss_at(const Problem& problem, std::span<const double> p);
 /// @brief The same beside an evaluation nearby.
 /// @param[in,out] last  serves again where only phases differ; becomes that at p
 double rss_at(const Problem& problem, std::span<const double> p, Evaluation& last);
-
-/// Measured less fitted force at p, shape (rows) [N]; p is in range.
-std::vector<double> residual_at(const Problem& problem, std::span<const double> p);
 
 /// @brief Local minimum by Levenberg-Marquardt with the coefficients eliminated.
 ///
