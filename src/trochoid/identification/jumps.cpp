@@ -115,7 +115,8 @@ std::vector<double> phases_between_jumps(const FoldedRun& run,
 void improve_around(std::size_t run, Place& place) {
   const Problem& problem = place.problem;
   const std::size_t i = index(problem.unknowns.first_phase()) + run;
-  const Evaluation here = evaluate(problem, place.at.p, &place.last);
+  Evaluation here = place.last;
+  evaluate(problem, place.at.p, here);
   std::vector<Minimum> found;
   for (const double phase :
        phases_between_jumps(problem.runs[run], here.matrix[run], place.at.p[i])) {

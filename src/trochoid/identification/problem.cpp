@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace trochoid::identification {
 namespace {
@@ -186,53 +187,47 @@ numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept 
   return {at.D, index(problem.rows())};
 }
 
-void evaluate(const Problem& problem, std::span<const double> p,
-              const Evaluation* known, Evaluation& out) {
-  out.p.assign(p.begin(), p.end());
-  out.tolerance = problem.tolerance;
-  out.point = point_of(problem, p);
-  const bool again =
-      known != nullptr && !known->matrix.empty() && same_matrices(problem, p, known->p);
-  out.matrix = again ? known->matrix : std::vector<force::ForceMatrix>{};
-  out.turn = again ? known->turn : std::vector<TurnMatrix>{};
-  const std::size_t rows = index(problem.rows());
-  if (out.D.size() != rows * index(problem.linear())) {
-    out.D.reserve(rows * index(problem.linear() + problem.unknowns.count()));
-    out.D.assign(rows * index(problem.linear()), 0.0);
-    fill_drift(problem, out.D);
+void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at) {
+  Point point = point_of(problem, p);
+  const bool again = !at.matrix.empty() && same_matrices(problem, p, at.p);
+  if (!again) {
+    at.matrix.clear();
+    at.turn.clear();
   }
+  at.p.assign(p.begin(), p.end());
+  std::swap(at.point, point);
+  at.tolerance = problem.tolerance;
+  const std::size_t rows = index(problem.rows());
+  if (at.D.size() != rows * index(problem.linear())) {
+    at.D.reserve(rows * index(problem.linear() + problem.unknowns.count()));
+    at.D.assign(rows * index(problem.linear()), 0.0);
+    fill_drift(problem, at.D);
+  }
+  const std::span<double> force = std::span(at.D).first(index(problem.columns) * rows);
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
-    if (out.matrix.size() == r) {
-      out.matrix.emplace_back(setup_of(problem, out.point, run), out.point.law,
-                              problem.tolerance);
-      out.turn.push_back(run.turn_map.empty()
-                             ? TurnMatrix{}
-                             : turn_matrix(out.matrix[r], grid_of(problem, run)));
+    if (again && at.point.phase[r] == point.phase[r]) continue;
+    if (!again) {
+      at.matrix.emplace_back(setup_of(problem, at.point, run), at.point.law,
+                             problem.tolerance);
+      at.turn.push_back(run.turn_map.empty()
+                            ? TurnMatrix{}
+                            : turn_matrix(at.matrix[r], grid_of(problem, run)));
     }
-    const std::size_t first = first_row(problem, r);
-    const std::size_t width = index(problem.columns) * rows;
-    if (again && out.point.phase[r] == known->point.phase[r]) {
-      for (std::size_t at = first; at < width; at += rows) {
-        std::copy_n(&known->D[at], index(run.rows), &out.D[at]);
-      }
-      continue;
-    }
-    fill_run(problem, out, r, std::span(out.D).first(width).subspan(first));
+    fill_run(problem, at, r, force.subspan(first_row(problem, r)));
   }
+}
+
+Evaluation evaluate(const Problem& problem, std::span<const double> p) {
+  Evaluation out;
+  evaluate(problem, p, out);
+  return out;
 }
 
 bool serves(const Problem& problem, const Evaluation& at, std::span<const double> p) {
   const std::size_t size = index(problem.rows()) * index(problem.linear());
   return std::ranges::equal(at.p, p) && at.D.size() == size &&
          at.tolerance == problem.tolerance;
-}
-
-Evaluation evaluate(const Problem& problem, std::span<const double> p,
-                    const Evaluation* known) {
-  Evaluation out;
-  evaluate(problem, p, known, out);
-  return out;
 }
 
 std::vector<double> measured(const Problem& problem) {

@@ -96,15 +96,11 @@ numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept;
 /// @brief Whether p is in the range where the model means anything.
 bool in_range(const Problem& problem, std::span<const double> p);
 
-/// @param known  an evaluation whose matrices serve again where only phases differ; or
-///               null
-/// @param[in,out] out  another one of this problem, whose memory serves again; or an
-///                     empty one
-void evaluate(const Problem& problem, std::span<const double> p,
-              const Evaluation* known, Evaluation& out);
+/// @param[in,out] at  an evaluation of this problem elsewhere, whose matrices serve again
+///                    where only phases differ, and whose memory always does; or empty
+void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at);
 
-Evaluation evaluate(const Problem& problem, std::span<const double> p,
-                    const Evaluation* known = nullptr);
+Evaluation evaluate(const Problem& problem, std::span<const double> p);
 
 /// @brief Whether an evaluation is what evaluate would give at p.
 bool serves(const Problem& problem, const Evaluation& at, std::span<const double> p);

@@ -4,7 +4,6 @@
 #include <trochoid/numerics/secant_levenberg_marquardt.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -28,17 +27,16 @@ struct State {
   std::vector<double> residual;
 };
 
-/// @param near  another state, whose matrices serve again where only phases differ
-/// @param[in,out] out  its memory serves again
+/// @param[in,out] out  elsewhere, of which what is the same and the memory serve again
 /// @return whether there is a force at p
-bool fill_state(const Problem& problem, std::span<const double> p, const State& near,
-                State& out) {
-  out.known = false;
+bool fill_state(const Problem& problem, std::span<const double> p, State& out) {
   if (!in_range(problem, p)) return false;
+  out.known = false;
   try {
-    evaluate(problem, p, near.known ? &near.at : nullptr, out.at);
+    evaluate(problem, p, out.at);
   } catch (const std::invalid_argument&) {
-    return false;  // a cutter that cannot be, such as a radius below zero
+    out.at.matrix.clear();  // a cutter that cannot be, such as a radius below zero
+    return false;
   }
   const numerics::Columns D = design(problem, out.at);
   out.gram.resize(D.count() * D.count());
@@ -75,8 +73,7 @@ void fill_jacobian(const Problem& problem, const State& state, const Step& step,
   numerics::project_out(design(problem, state.at), state.gram, jacobian);
 }
 
-/// Residuals over their scale, for a search: the last place is known, and the one before
-/// it, to which steps that gain nothing lead back.
+/// Residuals over their scale, for a search; the last place is known.
 class ScaledResiduals {
  public:
   ScaledResiduals(const Problem& problem, const Step& step, double scale)
@@ -96,23 +93,15 @@ class ScaledResiduals {
 
   /// The state at p, or null.
   State* find(std::span<const double> p) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (!states_[i].known || !std::ranges::equal(states_[i].at.p, p)) continue;
-      last_ = i;
-      return &states_[i];
-    }
-    const std::size_t other = 1 - last_;
-    if (!fill_state(problem_, p, states_[last_], states_[other])) return nullptr;
-    last_ = other;
-    return &states_[other];
+    const bool there = last_.known && std::ranges::equal(last_.at.p, p);
+    return there || fill_state(problem_, p, last_) ? &last_ : nullptr;
   }
 
  private:
   const Problem& problem_;
   Step step_;
   double scale_;
-  std::array<State, 2> states_;
-  std::size_t last_ = 0;
+  State last_;
 };
 
 }  // namespace
@@ -123,10 +112,10 @@ double rss_at(const Problem& problem, std::span<const double> p) {
 }
 
 double rss_at(const Problem& problem, std::span<const double> p, Evaluation& last) {
-  State near{!last.matrix.empty(), std::move(last), {}, {}, {}};
   State state;
-  const bool good = fill_state(problem, p, near, state);
-  last = std::move(good ? state.at : near.at);
+  state.at = std::move(last);
+  const bool good = fill_state(problem, p, state);
+  last = std::move(state.at);
   return good ? squared(state.residual) : std::numeric_limits<double>::infinity();
 }
 
