@@ -26,6 +26,8 @@ constexpr double damping_of_failure = 1e-3;
 /// where a step from there gains nothing, the sum of squares has kinks, between which there
 /// is nothing to be gained.
 constexpr double nearly_negligible = 100.0;
+/// Nearer than this many times, a new Jacobian gets to the end sooner than one kept.
+constexpr double near_the_end = 1e4;
 
 /// What is known at the present p.
 class Descent {
@@ -128,7 +130,9 @@ class Descent {
     const double length = h.norm();
     const double promised = h.dot(2.0 * downhill_ - gram_ * h);
     const bool little = promised < noise();
-    if (!exact() && (little || length < nearby * tolerance())) return renew();
+    const bool last =
+        promised < near_the_end * noise() || length < nearby * tolerance();
+    if (last && !exact()) return renew();
     if (!(length >= tolerance())) return "the step became negligible";
     if (little) return "the step became small against its standard error";
     const Vector p = p_ + h;
