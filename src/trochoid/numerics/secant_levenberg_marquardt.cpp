@@ -27,7 +27,7 @@ constexpr double damping_of_failure = 1e-3;
 /// is nothing to be gained.
 constexpr double nearly_negligible = 100.0;
 /// Nearer than this many times, a new Jacobian gets to the end sooner than one kept.
-constexpr double near_the_end = 1e4;
+constexpr double near_the_end = 300.0;
 
 /// What is known at the present p.
 class Descent {
