@@ -3,6 +3,7 @@
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
 #include <trochoid/force/turn_kernel.h>
+#include <trochoid/force/turn_numbers.h>
 #include <trochoid/force/turn_polynomial.h>
 #include <trochoid/numerics/parallel.h>
 
@@ -63,6 +64,20 @@ constexpr double turn_tolerance = 1e-8;
 /// The same where differences of matrices are taken.
 constexpr double smooth_turn_tolerance = 1e-11;
 
+/// A jump that counts, of the largest value at the ends of segments.
+constexpr double smallest_jump = 1e-3;
+
+/// Largest values at the ends of the segments.
+std::array<double, 3> largest(const TurnPolynomial& turn) {
+  std::vector<double> values(3 * turn.ends.size());
+  evaluate(turn, turn.ends, values);
+  std::array<double, 3> out{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out[i % 3] = std::max(out[i % 3], std::abs(values[i]));
+  }
+  return out;
+}
+
 /// @brief How the teeth cut, where forces are linear in the chip and the chips have few
 /// harmonics.
 std::optional<TurnTeeth> linear_turn(const Setup& setup, const Law& law,
@@ -72,8 +87,9 @@ std::optional<TurnTeeth> linear_turn(const Setup& setup, const Law& law,
 
 /// The six different entries of [C].
 struct TurnMatrix {
-  TurnPolynomial chip;  ///< integrals of h sin, h cos, h
-  TurnPolynomial edge;  ///< of e sin, e cos, e
+  TurnPolynomial chip;    ///< integrals of h sin, h cos, h
+  TurnPolynomial edge;    ///< of e sin, e cos, e
+  bool straight = false;  ///< edges without lag
 
   void evaluate(std::span<const double> phi, std::size_t columns,
                 std::span<double> C) const noexcept {
@@ -174,7 +190,8 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
     const double allowed = std::min(tolerance, smooth_turn_tolerance);
     if (const auto teeth = linear_turn(setup, law, allowed)) {
       return Parts{columns, TurnMatrix{turn_polynomial(*teeth, chip_weights()),
-                                       turn_polynomial(*teeth, edge_weights())}};
+                                       turn_polynomial(*teeth, edge_weights()),
+                                       teeth->lag == 0.0}};
     }
     if (keeps_radius(setup)) {
       return Parts{columns, CumulativeForce(setup, law, tolerance)};
@@ -189,6 +206,21 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
 
 int ForceMatrix::columns() const noexcept {
   return static_cast<int>(parts_->columns);
+}
+
+std::optional<std::vector<double>> ForceMatrix::jumps() const {
+  const auto* const turn = std::get_if<TurnMatrix>(&parts_->method);
+  if (turn == nullptr || !turn->straight) return std::nullopt;
+  std::vector<double> out;
+  for (const TurnPolynomial* const part : {&turn->chip, &turn->edge}) {
+    const std::array<double, 3> size = largest(*part);
+    const double least = smallest_jump * *std::max_element(size.begin(), size.end());
+    const std::vector<double> found = force::jumps(*part, least);
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,10 @@ class ForceMatrix {
   ForceMatrix(const Setup& setup, const Law& law, double tolerance);
 
   [[nodiscard]] int columns() const noexcept;
+
+  /// @brief Angles at which the matrix jumps, in [0, 2 pi] and ascending, where they are
+  /// known: of straight edges under a linear law. Nothing: they are not.
+  [[nodiscard]] std::optional<std::vector<double>> jumps() const;
 
   /// @param[in]  phi  angles of the tip of tooth 1 [rad], shape (n)
   /// @param[out] C    row-major, shape (n, 3, columns)

@@ -14,6 +14,8 @@ using base::index;
 /// Harmonics that a smooth problem keeps at most, and one of so many samples.
 constexpr int most_harmonics = 16;
 constexpr int samples_a_harmonic = 6;
+/// It has no more angles than this, which is plenty for its harmonics.
+constexpr int most_angles = 240;
 /// Equal steps of the turn in which jumps are looked for.
 constexpr int steps_of_turn = 256;
 /// Phases are compared within so many samples of the present one, at so many places.
@@ -147,7 +149,8 @@ Problem smooth_problem(const Problem& problem) {
   out.tolerance = std::max(problem.tolerance, 1e-6);
   for (FoldedRun& run : out.runs) {
     const int samples = static_cast<int>(run.angle.size());
-    run = from_turn(run, std::clamp(samples / samples_a_harmonic, 1, most_harmonics));
+    run = from_turn(coarsen(run, most_angles),
+                    std::clamp(samples / samples_a_harmonic, 1, most_harmonics));
   }
   return out;
 }

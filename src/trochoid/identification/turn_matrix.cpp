@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
 namespace trochoid::identification {
@@ -20,6 +21,9 @@ constexpr double large_change = 0.1;
 /// Halvings of a step until a jump counts as found: a millionth of a step.
 constexpr int halvings = 20;
 
+/// The sides of a known jump are this far from it [rad].
+constexpr double beside = 1e-9;
+
 /// An angle and the matrix there.
 struct Node {
   double phi = 0.0;
@@ -30,17 +34,29 @@ struct Node {
 class Jumps {
  public:
   Jumps(const force::ForceMatrix& matrix, std::span<const double> C, TurnMatrix& out)
-      : matrix_(matrix), scale_(out.width, 0.0), out_(out) {
+      : matrix_(matrix), known_(matrix.jumps()), scale_(out.width, 0.0), out_(out) {
     for (std::size_t i = 0; i < C.size(); ++i) {
       double& scale = scale_[i % out.width];
       scale = std::max(scale, std::abs(C[i]));
     }
   }
 
+  /// Whether there may be a jump in a step.
+  [[nodiscard]] bool possible(double from, double to) const {
+    return !known_ || !known_between(from, to).empty();
+  }
+
   /// Both sides of each jump of a step, between its ends; nothing without a jump.
   [[nodiscard]] std::vector<Node> found(const Node& a, const Node& b) const {
     std::vector<Node> ends = {a};
-    if (changes(a, b)) find(a, b, 0, ends);
+    if (known_) {
+      for (const double at : known_between(a.phi, b.phi)) {
+        ends.push_back(node_at(at - beside));
+        ends.push_back(node_at(at + beside));
+      }
+    } else if (changes(a, b)) {
+      find(a, b, 0, ends);
+    }
     if (ends.size() == 1) return {};
     ends.push_back(b);
     return ends;
@@ -64,6 +80,23 @@ class Jumps {
     return false;
   }
 
+  [[nodiscard]] Node node_at(double phi) const {
+    Node out{phi, std::vector<double>(scale_.size())};
+    matrix_.evaluate({&out.phi, 1}, out.C);
+    return out;
+  }
+
+  /// Known jumps of a step; one at its end is one of it.
+  [[nodiscard]] std::vector<double> known_between(double from, double to) const {
+    constexpr double at_end = 2.0 * beside;
+    std::vector<double> out;
+    for (double at : *known_) {
+      if (at <= at_end) at += unit::turn;
+      if (at > from + at_end && at <= to + at_end) out.push_back(at);
+    }
+    return out;
+  }
+
   /// Add both sides of each jump.
   void find(const Node& a, const Node& b, int depth, std::vector<Node>& ends) const {
     if (depth == halvings) {
@@ -71,8 +104,7 @@ class Jumps {
       ends.push_back(b);
       return;
     }
-    Node middle{0.5 * (a.phi + b.phi), std::vector<double>(scale_.size())};
-    matrix_.evaluate({&middle.phi, 1}, middle.C);
+    const Node middle = node_at(0.5 * (a.phi + b.phi));
     if (changes(a, middle)) find(a, middle, depth + 1, ends);
     if (changes(middle, b)) find(middle, b, depth + 1, ends);
   }
@@ -104,6 +136,7 @@ class Jumps {
   }
 
   const force::ForceMatrix& matrix_;
+  std::optional<std::vector<double>> known_;
   std::vector<double> scale_;
   TurnMatrix& out_;
 };
@@ -121,11 +154,15 @@ struct Steps {
     matrix.evaluate(phi, C);
   }
 
+  [[nodiscard]] double at(std::size_t k) const {
+    return k < phi.size() ? phi[k] : unit::turn;
+  }
+
   [[nodiscard]] Node node(std::size_t k) const {
     const std::size_t n = phi.size();
     const std::size_t width = C.size() / n;
-    const auto at = C.begin() + static_cast<std::ptrdiff_t>(k % n * width);
-    return {k < n ? phi[k] : unit::turn, {at, at + static_cast<std::ptrdiff_t>(width)}};
+    const auto first = C.begin() + static_cast<std::ptrdiff_t>(k % n * width);
+    return {at(k), {first, first + static_cast<std::ptrdiff_t>(width)}};
   }
 };
 
@@ -138,6 +175,7 @@ TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid) {
   if (!grid.sudden) return out;
   Jumps jumps(matrix, steps.C, out);
   for (std::size_t k = 0; k < steps.phi.size(); ++k) {
+    if (!jumps.possible(steps.at(k), steps.at(k + 1))) continue;
     jumps.add_step(steps.node(k), steps.node(k + 1));
   }
   return out;
@@ -149,6 +187,7 @@ std::vector<double> jump_angles(const force::ForceMatrix& matrix, int angles) {
   const Jumps jumps(matrix, steps.C, unused);
   std::vector<double> out;
   for (std::size_t k = 0; k < steps.phi.size(); ++k) {
+    if (!jumps.possible(steps.at(k), steps.at(k + 1))) continue;
     const std::vector<Node> ends = jumps.found(steps.node(k), steps.node(k + 1));
     for (std::size_t i = 1; i + 1 < ends.size(); i += 2) out.push_back(ends[i].phi);
   }
