@@ -12,10 +12,10 @@ namespace trochoid::benchmarks {
 
 namespace {
 
-/// Two revolutions of 720 samples with noise, phase 37.5 deg.
-identification::Run noisy_run(double noise_N) {
-  const force::Setup setup = paper_cut();
-  identification::Run run{.cut = setup.cut, .angle = turns(720, 2)};
+/// Revolutions of 720 samples with noise, phase 37.5 deg.
+identification::Run noisy_run(const force::Setup& setup, int revolutions,
+                              double noise_N) {
+  identification::Run run{.cut = setup.cut, .angle = turns(720, revolutions)};
   std::vector<double> phi = run.angle;
   for (double& angle : phi) {
     angle += 37.5 * unit::deg;
@@ -29,18 +29,56 @@ identification::Run noisy_run(double noise_N) {
   return run;
 }
 
-/// Six coefficients, the offset of tooth 2 and the phase, from nothing known.
-void identify(benchmark::State& state, chip::Model model) {
-  const std::vector<identification::Run> runs = {
-      noisy_run(static_cast<double>(state.range(0)))};
-  const identification::Options options{.chip_model = model};
+/// What a tool is known by before its fit: everything but its runout.
+force::Setup without_runout(force::Setup setup) {
+  setup.runout = {};
+  return setup;
+}
+
+void fit_again_and_again(benchmark::State& state, const force::Setup& setup,
+                         const identification::Run& run,
+                         const identification::Options& options) {
+  const std::vector<identification::Run> runs = {run};
   identification::Fit fit;
   for (auto _ : state) {
-    fit = identification::identify(paper_cut(model), paper_law(), runs, options);
+    fit = identification::identify(setup, paper_law(), runs, options);
     benchmark::DoNotOptimize(fit.rms);
   }
   state.counters["K_tc_MPa"] =
       fit.ok && fit.coefficients[0] ? fit.coefficients[0]->value / unit::MPa : 0.0;
+}
+
+/// Six coefficients, the offset of tooth 2 and the phase, from nothing known.
+void identify(benchmark::State& state, chip::Model model) {
+  fit_again_and_again(state, without_runout(paper_cut(model)),
+                      noisy_run(paper_cut(), 2, static_cast<double>(state.range(0))),
+                      {.chip_model = model});
+}
+
+/// The same from a start near the answer.
+void identify_from_start(benchmark::State& state) {
+  identification::Options options;
+  options.start = identification::Start{{}, {37 * unit::deg}};
+  options.start->runout.radial_offsets = {0.0, -7.5 * unit::um};
+  fit_again_and_again(state, without_runout(paper_cut()),
+                      noisy_run(paper_cut(), 2, static_cast<double>(state.range(0))),
+                      options);
+}
+
+/// Coefficients, eccentricity and phase of four teeth, one turn.
+void identify_eccentricity(benchmark::State& state, bool start) {
+  force::Setup setup = paper_cut();
+  setup.cutter.pitch = geometry::equal_pitch(4);
+  setup.runout = {.eccentricity = 10 * unit::um, .angle = 0.3};
+  identification::Options options;
+  options.runout = identification::RunoutUnknowns::eccentricity;
+  if (start) {
+    options.start = identification::Start{
+        {.eccentricity = 9.5 * unit::um, .angle = 0.35}, {37 * unit::deg}};
+  }
+  fit_again_and_again(state, without_runout(setup),
+                      noisy_run(setup, 1, static_cast<double>(state.range(0))),
+                      options);
 }
 
 }  // namespace
@@ -50,6 +88,13 @@ BENCHMARK_CAPTURE(identify, trochoidal, chip::Model::trochoidal)
     ->Arg(20)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(identify, feed, chip::Model::feed)
+    ->Arg(20)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(identify_from_start)->Arg(20)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(identify_eccentricity, from_nothing, false)
+    ->Arg(20)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(identify_eccentricity, from_start, true)
     ->Arg(20)
     ->Unit(benchmark::kMillisecond);
 

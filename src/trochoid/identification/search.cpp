@@ -23,7 +23,7 @@ constexpr double hopeless = 10.0;
 constexpr double same_minimum = 5e-3;
 /// The last steps are as small as this against a standard error: what kinks of the sum
 /// of squares allow.
-constexpr double last_step = 1e-3;
+constexpr double last_step = 1e-4;
 /// Candidates that are enough to rank problems.
 constexpr std::size_t starts_to_rank = 2;
 constexpr auto no_start = "no start gives a force";
