@@ -52,7 +52,8 @@ void use(const trochoid::signal::Record& record) {
                          ? trochoid::signal::angle_from_time(record.time, 600.0)
                          : trochoid::signal::unwrapped(record.angle);
   trochoid::signal::fold(record.channel, angle, 36);
-  trochoid::signal::idle_drift(record.channel, angle);
+  const auto passes = trochoid::signal::passes_of(record.channel, angle);
+  trochoid::signal::idle_drift(record.channel, angle, passes.air);
 }
 
 }  // namespace

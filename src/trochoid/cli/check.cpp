@@ -42,7 +42,7 @@ int check(const Options& options) {
   for (const inputs::Measurement& measurement : given.measurements) {
     try {
       const signal::Record record = inputs::read_record(measurement);
-      found += run::describe_record(record, measurement.cut);
+      found += run::describe_record(record, measurement);
       for (const base::Warning& note : record.notes) {
         found +=
             fmt::format("warning [{}]: {}: {}\n", note.code, record.file, note.message);

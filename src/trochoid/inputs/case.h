@@ -55,20 +55,25 @@ struct Measurement {
   std::string angle_column;            ///< empty: found by name
   std::string time_column;             ///< empty: found by name
   std::optional<double> sample_rate;   ///< [Hz]
+  std::optional<double> from;          ///< what is before it is not used [s]
+  std::optional<double> to;            ///< what is after it is not used [s]
   geometry::Cut cut;                   ///< [cut] with this run's overrides
   std::string location;                ///< file:line:col of its `file` key
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.
 enum class ChannelOffset {
-  none,  ///< the record is taken as it stands
-  idle,  ///< estimated where nothing cuts
-  fit,   ///< one constant and one slope a channel, found with the coefficients
+  automatic,  ///< as idle where the record has air, else as none
+  none,       ///< the record is taken as it stands
+  idle,       ///< estimated where nothing cuts
+  fit,        ///< one constant and one slope a channel, found with the coefficients
 };
 
 /// Names of files.
 constexpr std::string_view name_of(ChannelOffset offset) noexcept {
   switch (offset) {
+    case ChannelOffset::automatic:
+      return "auto";
     case ChannelOffset::none:
       return "none";
     case ChannelOffset::idle:
@@ -86,7 +91,7 @@ struct Identify {
   identification::RunoutUnknowns runout = identification::RunoutUnknowns::offsets;
   std::optional<double> phase;  ///< [rad]; absent: free
   int band_harmonics = 0;       ///< 0: all
-  ChannelOffset channel_offsets = ChannelOffset::none;
+  ChannelOffset channel_offsets = ChannelOffset::automatic;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
 };
 

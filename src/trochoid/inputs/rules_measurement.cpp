@@ -128,6 +128,8 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .angle_column = table.angle_column,
                 .time_column = table.time_column,
                 .sample_rate = table.sample_rate,
+                .from = table.from,
+                .to = table.to,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
   if (sound(findings, {path + ".file"})) {
@@ -140,6 +142,11 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
         fmt::format("{}.sample_rate_Hz = {} Hz: time_column is given as well; must be "
                     "one of the two",
                     path, number_text(*table.sample_rate)));
+  }
+  if (table.from && table.to && !(*table.from < *table.to)) {
+    report(findings, path + ".to_s",
+           fmt::format("{}.to_s = {} s: not after from_s = {} s; must be later", path,
+                       number_text(*table.to), number_text(*table.from)));
   }
   return m;
 }

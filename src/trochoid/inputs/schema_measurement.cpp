@@ -86,6 +86,18 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .rival = "time_column",
      .example = "10000"},
     &t.sample_rate);
+  v({.name = "from_s",
+     .meaning = "what was recorded before this time is not fitted",
+     .range = between(-1e9, 1e9),
+     .standard = "the longest steady cut",
+     .example = "0.8"},
+    &t.from);
+  v({.name = "to_s",
+     .meaning = "what was recorded after this time is not fitted",
+     .range = between(-1e9, 1e9),
+     .standard = "the longest steady cut",
+     .example = "3.2"},
+    &t.to);
   v({.name = "cut",
      .meaning = "keys of [cut] that are different in this run",
      .example = "{ feed_per_tooth_mm = 0.06 }"},
@@ -111,8 +123,8 @@ void describe(const Visitor& v, IdentifyTable& t) {
     &t.band_harmonics);
   v({.name = "channel_offsets",
      .meaning =
-         "constant and drift of the channels: left as they are, taken from where "
-         "nothing cuts, or fitted"},
+         "constant and drift of the channels: taken from where nothing cuts (auto: if "
+         "there is air in the record), fitted, or left as they are"},
     choice(t.channel_offsets));
   v({.name = "sweep_um",
      .meaning =

@@ -93,6 +93,8 @@ struct MeasurementTable {
   std::string angle_column;
   std::string time_column;
   std::optional<double> sample_rate;
+  std::optional<double> from;
+  std::optional<double> to;
   CutTable cut;  ///< complete: [cut] with the overrides of this run
 };
 
@@ -101,7 +103,7 @@ struct IdentifyTable {
   identification::RunoutUnknowns runout = identification::RunoutUnknowns::offsets;
   std::optional<double> phase;
   int band_harmonics = 0;
-  ChannelOffset channel_offsets = ChannelOffset::none;
+  ChannelOffset channel_offsets = ChannelOffset::automatic;
   std::optional<base::Steps> sweep;
 };
 

@@ -86,7 +86,7 @@ TEST(CaseDefaults, IdentifyNeedsNoCoefficients) {
   EXPECT_EQ(i.runout, identification::RunoutUnknowns::offsets);
   EXPECT_FALSE(i.phase.has_value());
   EXPECT_EQ(i.band_harmonics, 0);
-  EXPECT_EQ(i.channel_offsets, ChannelOffset::none);
+  EXPECT_EQ(i.channel_offsets, ChannelOffset::automatic);
   EXPECT_FALSE(i.sweep.has_value());
 }
 

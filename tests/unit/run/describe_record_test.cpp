@@ -17,9 +17,9 @@ TEST(DescribeRecord, TellsTimesByTheStatedSpeed) {
   }
   record.channel_column = {"Fx", "Fy", "Fz"};
   record.time_column = "t";
-  geometry::Cut cut;
-  cut.Omega = 600 * unit::rpm;
-  EXPECT_EQ(describe_record(record, cut),
+  inputs::Measurement measurement;
+  measurement.cut.Omega = 600 * unit::rpm;
+  EXPECT_EQ(describe_record(record, measurement),
             "a.csv: 1001 samples, 1 s at 1000 Hz, about 10.0 revolutions at the stated "
             "600 rpm\n"
             "  time from column t\n"

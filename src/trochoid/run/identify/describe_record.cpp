@@ -1,6 +1,7 @@
 #include <trochoid/run/identify/describe_record.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/run/shared/used_part.h>
 #include <trochoid/signal/revolutions.h>
 
 #include <fmt/core.h>
@@ -46,10 +47,17 @@ std::string axis_text(const signal::Record& record) {
 
 }  // namespace
 
-std::string describe_record(const signal::Record& record, const geometry::Cut& cut) {
-  std::string text = fmt::format("{}: {} samples, {}, {}\n", record.file, record.size(),
-                                 duration_text(record), revolutions_text(record, cut));
+std::string describe_record(const signal::Record& record,
+                            const inputs::Measurement& measurement) {
+  std::string text =
+      fmt::format("{}: {} samples, {}, {}\n", record.file, record.size(),
+                  duration_text(record), revolutions_text(record, measurement.cut));
   text += axis_text(record);
+  const UsedPart used =
+      used_part(record, stated_angle(record, measurement.cut), measurement);
+  if (!used.why.empty()) {
+    text += "  " + used.why + "\n";
+  }
   for (std::size_t c = 0; c < 3; ++c) {
     const auto& values = record.channel[c];
     const auto [lo, hi] = std::minmax_element(values.begin(), values.end());

@@ -143,6 +143,7 @@ struct Identification {
     std::stable_partition(r.heading.warnings.begin(), r.heading.warnings.end(),
                           [](const base::Warning& warning) {
                             return warning.code != "part_of_record" &&
+                                   warning.code != "part_used" &&
                                    warning.code != "unit_assumed" &&
                                    warning.code != "last_row_left_out";
                           });

@@ -75,7 +75,9 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
         "only; a multiple or a fraction of the true speed looks periodic too.",
         given.setup.cut.Omega / unit::rpm)));
   }
-  if (given.identify.channel_offsets == inputs::ChannelOffset::none) {
+  const auto offsets = given.identify.channel_offsets;
+  if (offsets == inputs::ChannelOffset::none ||
+      offsets == inputs::ChannelOffset::automatic) {
     out.push_back(
         likely("An offset of the channels: try "
                "channel_offsets = \"fit\" in [identify]."));

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/record_file.h>
+#include <trochoid/run/shared/used_part.h>
 #include <trochoid/signal/drift.h>
 #include <trochoid/signal/revolutions.h>
 #include <trochoid/signal/spindle_speed.h>
@@ -94,27 +95,36 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
   angle = signal::angle_from_time(record.time, run.Omega);
 }
 
-void take_drift_out(MeasuredRun& measured, Warnings& warnings) {
-  auto& [cut, angle, channel] = measured.run;
-  const auto drift = signal::idle_drift(channel, angle);
-  if (!drift) {
+/// Where nothing cuts a channel reads its offset.
+void take_drift_out(const inputs::Case& given, std::span<const double> angle,
+                    std::span<const signal::Part> air, signal::Record& record,
+                    Warnings& warnings) {
+  using inputs::ChannelOffset;
+  const ChannelOffset how = given.identify.channel_offsets;
+  if (how != ChannelOffset::idle && how != ChannelOffset::automatic) {
+    return;
+  }
+  if (const auto drift = signal::idle_drift(record.channel, angle, air)) {
+    signal::remove_drift(record.channel, *drift);
+  } else if (how == ChannelOffset::idle) {
     warnings.push_back({"no_idle_part",
-                        measured.file +
+                        record.file +
                             ": nothing in the record is free of cutting, so the offset "
                             "of the channels cannot be read off it; it is left in. "
                             "channel_offsets = \"fit\" estimates it with the rest."});
-    return;
   }
-  signal::remove_drift(channel, *drift);
-  const auto [begin, end] = signal::steady_part(channel, angle);
-  const auto cut_to = [begin = begin, end = end](std::vector<double>& v) {
-    v = std::vector<double>(v.begin() + static_cast<std::ptrdiff_t>(begin),
-                            v.begin() + static_cast<std::ptrdiff_t>(end));
-  };
-  cut_to(angle);
-  for (std::vector<double>& values : channel) {
-    cut_to(values);
+}
+
+/// The steady cut of a record, without the offset of its channels.
+void keep_cut(const inputs::Case& given, const inputs::Measurement& measurement,
+              signal::Record& record, Warnings& warnings) {
+  const std::vector<double> angle = stated_angle(record, measurement.cut);
+  const UsedPart used = used_part(record, angle, measurement);
+  take_drift_out(given, angle, used.air, record, warnings);
+  if (!used.why.empty()) {
+    warnings.push_back({"part_used", record.file + ": " + used.why});
   }
+  keep_part(used.part, record);
 }
 
 }  // namespace
@@ -128,11 +138,9 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
     for (const base::Warning& note : record.notes) {
       warnings.push_back({note.code, run.file + ": " + note.message});
     }
+    keep_cut(given, given.measurements[i], record, warnings);
     lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
     run.run.channel = std::move(record.channel);
-    if (given.identify.channel_offsets == inputs::ChannelOffset::idle) {
-      take_drift_out(run, warnings);
-    }
     runs.push_back(std::move(run));
   }
   return runs;

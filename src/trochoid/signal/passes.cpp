@@ -1,0 +1,197 @@
+#include <trochoid/signal/passes.h>
+
+#include <trochoid/base/units.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+namespace trochoid::signal {
+
+namespace {
+
+using Channels = std::array<std::vector<double>, 3>;
+
+constexpr std::size_t a_turn = 4;  ///< steps
+/// Fewer steps in a row are no air: two turns.
+constexpr std::size_t least_air = 8;
+constexpr double quiet = 0.2;         ///< of the cut: at most this in air
+constexpr double nothing = 1e-3;      ///< of the cut: what a program may leave in air
+constexpr double twice_quietest = 2;  ///< of the quietest turn: at most this in air
+constexpr double like_most = 0.9;   ///< of the upper quartile: at least this if steady
+constexpr double told_apart = 0.7;  ///< of the upper quartile: entry or exit below
+
+/// Sample at which each quarter of a turn begins, and the end of the last.
+std::vector<std::size_t> quarters(std::span<const double> angle) {
+  std::vector<std::size_t> begins = {0};
+  const double step = unit::turn / a_turn;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    const auto next = static_cast<double>(begins.size());
+    if (angle[i] >= angle[0] + next * step - 1e-9) {
+      begins.push_back(i);
+    }
+  }
+  // Rounding must not take the last quarter from a record of whole turns.
+  const double mean_step =
+      (angle.back() - angle.front()) / static_cast<double>(angle.size() - 1);
+  const auto next = static_cast<double>(begins.size());
+  if (angle.back() + 1.5 * mean_step >= angle[0] + next * step) {
+    begins.push_back(angle.size());
+  }
+  return begins;
+}
+
+/// How much the forces vary within a part, without a straight line through each.
+double variation(const Channels& channels, const Part& part) {
+  const auto n = static_cast<double>(part.size());
+  const double middle = 0.5 * (n - 1.0);
+  const double xx = n * (n * n - 1) / 12;
+  double sum = 0.0;
+  for (const auto& y : channels) {
+    double mean = 0.0;
+    for (std::size_t i = part.begin; i < part.end; ++i) mean += y[i] / n;
+    double yy = 0.0;
+    double xy = 0.0;
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      yy += (y[i] - mean) * (y[i] - mean);
+      xy += (static_cast<double>(i - part.begin) - middle) * (y[i] - mean);
+    }
+    sum += (yy - (xx > 0.0 ? xy * xy / xx : 0.0)) / n;
+  }
+  return std::sqrt(std::max(0.0, sum));
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(
+                                       share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Steps, from the first quarter up to the end of the last.
+struct Steps {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+
+/// @brief A turn that begins at each quarter.
+struct Turns {
+  std::vector<std::size_t> begins;  ///< of the quarters
+  std::vector<double> level;        ///< shape (begins - a_turn)
+
+  [[nodiscard]] Part part(const Steps& s) const {
+    return {begins[s.from], begins[s.to]};
+  }
+  [[nodiscard]] std::size_t quarters() const { return begins.size() - 1; }
+};
+
+/// Runs of turns for which `holds`, as steps.
+template <class Holds>
+std::vector<Steps> runs_where(std::size_t first, std::size_t last, const Holds& holds) {
+  std::vector<Steps> runs;
+  for (std::size_t k = first; k < last; ++k) {
+    if (!holds(k)) continue;
+    const std::size_t from = k;
+    while (k < last && holds(k)) ++k;
+    runs.push_back({from, k - 1 + a_turn});
+  }
+  return runs;
+}
+
+/// What the tool does for most of the time that it cuts, however short that is: the
+/// median of the turns that vary a third as much as those of the strongest two turns.
+double usual_cut(const std::vector<double>& level) {
+  const auto count = static_cast<double>(level.size());
+  const double top = quantile(level, 1.0 - std::min(2.0 * a_turn / count, 0.5));
+  std::vector<double> cutting;
+  std::ranges::copy_if(level, std::back_inserter(cutting),
+                       [&](double v) { return v >= top / 3; });
+  return quantile(std::move(cutting), 0.5);
+}
+
+std::vector<Steps> air_in(const Turns& turns) {
+  const double cutting = usual_cut(turns.level);
+  if (!(cutting > 0)) return {};
+  const double least = *std::min_element(turns.level.begin(), turns.level.end());
+  const double limit =
+      std::min(quiet * cutting, std::max(twice_quietest * least, nothing * cutting));
+  std::vector<Steps> runs = runs_where(
+      0, turns.level.size(), [&](std::size_t k) { return turns.level[k] <= limit; });
+  std::erase_if(runs, [](const Steps& s) { return s.to - s.from < least_air; });
+  return runs;
+}
+
+/// The steady part of a pass; a turn with a part of the entry in it may still be like
+/// most, so that a quarter is left out there.
+std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
+  if (pass.to < pass.from + a_turn) {
+    return {};
+  }
+  const std::size_t last = pass.to - a_turn + 1;
+  const std::vector<double> level(
+      turns.level.begin() + static_cast<std::ptrdiff_t>(pass.from),
+      turns.level.begin() + static_cast<std::ptrdiff_t>(last));
+  const double usual = quantile(level, 0.75);
+  if (*std::min_element(level.begin(), level.end()) >= told_apart * usual) {
+    return {turns.part(pass)};
+  }
+  const auto runs = runs_where(pass.from, last, [&](std::size_t k) {
+    return turns.level[k] >= like_most * usual;
+  });
+  Steps best = *std::max_element(
+      runs.begin(), runs.end(),
+      [](const Steps& a, const Steps& b) { return a.to - a.from < b.to - b.from; });
+  best.from += best.from > pass.from ? 1 : 0;
+  best.to -= best.to < pass.to ? 1 : 0;
+  return {turns.part(best)};
+}
+
+/// What lies between air, without the turn that leaves the air.
+std::vector<Steps> between(const std::vector<Steps>& air, std::size_t quarters) {
+  std::vector<Steps> passes;
+  std::size_t from = 0;
+  for (const Steps& s : air) {
+    if (s.from > from) passes.push_back({from, s.from});
+    from = s.to;
+  }
+  if (quarters > from) passes.push_back({from, quarters});
+  return passes;
+}
+
+}  // namespace
+
+Passes passes_of(const Channels& channels, std::span<const double> angle) {
+  for (const auto& y : channels) {
+    if (y.size() != angle.size()) {
+      throw std::invalid_argument("passes_of: one angle a sample is needed");
+    }
+  }
+  const Passes whole{.air = {}, .steady = {{0, angle.size()}}};
+  if (angle.size() < 2) return whole;
+  Turns turns{.begins = quarters(angle), .level = {}};
+  if (turns.quarters() < 3 * a_turn) return whole;
+  for (std::size_t k = 0; k + a_turn <= turns.quarters(); ++k) {
+    turns.level.push_back(variation(channels, turns.part({k, k + a_turn})));
+  }
+  const std::vector<Steps> air = air_in(turns);
+  Passes found;
+  for (const Steps& pass : between(air, turns.quarters())) {
+    for (const Part& part : steady_in(turns, pass)) found.steady.push_back(part);
+  }
+  if (found.steady.empty()) return whole;
+  for (Steps s : air) {  // the turn next to a cut still rings
+    s.from += s.from > 0 ? a_turn : 0;
+    s.to -= s.to < turns.quarters() ? a_turn : 0;
+    if (s.to > s.from) found.air.push_back(turns.part(s));
+  }
+  // Samples after the last whole quarter belong to what they follow.
+  for (std::vector<Part>* parts : {&found.air, &found.steady}) {
+    if (!parts->empty() && parts->back().end == turns.begins.back()) {
+      parts->back().end = angle.size();
+    }
+  }
+  return found;
+}
+
+}  // namespace trochoid::signal

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace trochoid::signal {
+
+/// Samples from `begin` up to, but not with, `end`.
+struct Part {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
+};
+
+/// @brief A record told apart: where nothing cuts, and where the tool cuts as it does for
+/// most of a pass through the material.
+struct Passes {
+  std::vector<Part> air;     ///< ascending; without the turn next to a cut
+  std::vector<Part> steady;  ///< ascending, one a pass; entry and exit left out
+};
+
+/// @brief Find air, entry, steady cut and exit in a record, by how much the forces vary
+/// within a turn.
+///
+/// @eq S-6 v = sqrt(sum over channels of the mean square about a straight line over one
+///         turn); air: v <= min(v_c/5, max(2 v_min, v_c/1000)) for two turns or
+///         more, v_c that of the usual cut; steady: v >= 0.9 of the upper quartile of the
+///         pass
+/// @src derived
+///
+/// Turns are looked at every quarter turn. A turn holds every tooth once, so that v does
+/// not change in a steady cut, whatever its engagement. Where v never falls below 0.7 of
+/// the upper quartile all is steady.
+/// @param angle  [rad], shape (n), increasing; by the stated speed will do
+/// @return without air and with everything steady where less than three turns are there
+///         or nothing is told apart
+Passes passes_of(const std::array<std::vector<double>, 3>& channels,
+                 std::span<const double> angle);
+
+}  // namespace trochoid::signal
