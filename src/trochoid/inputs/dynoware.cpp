@@ -105,17 +105,9 @@ std::string check_sample_count(const DynoWareHeader& header,
   const double step = header.sample_rate > 0.0 ? 1.0 / header.sample_rate : 0.0;
   const bool from_the_start =
       found.first_time && *found.first_time <= header.delay + 0.5 * step;
-  if (from_the_start) {
-    problems.add(
-        found.last_line, 1,
-        fmt::format("the file ends here after {} rows, but line {} promises {:.0f} "
-                    "samples: it was cut off; export it again (a part of a record "
-                    "must begin later than the record)",
-                    found.rows, header.samples_line, promised));
-    return {};
-  }
-  return fmt::format("The export is a part of its record: {} of {:.0f} samples.",
-                     found.rows, promised);
+  return fmt::format("The export is a part of its record: {}{} of {:.0f} samples{}.",
+                     from_the_start ? "the first " : "", found.rows, promised,
+                     from_the_start ? " (or the file was cut off)" : "");
 }
 
 }  // namespace trochoid::inputs

@@ -32,15 +32,13 @@ DynoWareHeader read_dynoware_header(std::string_view first_line, LineReader& lin
 struct DynoWareExport {
   std::size_t rows = 0;
   std::optional<double> first_time;  ///< [s]; absent: no column of times
-  std::size_t last_line = 0;         ///< of the file
 };
 
 /// @brief Compare the number of rows with the header.
 ///
 /// DynoWare states the samples of the whole record even when a part of it is exported.
-/// Fewer rows are therefore in order if the part begins later than the record (or tells
-/// no times); from the beginning of the record they are a file that was cut off. More
-/// rows never are.
+/// Fewer rows are therefore in order; where they are the first ones, the file may also
+/// have been cut off. More rows never are.
 /// @return what to note about a part of a record; empty: nothing
 std::string check_sample_count(const DynoWareHeader& header,
                                const DynoWareExport& found, Problems& problems);

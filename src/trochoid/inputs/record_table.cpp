@@ -177,7 +177,7 @@ void check_whole(Reading& reading) {
   settle_time(reading);
   if (reading.header) {
     const auto note =
-        check_sample_count(*reading.header, {rows, first, last}, reading.text.problems);
+        check_sample_count(*reading.header, {rows, first}, reading.text.problems);
     if (!note.empty()) reading.record.notes.push_back({"part_of_record", note});
   }
   throw_problems(reading.text);
