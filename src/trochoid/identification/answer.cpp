@@ -110,7 +110,8 @@ class Reasons {
   }
 
   [[nodiscard]] double covariance(std::size_t i, std::size_t j) const {
-    return known_.covariance[i * names_.size() + j];
+    return fit_.widening * fit_.widening *
+           known_.covariance[i * names_.size() + j];  // I-13
   }
   [[nodiscard]] double se(std::size_t i) const { return std::sqrt(covariance(i, i)); }
 
@@ -151,6 +152,33 @@ void fill_single_direction(const Unknowns& u, std::size_t i, double e,
   reasons.refuse("angle_deg", reason);
 }
 
+/// @brief Why the record does not hold amount and angle of an eccentricity; empty: it
+/// does. Its 95 % region must not hold zero, nor reach as far as it is from there.
+std::string not_held(const Unknowns& u, std::size_t i, std::array<double, 2> e,
+                     const Reasons& reasons) {
+  const double xx = reasons.covariance(i, i);
+  const double xy = reasons.covariance(i, i + 1);
+  const double yy = reasons.covariance(i + 1, i + 1);
+  const double mean = 0.5 * (xx + yy);
+  const double swing = std::hypot(0.5 * (xx - yy), xy);
+  const double longest = 0.5 * std::atan2(2.0 * xy, xx - yy);  // axis of the region
+  const double along = e[0] * std::cos(longest) + e[1] * std::sin(longest);
+  const double across = e[1] * std::cos(longest) - e[0] * std::sin(longest);
+  const double wide = mean + swing;
+  const double narrow = std::max(mean - swing, 1e-30);
+  constexpr double region = 5.99;  // of chi squared with two degrees of freedom, 95 %
+  const bool holds_zero =
+      along * along / std::max(wide, 1e-30) + across * across / narrow < region;
+  const bool too_long = region * wide > along * along + across * across;
+  if (!holds_zero && !too_long) return "";
+  return fmt::format(
+      "the 95 % region of the eccentricity {}; what is known is its component rho "
+      "cos(lambda - {:.3g} deg) = {:.4g} mm (standard error {:.2g} mm)",
+      holds_zero ? "holds zero" : "is as long as the eccentricity itself",
+      (longest + 0.5 * pi) / unit::deg, across * u.length / unit::mm,
+      std::sqrt(narrow) * u.length / unit::mm);
+}
+
 /// rho and lambda from e_x and e_y by the chain rule.
 void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e,
                        Reasons& reasons, Fit& fit) {
@@ -163,6 +191,11 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e
   }
   const bool smooth = reasons.has_error(i);
   if (!reasons.has_error(i + 1) || !smooth) return;
+  if (const std::string why = not_held(u, i, e, reasons); !why.empty()) {
+    reasons.refuse("eccentricity_mm", why);
+    reasons.refuse("angle_deg", why);
+    return;
+  }
   const double rho = std::hypot(e[0], e[1]);
   const double c = rho > 0.0 ? e[0] / rho : 1.0;
   const double s = rho > 0.0 ? e[1] / rho : 0.0;
@@ -171,14 +204,8 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e
   const double yy = reasons.covariance(i + 1, i + 1);
   fit.eccentricity_se =
       u.length * std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy));
-  const double across =
-      std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy));
-  if (across < rho) {
-    fit.angle_se = across / rho;
-  } else {
-    reasons.refuse("angle_deg",
-                   "the eccentricity is not larger than its standard error");
-  }
+  fit.angle_se =
+      std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy)) / rho;
 }
 
 void fill_phases(const Problem& problem, Reasons& reasons, Fit& fit) {

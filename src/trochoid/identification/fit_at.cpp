@@ -5,6 +5,7 @@
 #include <trochoid/identification/prepare.h>
 #include <trochoid/identification/reliability.h>
 #include <trochoid/identification/uncertainty.h>
+#include <trochoid/identification/widening.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <fmt/core.h>
@@ -119,6 +120,8 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
     refuse_coefficients(problem, fit);
     return;
   }
+  if (fit.options.band_harmonics == 0)
+    fit.widening = interval_widening(runs, fit.fitted);
   fill_estimates(problem, p, linear.x, known, fit);
   fit.ok = std::ranges::any_of(fit.coefficients, [](const auto& K) { return !!K; });
   if (!fit.ok) fit.message = "none of the coefficients can be told from the record";

@@ -8,10 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace trochoid::identification {
 namespace {
+
+double norm(std::span<const double> v) {
+  return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+}
 
 constexpr int coarse_bins = 120;
 constexpr int coarse_angles = 64;
@@ -272,9 +277,11 @@ void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
   const Problem coarse = coarse_problem(problem);
   const Evaluation at = evaluate(coarse, p);
   const numerics::Columns D = design(coarse, at);
-  std::vector<double> residual = measured(coarse);
+  const std::vector<double> force = measured(coarse);
+  std::vector<double> residual = force;
   const std::vector<double> K = numerics::project_out(D, gram_of(D), residual);
-  problem.unknowns.direction = single_direction(coarse, p, K);
+  problem.unknowns.direction =
+      single_direction(coarse, p, K, norm(residual) / norm(force));
   if (!problem.unknowns.direction) return;
   p = settle(problem, parameters_of(problem, point)).p;
 }

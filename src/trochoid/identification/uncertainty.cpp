@@ -18,6 +18,8 @@ namespace {
 constexpr double insensitive = 1e-6;  ///< of the measured force, for one scaled unit
 constexpr double dependent = 1e-6;    ///< of the largest singular value
 constexpr double separable = 0.01;
+/// Of what a fit leaves unexplained: a direction that shows less is lost in it.
+constexpr double lost_in_rest = 0.5;
 constexpr double takes_part = 1e-3;  ///< of the largest part in a null direction
 
 constexpr Step fine_step{1e-4, 1e-5};
@@ -243,9 +245,10 @@ double rss_of_means(const Problem& problem) {
 
 std::optional<double> single_direction(const Problem& problem,
                                        std::span<const double> p,
-                                       std::span<const double> K) {
+                                       std::span<const double> K, double unexplained) {
   const Unknowns& u = problem.unknowns;
   if (u.runout != RunoutUnknowns::eccentricity || u.direction) return std::nullopt;
+  const double least = std::max(separable, lost_in_rest * unexplained);
   Problem first = problem;
   first.setup.runout.order = geometry::EccentricityOrder::first;
   const std::vector<double> all = full_jacobian(first, evaluate(first, p), K).J;
@@ -265,7 +268,7 @@ std::optional<double> single_direction(const Problem& problem,
   const double yy = squares[3];
   const double half = 0.5 * (xx + yy);
   const double swing = std::hypot(0.5 * (xx - yy), xy);
-  if (half - swing > separable * separable * (half + swing)) return std::nullopt;
+  if (half - swing > least * least * (half + swing)) return std::nullopt;
   return 0.5 * std::atan2(2.0 * xy, xx - yy);
 }
 

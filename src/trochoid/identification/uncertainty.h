@@ -54,9 +54,11 @@ double rss_of_means(const Problem& problem);
 /// determines but one [rad].
 ///
 /// Judged by the radii alone (first order), after the other unknowns have had their
-/// share: one direction must change the force by at least 1 % of what the other does.
+/// share: one direction must change the force by at least 1 % of what the other does, and half as
+/// much as the fit leaves unexplained of the force.
+/// @param unexplained  part of the force that the fit leaves, rms, from 0 to 1
 std::optional<double> single_direction(const Problem& problem,
                                        std::span<const double> p,
-                                       std::span<const double> K);
+                                       std::span<const double> K, double unexplained);
 
 }  // namespace trochoid::identification

@@ -134,10 +134,9 @@ void add_quality(Columns& columns) {
                ? fmt::format("{:.1f}", fit.condition)
                : std::string("rank deficient");
   });
-  columns.row("+- if correlated", [](const Fit& fit) {
-    const double r = fit.residual_correlation;
-    return r == 0.0 ? std::string("-")
-                    : fmt::format("x {:.1f}", identification::correlation_factor(r));
+  columns.row("+- wider than by noise", [](const Fit& fit) {
+    return fit.options.band_harmonics > 0 ? std::string("-")
+                                          : fmt::format("x {:.1f}", fit.widening);
   });
 }
 

@@ -57,8 +57,8 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
       "#   include = \"<this file>\"\n";
   if (fit.residual_correlation > identification::noise_correlation) {
     text += fmt::format(
-        "# What the fit leaves is correlated: the intervals are {:.1f} times wider.\n",
-        identification::correlation_factor(fit.residual_correlation));
+        "# What the fit leaves is not noise: the intervals are {:.1f} times wider for it.\n",
+        fit.widening);
   }
   text += "\n[force]\n";
   text += fmt::format("law = \"{}\"\n", force::name_of(fit.law));

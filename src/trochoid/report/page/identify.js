@@ -7,13 +7,14 @@ function identifyPage(report) {
   const fits = Array.isArray(result.fits) ? result.fits : [];
   const best = fits.find((fit) => fit.chip_model === result.chosen) ||
     fits.find((fit) => fit.ok !== false);
+  const trust = trustIn(report);
   const curves = measuredOverAngle(report, {
     heading: 'Measured and fitted force', short: 'Forces', model: best?.chip_model,
     text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.',
   });
   return [
-    { lead: best ? headline(best, fits, isEmpty(result.do_not_use)) : null },
-    { part: best ? coefficientSection(best, isEmpty(result.do_not_use)) : null },
+    { lead: best ? headline(best, fits, trust) : null },
+    { part: best ? coefficientSection(best, trust) : null },
     ...curves,
     foldedSection(report),
     { part: fitsSection(fits, best) },
@@ -35,7 +36,7 @@ function reasonOf(fit, key) {
   return entry?.reason || entry?.message || (entry === false ? 'cannot be told apart' : '');
 }
 
-function headline(fit, fits, usable) {
+function headline(fit, fits, trust) {
   const runout = runoutWords(fit.runout, fit.interval_factor);
   const [key, main] = coefficientsOf(fit).find(([, entry]) => entry) || [];
   const spread = spreadOf(fit.runout);
@@ -44,16 +45,16 @@ function headline(fit, fits, usable) {
     tiles([
       main && { label: [symbol(nameAndUnit(key).name), ` ${meanings[nameAndUnit(key).name] || ''}`],
         value: measured(main.value, half(main)),
-        unit: nameAndUnit(key).unit, note: known(main, fit, usable).text },
+        unit: nameAndUnit(key).unit, note: known(main, trust).text },
       { label: 'Runout between teeth', value: spread && fixed(spread, 3), unit: 'µm',
-        note: spread && !usable ? 'do not use' : fit.runout?.eccentricity_mm ? 'off centre' : null },
+        note: spread && !trust ? 'do not use' : fit.runout?.eccentricity_mm ? 'off centre' : null },
       { label: 'Residual of the fit', value: isNumber(fit.rms_N) ? fixed(fit.rms_N, 3) : null,
         unit: 'N rms',
         note: comparison(fit, fits) },
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
     ]),
-    runout && usable ? prose('Runout: ', runout, '.') : null,
+    runout && trust ? prose('Runout: ', runout, '.') : null,
   ];
 }
 
@@ -75,23 +76,21 @@ function comparison(fit, fits) {
 
 const half = (entry) => (isNumber(entry?.high - entry?.low) ? (entry.high - entry.low) / 2 : null);
 
-/** By how much wider the correlation of the residuals makes the intervals; a little does not count. */
-function widening(fit) {
-  const factor = fit?.se_correlation_factor || 1;
-  return factor > 1.2 ? factor : 1;
+/** The best that may be said of a coefficient: nothing, `roughly` of a poor fit, anything. */
+function trustIn(report) {
+  if (!isEmpty(report.result.do_not_use)) return 0;
+  const poor = (report.warnings || []).some((warning) => warning.code === 'poor_fit');
+  return poor ? 2 : 4;
 }
 
-/**
- * How well a coefficient is known: half of its interval against its value, wider where
- * the residuals are correlated. Nothing is well known of a fit that must not be used.
- */
-function known(entry, fit, usable) {
-  if (!usable) return { text: 'do not use', level: 0 };
+/** How well a coefficient is known: half of its interval against its value. */
+function known(entry, trust) {
+  if (!trust) return { text: 'do not use', level: 0 };
   const width = half(entry);
   if (!isNumber(width) || !entry.value) return { text: missing, level: 0 };
-  const relative = Math.abs(widening(fit) * width / entry.value);
+  const relative = Math.abs(width / entry.value);
   if (relative >= 1) return { text: 'it may be zero', level: 0 };
-  const level = relative <= 0.02 ? 4 : relative <= 0.1 ? 3 : relative <= 0.5 ? 2 : 1;
+  const level = Math.min(trust, relative <= 0.02 ? 4 : relative <= 0.1 ? 3 : relative <= 0.5 ? 2 : 1);
   const word = ['', 'hardly', 'roughly', 'well', 'very well'][level];
   return { text: `${word}: ± ${number(100 * relative, 2)} %`, level };
 }
@@ -101,7 +100,7 @@ function meter(level) {
     [1, 2, 3, 4].map((i) => el('i', { class: i <= level ? 'on' : '' })));
 }
 
-function coefficientSection(fit, usable) {
+function coefficientSection(fit, trust) {
   const rows = coefficientsOf(fit).map(([key, entry]) => {
     const { name, unit } = nameAndUnit(key);
     const head = [symbol(name), meanings[name] ? el('small', {}, meanings[name]) : null];
@@ -110,7 +109,7 @@ function coefficientSection(fit, usable) {
         reasonOf(fit, key) || 'not identifiable')];
     }
     const width = half(entry);
-    const how = known(entry, fit, usable);
+    const how = known(entry, trust);
     return [head,
       [el('b', {}, measured(entry.value, width)), ` ${unit}`],
       `${measured(entry.low, width)} to ${measured(entry.high, width)}`,
@@ -121,9 +120,8 @@ function coefficientSection(fit, usable) {
     prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
-      widening(fit) > 1 ? 'The confidence intervals assume that the residuals are white noise. They are not ' +
-        `(correlation ${number(fit.residual_correlation, 2)}): “how well” counts them ` +
-        `${number(widening(fit), 2)} times as wide.` : null),
+      fit.se_widening > 1.2 ? 'What the fit leaves is not white noise: the confidence intervals are ' +
+        `${number(fit.se_widening, 2)} times as wide for it.` : null),
     table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
     offsetTable(fit));
 }

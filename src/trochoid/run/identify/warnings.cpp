@@ -29,9 +29,9 @@ void warn_correlation(const Fit& chosen, Warnings& warnings) {
     warnings.push_back(
         {"correlated_residuals",
          fmt::format("What the fit leaves is not noise: neighbouring samples agree "
-                     "(correlation {:.2f}). Standard errors and intervals assume white "
-                     "noise; multiply them by about {:.1f}.",
-                     r, identification::correlation_factor(r))});
+                     "(correlation {:.2f}). Standard errors and intervals are {:.1f} "
+                     "times wider for it.",
+                     r, chosen.widening)});
   }
 }
 
