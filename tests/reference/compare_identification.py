@@ -98,11 +98,30 @@ class Identify(unittest.TestCase):
             np.testing.assert_allclose(fit["rms_axis_N"], axis, rtol=1e-5)
             self.assertAlmostEqual(fit["condition"], cond, delta=1e-3 * cond)
             self.assertEqual(rank, 6)
+            left = res.reshape(2, -1, 3)
+            wider = ident.widening([angle, angle], left, 6)
+            self.assertAlmostEqual(fit["interval_widening"], wider, delta=1e-4 * wider)
             for key, value, s in zip(fit["coefficients"], want, se):
-                lo, hi = ident.interval(value, s, len(y) - 6)
+                lo, hi = ident.interval(value, wider * s, len(y) - 6)
                 got = fit["coefficients"][key]
                 self.assertAlmostEqual(got["low"], lo, delta=2e-3 * s, msg=key)
                 self.assertAlmostEqual(got["high"], hi, delta=2e-3 * s, msg=key)
+
+    def test_what_repeats_widens_the_intervals(self):  # [I-13]
+        given = tables()
+        case, K_true = truth(given)
+        angle = turns(120, 15)
+        F = record(case, K_true, angle, noise=6)
+        F = F + 8 * np.sin(np.outer(11 * angle, [1, 1, 1]) + [0.3, 1.2, 2.2])
+        fit = self.identify("repeats", given, {"chip_models": ["trochoidal"],
+                                               "runout": "fixed", "phase_deg": 0.0},
+                            [self.write("r.csv", angle, F)]).result["fits"][0]
+        D = ident.stacked(case, angle)
+        y = F.ravel()
+        want, _, _ = ident.linear(D, y)
+        wider = ident.widening([angle], [(y - D @ want).reshape(-1, 3)], 6)
+        self.assertGreater(wider, 3)
+        self.assertAlmostEqual(fit["interval_widening"], wider, delta=1e-4 * wider)
 
     def joint(self, name, given, kind, names, start, phase, per_turn=90, noise=6.0):
         case, K_true = truth(given)

@@ -147,3 +147,35 @@ def sweep(case, angle, F, offsets):
         new, _ = with_parameters(case, ["shift:1"], [value])
         out.append(fixed(new, angle, F)["rms"])
     return np.array(out)
+
+
+def widening(angles, left, unknowns):
+    """[I-13] by how much intervals are wider than white noise would make them."""
+    def c2(values, following):
+        r = np.sum(values * following) / np.sum(values**2)
+        r = min(max(r, 0.0), 0.999)
+        return (1 + r) / (1 - r)
+
+    counted = white = samples = 0.0
+    for angle, d in zip(angles, left):
+        n = len(angle)
+        bins = int(min(max(round((n - 1) * 2 * np.pi / (angle[-1] - angle[0])), 1), 720))
+        at = np.floor((angle / (2 * np.pi)) % 1.0 * bins + 1e-6).astype(int) % bins
+        count = np.bincount(at, minlength=bins)
+        mean = np.stack([np.bincount(at, d[:, q], bins) / np.maximum(count, 1)
+                         for q in range(3)], axis=1)
+        ends = np.zeros((1, 3))
+        total = np.sum(d**2)
+        used = np.count_nonzero(count)
+        if n < 2 * used:
+            own = c2(d, np.vstack([d[1:], ends])) * total
+        else:
+            w = d - mean[at]
+            scatter = np.sum(w**2) / (n - used)
+            repeats = max(0.0, np.sum(count[:, None] * mean**2) - used * scatter)
+            own = (c2(w, np.vstack([w[1:], ends])) * (total - repeats)
+                   + n / used * c2(mean, np.roll(mean, -1, axis=0)) * repeats)
+        counted += own
+        white += total
+        samples += n
+    return np.sqrt(min(max(counted / white, 1.0), max(1.0, samples / (unknowns + 1))))

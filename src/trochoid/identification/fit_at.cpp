@@ -120,8 +120,10 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
     refuse_coefficients(problem, fit);
     return;
   }
-  if (fit.options.band_harmonics == 0)
-    fit.widening = interval_widening(runs, fit.fitted);
+  if (fit.options.band_harmonics == 0) {
+    fit.widening = interval_widening(runs, fit.fitted,
+                                     problem.linear() + problem.unknowns.count());
+  }
   fill_estimates(problem, p, linear.x, known, fit);
   fit.ok = std::ranges::any_of(fit.coefficients, [](const auto& K) { return !!K; });
   if (!fit.ok) fit.message = "none of the coefficients can be told from the record";

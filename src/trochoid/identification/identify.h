@@ -115,8 +115,8 @@ struct Fit {
   /// Correlation of neighbouring residuals. 0 with a band limit, which correlates them by
   /// itself.
   double residual_correlation = 0.0;
-  /// By how much standard errors and intervals are wider than white noise would make
-  /// them (I-13); they hold it. 1 with a band limit, whose rows are few.
+  /// By how much intervals are wider than white noise would make them (I-13): in
+  /// `interval_factor`, not in the standard errors. 1 with a band limit, whose rows are few.
   double widening = 1.0;
   Unexplained unexplained;
   /// Fitted force of each run with its channel offsets, shape (n).
@@ -135,7 +135,7 @@ bool unidentifiable(const Fit& fit, const std::string& name);
 /// @eq  I-5 RMS = sqrt(mean over samples of |dF|^2)
 /// @eq  I-7 {F_c} = [D]_c {K} + a_c + b_c (t - mean t)/(t_last - t_first)
 /// @eq  I-8 value +- t_0.975(n - dim K - dim p) se
-/// @eq  I-13 se as of I-4, times the factor by which residuals that agree with their
+/// @eq  I-13 intervals times the factor by which residuals that agree with their
 ///      neighbours, or repeat turn by turn, tell less than white noise
 /// @eq  I-9 nothing is explained where u > sqrt(0.9) and r > 0.3
 /// @src [riviere2009] eq. 20 to 22, section 3.3; I-3 [golub1973]; I-4, I-8 standard

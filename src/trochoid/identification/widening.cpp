@@ -117,14 +117,18 @@ Shares shares_of(const Left& left) {
 }  // namespace
 
 double interval_widening(std::span<const Run> runs,
-                         std::span<const std::vector<Force>> fitted) {
+                         std::span<const std::vector<Force>> fitted, int unknowns) {
   Shares sum;
+  double samples = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Shares own = shares_of(left_of(runs[r], fitted[r]));
     sum.counted += own.counted;
     sum.white += own.white;
+    samples += static_cast<double>(runs[r].angle.size());
   }
-  return sum.white > 0 ? std::sqrt(std::max(1.0, sum.counted / sum.white)) : 1.0;
+  if (!(sum.white > 0)) return 1.0;
+  const double most = std::max(1.0, samples / (unknowns + 1));
+  return std::sqrt(std::clamp(sum.counted / sum.white, 1.0, most));
 }
 
 }  // namespace trochoid::identification

@@ -123,7 +123,7 @@ Object fit_value(const Fit& fit) {
       {"degrees_of_freedom", number(fit.freedom)},
       {"interval_factor", number(fit.interval_factor)},
       {"residual_correlation", number(fit.residual_correlation)},
-      {"se_widening", number(fit.widening)},
+      {"interval_widening", number(fit.widening)},
       {"unexplained_in_band", number(fit.unexplained.in_band)},
       {"unexplained", number(fit.unexplained.all)},
       {"outside_band", number(fit.unexplained.outside)}};

@@ -48,8 +48,9 @@ TEST(FitWarnings, AreNoneForASoundFit) {
 TEST(FitWarnings, SayThatResidualsAreCorrelated) {
   Fit fit = sound();
   fit.residual_correlation = 0.8;
+  fit.widening = 3.0;
   EXPECT_EQ(code(fit), "correlated_residuals");
-  EXPECT_NE(warnings(fit)[0].message.find("by about 3.0"), std::string::npos)
+  EXPECT_NE(warnings(fit)[0].message.find("3.0 times wider"), std::string::npos)
       << warnings(fit)[0].message;
 }
 

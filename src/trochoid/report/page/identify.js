@@ -120,8 +120,8 @@ function coefficientSection(fit, trust) {
     prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
-      fit.se_widening > 1.2 ? 'What the fit leaves is not white noise: the confidence intervals are ' +
-        `${number(fit.se_widening, 2)} times as wide for it.` : null),
+      fit.interval_widening > 1.2 ? 'What the fit leaves is not white noise: the confidence intervals are ' +
+        `${number(fit.interval_widening, 2)} times as wide for it.` : null),
     table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
     offsetTable(fit));
 }

@@ -28,10 +28,10 @@ void warn_correlation(const Fit& chosen, Warnings& warnings) {
   if (r > identification::noise_correlation) {
     warnings.push_back(
         {"correlated_residuals",
-         fmt::format("What the fit leaves is not noise: neighbouring samples agree "
-                     "(correlation {:.2f}). Standard errors and intervals are {:.1f} "
-                     "times wider for it.",
-                     r, chosen.widening)});
+         fmt::format(
+             "What the fit leaves is not noise: neighbouring samples agree "
+             "(correlation {:.2f}). The intervals are {:.1f} times wider for it.",
+             r, chosen.widening)});
   }
 }
 
