@@ -10,6 +10,10 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -26,6 +30,16 @@ namespace {
 
 using trochoid::base::Command;
 using trochoid::cli::Options;
+
+/// What one fit frees the next one needs: the system is not to have it back in between,
+/// for giving it out again page by page takes as long as the fit.
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  constexpr int kept = 32 << 20;  // bytes; glibc takes no more for the first
+  mallopt(M_MMAP_THRESHOLD, kept);
+  mallopt(M_TRIM_THRESHOLD, kept);
+#endif
+}
 
 int answer(Command command, const Options& options) {
   using namespace trochoid::cli;
@@ -184,6 +198,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    keep_freed_memory();
     const int code = run(argc, argv);
     if (std::fflush(stdout) != 0) {
       throw std::runtime_error("what is printed cannot be written");
