@@ -70,6 +70,12 @@ TEST(FitWarnings, SayWhichCoefficientNoCutHas) {
       << "the axial force may pull either way: " << warnings(fit)[0].message;
 }
 
+TEST(FitWarnings, SayThatZMayBeReversed) {
+  Fit fit = sound();
+  fit.coefficients[2] = base::Estimate{-1e8, 1e7, -1.2e8, -0.8e8};
+  EXPECT_EQ(code(fit), "axial_sign");
+}
+
 TEST(FitWarnings, SayThatNoMaterialIsThatHard) {
   Fit fit = sound();
   fit.coefficients[0] = base::Estimate{2.6e12, 1e9, 2.5e12, 2.7e12};

@@ -47,6 +47,37 @@ TEST(Identify, FindsWhatTheRecordWasMadeWith) {
   ASSERT_TRUE(r.curve.has_value());
 }
 
+TEST(Identify, SaysWhereZMayBeReversed) {
+  auto record = two_turns(0.3, 2.0);
+  EXPECT_FALSE(warned(identified(record, options), "axial_sign"));
+  for (auto& F : record.force) F[2] = -F[2];
+  const IdentifyResult r = identified(record, options);
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_TRUE(warned(r, "axial_sign"));
+}
+
+/// On a bull nose no reading is equal to another one, but for all signs at once.
+TEST(Identify, SaysThatAnotherReadingOfTheChannelsFitsBetter) {
+  force::Setup setup = made_setup();
+  setup.cutter.profile = geometry::bull_nose(8 * unit::mm, 3 * unit::mm);
+  const auto record = identification::made_record(
+      setup, made_law(), {.phase = 0.3, .per_turn = 90, .turns = 2.0, .noise = 2.0});
+  const CaseFolder folder;
+  const auto answer = [&](const char* axes) {
+    folder.write("record.csv", csv_text(record, Axis::angle));
+    const std::string text = inputs::test::tool +
+                             "shape = \"bull_nose\"\ncorner_radius_mm = 3.0\n" +
+                             inputs::test::cut + inputs::test::force;
+    return identify(folder.read(text + measurement + options +
+                                    "[dynamometer]\naxes = " + axes + "\n",
+                                Command::identify),
+                    [](const std::string&) {});
+  };
+  EXPECT_FALSE(warned(answer("[\"x\", \"y\", \"z\"]"), "axes_fit_better"));
+  const IdentifyResult reversed = answer("[\"x\", \"y\", \"-z\"]");
+  EXPECT_TRUE(warned(reversed, "axes_fit_better") || warned(reversed, "likely_cause"));
+}
+
 TEST(Identify, FindsTheAxesToo) {
   auto record = two_turns(0.3, 2.0);
   for (auto& F : record.force) {

@@ -50,6 +50,20 @@ TEST(LikelyCauses, NameTheAxesAloneWhereTheyCureIt) {
   EXPECT_EQ(std::count(causes.begin(), causes.end(), '\n'), 1) << causes;
 }
 
+TEST(LookAtChannels, NamesAReadingThatFitsBetter) {
+  const auto look = [](const Made& made) {
+    return look_at_channels(made.given, made.runs, identity, [](const auto&) {});
+  };
+  const auto found = look(Made({{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}}));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, "axes_fit_better");
+  EXPECT_NE(found[0].message.find("the channels read x, z, y"), std::string::npos);
+  EXPECT_TRUE(look(Made(identity)).empty());
+  Made searched({{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}});
+  searched.given.dynamometer = inputs::Dynamometer{.automatic = true};
+  EXPECT_TRUE(look(searched).empty());
+}
+
 TEST(LikelyCauses, ListTheOthersWhereNoAxesDo) {
   Made made(identity);
   std::string causes = made.causes();

@@ -20,6 +20,9 @@ using identification::AxesChoice;
 using identification::Fit;
 using results::IdentifyResult;
 
+/// A fit that leaves less of the force (rms) reads its channels rightly.
+constexpr double too_good_to_doubt = 0.005;
+
 /// The exact model answers where it was asked for, else the one that fits best.
 std::optional<std::size_t> chosen_fit(const std::vector<Fit>& fits) {
   std::optional<std::size_t> best;
@@ -199,6 +202,10 @@ struct Identification {
       r.heading.message = verdict + " " + r.heading.message;
       r.heading.warnings.insert(r.heading.warnings.begin(), {"do_not_use", verdict});
       add_causes();
+    } else if (chosen.unexplained.in_band > too_good_to_doubt) {
+      const auto found = look_at_channels(given, measured, r.channels, progress);
+      auto& warnings = r.heading.warnings;
+      warnings.insert(warnings.begin(), found.begin(), found.end());
     }
     put_notes_last();
   }

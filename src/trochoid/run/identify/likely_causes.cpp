@@ -13,8 +13,11 @@ namespace trochoid::run {
 
 namespace {
 
-/// A reading of the channels that leaves this much less than the given one is the cure.
+/// A reading of the channels that leaves this much less than the given one is the cure of
+/// a fit that must not be used.
 constexpr double much_better = 0.5;
+/// Of a fit that may be used, one that leaves this much less is worth a word.
+constexpr double better = 0.8;
 
 bool axes_were_given(const inputs::Case& given) {
   return !given.dynamometer || !given.dynamometer->automatic;
@@ -24,28 +27,29 @@ base::Warning likely(std::string message) {
   return {"likely_cause", std::move(message)};
 }
 
-/// Whether another reading of the channels explains the records; then what to write.
-std::vector<base::Warning> better_axes(const inputs::Case& given,
-                                       const std::vector<MeasuredRun>& runs,
-                                       const signal::Matrix3& M,
-                                       const Progress& progress) {
+/// @brief What the channels read, if that leaves so much less than the given reading.
+/// @param least  of the rms that the given reading leaves
+/// @return a sentence, or nothing
+std::string better_axes(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
+                        const signal::Matrix3& M, double least,
+                        const Progress& progress) {
   const identification::AxesProblem problem = axes_problem(given);
   const auto channels = channels_of(runs);
   const auto other = identification::find_axes(
       problem, channels, [&](double part) { progress(axes_progress(part)); });
   const double now = identification::reading_rms(problem, channels, M);
-  if (!other.ok || !(other.rms < much_better * now)) {
-    return {};
+  if (!other.ok || !(other.rms < least * now)) {
+    return "";
   }
   const auto names = signal::axes_names(other.matrix);
   std::string times;
   if (std::isfinite(now)) {
     times = fmt::format(", which leaves {:.1f} times less", now / other.rms);
   }
-  return {likely(fmt::format(
+  return fmt::format(
       "The axes of the dynamometer: with axes = \"auto\" in [dynamometer] the channels "
       "read {}, {}, {} of the force on the tool{}.",
-      names[0], names[1], names[2], times))};
+      names[0], names[1], names[2], times);
 }
 
 }  // namespace
@@ -55,9 +59,9 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
                                          const signal::Matrix3& M,
                                          const Progress& progress) {
   if (axes_were_given(given)) {
-    auto found = better_axes(given, runs, M, progress);
+    const std::string found = better_axes(given, runs, M, much_better, progress);
     if (!found.empty()) {
-      return found;
+      return {likely(found)};
     }
   }
   std::vector<base::Warning> out;
@@ -86,6 +90,18 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
       likely("Tool or cut: number and pitch of the teeth, "
              "feed per tooth, engagement, depth."));
   return out;
+}
+
+std::vector<base::Warning> look_at_channels(const inputs::Case& given,
+                                            const std::vector<MeasuredRun>& runs,
+                                            const signal::Matrix3& M,
+                                            const Progress& progress) {
+  if (!axes_were_given(given)) {
+    return {};
+  }
+  const std::string found = better_axes(given, runs, M, better, progress);
+  return found.empty() ? std::vector<base::Warning>{}
+                       : std::vector<base::Warning>{{"axes_fit_better", found}};
 }
 
 }  // namespace trochoid::run

@@ -19,4 +19,12 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
                                          const signal::Matrix3& M,
                                          const Progress& progress);
 
+/// @brief Whether another reading of the channels than the given one fits clearly better,
+/// although the given one may be used: a warning with the code `axes_fit_better`, or none.
+/// @param M  matrix of the dynamometer that was used
+std::vector<base::Warning> look_at_channels(const inputs::Case& given,
+                                            const std::vector<MeasuredRun>& runs,
+                                            const signal::Matrix3& M,
+                                            const Progress& progress);
+
 }  // namespace trochoid::run

@@ -57,6 +57,15 @@ void warn_signs(const Fit& chosen, Warnings& warnings) {
          fmt::format("{} came out negative, which no cut does: check the axes of the "
                      "dynamometer and the sense of rotation.",
                      fmt::join(negative, ", "))});
+  } else if (const auto& K_a = chosen.coefficients[2]; K_a && K_a->high < 0) {
+    // On a cylinder a reversed z changes nothing else.
+    warnings.push_back(
+        {"axial_sign",
+         fmt::format(
+             "{} came out negative: the cut would push the tool into its holder, "
+             "as a left-hand helix does. If the tool has none, z of the "
+             "dynamometer has the other sign.",
+             names[2].key)});
   }
 }
 
