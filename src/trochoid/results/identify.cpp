@@ -8,6 +8,7 @@
 #include <trochoid/results/material.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -55,6 +56,13 @@ Object signal_value(const IdentifyResult& r) {
   return out;
 }
 
+std::string_view verdict_of(const IdentifyResult& r) {
+  if (!r.reasons_against.empty()) {
+    return "do not use";
+  }
+  return r.reasons_for_care.empty() ? "usable" : "usable with care";
+}
+
 Object result_of(const IdentifyResult& r) {
   Array fits;
   for (const Fit& fit : r.fits) {
@@ -68,6 +76,8 @@ Object result_of(const IdentifyResult& r) {
     set(result, "signal", signal_value(r));
   }
   if (r.chosen) {
+    set(result, "verdict", verdict_of(r));
+    set(result, "with_care", r.reasons_for_care);
     set(result, "do_not_use", r.reasons_against);
   }
   return result;
@@ -89,15 +99,20 @@ std::string signal_lines(const IdentifyResult& r) {
   return text;
 }
 
+std::string verdict_line(const IdentifyResult& r) {
+  if (!r.reasons_against.empty()) {
+    return identification::do_not_use(r.reasons_against);
+  }
+  return r.reasons_for_care.empty() ? std::string("Usable.")
+                                    : fmt::format("Usable with care: {}.",
+                                                  fmt::join(r.reasons_for_care, "; "));
+}
+
 std::string short_table(const IdentifyResult& r) {
   if (!r.chosen) {
     return "No answer: " + r.heading.message + "\n";
   }
-  const std::string verdict =
-      r.reasons_against.empty()
-          ? ""
-          : identification::do_not_use(r.reasons_against) + "\n\n";
-  return verdict + fits_table(r.fits) + signal_lines(r);
+  return verdict_line(r) + "\n\n" + fits_table(r.fits) + signal_lines(r);
 }
 
 /// folded.csv: mean and scatter of the measured force over one turn; none where no

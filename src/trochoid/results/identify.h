@@ -38,6 +38,8 @@ struct IdentifyResult {
   std::optional<std::size_t> chosen;      ///< the fit that counts; none: no answer
   /// What speaks against using the chosen numbers at all; empty: nothing.
   std::vector<std::string> reasons_against;
+  /// Why the chosen numbers are to be used with care; empty: no reason seen.
+  std::vector<std::string> reasons_for_care;
   std::vector<RecordSummary> records;  ///< empty where they could not be used
   signal::Matrix3 channels{};          ///< channels = matrix times force on the tool
   std::optional<identification::AxesChoice> axes;  ///< where they were searched for

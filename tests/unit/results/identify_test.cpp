@@ -55,6 +55,19 @@ TEST(IdentifyAnswer, SaysFirstThatNumbersMustNotBeUsed) {
   EXPECT_TRUE(says(answer.short_table, "record.csv: 100.00 rpm (stated 99)"));
 }
 
+TEST(IdentifyAnswer, BeginsWithAVerdict) {
+  IdentifyResult r = made();
+  EXPECT_EQ(answer_of(r).short_table.find("Usable.\n"), 0U);
+  EXPECT_TRUE(says(result(r), R"("verdict": "usable")"));
+  r.reasons_for_care = {"z may be reversed", "much of the force is not explained"};
+  EXPECT_EQ(answer_of(r).short_table.find(
+                "Usable with care: z may be reversed; much of the force is not "
+                "explained.\n"),
+            0U);
+  EXPECT_TRUE(says(result(r), R"("verdict": "usable with care")"));
+  EXPECT_TRUE(says(result(r), R"("with_care": ["z may be reversed")")) << result(r);
+}
+
 TEST(IdentifyAnswer, IsNoMaterialWithoutAFit) {
   EXPECT_EQ(answer_of(made()).texts.at(0).file, "material.toml");
   IdentifyResult r = made();

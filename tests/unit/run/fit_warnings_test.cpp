@@ -70,6 +70,17 @@ TEST(FitWarnings, SayWhichCoefficientNoCutHas) {
       << "the axial force may pull either way: " << warnings(fit)[0].message;
 }
 
+TEST(ReasonsForCare, AreFewWordsForEachDoubt) {
+  const std::vector<base::Warning> warnings = {{"part_used", "half of it"},
+                                               {"axial_sign", "K_ac is negative"},
+                                               {"axial_sign", "again"},
+                                               {"poor_fit", "30 %"}};
+  EXPECT_EQ(reasons_for_care(warnings),
+            (std::vector<std::string>{"z may be reversed",
+                                      "much of the force is not explained"}));
+  EXPECT_TRUE(reasons_for_care({}).empty());
+}
+
 TEST(FitWarnings, SayThatZMayBeReversed) {
   Fit fit = sound();
   fit.coefficients[2] = base::Estimate{-1e8, 1e7, -1.2e8, -0.8e8};

@@ -1,6 +1,6 @@
 // The page of `identify`.
 
-const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use'];
+const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use', 'verdict', 'with_care'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -13,7 +13,7 @@ function identifyPage(report) {
     text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.',
   });
   return [
-    { lead: best ? headline(best, fits, trust) : null },
+    { lead: best ? headline(best, fits, trust, verdictOf(result)) : null },
     { part: best ? coefficientSection(best, trust) : null },
     ...curves,
     foldedSection(report),
@@ -36,12 +36,13 @@ function reasonOf(fit, key) {
   return entry?.reason || entry?.message || (entry === false ? 'cannot be told apart' : '');
 }
 
-function headline(fit, fits, trust) {
+function headline(fit, fits, trust, verdict) {
   const runout = runoutWords(fit.runout, fit.interval_factor);
   const [key, main] = coefficientsOf(fit).find(([, entry]) => entry) || [];
   const spread = spreadOf(fit.runout);
   const phases = numbersOf(fit.phase_deg ?? []).filter(isNumber);
   return [
+    verdict && prose(el('b', {}, verdict)),
     tiles([
       main && { label: [symbol(nameAndUnit(key).name), ` ${meanings[nameAndUnit(key).name] || ''}`],
         value: measured(main.value, half(main)),
@@ -75,6 +76,13 @@ function comparison(fit, fits) {
 }
 
 const half = (entry) => (isNumber(entry?.high - entry?.low) ? (entry.high - entry.low) / 2 : null);
+
+/** One sentence: may the numbers be used? What must not be used says so elsewhere. */
+function verdictOf(result) {
+  const care = [result.with_care ?? []].flat();
+  if (!isEmpty(result.do_not_use) || !result.verdict) return null;
+  return care.length ? `Usable with care: ${care.join('; ')}.` : 'Usable.';
+}
 
 /** The best that may be said of a coefficient: nothing, `roughly` of a poor fit, anything. */
 function trustIn(report) {

@@ -207,6 +207,9 @@ struct Identification {
       auto& warnings = r.heading.warnings;
       warnings.insert(warnings.begin(), found.begin(), found.end());
     }
+    if (r.reasons_against.empty()) {
+      r.reasons_for_care = reasons_for_care(r.heading.warnings);
+    }
     put_notes_last();
   }
 

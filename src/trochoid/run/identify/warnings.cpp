@@ -8,7 +8,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace trochoid::run {
 
@@ -22,6 +25,22 @@ constexpr double softest = 100 * unit::MPa;
 constexpr double hardest = 20000 * unit::MPa;
 /// Part of the force (rms) that may stay unexplained, or outside of the band, unsaid.
 constexpr double much_ringing = 0.2;
+
+/// Warnings that cast a doubt on the numbers, and how to say it in a few words.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> care{{
+    {"axes_fit_better", "another reading of the channels fits better"},
+    {"axes_signs", "the signs of the channels are not certain"},
+    {"axes_close", "another reading of the channels fits nearly as well"},
+    {"axial_sign", "z may be reversed"},
+    {"negative_coefficient", "a coefficient is negative"},
+    {"implausible", "K_tc is not one of a material"},
+    {"poor_fit", "much of the force is not explained"},
+    {"outside_the_band", "much of the force lies outside of the band"},
+    {"other_model_fits_better", "a simpler chip model fits better"},
+    {"few_equations", "hardly more equations than unknowns"},
+    {"runout_above_feed", "the teeth differ by more than the feed"},
+    {"spindle_speed_unknown", "the spindle speed could not be found"},
+}};
 
 void warn_correlation(const Fit& chosen, Warnings& warnings) {
   const double r = chosen.residual_correlation;
@@ -192,6 +211,22 @@ void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
   warn_other_model(fits, chosen, warnings);
   warn_large_runout(given, chosen, warnings);
   warn_edge(chosen, warnings);
+}
+
+std::vector<std::string> reasons_for_care(std::span<const base::Warning> warnings) {
+  std::vector<std::string> reasons;
+  for (const base::Warning& warning : warnings) {
+    const auto* const at =
+        std::find_if(care.begin(), care.end(),
+                     [&](const auto& entry) { return entry.first == warning.code; });
+    const bool new_reason =
+        at != care.end() &&
+        std::find(reasons.begin(), reasons.end(), at->second) == reasons.end();
+    if (new_reason) {
+      reasons.emplace_back(at->second);
+    }
+  }
+  return reasons;
 }
 
 }  // namespace trochoid::run
