@@ -42,7 +42,6 @@ function headline(fit, fits, trust, verdict) {
   const spread = spreadOf(fit.runout);
   const phases = numbersOf(fit.phase_deg ?? []).filter(isNumber);
   return [
-    verdict && prose(el('b', {}, verdict)),
     tiles([
       main && { label: [symbol(nameAndUnit(key).name), ` ${meanings[nameAndUnit(key).name] || ''}`],
         value: measured(main.value, half(main)),
@@ -55,7 +54,7 @@ function headline(fit, fits, trust, verdict) {
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
     ]),
-    runout && trust ? prose('Runout: ', runout, '.') : null,
+    trust && (verdict || runout) ? prose(verdict && el('b', {}, verdict), runout && ' Runout: ', runout, runout && '.') : null,
   ];
 }
 
