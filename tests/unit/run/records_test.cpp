@@ -58,6 +58,20 @@ TEST(MeasuredRuns, FindTheSpeedOfARecordWithTimes) {
       << got.warnings[0].message;
 }
 
+TEST(MeasuredRuns, NameASpeedThatIsFarFromTheStatedOne) {
+  const CaseFolder folder;
+  const auto record = identification::made_record(
+      made_setup(), made_law(), {.per_turn = 90, .turns = 20.0, .noise = 1.0});
+  folder.write("record.csv", csv_text(record, Axis::time, 1100.0));  // 875 is stated
+  const Read got = read(folder, inputs::test::slot + measurement);
+  ASSERT_EQ(got.warnings.size(), 1U);
+  EXPECT_EQ(got.warnings[0].code, "spindle_speed_unknown");
+  EXPECT_NE(got.warnings[0].message.find("It repeats at 1100.0 rpm, +26 % off"),
+            std::string::npos)
+      << got.warnings[0].message;
+  EXPECT_DOUBLE_EQ(got.runs[0].Omega / unit::rpm, 875.0);
+}
+
 TEST(MeasuredRuns, NameTheProblemsOfAllFiles) {
   const CaseFolder folder;
   folder.write("record.csv", "angle_deg,Fx_N\n0,1\n");

@@ -59,6 +59,21 @@ void compare_speed(const MeasuredRun& run, Warnings& warnings) {
                                    "and angles of the record.")});
 }
 
+/// @brief What a record that is not periodic near the stated speed repeats at; empty:
+/// nothing that explains most of it.
+std::string far_speed(const signal::Record& record, double Omega, int teeth) {
+  constexpr double range = 0.45;  // a half or a double would look periodic, too
+  constexpr double most = 0.5;    // of the variance
+  const signal::SpeedEstimate found =
+      signal::spindle_speed(record, {.Omega = Omega, .range = range, .teeth = teeth});
+  if (!found.ok || found.explained < most) {
+    return "";
+  }
+  return fmt::format(
+      " It repeats at {:.1f} rpm, {:+.0f} % off: check spindle_rpm, and with it the feed.",
+      found.Omega / unit::rpm, 100 * (found.Omega / Omega - 1));
+}
+
 /// Angle and speed of a run.
 void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
                     Warnings& warnings) {
@@ -90,7 +105,8 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
   } else {
     warnings.push_back(
         {"spindle_speed_unknown", record.file + ": " + found.message +
-                                      " The stated spindle speed is used as it is."});
+                                      " The stated spindle speed is used as it is." +
+                                      far_speed(record, run.Omega, teeth)});
   }
   angle = signal::angle_from_time(record.time, run.Omega);
 }
