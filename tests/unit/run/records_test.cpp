@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -70,6 +71,23 @@ TEST(MeasuredRuns, NameASpeedThatIsFarFromTheStatedOne) {
             std::string::npos)
       << got.warnings[0].message;
   EXPECT_DOUBLE_EQ(got.runs[0].Omega / unit::rpm, 875.0);
+}
+
+TEST(MeasuredRuns, NameDeadAndClippedChannels) {
+  const CaseFolder folder;
+  auto record = two_turns();
+  for (auto& F : record.force) {
+    F[1] = std::min(F[1], 100.0);
+    F[2] = 12.5;
+  }
+  folder.write("record.csv", csv_text(record, Axis::angle));
+  const Read got = read(folder, inputs::test::slot + measurement);
+  ASSERT_EQ(got.warnings.size(), 2U);
+  EXPECT_EQ(got.warnings[0].code, "clipped_channel");
+  EXPECT_NE(got.warnings[0].message.find("channel 2 (column Fy_N) stays"),
+            std::string::npos)
+      << got.warnings[0].message;
+  EXPECT_EQ(got.warnings[1].code, "dead_channel");
 }
 
 TEST(MeasuredRuns, NameTheProblemsOfAllFiles) {

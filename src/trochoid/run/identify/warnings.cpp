@@ -27,7 +27,9 @@ constexpr double hardest = 20000 * unit::MPa;
 constexpr double much_ringing = 0.2;
 
 /// Warnings that cast a doubt on the numbers, and how to say it in a few words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> care{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> care{{
+    {"clipped_channel", "a channel was driven beyond its range"},
+    {"dead_channel", "a channel is dead"},
     {"axes_fit_better", "another reading of the channels fits better"},
     {"axes_signs", "the signs of the channels are not certain"},
     {"axes_close", "another reading of the channels fits nearly as well"},

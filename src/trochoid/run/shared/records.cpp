@@ -4,6 +4,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/record_file.h>
 #include <trochoid/run/shared/used_part.h>
+#include <trochoid/signal/channel_faults.h>
 #include <trochoid/signal/drift.h>
 #include <trochoid/signal/revolutions.h>
 #include <trochoid/signal/spindle_speed.h>
@@ -131,6 +132,24 @@ void take_drift_out(const inputs::Case& given, std::span<const double> angle,
   }
 }
 
+void warn_faults(const signal::Record& record, Warnings& warnings) {
+  for (std::size_t c = 0; c < record.channel.size(); ++c) {
+    const signal::ChannelFault fault = signal::channel_fault(record.channel[c]);
+    if (fault == signal::ChannelFault::none) {
+      continue;
+    }
+    const bool dead = fault == signal::ChannelFault::constant;
+    warnings.push_back(
+        {dead ? "dead_channel" : "clipped_channel",
+         fmt::format("{}: channel {} (column {}) {}", record.file, c + 1,
+                     record.channel_column[c],
+                     dead
+                         ? "holds the same number in every sample: was it connected?"
+                         : "stays at its largest or smallest number again and again: "
+                           "it was driven beyond its range. Measure in a wider one.")});
+  }
+}
+
 /// The steady cut of a record, without the offset of its channels.
 void keep_cut(const inputs::Case& given, const inputs::Measurement& measurement,
               signal::Record& record, Warnings& warnings) {
@@ -154,6 +173,7 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
     for (const base::Warning& note : record.notes) {
       warnings.push_back({note.code, run.file + ": " + note.message});
     }
+    warn_faults(record, warnings);
     keep_cut(given, given.measurements[i], record, warnings);
     lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
     run.run.channel = std::move(record.channel);

@@ -1,0 +1,39 @@
+#include <trochoid/signal/channel_faults.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace trochoid::signal {
+namespace {
+
+std::vector<double> sine(double amplitude, double limit) {
+  std::vector<double> out;
+  for (int i = 0; i < 2000; ++i) {
+    out.push_back(std::min(limit, amplitude * std::sin(0.05 * i)));
+  }
+  return out;
+}
+
+TEST(ChannelFault, IsNoneOfAForce) {
+  EXPECT_EQ(channel_fault(sine(100, 1e9)), ChannelFault::none);
+  // Nothing cuts for most of the turn, and a program wrote no noise.
+  EXPECT_EQ(channel_fault(sine(100, 0)), ChannelFault::none);
+  EXPECT_EQ(channel_fault(std::vector<double>(10, 1.0)), ChannelFault::none) << "few";
+}
+
+TEST(ChannelFault, IsAChannelDrivenBeyondItsRange) {
+  EXPECT_EQ(channel_fault(sine(100, 90)), ChannelFault::clipped);
+  std::vector<double> below = sine(100, 90);
+  for (double& v : below) v = -v;
+  EXPECT_EQ(channel_fault(below), ChannelFault::clipped);
+}
+
+TEST(ChannelFault, IsADeadChannel) {
+  EXPECT_EQ(channel_fault(std::vector<double>(100, 0.0)), ChannelFault::constant);
+}
+
+}  // namespace
+}  // namespace trochoid::signal
