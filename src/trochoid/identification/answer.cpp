@@ -114,8 +114,13 @@ class Reasons {
   }
   [[nodiscard]] double se(std::size_t i) const { return std::sqrt(covariance(i, i)); }
 
+  /// Of a 95 % interval (I-8).
+  [[nodiscard]] double half_width(std::size_t i) const {
+    return fit_.interval_factor * se(i);
+  }
+
   [[nodiscard]] Estimate estimate(std::size_t i, double value) const {
-    const double half = fit_.interval_factor * se(i);  // I-8
+    const double half = half_width(i);
     return {value, se(i), value - half, value + half};
   }
 
@@ -143,10 +148,10 @@ void fill_offsets(const Unknowns& u, std::size_t first, Reasons& reasons, Fit& f
 void fill_single_direction(const Unknowns& u, std::size_t i, double e,
                            Reasons& reasons) {
   const std::string reason = fmt::format(
-      "only its component rho cos(lambda - {:.3g} deg) = {:.4g} mm (standard "
-      "error {:.2g} mm) changes the radii of the teeth against one another",
+      "only its component rho cos(lambda - {:.3g} deg) = {:.4g} +- {:.2g} mm (95 %) "
+      "changes the radii of the teeth against one another",
       *u.direction / unit::deg, e * u.length / unit::mm,
-      reasons.se(i) * u.length / unit::mm);
+      reasons.half_width(i) * u.length / unit::mm);
   reasons.refuse("eccentricity_mm", reason);
   reasons.refuse("angle_deg", reason);
 }
@@ -167,16 +172,17 @@ std::string not_held(const Unknowns& u, std::size_t i, std::array<double, 2> e,
   const double wide = mean + swing;
   const double narrow = std::max(mean - swing, 1e-30);
   constexpr double region = 5.99;  // of chi squared with two degrees of freedom, 95 %
+  constexpr double two_sided = 1.96;
   const bool holds_zero =
       along * along / std::max(wide, 1e-30) + across * across / narrow < region;
   const bool too_long = region * wide > along * along + across * across;
   if (!holds_zero && !too_long) return "";
   return fmt::format(
       "the 95 % region of the eccentricity {}; what is known is its component rho "
-      "cos(lambda - {:.3g} deg) = {:.4g} mm (standard error {:.2g} mm)",
+      "cos(lambda - {:.3g} deg) = {:.4g} +- {:.2g} mm (95 %)",
       holds_zero ? "holds zero" : "is as long as the eccentricity itself",
       (longest + 0.5 * pi) / unit::deg, across * u.length / unit::mm,
-      std::sqrt(narrow) * u.length / unit::mm);
+      two_sided * std::sqrt(narrow) * u.length / unit::mm);
 }
 
 /// rho and lambda from e_x and e_y by the chain rule.
