@@ -32,7 +32,7 @@ class DepthSweep {
   [[nodiscard]] Multiplier at(double depth, double factor, double tolerance);
   /// @param tolerance  of |mu|, relative where it is above 1
   [[nodiscard]] Multiplier checked(double depth, double tolerance);
-  [[nodiscard]] double Omega() const noexcept { return Omega_; }
+  [[nodiscard]] double spindle_speed() const noexcept { return Omega_; }
 
  private:
   const Cuts& cuts_;

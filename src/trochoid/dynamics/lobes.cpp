@@ -102,7 +102,7 @@ Limit root(DepthSweep& sweep, const Bracket& bracket, double factor, double tole
     const double depth = a.depth + part * (b.depth - a.depth);
     const Multiplier mu = sweep.at(depth, factor, 0.01 * tolerance);
     const Tried x{depth, std::log(std::abs(mu.value))};
-    limit = {sweep.Omega(), depth, mu.value, factor, mu.error};
+    limit = {sweep.spindle_speed(), depth, mu.value, factor, mu.error};
     Tried c = a;
     if ((x.g > 0) != (a.g > 0)) {
       c = b;

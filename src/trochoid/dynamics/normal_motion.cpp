@@ -64,6 +64,7 @@ Plane normal_of(const Matrix2& A, const Plane& before) {
 
 std::vector<Plane> normals_of(const std::vector<Matrix2>& largest) {
   std::vector<Plane> out;
+  out.reserve(largest.size());
   for (const Matrix2& A : largest) {
     out.push_back(normal_of(A, out.empty() ? Plane{1, 0} : out.back()));
   }

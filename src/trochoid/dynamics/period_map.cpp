@@ -128,7 +128,7 @@ void PeriodMap::Parts::delayed_force(const PeriodElement& e,
                                      std::span<double> out) const {
   const std::size_t n = e.nodes();
   const std::size_t count = elements.components;
-  std::array<double, 2 * (largest_degree + 1)> between;
+  std::array<double, std::size_t{2} * (largest_degree + 1)> between;
   std::fill(out.begin(), out.end(), 0.0);
   for (const Channel& channel : e.delayed) {
     if (channel.matrices.empty()) {

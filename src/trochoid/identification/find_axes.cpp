@@ -105,6 +105,7 @@ class Search {
   /// The families with what the scan says of them, the best first.
   [[nodiscard]] std::vector<Family> scanned(std::vector<ReadingFamily> all) const {
     std::vector<signal::Matrix3> first;
+    first.reserve(all.size());
     for (const ReadingFamily& family : all) first.push_back(family.front().Q);
     auto found = scan(channels_, runout_starts(channels_), first);
     std::vector<Family> out;

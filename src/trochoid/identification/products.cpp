@@ -85,7 +85,7 @@ void center(const Cells& cells, const Planes& planes, std::size_t shifts,
   }
 }
 
-void fill_G(const Cells& cells, const Planes& planes, Products& out) {
+void fill_gram(const Cells& cells, const Planes& planes, Products& out) {
   const std::size_t n = out.columns;
   // With equal weights a shift changes the order of the sums only.
   const std::size_t shifts = cells.even ? 1 : out.shifts;
@@ -119,7 +119,7 @@ std::vector<double> weighted_channel(const Cells& cells, std::size_t c) {
   return out;
 }
 
-void fill_X(const Cells& cells, const Planes& planes, Products& out) {
+void fill_right(const Cells& cells, const Planes& planes, Products& out) {
   const std::size_t n = out.columns;
   const std::size_t width = out.mixed ? 9 * n : n;
   out.X.assign(out.shifts * width, 0.0);
@@ -149,8 +149,8 @@ Products products(const Cells& cells, std::span<const double> C, std::size_t cou
   out.shifts = count;
   out.mixed = mixed;
   const Planes planes(C, out.columns);
-  fill_G(cells, planes, out);  // I-12
-  fill_X(cells, planes, out);
+  fill_gram(cells, planes, out);  // I-12
+  fill_right(cells, planes, out);
   return out;
 }
 

@@ -18,11 +18,11 @@ struct Products {
   /// the sum over c = q, shape (shifts, columns).
   std::vector<double> X;
 
-  [[nodiscard]] std::span<const double> G_at(std::size_t shift) const noexcept {
+  [[nodiscard]] std::span<const double> gram_at(std::size_t shift) const noexcept {
     const std::size_t size = columns * columns;
     return std::span(G).subspan(G.size() == size ? 0 : shift * size, size);
   }
-  [[nodiscard]] std::span<const double> X_at(std::size_t shift) const noexcept {
+  [[nodiscard]] std::span<const double> right_at(std::size_t shift) const noexcept {
     const std::size_t size = mixed ? 9 * columns : columns;
     return std::span(X).subspan(shift * size, size);
   }

@@ -54,7 +54,7 @@ std::vector<double> right_sides(const Products& at, const signal::Matrix3& Q) {
   const std::size_t n = at.columns;
   std::vector<double> out(at.shifts * n, 0.0);
   for (std::size_t s = 0; s < at.shifts; ++s) {
-    const std::span<const double> X = at.X_at(s);
+    const std::span<const double> X = at.right_at(s);
     for (std::size_t q = 0; q < 3; ++q) {
       for (std::size_t c = 0; c < 3; ++c) {
         if (Q[c][q] == 0.0) continue;
@@ -81,7 +81,7 @@ struct RunScan {
     for (std::size_t s = 0; s < out.size(); ++s) {
       const std::span<const double> own = g.subspan(s * n, n);
       out[s] = squares - (inverse_G.empty()  // I-12
-                              ? numerics::solve_normal(at.G_at(s), own, K)
+                              ? numerics::solve_normal(at.gram_at(s), own, K)
                               : quadratic(inverse_G, own));
     }
     return out;
@@ -152,7 +152,7 @@ class Combination {
                             [](const RunScan& r) { return r.inverse_G.empty(); })) {
       return;
     }
-    inverse_ = inverse(total_G(), minima[0][0].g.size());
+    inverse_ = inverse(total_gram(), minima[0][0].g.size());
   }
 
   /// The first run at one of its phases, each other where it fits best together with
@@ -176,16 +176,16 @@ class Combination {
   }
 
  private:
-  [[nodiscard]] std::span<const double> G_of(std::size_t r,
-                                             const PhaseMinimum& m) const {
-    return runs_[r].at.G_at(m.shift);
+  [[nodiscard]] std::span<const double> gram_of(std::size_t r,
+                                                const PhaseMinimum& m) const {
+    return runs_[r].at.gram_at(m.shift);
   }
 
-  [[nodiscard]] std::vector<double> total_G() const {
-    const std::span<const double> first = G_of(0, of(0));
+  [[nodiscard]] std::vector<double> total_gram() const {
+    const std::span<const double> first = gram_of(0, of(0));
     std::vector<double> sum(first.begin(), first.end());
     for (std::size_t r = 1; r < runs_.size(); ++r) {
-      std::ranges::transform(sum, G_of(r, of(r)), sum.begin(), std::plus());
+      std::ranges::transform(sum, gram_of(r, of(r)), sum.begin(), std::plus());
     }
     return sum;
   }
@@ -193,10 +193,10 @@ class Combination {
   void follow_first() {
     const PhaseMinimum& m = of(0);
     std::vector<double> K(m.g.size());
-    numerics::solve_normal(G_of(0, m), m.g, K);
+    numerics::solve_normal(gram_of(0, m), m.g, K);
     for (std::size_t r = 1; r < runs_.size(); ++r) {
       const auto misfit = [&](const PhaseMinimum& other) {
-        return quadratic(G_of(r, other), K) -
+        return quadratic(gram_of(r, other), K) -
                2.0 * std::inner_product(K.begin(), K.end(), other.g.begin(), 0.0);
       };
       const auto best = std::ranges::min_element(minima_[r], {}, misfit);
@@ -214,7 +214,7 @@ class Combination {
     }
     if (!inverse_.empty()) return squares - quadratic(inverse_, g);  // I-12
     std::vector<double> K(g.size());
-    return squares - numerics::solve_normal(total_G(), g, K);
+    return squares - numerics::solve_normal(total_gram(), g, K);
   }
 
   bool improve(std::size_t r, double& least) {
@@ -254,7 +254,7 @@ std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>&
     run.at = products(cells[r], matrix_in_cells(matrix, cells[r], given),
                       free ? cells[r].size() : 1, mixed);
     run.squares = cells[r].squares;
-    if (cells[r].even) run.inverse_G = inverse(run.at.G_at(0), run.at.columns);
+    if (cells[r].even) run.inverse_G = inverse(run.at.gram_at(0), run.at.columns);
   }
   return out;
 }
