@@ -57,7 +57,9 @@ void solve_scaled_as(const Eigen::Ref<const Dense>& gram, Eigen::Ref<Dense> righ
 
 /// @param[in]     gram   symmetric
 /// @param[in,out] right  right sides, become solutions
-void solve_scaled(const Eigen::Ref<const Dense>& gram, Eigen::Ref<Dense> right) {
+void solve_scaled(const Eigen::Ref<const Dense>& gram,
+                  // A Ref that is written to goes by value.
+                  Eigen::Ref<Dense> right) {  // NOLINT(performance-*)
   if (gram.rows() <= few) {
     solve_scaled_as<FewByFew, Few>(gram, right);
   } else {
@@ -236,10 +238,10 @@ std::vector<double> project_out(const Columns& A, std::span<const double> gram,
         products_with(A, B.subspan(j * A.rows, A.rows));
   }
   solve_scaled(Eigen::Map<const Dense>(gram.data(), n, n), right);
-  const std::vector<double> x(right.data(), right.data() + right.size());
+  std::vector<double> x(right.data(), right.data() + right.size());
   for (std::size_t j = 0; j < k; ++j) {
-    add_combination(A, std::span(x).subspan(j * A.count(), A.count()), -1.0,
-                    B.subspan(j * A.rows, A.rows));
+    add_combination(A, std::span<const double>(x).subspan(j * A.count(), A.count()),
+                    -1.0, B.subspan(j * A.rows, A.rows));
   }
   return x;
 }

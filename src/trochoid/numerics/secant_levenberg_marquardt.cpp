@@ -198,7 +198,7 @@ class Descent {
 }  // namespace
 
 LevenbergMarquardtSummary secant_levenberg_marquardt(
-    const Residuals& residuals, int residual_count, std::vector<double> start,
+    const Residuals& residuals, int residual_count, const std::vector<double>& start,
     const LevenbergMarquardtOptions& options) {
   return Descent(residuals, residual_count, start, options).run();
 }

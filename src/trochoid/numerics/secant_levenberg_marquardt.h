@@ -14,7 +14,7 @@ namespace trochoid::numerics {
 /// of a Jacobian asked for nearby, within a hundred times the parameter tolerance.
 /// @src [madsen2004], the secant version
 LevenbergMarquardtSummary secant_levenberg_marquardt(
-    const Residuals& residuals, int residual_count, std::vector<double> start,
+    const Residuals& residuals, int residual_count, const std::vector<double>& start,
     const LevenbergMarquardtOptions& options);
 
 }  // namespace trochoid::numerics

@@ -167,7 +167,7 @@ Passes passes_of(const Channels& channels, std::span<const double> angle) {
       throw std::invalid_argument("passes_of: one angle a sample is needed");
     }
   }
-  const Passes whole{.air = {}, .steady = {{0, angle.size()}}};
+  Passes whole{.air = {}, .steady = {{0, angle.size()}}};
   if (angle.size() < 2) return whole;
   Turns turns{.begins = quarters(angle), .level = {}};
   if (turns.quarters() < 3 * a_turn) return whole;

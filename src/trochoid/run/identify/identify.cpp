@@ -96,6 +96,7 @@ std::vector<Fit> all_fits(const inputs::Case& given,
 std::vector<results::RecordSummary> summaries(
     const std::vector<MeasuredRun>& measured) {
   std::vector<results::RecordSummary> all;
+  all.reserve(measured.size());
   for (const MeasuredRun& one : measured) {
     all.push_back(
         {one.file, one.run.angle.size(), one.Omega, one.Omega_se, one.run.cut.Omega});

@@ -185,6 +185,7 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
 std::vector<identification::ChannelRun> channels_of(
     const std::vector<MeasuredRun>& measured) {
   std::vector<identification::ChannelRun> runs;
+  runs.reserve(measured.size());
   for (const MeasuredRun& one : measured) {
     runs.push_back(one.run);
   }

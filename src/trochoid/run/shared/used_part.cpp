@@ -32,9 +32,10 @@ std::string air_text(const Record& record, std::span<const double> angle,
   for (const Part& part : air) {
     const std::string from = place_text(record, angle, part.begin);
     const std::string to = place_text(record, angle, part.end);
-    parts.push_back(part.begin == 0             ? "up to " + to
-                    : part.end == record.size() ? "from " + from + " on"
-                                                : "from " + from + " to " + to);
+    parts.push_back(part.begin == 0 ? fmt::format("up to {}", to)
+                    : part.end == record.size()
+                        ? fmt::format("from {} on", from)
+                        : fmt::format("from {} to {}", from, to));
   }
   return fmt::format("nothing cuts {}", fmt::join(parts, ", "));
 }
