@@ -16,27 +16,28 @@ using Channels = std::array<std::vector<double>, 3>;
 constexpr std::size_t a_turn = 4;  ///< steps
 /// Fewer steps in a row are no air: two turns.
 constexpr std::size_t least_air = 8;
-constexpr double quiet = 0.2;         ///< of the cut: at most this in air
+constexpr std::size_t least_samples = 12;  ///< of a turn
+constexpr double quiet = 0.2;              ///< of the cut: at most this in air
 constexpr double nothing = 1e-3;      ///< of the cut: what a program may leave in air
 constexpr double twice_quietest = 2;  ///< of the quietest turn: at most this in air
 constexpr double like_most = 0.9;   ///< of the upper quartile: at least this if steady
 constexpr double told_apart = 0.7;  ///< of the upper quartile: entry or exit below
 
-/// Sample at which each quarter of a turn begins, and the end of the last.
+/// Sample at which each quarter of a turn begins, and the end of the last. Where samples
+/// are missing, quarters are counted anew.
 std::vector<std::size_t> quarters(std::span<const double> angle) {
   std::vector<std::size_t> begins = {0};
   const double step = unit::turn / a_turn;
+  double next = angle[0] + step;
   for (std::size_t i = 1; i < angle.size(); ++i) {
-    const auto next = static_cast<double>(begins.size());
-    if (angle[i] >= angle[0] + next * step - 1e-9) {
-      begins.push_back(i);
-    }
+    if (angle[i] < next - 1e-9) continue;
+    begins.push_back(i);
+    next = (angle[i] < next + step ? next : angle[i]) + step;
   }
   // Rounding must not take the last quarter from a record of whole turns.
   const double mean_step =
       (angle.back() - angle.front()) / static_cast<double>(angle.size() - 1);
-  const auto next = static_cast<double>(begins.size());
-  if (angle.back() + 1.5 * mean_step >= angle[0] + next * step) {
+  if (angle.back() + 1.5 * mean_step >= next) {
     begins.push_back(angle.size());
   }
   return begins;
@@ -122,6 +123,20 @@ std::vector<Steps> air_in(const Turns& turns) {
   return runs;
 }
 
+/// Runs with less than two turns between them as one: with few samples a turn, or much
+/// noise, single turns vary less than most.
+std::vector<Steps> bridged(const std::vector<Steps>& runs) {
+  std::vector<Steps> out;
+  for (const Steps& s : runs) {
+    if (!out.empty() && s.from < out.back().to + a_turn) {
+      out.back().to = s.to;
+    } else {
+      out.push_back(s);
+    }
+  }
+  return out;
+}
+
 /// The steady part of a pass; a turn with a part of the entry in it may still be like
 /// most, so that a quarter is left out there.
 std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
@@ -136,9 +151,9 @@ std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
   if (*std::min_element(level.begin(), level.end()) >= told_apart * usual) {
     return {turns.part(pass)};
   }
-  const auto runs = runs_where(pass.from, last, [&](std::size_t k) {
+  const auto runs = bridged(runs_where(pass.from, last, [&](std::size_t k) {
     return turns.level[k] >= like_most * usual;
-  });
+  }));
   Steps best = *std::max_element(
       runs.begin(), runs.end(),
       [](const Steps& a, const Steps& b) { return a.to - a.from < b.to - b.from; });
@@ -147,7 +162,7 @@ std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
   return {turns.part(best)};
 }
 
-/// What lies between air, without the turn that leaves the air.
+/// What lies between air.
 std::vector<Steps> between(const std::vector<Steps>& air, std::size_t quarters) {
   std::vector<Steps> passes;
   std::size_t from = 0;
@@ -170,7 +185,10 @@ Passes passes_of(const Channels& channels, std::span<const double> angle) {
   Passes whole{.air = {}, .steady = {{0, angle.size()}}};
   if (angle.size() < 2) return whole;
   Turns turns{.begins = quarters(angle), .level = {}};
-  if (turns.quarters() < 3 * a_turn) return whole;
+  if (turns.quarters() < 3 * a_turn ||
+      angle.size() < least_samples * turns.quarters() / a_turn) {
+    return whole;
+  }
   for (std::size_t k = 0; k + a_turn <= turns.quarters(); ++k) {
     turns.level.push_back(variation(channels, turns.part({k, k + a_turn})));
   }

@@ -28,15 +28,15 @@ struct Passes {
 /// @eq S-6 v = sqrt(sum over channels of the mean square about a straight line over one
 ///         turn); air: v <= min(v_c/5, max(2 v_min, v_c/1000)) for two turns or
 ///         more, v_c that of the usual cut; steady: v >= 0.9 of the upper quartile of the
-///         pass
+///         pass, less than two turns in a row excepted
 /// @src derived
 ///
 /// Turns are looked at every quarter turn. A turn holds every tooth once, so that v does
 /// not change in a steady cut, whatever its engagement. Where v never falls below 0.7 of
 /// the upper quartile all is steady.
 /// @param angle  [rad], shape (n), increasing; by the stated speed will do
-/// @return without air and with everything steady where less than three turns are there
-///         or nothing is told apart
+/// @return without air and with everything steady where less than three turns are there,
+///         or fewer than 12 samples a turn, or nothing is told apart
 Passes passes_of(const std::array<std::vector<double>, 3>& channels,
                  std::span<const double> angle);
 

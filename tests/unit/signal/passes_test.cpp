@@ -79,6 +79,38 @@ TEST(Passes, LeaveAnEntryWithoutAirOut) {
   EXPECT_EQ(found.steady[0].end, s.angle.size());
 }
 
+TEST(Passes, AreNotEndedByMissingSamples) {
+  auto s = make({.before = 0, .entering = 0, .cutting = 40, .after = 0});
+  for (std::size_t i = 20 * a_turn; i < s.angle.size(); ++i) s.angle[i] += 30 * turn;
+  const Passes found = passes_of(s.channel, s.angle);
+  EXPECT_TRUE(found.air.empty());
+  ASSERT_EQ(found.steady.size(), 1u);
+  EXPECT_EQ(found.steady[0].size(), s.angle.size());
+}
+
+TEST(Passes, AreNotEndedByATurnThatVariesLess) {
+  auto s = make({.before = 0, .entering = 0, .cutting = 60, .after = 0});
+  for (auto& channel : s.channel) {
+    for (std::size_t i = 30 * a_turn; i < 31 * a_turn; ++i) channel[i] *= 0.5;
+  }
+  const Passes found = passes_of(s.channel, s.angle);
+  ASSERT_EQ(found.steady.size(), 1u);
+  EXPECT_EQ(found.steady[0].size(), s.angle.size());
+}
+
+TEST(Passes, AreNotToldFromAFewSamplesATurn) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> white(0.0, 1.0);
+  Samples s;
+  for (int i = 0; i < 4000; ++i) {
+    s.angle.push_back(i * turn / 5.3);
+    for (auto& channel : s.channel) channel.push_back(white(random));
+  }
+  const Passes found = passes_of(s.channel, s.angle);
+  EXPECT_TRUE(found.air.empty());
+  EXPECT_EQ(found.steady[0].size(), s.angle.size());
+}
+
 TEST(Passes, NeedOneAngleASample) {
   EXPECT_THROW(passes_of({{{1.0}, {1.0}, {1.0}}}, {}), std::invalid_argument);
 }
