@@ -55,15 +55,19 @@ void textbook(benchmark::State& state) {
   count(state, phi.size(), error_of(forces, setup, phi));
 }
 
-void whole_turn(benchmark::State& state, chip::Model model) {
-  const force::Setup setup = paper_cut(model);
-  const auto phi = turns(static_cast<int>(state.range(0)), 1);
+/// Forces of a turn, set-up included, and their error.
+void time_turn(benchmark::State& state, const force::Setup& setup, int samples) {
+  const auto phi = turns(samples, 1);
   std::vector<force::Vector3> forces;
   for (auto _ : state) {
     forces = force::forces(setup, paper_law(), phi, tolerance);
     benchmark::DoNotOptimize(forces.data());
   }
   count(state, phi.size(), error_of(forces, setup, phi));
+}
+
+void whole_turn(benchmark::State& state, chip::Model model) {
+  time_turn(state, paper_cut(model), static_cast<int>(state.range(0)));
 }
 
 /// @brief The paper's cutter with other numbers of teeth and depths [mm].
@@ -75,13 +79,7 @@ void other_cutters(benchmark::State& state) {
   for (int k = 0; k < setup.cutter.teeth(); ++k) {
     setup.runout.radial_offsets.push_back(-(k * 5 % 8) * unit::um);
   }
-  const auto phi = turns(720, 1);
-  std::vector<force::Vector3> forces;
-  for (auto _ : state) {
-    forces = force::forces(setup, paper_law(), phi, tolerance);
-    benchmark::DoNotOptimize(forces.data());
-  }
-  count(state, phi.size(), error_of(forces, setup, phi));
+  time_turn(state, setup, 720);
 }
 
 /// What is done once for a turn.
@@ -159,13 +157,7 @@ force::Setup general_cut(Tool tool) {
 void general_turn(benchmark::State& state, Tool tool) {
   force::Setup setup = general_cut(tool);
   setup.cut.a_p = static_cast<double>(state.range(0)) * unit::mm;
-  const auto phi = turns(720, 1);
-  std::vector<force::Vector3> forces;
-  for (auto _ : state) {
-    forces = force::forces(setup, paper_law(), phi, tolerance);
-    benchmark::DoNotOptimize(forces.data());
-  }
-  count(state, phi.size(), error_of(forces, setup, phi));
+  time_turn(state, setup, 720);
 }
 
 /// The same by adaptive quadrature.

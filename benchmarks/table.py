@@ -39,7 +39,7 @@ def main(program, which):
     print(f"Medians of {REPETITIONS}, interleaved; CPU time on one thread.\n")
     print("| benchmark | CPU time | a sample | error / peak | textbook / this, a sample |")
     print("|---|---|---|---|---|")
-    for name, (ns, one) in found.items():
+    for name, (ns, one) in sorted(found.items()):
         sample = one.get("per_sample")
         cells = [name, time_text(ns),
                  time_text(1e9 * sample) if sample else "",
