@@ -84,12 +84,15 @@ std::vector<std::vector<double>> meetings(const Edges& edges) {
   }
   Ring ring(edges);
   const double end = end_of_meetings(edges);
-  double from = 0.0;
+  const auto place = [&](int i) {
+    const double t = static_cast<double>(i) / scan_points;
+    return end * t * t;
+  };
+  double from = place(1);  // on the axis all teeth stand in one point
   ring.stand_at(from);
   std::vector<double> before = all_ahead(ring, teeth);
-  for (int i = 1; i <= scan_points; ++i) {
-    const double t = static_cast<double>(i) / scan_points;
-    const double to = end * t * t;
+  for (int i = 2; i <= scan_points; ++i) {
+    const double to = place(i);
     ring.stand_at(to);
     const std::vector<double> after = all_ahead(ring, teeth);
     std::size_t pair = 0;
