@@ -159,11 +159,10 @@ void fill_single_direction(const Unknowns& u, std::size_t i, double e,
 /// @brief Why the record does not hold amount and angle of an eccentricity; empty: it
 /// does. Its 95 % region must not hold zero, nor reach as far as it is from there.
 std::string not_held(const Unknowns& u, std::size_t i, std::array<double, 2> e,
-                     const Reasons& reasons, double widening) {
-  const double f2 = widening * widening;
-  const double xx = f2 * reasons.covariance(i, i);
-  const double xy = f2 * reasons.covariance(i, i + 1);
-  const double yy = f2 * reasons.covariance(i + 1, i + 1);
+                     const Reasons& reasons) {
+  const double xx = reasons.covariance(i, i);
+  const double xy = reasons.covariance(i, i + 1);
+  const double yy = reasons.covariance(i + 1, i + 1);
   const double mean = 0.5 * (xx + yy);
   const double swing = std::hypot(0.5 * (xx - yy), xy);
   const double longest = 0.5 * std::atan2(2.0 * xy, xx - yy);  // axis of the region
@@ -197,7 +196,7 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e
   }
   const bool smooth = reasons.has_error(i);
   if (!reasons.has_error(i + 1) || !smooth) return;
-  if (const std::string why = not_held(u, i, e, reasons, fit.widening); !why.empty()) {
+  if (const std::string why = not_held(u, i, e, reasons); !why.empty()) {
     reasons.refuse("eccentricity_mm", why);
     reasons.refuse("angle_deg", why);
     return;
@@ -274,8 +273,8 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   const Point point = point_of(problem, p);
   Reasons reasons(problem, known, fit);
   fit.freedom = known.freedom;
-  fit.interval_factor =
-      numerics::student_t(0.975, known.freedom) * fit.widening;  // I-8, I-13
+  fit.widening = known.widening;
+  fit.interval_factor = numerics::student_t(0.975, known.quantile_freedom);  // I-8
   fit.law = force::with_coefficients(point.law, K.first(index(problem.columns)));
   for (std::size_t c = 0; c < index(problem.columns); ++c) {
     if (reasons.determined(c)) fit.coefficients[c] = reasons.estimate(c, K[c]);

@@ -5,7 +5,6 @@
 #include <trochoid/identification/prepare.h>
 #include <trochoid/identification/reliability.h>
 #include <trochoid/identification/uncertainty.h>
-#include <trochoid/identification/widening.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <fmt/core.h>
@@ -109,20 +108,20 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
     return;
   }
   const double equations = equations_of(problem, runs);
-  const double rss = fit.rms * fit.rms * samples_of(runs);
-  const Uncertainty known =
-      uncertainty(problem, std::move(at), linear.x, rss, equations);
+  Leftover left{fit.rms * fit.rms * samples_of(runs), equations, {}, {}, {}};
+  if (fit.options.errors == Errors::automatic) {
+    left.runs = runs;
+    left.fitted = fit.fitted;
+    left.rows = linear.residual;
+  }
+  const Uncertainty known = uncertainty(problem, std::move(at), linear.x, left);
   if (means_do_not_suffice(problem) &&
-      only_noise(problem, linear, rss / known.freedom)) {
+      only_noise(problem, linear, left.rss / known.freedom)) {
     fit.message =
         "this model explains no more of how the force changes over the turn than it "
         "would of noise; the three means alone cannot determine six coefficients";
     refuse_coefficients(problem, fit);
     return;
-  }
-  if (fit.options.band_harmonics == 0) {
-    fit.widening = interval_widening(runs, fit.fitted,
-                                     problem.linear() + problem.unknowns.count());
   }
   fill_estimates(problem, p, linear.x, known, fit);
   fit.ok = std::ranges::any_of(fit.coefficients, [](const auto& K) { return !!K; });

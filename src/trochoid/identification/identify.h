@@ -43,6 +43,23 @@ constexpr std::string_view name_of(RunoutUnknowns unknowns) noexcept {
   return {};
 }
 
+/// What standard errors and intervals count.
+enum class Errors {
+  automatic,  ///< correlated and repeating residuals, and how far the runs agree
+  white,      ///< as if what is left were white noise
+};
+
+/// Names of files.
+constexpr std::string_view name_of(Errors errors) noexcept {
+  switch (errors) {
+    case Errors::automatic:
+      return "auto";
+    case Errors::white:
+      return "white";
+  }
+  return {};
+}
+
 /// Where to search first.
 struct Start {
   geometry::Runout runout;
@@ -57,6 +74,7 @@ struct Options {
   int band_harmonics = 0;       ///< 0: all; n: mean and spindle harmonics 1..n only
   bool fit_channel_offsets = false;  ///< one constant and one slope a channel and run
   bool fit_exponents = true;         ///< of a Power law; false: as given
+  Errors errors = Errors::automatic;
   /// Absent: the runout of the setup, where there is one, at any phase. Where it does not
   /// lead to a good fit nearby, everything is searched.
   std::optional<Start> start = std::nullopt;
@@ -115,8 +133,8 @@ struct Fit {
   /// Correlation of neighbouring residuals. 0 with a band limit, which correlates them by
   /// itself.
   double residual_correlation = 0.0;
-  /// By how much intervals are wider than white noise would make them (I-13): in
-  /// `interval_factor`, not in the standard errors. 1 with a band limit, whose rows are few.
+  /// By how much the intervals of the coefficients are wider than white noise would make
+  /// them: root mean square (I-13, I-14). The standard errors hold it.
   double widening = 1.0;
   Unexplained unexplained;
   /// Fitted force of each run with its channel offsets, shape (n).
@@ -135,8 +153,8 @@ bool unidentifiable(const Fit& fit, const std::string& name);
 /// @eq  I-5 RMS = sqrt(mean over samples of |dF|^2)
 /// @eq  I-7 {F_c} = [D]_c {K} + a_c + b_c (t - mean t)/(t_last - t_first)
 /// @eq  I-8 value +- t_0.975(n - dim K - dim p) se
-/// @eq  I-13 intervals times the factor by which residuals that agree with their
-///      neighbours, or repeat turn by turn, tell less than white noise
+/// @eq  I-14, I-15 standard errors by the spectrum of what is left, and by how far the runs
+///      agree; I-13 those of records too short for a spectrum
 /// @eq  I-9 nothing is explained where u > sqrt(0.9) and r > 0.3
 /// @src [riviere2009] eq. 20 to 22, section 3.3; I-3 [golub1973]; I-4, I-8 standard
 ///

@@ -2,8 +2,10 @@
 #include <trochoid/identification/derivatives.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
+#include <trochoid/identification/widening.h>
 #include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
+#include <trochoid/numerics/student.h>
 
 #include <fmt/core.h>
 
@@ -131,6 +133,64 @@ numerics::LeastSquares drop_dependent(const numerics::Columns& J,
   }
 }
 
+/// Unknowns that are determined, by their columns.
+struct Determined {
+  numerics::Columns J;
+  const std::vector<std::size_t>& which;
+  const std::vector<double>& inverse_gram;
+};
+
+/// Of those determined, the ones that all runs have in common.
+std::vector<std::size_t> shared_of(const Problem& problem,
+                                   const std::vector<std::size_t>& kept) {
+  const std::size_t own = index(problem.linear() + problem.unknowns.first_phase());
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const bool channel_offset =
+        kept[i] >= index(problem.columns) && kept[i] < index(problem.linear());
+    if (!channel_offset && kept[i] < own) out.push_back(i);
+  }
+  return out;
+}
+
+/// By how much the intervals of the coefficients are wider than white noise makes them.
+double widening_of(const Problem& problem, const Determined& unknowns,
+                   std::span<const double> covariance, double variance) {
+  double sum = 0.0;
+  double count = 0.0;
+  const std::size_t p = unknowns.which.size();
+  for (std::size_t i = 0; i < p; ++i) {
+    if (unknowns.which[i] >= index(problem.columns)) continue;
+    sum += covariance[i * p + i] / (variance * unknowns.inverse_gram[i * p + i]);
+    count += 1.0;
+  }
+  return count > 0 && variance > 0 ? std::sqrt(sum / count) : 1.0;
+}
+
+/// @return of the determined unknowns
+/// @param out  its freedom is known; that of the quantile and the widening are set
+std::vector<double> covariance_of(const Problem& problem, const Determined& unknowns,
+                                  const Leftover& left, Uncertainty& out) {
+  const double variance = out.freedom > 0.0 ? left.rss / out.freedom : 0.0;
+  std::vector<double> white = unknowns.inverse_gram;
+  for (double& v : white) v *= variance;
+  if (left.runs.empty() || !(variance > 0)) return white;
+  auto found = sandwich(problem, unknowns.J, unknowns.inverse_gram,
+                        shared_of(problem, unknowns.which), left);
+  if (!found) {
+    if (problem.runs.front().band > 0) return white;
+    out.widening = interval_widening(left.runs, left.fitted,
+                                     static_cast<int>(unknowns.which.size()));
+    for (double& v : white) v *= out.widening * out.widening;
+    return white;
+  }
+  out.quantile_freedom = std::min(out.freedom, std::max(1.0, found->freedom));
+  out.widening = widening_of(problem, unknowns, found->covariance, variance) *
+                 numerics::student_t(0.975, out.quantile_freedom) /
+                 numerics::student_t(0.975, out.freedom);
+  return std::move(found->covariance);
+}
+
 }  // namespace
 
 std::vector<std::string> names_of(const Problem& problem) {
@@ -160,7 +220,7 @@ std::vector<std::string> names_of(const Problem& problem) {
 }
 
 Uncertainty uncertainty(const Problem& problem, Evaluation at,
-                        std::span<const double> K, double rss, double equations) {
+                        std::span<const double> K, const Leftover& left) {
   const std::vector<std::string> names = names_of(problem);
   const std::size_t width = names.size();
   const std::size_t linear = index(problem.linear());
@@ -178,21 +238,26 @@ Uncertainty uncertainty(const Problem& problem, Evaluation at,
     if (out.reason[c].empty() && !out.on_edge[c]) kept.push_back(c);
   }
   const numerics::LeastSquares fit = drop_dependent(J, names, b, kept, out);
-  out.freedom = equations - static_cast<double>(kept.size());
-  const double variance = out.freedom > 0.0 ? rss / out.freedom : 0.0;
+  out.freedom = left.equations - static_cast<double>(kept.size());
+  out.quantile_freedom = out.freedom;
+  const std::vector<double> some =
+      kept.size() < width ? keep_columns(J, kept) : std::vector<double>{};
+  const std::vector<double> covariance = covariance_of(
+      problem,
+      {some.empty() ? J : numerics::Columns(some, J.rows), kept, fit.inverse_gram},
+      left, out);
   out.covariance.assign(width * width, 0.0);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     for (std::size_t j = 0; j < kept.size(); ++j) {
-      out.covariance[kept[i] * width + kept[j]] =
-          variance * fit.inverse_gram[i * kept.size() + j];
+      out.covariance[kept[i] * width + kept[j]] = covariance[i * kept.size() + j];
     }
   }
   return out;
 }
 
 Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
-                        std::span<const double> K, double rss, double equations) {
-  return uncertainty(problem, evaluate(problem, p), K, rss, equations);
+                        std::span<const double> K, const Leftover& left) {
+  return uncertainty(problem, evaluate(problem, p), K, left);
 }
 
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/identification/problem.h>
+#include <trochoid/identification/sandwich.h>
 
 #include <optional>
 #include <string>
@@ -22,7 +22,10 @@ struct Uncertainty {
   /// different slopes, so that it has no standard error. It counts as known.
   std::vector<bool> on_edge;
   std::vector<double> covariance;  ///< shape (linear + count, linear + count)
-  double freedom = 0.0;
+  double freedom = 0.0;            ///< equations less unknowns
+  double quantile_freedom = 0.0;   ///< of the intervals: no more than that
+  /// Intervals of the coefficients over those that white noise would give (rms of them).
+  double widening = 1.0;
 };
 
 /// Names of the summary, in the order of Uncertainty::reason.
@@ -32,19 +35,21 @@ std::vector<std::string> names_of(const Problem& problem);
 ///
 /// @eq I-4 J = [[D] | d[D]/dp {K}], cov = RSS/(n - dim K - dim p) (J^T J)^-1
 ///
+/// That is for white noise; where the runs are given, by what they hold of the spectrum
+/// (I-14, I-15), and where they are too short for one, by their neighbours (I-13).
+///
 /// Not determined is an unknown whose whole range changes the force by less than 1e-6
 /// of it, and one that takes part in a combination whose singular value, with columns
 /// of unit norm, is below 1e-6 of the largest.
 /// @param at   at the minimum; given away, its memory serves
 /// @param K    there, shape (linear)
-/// @param rss  of all samples [N^2]
-/// @param equations  number of equations that rss stands for
+/// @param left  what the fit leaves; without runs: white noise
 Uncertainty uncertainty(const Problem& problem, Evaluation at,
-                        std::span<const double> K, double rss, double equations);
+                        std::span<const double> K, const Leftover& left);
 
 /// @brief The same, evaluated at p.
 Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
-                        std::span<const double> K, double rss, double equations);
+                        std::span<const double> K, const Leftover& left);
 
 /// @brief Sum of squares of the folded rows about the means of the channels (or, with
 /// channel offsets, about constants and slopes) [N^2].

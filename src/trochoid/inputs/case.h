@@ -92,6 +92,7 @@ struct Identify {
   std::optional<double> phase;  ///< [rad]; absent: free
   int band_harmonics = 0;       ///< 0: all
   ChannelOffset channel_offsets = ChannelOffset::automatic;
+  identification::Errors errors = identification::Errors::automatic;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
 };
 

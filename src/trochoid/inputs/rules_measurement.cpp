@@ -157,7 +157,8 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                   .runout = table.runout,
                   .phase = table.phase,
                   .band_harmonics = table.band_harmonics,
-                  .channel_offsets = table.channel_offsets};
+                  .channel_offsets = table.channel_offsets,
+                  .errors = table.errors};
   const auto& models = table.chip_models;
   if (tables.chip.lookback == chip::Lookback::previous &&
       std::find(models.begin(), models.end(), chip::Model::radial) != models.end()) {

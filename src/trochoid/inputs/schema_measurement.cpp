@@ -126,6 +126,11 @@ void describe(const Visitor& v, IdentifyTable& t) {
          "constant and drift of the channels: taken from where nothing cuts (auto: if "
          "there is air in the record), fitted, or left as they are"},
     choice(t.channel_offsets));
+  v({.name = "errors",
+     .meaning = "standard errors and intervals: auto counts residuals that agree with "
+                "their neighbours or repeat turn by turn, and how far records agree; "
+                "white: as if they were white noise"},
+    choice(t.errors));
   v({.name = "sweep_um",
      .meaning =
          "first, last and number of radial offsets of tooth 2 to try for sweep.csv",

@@ -104,6 +104,7 @@ struct IdentifyTable {
   std::optional<double> phase;
   int band_harmonics = 0;
   ChannelOffset channel_offsets = ChannelOffset::automatic;
+  identification::Errors errors = identification::Errors::automatic;
   std::optional<base::Steps> sweep;
 };
 

@@ -146,7 +146,9 @@ TEST(Uncertainty, AnOffsetWhereAToothStopsCuttingHasNoStandardError) {  // [I-4]
   problem.columns = 6;
   const std::vector<double> K = force::coefficients(steel());
   const auto known_at = [&](double p) {
-    return uncertainty(problem, std::vector<double>{p}, K, 1.0, 1080.0);
+    return uncertainty(
+        problem, std::vector<double>{p}, K,
+        {.rss = 1.0, .equations = 1080.0, .runs = {}, .fitted = {}, .rows = {}});
   };
   EXPECT_TRUE(known_at(-1.0).on_edge[6]);
   EXPECT_EQ(known_at(-1.0).covariance[48], 0.0);

@@ -8,7 +8,8 @@ identification::Options fit_options(const inputs::Case& given, chip::Model model
           .phase = given.identify.phase,
           .band_harmonics = given.identify.band_harmonics,
           .fit_channel_offsets =
-              given.identify.channel_offsets == inputs::ChannelOffset::fit};
+              given.identify.channel_offsets == inputs::ChannelOffset::fit,
+          .errors = given.identify.errors};
 }
 
 identification::AxesProblem axes_problem(const inputs::Case& given) {

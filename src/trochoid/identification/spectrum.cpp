@@ -1,0 +1,201 @@
+#include <trochoid/identification/spectrum.h>
+
+#include <trochoid/base/index.h>
+#include <trochoid/base/units.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::identification {
+
+namespace {
+
+using base::index;
+
+/// What no column of a force matrix has to speak of above.
+constexpr int most_harmonics = 48;
+/// Fewer turns tell too little of what differs from one to the next.
+constexpr double fewest_turns = 4.0;
+/// More blocks of turns tell no more.
+constexpr double most_blocks = 64.0;
+constexpr std::size_t most_bins = 720;
+
+/// Whole turns of a run, in blocks of as many turns each.
+struct Blocks {
+  std::size_t count = 0;
+  double turns_each = 1.0;
+  double begin = 0.0;  ///< angle [rad]
+  double per_turn = 0.0;
+
+  [[nodiscard]] std::size_t of(double angle) const {
+    const double turns = (angle - begin) / unit::turn;
+    return static_cast<std::size_t>(std::max(0.0, turns / turns_each + 1e-9));
+  }
+};
+
+Blocks blocks_of(const Run& run) {
+  Blocks out;
+  const std::size_t n = run.angle.size();
+  const double span = run.angle.back() - run.angle.front();
+  if (n < 2 || !(span > 0) || !std::ranges::is_sorted(run.angle)) return out;
+  out.per_turn = static_cast<double>(n - 1) * unit::turn / span;
+  // The last sample of a turn stands a step before its end.
+  const double turns = std::floor(span / unit::turn + 1.5 / out.per_turn);
+  if (turns < fewest_turns) return out;
+  out.turns_each = std::ceil(turns / most_blocks);
+  out.count = static_cast<std::size_t>(turns / out.turns_each + 1e-9);
+  out.begin = run.angle.front();
+  return out;
+}
+
+/// Cosines and sines of a bin of the turn, for the lines of a spectrum.
+std::vector<double> waves(double angle, std::size_t lines) {
+  std::vector<double> out(lines);
+  out[0] = 1.0;
+  double c = 1.0;
+  double s = 0.0;
+  const double c1 = std::cos(angle);
+  const double s1 = std::sin(angle);
+  for (std::size_t k = 1; k < lines; k += 2) {
+    const double next = c * c1 - s * s1;
+    s = s * c1 + c * s1;
+    c = next;
+    out[k] = c;
+    out[k + 1] = s;
+  }
+  return out;
+}
+
+/// Sums of what is left over the samples of a bin of a block.
+struct Sums {
+  std::vector<std::array<double, 3>> left;  ///< shape (blocks, bins)
+  std::vector<double> samples;              ///< shape (blocks)
+  std::size_t bins = 1;
+};
+
+Sums sums_of(const Run& run, std::span<const std::array<double, 3>> fitted,
+             const Blocks& blocks) {
+  Sums out;
+  out.bins = std::clamp(static_cast<std::size_t>(4.0 * blocks.per_turn),
+                        std::size_t{90}, most_bins);
+  out.left.assign(blocks.count * out.bins, {});
+  out.samples.assign(blocks.count, 0.0);
+  for (std::size_t i = 0; i < run.angle.size(); ++i) {
+    const std::size_t block = blocks.of(run.angle[i]);
+    if (block >= blocks.count) break;
+    const double turns = run.angle[i] / unit::turn;
+    const double at = (turns - std::floor(turns)) * static_cast<double>(out.bins);
+    const std::size_t bin = static_cast<std::size_t>(at + 0.5) % out.bins;
+    for (std::size_t q = 0; q < 3; ++q) {
+      out.left[block * out.bins + bin][q] += run.force[i][q] - fitted[i][q];
+    }
+    out.samples[block] += 1.0;
+  }
+  return out;
+}
+
+/// @return of each block the mean of what is left times each wave, shape (blocks, rows)
+std::vector<double> means_of(const Sums& sums, std::size_t lines) {
+  const std::size_t blocks = sums.samples.size();
+  const std::size_t rows = 3 * lines;
+  std::vector<double> out(blocks * rows, 0.0);
+  for (std::size_t bin = 0; bin < sums.bins; ++bin) {
+    const std::vector<double> wave = waves(
+        unit::turn * static_cast<double>(bin) / static_cast<double>(sums.bins), lines);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const auto& d = sums.left[b * sums.bins + bin];
+      for (std::size_t q = 0; q < 3; ++q) {
+        const double part = d[q] / std::max(1.0, sums.samples[b]);
+        if (part == 0.0) continue;
+        for (std::size_t k = 0; k < lines; ++k) {
+          out[b * rows + q * lines + k] += part * wave[k];
+        }
+      }
+    }
+  }
+  return out;
+}
+
+/// @brief By how much turns that agree with the next tell less of their mean, for what
+/// drifts slowly: 1 for turns of their own.
+double slow_factor(std::span<const double> values, double mean) {
+  double squares = 0.0;
+  double products = 0.0;
+  for (std::size_t b = 0; b < values.size(); ++b) {
+    squares += (values[b] - mean) * (values[b] - mean);
+    if (b > 0) products += (values[b] - mean) * (values[b - 1] - mean);
+  }
+  const double r = squares > 0 ? std::clamp(products / squares, 0.0, 0.9) : 0.0;
+  return (1.0 + r) / (1.0 - r);
+}
+
+}  // namespace
+
+Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitted,
+                     const FoldedRun& folded) {
+  Spectrum out;
+  const Blocks blocks = blocks_of(run);
+  const int resolved = static_cast<int>(0.5 * (blocks.per_turn - 1.0));
+  const int highest =
+      std::min(resolved, folded.band > 0 ? (folded.band - 1) / 2 : most_harmonics);
+  if (blocks.count == 0 || highest < 1) return out;
+  out.highest = highest;
+  out.turns = static_cast<double>(blocks.count);
+  const std::size_t rows = out.rows();
+  const std::vector<double> means = means_of(sums_of(run, fitted, blocks), out.lines());
+  const auto n = static_cast<double>(run.angle.size());
+  std::vector<double> own(blocks.count);
+  for (std::size_t row = 0; row < rows; ++row) {
+    double sum = 0.0;
+    for (std::size_t b = 0; b < blocks.count; ++b) {
+      own[b] = means[b * rows + row];
+      sum += own[b];
+    }
+    const double mean = sum / out.turns;
+    double squares = 0.0;
+    for (const double m : own) squares += (m - mean) * (m - mean);
+    const bool constant = row % out.lines() == 0;
+    const double scale = constant ? n : 2.0 * n;  // I-14
+    out.left.push_back(std::sqrt(scale) * mean);
+    out.scatter.push_back(scale / out.turns * squares / (out.turns - 1.0) *
+                          (constant ? slow_factor(own, mean) : 1.0));
+  }
+  return out;
+}
+
+std::vector<double> harmonic_rows(const FoldedRun& folded, const Spectrum& spectrum,
+                                  const numerics::Columns& J) {
+  const std::size_t lines = spectrum.lines();
+  const std::size_t columns = J.count();
+  std::vector<double> out(spectrum.rows() * columns, 0.0);
+  if (folded.band > 0) {  // its rows are these already
+    for (std::size_t c = 0; c < columns; ++c) {
+      for (std::size_t k = 0; k < lines; ++k) {
+        for (std::size_t q = 0; q < 3; ++q) {
+          out[(q * lines + k) * columns + c] = J[c][3 * k + q];
+        }
+      }
+    }
+    return out;
+  }
+  double n = 0.0;
+  for (const double w : folded.weight) n += w * w;
+  for (std::size_t g = 0; g < folded.angle.size(); ++g) {
+    const std::vector<double> wave = waves(folded.angle[g], lines);
+    for (std::size_t q = 0; q < 3; ++q) {
+      for (std::size_t c = 0; c < columns; ++c) {
+        const double v = folded.weight[g] * J[c][3 * g + q];
+        for (std::size_t k = 0; k < lines; ++k) {
+          out[(q * lines + k) * columns + c] += v * wave[k];
+        }
+      }
+    }
+  }
+  for (std::size_t row = 0; row < spectrum.rows(); ++row) {
+    const double scale = std::sqrt((row % lines == 0 ? 1.0 : 2.0) / n);
+    for (std::size_t c = 0; c < columns; ++c) out[row * columns + c] *= scale;
+  }
+  return out;
+}
+
+}  // namespace trochoid::identification
