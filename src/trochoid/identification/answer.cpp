@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace trochoid::identification {
@@ -73,11 +74,39 @@ std::vector<std::array<double, 3>> force_of_rows(const Problem& problem,
   return out;
 }
 
+/// What a dynamometer that is not rigid reads at the samples of a run, shape (n).
+std::vector<std::array<double, 3>> reading_of_run(const Problem& problem,
+                                                  const Run& run, const Evaluation& at,
+                                                  std::size_t r,
+                                                  std::span<const double> K) {
+  const std::vector<double> C = read_at_phase(problem, at, r);
+  std::vector<double> turn(C.size() / K.size(), 0.0);  // shape (terms, 3)
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    for (std::size_t c = 0; c < K.size(); ++c) turn[i] += C[i * K.size() + c] * K[c];
+  }
+  std::vector<std::array<double, 3>> out;
+  out.reserve(run.angle.size());
+  for (const double phi : run.angle) {
+    std::array<double, 3>& F = out.emplace_back();
+    const std::complex<double> step = std::polar(1.0, phi);
+    std::complex<double> wave = 1.0;
+    for (std::size_t q = 0; q < 3; ++q) F[q] = turn[q];
+    for (std::size_t i = 3; i + 5 < turn.size(); i += 6) {
+      wave *= step;
+      for (std::size_t q = 0; q < 3; ++q) {
+        F[q] += turn[i + q] * wave.real() + turn[i + 3 + q] * wave.imag();
+      }
+    }
+  }
+  return out;
+}
+
 /// Force at every sample of a run, shape (n).
 std::vector<std::array<double, 3>> force_of_run(const Problem& problem, const Run& run,
                                                 const Evaluation& at, std::size_t r,
                                                 std::span<const double> K) {
   const FoldedRun& folded = problem.runs[r];
+  if (!folded.response.rigid()) return reading_of_run(problem, run, at, r, K);
   if (folded.band == 0 && !folded.binned) return force_of_rows(problem, at, r, K);
   std::vector<double> phi(run.angle);
   for (double& a : phi) a += at.point.phase[r];

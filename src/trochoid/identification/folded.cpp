@@ -189,7 +189,7 @@ double slope_at(std::size_t i, std::size_t n) noexcept {
   return n < 2 ? 0.0 : static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
 }
 
-FoldedRun fold(const Run& run, const Options& options) {
+FoldedRun fold(const Run& run, const Options& options, const Response& response) {
   if (run.angle.size() != run.force.size() || run.angle.empty()) {
     throw std::invalid_argument("a run of " + std::to_string(run.angle.size()) +
                                 " angles and " + std::to_string(run.force.size()) +
@@ -202,6 +202,11 @@ FoldedRun fold(const Run& run, const Options& options) {
   out.binned = same.binned;
   take_means(run, options.fit_channel_offsets, out);
   out.harmonics = options.band_harmonics;
+  out.response = response;
+  if (!response.rigid()) {
+    const int all = response.highest();
+    out.harmonics = out.harmonics == 0 ? all : std::min(out.harmonics, all);
+  }
   make_band(out);
   map_turn(out, few_angles);
   make_rows(options.fit_channel_offsets, out);

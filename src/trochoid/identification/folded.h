@@ -26,6 +26,7 @@ struct FoldedRun {
   std::vector<double> basis;
   int band = 0;
   int harmonics = 0;  ///< of the band; 0: no limit
+  Response response;  ///< the rows are of what the dynamometer reads
   /// Where the rows follow from the Fourier coefficients of the force over the turn, up
   /// to this harmonic (map_turn): from a_0, a_1, b_1, ... to the band, shape (band,
   /// 2 highest + 1); or empty.
@@ -42,7 +43,8 @@ struct FoldedRun {
 double slope_at(std::size_t i, std::size_t n) noexcept;
 
 /// @throws std::invalid_argument when a run has not one force for each angle
-FoldedRun fold(const Run& run, const Options& options);
+/// @param response  of the dynamometer at the speed of the run
+FoldedRun fold(const Run& run, const Options& options, const Response& response = {});
 
 /// @brief The same run in at most so many angles, by means over equal bins; as it is
 /// where it has no more, or has its rows from the turn.

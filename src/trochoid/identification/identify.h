@@ -2,6 +2,7 @@
 
 #include <trochoid/base/estimate.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/identification/response.h>
 
 #include <array>
 #include <optional>
@@ -75,6 +76,9 @@ struct Options {
   bool fit_channel_offsets = false;  ///< one constant and one slope a channel and run
   bool fit_exponents = true;         ///< of a Power law; false: as given
   Errors errors = Errors::automatic;
+  /// What the dynamometer makes of the force, one a run; empty: it is rigid. With it the
+  /// fit is by harmonics, up to the last one given.
+  std::vector<Response> response = {};
   /// Absent: the runout of the setup, where there is one, at any phase. Where it does not
   /// lead to a good fit nearby, everything is searched.
   std::optional<Start> start = std::nullopt;
@@ -137,6 +141,8 @@ struct Fit {
   /// them: root mean square (I-13, I-14). The standard errors hold it.
   double widening = 1.0;
   Unexplained unexplained;
+  /// Of the dynamometer, in the axes of the tool, where they were found with the rest.
+  Resonances resonances = {};
   /// Fitted force of each run with its channel offsets, shape (n).
   std::vector<std::vector<std::array<double, 3>>> fitted;
 };

@@ -73,7 +73,11 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
   out.law = law;
   out.unknowns = unknowns_of(setup, law, runs, options);
   if (out.unknowns.runout == RunoutUnknowns::none) out.setup.runout = {};
-  for (const Run& run : runs) out.runs.push_back(fold(run, options));
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    out.runs.push_back(
+        fold(runs[r], options,
+             r < options.response.size() ? options.response[r] : Response{}));
+  }
   out.fixed_phase = options.phase.value_or(0.0);
   out.columns = static_cast<int>(force::form(law).columns());
   if (options.start && options.start->phase.size() == runs.size()) {

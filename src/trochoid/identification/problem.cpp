@@ -154,13 +154,20 @@ std::size_t first_row(const Problem& problem, std::size_t r) noexcept {
   return out;
 }
 
+std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
+                                  std::size_t r) {
+  std::vector<double> out = at_phase(at.turn[r], at.point.phase[r]);
+  respond(problem.runs[r].response, index(problem.columns), out);
+  return out;
+}
+
 void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
               std::span<double> C) {
   const FoldedRun& run = problem.runs[r];
   const std::size_t stride = index(problem.rows());
   const double phase = at.point.phase[r];
   if (!run.turn_map.empty()) {
-    by_columns(rows_of_turn(run, at_phase(at.turn[r], phase), problem.columns),
+    by_columns(rows_of_turn(run, read_at_phase(problem, at, r), problem.columns),
                index(problem.columns), stride, C);
     return;
   }
@@ -177,10 +184,10 @@ void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
 
 void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
                       std::span<double> C) {
-  by_columns(
-      rows_of_turn(problem.runs[r], slope_at_phase(at.turn[r], at.point.phase[r]),
-                   problem.columns),
-      index(problem.columns), index(problem.rows()), C);
+  std::vector<double> slopes = slope_at_phase(at.turn[r], at.point.phase[r]);
+  respond(problem.runs[r].response, index(problem.columns), slopes);
+  by_columns(rows_of_turn(problem.runs[r], slopes, problem.columns),
+             index(problem.columns), index(problem.rows()), C);
 }
 
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {

@@ -81,6 +81,11 @@ force::Setup setup_of(const Problem& problem, const Point& point, const FoldedRu
 /// Where the rows of a run begin.
 std::size_t first_row(const Problem& problem, std::size_t r) noexcept;
 
+/// @brief Fourier coefficients of [C] of a run at its phase, as the dynamometer reads it.
+/// @return row-major, shape (2 highest + 1, 3, columns)
+std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
+                                  std::size_t r);
+
 /// @brief The force columns of a run at its phase.
 /// @param[out] C  its rows, by columns that are the rows of the problem apart
 void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,

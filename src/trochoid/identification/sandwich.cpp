@@ -188,7 +188,7 @@ std::optional<Sandwich> sandwich(const Problem& problem, const numerics::Columns
   Scores sums{std::vector<double>(p * p, 0.0), std::vector<double>(p, 0.0)};
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& folded = problem.runs[r];
-    const Spectrum spectrum = spectrum_of(left.runs[r], left.fitted[r], folded);
+    const Spectrum spectrum = spectrum_of(left.runs[r], left.fitted[r], folded.band);
     if (spectrum.highest < 0) return std::nullopt;
     const numerics::Columns own(J.values.subspan(first_row(problem, r)),
                                 index(folded.rows), J.stride);

@@ -66,35 +66,35 @@ std::vector<double> waves(double angle, std::size_t lines) {
   return out;
 }
 
-/// Sums of what is left over the samples of a bin of a block.
+/// Sums over the samples of each bin of each block.
 struct Sums {
-  std::vector<std::array<double, 3>> left;  ///< shape (blocks, bins)
-  std::vector<double> samples;              ///< shape (blocks)
+  std::vector<std::array<double, 3>> sum;  ///< shape (blocks, bins)
+  std::vector<double> samples;             ///< shape (blocks)
   std::size_t bins = 1;
 };
 
-Sums sums_of(const Run& run, std::span<const std::array<double, 3>> fitted,
-             const Blocks& blocks) {
+Sums sums_of(std::span<const double> angle,
+             std::span<const std::array<double, 3>> values, const Blocks& blocks) {
   Sums out;
   out.bins = std::clamp(static_cast<std::size_t>(4.0 * blocks.per_turn),
                         std::size_t{90}, most_bins);
-  out.left.assign(blocks.count * out.bins, {});
+  out.sum.assign(blocks.count * out.bins, {});
   out.samples.assign(blocks.count, 0.0);
-  for (std::size_t i = 0; i < run.angle.size(); ++i) {
-    const std::size_t block = blocks.of(run.angle[i]);
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    const std::size_t block = blocks.of(angle[i]);
     if (block >= blocks.count) break;
-    const double turns = run.angle[i] / unit::turn;
+    const double turns = angle[i] / unit::turn;
     const double at = (turns - std::floor(turns)) * static_cast<double>(out.bins);
     const std::size_t bin = static_cast<std::size_t>(at + 0.5) % out.bins;
     for (std::size_t q = 0; q < 3; ++q) {
-      out.left[block * out.bins + bin][q] += run.force[i][q] - fitted[i][q];
+      out.sum[block * out.bins + bin][q] += values[i][q];
     }
     out.samples[block] += 1.0;
   }
   return out;
 }
 
-/// @return of each block the mean of what is left times each wave, shape (blocks, rows)
+/// @return of each block the mean of the values times each wave, shape (blocks, rows)
 std::vector<double> means_of(const Sums& sums, std::size_t lines) {
   const std::size_t blocks = sums.samples.size();
   const std::size_t rows = 3 * lines;
@@ -103,7 +103,7 @@ std::vector<double> means_of(const Sums& sums, std::size_t lines) {
     const std::vector<double> wave = waves(
         unit::turn * static_cast<double>(bin) / static_cast<double>(sums.bins), lines);
     for (std::size_t b = 0; b < blocks; ++b) {
-      const auto& d = sums.left[b * sums.bins + bin];
+      const auto& d = sums.sum[b * sums.bins + bin];
       for (std::size_t q = 0; q < 3; ++q) {
         const double part = d[q] / std::max(1.0, sums.samples[b]);
         if (part == 0.0) continue;
@@ -132,17 +132,21 @@ double slow_factor(std::span<const double> values, double mean) {
 }  // namespace
 
 Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitted,
-                     const FoldedRun& folded) {
+                     int band) {
   Spectrum out;
   const Blocks blocks = blocks_of(run);
   const int resolved = static_cast<int>(0.5 * (blocks.per_turn - 1.0));
-  const int highest =
-      std::min(resolved, folded.band > 0 ? (folded.band - 1) / 2 : most_harmonics);
+  const int highest = std::min(resolved, band > 0 ? (band - 1) / 2 : most_harmonics);
   if (blocks.count == 0 || highest < 1) return out;
   out.highest = highest;
   out.turns = static_cast<double>(blocks.count);
   const std::size_t rows = out.rows();
-  const std::vector<double> means = means_of(sums_of(run, fitted, blocks), out.lines());
+  std::vector<std::array<double, 3>> left(run.force);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    for (std::size_t q = 0; q < 3; ++q) left[i][q] -= fitted[i][q];
+  }
+  const std::vector<double> means =
+      means_of(sums_of(run.angle, left, blocks), out.lines());
   const auto n = static_cast<double>(run.angle.size());
   std::vector<double> own(blocks.count);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -159,6 +163,26 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
     out.left.push_back(std::sqrt(scale) * mean);
     out.scatter.push_back(scale / out.turns * squares / (out.turns - 1.0) *
                           (constant ? slow_factor(own, mean) : 1.0));
+  }
+  return out;
+}
+
+std::array<std::vector<std::complex<double>>, 3> turn_lines(
+    std::span<const double> angle, std::span<const std::array<double, 3>> values,
+    int highest) {
+  const std::size_t lines = index(2 * highest + 1);
+  const double span = angle.back() - angle.front();
+  const Blocks whole{1, std::max(1.0, std::floor(span / unit::turn + 1e-6)),
+                     angle.front(),
+                     static_cast<double>(angle.size() - 1) * unit::turn / span};
+  const std::vector<double> means = means_of(sums_of(angle, values, whole), lines);
+  std::array<std::vector<std::complex<double>>, 3> out;
+  for (std::size_t q = 0; q < 3; ++q) {
+    const double* const c = &means[q * lines];
+    out[q].emplace_back(c[0]);
+    for (std::size_t k = 1; k < lines; k += 2) {
+      out[q].emplace_back(2.0 * c[k], -2.0 * c[k + 1]);
+    }
   }
   return out;
 }

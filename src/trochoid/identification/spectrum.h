@@ -5,6 +5,7 @@
 #include <trochoid/numerics/columns.h>
 
 #include <array>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -38,8 +39,16 @@ constexpr int harmonic_of(std::size_t line) noexcept {
 /// @eq I-14 r_0 = sum d / sqrt(n), r_k = sqrt(2/n) sum d (cos, sin)(k phi);
 ///          scatter: 2 n/T times the variance of one turn's mean of d (cos, sin)
 /// @param fitted  force at its samples, as Fit::fitted
+/// @param band    as FoldedRun::band: rows of the band, 0: no limit
 Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitted,
-                     const FoldedRun& folded);
+                     int band);
+
+/// @brief Complex amplitudes of the mean turn of each component: sum over k of
+/// Re(c_k e^(i k phi)), from 0 to a highest harmonic.
+/// @param values  at the angles, shape (n)
+std::array<std::vector<std::complex<double>>, 3> turn_lines(
+    std::span<const double> angle, std::span<const std::array<double, 3>> values,
+    int highest);
 
 /// @brief Columns of the problem in the rows of a spectrum.
 /// @param J  rows of this run

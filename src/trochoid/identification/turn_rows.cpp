@@ -22,9 +22,9 @@ int highest_of(int harmonics) noexcept {
 }  // namespace
 
 void map_turn(FoldedRun& run, std::size_t few_angles) {
-  if (run.band == 0 || run.harmonics > widest_band || run.angle.size() <= few_angles) {
-    return;
-  }
+  const bool angles_serve =
+      run.harmonics > widest_band || run.angle.size() <= few_angles;
+  if (run.band == 0 || (run.response.rigid() && angles_serve)) return;
   run.highest = highest_of(run.harmonics);
   const std::size_t terms = 2 * index(run.highest) + 1;
   const std::size_t band = index(run.band);

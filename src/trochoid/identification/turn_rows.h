@@ -9,7 +9,7 @@ namespace trochoid::identification {
 
 /// @brief Let the rows of a run in a band be read off the Fourier coefficients of the
 /// force; nothing without a band, and where there are so few angles that they are
-/// looked at one by one.
+/// looked at one by one, unless a dynamometer that is not rigid asks for harmonics.
 ///
 /// @eq I-11 X_k = sum over m of t_km (a_m, b_m), t_km = sum_g w_g e_kg (cos, sin)(m phi_g),
 ///          e_k the orthonormal columns of the band over the weighted angles

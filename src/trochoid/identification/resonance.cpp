@@ -1,0 +1,205 @@
+#include <trochoid/identification/resonance.h>
+
+#include <trochoid/base/index.h>
+#include <trochoid/base/units.h>
+#include <trochoid/identification/spectrum.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace trochoid::identification {
+
+namespace {
+
+using base::index;
+using std::complex;
+
+constexpr int most_harmonics = 60;
+/// Slower ones than this harmonic are those of the machine, not of a dynamometer.
+constexpr int first_harmonic = 3;
+constexpr std::array dampings{0.005, 0.01, 0.02, 0.04, 0.08, 0.16};
+/// A resonance that explains less of what is left is none.
+constexpr double least_explained = 0.3;
+/// What a rigid fit leaves must repeat turn by turn so much beyond what scatter makes of it.
+constexpr double repeating = 1.5;
+constexpr int rounds = 6;
+constexpr double settled = 1e-3;  ///< of the frequencies
+
+/// Measured and computed amplitude of one axis at one harmonic.
+struct Line {
+  double omega = 0.0;  ///< [rad/s]
+  complex<double> measured;
+  complex<double> force;
+};
+
+complex<double> gain(double omega, double omega_n, double zeta) {
+  const double x = omega / omega_n;
+  return 1.0 / complex<double>(1.0 - x * x, 2.0 * zeta * x);
+}
+
+double squares(std::span<const Line> lines, double omega_n, double zeta) {
+  double sum = 0.0;
+  for (const Line& l : lines) {
+    sum += std::norm(l.measured - gain(l.omega, omega_n, zeta) * l.force);
+  }
+  return sum;
+}
+
+/// Lines of each axis over all runs.
+std::array<std::vector<Line>, 3> lines_of(
+    std::span<const Run> runs,
+    std::span<const std::vector<std::array<double, 3>>> fitted,
+    std::span<const Response> response) {
+  std::array<std::vector<Line>, 3> out;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const int highest = resolved_harmonics(runs[r]);
+    const auto measured = turn_lines(runs[r].angle, runs[r].force, highest);
+    const auto computed = turn_lines(runs[r].angle, fitted[r], highest);
+    for (std::size_t q = 0; q < 3; ++q) {
+      for (std::size_t k = 1; k < measured[q].size(); ++k) {
+        complex<double> force = computed[q][k];
+        if (r < response.size() && k < response[r].harmonic.size()) {
+          force /= response[r].harmonic[k][4 * q];
+        }
+        out[q].push_back(
+            {static_cast<double>(k) * runs[r].cut.Omega, measured[q][k], force});
+      }
+    }
+  }
+  return out;
+}
+
+/// The best of a grid, then smaller and smaller steps about it.
+Resonance best_resonance(std::span<const Line> lines, double lowest, double highest) {
+  constexpr int steps = 160;
+  Resonance best;
+  double least = INFINITY;
+  const auto try_one = [&](double omega_n, double zeta) {
+    const double s = squares(lines, omega_n, zeta);
+    if (!(s < least)) return false;
+    least = s;
+    best.omega = omega_n;
+    best.zeta = zeta;
+    return true;
+  };
+  for (int i = 0; i <= steps; ++i) {
+    const double omega_n = lowest * std::pow(highest / lowest, i / double(steps));
+    for (const double zeta : dampings) try_one(omega_n, zeta);
+  }
+  for (double step = 0.02; step > 1e-5; step *= 0.6) {
+    const Resonance at = best;
+    for (const double f : {1.0 - step, 1.0 + step}) {
+      try_one(at.omega * f, at.zeta);
+      try_one(at.omega, at.zeta * (1.0 + 10.0 * (f - 1.0)));
+    }
+  }
+  double before = 0.0;
+  for (const Line& l : lines) before += std::norm(l.measured - l.force);
+  best.explained = before > 0 ? 1.0 - least / before : 0.0;
+  return best;
+}
+
+std::vector<Response> responses(std::span<const Run> runs, const Resonances& found) {
+  std::vector<Response> out;
+  for (const Run& run : runs) {
+    out.push_back(response_of(found, run.cut.Omega, resolved_harmonics(run)));
+  }
+  return out;
+}
+
+/// Whether what a fit leaves repeats turn by turn.
+bool repeats(std::span<const Run> runs, const Fit& fit) {
+  double left = 0.0;
+  double scatter = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Spectrum one = spectrum_of(runs[r], fit.fitted[r], 0);
+    if (one.highest < 0) return false;
+    for (std::size_t i = 0; i < one.rows(); ++i) {
+      left += one.left[i] * one.left[i];
+      scatter += one.scatter[i];
+    }
+  }
+  return left > repeating * scatter;
+}
+
+bool any(const Resonances& found) {
+  return std::ranges::any_of(found, [](const auto& r) { return r.has_value(); });
+}
+
+bool same(const Resonances& a, const Resonances& b) {
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (a[q].has_value() != b[q].has_value()) return false;
+    if (a[q] && std::abs(a[q]->omega / b[q]->omega - 1.0) > settled) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int resolved_harmonics(const Run& run) {
+  const double span = std::abs(run.angle.back() - run.angle.front());
+  const double per_turn =
+      span > 0 ? static_cast<double>(run.angle.size() - 1) * unit::turn / span : 1.0;
+  return static_cast<int>(std::clamp(0.4 * per_turn, 1.0, double(most_harmonics)));
+}
+
+Resonances find_resonances(std::span<const Run> runs,
+                           std::span<const std::vector<std::array<double, 3>>> fitted,
+                           std::span<const Response> response) {
+  double slowest = INFINITY;
+  double highest = INFINITY;
+  for (const Run& run : runs) {
+    slowest = std::min(slowest, run.cut.Omega);
+    highest = std::min(highest, resolved_harmonics(run) * run.cut.Omega);
+  }
+  Resonances out;
+  const double lowest = first_harmonic * slowest;
+  if (!(highest > 2.0 * lowest)) return out;
+  const auto lines = lines_of(runs, fitted, response);
+  for (std::size_t q = 0; q < 3; ++q) {
+    const Resonance best = best_resonance(lines[q], lowest, 1.5 * highest);
+    if (best.explained > least_explained) out[q] = best;
+  }
+  return out;
+}
+
+Response response_of(const Resonances& resonances, double Omega, int highest) {
+  Response out;
+  for (int k = 0; k <= highest; ++k) {
+    Response::Matrix H{};
+    for (std::size_t q = 0; q < 3; ++q) {
+      H[4 * q] = resonances[q]
+                     ? gain(k * Omega, resonances[q]->omega, resonances[q]->zeta)
+                     : 1.0;
+    }
+    out.harmonic.push_back(H);
+  }
+  return out;
+}
+
+std::optional<Fit> fit_through_resonance(const force::Setup& setup,
+                                         const force::Law& law,
+                                         std::span<const Run> runs, const Fit& rigid) {
+  if (!repeats(runs, rigid)) return std::nullopt;
+  Resonances found = find_resonances(runs, rigid.fitted, {});
+  if (!any(found)) return std::nullopt;
+  Fit fit = rigid;
+  for (int i = 0; i < rounds; ++i) {
+    Options options = rigid.options;
+    options.response = responses(runs, found);
+    options.start = Start{fit.runout, fit.phase};
+    fit = identify(setup, law, runs, options);
+    if (!fit.ok) return std::nullopt;
+    const Resonances next = find_resonances(runs, fit.fitted, options.response);
+    if (!any(next)) return std::nullopt;
+    const bool done = same(found, next);
+    found = next;
+    if (done) break;
+  }
+  if (!(fit.unexplained.all < rigid.unexplained.all)) return std::nullopt;
+  fit.resonances = found;
+  return fit;
+}
+
+}  // namespace trochoid::identification
