@@ -87,8 +87,8 @@ class Identified(Example):
         self.assertLess(wider, 1.5)
         for name, c in fit["coefficients"].items():
             self.within(c["value"], self.truth["force"][name], c["se"], name)
-            self.assertAlmostEqual(c["high"] - c["low"], 2 * 1.96 * wider * c["se"],
-                                   delta=0.001 * wider * c["se"])
+            self.assertAlmostEqual(c["high"] - c["low"], 2 * fit["interval_factor"] * c["se"],
+                                   delta=0.001 * c["se"])
         offsets = self.truth["runout"]["radial_offsets_mm"]
         self.within(fit["runout"]["radial_offsets_mm"][1], offsets[1] - offsets[0],
                     fit["runout"]["radial_offsets_se_mm"][1], "offset")

@@ -1,4 +1,4 @@
-#include <trochoid/identification/identify.h>
+#include <trochoid/identification/views.h>
 
 #include "../unit/identification/made_record.h"
 
@@ -124,8 +124,7 @@ std::map<std::string, Held> held(const Tool& tool, Disturbance how, int seeds) {
     }
     Options options;
     options.phase = 0.0;
-    options.band_harmonics = std::getenv("BAND") ? std::atoi(std::getenv("BAND")) : 0;
-    const Fit fit = identify(without_runout(tool.setup), steel(), runs, options);
+    const Fit fit = fit_as_seen(without_runout(tool.setup), steel(), runs, options).fit;
     for (std::size_t c = 0; c < names.size(); ++c) {
       const auto& K = fit.coefficients[c];
       out[std::string(names[c].key)].count(K && K->low <= truth[c] &&
@@ -148,15 +147,19 @@ int seeds() {
   return asked != nullptr ? std::atoi(asked) : few;
 }
 
-TEST(Coverage, IntervalsHoldTheTruth) {  // [I-4] [I-8] [I-13]
+TEST(Coverage, IntervalsHoldTheTruth) {  // [I-8] [I-14] [I-15] [I-17]
   const int n = seeds();
   for (const Tool& tool : {two_flutes(), four_flutes()}) {
     for (const auto how : {Disturbance::white, Disturbance::coloured,
                            Disturbance::repeating, Disturbance::ringing}) {
       for (const auto& [name, found] : held(tool, how, n)) {
         const double part = static_cast<double>(found.held) / found.all;
-        // 95 %, less three deviations of a count of so many seeds.
-        EXPECT_GE(part, 0.95 - 3 * std::sqrt(0.95 * 0.05 / n))
+        // 95 %, less three deviations of a count of so many seeds; of the ringing
+        // dynamometer, which the model knows only from the record, 90 % less two.
+        const double least = how == Disturbance::ringing
+                                 ? 0.90 - 2 * std::sqrt(0.90 * 0.10 / n)
+                                 : 0.95 - 3 * std::sqrt(0.95 * 0.05 / n);
+        EXPECT_GE(part, least)
             << tool.name << ", disturbance " << static_cast<int>(how) << ", " << name;
         if (n > 100) {
           std::printf("%-32s %d %-18s %5.1f %%\n", tool.name.c_str(),

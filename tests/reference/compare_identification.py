@@ -84,7 +84,8 @@ class Identify(unittest.TestCase):
         runs[1]["cut"] = {"feed_per_tooth_mm": 0.08}
         runs[1] = {**runs[1]}
         answer = self.identify("two", given, {"chip_models": ["trochoidal", "radial"],
-                                              "runout": "fixed", "phase_deg": 0.0}, runs)
+                                              "runout": "fixed", "phase_deg": 0.0,
+                                              "errors": "white"}, runs)
         for fit, model in zip(answer.result["fits"], ("trochoidal", "radial")):
             D = np.vstack([ident.stacked(replace(c, model=model), angle)
                            for c in (case, fast)])
@@ -98,29 +99,45 @@ class Identify(unittest.TestCase):
             np.testing.assert_allclose(fit["rms_axis_N"], axis, rtol=1e-5)
             self.assertAlmostEqual(fit["condition"], cond, delta=1e-3 * cond)
             self.assertEqual(rank, 6)
-            left = res.reshape(2, -1, 3)
-            wider = ident.widening([angle, angle], left, 6)
-            self.assertAlmostEqual(fit["interval_widening"], wider, delta=1e-4 * wider)
             for key, value, s in zip(fit["coefficients"], want, se):
-                lo, hi = ident.interval(value, wider * s, len(y) - 6)
+                lo, hi = ident.interval(value, s, len(y) - 6)
                 got = fit["coefficients"][key]
                 self.assertAlmostEqual(got["low"], lo, delta=2e-3 * s, msg=key)
                 self.assertAlmostEqual(got["high"], hi, delta=2e-3 * s, msg=key)
 
-    def test_what_repeats_widens_the_intervals(self):  # [I-13]
+    def vibrating(self, name, turns_each, feeds):
+        """Runs with a vibration locked to the spindle: the fit, and our own of it."""
         given = tables()
         case, K_true = truth(given)
-        angle = turns(120, 15)
-        F = record(case, K_true, angle, noise=6)
-        F = F + 8 * np.sin(np.outer(11 * angle, [1, 1, 1]) + [0.3, 1.2, 2.2])
-        fit = self.identify("repeats", given, {"chip_models": ["trochoidal"],
-                                               "runout": "fixed", "phase_deg": 0.0},
-                            [self.write("r.csv", angle, F)]).result["fits"][0]
-        D = ident.stacked(case, angle)
-        y = F.ravel()
+        angle = turns(120, turns_each)
+        cases = [replace(case, f_z=f_z) for f_z in feeds]
+        vibration = 8 * np.sin(np.outer(11 * angle, [1, 1, 1]) + [0.3, 1.2, 2.2])
+        F = [record(c, K_true, angle, noise=6, seed=i) + vibration * (1 + i)
+             for i, c in enumerate(cases)]
+        runs = [{**self.write(f"{name}{i}.csv", angle, f),
+                 "cut": {"feed_per_tooth_mm": f_z}} for i, (f, f_z) in enumerate(zip(F, feeds))]
+        fit = self.identify(name, given, {"chip_models": ["trochoidal"], "runout": "fixed",
+                                          "phase_deg": 0.0, "band_harmonics": 0},
+                            runs).result["fits"][0]
+        D = np.vstack([ident.stacked(c, angle) for c in cases])
+        y = np.concatenate([f.ravel() for f in F])
         want, _, _ = ident.linear(D, y)
-        wider = ident.widening([angle], [(y - D @ want).reshape(-1, 3)], 6)
-        self.assertGreater(wider, 3)
+        left = (y - D @ want).reshape(len(feeds), -1, 3)
+        return fit, D, angle, left, want
+
+    def test_what_repeats_counts_by_its_spectrum(self):  # [I-14] [I-15]
+        for name, feeds in (("one", [0.04]), ("three", [0.04, 0.07, 0.1])):
+            fit, D, angle, left, want = self.vibrating(name, 15, feeds)
+            cov = ident.spectral_covariance(D, [(angle, 15)] * len(feeds), left, 3, 48)
+            self.same_coefficients(fit, want, np.sqrt(np.diag(cov)), se_rel=2e-3)
+            self.assertGreater(fit["interval_factor"], 1.96)
+
+    def test_a_short_record_counts_its_neighbours(self):  # [I-13]
+        fit, D, angle, left, want = self.vibrating("short", 3, [0.04])
+        wider = ident.widening([angle], left, 6)
+        self.assertGreater(wider, 2)
+        se = wider * ident.standard_errors(D, left.ravel())
+        self.same_coefficients(fit, want, se, se_rel=2e-3)
         self.assertAlmostEqual(fit["interval_widening"], wider, delta=1e-4 * wider)
 
     def joint(self, name, given, kind, names, start, phase, per_turn=90, noise=6.0):
@@ -130,7 +147,7 @@ class Identify(unittest.TestCase):
         want = ident.joint(case, angle, F, names, start)
         unknown = {k: v for k, v in given.items() if k != "runout"}
         answer = self.identify(
-            name, unknown, {"chip_models": [case.model], "runout": kind,
+            name, unknown, {"chip_models": [case.model], "runout": kind, "errors": "white",
                             "phase_deg": "free" if "phase" in names else
                             float(np.degrees(phase))}, [self.write(f"{name}.csv", angle, F)])
         fit = answer.result["fits"][0]
@@ -174,7 +191,7 @@ class Identify(unittest.TestCase):
         F = F + x[:, None] * np.array([5.0, 0.0, -3.0])
         fit = self.identify("drift", given, {"chip_models": ["trochoidal"],
                                              "runout": "fixed", "phase_deg": 0.0,
-                                             "channel_offsets": "fit"},
+                                             "channel_offsets": "fit", "errors": "white"},
                             [self.write("drift.csv", angle, F)]).result["fits"][0]
         want = ident.fixed(case, angle, F, extra=ident.channel_columns(t))
         self.same_coefficients(fit, want["K"][:6], want["se"][:6], rel=1e-5)

@@ -149,6 +149,75 @@ def sweep(case, angle, F, offsets):
     return np.array(out)
 
 
+def waves(angle, highest):
+    """1, cos, sin, cos 2, sin 2 ... of angles, shape (n, 2 highest + 1)"""
+    k = np.arange(1, highest + 1)
+    both = np.stack([np.cos(np.outer(angle, k)), np.sin(np.outer(angle, k))], axis=2)
+    return np.hstack([np.ones((len(angle), 1)), both.reshape(len(angle), -1)])
+
+
+def by_turn(angle, left, turns, highest):
+    """[I-14] rows of what is left and their scatter, shape (3, 2 highest + 1)"""
+    n = len(angle)
+    scale = np.sqrt(np.where(np.arange(2 * highest + 1) == 0, n, 2.0 * n))
+    turn = np.floor((angle - angle[0]) / (2 * np.pi) + 1e-9).astype(int)
+    means = np.array([waves(angle[turn == t], highest).T @ left[turn == t]
+                      / np.count_nonzero(turn == t) for t in range(turns)])
+    rows = scale[:, None] * means.mean(axis=0)
+    scatter = scale[:, None] ** 2 / turns * means.var(axis=0, ddof=1)
+    slow = means[:, 0, :] - means[:, 0, :].mean(axis=0)
+    r = np.clip(np.sum(slow[1:] * slow[:-1], axis=0) / np.sum(slow**2, axis=0), 0.0, 0.9)
+    scatter[0] *= (1 + r) / (1 - r)
+    return rows.T, scatter.T
+
+
+def power(rows, scatter, h, tooth):
+    """[I-14] of each row of a run: what differs from turn to turn, and what repeats"""
+    free = 1 - np.minimum(h, 1)
+    k = (np.arange(rows.shape[1]) + 1) // 2
+    out = np.array(scatter)
+    excess = rows**2 - free * scatter
+    for q in range(3):
+        for line in range(rows.shape[1]):
+            same = tooth[k] == tooth[k[line]]
+            for away in range(k[-1] + 1):
+                near = same & (np.abs(k - k[line]) <= away)
+                if free[q, near].sum() >= 12:
+                    break
+            f, e = free[q, near].sum(), excess[q, near].sum()
+            if f < 5:
+                f, e = free.sum(), excess.sum()
+            out[q, line] += max(0.0, e / f)
+    return out
+
+
+def spectral_covariance(J, runs, left, teeth, highest):
+    """[I-14] [I-15] of a joint fit of runs, each of whole turns at even angles
+
+    J     of all runs, shape (3 n, unknowns), three rows a sample
+    runs  (angle, turns) of each; left as they are, shape (n, 3) each
+    """
+    G = np.linalg.inv(J.T @ J)
+    tooth = np.arange(highest + 1) % teeth == 0
+    cov, first, single = 0, 0, []
+    for (angle, turns), d in zip(runs, left):
+        n = len(angle)
+        own = J[first:first + 3 * n].reshape(n, 3, -1)
+        first += 3 * n
+        scale = np.sqrt(np.where(np.arange(2 * highest + 1) == 0, 1.0, 2.0) / n)
+        x = np.einsum("nk,nqp->qkp", waves(angle, highest), own) * scale[None, :, None]
+        h = np.einsum("qki,ij,qkj->qk", x, G, x)
+        P = power(*by_turn(angle, d, turns, highest), h, tooth)
+        u = x @ G
+        cov = cov + np.einsum("qki,qk,qkj->ij", u, P, u)
+        single.append(G @ np.einsum("nqp,nq->p", own, d))
+    R = len(runs)
+    if R > 1:
+        ratio = np.sum(np.square(single), axis=0) / np.diag(cov)
+        cov = cov * max(1.0, R / (R - 1) * np.mean(ratio))
+    return cov
+
+
 def widening(angles, left, unknowns):
     """[I-13] by how much intervals are wider than white noise would make them."""
     def c2(values, following):

@@ -314,12 +314,13 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   fit.runout = point.runout;
   fit.runout.radial_offsets.resize(index(u.teeth), 0.0);
   fit.radial_offsets_se.assign(index(u.teeth), std::nullopt);
-  if (u.runout == RunoutUnknowns::offsets) {
-    fill_offsets(u, linear, reasons, fit);
-  } else if (u.runout == RunoutUnknowns::eccentricity && u.direction) {
+  fit.chance = known.chance;
+  const std::size_t first = u.runout == RunoutUnknowns::both ? index(u.teeth - 1) : 0;
+  if (finds_offsets(u.runout)) fill_offsets(u, linear, reasons, fit);
+  if (u.runout == RunoutUnknowns::eccentricity && u.direction) {
     fill_single_direction(u, linear, p[0], reasons);
-  } else if (u.runout == RunoutUnknowns::eccentricity) {
-    fill_eccentricity(u, linear, {p[0], p[1]}, reasons, fit);
+  } else if (finds_eccentricity(u.runout)) {
+    fill_eccentricity(u, linear + first, {p[first], p[first + 1]}, reasons, fit);
   }
   for (std::size_t e = 0; e < index(u.exponent_count()); ++e) {
     const std::size_t i = index(u.runout_count()) + e;
@@ -344,9 +345,10 @@ void refuse_runout_of_one_tooth(Fit& fit) {
   const std::string reason =
       "a single tooth meets only marks of its own "
       "radius, so its runout changes nothing";
-  if (fit.options.runout == RunoutUnknowns::offsets) {
+  if (finds_offsets(fit.options.runout)) {
     fit.unidentifiable.emplace_back("radial_offsets_mm", reason);
-  } else if (fit.options.runout == RunoutUnknowns::eccentricity) {
+  }
+  if (finds_eccentricity(fit.options.runout)) {
     fit.unidentifiable.emplace_back("eccentricity_mm", reason);
     fit.unidentifiable.emplace_back("angle_deg", reason);
   }

@@ -39,13 +39,15 @@ bool only_noise(const Problem& problem, const numerics::LeastSquares& linear,
 /// A fit that explains next to nothing of a force that is not noise: why, else empty.
 std::string nothing_explained(const Fit& fit) {
   const Unexplained& u = fit.unexplained;
-  if (u.all * u.all <= 1.0 - least_explained || u.correlation <= noise_correlation) {
+  // Beyond its band a fit through resonances says what a lightly damped one makes of it.
+  const double left = fit.options.response.empty() ? u.all : u.in_band;
+  if (left * left <= 1.0 - least_explained || u.correlation <= noise_correlation) {
     return "";  // I-9
   }
   return fmt::format(
       "the best fit explains {:.1f} % of the force (sum of squares), and what it "
       "leaves is not noise: this record and this tool and cut do not belong together",
-      100.0 * (1.0 - u.all * u.all));
+      100.0 * (1.0 - left * left));
 }
 
 double samples_of(std::span<const Run> runs) {

@@ -12,6 +12,7 @@ bool teeth_are_alike(const Problem& problem) {
   if (u.phases == 0 || !geometry::equally_pitched(problem.setup.cutter.pitch))
     return false;
   const geometry::Runout& given = problem.setup.runout;
+  if (u.runout == RunoutUnknowns::both) return true;
   if (u.runout == RunoutUnknowns::offsets) return given.eccentricity == 0.0;
   if (u.runout == RunoutUnknowns::eccentricity) return geometry::equal_offsets(given);
   return geometry::runs_true(given);
@@ -28,7 +29,7 @@ bool apply_gauge(const Problem& problem, std::vector<double>& p) {
     shift = ((passed % u.teeth) + u.teeth) % u.teeth;
     for (double& phase : point.phase) phase -= passed * pitch;
   }
-  if (u.runout == RunoutUnknowns::offsets && shift != 0) {
+  if (finds_offsets(u.runout) && shift != 0) {
     auto& s = point.runout.radial_offsets;
     std::ranges::rotate(s, s.begin() + shift);
   }

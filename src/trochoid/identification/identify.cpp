@@ -18,7 +18,7 @@ constexpr double tolerance_at_nodes = 1e-7;
 double search_tolerance(const Problem& problem) {
   const geometry::Profile& profile = problem.setup.cutter.profile;
   const bool nodes = !force::keeps_radius(problem.setup) ||
-                     problem.unknowns.runout == RunoutUnknowns::eccentricity;
+                     finds_eccentricity(problem.unknowns.runout);
   const bool to_axis = profile.Rr == 0.0 && (profile.R > 0.0 || profile.alpha != 0.0);
   return nodes && !to_axis && !force::form(problem.law).power ? tolerance_at_nodes
                                                               : final_tolerance;

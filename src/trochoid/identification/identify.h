@@ -27,7 +27,18 @@ enum class RunoutUnknowns {
   fixed,         ///< as given
   offsets,       ///< of teeth 2..N; the first is 0
   eccentricity,  ///< rho and lambda
+  both,          ///< offsets and, besides, an eccentricity: told apart by the helix
 };
+
+/// Whether the offsets of the teeth are searched.
+constexpr bool finds_offsets(RunoutUnknowns unknowns) noexcept {
+  return unknowns == RunoutUnknowns::offsets || unknowns == RunoutUnknowns::both;
+}
+
+/// Whether an eccentricity is searched.
+constexpr bool finds_eccentricity(RunoutUnknowns unknowns) noexcept {
+  return unknowns == RunoutUnknowns::eccentricity || unknowns == RunoutUnknowns::both;
+}
 
 /// Names of files.
 constexpr std::string_view name_of(RunoutUnknowns unknowns) noexcept {
@@ -40,6 +51,8 @@ constexpr std::string_view name_of(RunoutUnknowns unknowns) noexcept {
       return "offsets";
     case RunoutUnknowns::eccentricity:
       return "eccentricity";
+    case RunoutUnknowns::both:
+      return "both";
   }
   return {};
 }
@@ -140,6 +153,8 @@ struct Fit {
   /// By how much the intervals of the coefficients are wider than white noise would make
   /// them: root mean square (I-13, I-14). The standard errors hold it.
   double widening = 1.0;
+  /// What one more unknown explains by chance of the sum of squares [N^2], on average.
+  double chance = 0.0;
   Unexplained unexplained;
   /// Of the dynamometer, in the axes of the tool, where they were found with the rest.
   Resonances resonances = {};

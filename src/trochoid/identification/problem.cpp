@@ -57,6 +57,7 @@ bool same_matrices(const Problem& problem, std::span<const double> a,
 int Unknowns::runout_count() const noexcept {
   if (runout == RunoutUnknowns::offsets) return teeth - 1;
   if (runout == RunoutUnknowns::eccentricity) return direction ? 1 : 2;
+  if (runout == RunoutUnknowns::both) return teeth + 1;
   return 0;
 }
 
@@ -73,14 +74,16 @@ int Problem::rows() const noexcept {
 Point point_of(const Problem& problem, std::span<const double> p) {
   const Unknowns& u = problem.unknowns;
   Point out{problem.setup.runout, problem.law, {}};
-  if (u.runout == RunoutUnknowns::offsets) {
+  if (finds_offsets(u.runout)) {
     out.runout.radial_offsets.assign(index(u.teeth), 0.0);
     for (int k = 1; k < u.teeth; ++k) {
       out.runout.radial_offsets[index(k)] = u.length * p[index(k - 1)];
     }
-  } else if (u.runout == RunoutUnknowns::eccentricity) {
-    const double c = u.direction ? p[0] * std::cos(*u.direction) : p[0];
-    const double s = u.direction ? p[0] * std::sin(*u.direction) : p[1];
+  }
+  if (finds_eccentricity(u.runout)) {
+    const std::size_t i = u.runout == RunoutUnknowns::both ? index(u.teeth - 1) : 0;
+    const double c = u.direction ? p[i] * std::cos(*u.direction) : p[i];
+    const double s = u.direction ? p[i] * std::sin(*u.direction) : p[i + 1];
     out.runout.eccentricity = u.length * std::hypot(c, s);
     out.runout.angle = c == 0.0 && s == 0.0 ? 0.0 : std::atan2(s, c);
   }
@@ -98,12 +101,13 @@ std::vector<double> parameters_of(const Problem& problem, const Point& point) {
   const Unknowns& u = problem.unknowns;
   std::vector<double> p;
   p.reserve(index(u.count()));
-  if (u.runout == RunoutUnknowns::offsets) {
+  if (finds_offsets(u.runout)) {
     const auto& s = point.runout.radial_offsets;
     for (std::size_t k = 1; k < index(u.teeth); ++k) {
       p.push_back(s.empty() ? 0.0 : (s[k] - s[0]) / u.length);
     }
-  } else if (u.runout == RunoutUnknowns::eccentricity) {
+  }
+  if (finds_eccentricity(u.runout)) {
     const double rho = point.runout.eccentricity / u.length;
     if (u.direction) {
       p.push_back(rho * std::cos(point.runout.angle - *u.direction));

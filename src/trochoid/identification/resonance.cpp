@@ -18,13 +18,15 @@ using std::complex;
 constexpr int most_harmonics = 60;
 /// Slower ones than this harmonic are those of the machine, not of a dynamometer.
 constexpr int first_harmonic = 3;
-constexpr std::array dampings{0.005, 0.01, 0.02, 0.04, 0.08, 0.16};
+/// Less damping is not believed: near a harmonic, amplitude alone would tell it.
+constexpr double least_damping = 0.02;
+constexpr std::array dampings{0.02, 0.03, 0.05, 0.08, 0.12, 0.2};
 /// A resonance that explains less of what is left is none.
 constexpr double least_explained = 0.3;
 /// What a rigid fit leaves must repeat turn by turn so much beyond what scatter makes of it.
-constexpr double repeating = 1.5;
-constexpr int rounds = 6;
-constexpr double settled = 1e-3;  ///< of the frequencies
+constexpr double repeating = 1.2;
+/// The second time the force is better known.
+constexpr int rounds = 2;
 
 /// Measured and computed amplitude of one axis at one harmonic.
 struct Line {
@@ -76,6 +78,7 @@ Resonance best_resonance(std::span<const Line> lines, double lowest, double high
   Resonance best;
   double least = INFINITY;
   const auto try_one = [&](double omega_n, double zeta) {
+    if (zeta < least_damping) return false;
     const double s = squares(lines, omega_n, zeta);
     if (!(s < least)) return false;
     least = s;
@@ -108,7 +111,26 @@ std::vector<Response> responses(std::span<const Run> runs, const Resonances& fou
   return out;
 }
 
-/// Whether what a fit leaves repeats turn by turn.
+/// The harmonics below the slowest resonance that bear it: its frequency is known to a
+/// per cent, by which the amplification then changes by little more.
+int band_below(std::span<const Run> runs, const Resonances& found) {
+  constexpr double bearable = 0.7;
+  double highest = most_harmonics;
+  for (const Run& run : runs) {
+    highest = std::min(highest, double(resolved_harmonics(run)));
+    for (const auto& r : found) {
+      if (r) highest = std::min(highest, bearable * r->omega / run.cut.Omega);
+    }
+  }
+  return static_cast<int>(highest);
+}
+
+bool any(const Resonances& found) {
+  return std::ranges::any_of(found, [](const auto& r) { return r.has_value(); });
+}
+
+}  // namespace
+
 bool repeats(std::span<const Run> runs, const Fit& fit) {
   double left = 0.0;
   double scatter = 0.0;
@@ -122,20 +144,6 @@ bool repeats(std::span<const Run> runs, const Fit& fit) {
   }
   return left > repeating * scatter;
 }
-
-bool any(const Resonances& found) {
-  return std::ranges::any_of(found, [](const auto& r) { return r.has_value(); });
-}
-
-bool same(const Resonances& a, const Resonances& b) {
-  for (std::size_t q = 0; q < 3; ++q) {
-    if (a[q].has_value() != b[q].has_value()) return false;
-    if (a[q] && std::abs(a[q]->omega / b[q]->omega - 1.0) > settled) return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 int resolved_harmonics(const Run& run) {
   const double span = std::abs(run.angle.back() - run.angle.front());
@@ -181,24 +189,22 @@ Response response_of(const Resonances& resonances, double Omega, int highest) {
 std::optional<Fit> fit_through_resonance(const force::Setup& setup,
                                          const force::Law& law,
                                          std::span<const Run> runs, const Fit& rigid) {
-  if (!repeats(runs, rigid)) return std::nullopt;
   Resonances found = find_resonances(runs, rigid.fitted, {});
   if (!any(found)) return std::nullopt;
-  Fit fit = rigid;
+  std::optional<Fit> fit;
   for (int i = 0; i < rounds; ++i) {
+    const Fit& from = fit ? *fit : rigid;
     Options options = rigid.options;
     options.response = responses(runs, found);
-    options.start = Start{fit.runout, fit.phase};
-    fit = identify(setup, law, runs, options);
-    if (!fit.ok) return std::nullopt;
-    const Resonances next = find_resonances(runs, fit.fitted, options.response);
-    if (!any(next)) return std::nullopt;
-    const bool done = same(found, next);
-    found = next;
-    if (done) break;
+    options.band_harmonics = band_below(runs, found);
+    options.start = Start{from.runout, from.phase};
+    if (!any(found) || options.band_harmonics < setup.cutter.teeth()) break;
+    Fit next = identify(setup, law, runs, options);
+    if (!next.ok) break;
+    next.resonances = found;
+    found = find_resonances(runs, next.fitted, options.response);
+    fit = std::move(next);
   }
-  if (!(fit.unexplained.all < rigid.unexplained.all)) return std::nullopt;
-  fit.resonances = found;
   return fit;
 }
 

@@ -28,10 +28,14 @@ Response response_of(const Resonances& resonances, double Omega, int highest);
 /// @brief The highest harmonic that a run resolves, and no more than is of use.
 int resolved_harmonics(const Run& run);
 
-/// @brief Fit force and dynamometer in turn, from a fit of a rigid one, until the
-/// resonances stay.
+/// @brief Whether what a fit leaves repeats turn by turn, well beyond what scatter makes of
+/// it; false where the runs are too short to tell.
+bool repeats(std::span<const Run> runs, const Fit& fit);
+
+/// @brief Fit force and dynamometer in turn, from a fit of a rigid one.
 /// @param rigid  of the same setup, law, runs and options
-/// @return nothing where no resonance is seen, or the fit is not better for it
+/// @return nothing where no resonance is seen, or the fit is not better for it; worth asking where
+///         what the rigid fit leaves repeats
 std::optional<Fit> fit_through_resonance(const force::Setup& setup,
                                          const force::Law& law,
                                          std::span<const Run> runs, const Fit& rigid);

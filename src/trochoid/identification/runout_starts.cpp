@@ -101,6 +101,31 @@ void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>&
   }
 }
 
+void add_eccentric_starts(const Problem& problem,
+                          std::vector<std::vector<double>>& out) {
+  for (const double rho : amplitudes(problem, 0.3, 0.8)) {
+    for (const double lambda : directions(problem, 6)) {
+      out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
+    }
+  }
+}
+
+/// Either without the other.
+void add_starts_of_both(const Problem& problem, std::vector<std::vector<double>>& out) {
+  std::vector<std::vector<double>> some;
+  add_offset_starts(problem, some);
+  for (std::vector<double>& s : some) {
+    s.insert(s.end(), 2, 0.0);
+    out.push_back(std::move(s));
+  }
+  some.clear();
+  add_eccentric_starts(problem, some);
+  for (std::vector<double>& e : some) {
+    e.insert(e.begin(), index(problem.unknowns.teeth - 1), 0.0);
+    out.push_back(std::move(e));
+  }
+}
+
 }  // namespace
 
 std::vector<double> given_runout(const Problem& problem) {
@@ -119,7 +144,9 @@ std::vector<std::vector<double>> runout_starts(const Problem& problem) {
   const std::vector<double> given = given_runout(problem);
   if (std::ranges::any_of(given, [](double v) { return v != 0.0; }))
     out.push_back(given);
-  if (u.runout == RunoutUnknowns::offsets) {
+  if (u.runout == RunoutUnknowns::both) {
+    add_starts_of_both(problem, out);
+  } else if (u.runout == RunoutUnknowns::offsets) {
     add_offset_starts(problem, out);
   } else if (u.direction) {
     for (const double e : amplitudes(problem, 0.3, 0.8)) {
@@ -127,11 +154,7 @@ std::vector<std::vector<double>> runout_starts(const Problem& problem) {
       out.push_back({-e});
     }
   } else {
-    for (const double rho : amplitudes(problem, 0.3, 0.8)) {
-      for (const double lambda : directions(problem, 6)) {
-        out.push_back({rho * std::cos(lambda), rho * std::sin(lambda)});
-      }
-    }
+    add_eccentric_starts(problem, out);
   }
   return out;
 }

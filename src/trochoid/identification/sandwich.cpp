@@ -120,6 +120,7 @@ Harmonics harmonics_of(const Problem& problem, const Spectrum& spectrum,
 struct Scores {
   std::vector<double> covariance;  ///< of the unknowns, shape (p, p)
   std::vector<double> by_root;     ///< of each unknown: variance over root of freedom
+  double explained = 0.0;          ///< by chance, by all unknowns [N^2]
 };
 
 /// G^-1 x, the part of a row in each unknown.
@@ -136,6 +137,7 @@ void add_rows(const Harmonics& run, std::span<const double> G, Scores& sums) {
   const std::size_t p = sums.by_root.size();
   const std::vector<Power> P = powers(run);
   for (std::size_t row = 0; row < P.size(); ++row) {
+    sums.explained += P[row].value * run.h[row];
     const std::vector<double> u = influence(std::span(run.x).subspan(row * p, p), G);
     for (std::size_t i = 0; i < p; ++i) {
       for (std::size_t j = 0; j < p; ++j) {
@@ -185,7 +187,7 @@ std::optional<Sandwich> sandwich(const Problem& problem, const numerics::Columns
                                  std::span<const std::size_t> shared,
                                  const Leftover& left) {
   const std::size_t p = J.count();
-  Scores sums{std::vector<double>(p * p, 0.0), std::vector<double>(p, 0.0)};
+  Scores sums{std::vector<double>(p * p, 0.0), std::vector<double>(p, 0.0), 0.0};
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& folded = problem.runs[r];
     const Spectrum spectrum = spectrum_of(left.runs[r], left.fitted[r], folded.band);
@@ -195,7 +197,8 @@ std::optional<Sandwich> sandwich(const Problem& problem, const numerics::Columns
     add_rows(harmonics_of(problem, spectrum, folded, own, inverse_gram), inverse_gram,
              sums);
   }
-  Sandwich out{std::move(sums.covariance), 1e9};
+  Sandwich out{std::move(sums.covariance), 1e9,
+               sums.explained / static_cast<double>(p)};
   Shared common{shared, {}};
   for (std::size_t i = 0; i < p; ++i) {
     const double variance = common.variance.emplace_back(out.covariance[i * p + i]);
@@ -204,6 +207,7 @@ std::optional<Sandwich> sandwich(const Problem& problem, const numerics::Columns
     out.freedom = std::min(out.freedom, root * root);
   }
   const double B2 = disagreement(problem, J, left.rows, common, inverse_gram);
+  out.chance *= B2;
   for (double& v : out.covariance) v *= B2;
   return out;
 }

@@ -22,6 +22,7 @@ struct Leftover {
 struct Sandwich {
   std::vector<double> covariance;  ///< shape (unknowns, unknowns)
   double freedom = 0.0;            ///< of its least known variance
+  double chance = 0.0;  ///< sum of squares that an unknown explains by chance [N^2]
 };
 
 /// @brief Covariance by the spectrum of what the fit leaves, and by how far the runs agree.

@@ -76,7 +76,7 @@ struct Sums {
 Sums sums_of(std::span<const double> angle,
              std::span<const std::array<double, 3>> values, const Blocks& blocks) {
   Sums out;
-  out.bins = std::clamp(static_cast<std::size_t>(4.0 * blocks.per_turn),
+  out.bins = std::clamp(static_cast<std::size_t>(4.0 * blocks.per_turn + 0.5),
                         std::size_t{90}, most_bins);
   out.sum.assign(blocks.count * out.bins, {});
   out.samples.assign(blocks.count, 0.0);
@@ -135,7 +135,7 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
                      int band) {
   Spectrum out;
   const Blocks blocks = blocks_of(run);
-  const int resolved = static_cast<int>(0.5 * (blocks.per_turn - 1.0));
+  const int resolved = static_cast<int>(0.5 * (blocks.per_turn - 1.0) + 1e-6);
   const int highest = std::min(resolved, band > 0 ? (band - 1) / 2 : most_harmonics);
   if (blocks.count == 0 || highest < 1) return out;
   out.highest = highest;

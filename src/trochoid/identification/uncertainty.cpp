@@ -174,6 +174,7 @@ std::vector<double> covariance_of(const Problem& problem, const Determined& unkn
   const double variance = out.freedom > 0.0 ? left.rss / out.freedom : 0.0;
   std::vector<double> white = unknowns.inverse_gram;
   for (double& v : white) v *= variance;
+  out.chance = variance;
   if (left.runs.empty() || !(variance > 0)) return white;
   auto found = sandwich(problem, unknowns.J, unknowns.inverse_gram,
                         shared_of(problem, unknowns.which), left);
@@ -182,9 +183,11 @@ std::vector<double> covariance_of(const Problem& problem, const Determined& unkn
     out.widening = interval_widening(left.runs, left.fitted,
                                      static_cast<int>(unknowns.which.size()));
     for (double& v : white) v *= out.widening * out.widening;
+    out.chance *= out.widening * out.widening;
     return white;
   }
   out.quantile_freedom = std::min(out.freedom, std::max(1.0, found->freedom));
+  out.chance = found->chance;
   out.widening = widening_of(problem, unknowns, found->covariance, variance) *
                  numerics::student_t(0.975, out.quantile_freedom) /
                  numerics::student_t(0.975, out.freedom);
@@ -204,11 +207,12 @@ std::vector<std::string> names_of(const Problem& problem) {
                               i % 2 == 0 ? "offset" : "drift", i % 6 / 2 + 1,
                               i / 6 + 1));
   }
-  if (u.runout == RunoutUnknowns::offsets) {
+  if (finds_offsets(u.runout)) {
     for (int k = 1; k < u.teeth; ++k) {
       out.push_back(fmt::format("radial_offsets_mm[{}]", k + 1));
     }
-  } else if (u.runout == RunoutUnknowns::eccentricity) {
+  }
+  if (finds_eccentricity(u.runout)) {
     out.emplace_back("eccentricity_mm");
     if (!u.direction) out.emplace_back("angle_deg");
   }

@@ -26,6 +26,7 @@ struct Uncertainty {
   double quantile_freedom = 0.0;   ///< of the intervals: no more than that
   /// Intervals of the coefficients over those that white noise would give (rms of them).
   double widening = 1.0;
+  double chance = 0.0;  ///< that one unknown explains by chance, on average [N^2]
 };
 
 /// Names of the summary, in the order of Uncertainty::reason.

@@ -30,6 +30,7 @@ struct Sampling {
 /// [dynamometer]: channel i = sum over j of matrix[i][j] times force j on the tool.
 struct Dynamometer {
   bool automatic = false;  ///< axes = "auto": find the signed permutation
+  bool rigid = false;      ///< resonance = "none": none is looked for
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
@@ -88,9 +89,10 @@ constexpr std::string_view name_of(ChannelOffset offset) noexcept {
 struct Identify {
   std::vector<chip::Model> chip_models = {chip::Model::none, chip::Model::feed,
                                           chip::Model::trochoidal};
-  identification::RunoutUnknowns runout = identification::RunoutUnknowns::offsets;
-  std::optional<double> phase;  ///< [rad]; absent: free
-  int band_harmonics = 0;       ///< 0: all
+  /// Absent: decided by the record.
+  std::optional<identification::RunoutUnknowns> runout;
+  std::optional<double> phase;        ///< [rad]; absent: free
+  std::optional<int> band_harmonics;  ///< 0: all; absent: chosen from the record
   ChannelOffset channel_offsets = ChannelOffset::automatic;
   identification::Errors errors = identification::Errors::automatic;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]

@@ -102,6 +102,7 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   if (!sound(findings, {"dynamometer.axes", "dynamometer.matrix"})) {
     return result;
   }
+  result.rigid = table.resonance == Resonance::none;
   if (!table.axes.empty() && !table.matrix.empty()) {
     report(
         findings, "dynamometer.matrix",
@@ -156,9 +157,20 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
   Identify result{.chip_models = table.chip_models,
                   .runout = table.runout,
                   .phase = table.phase,
-                  .band_harmonics = table.band_harmonics,
+                  .band_harmonics = std::nullopt,
                   .channel_offsets = table.channel_offsets,
                   .errors = table.errors};
+  if (table.band_harmonics && sound(findings, {"identify.band_harmonics"})) {
+    const double n = *table.band_harmonics;
+    if (n != std::round(n)) {
+      report(
+          findings, "identify.band_harmonics",
+          fmt::format("identify.band_harmonics = {}: harmonics are counted; must be a "
+                      "whole number from 0 to 1000000, or \"auto\"",
+                      number_text(n)));
+    }
+    result.band_harmonics = static_cast<int>(n);
+  }
   const auto& models = table.chip_models;
   if (tables.chip.lookback == chip::Lookback::previous &&
       std::find(models.begin(), models.end(), chip::Model::radial) != models.end()) {

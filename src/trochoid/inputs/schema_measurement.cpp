@@ -54,6 +54,10 @@ void describe(const Visitor& v, DynamometerTable& t) {
      .rival = "axes",
      .example = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"},
     &t.matrix);
+  v({.name = "resonance",
+     .meaning = "of the dynamometer, in each axis; auto: found with the rest where the "
+                "record shows it; none: the dynamometer is rigid"},
+    choice(t.resonance));
 }
 
 void describe(const Visitor& v, MeasurementTable& t) {
@@ -108,9 +112,9 @@ void describe(const Visitor& v, IdentifyTable& t) {
   v({.name = "chip_models", .meaning = "one fit for each of these chip models"},
     choices(t.chip_models));
   v({.name = "runout",
-     .meaning = "none; fixed: [runout] as it stands; or find the "
-                "radial offsets, or the eccentricity"},
-    choice(t.runout));
+     .meaning = "none; fixed: [runout] as it stands; or find the radial offsets, the "
+                "eccentricity, or both; auto: what the record decides for"},
+    choice(t.runout, "auto"));
   v({.name = "phase_deg",
      .meaning =
          "true angle of the tip of tooth 1 minus the recorded angle; free: found",
@@ -118,8 +122,11 @@ void describe(const Visitor& v, IdentifyTable& t) {
      .word = "free"},
     &t.phase);
   v({.name = "band_harmonics",
-     .meaning = "fit only the mean and so many harmonics of the spindle; 0: everything",
-     .range = between(0, 1e6)},
+     .meaning =
+         "fit only the mean and so many harmonics of the spindle; 0: everything; "
+         "auto: everything, or what lies below a resonance of the dynamometer",
+     .range = between(0, 1e6),
+     .word = "auto"},
     &t.band_harmonics);
   v({.name = "channel_offsets",
      .meaning =

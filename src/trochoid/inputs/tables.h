@@ -81,9 +81,24 @@ struct ForceTable {
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };
 
+/// What is done about a dynamometer that rings.
+enum class Resonance { automatic, none };
+
+/// Names of files.
+constexpr std::string_view name_of(Resonance resonance) noexcept {
+  switch (resonance) {
+    case Resonance::automatic:
+      return "auto";
+    case Resonance::none:
+      return "none";
+  }
+  return {};
+}
+
 struct DynamometerTable {
   std::vector<std::string> axes;
   Rows matrix;
+  Resonance resonance = Resonance::automatic;
 };
 
 struct MeasurementTable {
@@ -100,9 +115,9 @@ struct MeasurementTable {
 
 struct IdentifyTable {
   std::vector<chip::Model> chip_models = Identify{}.chip_models;
-  identification::RunoutUnknowns runout = identification::RunoutUnknowns::offsets;
+  std::optional<identification::RunoutUnknowns> runout;
   std::optional<double> phase;
-  int band_harmonics = 0;
+  std::optional<double> band_harmonics;
   ChannelOffset channel_offsets = ChannelOffset::automatic;
   identification::Errors errors = identification::Errors::automatic;
   std::optional<base::Steps> sweep;

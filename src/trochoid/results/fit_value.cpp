@@ -6,12 +6,14 @@
 
 #include <fmt/core.h>
 
+#include <array>
+
 namespace trochoid::results {
 
 namespace {
 
+using identification::finds_offsets;
 using identification::Fit;
-using identification::RunoutUnknowns;
 using identification::unidentifiable;
 
 /// A number that may be unknown, as a file has it.
@@ -25,7 +27,7 @@ Value runout_value(const Fit& fit) {
   }
   Array offsets;
   Array errors;
-  const bool found = fit.options.runout == RunoutUnknowns::offsets;
+  const bool found = finds_offsets(fit.options.runout);
   for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
     const bool unknown =
         unidentifiable(fit, "radial_offsets_mm") ||
@@ -70,6 +72,20 @@ Array channel_offsets_value(const Fit& fit) {
     runs.emplace_back(std::move(channels));
   }
   return runs;
+}
+
+/// Of the dynamometer, in the axes of the tool; null where none was found.
+Object resonances_value(const Fit& fit) {
+  Object out;
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t q = 0; q < 3; ++q) {
+    const auto& one = fit.resonances[q];
+    set(out, axes[q],
+        one ? Value(Object{{"frequency_Hz", one->omega / unit::turn},
+                           {"damping_ratio", one->zeta}})
+            : Value());
+  }
+  return out;
 }
 
 /// `coefficients`, and which of them and of the rest are identifiable.
@@ -121,6 +137,7 @@ Object fit_value(const Fit& fit) {
       {"condition", solved ? Value(fit.condition) : Value()},
       {"rank", solved ? Value(fit.rank) : Value()},
       {"degrees_of_freedom", number(fit.freedom)},
+      {"band_harmonics", fit.options.band_harmonics},
       {"interval_factor", number(fit.interval_factor)},
       {"residual_correlation", number(fit.residual_correlation)},
       {"interval_widening", number(fit.widening)},
@@ -128,6 +145,9 @@ Object fit_value(const Fit& fit) {
       {"unexplained", number(fit.unexplained.all)},
       {"outside_band", number(fit.unexplained.outside)}};
   out.insert(out.end(), quality.begin(), quality.end());
+  if (fit.ok && !fit.options.response.empty()) {
+    out.push_back({"resonances", resonances_value(fit)});
+  }
   out.push_back({"identifiable", std::move(identifiable)});
   return out;
 }

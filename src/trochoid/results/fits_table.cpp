@@ -117,11 +117,14 @@ class Columns {
 };
 
 void add_runout(const Fit& first, Columns& columns) {
-  if (first.options.runout == RunoutUnknowns::eccentricity) {
+  const RunoutUnknowns form = first.options.runout;
+  if (form == RunoutUnknowns::none) return;
+  if (form != RunoutUnknowns::eccentricity) {
+    columns.row("radial_offsets_um[2..]", offsets_text);
+  }
+  if (finds_eccentricity(form)) {
     columns.row("eccentricity_um", eccentricity_text);
     columns.row("angle_deg", direction_text);
-  } else {
-    columns.row("radial_offsets_um[2..]", offsets_text);
   }
 }
 
@@ -134,10 +137,8 @@ void add_quality(Columns& columns) {
                ? fmt::format("{:.1f}", fit.condition)
                : std::string("rank deficient");
   });
-  columns.row("+- wider than by noise", [](const Fit& fit) {
-    return fit.options.band_harmonics > 0 ? std::string("-")
-                                          : fmt::format("x {:.1f}", fit.widening);
-  });
+  columns.row("+- wider than by noise",
+              [](const Fit& fit) { return fmt::format("x {:.1f}", fit.widening); });
 }
 
 }  // namespace

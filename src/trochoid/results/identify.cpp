@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
 #include <trochoid/results/curve_tables.h>
+#include <trochoid/results/estimate_value.h>
 #include <trochoid/results/fit_value.h>
 #include <trochoid/results/fits_table.h>
 #include <trochoid/results/material.h>
@@ -56,6 +57,34 @@ Object signal_value(const IdentifyResult& r) {
   return out;
 }
 
+Object form_value(const RunoutForm& form) {
+  Array tried;
+  for (const identification::FormTried& one : form.tried) {
+    tried.push_back(Object{{"form", identification::name_of(one.form)},
+                           {"rms_N", one.rms},
+                           {"excess", one.excess}});
+  }
+  return Object{
+      {"form", identification::name_of(form.stated ? form.first : form.better)},
+      {"decided_by", form.stated ? "case" : "record"},
+      {"better", identification::name_of(form.better)},
+      {"why", form.why},
+      {"tried", std::move(tried)}};
+}
+
+/// How the answer depends on the harmonics that are fitted.
+Array views_value(const IdentifyResult& r) {
+  const auto name = force::coefficient_quantities(r.fits.front().law).front();
+  Array out;
+  for (const identification::View& view : r.views) {
+    out.push_back(Object{{"band_harmonics", view.band_harmonics},
+                         {"resonance", view.resonant},
+                         {std::string(name.key), estimate_value(view.K_t, name.unit)},
+                         {"unexplained", view.unexplained}});
+  }
+  return out;
+}
+
 std::string_view verdict_of(const IdentifyResult& r) {
   if (!r.reasons_against.empty()) {
     return "do not use";
@@ -76,6 +105,8 @@ Object result_of(const IdentifyResult& r) {
     set(result, "signal", signal_value(r));
   }
   if (r.chosen) {
+    if (r.runout_form) set(result, "runout_form", form_value(*r.runout_form));
+    if (!r.views.empty()) set(result, "views", views_value(r));
     set(result, "verdict", verdict_of(r));
     set(result, "with_care", r.reasons_for_care);
     set(result, "do_not_use", r.reasons_against);
@@ -99,6 +130,11 @@ std::string signal_lines(const IdentifyResult& r) {
   return text;
 }
 
+std::string form_line(const IdentifyResult& r) {
+  if (!r.runout_form || r.runout_form->stated) return "";
+  return fmt::format("runout: {}\n", r.runout_form->why);
+}
+
 std::string verdict_line(const IdentifyResult& r) {
   if (!r.reasons_against.empty()) {
     return identification::do_not_use(r.reasons_against);
@@ -112,7 +148,7 @@ std::string short_table(const IdentifyResult& r) {
   if (!r.chosen) {
     return "No answer: " + r.heading.message + "\n";
   }
-  return verdict_line(r) + "\n\n" + fits_table(r.fits) + signal_lines(r);
+  return verdict_line(r) + "\n\n" + fits_table(r.fits) + form_line(r) + signal_lines(r);
 }
 
 /// folded.csv: mean and scatter of the measured force over one turn; none where no

@@ -3,6 +3,8 @@
 #include <trochoid/force/slice.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
+#include <trochoid/identification/runout_form.h>
+#include <trochoid/identification/views.h>
 #include <trochoid/results/answer.h>
 #include <trochoid/signal/revolutions.h>
 
@@ -31,6 +33,15 @@ struct OffsetSweep {
   std::vector<Curve> curves;  ///< one a fit
 };
 
+/// How the form of the runout was decided.
+struct RunoutForm {
+  identification::RunoutUnknowns first = {};   ///< that was fitted first
+  identification::RunoutUnknowns better = {};  ///< that the records decide for
+  bool stated = false;                         ///< the case asked for the first
+  std::string why;
+  std::vector<identification::FormTried> tried;
+};
+
 /// @brief What `identify` answers: coefficients, runout and phase from measured forces.
 struct IdentifyResult {
   Heading heading;
@@ -40,8 +51,11 @@ struct IdentifyResult {
   std::vector<std::string> reasons_against;
   /// Why the chosen numbers are to be used with care; empty: no reason seen.
   std::vector<std::string> reasons_for_care;
-  std::vector<RecordSummary> records;  ///< empty where they could not be used
-  signal::Matrix3 channels{};          ///< channels = matrix times force on the tool
+  /// What other bands, or a rigid dynamometer, would answer; empty: nothing else to see.
+  std::vector<identification::View> views;
+  std::optional<RunoutForm> runout_form;  ///< where one was searched
+  std::vector<RecordSummary> records;     ///< empty where they could not be used
+  signal::Matrix3 channels{};             ///< channels = matrix times force on the tool
   std::optional<identification::AxesChoice> axes;  ///< where they were searched for
   std::vector<identification::Run> runs;           ///< measured force on the tool
   /// Turns of each record laid over one another; fewer than two: nothing to lay.

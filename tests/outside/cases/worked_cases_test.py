@@ -160,7 +160,8 @@ class WorkedCases(unittest.TestCase):
             del tables["chip"]
         tables["runout"].update(runout or {})
         tables["force"] = {"law": "linear_edge"}
-        tables["identify"] = {"chip_models": [chip], **identify}
+        tables["identify"] = {"chip_models": [chip], "band_harmonics": 0, "errors": "white",
+                              **identify}
         return self.run_program("identify", program.case_text(name, tables, self.measurement(c)),
                                 name.replace(" ", "_"), code)
 

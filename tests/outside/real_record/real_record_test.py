@@ -37,7 +37,7 @@ def case(feeds=None, **changes):
         "force": {"law": "linear_edge"},
         "dynamometer": {"axes": "auto"},
         "identify": {"chip_models": ["none", "feed", "trochoidal"], "runout": "offsets",
-                     "band_harmonics": 2, "channel_offsets": "fit"}}
+                     "band_harmonics": 2, "channel_offsets": "fit", "errors": "white"}}
     tables.update(changes)
     tables = {name: table for name, table in tables.items() if table is not None}
     text = program.case_text("two slots at 6000 rpm", tables)

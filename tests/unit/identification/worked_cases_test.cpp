@@ -95,6 +95,7 @@ TEST_P(WorkedCase, FitsAtFixedRunout) {  // [I-1] [I-2] [I-5] [I-6]
     Options options;
     options.phase = expected.at("phase_deg").get<double>() * unit::deg;
     options.runout = RunoutUnknowns::fixed;
+    options.errors = Errors::white;
     set_model(expected.at("model"), setup, options);
     for (const double shift : expected.at("shift_mm")) {
       setup.runout.radial_offsets.push_back(shift * unit::mm);
@@ -118,6 +119,7 @@ TEST_P(WorkedCase, JointFits) {  // [I-3] [I-4]
     force::Setup setup = setup_of(worked);
     Options options;
     options.phase = 0.0;
+    options.errors = Errors::white;
     set_model(expected.at("model"), setup, options);
     const std::vector<Record> runs = {record_of(worked, setup)};
     const Fit fit = identify(setup, steel(), runs, options);

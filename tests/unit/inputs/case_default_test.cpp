@@ -83,9 +83,10 @@ TEST(CaseDefaults, IdentifyNeedsNoCoefficients) {
   const Identify& i = c.identify;
   EXPECT_EQ(i.chip_models, (std::vector{chip::Model::none, chip::Model::feed,
                                         chip::Model::trochoidal}));
-  EXPECT_EQ(i.runout, identification::RunoutUnknowns::offsets);
+  EXPECT_EQ(i.runout, std::nullopt) << "decided by the record";
   EXPECT_FALSE(i.phase.has_value());
-  EXPECT_EQ(i.band_harmonics, 0);
+  EXPECT_EQ(i.band_harmonics, std::nullopt) << "chosen from the record";
+  EXPECT_EQ(i.errors, identification::Errors::automatic);
   EXPECT_EQ(i.channel_offsets, ChannelOffset::automatic);
   EXPECT_FALSE(i.sweep.has_value());
 }

@@ -96,9 +96,9 @@ TEST(FitWarnings, SayThatNoMaterialIsThatHard) {
 TEST(FitWarnings, SayWhatTheBandLeavesOut) {
   Fit fit = sound();
   fit.unexplained = {.in_band = 0.1, .all = 0.4, .outside = 0.35};
-  inputs::Case c = given();
-  c.identify.band_harmonics = 4;
-  EXPECT_EQ(code(fit, c), "outside_the_band");
+  fit.options.band_harmonics = 4;
+  EXPECT_EQ(code(fit), "outside_the_band");
+  EXPECT_NE(warnings(fit)[0].message.find("first 4 harmonics"), std::string::npos);
 }
 
 TEST(FitWarnings, SayThatMuchIsLeft) {
@@ -106,6 +106,7 @@ TEST(FitWarnings, SayThatMuchIsLeft) {
   fit.unexplained = {.in_band = 0.25, .all = 0.25};
   EXPECT_TRUE(warnings(fit).empty()) << "white noise is no reason to doubt";
   fit.residual_correlation = 0.55;
+  fit.widening = 2.0;
   const auto all = warnings(fit);
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[1].code, "poor_fit");

@@ -3,13 +3,14 @@
 namespace trochoid::run {
 
 identification::Options fit_options(const inputs::Case& given, chip::Model model) {
-  return {.chip_model = model,
-          .runout = given.identify.runout,
-          .phase = given.identify.phase,
-          .band_harmonics = given.identify.band_harmonics,
-          .fit_channel_offsets =
-              given.identify.channel_offsets == inputs::ChannelOffset::fit,
-          .errors = given.identify.errors};
+  return {
+      .chip_model = model,
+      .runout = given.identify.runout.value_or(identification::RunoutUnknowns::offsets),
+      .phase = given.identify.phase,
+      .band_harmonics = given.identify.band_harmonics.value_or(0),
+      .fit_channel_offsets =
+          given.identify.channel_offsets == inputs::ChannelOffset::fit,
+      .errors = given.identify.errors};
 }
 
 identification::AxesProblem axes_problem(const inputs::Case& given) {

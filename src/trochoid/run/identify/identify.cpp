@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
 #include <trochoid/run/identify/fit_options.h>
+#include <trochoid/run/identify/fits.h>
 #include <trochoid/run/identify/likely_causes.h>
 #include <trochoid/run/identify/warnings.h>
 #include <trochoid/run/shared/records.h>
@@ -22,23 +23,6 @@ using results::IdentifyResult;
 
 /// A fit that leaves less of the force (rms) reads its channels rightly.
 constexpr double too_good_to_doubt = 0.005;
-
-/// The exact model answers where it was asked for, else the one that fits best.
-std::optional<std::size_t> chosen_fit(const std::vector<Fit>& fits) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (!fits[i].ok) {
-      continue;
-    }
-    if (fits[i].chip.model == chip::Model::trochoidal) {
-      return i;
-    }
-    if (!best || fits[i].rms < fits[*best].rms) {
-      best = i;
-    }
-  }
-  return best;
-}
 
 std::optional<results::OffsetSweep> offset_sweep(
     const inputs::Case& given, std::span<const identification::Run> runs,
@@ -77,22 +61,6 @@ signal::OneRevolution folded(const identification::Run& run) {
                       static_cast<int>(std::clamp(per_turn, 36.0, 360.0)));
 }
 
-std::vector<Fit> all_fits(const inputs::Case& given,
-                          std::span<const identification::Run> runs,
-                          const std::optional<identification::Start>& start,
-                          const Progress& progress) {
-  std::vector<Fit> fits;
-  const auto models = static_cast<double>(given.identify.chip_models.size());
-  for (const chip::Model model : given.identify.chip_models) {
-    progress({"fitting, one chip model after the other",
-              static_cast<double>(fits.size()) / models});
-    identification::Options options = fit_options(given, model);
-    options.start = start;
-    fits.push_back(identification::identify(given.setup, given.law, runs, options));
-  }
-  return fits;
-}
-
 std::vector<results::RecordSummary> summaries(
     const std::vector<MeasuredRun>& measured) {
   std::vector<results::RecordSummary> all;
@@ -115,6 +83,20 @@ std::string headline(const IdentifyResult& r) {
       "{:.2f} N rms.",
       samples, r.records.size(), r.records.size() == 1 ? "" : "s",
       chip::name_of(fit.chip.model), fit.rms);
+}
+
+/// A stated form of the runout that another one beats.
+void warn_form(const std::optional<results::RunoutForm>& form,
+               std::vector<base::Warning>& warnings) {
+  if (form && form->stated && form->better != form->first) {
+    warnings.push_back(
+        {"runout_form",
+         fmt::format(
+             "Another form of the runout explains the record clearly better: {}. "
+             "The coefficients are biased by it: try runout = \"{}\" or \"auto\" "
+             "in [identify].",
+             form->why, identification::name_of(form->better))});
+  }
 }
 
 void warn_axes(const AxesChoice& axes, std::vector<base::Warning>& warnings) {
@@ -198,6 +180,7 @@ struct Identification {
     r.heading.message = headline(r);
     r.reasons_against = identification::reasons_against(chosen);
     add_fit_warnings(given, r.fits, chosen, r.heading.warnings);
+    warn_form(r.runout_form, r.heading.warnings);
     if (!r.reasons_against.empty()) {
       const std::string verdict = identification::do_not_use(r.reasons_against);
       r.heading.message = verdict + " " + r.heading.message;
@@ -238,7 +221,10 @@ struct Identification {
     r.records = summaries(measured);
     std::optional<identification::Start> start;
     if (r.axes) start = r.axes->start;
-    r.fits = all_fits(given, r.runs, start, progress);
+    Fits found = all_fits(given, r.runs, start, progress);
+    r.fits = std::move(found.fits);
+    r.views = std::move(found.views);
+    r.runout_form = std::move(found.runout_form);
     r.chosen = chosen_fit(r.fits);
     if (!r.chosen) {
       if (r.fits.back().rms > 0) {  // equations that could be solved, to no avail

@@ -27,7 +27,7 @@ constexpr double hardest = 20000 * unit::MPa;
 constexpr double much_ringing = 0.2;
 
 /// Warnings that cast a doubt on the numbers, and how to say it in a few words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> care{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> care{{
     {"clipped_channel", "a channel was driven beyond its range"},
     {"dead_channel", "a channel is dead"},
     {"axes_fit_better", "another reading of the channels fits better"},
@@ -39,6 +39,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> care{{
     {"poor_fit", "much of the force is not explained"},
     {"outside_the_band", "much of the force lies outside of the band"},
     {"other_model_fits_better", "a simpler chip model fits better"},
+    {"runout_form", "another form of runout explains more"},
     {"few_equations", "hardly more equations than unknowns"},
     {"runout_above_feed", "the teeth differ by more than the feed"},
     {"spindle_speed_unknown", "the spindle speed could not be found"},
@@ -46,7 +47,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> care{{
 
 void warn_correlation(const Fit& chosen, Warnings& warnings) {
   const double r = chosen.residual_correlation;
-  if (r > identification::noise_correlation) {
+  if (r > identification::noise_correlation && chosen.widening > 1.05) {
     warnings.push_back(
         {"correlated_residuals",
          fmt::format(
@@ -112,24 +113,42 @@ void warn_ringing(const inputs::Case& given, const Fit& chosen, Warnings& warnin
          fmt::format("{} of the force (rms) lies outside the mean and the first {} "
                      "harmonics, where the fit does not look: a ringing dynamometer, "
                      "chatter or noise.",
-                     base::percent(u.outside), given.identify.band_harmonics)});
+                     base::percent(u.outside), chosen.options.band_harmonics)});
   }
-  const bool noise = given.identify.band_harmonics == 0 &&
-                     chosen.residual_correlation <= identification::noise_correlation;
+  const bool banded = chosen.options.band_harmonics > 0;
+  const bool noise =
+      !banded && chosen.residual_correlation <= identification::noise_correlation;
   if (u.in_band > much_ringing && !noise &&
       identification::reasons_against(chosen).empty()) {
     const std::string hint =
-        given.identify.band_harmonics > 0
-            ? "Look at the residuals."
-            : fmt::format(
-                  "If the dynamometer rings, a fit of every harmonic is "
-                  "confidently wrong: try band_harmonics = {} in [identify].",
-                  given.setup.cutter.teeth());
+        banded ? "Look at the residuals."
+               : fmt::format(
+                     "If the dynamometer rings, compare band_harmonics = {} in "
+                     "[identify], or give its response: frf in [dynamometer].",
+                     given.setup.cutter.teeth());
     warnings.push_back(
         {"poor_fit",
          fmt::format("{} of the force (rms{}) is not explained. {}",
-                     base::percent(u.in_band),
-                     given.identify.band_harmonics > 0 ? ", in the band" : "", hint)});
+                     base::percent(u.in_band), banded ? ", in the band" : "", hint)});
+  }
+}
+
+/// Resonances that are in the model.
+void warn_resonance(const Fit& chosen, Warnings& warnings) {
+  std::vector<std::string> found;
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (const auto& one = chosen.resonances[q]) {
+      found.push_back(fmt::format("{:.0f} Hz in {}", one->omega / unit::turn, axes[q]));
+    }
+  }
+  if (!found.empty()) {
+    warnings.push_back(
+        {"dynamometer_resonance",
+         fmt::format(
+             "The dynamometer rings at {} of the tool. This is in the model, and "
+             "the mean and the first {} harmonics, below it, are fitted.",
+             fmt::join(found, ", "), chosen.options.band_harmonics)});
   }
 }
 
@@ -208,6 +227,7 @@ void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
   warn_signs(chosen, warnings);
   warn_size(chosen, warnings);
   warn_correlation(chosen, warnings);
+  warn_resonance(chosen, warnings);
   warn_ringing(given, chosen, warnings);
   warn_freedom(chosen, warnings);
   warn_other_model(fits, chosen, warnings);

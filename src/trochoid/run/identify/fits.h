@@ -1,0 +1,32 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/results/identify.h>
+#include <trochoid/run/shared/progress.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trochoid::run {
+
+/// Fits of all chip models, and how the form of the runout and the view of the records
+/// were decided.
+struct Fits {
+  std::vector<identification::Fit> fits;  ///< in the order of the case
+  std::vector<identification::View> views;
+  std::optional<results::RunoutForm> runout_form;
+};
+
+/// @brief Fit every chip model. What the case leaves to the records is decided with the
+/// most exact one, and holds for the others.
+/// @param start  where to search first, if it is known
+Fits all_fits(const inputs::Case& given, std::span<const identification::Run> runs,
+              const std::optional<identification::Start>& start,
+              const Progress& progress);
+
+/// The fit that counts: the exact model where it was asked for, else the one that fits
+/// best; none where none stands.
+std::optional<std::size_t> chosen_fit(const std::vector<identification::Fit>& fits);
+
+}  // namespace trochoid::run

@@ -1,0 +1,136 @@
+#include <trochoid/identification/resonance.h>
+#include <trochoid/identification/response.h>
+#include <trochoid/identification/views.h>
+
+#include "made_record.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+/// A dynamometer that reads forces through its own vibration.
+namespace trochoid::identification {
+namespace {
+
+TEST(Response, TurnsAmplitudesByAMatrixForEachHarmonic) {  // [I-16]
+  // Force x: 2 + 3 cos phi + 4 sin phi; y: 5 cos phi. H_1 delays x by a quarter and reads
+  // half of x in y.
+  const std::complex<double> quarter(0.0, -1.0);
+  Response response;
+  response.harmonic.push_back({1, 0, 0, 0, 1, 0, 0, 0, 1});
+  response.harmonic.push_back({quarter, 0, 0, 0.5, 1, 0, 0, 0, 1});
+  std::vector<double> c = {2, 0, 0, 3, 5, 0, 4, 0, 0, 7, 7, 7, 7, 7, 7};
+  respond(response, 1, c);
+  // 3 cos(phi - 90 deg) + 4 sin(phi - 90 deg) = 3 sin phi - 4 cos phi
+  const std::vector<double> want = {2, 0, 0, -4, 6.5, 0, 3, 2, 0, 0, 0, 0, 0, 0, 0};
+  for (std::size_t i = 0; i < c.size(); ++i) EXPECT_NEAR(c[i], want[i], 1e-12) << i;
+}
+
+force::Setup two_flutes() {
+  force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
+  setup.runout.radial_offsets = {0.0, -8.0 * unit::um};
+  return setup;
+}
+
+force::Setup without_runout(force::Setup setup) {
+  setup.runout = {};
+  return setup;
+}
+
+/// What a dynamometer with these resonances reads, by sums over the turn.
+Record read_through(const Resonances& resonances, Record run) {
+  constexpr std::size_t per_turn = 120;
+  const Response response =
+      response_of(resonances, run.cut.Omega, static_cast<int>(per_turn / 2 - 1));
+  const std::vector<std::array<double, 3>> force = run.force;
+  for (std::size_t q = 0; q < 3; ++q) {
+    std::vector<double> turn(per_turn, 0.0);
+    for (std::size_t k = 0; k < per_turn / 2; ++k) {
+      std::complex<double> F = 0.0;
+      for (std::size_t i = 0; i < per_turn; ++i) {
+        F += force[i][q] * std::polar(1.0, -static_cast<double>(k) * run.angle[i]);
+      }
+      F *= (k == 0 ? 1.0 : 2.0) / per_turn * response.harmonic[k][4 * q];
+      for (std::size_t i = 0; i < per_turn; ++i) {
+        turn[i] += (F * std::polar(1.0, static_cast<double>(k) * run.angle[i])).real();
+      }
+    }
+    for (std::size_t i = 0; i < run.force.size(); ++i) {
+      run.force[i][q] = turn[i % per_turn];
+    }
+  }
+  return run;
+}
+
+struct Ringing {
+  force::Setup setup = two_flutes();
+  Resonances truth;
+  std::vector<Record> runs;
+
+  Ringing() {
+    const double Omega = setup.cut.Omega;
+    truth = {Resonance{14.3 * Omega, 0.05, 0.0}, Resonance{17.6 * Omega, 0.04, 0.0},
+             std::nullopt};
+    for (const double f_z : {30e-6, 60e-6}) {
+      setup.cut.f_z = f_z;
+      runs.push_back(read_through(
+          truth, made_record(setup, steel(), {.per_turn = 120, .turns = 8})));
+    }
+  }
+
+  [[nodiscard]] Options options() const {
+    Options out;
+    out.phase = 0.0;
+    return out;
+  }
+};
+
+TEST(Response, KnownMakesTheFitExact) {  // [I-16]
+  const Ringing ringing;
+  Options options = ringing.options();
+  for (const Record& run : ringing.runs) {
+    options.response.push_back(
+        response_of(ringing.truth, run.cut.Omega, resolved_harmonics(run)));
+  }
+  const Fit fit =
+      identify(without_runout(ringing.setup), steel(), ringing.runs, options);
+  const auto truth = force::coefficients(steel());
+  for (std::size_t c = 0; c < truth.size(); ++c) {
+    // What was read holds 59 harmonics, and those beyond as aliases.
+    EXPECT_NEAR(fit.coefficients[c]->value / truth[c], 1.0, 2e-3) << c;
+  }
+  EXPECT_NEAR(fit.runout.radial_offsets[1], -8.0 * unit::um, 0.01 * unit::um);
+  EXPECT_LT(fit.unexplained.in_band, 1e-3);
+}
+
+TEST(Resonance, IsFoundWithTheForces) {  // [I-17]
+  const Ringing ringing;
+  const Viewed seen = fit_as_seen(without_runout(ringing.setup), steel(), ringing.runs,
+                                  ringing.options());
+  ASSERT_TRUE(seen.fit.ok);
+  for (std::size_t q = 0; q < 2; ++q) {
+    ASSERT_TRUE(seen.fit.resonances[q]) << q;
+    EXPECT_NEAR(seen.fit.resonances[q]->omega / ringing.truth[q]->omega, 1.0, 0.01);
+    EXPECT_NEAR(seen.fit.resonances[q]->zeta, ringing.truth[q]->zeta, 0.01);
+  }
+  EXPECT_FALSE(seen.fit.resonances[2]) << "this axis is rigid";
+  EXPECT_NEAR(seen.fit.coefficients[0]->value / steel().K_tc, 1.0, 0.01);
+  ASSERT_GE(seen.views.size(), 3U);
+  EXPECT_TRUE(seen.views.front().resonant);
+  EXPECT_FALSE(seen.views[1].resonant);
+}
+
+TEST(Resonance, IsNotLookedForInNoise) {
+  force::Setup setup = two_flutes();
+  const std::vector<Record> runs = {made_record(
+      setup, steel(), {.per_turn = 120, .turns = 8, .noise = 10.0, .seed = 3})};
+  Options options;
+  options.phase = 0.0;
+  const Viewed seen = fit_as_seen(without_runout(setup), steel(), runs, options);
+  EXPECT_TRUE(seen.fit.options.response.empty());
+  EXPECT_TRUE(seen.views.empty());
+}
+
+}  // namespace
+}  // namespace trochoid::identification
