@@ -140,6 +140,42 @@ class Identify(unittest.TestCase):
         self.same_coefficients(fit, want, se, se_rel=2e-3)
         self.assertAlmostEqual(fit["interval_widening"], wider, delta=1e-4 * wider)
 
+    def test_a_dynamometer_that_rings(self):  # [I-16] [I-17]
+        """Frequencies and coefficients come back from what such a one reads."""
+        given = tables(cut={"engagement": "up", "radial_depth_mm": 2.5},
+                       tool={"helix_deg": 10.0})
+        case, K_true = truth(given)
+        angle = turns(200, 10)
+        Omega = given["cut"]["spindle_rpm"] * 2 * np.pi / 60
+        rings = [(19.4 * Omega, 0.05), (24.7 * Omega, 0.03), None]
+        runs = []
+        for i, f_z in enumerate((0.04, 0.08)):
+            F = record(replace(case, f_z=f_z), K_true, angle)
+            lines = np.fft.rfft(F, axis=0)  # whole turns: every tenth line is a harmonic
+            omega = np.arange(len(lines)) / 10 * Omega
+            for q, ring in enumerate(rings):
+                if ring:
+                    x = omega / ring[0]
+                    lines[:, q] *= 1 / (1 - x**2 + 2j * ring[1] * x)
+            read = np.fft.irfft(lines, len(F), axis=0)
+            read += 4 * np.random.default_rng(i).standard_normal(F.shape)
+            runs.append({**self.write(f"ring{i}.csv", angle, read),
+                         "cut": {"feed_per_tooth_mm": f_z}})
+        result = self.identify("rings", given, {"chip_models": ["trochoidal"],
+                                                "runout": "fixed", "phase_deg": 0.0},
+                               runs).result
+        fit = result["fits"][0]
+        for axis, ring in zip("xyz", rings):
+            found = fit["resonances"][axis]
+            if ring is None:
+                self.assertIsNone(found)
+                continue
+            self.assertAlmostEqual(2 * np.pi * found["frequency_Hz"] / ring[0], 1, delta=0.01)
+            self.assertAlmostEqual(found["damping_ratio"], ring[1], delta=0.01)
+        for (key, c), want in zip(fit["coefficients"].items(), K_true):
+            self.assertTrue(c["low"] <= want <= c["high"], f"{key}: {c}, {want}")
+        self.assertTrue(result["views"][0]["resonance"])
+
     def joint(self, name, given, kind, names, start, phase, per_turn=90, noise=6.0):
         case, K_true = truth(given)
         angle = turns(per_turn)

@@ -72,8 +72,31 @@ std::array<std::vector<Line>, 3> lines_of(
   return out;
 }
 
+/// Sum of squares of the lines of each axis that scatter makes [N^2].
+std::array<double, 3> noise_of(
+    std::span<const Run> runs,
+    std::span<const std::vector<std::array<double, 3>>> fitted) {
+  std::array<double, 3> out{};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Spectrum one = spectrum_of(runs[r], fitted[r], 0);
+    if (one.highest < 0) continue;
+    // A row is sqrt(n/2) times the cosine or sine part of a line.
+    const double lines = resolved_harmonics(runs[r]);
+    const double scale = 2.0 / static_cast<double>(runs[r].angle.size());
+    for (std::size_t q = 0; q < 3; ++q) {
+      double sum = 0.0;
+      for (std::size_t k = 1; k < one.lines(); ++k) {
+        sum += scale * one.scatter[q * one.lines() + k];
+      }
+      out[q] += sum * lines / one.highest;
+    }
+  }
+  return out;
+}
+
 /// The best of a grid, then smaller and smaller steps about it.
-Resonance best_resonance(std::span<const Line> lines, double lowest, double highest) {
+Resonance best_resonance(std::span<const Line> lines, double lowest, double highest,
+                         double noise) {
   constexpr int steps = 160;
   Resonance best;
   double least = INFINITY;
@@ -99,7 +122,7 @@ Resonance best_resonance(std::span<const Line> lines, double lowest, double high
   }
   double before = 0.0;
   for (const Line& l : lines) before += std::norm(l.measured - l.force);
-  best.explained = before > 0 ? 1.0 - least / before : 0.0;
+  best.explained = before > noise ? (before - least) / (before - noise) : 0.0;
   return best;
 }
 
@@ -165,8 +188,9 @@ Resonances find_resonances(std::span<const Run> runs,
   const double lowest = first_harmonic * slowest;
   if (!(highest > 2.0 * lowest)) return out;
   const auto lines = lines_of(runs, fitted, response);
+  const auto noise = noise_of(runs, fitted);
   for (std::size_t q = 0; q < 3; ++q) {
-    const Resonance best = best_resonance(lines[q], lowest, 1.5 * highest);
+    const Resonance best = best_resonance(lines[q], lowest, 1.5 * highest, noise[q]);
     if (best.explained > least_explained) out[q] = best;
   }
   return out;

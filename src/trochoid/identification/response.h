@@ -28,7 +28,8 @@ struct Response {
 struct Resonance {
   double omega = 0.0;  ///< natural angular frequency [rad/s]
   double zeta = 0.0;   ///< damping ratio
-  /// Part of the sum of squares left before, by harmonics, that it explains.
+  /// Part of the sum of squares left before by harmonics, less that of scatter, that it
+  /// explains.
   double explained = 0.0;
 };
 

@@ -1,6 +1,7 @@
 // The page of `identify`.
 
-const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use', 'verdict', 'with_care'];
+const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use', 'verdict', 'with_care',
+  'runout_form', 'views'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -18,6 +19,8 @@ function identifyPage(report) {
     ...curves,
     foldedSection(report),
     { part: fitsSection(fits, best) },
+    { part: formSection(result.runout_form) },
+    { part: viewsSection(result.views, best) },
     sweepSection(report, best),
     chipSection(report),
     { part: isEmpty(result.signal) ? null : section('signal', 'The measured signal', 'Signal',
@@ -206,6 +209,46 @@ function reasonsOf(fit) {
   return el('li', {}, el('b', {}, `${sentence(modelName(fit.chip_model))}: `),
     fit.ok === false ? fit.message : null,
     items.length ? el('ul', {}, items) : null);
+}
+
+const formNames = { none: 'no runout', fixed: 'as given', offsets: 'radial offsets of the teeth',
+  eccentricity: 'an eccentricity', both: 'an eccentricity and radial offsets' };
+
+/** Which form of the runout, and how the others fared. */
+function formSection(form) {
+  if (!form?.why) return null;
+  const tried = [form.tried ?? []].flat().filter((one) => isNumber(one.rms_N));
+  const by = form.decided_by === 'record' ? 'Decided by the record: ' : 'As the case asks. ';
+  return section('form', 'Which form of runout', 'Runout form',
+    prose(by, sentence(form.why), '.'),
+    tried.length > 1 ? table(['form', 'residual, N rms', 'evidence against it'],
+      tried.map((one) => [formNames[one.form] || one.form, fixed(one.rms_N, 4),
+        one.form === form.better ? 'none' : number(one.excess, 3)]), { class: 'forms' }) : null,
+    tried.length > 1 ? el('p', { class: 'small' }, 'Evidence: by how much worse it would foretell further turns, ' +
+      'in units of what one more unknown explains by chance. Below 4 it is none.') : null);
+}
+
+/** How the answer depends on which harmonics are fitted, and on the dynamometer. */
+function viewsSection(views, best) {
+  if (!Array.isArray(views) || views.length < 2) return null;
+  const key = Object.keys(views[0]).find((name) => /^K_/.test(name));
+  const found = Object.entries(best?.resonances || {}).filter(([, one]) => isNumber(one?.frequency_Hz))
+    .map(([axis, one]) => `${number(one.frequency_Hz, 3)} Hz in ${axis} (damping ratio ${number(one.damping_ratio, 2)})`);
+  return section('views', 'How far the answer depends on the dynamometer', 'Dynamometer',
+    prose('What the fit leaves repeats turn by turn. ', found.length ?
+      `The dynamometer rings at ${found.join(', ')}: this is in the model of the first row, which counts.` :
+      'No resonance explains it, so every harmonic is fitted, with the intervals that this deserves.'),
+    table(['harmonics', symbol(nameAndUnit(key).name), '95 % interval', 'unexplained of all'],
+      views.map((view) => {
+        const width = half(view[key]);
+        return [`${view.band_harmonics ? `mean and first ${view.band_harmonics}` : 'all'}${
+          view.resonance ? ', through the resonances' : ''}`,
+        measured(view[key]?.value, width), isNumber(width) ?
+          `${measured(view[key].low, width)} to ${measured(view[key].high, width)}` : missing,
+        `${number(100 * view.unexplained, 2)} %`];
+      }), { class: 'views', chosen: undefined }),
+    el('p', { class: 'small' }, 'A band of few harmonics may have a narrow interval and still be wrong: ' +
+      'below a resonance the force is amplified, and the coefficients take that over.'));
 }
 
 function rmsCell(fit, fits) {
