@@ -140,31 +140,46 @@ class Identify(unittest.TestCase):
         self.same_coefficients(fit, want, se, se_rel=2e-3)
         self.assertAlmostEqual(fit["interval_widening"], wider, delta=1e-4 * wider)
 
-    def test_a_dynamometer_that_rings(self):  # [I-16] [I-17]
-        """Frequencies and coefficients come back from what such a one reads."""
+    def ringing(self, name, H, dynamometer, noise):
+        """What a dynamometer with the response H(omega), shape (n, 3, 3), reads of two feeds."""
         given = tables(cut={"engagement": "up", "radial_depth_mm": 2.5},
-                       tool={"helix_deg": 10.0})
+                       tool={"helix_deg": 10.0}, dynamometer=dynamometer)
         case, K_true = truth(given)
         angle = turns(200, 10)
         Omega = given["cut"]["spindle_rpm"] * 2 * np.pi / 60
-        rings = [(19.4 * Omega, 0.05), (24.7 * Omega, 0.03), None]
         runs = []
         for i, f_z in enumerate((0.04, 0.08)):
-            F = record(replace(case, f_z=f_z), K_true, angle)
-            lines = np.fft.rfft(F, axis=0)  # whole turns: every tenth line is a harmonic
-            omega = np.arange(len(lines)) / 10 * Omega
-            for q, ring in enumerate(rings):
-                if ring:
-                    x = omega / ring[0]
-                    lines[:, q] *= 1 / (1 - x**2 + 2j * ring[1] * x)
-            read = np.fft.irfft(lines, len(F), axis=0)
-            read += 4 * np.random.default_rng(i).standard_normal(F.shape)
-            runs.append({**self.write(f"ring{i}.csv", angle, read),
+            fine = np.radians(np.arange(4000) * 360 / 4000)  # far from any alias
+            F = record(replace(case, f_z=f_z), K_true, fine)
+            k = np.arange(90)
+            lines = np.fft.rfft(F, axis=0)[:90] * np.where(k == 0, 1, 2)[:, None] / 4000
+            lines = np.einsum("kij,kj->ki", H(k * Omega), lines)
+            read = (np.exp(1j * np.outer(angle, k)) @ lines).real
+            read += noise * np.random.default_rng(i).standard_normal(read.shape)
+            runs.append({**self.write(f"{name}{i}.csv", angle, read),
                          "cut": {"feed_per_tooth_mm": f_z}})
-        result = self.identify("rings", given, {"chip_models": ["trochoidal"],
-                                                "runout": "fixed", "phase_deg": 0.0},
+        result = self.identify(name, given, {"chip_models": ["trochoidal"],
+                                             "runout": "fixed", "phase_deg": 0.0},
                                runs).result
         fit = result["fits"][0]
+        for (key, c), want in zip(fit["coefficients"].items(), K_true):
+            self.assertTrue(c["low"] <= want <= c["high"], f"{key}: {c}, {want}")
+        return result, fit, K_true, Omega
+
+    @staticmethod
+    def oscillators(omega, rings):
+        H = np.zeros((len(omega), 3, 3), complex)
+        for q, ring in enumerate(rings):
+            x = omega / ring[0] if ring else 0 * omega
+            H[:, q, q] = 1 / (1 - x**2 + 2j * (ring[1] if ring else 0) * x)
+        return H
+
+    def test_a_dynamometer_that_rings(self):  # [I-16] [I-17]
+        """Frequencies and coefficients come back from what such a one reads."""
+        turn = 2 * np.pi * 1200 / 60
+        rings = [(19.4 * turn, 0.05), (24.7 * turn, 0.03), None]
+        result, fit, _, _ = self.ringing("rings", lambda w: self.oscillators(w, rings),
+                                         {"axes": ["x", "y", "z"]}, 4)
         for axis, ring in zip("xyz", rings):
             found = fit["resonances"][axis]
             if ring is None:
@@ -172,9 +187,35 @@ class Identify(unittest.TestCase):
                 continue
             self.assertAlmostEqual(2 * np.pi * found["frequency_Hz"] / ring[0], 1, delta=0.01)
             self.assertAlmostEqual(found["damping_ratio"], ring[1], delta=0.01)
-        for (key, c), want in zip(fit["coefficients"].items(), K_true):
-            self.assertTrue(c["low"] <= want <= c["high"], f"{key}: {c}, {want}")
         self.assertTrue(result["views"][0]["resonance"])
+
+    def test_a_response_that_was_measured(self):  # [I-16]
+        """With cross responses, and channels that are turned against the tool."""
+        turn = 2 * np.pi * 1200 / 60
+        rings = [(9.3 * turn, 0.05), (12.7 * turn, 0.04), (30 * turn, 0.1)]
+
+        def channels(omega):
+            H = self.oscillators(omega, rings)
+            H[:, 0, 1] = 0.2 * (H[:, 0, 0] - 1)
+            return H
+
+        omega = np.linspace(0, 60 * turn, 4000)
+        H = channels(omega)
+        parts = [(f"H{i + 1}{j + 1}_{n}", getattr(H[:, i, j], part))
+                 for i in range(3) for j in range(3)
+                 for n, part in (("re", "real"), ("im", "imag"))]
+        np.savetxt(os.path.join(self.folder.name, "plate.csv"),
+                   np.column_stack([omega / 2 / np.pi] + [v for _, v in parts]),
+                   delimiter=",", header=",".join(["freq_Hz"] + [n for n, _ in parts]),
+                   comments="", fmt="%.12g")
+        Q = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])  # channels y, -x, z
+        _, fit, K_true, _ = self.ringing(
+            "measured", lambda w: channels(w) @ Q,
+            {"axes": ["y", "-x", "z"], "frf": "plate.csv"}, 1)
+        for c, want in zip(fit["coefficients"].values(), K_true):
+            self.assertAlmostEqual(c["value"] / want, 1, delta=0.02)
+        self.assertLess(fit["unexplained"], 0.02)
+        self.assertGreaterEqual(fit["band_harmonics"], 40)
 
     def joint(self, name, given, kind, names, start, phase, per_turn=90, noise=6.0):
         case, K_true = truth(given)

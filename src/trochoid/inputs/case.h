@@ -29,8 +29,10 @@ struct Sampling {
 
 /// [dynamometer]: channel i = sum over j of matrix[i][j] times force j on the tool.
 struct Dynamometer {
-  bool automatic = false;  ///< axes = "auto": find the signed permutation
-  bool rigid = false;      ///< resonance = "none": none is looked for
+  bool automatic = false;     ///< axes = "auto": find the signed permutation
+  bool rigid = false;         ///< resonance = "none": none is looked for
+  std::filesystem::path frf;  ///< measured response, channel over force; empty: none
+  std::string frf_location;   ///< file:line:col of its name
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 

@@ -103,6 +103,13 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
     return result;
   }
   result.rigid = table.resonance == Resonance::none;
+  if (!table.frf.empty()) {
+    const Location named_at = place_of(findings, "dynamometer.frf");
+    result.frf = resolved(table.frf, named_at);
+    result.frf_location = to_string(named_at);
+    check_file(result.frf, "dynamometer.frf", table.frf,
+               "the response of the dynamometer (UFF58 or a table)", findings);
+  }
   if (!table.axes.empty() && !table.matrix.empty()) {
     report(
         findings, "dynamometer.matrix",

@@ -54,6 +54,15 @@ void describe(const Visitor& v, DynamometerTable& t) {
      .rival = "axes",
      .example = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"},
     &t.matrix);
+  v({.name = "frf",
+     .meaning =
+         "measured response of the channels, reading over force, through which the "
+         "computed force is passed: a universal file (UFF58), or a table with "
+         "freq_Hz and H11_re, H11_im, H12_re ...; relative to the file that names "
+         "it",
+     .standard = "none",
+     .example = "\"plate.uff\""},
+    &t.frf);
   v({.name = "resonance",
      .meaning = "of the dynamometer, in each axis; auto: found with the rest where the "
                 "record shows it; none: the dynamometer is rigid"},

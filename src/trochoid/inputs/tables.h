@@ -98,6 +98,7 @@ constexpr std::string_view name_of(Resonance resonance) noexcept {
 struct DynamometerTable {
   std::vector<std::string> axes;
   Rows matrix;
+  std::string frf;
   Resonance resonance = Resonance::automatic;
 };
 

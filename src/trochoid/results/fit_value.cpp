@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 namespace trochoid::results {
@@ -74,6 +75,15 @@ Array channel_offsets_value(const Fit& fit) {
   return runs;
 }
 
+/// Harmonics that were fitted; 0: all.
+int band_of(const Fit& fit) {
+  int band = fit.options.band_harmonics;
+  for (const identification::Response& one : fit.options.response) {
+    band = band > 0 ? std::min(band, one.highest()) : one.highest();
+  }
+  return band;
+}
+
 /// Of the dynamometer, in the axes of the tool; null where none was found.
 Object resonances_value(const Fit& fit) {
   Object out;
@@ -137,7 +147,7 @@ Object fit_value(const Fit& fit) {
       {"condition", solved ? Value(fit.condition) : Value()},
       {"rank", solved ? Value(fit.rank) : Value()},
       {"degrees_of_freedom", number(fit.freedom)},
-      {"band_harmonics", fit.options.band_harmonics},
+      {"band_harmonics", band_of(fit)},
       {"interval_factor", number(fit.interval_factor)},
       {"residual_correlation", number(fit.residual_correlation)},
       {"interval_widening", number(fit.widening)},

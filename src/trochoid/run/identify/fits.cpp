@@ -27,7 +27,15 @@ bool view_is_open(const inputs::Case& given) {
 }
 
 Fit first_fit(const inputs::Case& given, std::span<const identification::Run> runs,
-              const Options& options, Fits& out) {
+              Options options, Fits& out) {
+  if (!options.response.empty()) {
+    // Where to search is told well enough by a rigid dynamometer.
+    Options rigid = options;
+    rigid.response.clear();
+    const Fit near = identification::identify(given.setup, given.law, runs, rigid);
+    if (near.ok) options.start = identification::Start{near.runout, near.phase};
+    return identification::identify(given.setup, given.law, runs, options);
+  }
   if (!view_is_open(given)) {
     return identification::identify(given.setup, given.law, runs, options);
   }
@@ -56,14 +64,14 @@ Fit decided(const inputs::Case& given, std::span<const identification::Run> runs
 }  // namespace
 
 Fits all_fits(const inputs::Case& given, std::span<const identification::Run> runs,
-              const std::optional<identification::Start>& start,
-              const Progress& progress) {
+              const Known& known, const Progress& progress) {
   const std::vector<chip::Model>& models = given.identify.chip_models;
   Fits out;
   out.fits.resize(models.size());
   const std::size_t first = deciding(models);
   Options options = fit_options(given, models[first]);
-  options.start = start;
+  options.start = known.start;
+  options.response = known.response;
   progress({"fitting, one chip model after the other", 0.0});
   out.fits[first] = decided(given, runs, first_fit(given, runs, options, out), out);
   const Options found = out.fits[first].options;
@@ -75,7 +83,7 @@ Fits all_fits(const inputs::Case& given, std::span<const identification::Run> ru
     options = found;
     options.chip_model = models[i];
     options.start = found.response.empty()
-                        ? start
+                        ? known.start
                         : std::optional(identification::Start{out.fits[first].runout,
                                                               out.fits[first].phase});
     out.fits[i] = identification::identify(given.setup, given.law, runs, options);

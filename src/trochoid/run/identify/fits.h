@@ -18,12 +18,18 @@ struct Fits {
   std::optional<results::RunoutForm> runout_form;
 };
 
+/// What is known before anything is fitted.
+struct Known {
+  std::optional<identification::Start> start;
+  std::vector<identification::Response> response;  ///< one a run; empty: none measured
+};
+
 /// @brief Fit every chip model. What the case leaves to the records is decided with the
 /// most exact one, and holds for the others.
-/// @param start  where to search first, if it is known
+/// @param known  where to search first, and the response of the dynamometer, as far as
+///               known
 Fits all_fits(const inputs::Case& given, std::span<const identification::Run> runs,
-              const std::optional<identification::Start>& start,
-              const Progress& progress);
+              const Known& known, const Progress& progress);
 
 /// The fit that counts: the exact model where it was asked for, else the one that fits
 /// best; none where none stands.

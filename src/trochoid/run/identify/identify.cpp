@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/run/identify/dynamometer.h>
 #include <trochoid/run/identify/fit_options.h>
 #include <trochoid/run/identify/fits.h>
 #include <trochoid/run/identify/likely_causes.h>
@@ -219,9 +220,10 @@ struct Identification {
     }
     r.runs = identification::on_tool(channels_of(measured), r.channels);
     r.records = summaries(measured);
-    std::optional<identification::Start> start;
-    if (r.axes) start = r.axes->start;
-    Fits found = all_fits(given, r.runs, start, progress);
+    Known known{std::nullopt,
+                measured_responses(given, r.runs, r.channels, r.heading.warnings)};
+    if (r.axes) known.start = r.axes->start;
+    Fits found = all_fits(given, r.runs, known, progress);
     r.fits = std::move(found.fits);
     r.views = std::move(found.views);
     r.runout_form = std::move(found.runout_form);
