@@ -24,6 +24,27 @@ bool stays_at(std::span<const double> values, double limit) {
                                      least_share * static_cast<double>(values.size());
 }
 
+/// Whether a signal whose samples nearly always differ stands still for a moment.
+bool drops_out(std::span<const double> values) {
+  constexpr std::size_t still = 6;
+  constexpr double most = 0.1;
+  constexpr double alike_elsewhere = 0.02;  // of pairs of neighbours
+  std::size_t held = 0;                     // samples of stretches that stand still
+  std::size_t alike = 0;                    // other pairs that agree
+  std::size_t row = 1;
+  for (std::size_t i = 1; i <= values.size(); ++i) {
+    if (i < values.size() && values[i] == values[i - 1]) {
+      ++row;
+      continue;
+    }
+    (row >= still ? held : alike) += row >= still ? row : row - 1;
+    row = 1;
+  }
+  const auto n = static_cast<double>(values.size());
+  return held > 0 && static_cast<double>(held) < most * n &&
+         static_cast<double>(alike) < alike_elsewhere * n;
+}
+
 }  // namespace
 
 ChannelFault channel_fault(std::span<const double> values) {
@@ -36,7 +57,8 @@ ChannelFault channel_fault(std::span<const double> values) {
   }
   const bool clipped =
       (lo != 0 && stays_at(values, lo)) || (hi != 0 && stays_at(values, hi));
-  return clipped ? ChannelFault::clipped : ChannelFault::none;
+  if (clipped) return ChannelFault::clipped;
+  return drops_out(values) ? ChannelFault::dropouts : ChannelFault::none;
 }
 
 }  // namespace trochoid::signal

@@ -9,13 +9,15 @@ enum class ChannelFault {
   none,
   constant,  ///< the same number in every sample
   clipped,   ///< stays at its largest or smallest number again and again
+  dropouts,  ///< stays at one number for a moment, now and then, as no noisy signal does
 };
 
 /// @brief Whether a channel is dead or was driven beyond its range.
 ///
 /// Clipped is a channel that stays at its largest or smallest number for three samples or
 /// more, in at least three places and in at least one sample of a hundred. At zero, where
-/// nothing cuts, it may.
+/// nothing cuts, it may. It drops out where it stays at any one number for six samples or
+/// more, in at most one sample of ten, although its neighbours nearly always differ.
 /// @param values  [N], shape (n)
 ChannelFault channel_fault(std::span<const double> values);
 

@@ -91,6 +91,9 @@ TEST(FitWarnings, SayThatNoMaterialIsThatHard) {
   Fit fit = sound();
   fit.coefficients[0] = base::Estimate{2.6e12, 1e9, 2.5e12, 2.7e12};
   EXPECT_EQ(code(fit), "implausible");
+  EXPECT_NE(warnings(fit)[0].message.find("N read as kN"), std::string::npos);
+  fit.coefficients[0] = base::Estimate{2.6e6, 1e4, 2.5e6, 2.7e6};
+  EXPECT_NE(warnings(fit)[0].message.find("kN read as N"), std::string::npos);
 }
 
 TEST(FitWarnings, SayWhatTheBandLeavesOut) {

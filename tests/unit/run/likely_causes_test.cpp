@@ -64,6 +64,37 @@ TEST(LookAtChannels, NamesAReadingThatFitsBetter) {
   EXPECT_TRUE(look(searched).empty());
 }
 
+TEST(LookAtCut, NamesTheNumberOfTeeth) {
+  Made made(identity);
+  EXPECT_TRUE(look_at_cut(made.given, made.runs, identity).empty());
+  made.given.setup.cutter.pitch = geometry::equal_pitch(4);
+  made.runs[0].run.cut.f_z /= 2;
+  const auto found = look_at_cut(made.given, made.runs, identity);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, "cut_fits_better");
+  EXPECT_NE(found[0].message.find("with teeth = 2"), std::string::npos)
+      << found[0].message;
+}
+
+TEST(LookAtCut, NamesUpThatWasTakenForDown) {
+  Made made(identity);
+  made.given.identify.chip_models = {chip::Model::trochoidal};
+  force::Setup truth = made_setup();
+  truth.cut.engagement = geometry::UpMilling{3.0 * unit::mm};
+  const auto record =
+      identification::made_record(truth, made_law(), {.per_turn = 180, .turns = 2.0});
+  made.runs[0].run.cut = truth.cut;
+  made.runs[0].run.cut.engagement = geometry::DownMilling{3.0 * unit::mm};
+  for (std::size_t c = 0; c < 3; ++c) {
+    made.runs[0].run.channel[c].clear();
+    for (const auto& F : record.force) made.runs[0].run.channel[c].push_back(F[c]);
+  }
+  const auto found = look_at_cut(made.given, made.runs, identity);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].message.find("engagement = \"up\""), std::string::npos)
+      << found[0].message;
+}
+
 TEST(LikelyCauses, ListTheOthersWhereNoAxesDo) {
   Made made(identity);
   std::string causes = made.causes();

@@ -31,6 +31,14 @@ TEST(ChannelFault, IsAChannelDrivenBeyondItsRange) {
   EXPECT_EQ(channel_fault(below), ChannelFault::clipped);
 }
 
+TEST(ChannelFault, IsAChannelThatDropsOut) {
+  std::vector<double> values = sine(100, 1e9);
+  for (std::size_t i = 700; i < 720; ++i) values[i] = values[699];
+  EXPECT_EQ(channel_fault(values), ChannelFault::dropouts);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::round(values[i] / 5);
+  EXPECT_NE(channel_fault(values), ChannelFault::dropouts) << "a coarse converter";
+}
+
 TEST(ChannelFault, IsADeadChannel) {
   EXPECT_EQ(channel_fault(std::vector<double>(100, 0.0)), ChannelFault::constant);
 }

@@ -24,6 +24,8 @@ using results::IdentifyResult;
 
 /// A fit that leaves less of the force (rms) reads its channels rightly.
 constexpr double too_good_to_doubt = 0.005;
+/// One that leaves more may be of another cut.
+constexpr double worth_a_look = 0.2;
 
 std::optional<results::OffsetSweep> offset_sweep(
     const inputs::Case& given, std::span<const identification::Run> runs,
@@ -191,6 +193,10 @@ struct Identification {
       const auto found = look_at_channels(given, measured, r.channels, progress);
       auto& warnings = r.heading.warnings;
       warnings.insert(warnings.begin(), found.begin(), found.end());
+      if (chosen.unexplained.in_band > worth_a_look) {
+        const auto other = look_at_cut(given, measured, r.channels);
+        warnings.insert(warnings.begin(), other.begin(), other.end());
+      }
     }
     if (r.reasons_against.empty()) {
       r.reasons_for_care = reasons_for_care(r.heading.warnings);

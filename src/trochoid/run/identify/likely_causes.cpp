@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/run/identify/fit_options.h>
+#include <trochoid/run/identify/other_cuts.h>
 #include <trochoid/signal/axes.h>
 
 #include <fmt/core.h>
@@ -64,6 +65,9 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
       return {likely(found)};
     }
   }
+  const std::string cut =
+      better_cut(given, identification::on_tool(channels_of(runs), M));
+  if (!cut.empty()) return {likely(cut)};
   std::vector<base::Warning> out;
   if (axes_were_given(given)) {
     out.push_back(
@@ -102,6 +106,15 @@ std::vector<base::Warning> look_at_channels(const inputs::Case& given,
   const std::string found = better_axes(given, runs, M, better, progress);
   return found.empty() ? std::vector<base::Warning>{}
                        : std::vector<base::Warning>{{"axes_fit_better", found}};
+}
+
+std::vector<base::Warning> look_at_cut(const inputs::Case& given,
+                                       const std::vector<MeasuredRun>& runs,
+                                       const signal::Matrix3& M) {
+  const std::string found =
+      better_cut(given, identification::on_tool(channels_of(runs), M));
+  return found.empty() ? std::vector<base::Warning>{}
+                       : std::vector<base::Warning>{{"cut_fits_better", found}};
 }
 
 }  // namespace trochoid::run

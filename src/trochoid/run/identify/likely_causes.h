@@ -27,4 +27,10 @@ std::vector<base::Warning> look_at_channels(const inputs::Case& given,
                                             const signal::Matrix3& M,
                                             const Progress& progress);
 
+/// @brief Whether another number of teeth, or milling the other way round, fits clearly
+/// better: a warning with the code `cut_fits_better`, or none.
+std::vector<base::Warning> look_at_cut(const inputs::Case& given,
+                                       const std::vector<MeasuredRun>& runs,
+                                       const signal::Matrix3& M);
+
 }  // namespace trochoid::run

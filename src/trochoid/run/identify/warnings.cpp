@@ -27,9 +27,11 @@ constexpr double hardest = 20000 * unit::MPa;
 constexpr double much_ringing = 0.2;
 
 /// Warnings that cast a doubt on the numbers, and how to say it in a few words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> care{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 17> care{{
     {"clipped_channel", "a channel was driven beyond its range"},
     {"dead_channel", "a channel is dead"},
+    {"cut_fits_better", "another cut than the stated one fits better"},
+    {"dropouts", "a channel drops out"},
     {"axes_fit_better", "another reading of the channels fits better"},
     {"axes_signs", "the signs of the channels are not certain"},
     {"axes_close", "another reading of the channels fits nearly as well"},
@@ -97,11 +99,19 @@ void warn_size(const Fit& chosen, Warnings& warnings) {
       (K_tc->value >= softest && K_tc->value <= hardest)) {
     return;
   }
+  const auto ordinary = [](double K) { return K >= 2 * softest && K <= hardest / 2; };
+  const std::string_view unit_hint =
+      ordinary(K_tc->value * 1000) ? " Forces in kN read as N would do that."
+      : ordinary(K_tc->value / 1000)
+          ? " Forces in N read as kN, or mN as N, would do that."
+          : "";
   warnings.push_back(
       {"implausible",
-       fmt::format("K_tc_MPa = {:.4g} is outside of what materials have ({:g} to {:g} "
-                   "MPa): check the unit of the forces, the feed and the axial depth.",
-                   K_tc->value / unit::MPa, softest / unit::MPa, hardest / unit::MPa)});
+       fmt::format(
+           "K_tc_MPa = {:.4g} is outside of what materials have ({:g} to {:g} "
+           "MPa): check the unit of the forces, the feed and the axial depth.{}",
+           K_tc->value / unit::MPa, softest / unit::MPa, hardest / unit::MPa,
+           unit_hint)});
 }
 
 /// What the fit does not explain and has not looked at.
@@ -196,7 +206,7 @@ void warn_large_runout(const inputs::Case& given, const Fit& chosen,
     warnings.push_back(
         {"runout_above_feed",
          fmt::format("The teeth differ by {:.1f} um, more than the feed per tooth: a "
-                     "tooth may cut nothing.",
+                     "tooth may cut nothing. Is the number of teeth right?",
                      (hi - lo) / unit::um)});
   }
 }

@@ -132,21 +132,36 @@ void take_drift_out(const inputs::Case& given, std::span<const double> angle,
   }
 }
 
+/// Code of the warning, and what the channel does.
+std::pair<std::string_view, std::string_view> in_words(signal::ChannelFault fault) {
+  switch (fault) {
+    case signal::ChannelFault::constant:
+      return {"dead_channel",
+              "holds the same number in every sample: was it connected?"};
+    case signal::ChannelFault::clipped:
+      return {"clipped_channel",
+              "stays at its largest or smallest number again and again: it was driven "
+              "beyond its range. Measure in a wider one."};
+    case signal::ChannelFault::dropouts:
+      return {"dropouts",
+              "stands still for several samples now and then: samples were lost there. "
+              "Choose another part by from_s and to_s."};
+    case signal::ChannelFault::none:
+      break;
+  }
+  return {};
+}
+
 void warn_faults(const signal::Record& record, Warnings& warnings) {
   for (std::size_t c = 0; c < record.channel.size(); ++c) {
     const signal::ChannelFault fault = signal::channel_fault(record.channel[c]);
     if (fault == signal::ChannelFault::none) {
       continue;
     }
-    const bool dead = fault == signal::ChannelFault::constant;
+    const auto [code, what] = in_words(fault);
     warnings.push_back(
-        {dead ? "dead_channel" : "clipped_channel",
-         fmt::format("{}: channel {} (column {}) {}", record.file, c + 1,
-                     record.channel_column[c],
-                     dead
-                         ? "holds the same number in every sample: was it connected?"
-                         : "stays at its largest or smallest number again and again: "
-                           "it was driven beyond its range. Measure in a wider one.")});
+        {std::string(code), fmt::format("{}: channel {} (column {}) {}", record.file,
+                                        c + 1, record.channel_column[c], what)});
   }
 }
 
