@@ -18,6 +18,7 @@ struct Options {
   bool no_report = false;
 
   bool simulate_controller = false;  ///< of correct
+  bool curves = false;               ///< of identify: of every sample
 
   // Of a bare data file, which has no case to say them.
   std::string kind;               ///< of a frequency response; empty: the file says it

@@ -12,7 +12,9 @@ int identify(const Options& options) {
                                                result_folder(options, "identify"));
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
-    return results::answer_of(run::identify(given, std::ref(progress)));
+    results::IdentifyResult result = run::identify(given, std::ref(progress));
+    result.whole_curves = options.curves;
+    return results::answer_of(result);
   };
   // What the run knows is let go of before it is written.
   return deliver(answer(), options);

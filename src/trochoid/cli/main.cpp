@@ -108,6 +108,12 @@ void add_data_options(CLI::App& app, Command command, Options& options) {
                    "Which frequency response function of a universal file, from 1")
         ->check(CLI::Range(1, 100000));
   }
+  if (command == Command::identify) {
+    app.add_flag(
+        "--curves", options.curves,
+        "Write every sample of long records to fitted.csv and residual.csv, not "
+        "the mean turn");
+  }
   if (command == Command::correct) {
     app.add_flag("--simulate-controller", options.simulate_controller,
                  "Run the real-time controller in the loop ([controller])");

@@ -4,6 +4,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace trochoid::results {
 
 namespace {
@@ -60,6 +63,70 @@ std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
     }
   }
   return {std::move(fitted), std::move(residual)};
+}
+
+namespace {
+
+using Forces = std::vector<std::array<double, 3>>;
+
+/// Bins of a turn, and which of them each sample lies in.
+struct TurnBins {
+  std::vector<std::size_t> of_sample;
+  std::vector<double> count;  ///< samples of a bin
+  std::vector<double> angle;  ///< mean [rad]
+
+  explicit TurnBins(std::span<const double> phi) {
+    const double span = std::abs(phi.back() - phi.front());
+    const double per_turn =
+        span > 0 ? static_cast<double>(phi.size() - 1) * unit::turn / span : 1.0;
+    const auto bins =
+        static_cast<std::size_t>(std::clamp(std::round(per_turn), 1.0, 720.0));
+    count.assign(bins, 0.0);
+    angle.assign(bins, 0.0);
+    for (const double a : phi) {
+      const double turns = a / unit::turn;
+      const double part = turns - std::floor(turns);
+      const auto bin =
+          std::min(bins - 1, static_cast<std::size_t>(part * double(bins) + 1e-9));
+      of_sample.push_back(bin);
+      count[bin] += 1.0;
+      angle[bin] += part * unit::turn;
+    }
+    for (std::size_t b = 0; b < bins; ++b) angle[b] /= std::max(1.0, count[b]);
+  }
+
+  /// Mean of each bin that holds samples.
+  [[nodiscard]] Forces means(const Forces& values) const {
+    Forces sums(count.size(), std::array<double, 3>{});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      for (std::size_t q = 0; q < 3; ++q) sums[of_sample[i]][q] += values[i][q];
+    }
+    Forces out;
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+      if (count[b] == 0.0) continue;
+      for (double& f : sums[b]) f /= count[b];
+      out.push_back(sums[b]);
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+std::vector<identification::Run> mean_turns(std::span<const identification::Run> runs,
+                                            std::vector<ComputedForces>& computed) {
+  std::vector<identification::Run> out;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const TurnBins bins(runs[r].angle);
+    identification::Run& mean = out.emplace_back();
+    mean.cut = runs[r].cut;
+    mean.force = bins.means(runs[r].force);
+    for (std::size_t b = 0; b < bins.count.size(); ++b) {
+      if (bins.count[b] > 0.0) mean.angle.push_back(bins.angle[b]);
+    }
+    for (ComputedForces& one : computed) one.of_run[r] = bins.means(one.of_run[r]);
+  }
+  return out;
 }
 
 base::Table chip_curve_table(const force::ChipCurve& curve) {

@@ -24,6 +24,16 @@ struct ComputedForces {
 std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
                                       std::span<const ComputedForces> computed);
 
+/// @brief The mean turn of runs that are long, measured and computed, in at most 720 bins
+/// each; runs that are not, whole.
+/// @param[in,out] computed  the same of each
+/// @return the runs, or their mean turns
+std::vector<identification::Run> mean_turns(std::span<const identification::Run> runs,
+                                            std::vector<ComputedForces>& computed);
+
+/// Samples of all runs beyond which fitted.csv and residual.csv hold the mean turn.
+inline constexpr std::size_t most_curve_samples = 50000;
+
 /// chip_curve.csv: h of every tooth over nominal theta, at one height.
 base::Table chip_curve_table(const force::ChipCurve& curve);
 

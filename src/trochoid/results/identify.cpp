@@ -57,6 +57,13 @@ Object signal_value(const IdentifyResult& r) {
   return out;
 }
 
+/// Whether the curves of all samples are written, or those of a mean turn.
+bool whole(const IdentifyResult& r) {
+  std::size_t samples = 0;
+  for (const identification::Run& run : r.runs) samples += run.angle.size();
+  return r.whole_curves || samples <= most_curve_samples;
+}
+
 Object form_value(const RunoutForm& form) {
   Array tried;
   for (const identification::FormTried& one : form.tried) {
@@ -107,6 +114,7 @@ Object result_of(const IdentifyResult& r) {
   if (r.chosen) {
     if (r.runout_form) set(result, "runout_form", form_value(*r.runout_form));
     if (!r.views.empty()) set(result, "views", views_value(r));
+    set(result, "curves", whole(r) ? "whole" : "mean turn");
     set(result, "verdict", verdict_of(r));
     set(result, "with_care", r.reasons_for_care);
     set(result, "do_not_use", r.reasons_against);
@@ -207,7 +215,9 @@ std::vector<base::Table> tables_of(const IdentifyResult& r) {
       computed.push_back({std::string(chip::name_of(fit.chip.model)), fit.fitted});
     }
   }
-  std::vector<base::Table> tables = curve_tables(r.runs, computed);
+  std::vector<base::Table> tables =
+      whole(r) ? curve_tables(r.runs, computed)
+               : curve_tables(mean_turns(r.runs, computed), computed);
   if (auto folded = folded_table(r.folded)) {
     tables.push_back(std::move(*folded));
   }

@@ -61,6 +61,7 @@ struct IdentifyResult {
   /// Turns of each record laid over one another; fewer than two: nothing to lay.
   std::vector<signal::OneRevolution> folded;
   std::optional<OffsetSweep> sweep;
+  bool whole_curves = false;              ///< asked for however long the records are
   std::optional<force::ChipCurve> curve;  ///< of the chosen fit
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };

@@ -37,6 +37,24 @@ class ResultFolder(InFolder):
         self.run_program("simulate", "cut.toml")
         self.assertEqual(self.names("."), {"cut.toml", "cut.simulate"})
 
+    def test_long_records_leave_small_folders(self):
+        """Of 61 200 samples the mean turn is written; --curves keeps every sample."""
+        self.write("cut.toml", simulation(sampling={"samples_per_rev": 180,
+                                                    "revolutions": 340}))
+        self.run_program("simulate", "cut.toml", "-q", "--no-report")
+        rows = (self.folder / "cut.simulate/forces.csv").read_text()
+        self.write("record.csv", rows)
+        self.write("id.toml", identification(identify={"chip_models": ["trochoidal"]}))
+        lines = {}
+        for option in ([], ["--curves"]):
+            self.run_program("identify", "id.toml", "-q", "--no-report", *option)
+            for name in ("fitted.csv", "residual.csv"):
+                text = (self.folder / "id.identify" / name).read_text()
+                lines[name, *option] = text.count("\n") - 1
+        self.assertEqual(lines["fitted.csv",], 180)
+        self.assertEqual(lines["residual.csv",], 180)
+        self.assertEqual(lines["fitted.csv", "--curves"], rows.count("\n") - 1)
+
     def test_json_prints_exactly_the_summary(self):
         done = self.run_program("simulate", "cut.toml", "--json")
         summary = (self.folder / "cut.simulate/summary.json").read_text()

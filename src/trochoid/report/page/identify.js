@@ -1,7 +1,7 @@
 // The page of `identify`.
 
 const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use', 'verdict', 'with_care',
-  'runout_form', 'views'];
+  'runout_form', 'views', 'curves'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -11,7 +11,9 @@ function identifyPage(report) {
   const trust = trustIn(report);
   const curves = measuredOverAngle(report, {
     heading: 'Measured and fitted force', short: 'Forces', model: best?.chip_model,
-    text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.',
+    text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.' +
+      (result.curves === 'mean turn' ? ' The records are long: this is the mean of all their turns ' +
+        '(identify --curves keeps every sample).' : ''),
   });
   return [
     { lead: best ? headline(best, fits, trust, verdictOf(result)) : null },
