@@ -296,6 +296,36 @@ class Simulated(Example):
         self.assertIn("idle_tooth", [w["code"] for w in answer.summary["warnings"]])
 
 
+class Ringing(unittest.TestCase):
+    """examples/ringing_dynamometer: air, offsets and resonances are found, not told."""
+
+    def test_the_truth_is_recovered(self):
+        folder = tempfile.mkdtemp(prefix="trochoid_")
+        self.addCleanup(shutil.rmtree, folder)
+        shutil.copytree(EXAMPLES / "ringing_dynamometer", f"{folder}/ringing")
+        case = pathlib.Path(folder, "ringing/case.toml")
+        answer = program.run("identify", case.read_text(), case.parent, "case")
+        self.assertEqual(answer.code, 0, answer.stderr)
+        truth = toml(case.parent / "truth.toml")
+        fit = {f["chip_model"]: f for f in answer.result["fits"]}["trochoidal"]
+        for name, c in fit["coefficients"].items():
+            want = truth["force"][name]
+            self.assertTrue(c["low"] <= want <= c["high"], f"{name}: {c}, {want}")
+            self.assertLess(c["high"] - c["low"], 0.4 * want, name)
+        self.assertLess(abs(fit["coefficients"]["K_tc_MPa"]["value"] / 2100 - 1), 0.005)
+        radii = truth["runout"]["radial_offsets_mm"]
+        turned = [radii[(k + 3) % 4] - radii[3] for k in range(4)]
+        factor = fit["interval_factor"]
+        for got, se, want in zip(fit["runout"]["radial_offsets_mm"],
+                                 fit["runout"]["radial_offsets_se_mm"], turned):
+            self.assertLessEqual(abs(got - want), 1.2 * factor * se + 1e-9)
+        for axis, want in zip("xyz", (880, 1040, 1310)):
+            found = fit["resonances"][axis]["frequency_Hz"]
+            self.assertAlmostEqual(found / want, 1, delta=0.01)
+        used = [w["message"] for w in answer.summary["warnings"] if w["code"] == "part_used"]
+        self.assertEqual(len(used), 2)
+
+
 def renew():
     folder = tempfile.mkdtemp(prefix="trochoid_")
     try:

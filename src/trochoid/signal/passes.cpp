@@ -137,8 +137,12 @@ std::vector<Steps> bridged(const std::vector<Steps>& runs) {
   return out;
 }
 
+/// Quarters of a pass that can spare nearly a turn at either end.
+constexpr std::size_t long_pass = 6 * a_turn;
+
 /// The steady part of a pass; a turn with a part of the entry in it may still be like
-/// most, so that a quarter is left out there.
+/// most, half a turn where the dynamometer rings on, so that as much as can be spared is left
+/// out there.
 std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
   if (pass.to < pass.from + a_turn) {
     return {};
@@ -148,17 +152,22 @@ std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
       turns.level.begin() + static_cast<std::ptrdiff_t>(pass.from),
       turns.level.begin() + static_cast<std::ptrdiff_t>(last));
   const double usual = quantile(level, 0.75);
-  if (*std::min_element(level.begin(), level.end()) >= told_apart * usual) {
-    return {turns.part(pass)};
+  Steps best = pass;
+  Steps ends{0, turns.quarters()};  // that nothing need be left out at
+  if (*std::min_element(level.begin(), level.end()) < told_apart * usual) {
+    const auto runs = bridged(runs_where(pass.from, last, [&](std::size_t k) {
+      return turns.level[k] >= like_most * usual;
+    }));
+    best = *std::max_element(
+        runs.begin(), runs.end(),
+        [](const Steps& a, const Steps& b) { return a.to - a.from < b.to - b.from; });
+    ends = pass;
   }
-  const auto runs = bridged(runs_where(pass.from, last, [&](std::size_t k) {
-    return turns.level[k] >= like_most * usual;
-  }));
-  Steps best = *std::max_element(
-      runs.begin(), runs.end(),
-      [](const Steps& a, const Steps& b) { return a.to - a.from < b.to - b.from; });
-  best.from += best.from > pass.from ? 1 : 0;
-  best.to -= best.to < pass.to ? 1 : 0;
+  const bool is_long = best.to - best.from >= long_pass;
+  const std::size_t margin = is_long ? 3 : (best.from == pass.from ? 0 : 1);
+  const std::size_t margin_after = is_long ? 3 : (best.to == pass.to ? 0 : 1);
+  best.from += best.from > ends.from ? margin : 0;
+  best.to -= best.to < ends.to ? margin_after : 0;
   return {turns.part(best)};
 }
 

@@ -26,7 +26,8 @@ TEST(MeanTurns, AreTheMeansOfSamplesAtTheSameAngle) {
   ASSERT_EQ(mean[0].angle.size(), 8U);
   ASSERT_EQ(computed[0].of_run[0].size(), 8U);
   for (std::size_t b = 0; b < 8; ++b) {
-    EXPECT_NEAR(mean[0].angle[b], unit::turn * (static_cast<double>(b) + 0.5) / 8, 1e-9);
+    EXPECT_NEAR(mean[0].angle[b], unit::turn * (static_cast<double>(b) + 0.5) / 8,
+                1e-9);
     EXPECT_NEAR(mean[0].force[b][0], std::sin(mean[0].angle[b]), 1e-9);
     EXPECT_NEAR(mean[0].force[b][1], 2.0, 1e-12);
     EXPECT_NEAR(mean[0].force[b][2], 0.0, 1e-12);

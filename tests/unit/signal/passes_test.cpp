@@ -54,8 +54,9 @@ TEST(Passes, AreFoundOneByOne) {
   const Passes found = passes_of(s.channel, s.angle);
   EXPECT_EQ(found.air.size(), 2u);
   ASSERT_EQ(found.steady.size(), 2u);
-  EXPECT_NEAR(static_cast<double>(found.steady[0].begin), 8.0 * a_turn, 0.5 * a_turn);
-  EXPECT_NEAR(static_cast<double>(found.steady[0].end), 28.0 * a_turn, 0.5 * a_turn);
+  // Within the cut, less a turn at most: a window with air in it may look like most.
+  EXPECT_NEAR(static_cast<double>(found.steady[0].begin), 8.5 * a_turn, 0.5 * a_turn);
+  EXPECT_NEAR(static_cast<double>(found.steady[0].end), 27.5 * a_turn, 0.5 * a_turn);
   EXPECT_NEAR(static_cast<double>(found.steady[1].begin), 38.0 * a_turn, 1.0 * a_turn);
   EXPECT_EQ(found.steady[1].end, s.angle.size());
 }
@@ -66,7 +67,7 @@ TEST(Passes, AreFoundInALotOfAir) {
   ASSERT_EQ(found.steady.size(), 1u);
   EXPECT_GE(found.steady[0].begin, 200u * a_turn);
   EXPECT_LE(found.steady[0].end, 206u * a_turn);
-  EXPECT_GE(found.steady[0].size(), 5u * a_turn);
+  EXPECT_GE(found.steady[0].size(), 4u * a_turn);
 }
 
 TEST(Passes, LeaveAnEntryWithoutAirOut) {
