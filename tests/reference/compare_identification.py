@@ -152,6 +152,38 @@ class Identify(unittest.TestCase):
         self.assertAlmostEqual(fit["phase_deg"], p["phase"], delta=0.02 * se["phase"])
         self.assertAlmostEqual(fit["phase_se_deg"], se["phase"], delta=0.02 * se["phase"])
 
+    def test_two_groups_share_one_runout(self):  # [I-14] [I-4]
+        given = tables()
+        worn = {**K, "K_rc_MPa": 1100.0, "K_te_N_per_mm": 19.0, "K_re_N_per_mm": 23.0}
+        angle = turns(60)
+        runs, files = [], []
+        for i, (group, f_z) in enumerate([("new", 0.05), ("worn", 0.04), ("new", 0.08),
+                                          ("worn", 0.07)]):
+            case, K_true = truth(given, worn if group == "worn" else K)
+            case = replace(case, f_z=f_z)
+            F = record(case, K_true, angle, noise=6, seed=20 + i)
+            runs.append((case, angle, F, group))
+            files.append({**self.write(f"g{i}.csv", angle, F), "group": group,
+                          "cut": {"feed_per_tooth_mm": f_z}})
+        names = ["shift:1", "shift:2"]
+        x, se = ident.joint_of_groups(runs, names, [0.009, -0.006])
+        unknown = {k: v for k, v in given.items() if k != "runout"}
+        result = self.identify("groups", unknown, {
+            "chip_models": ["trochoidal"], "runout": "offsets", "phase_deg": 0.0},
+            files).result
+        self.assertEqual([g["group"] for g in result["groups"]], ["new", "worn"])
+        self.assertEqual([os.path.basename(f) for f in result["groups"][1]["files"]],
+                         ["g1.csv", "g3.csv"])
+        for g, group in enumerate(result["groups"]):
+            self.same_coefficients(group, x[6 * g:6 * g + 6], se[6 * g:6 * g + 6],
+                                   rel=2e-5, se_rel=0.02)
+        runout = result["fits"][0]["runout"]
+        for k in (1, 2):
+            self.assertAlmostEqual(runout["radial_offsets_mm"][k], x[11 + k],
+                                   delta=0.02 * se[11 + k])
+            self.assertAlmostEqual(runout["radial_offsets_se_mm"][k], se[11 + k],
+                                   delta=0.02 * se[11 + k])
+
     def test_eccentricity_of_four_teeth(self):  # [I-3] [I-4] [G-9]
         given = tables(tool={"teeth": 4, "pitch_deg": [85.0, 95.0, 88.0, 92.0]},
                        cut={"engagement": "up", "radial_depth_mm": 6.0})

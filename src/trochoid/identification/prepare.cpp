@@ -2,6 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/identification/answer.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/uncertainty.h>
 
 #include <fmt/core.h>
@@ -74,12 +75,25 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
   out.unknowns = unknowns_of(setup, law, runs, options);
   if (out.unknowns.runout == RunoutUnknowns::none) out.setup.runout = {};
   for (const Run& run : runs) out.runs.push_back(fold(run, options));
+  set_groups(runs, out);
   out.fixed_phase = options.phase.value_or(0.0);
   out.columns = static_cast<int>(force::form(law).columns());
   if (options.start && options.start->phase.size() == runs.size()) {
     out.start = Point{options.start->runout, law, options.start->phase};
   }
   return out;
+}
+
+/// Whether the runs of some group were all cut with the same feed.
+bool has_group_of_one_feed(const Problem& problem) {
+  std::vector<double> f_z(problem.groups.size(), -1.0);
+  std::vector<bool> several(problem.groups.size(), false);
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const std::size_t g = problem.group_of[r];
+    if (f_z[g] >= 0.0 && problem.runs[r].cut.f_z != f_z[g]) several[g] = true;
+    f_z[g] = problem.runs[r].cut.f_z;
+  }
+  return std::ranges::any_of(several, [](bool feeds) { return !feeds; });
 }
 
 /// Too few equations for the unknowns: the sentence that says so, else empty.
@@ -93,10 +107,7 @@ std::string too_few(const Problem& problem, double equations) {
 }  // namespace
 
 bool means_do_not_suffice(const Problem& problem) {
-  const double f_z = problem.runs.front().cut.f_z;
-  return force::form(problem.law).edge &&
-         std::ranges::all_of(problem.runs,
-                             [&](const FoldedRun& run) { return run.cut.f_z == f_z; });
+  return force::form(problem.law).edge && has_group_of_one_feed(problem);
 }
 
 Prepared prepare(const force::Setup& setup, const force::Law& law,

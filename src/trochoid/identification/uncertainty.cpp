@@ -1,5 +1,6 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/derivatives.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/columns.h>
@@ -136,8 +137,12 @@ numerics::LeastSquares drop_dependent(const numerics::Columns& J,
 std::vector<std::string> names_of(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
   std::vector<std::string> out;
-  for (const force::Quantity& K : force::coefficient_quantities(problem.law)) {
-    out.emplace_back(K.key);
+  for (const std::string& group : problem.groups) {
+    const bool alone = problem.groups.size() == 1;
+    for (const force::Quantity& K : force::coefficient_quantities(problem.law)) {
+      out.push_back(alone ? std::string(K.key)
+                          : fmt::format("{} of {}", K.key, label_of_group(group)));
+    }
   }
   for (int i = 0; i < problem.drift_columns(); ++i) {
     out.push_back(fmt::format("{} of channel {} in run {}",

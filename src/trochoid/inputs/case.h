@@ -57,6 +57,7 @@ struct Measurement {
   std::optional<double> sample_rate;   ///< [Hz]
   std::optional<double> from;          ///< what is before it is not used [s]
   std::optional<double> to;            ///< what is after it is not used [s]
+  std::string group;                   ///< those of one name share coefficients
   geometry::Cut cut;                   ///< [cut] with this run's overrides
   std::string location;                ///< file:line:col of its `file` key
 };
@@ -84,6 +85,20 @@ constexpr std::string_view name_of(ChannelOffset offset) noexcept {
   return {};
 }
 
+/// What measurements of different groups have in common.
+enum class Shared { runout, coefficients };
+
+/// Names of files.
+constexpr std::string_view name_of(Shared shared) noexcept {
+  switch (shared) {
+    case Shared::runout:
+      return "runout";
+    case Shared::coefficients:
+      return "coefficients";
+  }
+  return {};
+}
+
 /// [identify]
 struct Identify {
   std::vector<chip::Model> chip_models = {chip::Model::none, chip::Model::feed,
@@ -92,6 +107,7 @@ struct Identify {
   std::optional<double> phase;  ///< [rad]; absent: free
   int band_harmonics = 0;       ///< 0: all
   ChannelOffset channel_offsets = ChannelOffset::automatic;
+  Shared shared = Shared::runout;    ///< by groups of measurements
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
 };
 

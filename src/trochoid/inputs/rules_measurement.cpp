@@ -130,11 +130,19 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .sample_rate = table.sample_rate,
                 .from = table.from,
                 .to = table.to,
+                .group = table.group,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
   if (sound(findings, {path + ".file"})) {
     check_file(m.file, path + ".file", table.file, "a force record (csv or dynoware)",
                findings);
+  }
+  if (std::any_of(table.group.begin(), table.group.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
+    report(findings, path + ".group",
+           fmt::format("{}.group = {}: must be text of one line (records of the same "
+                       "group share coefficients)",
+                       path, toml_string(table.group)));
   }
   if (!table.time_column.empty() && table.sample_rate) {
     report(
@@ -157,7 +165,14 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                   .runout = table.runout,
                   .phase = table.phase,
                   .band_harmonics = table.band_harmonics,
-                  .channel_offsets = table.channel_offsets};
+                  .channel_offsets = table.channel_offsets,
+                  .shared = table.shared};
+  if (table.shared == Shared::coefficients) {
+    report(findings, "identify.shared",
+           "identify.shared = \"coefficients\": one tool of one sharpness, clamped "
+           "several times, is not fitted together yet; must be \"runout\", or a case "
+           "file for each clamping (what groups have in common)");
+  }
   const auto& models = table.chip_models;
   if (tables.chip.lookback == chip::Lookback::previous &&
       std::find(models.begin(), models.end(), chip::Model::radial) != models.end()) {

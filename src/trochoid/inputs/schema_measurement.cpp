@@ -98,6 +98,12 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .standard = "the longest steady cut",
      .example = "3.2"},
     &t.to);
+  v({.name = "group",
+     .meaning = "measurements of the same group share coefficients, for example those "
+                "of one state of wear; those without share one set as well",
+     .standard = "all share them",
+     .example = "\"after 10 min\""},
+    &t.group);
   v({.name = "cut",
      .meaning = "keys of [cut] that are different in this run",
      .example = "{ feed_per_tooth_mm = 0.06 }"},
@@ -126,6 +132,11 @@ void describe(const Visitor& v, IdentifyTable& t) {
          "constant and drift of the channels: taken from where nothing cuts (auto: if "
          "there is air in the record), fitted, or left as they are"},
     choice(t.channel_offsets));
+  v({.name = "shared",
+     .meaning =
+         "what measurements of different groups have in common; runout: the tool "
+         "was not clamped anew between them"},
+    choice(t.shared));
   v({.name = "sweep_um",
      .meaning =
          "first, last and number of radial offsets of tooth 2 to try for sweep.csv",

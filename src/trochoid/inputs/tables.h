@@ -95,6 +95,7 @@ struct MeasurementTable {
   std::optional<double> sample_rate;
   std::optional<double> from;
   std::optional<double> to;
+  std::string group;
   CutTable cut;  ///< complete: [cut] with the overrides of this run
 };
 
@@ -104,6 +105,7 @@ struct IdentifyTable {
   std::optional<double> phase;
   int band_harmonics = 0;
   ChannelOffset channel_offsets = ChannelOffset::automatic;
+  Shared shared = Shared::runout;
   std::optional<base::Steps> sweep;
 };
 

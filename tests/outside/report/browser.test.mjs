@@ -82,7 +82,7 @@ async function check(name, options, plots) {
   return { page, canvases, close };
 }
 
-const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2,
+const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2,
   modes: 4, actuator: 2, dynamics: 8, chatter: 1, correct: 8 };
 for (const [name, plots] of Object.entries(plotsOf)) {
@@ -123,6 +123,19 @@ for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, 
     });
   }
 }
+
+test('groups stand side by side, and a change that intervals allow is no change', async () => {
+  const { page, close } = await open('worn');
+  const rows = await page.locator('#groups tbody tr').allInnerTexts();
+  assert.equal(rows.length, 3);
+  assert.match(rows[0], /no sure change.*no sure change/s);
+  assert.match(rows[1], /13\.5.*\+90 %.*19\.9.*\+180 %/s);
+  assert.match(rows[2], /–.*–.*–/s);
+  assert.match(await page.locator('#groups thead').innerText(),
+    /records without a group.*after 20 min <b>/s);
+  assert.match(await page.locator('#coefficients').innerText(), /Of records without a group\./);
+  await close();
+});
 
 test('the map tells values, and a click or the slider chooses the profile', async () => {
   const { page, close } = await open('surface');

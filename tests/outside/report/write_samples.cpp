@@ -230,6 +230,33 @@ Answer failed() {
   return answer;
 }
 
+/// The same answer with three states of wear.
+Answer worn() {
+  Answer answer = identify();
+  trochoid::results::Array groups;
+  for (const int state : {0, 1, 2}) {
+    trochoid::results::Object K;
+    const auto add = [&](const char* key, double value, double half) {
+      set(K, key,
+          trochoid::results::Object{{"value", value},
+                                    {"se", half / 2},
+                                    {"low", value - half},
+                                    {"high", value + half}});
+    };
+    add("K_tc_MPa", 2618.2 + 12 * state, 41);
+    add("K_te_N_per_mm", 7.1 + 6.4 * state, 1.5);
+    set(K, "K_ae_N_per_mm", nullptr);
+    groups.emplace_back(trochoid::results::Object{
+        {"group", state == 0 ? trochoid::results::Value()
+                             : "after " + std::to_string(10 * state) + " min <b>"},
+        {"coefficients", std::move(K)},
+        {"files", std::vector<std::string>{"a.csv", "b.csv"}}});
+  }
+  set(std::get<trochoid::results::Object>(answer.result.data), "groups",
+      std::move(groups));
+  return answer;
+}
+
 /// The same answer with numbers that must not be used.
 Answer doubtful() {
   Answer answer = identify();
@@ -279,7 +306,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, answer] :
          {std::pair{"identify", identify()}, std::pair{"simulate", simulate()},
           std::pair{"failed", failed()}, std::pair{"doubtful", doubtful()},
-          std::pair{"other", other()},
+          std::pair{"worn", worn()}, std::pair{"other", other()},
           std::pair{"surface", sample::wall("envelope", cases / "envelope")},
           std::pair{"marks", sample::wall("imprint", cases / "imprint")},
           std::pair{"pulse", sample::wall("quasi_static", cases / "pulse")},

@@ -1,6 +1,6 @@
 // The page of `identify`.
 
-const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use', 'verdict', 'with_care'];
+const identifyKnown = ['fits', 'chosen', 'groups', 'signal', 'do_not_use', 'verdict', 'with_care'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -14,7 +14,8 @@ function identifyPage(report) {
   });
   return [
     { lead: best ? headline(best, fits, trust, verdictOf(result)) : null },
-    { part: best ? coefficientSection(best, trust) : null },
+    { part: best ? coefficientSection(best, trust, result.groups?.[0]) : null },
+    groupsSection(result.groups),
     ...curves,
     foldedSection(report),
     { part: fitsSection(fits, best) },
@@ -107,7 +108,7 @@ function meter(level) {
     [1, 2, 3, 4].map((i) => el('i', { class: i <= level ? 'on' : '' })));
 }
 
-function coefficientSection(fit, trust) {
+function coefficientSection(fit, trust, group) {
   const rows = coefficientsOf(fit).map(([key, entry]) => {
     const { name, unit } = nameAndUnit(key);
     const head = [symbol(name), meanings[name] ? el('small', {}, meanings[name]) : null];
@@ -124,7 +125,8 @@ function coefficientSection(fit, trust) {
   });
   if (!rows.length) return null;
   return section('coefficients', 'Cutting coefficients', 'Coefficients',
-    prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
+    prose(group ? ['Of ', el('b', {}, groupName(group)), '. '] : null,
+      'From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
       fit.interval_widening > 1.2 ? 'What the fit leaves is not white noise: the confidence intervals are ' +
