@@ -2,7 +2,9 @@
 
 #include "made_record.h"
 
+#include <trochoid/identification/prepare.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/identification/scan.h>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +110,22 @@ TEST_F(Groups, HelpOneAnother) {  // [I-4]
   const Fit alone = identify(without_runout(setup), steel(), sharp, {});
   ASSERT_TRUE(both.ok && alone.ok);
   EXPECT_LT(*both.radial_offsets_se[1], 0.9 * *alone.radial_offsets_se[1]);
+}
+
+/// The scan of all is that of each by itself: they have no phase and no coefficient in
+/// common.
+TEST_F(Groups, AddUpInTheScan) {  // [I-12] [I-14]
+  noise = 10.0;
+  const std::vector<Record> runs = two_states();
+  const auto least = [&](const std::vector<Record>& some) {
+    const Problem problem = *prepare(without_runout(setup), steel(), some, {}).problem;
+    const Point truth{setup.runout, steel(), std::vector<double>(some.size(), 0.0)};
+    std::vector<double> p = parameters_of(problem, truth);
+    p.resize(2);
+    return scan(problem, {p}).front().rss;
+  };
+  const double apart = least({runs[0], runs[2]}) + least({runs[1], runs[3]});
+  EXPECT_NEAR(least(runs), apart, 1e-9 * apart);
 }
 
 TEST_F(Groups, AreNamedWhereTheyCannotBeTold) {

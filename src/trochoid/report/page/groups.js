@@ -7,7 +7,7 @@ const keysOfAll = (groups) => Object.keys(groups[0].coefficients)
   .filter((key) => groups.every((entry) => isNumber(entry.coefficients[key]?.value)));
 
 /** By how much a coefficient differs from that of the first group, where the intervals say so. */
-function changeOf(first, entry) {
+function changeSince(first, entry) {
   if (!isNumber(first?.value) || !isNumber(entry?.value) || !first.value) return null;
   const apart = entry.low > first.high || entry.high < first.low;
   const part = 100 * (entry.value / first.value - 1);
@@ -23,7 +23,7 @@ function groupRows(groups) {
       if (!isNumber(entry?.value)) return missing;
       const width = half(entry);
       return [measured(entry.value, width), el('small', {}, `± ${measured(width, width)}`),
-        i > 0 ? el('small', {}, changeOf(first, entry)) : null];
+        i > 0 ? el('small', {}, changeSince(first, entry)) : null];
     })];
   });
 }
@@ -32,7 +32,7 @@ function groupsSection(groups) {
   if (!Array.isArray(groups) || groups.length < 2) return null;
   const x = groups.map((_, i) => i + 1);
   const keys = keysOfAll(groups);
-  const chart = keys.length ? figure({ key: 'group', x, points: true,
+  const chart = keys.length ? figure({ key: 'group', x, points: true, whole: true,
     label: `group: ${groups.map((one, i) => `${i + 1} ${groupName(one)}`).join(', ')}` }) : null;
   const part = section('groups', 'The coefficients over the groups', 'Groups',
     prose('Records of one group share coefficients, all records share the runout. As a rule ' +
