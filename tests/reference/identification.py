@@ -174,6 +174,29 @@ def joint_of_groups(runs, names, start, step=1e-5):
     return fit.x, standard_errors(jacobian(fit.x), residual(fit.x))
 
 
+def jacobian(case, angle, K, names, p, step=1e-5):
+    """[D] and the derivatives by the runout, and those by the phase [I-4]"""
+    new, _ = with_parameters(case, names, p)
+    columns = []
+    for e in step * np.eye(len(p)):
+        hi, lo = (stacked(with_parameters(case, names, p + s * e)[0], angle) @ K
+                  for s in (1, -1))
+        columns.append((hi - lo) / (2 * step))
+    hi, lo = (stacked(new, angle, s * step) @ K for s in (1, -1))
+    return np.column_stack([stacked(new, angle)] + columns), (hi - lo) / (2 * step)
+
+
+def information(J, N, noise, turns=1):
+    """What a record tells of coefficients and runout, its phase unknown [I-15]"""
+    left = J - np.outer(N, N @ J) / (N @ N)
+    return turns / noise**2 * left.T @ left
+
+
+def log_determinant(M, some):
+    """Of the covariance of some parameters [I-16]"""
+    return np.linalg.slogdet(np.linalg.inv(M)[np.ix_(some, some)])[1]
+
+
 def sweep(case, angle, F, offsets):
     """RMS over the offset of tooth 2, coefficients refitted (Fig. 9 of the paper)"""
     out = []

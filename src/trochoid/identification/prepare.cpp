@@ -50,18 +50,12 @@ bool force_is_constant(const Problem& problem) {
   return rss_of_means(problem) <= constant_force * constant_force * total;
 }
 
+/// The same with the phases of the runs, scaled by the largest feed.
 Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
                      std::span<const Run> runs, const Options& options) {
-  Unknowns out;
-  out.teeth = setup.cutter.teeth();
-  out.runout =
-      chip::feels_runout(options.chip_model) ? options.runout : RunoutUnknowns::none;
-  if (out.teeth == 1 && out.runout != RunoutUnknowns::fixed) {
-    out.runout = RunoutUnknowns::none;
-  }
+  Unknowns out = identification::unknowns_of(setup, law, options);
   out.length = 0.0;
   for (const Run& run : runs) out.length = std::max(out.length, run.cut.f_z);
-  out.exponents = options.fit_exponents && force::form(law).power;
   out.phases = options.phase ? 0 : static_cast<int>(runs.size());
   return out;
 }
@@ -105,6 +99,19 @@ std::string too_few(const Problem& problem, double equations) {
 }
 
 }  // namespace
+
+Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
+                     const Options& options) {
+  Unknowns out;
+  out.teeth = setup.cutter.teeth();
+  out.runout =
+      chip::feels_runout(options.chip_model) ? options.runout : RunoutUnknowns::none;
+  if (out.teeth == 1 && out.runout != RunoutUnknowns::fixed) {
+    out.runout = RunoutUnknowns::none;
+  }
+  out.exponents = options.fit_exponents && force::form(law).power;
+  return out;
+}
 
 bool means_do_not_suffice(const Problem& problem) {
   return force::form(problem.law).edge && has_group_of_one_feed(problem);

@@ -62,7 +62,8 @@ int Unknowns::runout_count() const noexcept {
 }
 
 int Problem::drift_columns() const noexcept {
-  return runs.front().drift.empty() ? 0 : 6 * static_cast<int>(runs.size());
+  return runs.empty() || runs.front().drift.empty() ? 0
+                                                    : 6 * static_cast<int>(runs.size());
 }
 
 int Problem::rows() const noexcept {

@@ -164,6 +164,11 @@ std::vector<std::string> names_of(const Problem& problem) {
   return out;
 }
 
+std::vector<double> jacobian_of(const Problem& problem, Evaluation at,
+                                std::span<const double> K) {
+  return full_jacobian(problem, std::move(at), K).J;
+}
+
 Uncertainty uncertainty(const Problem& problem, Evaluation at,
                         std::span<const double> K, double rss, double equations) {
   const std::vector<std::string> names = names_of(problem);

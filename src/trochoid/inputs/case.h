@@ -111,6 +111,36 @@ struct Identify {
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
 };
 
+/// A kind of cut that a plan looks at.
+enum class PlannedEngagement { slot, up, down };
+
+/// Names of files.
+constexpr std::string_view name_of(PlannedEngagement engagement) noexcept {
+  switch (engagement) {
+    case PlannedEngagement::slot:
+      return "slot";
+    case PlannedEngagement::up:
+      return "up";
+    case PlannedEngagement::down:
+      return "down";
+  }
+  return {};
+}
+
+/// [plan]: the cuts among which the one to be measured next is chosen.
+struct Plan {
+  std::vector<PlannedEngagement> engagements = {
+      PlannedEngagement::slot, PlannedEngagement::up, PlannedEngagement::down};
+  std::vector<double> feeds;          ///< per tooth [m]
+  std::vector<double> axial_depths;   ///< [m]
+  std::vector<double> radial_depths;  ///< [m]
+  int turns = 10;
+  int samples_per_rev = 360;
+  std::optional<double> noise;          ///< of a sample [N]
+  std::optional<double> max_force;      ///< in the plane of the table [N]
+  std::vector<std::string> quantities;  ///< names without unit, coefficients, runout
+};
+
 /// @brief A case file, read and checked, in SI and radians.
 struct Case {
   std::filesystem::path file;
@@ -122,6 +152,7 @@ struct Case {
   std::optional<Dynamometer> dynamometer;
   std::vector<Measurement> measurements;
   Identify identify;
+  Plan plan;
   MachineTables machine;      ///< of other commands
   std::string as_understood;  ///< TOML with every default filled in
 };

@@ -31,6 +31,7 @@ constexpr Ending endings[] = {
     {"_um", {unit::um, "um"}},
     {"_kg", {unit::one, "kg"}},
     {"_Hz", {unit::one, "Hz"}},
+    {"_N", {unit::one, "N"}},
     {"_s", {unit::one, "s"}},
 };
 

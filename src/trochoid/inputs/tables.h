@@ -120,6 +120,7 @@ struct CaseTables {
   std::optional<DynamometerTable> dynamometer;
   std::vector<MeasurementTable> measurements;
   std::optional<IdentifyTable> identify;
+  std::optional<Plan> plan;
   MachineTables machine;
 };
 
@@ -132,6 +133,7 @@ void describe(const Visitor& v, Sampling& t);
 void describe(const Visitor& v, DynamometerTable& t);
 void describe(const Visitor& v, MeasurementTable& t);
 void describe(const Visitor& v, IdentifyTable& t);
+void describe(const Visitor& v, Plan& t);
 /// The keys above all tables.
 void describe(const Visitor& v, CaseTables& t);
 

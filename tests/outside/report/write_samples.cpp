@@ -316,7 +316,7 @@ int main(int argc, char** argv) {
           std::pair{"modes", sample::modes()},
           std::pair{"actuator", sample::actuator()},
           std::pair{"dynamics", sample::motion()},
-          std::pair{"correct", sample::correction()},
+          std::pair{"correct", sample::correction()}, std::pair{"plan", sample::plan()},
           std::pair{"chatter", sample::chatter()},
           std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
           std::pair{"one_height", sample::one_height(cases / "one_height")}}) {

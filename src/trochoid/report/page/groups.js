@@ -45,7 +45,7 @@ function groupsSection(groups) {
     const of = (what) => groups.map((one) => one.coefficients[key][what]);
     return { label: symbol(name), unit, height: 110,
       band: { name: '95 % interval', low: of('low'), high: of('high') },
-      series: [{ name: '', values: of('value'), color: '--s1', width: 2, points: true }] };
+      series: [{ name: '', values: of('value'), color: '--s1', width: 2, points: 7 }] };
   });
   return { part, draw: () => chart?.draw(panels) };
 }
