@@ -16,11 +16,18 @@ namespace {
 /// More would take minutes, and nobody reads the list.
 constexpr std::size_t most_cuts = 20000;
 
+/// Whether a fit finds it: with a model that feels it, and a second tooth.
 bool looks_for_runout(const CaseTables& t) {
   using identification::RunoutUnknowns;
+  const auto& models = t.identify->chip_models;
+  const bool felt = t.measurements.empty()
+                        ? chip::feels_runout(t.chip.model)
+                        : std::any_of(models.begin(), models.end(), [](chip::Model m) {
+                            return chip::feels_runout(m);
+                          });
   const bool found = t.identify->runout == RunoutUnknowns::offsets ||
                      t.identify->runout == RunoutUnknowns::eccentricity;
-  return found && t.tool.teeth > 1;
+  return felt && found && t.tool.teeth > 1;
 }
 
 /// Names without their unit: coefficients and exponents of the law.
@@ -65,10 +72,10 @@ void check_quantities(CaseTables& t, Findings& findings) {
     if (std::find(law.begin(), law.end(), plain) != law.end()) {
       name = plain;
     } else if (name == "runout" && !looks_for_runout(t)) {
-      report(
-          findings, "plan.quantities",
-          "plan.quantities: \"runout\" is not looked for with this [identify] "
-          "runout, or with one tooth; must be \"offsets\" or \"eccentricity\" there");
+      report(findings, "plan.quantities",
+             "plan.quantities: \"runout\" is not looked for: that takes [identify] "
+             "runout = \"offsets\" or \"eccentricity\", a chip model that feels it and "
+             "two teeth");
     } else if (name != "runout" && name != "coefficients") {
       report(findings, "plan.quantities",
              fmt::format("plan.quantities: {} is none; must be of \"coefficients\", "

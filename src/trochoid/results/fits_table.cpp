@@ -3,6 +3,7 @@
 #include <trochoid/base/rounded.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/results/text_table.h>
 
 #include <fmt/core.h>
 
@@ -79,25 +80,6 @@ std::string phase_text(const Fit& fit, std::size_t run) {
 }
 
 using Cells = std::vector<std::string>;
-
-/// Lines of cells, each column as wide as its widest cell.
-std::string aligned(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> width(rows.front().size(), 0);
-  for (const auto& cells : rows) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      width[i] = std::max(width[i], cells[i].size());
-    }
-  }
-  std::string out;
-  for (const auto& cells : rows) {
-    out += fmt::format("{:<{}}", cells.front(), width.front());
-    for (std::size_t i = 1; i < cells.size(); ++i) {
-      out += fmt::format("  {:>{}}", cells[i], width[i]);
-    }
-    out += '\n';
-  }
-  return out;
-}
 
 /// One column a fit.
 class Columns {

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/overloaded.h>
 #include <trochoid/base/units.h>
+#include <trochoid/results/text_table.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -93,25 +94,6 @@ Object result_of(const PlanResult& r) {
 std::string spread(const PlannedQuantity& q, double half) {
   return q.relative ? fmt::format("+- {:.2g} %", 100.0 * half / std::abs(q.value))
                     : fmt::format("+- {:.2g} um", half / unit::um);
-}
-
-/// Cells under one another; the first column to the left, the rest to the right.
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> width(rows.front().size(), 0);
-  for (const auto& cells : rows) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      width[i] = std::max(width[i], cells[i].size());
-    }
-  }
-  std::string out;
-  for (const auto& cells : rows) {
-    out += fmt::format("{:<{}}", cells[0], width[0]);
-    for (std::size_t i = 1; i < cells.size(); ++i) {
-      out += fmt::format("  {:>{}}", cells[i], width[i]);
-    }
-    out += '\n';
-  }
-  return out;
 }
 
 std::string short_table(const PlanResult& r) {

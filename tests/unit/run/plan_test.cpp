@@ -91,6 +91,15 @@ TEST(Plan, AsksForAnEccentricityByItsAmount) {
   EXPECT_EQ(r.parameters, 4U) << "both components count";
 }
 
+/// The whole tool is a plan for coefficients alone where the model feels no runout.
+TEST(Plan, AsksForNoRunoutThatTheModelDoesNotFeel) {
+  const PlanResult r = planned(
+      measurement + "[identify]\nchip_models = [\"none\"]\n[plan]\nturns = 2\n");
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_EQ(r.parameters, 2U);
+  EXPECT_EQ(r.quantities.size(), 2U);
+}
+
 TEST(Plan, HasNoAnswerWhereTheRecordsHaveNone) {
   const CaseFolder folder;
   auto record = two_turns();

@@ -97,6 +97,7 @@ struct Planning {
   Trial trial = {};                      ///< what all cuts have in common
   Information known = {};                ///< so far; empty: nothing
   double freedom = 0.0;                  ///< of what is known, its unknowns taken off
+  std::size_t unknowns = 0;              ///< but for phases and channels
   std::vector<std::size_t> wanted = {};  ///< parameters of the determinant
   std::vector<Combination> combinations = {};
 
@@ -205,10 +206,11 @@ struct Planning {
         add_coefficient(c, all[c], K[c]);
       }
     }
-    if (asked("runout") && trial.options.runout == RunoutUnknowns::offsets) {
+    const bool runout = asked("runout") && chip::feels_runout(trial.options.chip_model);
+    if (runout && trial.options.runout == RunoutUnknowns::offsets) {
       add_offsets(all.size());
-    } else if (asked("runout") &&
-               trial.options.runout == RunoutUnknowns::eccentricity) {
+    } else if (runout && trial.options.runout == RunoutUnknowns::eccentricity &&
+               trial.setup.cutter.teeth() > 1) {
       add_eccentricity(all.size());
     }
     const std::size_t first = names.size() - m.size();
@@ -218,6 +220,7 @@ struct Planning {
       }
     }
     r.parameters = wanted.size();
+    unknowns = names.size();
   }
 
   [[nodiscard]] Outcome outcome_of(const geometry::Cut& cut) const {
@@ -236,15 +239,14 @@ struct Planning {
       }
       const Information then = sum(known, identification::information_of(one));
       const auto determinant = identification::log_determinant(then, wanted);
-      if (!determinant) {
-        out.left_out = "it would still not tell the quantities apart";
-        return out;
-      }
-      out.cut.log_determinant = *determinant;
+      bool told = determinant.has_value();
       for (const Combination& c : combinations) {
-        out.cut.se.push_back(
-            *identification::standard_error(then, c.parameters, c.gradient));
+        const auto se = identification::standard_error(then, c.parameters, c.gradient);
+        told = told && se.has_value();
+        out.cut.se.push_back(se.value_or(0.0));
       }
+      out.cut.log_determinant = determinant.value_or(0.0);
+      if (!told) out.left_out = "it would still not tell the quantities apart";
     } catch (const std::invalid_argument&) {
       out.left_out = "no such cut with this cutter";
     }
@@ -285,9 +287,8 @@ struct Planning {
   /// Equations less unknowns once the cut has been measured: it has a phase of its own.
   [[nodiscard]] double freedom_after() const {
     const double equations = 3.0 * r.samples_per_rev * r.turns;
-    const double unknowns =
-        known.size > 0 ? 1.0 : 1.0 + static_cast<double>(wanted.size());
-    return std::max(1.0, freedom + equations - unknowns);
+    const double more = known.size > 0 ? 1.0 : 1.0 + static_cast<double>(unknowns);
+    return std::max(1.0, freedom + equations - more);
   }
 
   PlanResult answer() {
