@@ -152,6 +152,43 @@ class Identify(unittest.TestCase):
         self.assertAlmostEqual(fit["phase_deg"], p["phase"], delta=0.02 * se["phase"])
         self.assertAlmostEqual(fit["phase_se_deg"], se["phase"], delta=0.02 * se["phase"])
 
+    def test_two_clampings_tell_tool_and_holder_apart(self):  # [I-17]
+        given = tables()
+        given["runout"] = {"eccentricity_mm": 0.012, "angle_deg": -35.0}
+        case, K_true = truth(given)
+        angle = turns(90)
+        F = record(case, K_true, angle, noise=4)
+        before = {"eccentricity_mm": 0.008, "angle_deg": 70.0, "turned_deg": 150.0,
+                  "eccentricity_se_mm": 0.0002, "angle_se_deg": 3.0}
+        unknown = {k: v for k, v in given.items() if k != "runout"}
+        result = self.identify("clocking", unknown, {
+            "chip_models": ["trochoidal"], "runout": "eccentricity", "phase_deg": 0.0,
+            "previous_clamping": before}, [self.write("c.csv", angle, F)]).result
+        e = [0.012 * np.cos(np.radians(-35)), 0.012 * np.sin(np.radians(-35))]
+        fit = ident.joint(case, angle, F, ["ex", "ey"], e)
+        e2, a = fit["p"], np.radians(before["angle_deg"])
+        e1 = before["eccentricity_mm"] * np.array([np.cos(a), np.sin(a)])
+        (h, t), inverse = ident.separate(e1, e2, np.radians(before["turned_deg"]))
+        along, across = np.array([np.cos(a), np.sin(a)]), np.array([-np.sin(a), np.cos(a)])
+        C1 = (0.0002**2 * np.outer(along, along) +
+              (0.008 * np.radians(3.0))**2 * np.outer(across, across))
+        C2 = np.outer(fit["se_p"], fit["se_p"]) * fit["correlation"][-2:, -2:]
+        C = inverse @ np.block([[C1, np.zeros((2, 2))], [np.zeros((2, 2)), C2]]) @ inverse.T
+        got = result["clocking"]
+        for name, v, cov in (("holder", h, C[:2, :2]), ("tool", t, C[2:, 2:])):
+            size = np.hypot(*v)
+            amount = got[name]["eccentricity_mm"]
+            self.assertAlmostEqual(amount["value"], size, delta=2e-6)
+            self.assertAlmostEqual(np.radians(got[name]["angle_deg"]), np.arctan2(v[1], v[0]),
+                                   delta=1e-3)
+            se = np.sqrt(v @ cov @ v) / size
+            self.assertAlmostEqual(amount["se"], se, delta=0.02 * se, msg=name)
+        turn = np.arctan2(h[1], h[0]) + np.pi - np.arctan2(t[1], t[0]) - np.radians(150)
+        off = np.radians(got["best_turn_deg"]) - turn
+        self.assertAlmostEqual(np.cos(off), 1.0, delta=1e-5)
+        tir = got["total_indicator_reading_um"]["value"]
+        self.assertAlmostEqual(tir, 2000 * np.hypot(*e2), delta=4e-3)
+
     def test_two_groups_share_one_runout(self):  # [I-14] [I-4]
         given = tables()
         worn = {**K, "K_rc_MPa": 1100.0, "K_te_N_per_mm": 19.0, "K_re_N_per_mm": 23.0}

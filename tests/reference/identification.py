@@ -197,6 +197,14 @@ def log_determinant(M, some):
     return np.linalg.slogdet(np.linalg.inv(M)[np.ix_(some, some)])[1]
 
 
+def separate(e1, e2, turned):
+    """Parts of holder and tool of two eccentricities, by one system of equations [I-17]"""
+    c, s = np.cos(turned), np.sin(turned)
+    R = np.array([[c, -s], [s, c]])
+    A = np.block([[np.eye(2), np.eye(2)], [R.T, np.eye(2)]])  # e2 = R^T h + t
+    return np.split(np.linalg.solve(A, np.concatenate([e1, e2])), 2), np.linalg.inv(A)
+
+
 def sweep(case, angle, F, offsets):
     """RMS over the offset of tooth 2, coefficients refitted (Fig. 9 of the paper)"""
     out = []

@@ -212,6 +212,8 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e
   const double yy = reasons.covariance(i + 1, i + 1);
   fit.eccentricity_se =
       u.length * std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy));
+  const double l2 = u.length * u.length;
+  fit.eccentricity_covariance = {l2 * xx, l2 * xy, l2 * yy};
   fit.angle_se =
       std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy)) / rho;
 }

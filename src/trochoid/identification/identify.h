@@ -108,8 +108,10 @@ struct Fit {
   geometry::Runout runout;
   /// [m], shape (teeth). Absent: given, the gauge of tooth 1, or not identifiable.
   std::vector<std::optional<double>> radial_offsets_se;
-  std::optional<double> eccentricity_se;        ///< [m]
-  std::optional<double> angle_se;               ///< [rad]
+  std::optional<double> eccentricity_se;  ///< [m]
+  std::optional<double> angle_se;         ///< [rad]
+  /// Of e_x and e_y where both errors are known: xx, xy, yy [m^2], as I-4 has it.
+  std::array<double, 3> eccentricity_covariance{};
   std::vector<double> phase;                    ///< [rad], one a run
   std::vector<std::optional<double>> phase_se;  ///< [rad]; absent: given, or as above
   std::vector<std::array<ChannelOffset, 3>> channel_offsets;  ///< one a run, or empty

@@ -5,6 +5,7 @@
 #include <trochoid/force/setup.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/machine_tables.h>
+#include <trochoid/inputs/previous_clamping.h>
 
 #include <array>
 #include <filesystem>
@@ -107,7 +108,8 @@ struct Identify {
   std::optional<double> phase;  ///< [rad]; absent: free
   int band_harmonics = 0;       ///< 0: all
   ChannelOffset channel_offsets = ChannelOffset::automatic;
-  Shared shared = Shared::runout;    ///< by groups of measurements
+  Shared shared = Shared::runout;  ///< by groups of measurements
+  std::optional<PreviousClamping> previous_clamping;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
 };
 

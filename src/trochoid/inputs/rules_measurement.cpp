@@ -68,6 +68,29 @@ void check_invertible(const Matrix& m, Findings& findings) {
   }
 }
 
+/// Two clampings that are one separate nothing; nor do offsets.
+void check_clamping(const IdentifyTable& table, Findings& findings) {
+  const std::string key = "identify.previous_clamping";
+  if (!table.previous_clamping || !sound(findings, {key, key + ".turned_deg"})) {
+    return;
+  }
+  constexpr double least_turn = 1 * unit::deg;
+  if (std::abs(std::remainder(table.previous_clamping->turned, unit::turn)) <
+      least_turn) {
+    report(
+        findings, key + ".turned_deg",
+        fmt::format("{}.turned_deg = {} deg: the tool stood as before, so that nothing "
+                    "can be told apart; must be at least 1 deg off a whole turn",
+                    key, number_text(table.previous_clamping->turned, unit::deg)));
+  }
+  if (table.runout != identification::RunoutUnknowns::eccentricity) {
+    report(findings, key,
+           key +
+               ": only an eccentricity has a part of the holder; must go with "
+               "runout = \"eccentricity\"");
+  }
+}
+
 }  // namespace
 
 std::filesystem::path resolved(const std::string& file, const Location& named_at) {
@@ -166,7 +189,9 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                   .phase = table.phase,
                   .band_harmonics = table.band_harmonics,
                   .channel_offsets = table.channel_offsets,
-                  .shared = table.shared};
+                  .shared = table.shared,
+                  .previous_clamping = table.previous_clamping};
+  check_clamping(table, findings);
   if (table.shared == Shared::coefficients) {
     report(findings, "identify.shared",
            "identify.shared = \"coefficients\": one tool of one sharpness, clamped "

@@ -92,6 +92,9 @@ struct Expectation {
   std::string operator()(const CutTable*) const {
     return "a table { key = value, ... }";
   }
+  std::string operator()(const std::optional<PreviousClamping>*) const {
+    return "a table { key = value, ... }";
+  }
 };
 
 struct Writer {
@@ -154,6 +157,9 @@ struct Writer {
     }
     return fmt::format("[{}]", fmt::join(entries, ", "));
   }
+  Text operator()(const std::optional<PreviousClamping>*) const {
+    return {};
+  }                                                      // so this
   Text operator()(const CutTable*) const { return {}; }  // write_case.cpp does it
 };
 

@@ -106,6 +106,7 @@ struct IdentifyTable {
   int band_harmonics = 0;
   ChannelOffset channel_offsets = ChannelOffset::automatic;
   Shared shared = Shared::runout;
+  std::optional<PreviousClamping> previous_clamping;
   std::optional<base::Steps> sweep;
 };
 
@@ -134,6 +135,7 @@ void describe(const Visitor& v, DynamometerTable& t);
 void describe(const Visitor& v, MeasurementTable& t);
 void describe(const Visitor& v, IdentifyTable& t);
 void describe(const Visitor& v, Plan& t);
+void describe(const Visitor& v, PreviousClamping& t);
 /// The keys above all tables.
 void describe(const Visitor& v, CaseTables& t);
 

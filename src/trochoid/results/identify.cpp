@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/results/clocking.h>
 #include <trochoid/results/curve_tables.h>
 #include <trochoid/results/fit_value.h>
 #include <trochoid/results/fits_table.h>
@@ -63,6 +64,11 @@ std::string_view verdict_of(const IdentifyResult& r) {
   return r.reasons_for_care.empty() ? "usable" : "usable with care";
 }
 
+/// Half of a 95 % interval over its standard error.
+double factor_of(const IdentifyResult& r) {
+  return r.fits[*r.chosen].interval_factor;
+}
+
 /// Whether a record names the group that it is of.
 bool has_groups(const IdentifyResult& r) {
   return std::any_of(r.runs.begin(), r.runs.end(),
@@ -93,6 +99,9 @@ Object result_of(const IdentifyResult& r) {
   }
   if (!r.records.empty()) {
     set(result, "signal", signal_value(r));
+  }
+  if (r.clocking) {
+    set(result, "clocking", clocking_value(*r.clocking, factor_of(r)));
   }
   if (r.chosen) {
     set(result, "verdict", verdict_of(r));
@@ -134,7 +143,10 @@ std::string short_table(const IdentifyResult& r) {
   const Fit& chosen = r.fits[*r.chosen];
   const std::string groups =
       chosen.groups.size() > 1 ? groups_table(chosen) + "\n" : std::string();
-  return verdict_line(r) + "\n\n" + groups + fits_table(r.fits) + signal_lines(r);
+  const std::string gauge =
+      r.clocking ? clocking_lines(*r.clocking, factor_of(r)) : std::string();
+  return verdict_line(r) + "\n\n" + groups + fits_table(r.fits) + gauge +
+         signal_lines(r);
 }
 
 /// folded.csv: mean and scatter of the measured force over one turn; none where no

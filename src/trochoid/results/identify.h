@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/force/slice.h>
+#include <trochoid/identification/clocking.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/results/answer.h>
@@ -31,6 +32,15 @@ struct OffsetSweep {
   std::vector<Curve> curves;  ///< one a fit
 };
 
+/// What an eccentricity means at the machine.
+struct Clocking {
+  identification::Offset present;
+  double height = 0.0;    ///< above the tip [m], at which it is told
+  int longest_tooth = 1;  ///< there
+  /// With a previous clamping.
+  std::optional<identification::Separation> separation;
+};
+
 /// @brief What `identify` answers: coefficients, runout and phase from measured forces.
 struct IdentifyResult {
   Heading heading;
@@ -48,6 +58,7 @@ struct IdentifyResult {
   std::vector<signal::OneRevolution> folded;
   std::optional<OffsetSweep> sweep;
   std::optional<force::ChipCurve> curve;  ///< of the chosen fit
+  std::optional<Clocking> clocking;       ///< of its eccentricity, where it has one
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };
 

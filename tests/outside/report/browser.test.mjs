@@ -131,7 +131,7 @@ test('groups stand side by side, and a change that intervals allow is no change'
   assert.match(rows[1], /13\.5.*\+90 %.*19\.9.*\+180 %/s);
   assert.match(rows[2], /–.*–.*–/s);
   assert.match(await page.locator('#groups thead').innerText(), /without a group.*20 min <b>/s);
-  assert.match(await page.locator('#coefficients').innerText(), /Of records without a group\./);
+  assert.match(await page.locator('#figures').innerText(), /Of records without a group\..*29\.20 µm.*130°/s);
   await close();
 });
 

@@ -230,7 +230,7 @@ Answer failed() {
   return answer;
 }
 
-/// The same answer with three states of wear.
+/// The same answer with three states of wear, and an eccentricity of tool and holder.
 Answer worn() {
   Answer answer = identify();
   trochoid::results::Array groups;
@@ -252,8 +252,16 @@ Answer worn() {
         {"coefficients", std::move(K)},
         {"files", std::vector<std::string>{"a.csv", "b.csv"}}});
   }
-  set(std::get<trochoid::results::Object>(answer.result.data), "groups",
-      std::move(groups));
+  auto& result = std::get<trochoid::results::Object>(answer.result.data);
+  set(result, "groups", std::move(groups));
+  const std::string part =
+      R"({"eccentricity_mm": {"value": 0.006, "se": 1e-4, "low": 0.0058, "high": 0.0062},
+          "angle_deg": 50, "angle_se_deg": 1})";
+  set(result, "clocking",
+      json_value(R"({"total_indicator_reading_um": {"value": 29.2, "se": 0.1, "low": 29,
+                     "high": 29.4}, "height_mm": 1, "longest_tooth": 2, "best_turn_deg": 130,
+                     "least_eccentricity_mm": 0.004, "tool": )" +
+                 part + R"(, "holder": )" + part + "}"));
   return answer;
 }
 

@@ -125,6 +125,34 @@ TEST(IdentifyAnswer, HasACoefficientForEachGroup) {
   EXPECT_FALSE(says(result(made()), "groups"));
 }
 
+TEST(IdentifyAnswer, SaysWhatADialGaugeWouldRead) {
+  IdentifyResult r = made();
+  EXPECT_FALSE(says(result(r), "clocking"));
+  r.clocking = Clocking{{{3e-6, 4e-6}, {1e-14, 0.0, 1e-14}}, 1e-3, 2, std::nullopt};
+  const Answer answer = answer_of(r);
+  const Value* clocking = find(answer.result, "clocking");
+  ASSERT_NE(clocking, nullptr);
+  const Value* reading = find(*clocking, "total_indicator_reading_um");
+  EXPECT_NEAR(std::get<double>(find(*reading, "value")->data), 10.0, 1e-12);
+  EXPECT_NEAR(std::get<double>(find(*reading, "high")->data), 10.4, 1e-12);
+  EXPECT_EQ(find(*clocking, "tool"), nullptr);
+  EXPECT_TRUE(says(answer.short_table, "would read 10.00 +- 0.40 um in all (TIR)"))
+      << answer.short_table;
+  EXPECT_TRUE(says(answer.short_table, "1 mm above the tip tooth 2 is the longest"));
+  r.clocking->separation =
+      identification::separate({{0.0, 9e-6}, {}}, {{3e-6, 4e-6}, {}}, 180 * unit::deg);
+  // t = (e1 + e2)/2, h = (e1 - e2)/2
+  const std::string text = result(r);
+  EXPECT_TRUE(says(text, "\"tool\": {")) << text;
+  EXPECT_NEAR(
+      std::get<double>(find(*find(*find(*find(answer_of(r).result, "clocking"), "tool"),
+                                  "eccentricity_mm"),
+                            "value")
+                           ->data),
+      std::hypot(1.5, 6.5) * 1e-3, 1e-12);
+  EXPECT_TRUE(says(answer_of(r).short_table, "of the tool itself 6.6"));
+}
+
 TEST(IdentifyAnswer, HasTheSweepByItsModel) {
   IdentifyResult r = made();
   r.sweep = OffsetSweep{.offset = {-1 * unit::um, 0.0},

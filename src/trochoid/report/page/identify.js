@@ -1,6 +1,6 @@
 // The page of `identify`.
 
-const identifyKnown = ['fits', 'chosen', 'groups', 'signal', 'do_not_use', 'verdict', 'with_care'];
+const identifyKnown = ['fits', 'chosen', 'groups', 'clocking', 'signal', 'do_not_use', 'verdict', 'with_care'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -15,6 +15,7 @@ function identifyPage(report) {
   return [
     { lead: best ? headline(best, fits, trust, verdictOf(result)) : null },
     { part: best ? coefficientSection(best, trust, result.groups?.[0]) : null },
+    { part: result.clocking && trust ? clockingSection(result.clocking) : null },
     groupsSection(result.groups),
     ...curves,
     foldedSection(report),
@@ -152,6 +153,28 @@ function offsetTable(fit) {
         el('span', { class: 'text' }, isNumber(offsets[i]) ? `${i ? measured(r, 1000 * factor * se[i]) : '0'} µm` : 'not known',
           isNumber(se[i]) && i > 0 ? el('small', {}, `95 %: ± ${number(1000 * factor * se[i], 2)} µm`) : null));
     })));
+}
+
+/** What the eccentricity means for dial gauge and holder. */
+function clockingSection(clocking) {
+  const amount = (entry, factor, unit) => [
+    el('b', {}, measured(factor * entry.value, factor * half(entry))), ` ${unit}`,
+    el('small', {}, `± ${measured(factor * half(entry), factor * half(entry))}`)];
+  const rows = [['total indicator reading', amount(clocking.total_indicator_reading_um, 1, 'µm'), ''],
+    ['longest tooth', String(clocking.longest_tooth), `${number(clocking.height_mm)} mm above the tip`]];
+  for (const [key, name] of [['tool', 'of the tool itself'], ['holder', 'of holder and spindle']]) {
+    const part = clocking[key];
+    if (part) {
+      rows.push([name, amount(part.eccentricity_mm, 1000, 'µm'),
+        `at ${number(part.angle_deg, 3)}° from tooth 1${key === 'holder' ? ' as it stood before' : ''}`]);
+    }
+  }
+  const advice = isNumber(clocking.best_turn_deg) ? prose('Turned by ',
+    el('b', {}, `${number(clocking.best_turn_deg, 3)}°`), ' in its holder from where it is now (positive from tooth 1 ' +
+    `towards tooth 2), the tool runs out least: ${number(1000 * clocking.least_eccentricity_mm, 2)} µm remain.`) : null;
+  return section('clocking', 'At the machine', 'Dial gauge',
+    prose('What a dial gauge would read at a smooth shank at the height of the cut.'),
+    table(['', '', ''], rows), advice);
 }
 
 /** The fits side by side, as in Table 1 of the paper that the method is from. */
