@@ -92,14 +92,14 @@ int longest_tooth(const geometry::Cutter& cutter, const geometry::Runout& runout
 }
 
 Separation separate(const Offset& before, const Offset& now, double turned) {
-  const Complex R = std::polar(1.0, turned);
-  if (std::abs(1.0 - R) < least_turn) {
+  const Complex rotation = std::polar(1.0, turned);
+  if (std::abs(1.0 - rotation) < least_turn) {
     throw std::invalid_argument("a tool that was not turned in its holder");
   }
-  const Complex A = 1.0 / (1.0 - R);  // I-17
+  const Complex factor = 1.0 / (1.0 - rotation);  // I-17
   Separation out;
-  out.tool = combined(A, before, -A * R, now);
-  out.holder = combined(1.0 - A, before, A * R, now);
+  out.tool = combined(factor, before, -factor * rotation, now);
+  out.holder = combined(1.0 - factor, before, factor * rotation, now);
   const double opposite = out.holder.angle() + 0.5 * unit::turn - out.tool.angle();
   out.best_turn = std::remainder(opposite - turned, unit::turn);
   out.least = std::abs(out.holder.amount() - out.tool.amount());

@@ -55,11 +55,11 @@ Information information(const Problem& problem, std::span<const double> J,
   const std::size_t rows = index(problem.rows());
   Sorted all = sorted(problem, J, group, slopes);
   if (!all.others.empty()) {
-    const numerics::Columns N(all.others, rows);
-    numerics::project_out(N, numerics::gram_of(N), all.wanted);  // I-15
+    const numerics::Columns others(all.others, rows);
+    numerics::project_out(others, numerics::gram_of(others), all.wanted);  // I-15
   }
   Information out{all.wanted.size() / rows, numerics::gram_of({all.wanted, rows})};
-  for (double& m : out.M) m /= variance;
+  for (double& m : out.matrix) m /= variance;
   return out;
 }
 
@@ -77,12 +77,12 @@ std::vector<double> part(const Information& of, std::span<const std::size_t> row
                          std::span<const std::size_t> columns) {
   std::vector<double> out;
   for (const std::size_t i : rows) {
-    for (const std::size_t j : columns) out.push_back(of.M[i * of.size + j]);
+    for (const std::size_t j : columns) out.push_back(of.matrix[i * of.size + j]);
   }
   return out;
 }
 
-/// What is known of some parameters, whatever the others are: M_SS - M_SR M_RR^-1 M_RS.
+/// What is known of some parameters, whatever the others are (I-16).
 std::vector<double> of_some(const Information& known,
                             std::span<const std::size_t> some) {
   std::vector<std::size_t> rest;
@@ -91,14 +91,14 @@ std::vector<double> of_some(const Information& known,
   }
   std::vector<double> out = part(known, some, some);
   if (rest.empty()) return out;
-  const std::vector<double> R = part(known, rest, rest);
+  const std::vector<double> others = part(known, rest, rest);
   std::vector<double> x(rest.size());
   for (std::size_t j = 0; j < some.size(); ++j) {
     const std::vector<double> g = part(known, rest, some.subspan(j, 1));
-    numerics::solve_normal(R, g, x);
+    numerics::solve_normal(others, g, x);
     for (std::size_t i = 0; i < some.size(); ++i) {
       for (std::size_t k = 0; k < rest.size(); ++k) {
-        out[i * some.size() + j] -= known.M[some[i] * known.size + rest[k]] * x[k];
+        out[i * some.size() + j] -= known.matrix[some[i] * known.size + rest[k]] * x[k];
       }
     }
   }
@@ -115,17 +115,17 @@ struct Scaled {
 
 std::optional<Scaled> scaled(const Information& known,
                              std::span<const std::size_t> some) {
-  const std::vector<double> M = of_some(known, some);
+  const std::vector<double> own = of_some(known, some);
   const std::size_t n = some.size();
   Scaled out{numerics::zeros(n, n), {}, {}};
   for (std::size_t i = 0; i < n; ++i) {
-    const double alone = known.M[some[i] * known.size + some[i]];
-    if (!(M[i * n + i] > undetermined * alone) || !(alone > 0.0)) return std::nullopt;
-    out.size.push_back(std::sqrt(M[i * n + i]));
+    const double alone = known.matrix[some[i] * known.size + some[i]];
+    if (!(own[i * n + i] > undetermined * alone) || !(alone > 0.0)) return std::nullopt;
+    out.size.push_back(std::sqrt(own[i * n + i]));
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      out.matrix(i, j) = M[i * n + j] / (out.size[i] * out.size[j]);
+      out.matrix(i, j) = own[i * n + j] / (out.size[i] * out.size[j]);
     }
   }
   out.lu = numerics::lu(out.matrix);
@@ -191,7 +191,7 @@ Information sum(const Information& a, const Information& b) {
   if (b.size == 0) return a;
   if (a.size != b.size) throw std::invalid_argument("information of other parameters");
   Information out = a;
-  std::ranges::transform(a.M, b.M, out.M.begin(), std::plus());
+  std::ranges::transform(a.matrix, b.matrix, out.matrix.begin(), std::plus());
   return out;
 }
 

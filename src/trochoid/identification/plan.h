@@ -17,7 +17,7 @@ namespace trochoid::identification {
 /// e_x = rho cos(lambda), e_y = rho sin(lambda).
 struct Information {
   std::size_t size = 0;
-  std::vector<double> M;  ///< row-major, symmetric, shape (size, size)
+  std::vector<double> matrix;  ///< row-major, symmetric, shape (size, size)
 };
 
 /// A cut that may be measured, and what it would be fitted with.
@@ -36,7 +36,7 @@ std::vector<std::string> parameter_names(const force::Setup& setup,
 
 /// @brief What a record of a trial would tell.
 ///
-/// @eq I-15 A = turns/s^2 (J^T J - J^T N (N^T N)^-1 N^T J), J of one turn (I-4), N the
+/// @eq I-15 turns/s^2 (J^T J - J^T J_0 (J_0^T J_0)^-1 J_0^T J), J of one turn (I-4), J_0 its
 ///          columns of phase and channel constants
 /// @src derived from I-4; Fisher information of white noise, standard
 Information information_of(const Trial& trial);
@@ -68,8 +68,8 @@ std::optional<double> standard_error(const Information& known,
 /// @brief Logarithm of the determinant of the covariance of some parameters; nothing
 /// where some combination of them is not determined.
 ///
-/// @eq I-16 det C_S = 1/det(M_SS - M_SR M_RR^-1 M_RS), R all others: least for the cut
-///          that is to be measured next
+/// @eq I-16 1/det(I_qq - I_qo I_oo^-1 I_oq), q these, o all others: least for the cut that
+///          is to be measured next
 /// @src D_s-optimal design, standard
 std::optional<double> log_determinant(const Information& known,
                                       std::span<const std::size_t> parameters);

@@ -88,7 +88,7 @@ TEST_F(Plan, TurnsAddUpAndNoiseTakesAway) {  // [I-15]
                 *standard_error(one, i) / std::sqrt(2.0),
                 1e-9 * *standard_error(one, i));
   }
-  EXPECT_EQ(sum({}, one).M, one.M);
+  EXPECT_EQ(sum({}, one).matrix, one.matrix);
 }
 
 /// A record of a trial has the standard errors that the trial promises.
@@ -119,7 +119,7 @@ TEST_F(Plan, DeterminantOfOneIsItsVariance) {  // [I-16]
   // Of two: that of the first, and that of the second where the first is known.
   const std::vector<std::size_t> both = {3, 6};
   Information first_known = known;
-  first_known.M[3 * known.size + 3] *= 1e9;
+  first_known.matrix[3 * known.size + 3] *= 1e9;
   const std::size_t second = 6;
   EXPECT_NEAR(*log_determinant(known, both),
               *log_determinant(known, {&one, 1}) +
