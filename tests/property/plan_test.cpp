@@ -80,13 +80,13 @@ class NextCut : public testing::Test {
   double noise = 10.0;
 };
 
-TEST_F(NextCut, AloneKeepsItsPromise) {  // [I-15]
+TEST_F(NextCut, AloneKeepsItsPromise) {  // [I-20]
   expect_promised(information_of(trial(next, 4.0)), [&](int seed) {
     return std::vector<Record>{record(next, 4.0, 100 + seed)};
   });
 }
 
-TEST_F(NextCut, KeepsItsPromiseWithWhatWasMeasuredBefore) {  // [I-15]
+TEST_F(NextCut, KeepsItsPromiseWithWhatWasMeasuredBefore) {  // [I-20]
   const std::vector<Record> before = {record(setup, 2.0, 7)};
   const Fit fit = identify(without_runout(setup), steel(), before, {});
   ASSERT_TRUE(fit.ok) << fit.message;

@@ -152,7 +152,7 @@ class Identify(unittest.TestCase):
         self.assertAlmostEqual(fit["phase_deg"], p["phase"], delta=0.02 * se["phase"])
         self.assertAlmostEqual(fit["phase_se_deg"], se["phase"], delta=0.02 * se["phase"])
 
-    def test_two_clampings_tell_tool_and_holder_apart(self):  # [I-17]
+    def test_two_clampings_tell_tool_and_holder_apart(self):  # [I-22]
         given = tables()
         given["runout"] = {"eccentricity_mm": 0.012, "angle_deg": -35.0}
         case, K_true = truth(given)
@@ -189,7 +189,7 @@ class Identify(unittest.TestCase):
         tir = got["total_indicator_reading_um"]["value"]
         self.assertAlmostEqual(tir, 2000 * np.hypot(*e2), delta=4e-3)
 
-    def test_two_groups_share_one_runout(self):  # [I-14] [I-4]
+    def test_two_groups_share_one_runout(self):  # [I-19] [I-4]
         given = tables()
         worn = {**K, "K_rc_MPa": 1100.0, "K_te_N_per_mm": 19.0, "K_re_N_per_mm": 23.0}
         angle = turns(60)

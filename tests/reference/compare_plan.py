@@ -1,4 +1,4 @@
-"""The program's plan against the transcription: information, intervals, order [I-15] [I-16]"""
+"""The program's plan against the transcription: information, intervals, order [I-20] [I-21]"""
 import os
 import sys
 import tempfile

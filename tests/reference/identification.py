@@ -141,7 +141,7 @@ def _moved(case, names, p, angle):
 
 
 def blocks(runs, names, p):
-    """[D] of runs (case, angle, F, group), a block of columns for each group [I-14]"""
+    """[D] of runs (case, angle, F, group), a block of columns for each group [I-19]"""
     groups = list(dict.fromkeys(group for _, _, _, group in runs))
     rows = []
     for case, angle, _, group in runs:
@@ -154,7 +154,7 @@ def blocks(runs, names, p):
 
 
 def joint_of_groups(runs, names, start, step=1e-5):
-    """All coefficients and the one runout, at the phases of the records [I-14] [I-4]"""
+    """All coefficients and the one runout, at the phases of the records [I-19] [I-4]"""
     y = np.concatenate([np.ravel(F) for _, _, F, _ in runs])
     count = blocks(runs, names, start).shape[1]
 
@@ -187,18 +187,18 @@ def jacobian(case, angle, K, names, p, step=1e-5):
 
 
 def information(J, N, noise, turns=1):
-    """What a record tells of coefficients and runout, its phase unknown [I-15]"""
+    """What a record tells of coefficients and runout, its phase unknown [I-20]"""
     left = J - np.outer(N, N @ J) / (N @ N)
     return turns / noise**2 * left.T @ left
 
 
 def log_determinant(M, some):
-    """Of the covariance of some parameters [I-16]"""
+    """Of the covariance of some parameters [I-21]"""
     return np.linalg.slogdet(np.linalg.inv(M)[np.ix_(some, some)])[1]
 
 
 def separate(e1, e2, turned):
-    """Parts of holder and tool of two eccentricities, by one system of equations [I-17]"""
+    """Parts of holder and tool of two eccentricities, by one system of equations [I-22]"""
     c, s = np.cos(turned), np.sin(turned)
     R = np.array([[c, -s], [s, c]])
     A = np.block([[np.eye(2), np.eye(2)], [R.T, np.eye(2)]])  # e2 = R^T h + t

@@ -96,7 +96,7 @@ Separation separate(const Offset& before, const Offset& now, double turned) {
   if (std::abs(1.0 - rotation) < least_turn) {
     throw std::invalid_argument("a tool that was not turned in its holder");
   }
-  const Complex factor = 1.0 / (1.0 - rotation);  // I-17
+  const Complex factor = 1.0 / (1.0 - rotation);  // I-22
   Separation out;
   out.tool = combined(factor, before, -factor * rotation, now);
   out.holder = combined(1.0 - factor, before, factor * rotation, now);

@@ -43,7 +43,7 @@ struct Separation {
 
 /// @brief Separate the parts from two clampings of the tool in the same holder.
 ///
-/// @eq I-17 e_1 = e_holder + e_tool, Rot e_2 = e_holder + Rot e_tool:
+/// @eq I-22 e_1 = e_holder + e_tool, Rot e_2 = e_holder + Rot e_tool:
 ///          e_tool = (1 - Rot)^-1 (e_1 - Rot e_2), e_holder = e_1 - e_tool
 /// @src derived
 /// @param before, now  from tooth 1, the same tooth in both

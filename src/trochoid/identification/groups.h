@@ -10,7 +10,7 @@
 /// Runs that share coefficients.
 namespace trochoid::identification {
 
-/// @brief Take down which runs share coefficients (I-14).
+/// @brief Take down which runs share coefficients (I-19).
 void set_groups(std::span<const Run> runs, Problem& problem);
 
 /// Where the coefficients of a run begin among those of all groups.

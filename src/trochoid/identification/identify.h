@@ -143,7 +143,7 @@ bool unidentifiable(const Fit& fit, const std::string& name);
 /// @brief Fit coefficients, runout and phase to all runs of one tool.
 ///
 /// @eq  I-1 {F} = [D]{K} at given runout and phase
-/// @eq  I-14 {F}_r = [D]_r(p) {K}_g(r): runs of one group share coefficients, all runs
+/// @eq  I-19 {F}_r = [D]_r(p) {K}_g(r): runs of one group share coefficients, all runs
 ///      runout and exponents
 /// @eq  I-2 se(K_c) = sqrt(RSS/(n - 6) ([D]^T [D])^-1_cc) at fixed runout
 /// @eq  I-3 min over p of min over K of |[D(p)]{K} - {F}|^2

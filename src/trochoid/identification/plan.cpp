@@ -56,7 +56,7 @@ Information information(const Problem& problem, std::span<const double> J,
   Sorted all = sorted(problem, J, group, slopes);
   if (!all.others.empty()) {
     const numerics::Columns others(all.others, rows);
-    numerics::project_out(others, numerics::gram_of(others), all.wanted);  // I-15
+    numerics::project_out(others, numerics::gram_of(others), all.wanted);  // I-20
   }
   Information out{all.wanted.size() / rows, numerics::gram_of({all.wanted, rows})};
   for (double& m : out.matrix) m /= variance;
@@ -82,7 +82,7 @@ std::vector<double> part(const Information& of, std::span<const std::size_t> row
   return out;
 }
 
-/// What is known of some parameters, whatever the others are (I-16).
+/// What is known of some parameters, whatever the others are (I-21).
 std::vector<double> of_some(const Information& known,
                             std::span<const std::size_t> some) {
   std::vector<std::size_t> rest;
@@ -223,7 +223,7 @@ std::optional<double> log_determinant(const Information& known,
   const std::optional<Scaled> s = scaled(known, parameters);
   if (!s) return std::nullopt;
   double out = 0.0;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {  // I-16
+  for (std::size_t i = 0; i < parameters.size(); ++i) {  // I-21
     out -= std::log(std::abs(s->lu.factors(i, i))) + 2.0 * std::log(s->size[i]);
   }
   return out;

@@ -36,7 +36,7 @@ std::vector<std::string> parameter_names(const force::Setup& setup,
 
 /// @brief What a record of a trial would tell.
 ///
-/// @eq I-15 turns/s^2 (J^T J - J^T J_0 (J_0^T J_0)^-1 J_0^T J), J of one turn (I-4), J_0 its
+/// @eq I-20 turns/s^2 (J^T J - J^T J_0 (J_0^T J_0)^-1 J_0^T J), J of one turn (I-4), J_0 its
 ///          columns of phase and channel constants
 /// @src derived from I-4; Fisher information of white noise, standard
 Information information_of(const Trial& trial);
@@ -68,7 +68,7 @@ std::optional<double> standard_error(const Information& known,
 /// @brief Logarithm of the determinant of the covariance of some parameters; nothing
 /// where some combination of them is not determined.
 ///
-/// @eq I-16 1/det(I_qq - I_qo I_oo^-1 I_oq), q these, o all others: least for the cut that
+/// @eq I-21 1/det(I_qq - I_qo I_oo^-1 I_oq), q these, o all others: least for the cut that
 ///          is to be measured next
 /// @src D_s-optimal design, standard
 std::optional<double> log_determinant(const Information& known,

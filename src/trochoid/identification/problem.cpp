@@ -216,7 +216,7 @@ void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at)
                             : turn_matrix(at.matrix[r], grid_of(problem, run)));
     }
     const std::span<double> own =
-        std::span(at.D).subspan(first_column(problem, r) * rows,  // I-14
+        std::span(at.D).subspan(first_column(problem, r) * rows,  // I-19
                                 index(problem.columns) * rows);
     fill_run(problem, at, r, own.subspan(first_row(problem, r)));
   }

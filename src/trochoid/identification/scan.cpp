@@ -218,7 +218,7 @@ class Combination {
   /// Sum of squares of all runs, those of one group with the same coefficients.
   [[nodiscard]] double rss() const {
     double sum = 0.0;
-    for (std::size_t k = 0; k < members_.size(); ++k) sum += rss_of(k);  // I-14
+    for (std::size_t k = 0; k < members_.size(); ++k) sum += rss_of(k);  // I-19
     return sum;
   }
 

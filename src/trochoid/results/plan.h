@@ -25,7 +25,7 @@ struct PlannedCut {
   geometry::Cut cut;
   double peak_force = 0.0;       ///< in the plane of the table [N]
   std::vector<double> se;        ///< one a quantity [SI]
-  double log_determinant = 0.0;  ///< of the covariance (I-16)
+  double log_determinant = 0.0;  ///< of the covariance (I-21)
 };
 
 /// Cuts that were not compared, and why.

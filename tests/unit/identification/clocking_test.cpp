@@ -29,7 +29,7 @@ struct Clampings {
   }
 };
 
-TEST(Clocking, TwoClampingsTellToolAndHolderApart) {  // [I-17]
+TEST(Clocking, TwoClampingsTellToolAndHolderApart) {  // [I-22]
   const Clampings made;
   const Separation found =
       separate(exactly(made.before()), exactly(made.now()), made.turned);
@@ -40,7 +40,7 @@ TEST(Clocking, TwoClampingsTellToolAndHolderApart) {  // [I-17]
 }
 
 /// From where it stands now, turned once more by what is advised.
-TEST(Clocking, TheBestTurnLeavesTheLeast) {  // [I-17]
+TEST(Clocking, TheBestTurnLeavesTheLeast) {  // [I-22]
   Clampings made;
   const Separation found =
       separate(exactly(made.before()), exactly(made.now()), made.turned);
@@ -52,7 +52,7 @@ TEST(Clocking, TheBestTurnLeavesTheLeast) {  // [I-17]
   EXPECT_GT(std::abs(made.now()), found.least + 0.01e-6);
 }
 
-TEST(Clocking, CovarianceIsThatOfRepetitions) {  // [I-17]
+TEST(Clocking, CovarianceIsThatOfRepetitions) {  // [I-22]
   const Clampings made;
   Offset before = exactly(made.before());
   Offset now = exactly(made.now());

@@ -49,7 +49,7 @@ class Groups : public testing::Test {
   int per_turn = 90;
 };
 
-TEST_F(Groups, EachHasItsCoefficientsAndAllTheRunout) {  // [I-14]
+TEST_F(Groups, EachHasItsCoefficientsAndAllTheRunout) {  // [I-19]
   const Fit fit = identify(without_runout(setup), steel(), two_states(), {});
   ASSERT_TRUE(fit.ok) << fit.message;
   ASSERT_EQ(fit.groups.size(), 2U);
@@ -69,7 +69,7 @@ TEST_F(Groups, EachHasItsCoefficientsAndAllTheRunout) {  // [I-14]
 }
 
 /// The rows of a band take another way through the derivatives by the phases.
-TEST_F(Groups, AnswerAlikeWithinABand) {  // [I-14]
+TEST_F(Groups, AnswerAlikeWithinABand) {  // [I-19]
   noise = 5.0;
   per_turn = 1200;
   Options band;
@@ -84,7 +84,7 @@ TEST_F(Groups, AnswerAlikeWithinABand) {  // [I-14]
   EXPECT_NEAR(fit.runout.radial_offsets[2], 5e-6, 5 * *fit.radial_offsets_se[2]);
 }
 
-TEST_F(Groups, OfOneNameAreTheFitWithoutGroups) {  // [I-14]
+TEST_F(Groups, OfOneNameAreTheFitWithoutGroups) {  // [I-19]
   noise = 10.0;
   std::vector<Record> runs = two_states();
   for (Record& run : runs) run.group.clear();
@@ -114,7 +114,7 @@ TEST_F(Groups, HelpOneAnother) {  // [I-4]
 
 /// The scan of all is that of each by itself: they have no phase and no coefficient in
 /// common.
-TEST_F(Groups, AddUpInTheScan) {  // [I-12] [I-14]
+TEST_F(Groups, AddUpInTheScan) {  // [I-12] [I-19]
   noise = 10.0;
   const std::vector<Record> runs = two_states();
   const auto least = [&](const std::vector<Record>& some) {

@@ -42,7 +42,7 @@ double half(const Estimate& K) {
   return 0.5 * (K.high - K.low);
 }
 
-TEST_F(Plan, StartsFromTheIntervalsOfTheRecords) {  // [I-15] [I-4]
+TEST_F(Plan, StartsFromTheIntervalsOfTheRecords) {  // [I-20] [I-4]
   const Fit fit = identify(without_runout(setup), steel(), runs, {});
   ASSERT_TRUE(fit.ok) << fit.message;
   const Information known =
@@ -58,7 +58,7 @@ TEST_F(Plan, StartsFromTheIntervalsOfTheRecords) {  // [I-15] [I-4]
               1e-6 * *fit.radial_offsets_se[1]);
 }
 
-TEST_F(Plan, KnowsTheGroupThatIsAskedFor) {  // [I-14] [I-15]
+TEST_F(Plan, KnowsTheGroupThatIsAskedFor) {  // [I-19] [I-20]
   runs[0].group = "new";
   runs[1].group = "worn";
   const Fit fit = identify(without_runout(setup), steel(), runs, {});
@@ -72,7 +72,7 @@ TEST_F(Plan, KnowsTheGroupThatIsAskedFor) {  // [I-14] [I-15]
   }
 }
 
-TEST_F(Plan, TurnsAddUpAndNoiseTakesAway) {  // [I-15]
+TEST_F(Plan, TurnsAddUpAndNoiseTakesAway) {  // [I-20]
   const Information one = information_of(trial());
   Trial longer = trial();
   longer.turns = 9.0;
@@ -92,7 +92,7 @@ TEST_F(Plan, TurnsAddUpAndNoiseTakesAway) {  // [I-15]
 }
 
 /// A record of a trial has the standard errors that the trial promises.
-TEST_F(Plan, PromisesWhatARecordOfItKeeps) {  // [I-15]
+TEST_F(Plan, PromisesWhatARecordOfItKeeps) {  // [I-20]
   std::vector<Record> record = {
       made_record(setup, steel(), {.per_turn = 90, .turns = 6.0, .noise = 0.5})};
   const Fit fit = identify(without_runout(setup), steel(), record, {});
@@ -111,7 +111,7 @@ TEST_F(Plan, PromisesWhatARecordOfItKeeps) {  // [I-15]
               1e-3);
 }
 
-TEST_F(Plan, DeterminantOfOneIsItsVariance) {  // [I-16]
+TEST_F(Plan, DeterminantOfOneIsItsVariance) {  // [I-21]
   const Information known = information_of(trial());
   const std::size_t one = 3;
   EXPECT_NEAR(*log_determinant(known, {&one, 1}),
@@ -127,7 +127,7 @@ TEST_F(Plan, DeterminantOfOneIsItsVariance) {  // [I-16]
               1e-6);
 }
 
-TEST_F(Plan, SaysWhatIsNotDetermined) {  // [I-16]
+TEST_F(Plan, SaysWhatIsNotDetermined) {  // [I-21]
   Trial straight = trial();
   straight.setup = slot_setup(2, 0.0, 2.0 * unit::mm);
   straight.setup.runout.eccentricity = 5 * unit::um;

@@ -59,7 +59,7 @@ TEST(PlanAnswer, HasIntervalsBeforeAndAfter) {
   EXPECT_EQ(json_text(*find(left_out[0], "count")), "3");
 }
 
-TEST(PlanAnswer, TellsHowMuchNarrowerTheJointRegionIs) {  // [I-16]
+TEST(PlanAnswer, TellsHowMuchNarrowerTheJointRegionIs) {  // [I-21]
   PlanResult r = made();
   r.log_determinant = -4.0 + 4.0 * std::log(3.0);
   const Answer answer = answer_of(r);
