@@ -246,6 +246,75 @@ class Identify(unittest.TestCase):
         self.assertAlmostEqual(fit["phase_deg"], p["phase"], delta=0.02 * se["phase"])
         self.assertAlmostEqual(fit["phase_se_deg"], se["phase"], delta=0.02 * se["phase"])
 
+    def test_two_clampings_tell_tool_and_holder_apart(self):  # [I-22]
+        given = tables()
+        given["runout"] = {"eccentricity_mm": 0.012, "angle_deg": -35.0}
+        case, K_true = truth(given)
+        angle = turns(90)
+        F = record(case, K_true, angle, noise=4)
+        before = {"eccentricity_mm": 0.008, "angle_deg": 70.0, "turned_deg": 150.0,
+                  "eccentricity_se_mm": 0.0002, "angle_se_deg": 3.0}
+        unknown = {k: v for k, v in given.items() if k != "runout"}
+        result = self.identify("clocking", unknown, {
+            "chip_models": ["trochoidal"], "runout": "eccentricity", "phase_deg": 0.0,
+            "previous_clamping": before}, [self.write("c.csv", angle, F)]).result
+        e = [0.012 * np.cos(np.radians(-35)), 0.012 * np.sin(np.radians(-35))]
+        fit = ident.joint(case, angle, F, ["ex", "ey"], e)
+        e2, a = fit["p"], np.radians(before["angle_deg"])
+        e1 = before["eccentricity_mm"] * np.array([np.cos(a), np.sin(a)])
+        (h, t), inverse = ident.separate(e1, e2, np.radians(before["turned_deg"]))
+        along, across = np.array([np.cos(a), np.sin(a)]), np.array([-np.sin(a), np.cos(a)])
+        C1 = (0.0002**2 * np.outer(along, along) +
+              (0.008 * np.radians(3.0))**2 * np.outer(across, across))
+        C2 = np.outer(fit["se_p"], fit["se_p"]) * fit["correlation"][-2:, -2:]
+        C = inverse @ np.block([[C1, np.zeros((2, 2))], [np.zeros((2, 2)), C2]]) @ inverse.T
+        got = result["clocking"]
+        for name, v, cov in (("holder", h, C[:2, :2]), ("tool", t, C[2:, 2:])):
+            size = np.hypot(*v)
+            amount = got[name]["eccentricity_mm"]
+            self.assertAlmostEqual(amount["value"], size, delta=2e-6)
+            self.assertAlmostEqual(np.radians(got[name]["angle_deg"]), np.arctan2(v[1], v[0]),
+                                   delta=1e-3)
+            se = np.sqrt(v @ cov @ v) / size
+            self.assertAlmostEqual(amount["se"], se, delta=0.02 * se, msg=name)
+        turn = np.arctan2(h[1], h[0]) + np.pi - np.arctan2(t[1], t[0]) - np.radians(150)
+        off = np.radians(got["best_turn_deg"]) - turn
+        self.assertAlmostEqual(np.cos(off), 1.0, delta=1e-5)
+        tir = got["total_indicator_reading_um"]["value"]
+        self.assertAlmostEqual(tir, 2000 * np.hypot(*e2), delta=4e-3)
+
+    def test_two_groups_share_one_runout(self):  # [I-19] [I-4]
+        given = tables()
+        worn = {**K, "K_rc_MPa": 1100.0, "K_te_N_per_mm": 19.0, "K_re_N_per_mm": 23.0}
+        angle = turns(60)
+        runs, files = [], []
+        for i, (group, f_z) in enumerate([("new", 0.05), ("worn", 0.04), ("new", 0.08),
+                                          ("worn", 0.07)]):
+            case, K_true = truth(given, worn if group == "worn" else K)
+            case = replace(case, f_z=f_z)
+            F = record(case, K_true, angle, noise=6, seed=20 + i)
+            runs.append((case, angle, F, group))
+            files.append({**self.write(f"g{i}.csv", angle, F), "group": group,
+                          "cut": {"feed_per_tooth_mm": f_z}})
+        names = ["shift:1", "shift:2"]
+        x, se = ident.joint_of_groups(runs, names, [0.009, -0.006])
+        unknown = {k: v for k, v in given.items() if k != "runout"}
+        result = self.identify("groups", unknown, {
+            "chip_models": ["trochoidal"], "runout": "offsets", "phase_deg": 0.0,
+            "errors": "white"}, files).result
+        self.assertEqual([g["group"] for g in result["groups"]], ["new", "worn"])
+        self.assertEqual([os.path.basename(f) for f in result["groups"][1]["files"]],
+                         ["g1.csv", "g3.csv"])
+        for g, group in enumerate(result["groups"]):
+            self.same_coefficients(group, x[6 * g:6 * g + 6], se[6 * g:6 * g + 6],
+                                   rel=2e-5, se_rel=0.02)
+        runout = result["fits"][0]["runout"]
+        for k in (1, 2):
+            self.assertAlmostEqual(runout["radial_offsets_mm"][k], x[11 + k],
+                                   delta=0.02 * se[11 + k])
+            self.assertAlmostEqual(runout["radial_offsets_se_mm"][k], se[11 + k],
+                                   delta=0.02 * se[11 + k])
+
     def test_eccentricity_of_four_teeth(self):  # [I-3] [I-4] [G-9]
         given = tables(tool={"teeth": 4, "pitch_deg": [85.0, 95.0, 88.0, 92.0]},
                        cut={"engagement": "up", "radial_depth_mm": 6.0})

@@ -140,6 +140,71 @@ def _moved(case, names, p, angle):
     return new, angle, phase
 
 
+def blocks(runs, names, p):
+    """[D] of runs (case, angle, F, group), a block of columns for each group [I-19]"""
+    groups = list(dict.fromkeys(group for _, _, _, group in runs))
+    rows = []
+    for case, angle, _, group in runs:
+        own = stacked(with_parameters(case, names, p)[0], angle)
+        row = np.zeros((len(own), own.shape[1] * len(groups)))
+        at = groups.index(group) * own.shape[1]
+        row[:, at:at + own.shape[1]] = own
+        rows.append(row)
+    return np.vstack(rows)
+
+
+def joint_of_groups(runs, names, start, step=1e-5):
+    """All coefficients and the one runout, at the phases of the records [I-19] [I-4]"""
+    y = np.concatenate([np.ravel(F) for _, _, F, _ in runs])
+    count = blocks(runs, names, start).shape[1]
+
+    def residual(q):
+        return y - blocks(runs, names, q[count:]) @ q[:count]
+
+    def jacobian(q):
+        columns = [-blocks(runs, names, q[count:])]
+        for e in step * np.eye(len(start)):
+            hi, lo = (blocks(runs, names, q[count:] + s * e) @ q[:count] for s in (1, -1))
+            columns.append(-((hi - lo) / (2 * step))[:, None])
+        return np.hstack(columns)
+
+    K0, _, _ = linear(blocks(runs, names, start), y)
+    fit = optimize.least_squares(residual, np.concatenate([K0, start]), jac=jacobian,
+                                 x_scale="jac", method="lm", xtol=1e-14, ftol=1e-14)
+    return fit.x, standard_errors(jacobian(fit.x), residual(fit.x))
+
+
+def jacobian(case, angle, K, names, p, step=1e-5):
+    """[D] and the derivatives by the runout, and those by the phase [I-4]"""
+    new, _ = with_parameters(case, names, p)
+    columns = []
+    for e in step * np.eye(len(p)):
+        hi, lo = (stacked(with_parameters(case, names, p + s * e)[0], angle) @ K
+                  for s in (1, -1))
+        columns.append((hi - lo) / (2 * step))
+    hi, lo = (stacked(new, angle, s * step) @ K for s in (1, -1))
+    return np.column_stack([stacked(new, angle)] + columns), (hi - lo) / (2 * step)
+
+
+def information(J, N, noise, turns=1):
+    """What a record tells of coefficients and runout, its phase unknown [I-20]"""
+    left = J - np.outer(N, N @ J) / (N @ N)
+    return turns / noise**2 * left.T @ left
+
+
+def log_determinant(M, some):
+    """Of the covariance of some parameters [I-21]"""
+    return np.linalg.slogdet(np.linalg.inv(M)[np.ix_(some, some)])[1]
+
+
+def separate(e1, e2, turned):
+    """Parts of holder and tool of two eccentricities, by one system of equations [I-22]"""
+    c, s = np.cos(turned), np.sin(turned)
+    R = np.array([[c, -s], [s, c]])
+    A = np.block([[np.eye(2), np.eye(2)], [R.T, np.eye(2)]])  # e2 = R^T h + t
+    return np.split(np.linalg.solve(A, np.concatenate([e1, e2])), 2), np.linalg.inv(A)
+
+
 def sweep(case, angle, F, offsets):
     """RMS over the offset of tooth 2, coefficients refitted (Fig. 9 of the paper)"""
     out = []

@@ -17,6 +17,7 @@ enum class Command {
   actuator,
   dynamics,
   correct,
+  plan,
 };
 
 constexpr std::string_view name_of(Command command) noexcept {
@@ -39,6 +40,8 @@ constexpr std::string_view name_of(Command command) noexcept {
       return "dynamics";
     case Command::correct:
       return "correct";
+    case Command::plan:
+      return "plan";
   }
   return {};
 }
@@ -73,6 +76,9 @@ constexpr std::string_view purpose_of(Command command) noexcept {
     case Command::correct:
       return "The motion of the table that makes the flutes cut alike, and the "
              "feedforward command for it";
+    case Command::plan:
+      return "Which cut to measure next: the one that narrows cutting coefficients and "
+             "runout most";
   }
   return {};
 }

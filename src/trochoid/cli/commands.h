@@ -44,6 +44,7 @@ int modes(const Options& options);
 int actuator(const Options& options);
 int dynamics(const Options& options);
 int correct(const Options& options);
+int plan(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

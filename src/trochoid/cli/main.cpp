@@ -62,6 +62,8 @@ int answer(Command command, const Options& options) {
       return dynamics(options);
     case Command::correct:
       return correct(options);
+    case Command::plan:
+      return plan(options);
   }
   return our_bug;
 }

@@ -1,6 +1,7 @@
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/answer.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/residuals.h>
 #include <trochoid/identification/turn_force.h>
 #include <trochoid/numerics/student.h>
@@ -62,8 +63,9 @@ std::vector<std::array<double, 3>> force_of_rows(const Problem& problem,
                                                  std::span<const double> K) {
   const FoldedRun& folded = problem.runs[r];
   std::vector<double> rows(3 * folded.angle.size());
-  const numerics::Columns D(std::span(at.D).subspan(first_row(problem, r)), rows.size(),
-                            index(problem.rows()));
+  const std::size_t stride = index(problem.rows());
+  const std::size_t first = first_column(problem, r) * stride + first_row(problem, r);
+  const numerics::Columns D(std::span(at.D).subspan(first), rows.size(), stride);
   numerics::add_combination(D.first(K.size()), K, 1.0, rows);
   std::vector<std::array<double, 3>> out;
   out.reserve(folded.group.size());
@@ -238,8 +240,34 @@ void fill_eccentricity(const Unknowns& u, std::size_t i, std::array<double, 2> e
   const double yy = reasons.covariance(i + 1, i + 1);
   fit.eccentricity_se =
       u.length * std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy));
+  const double l2 = u.length * u.length;
+  fit.eccentricity_covariance = {l2 * xx, l2 * xy, l2 * yy};
   fit.angle_se =
       std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy)) / rho;
+}
+
+/// The coefficients of every group; those of the first are those of the fit.
+void fill_groups(const Problem& problem, const force::Law& law,
+                 std::span<const double> K, Reasons& reasons, Fit& fit) {
+  const std::size_t columns = index(problem.columns);
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const std::size_t first = g * columns;
+    Group& group = fit.groups.emplace_back(
+        Group{problem.groups[g],
+              {},
+              force::with_coefficients(law, K.subspan(first, columns))});
+    for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+      if (first_column(problem, r) == first) group.runs.push_back(r);
+    }
+    group.coefficients.resize(columns);
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (reasons.determined(first + c)) {
+        group.coefficients[c] = reasons.estimate(first + c, K[first + c]);
+      }
+    }
+  }
+  fit.law = fit.groups.front().law;
+  fit.coefficients = fit.groups.front().coefficients;
 }
 
 void fill_phases(const Problem& problem, Reasons& reasons, Fit& fit) {
@@ -280,12 +308,15 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
     const std::size_t n = runs[r].angle.size();
     std::array<ChannelOffset, 3> offsets{};
     if (!folded.drift.empty()) {
-      const std::span<const double> own = x.subspan(index(problem.columns) + 6 * r, 6);
+      const std::span<const double> own =
+          x.subspan(index(problem.force_columns()) + 6 * r, 6);
       for (std::size_t q = 0; q < 3; ++q) offsets[q] = {own[2 * q], own[2 * q + 1]};
       fit.channel_offsets.push_back(offsets);
     }
-    std::vector<std::array<double, 3>>& fitted = fit.fitted.emplace_back(
-        force_of_run(problem, runs[r], at, r, x.first(index(problem.columns))));
+    const std::span<const double> K =
+        x.subspan(first_column(problem, r), index(problem.columns));
+    std::vector<std::array<double, 3>>& fitted =
+        fit.fitted.emplace_back(force_of_run(problem, runs[r], at, r, K));
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t q = 0; q < 3; ++q) {
         fitted[i][q] += offsets[q].constant + offsets[q].slope * slope_at(i, n);  // I-7
@@ -304,11 +335,8 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   fit.freedom = known.freedom;
   fit.widening = known.widening;
   fit.interval_factor = numerics::student_t(0.975, known.quantile_freedom);  // I-8
-  fit.law = force::with_coefficients(point.law, K.first(index(problem.columns)));
-  for (std::size_t c = 0; c < index(problem.columns); ++c) {
-    if (reasons.determined(c)) fit.coefficients[c] = reasons.estimate(c, K[c]);
-  }
-  for (std::size_t c = index(problem.columns); c < linear; ++c) {
+  fill_groups(problem, point.law, K, reasons, fit);
+  for (std::size_t c = index(problem.force_columns()); c < linear; ++c) {
     reasons.determined(c);
   }
   fit.runout = point.runout;
@@ -336,7 +364,7 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
 
 void refuse_coefficients(const Problem& problem, Fit& fit) {
   const std::vector<std::string> names = names_of(problem);
-  for (std::size_t c = 0; c < index(problem.columns); ++c) {
+  for (std::size_t c = 0; c < index(problem.force_columns()); ++c) {
     fit.unidentifiable.emplace_back(names[c], fit.message);
   }
 }

@@ -1,5 +1,6 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/derivatives.h>
+#include <trochoid/identification/groups.h>
 
 #include <algorithm>
 
@@ -11,7 +12,7 @@ Derivatives::Derivatives(const Problem& problem, const Evaluation& at,
                          std::span<const double> K)
     : problem_(problem),
       at_(at),
-      K_(K.begin(), K.begin() + problem.columns),
+      K_(K.begin(), K.begin() + problem.force_columns()),
       force_(index(problem.rows()), 0.0) {
   numerics::add_combination(design(problem, at).first(K_.size()), K_, 1.0, force_);
 }
@@ -38,15 +39,20 @@ void Derivatives::find(int i, const Step& step, std::span<double> out) const {
                             out);
 }
 
+/// The coefficients of a run.
+std::span<const double> Derivatives::coefficients(std::size_t r) const {
+  return std::span(K_).subspan(first_column(problem_, r), index(problem_.columns));
+}
+
 /// Add what the coefficients make of a run at a point.
 void Derivatives::add_force(const Point& point, std::size_t r, double factor,
                             std::span<double> out) const {
   const FoldedRun& run = problem_.runs[r];
   std::vector<double> phi(run.angle);
   for (double& a : phi) a += point.phase[r];
-  const std::vector<force::Vector3> F =
-      force::forces(setup_of(problem_, point, run),
-                    force::with_coefficients(point.law, K_), phi, problem_.tolerance);
+  const std::vector<force::Vector3> F = force::forces(
+      setup_of(problem_, point, run),
+      force::with_coefficients(point.law, coefficients(r)), phi, problem_.tolerance);
   double* const to = &out[first_row(problem_, r)];
   if (run.band == 0) {
     for (std::size_t g = 0; g < F.size(); ++g) {
@@ -74,9 +80,10 @@ void Derivatives::find_by_phase(std::size_t r, double step,
   const std::size_t own = index(problem_.runs[r].rows);
   if (!problem_.runs[r].turn_map.empty()) {
     const std::size_t rows = index(problem_.rows());
-    std::vector<double> C(rows * K_.size());
+    const std::span<const double> K = coefficients(r);
+    std::vector<double> C(rows * K.size());
     fill_phase_slope(problem_, at_, r, C);
-    numerics::add_combination(numerics::Columns(C, own, rows).first(K_.size()), K_, 1.0,
+    numerics::add_combination(numerics::Columns(C, own, rows).first(K.size()), K, 1.0,
                               out.subspan(first, own));
     return;
   }

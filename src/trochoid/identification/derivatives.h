@@ -26,6 +26,7 @@ class Derivatives {
   void find(int i, const Step& step, std::span<double> out) const;
 
  private:
+  [[nodiscard]] std::span<const double> coefficients(std::size_t r) const;
   void add_force(const Point& point, std::size_t r, double factor,
                  std::span<double> out) const;
   void find_by_evaluation(int i, double step, std::span<double> out) const;

@@ -68,7 +68,7 @@ Vector3 turned(const signal::Matrix3& turn, const Vector3& v) {
 std::vector<Run> as_forces(std::span<const ChannelRun> runs) {
   std::vector<Run> out;
   for (const ChannelRun& run : runs) {
-    Run& one = out.emplace_back(Run{run.cut, run.angle, {}});
+    Run& one = out.emplace_back(Run{run.cut, run.angle, {}, run.group});
     for (std::size_t i = 0; i < run.channel[0].size(); ++i) {
       one.force.push_back({run.channel[0][i], run.channel[1][i], run.channel[2][i]});
     }
@@ -263,7 +263,7 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
     if (!force) {
       throw std::invalid_argument("the matrix of the dynamometer cannot be inverted");
     }
-    out.push_back({run.cut, run.angle, std::move(*force)});
+    out.push_back({run.cut, run.angle, std::move(*force), run.group});
   }
   return out;
 }

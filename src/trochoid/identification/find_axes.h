@@ -17,6 +17,7 @@ struct ChannelRun {
   geometry::Cut cut;
   std::vector<double> angle;                   ///< recorded angle [rad], shape (n)
   std::array<std::vector<double>, 3> channel;  ///< [N], shape (n) each
+  std::string group = {};                      ///< as of Run
 };
 
 /// @brief Force on the tool of every run, channels = M force.

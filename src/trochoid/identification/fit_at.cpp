@@ -77,14 +77,26 @@ std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
                          const numerics::LeastSquares& all) {
   if (all.rank == problem.linear()) return "";
   const numerics::LeastSquares force = numerics::least_squares(
-      D.first(index(problem.columns)), measured(problem), rank_tolerance);
+      D.first(index(problem.force_columns())), measured(problem), rank_tolerance);
   if (*std::ranges::max_element(force.norms) == 0.0) {
     return "nothing is in cut at any of the measured angles";
   }
-  if (force.rank == problem.columns) return "";
+  if (force.rank == problem.force_columns()) return "";
   return fmt::format(
       "the forces determine only {} of {} coefficients: {} cannot be told apart",
-      force.rank, problem.columns, dependent_names(problem, force));
+      force.rank, problem.force_columns(), dependent_names(problem, force));
+}
+
+Leftover leftover_of(const Problem& problem, std::span<const Run> runs, const Fit& fit,
+                     std::span<const double> rows) {
+  Leftover left{
+      fit.rms * fit.rms * samples_of(runs), equations_of(problem, runs), {}, {}, {}};
+  if (fit.options.errors == Errors::automatic) {
+    left.runs = runs;
+    left.fitted = fit.fitted;
+    left.rows = rows;
+  }
+  return left;
 }
 
 void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum,
@@ -109,13 +121,7 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
     refuse_coefficients(problem, fit);
     return;
   }
-  const double equations = equations_of(problem, runs);
-  Leftover left{fit.rms * fit.rms * samples_of(runs), equations, {}, {}, {}};
-  if (fit.options.errors == Errors::automatic) {
-    left.runs = runs;
-    left.fitted = fit.fitted;
-    left.rows = linear.residual;
-  }
+  const Leftover left = leftover_of(problem, runs, fit, linear.residual);
   const Uncertainty known = uncertainty(problem, std::move(at), linear.x, left);
   if (means_do_not_suffice(problem) &&
       only_noise(problem, linear, left.rss / known.freedom)) {
@@ -126,7 +132,9 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
     return;
   }
   fill_estimates(problem, p, linear.x, known, fit);
-  fit.ok = std::ranges::any_of(fit.coefficients, [](const auto& K) { return !!K; });
+  fit.ok = std::ranges::any_of(fit.groups, [](const Group& group) {
+    return std::ranges::any_of(group.coefficients, [](const auto& K) { return !!K; });
+  });
   if (!fit.ok) fit.message = "none of the coefficients can be told from the record";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/identification/sandwich.h>
 #include <trochoid/identification/variable_projection.h>
 #include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
@@ -17,6 +18,12 @@ namespace trochoid::identification {
 /// @param all  the least-squares fit of D
 std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
                          const numerics::LeastSquares& all);
+
+/// @brief What a fit leaves, as its errors are to be counted.
+/// @param fit   with its options, rms and fitted forces
+/// @param rows  residual rows of the problem
+Leftover leftover_of(const Problem& problem, std::span<const Run> runs, const Fit& fit,
+                     std::span<const double> rows);
 
 /// @brief The fit at a minimum, with all its numbers; `fit.ok` tells whether they stand.
 /// @param minimum  what was evaluated there is used up

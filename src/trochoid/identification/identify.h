@@ -18,6 +18,8 @@ struct Run {
   geometry::Cut cut;
   std::vector<double> angle;                 ///< recorded angle [rad], shape (n)
   std::vector<std::array<double, 3>> force;  ///< on the tool [N], shape (n)
+  /// Runs of the same name share coefficients; all runs share the runout.
+  std::string group = {};
 };
 
 /// What is not searched is kept as the setup gives it: with `offsets` a given
@@ -115,6 +117,14 @@ struct Unexplained {
   double correlation = 0.0;  ///< of neighbouring residuals, with a band limit as well
 };
 
+/// The coefficients of runs that share them, in SI, in the order of force::coefficients.
+struct Group {
+  std::string name;
+  std::vector<std::size_t> runs;  ///< places in the runs of the fit
+  force::Law law;                 ///< with the values found
+  std::vector<std::optional<Estimate>> coefficients = {};
+};
+
 /// @brief Result of one fit. Coefficients in SI, in the order of force::coefficients.
 ///
 /// A quantity that is named in `unidentifiable` has no value: what stands for it in
@@ -124,15 +134,19 @@ struct Fit {
   std::string message;  ///< when not ok, why there is no answer
   Options options;      ///< as asked for
   chip::ChipModel chip;
-  force::Law law;  ///< with the values found
-  std::vector<std::optional<Estimate>> coefficients;
+  force::Law law;  ///< with the values found; of several groups, of the first
+  std::vector<std::optional<Estimate>> coefficients;  ///< of the same
+  /// In the order in which the runs name them first; empty where there is no answer.
+  std::vector<Group> groups;
   /// m_t, m_r, m_a of a Power law when they were fitted, else empty.
   std::vector<std::optional<Estimate>> exponents;
   geometry::Runout runout;
   /// [m], shape (teeth). Absent: given, the gauge of tooth 1, or not identifiable.
   std::vector<std::optional<double>> radial_offsets_se;
-  std::optional<double> eccentricity_se;        ///< [m]
-  std::optional<double> angle_se;               ///< [rad]
+  std::optional<double> eccentricity_se;  ///< [m]
+  std::optional<double> angle_se;         ///< [rad]
+  /// Of e_x and e_y where both errors are known: xx, xy, yy [m^2], as I-4 has it.
+  std::array<double, 3> eccentricity_covariance{};
   std::vector<double> phase;                    ///< [rad], one a run
   std::vector<std::optional<double>> phase_se;  ///< [rad]; absent: given, or as above
   std::vector<std::array<ChannelOffset, 3>> channel_offsets;  ///< one a run, or empty
@@ -168,6 +182,8 @@ bool unidentifiable(const Fit& fit, const std::string& name);
 /// @brief Fit coefficients, runout and phase to all runs of one tool.
 ///
 /// @eq  I-1 {F} = [D]{K} at given runout and phase
+/// @eq  I-19 {F}_r = [D]_r(p) {K}_g(r): runs of one group share coefficients, all runs
+///      runout and exponents
 /// @eq  I-2 se(K_c) = sqrt(RSS/(n - 6) ([D]^T [D])^-1_cc) at fixed runout
 /// @eq  I-3 min over p of min over K of |[D(p)]{K} - {F}|^2
 /// @eq  I-4 J = [[D] | d[D]/dp {K}], cov = RSS/(n - dim K - dim p) (J^T J)^-1

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/identification/answer.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/uncertainty.h>
 
 #include <fmt/core.h>
@@ -49,18 +50,12 @@ bool force_is_constant(const Problem& problem) {
   return rss_of_means(problem) <= constant_force * constant_force * total;
 }
 
+/// The same with the phases of the runs, scaled by the largest feed.
 Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
                      std::span<const Run> runs, const Options& options) {
-  Unknowns out;
-  out.teeth = setup.cutter.teeth();
-  out.runout =
-      chip::feels_runout(options.chip_model) ? options.runout : RunoutUnknowns::none;
-  if (out.teeth == 1 && out.runout != RunoutUnknowns::fixed) {
-    out.runout = RunoutUnknowns::none;
-  }
+  Unknowns out = identification::unknowns_of(setup, law, options);
   out.length = 0.0;
   for (const Run& run : runs) out.length = std::max(out.length, run.cut.f_z);
-  out.exponents = options.fit_exponents && force::form(law).power;
   out.phases = options.phase ? 0 : static_cast<int>(runs.size());
   return out;
 }
@@ -78,12 +73,25 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
         fold(runs[r], options,
              r < options.response.size() ? options.response[r] : Response{}));
   }
+  set_groups(runs, out);
   out.fixed_phase = options.phase.value_or(0.0);
   out.columns = static_cast<int>(force::form(law).columns());
   if (options.start && options.start->phase.size() == runs.size()) {
     out.start = Point{options.start->runout, law, options.start->phase};
   }
   return out;
+}
+
+/// Whether the runs of some group were all cut with the same feed.
+bool has_group_of_one_feed(const Problem& problem) {
+  std::vector<double> f_z(problem.groups.size(), -1.0);
+  std::vector<bool> several(problem.groups.size(), false);
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const std::size_t g = problem.group_of[r];
+    if (f_z[g] >= 0.0 && problem.runs[r].cut.f_z != f_z[g]) several[g] = true;
+    f_z[g] = problem.runs[r].cut.f_z;
+  }
+  return std::ranges::any_of(several, [](bool feeds) { return !feeds; });
 }
 
 /// Too few equations for the unknowns: the sentence that says so, else empty.
@@ -96,11 +104,21 @@ std::string too_few(const Problem& problem, double equations) {
 
 }  // namespace
 
+Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
+                     const Options& options) {
+  Unknowns out;
+  out.teeth = setup.cutter.teeth();
+  out.runout =
+      chip::feels_runout(options.chip_model) ? options.runout : RunoutUnknowns::none;
+  if (out.teeth == 1 && out.runout != RunoutUnknowns::fixed) {
+    out.runout = RunoutUnknowns::none;
+  }
+  out.exponents = options.fit_exponents && force::form(law).power;
+  return out;
+}
+
 bool means_do_not_suffice(const Problem& problem) {
-  const double f_z = problem.runs.front().cut.f_z;
-  return force::form(problem.law).edge &&
-         std::ranges::all_of(problem.runs,
-                             [&](const FoldedRun& run) { return run.cut.f_z == f_z; });
+  return force::form(problem.law).edge && has_group_of_one_feed(problem);
 }
 
 Prepared prepare(const force::Setup& setup, const force::Law& law,

@@ -14,6 +14,10 @@ struct Prepared {
   std::string refusal;             ///< empty: the problem can be searched
 };
 
+/// @brief What is to be found but for the phases, and its scale; without one, of 1 m.
+Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
+                     const Options& options);
+
 /// @brief Fold the runs and refuse what no search can answer.
 Prepared prepare(const force::Setup& setup, const force::Law& law,
                  std::span<const Run> runs, const Options& options);

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/turn_rows.h>
 
 #include <algorithm>
@@ -39,9 +40,9 @@ void fill_drift(const Problem& problem, std::span<double> D) {
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
     if (run.drift.empty()) continue;
-    by_columns(
-        run.drift, 6, rows,
-        D.subspan((index(problem.columns) + 6 * r) * rows + first_row(problem, r)));
+    by_columns(run.drift, 6, rows,
+               D.subspan((index(problem.force_columns()) + 6 * r) * rows +
+                         first_row(problem, r)));
   }
 }
 
@@ -62,7 +63,8 @@ int Unknowns::runout_count() const noexcept {
 }
 
 int Problem::drift_columns() const noexcept {
-  return runs.front().drift.empty() ? 0 : 6 * static_cast<int>(runs.size());
+  return runs.empty() || runs.front().drift.empty() ? 0
+                                                    : 6 * static_cast<int>(runs.size());
 }
 
 int Problem::rows() const noexcept {
@@ -214,7 +216,6 @@ void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at)
     at.D.assign(rows * index(problem.linear()), 0.0);
     fill_drift(problem, at.D);
   }
-  const std::span<double> force = std::span(at.D).first(index(problem.columns) * rows);
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
     if (again && at.point.phase[r] == point.phase[r]) continue;
@@ -225,7 +226,10 @@ void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at)
                             ? TurnMatrix{}
                             : turn_matrix(at.matrix[r], grid_of(problem, run)));
     }
-    fill_run(problem, at, r, force.subspan(first_row(problem, r)));
+    const std::span<double> own =
+        std::span(at.D).subspan(first_column(problem, r) * rows,  // I-19
+                                index(problem.columns) * rows);
+    fill_run(problem, at, r, own.subspan(first_row(problem, r)));
   }
 }
 

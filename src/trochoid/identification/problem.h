@@ -51,11 +51,20 @@ struct Problem {
   /// its rows from the turn; at four times as many on a cylinder whose edges lag, where
   /// they cost little.
   int angles = 256;
-  int columns = 0;             ///< of the force matrix
-  std::optional<Point> start;  ///< where to search first
+  int columns = 0;  ///< of the force matrix of one run
+  std::vector<std::string> groups = {
+      ""};                            ///< names of those with coefficients of their own
+  std::vector<std::size_t> group_of;  ///< place of the group of each run; empty: all 0
+  std::optional<Point> start;         ///< where to search first
 
+  /// Coefficients of all groups.
+  [[nodiscard]] int force_columns() const noexcept {
+    return columns * static_cast<int>(groups.size());
+  }
   [[nodiscard]] int drift_columns() const noexcept;
-  [[nodiscard]] int linear() const noexcept { return columns + drift_columns(); }
+  [[nodiscard]] int linear() const noexcept {
+    return force_columns() + drift_columns();
+  }
   [[nodiscard]] int rows() const noexcept;
 };
 

@@ -142,24 +142,34 @@ std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3
   return out;
 }
 
-/// Runs with one phase chosen for each.
+/// Runs with one phase chosen for each. What runs of different groups leave is added:
+/// they have nothing but the runout in common.
 class Combination {
  public:
-  Combination(const std::vector<RunScan>& runs,
+  Combination(const Problem& problem, const std::vector<RunScan>& runs,
               const std::vector<std::vector<PhaseMinimum>>& minima)
-      : runs_(runs), minima_(minima), chosen_(runs.size(), 0) {
+      : runs_(runs),
+        minima_(minima),
+        chosen_(runs.size(), 0),
+        members_(problem.groups.size()) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      members_[problem.group_of.empty() ? 0 : problem.group_of[r]].push_back(r);
+    }
     if (std::ranges::any_of(runs,
                             [](const RunScan& r) { return r.inverse_G.empty(); })) {
       return;
     }
-    inverse_ = inverse(total_gram(), minima[0][0].g.size());
+    for (const auto& members : members_) {
+      inverse_.push_back(inverse(total_gram(members), minima[0][0].g.size()));
+    }
   }
 
   /// The first run at one of its phases, each other where it fits best together with
-  /// the rest: by the coefficients of the first run, then by those of all.
+  /// the rest: by the coefficients of the first run of its group, then by those of all.
   double settle(std::size_t first) {
+    std::ranges::fill(chosen_, 0);
     chosen_[0] = first;
-    follow_first();
+    for (const auto& members : members_) follow_first(members);
     double least = rss();
     for (int round = 0; round < rounds; ++round) {
       bool better = false;
@@ -181,20 +191,21 @@ class Combination {
     return runs_[r].at.gram_at(m.shift);
   }
 
-  [[nodiscard]] std::vector<double> total_gram() const {
-    const std::span<const double> first = gram_of(0, of(0));
+  [[nodiscard]] std::vector<double> total_gram(
+      std::span<const std::size_t> members) const {
+    const std::span<const double> first = gram_of(members[0], of(members[0]));
     std::vector<double> sum(first.begin(), first.end());
-    for (std::size_t r = 1; r < runs_.size(); ++r) {
+    for (const std::size_t r : members.subspan(1)) {
       std::ranges::transform(sum, gram_of(r, of(r)), sum.begin(), std::plus());
     }
     return sum;
   }
 
-  void follow_first() {
-    const PhaseMinimum& m = of(0);
+  void follow_first(std::span<const std::size_t> members) {
+    const PhaseMinimum& m = of(members[0]);
     std::vector<double> K(m.g.size());
-    numerics::solve_normal(gram_of(0, m), m.g, K);
-    for (std::size_t r = 1; r < runs_.size(); ++r) {
+    numerics::solve_normal(gram_of(members[0], m), m.g, K);
+    for (const std::size_t r : members.subspan(1)) {
       const auto misfit = [&](const PhaseMinimum& other) {
         return quadratic(gram_of(r, other), K) -
                2.0 * std::inner_product(K.begin(), K.end(), other.g.begin(), 0.0);
@@ -204,17 +215,23 @@ class Combination {
     }
   }
 
-  /// Sum of squares of all runs with the same coefficients.
+  /// Sum of squares of all runs, those of one group with the same coefficients.
   [[nodiscard]] double rss() const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < members_.size(); ++k) sum += rss_of(k);  // I-19
+    return sum;
+  }
+
+  [[nodiscard]] double rss_of(std::size_t group) const {
     std::vector<double> g(of(0).g.size(), 0.0);
     double squares = 0.0;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
+    for (const std::size_t r : members_[group]) {
       std::ranges::transform(g, of(r).g, g.begin(), std::plus());
       squares += runs_[r].squares;
     }
-    if (!inverse_.empty()) return squares - quadratic(inverse_, g);  // I-12
+    if (!inverse_.empty()) return squares - quadratic(inverse_[group], g);  // I-12
     std::vector<double> K(g.size());
-    return squares - numerics::solve_normal(total_gram(), g, K);
+    return squares - numerics::solve_normal(total_gram(members_[group]), g, K);
   }
 
   bool improve(std::size_t r, double& least) {
@@ -235,7 +252,9 @@ class Combination {
   const std::vector<RunScan>& runs_;
   const std::vector<std::vector<PhaseMinimum>>& minima_;
   std::vector<std::size_t> chosen_;
-  std::vector<double> inverse_;  ///< of the sum of all G, where no phase changes it
+  std::vector<std::vector<std::size_t>> members_;  ///< runs of each group
+  /// Of the sum of all G of a group, where no phase changes it; else empty.
+  std::vector<std::vector<double>> inverse_;
 };
 
 /// All runs against one runout.
@@ -270,7 +289,7 @@ void add_candidates(const Problem& problem, const std::vector<RunScan>& runs,
     minima.push_back(phase_minima(run, Q, most));
     if (minima.back().empty()) return;
   }
-  Combination combination(runs, minima);
+  Combination combination(problem, runs, minima);
   for (std::size_t first = 0; first < minima[0].size(); ++first) {
     const double rss = combination.settle(first);
     for (std::size_t r = 0; r < index(problem.unknowns.phases); ++r) {

@@ -1,3 +1,4 @@
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/identification/problem.h>
 #include <trochoid/identification/residuals.h>
@@ -18,6 +19,7 @@ std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
   problem.law = fit.ok ? fit.law : law;
   problem.columns = static_cast<int>(force::form(law).columns());
   problem.tolerance = 1e-8;
+  set_groups(runs, problem);
   double samples = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     problem.runs.push_back(fold(runs[r], fit.options));

@@ -1,5 +1,6 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/derivatives.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/jumps.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/identification/widening.h>
@@ -147,8 +148,11 @@ std::vector<std::size_t> shared_of(const Problem& problem,
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const bool channel_offset =
-        kept[i] >= index(problem.columns) && kept[i] < index(problem.linear());
-    if (!channel_offset && kept[i] < own) out.push_back(i);
+        kept[i] >= index(problem.force_columns()) && kept[i] < index(problem.linear());
+    // With groups of records the coefficients are each group's own.
+    const bool of_group = kept[i] < index(problem.force_columns()) &&
+                          problem.force_columns() > problem.columns;
+    if (!channel_offset && !of_group && kept[i] < own) out.push_back(i);
   }
   return out;
 }
@@ -160,7 +164,7 @@ double widening_of(const Problem& problem, const Determined& unknowns,
   double count = 0.0;
   const std::size_t p = unknowns.which.size();
   for (std::size_t i = 0; i < p; ++i) {
-    if (unknowns.which[i] >= index(problem.columns)) continue;
+    if (unknowns.which[i] >= index(problem.force_columns())) continue;
     sum += covariance[i * p + i] / (variance * unknowns.inverse_gram[i * p + i]);
     count += 1.0;
   }
@@ -199,8 +203,12 @@ std::vector<double> covariance_of(const Problem& problem, const Determined& unkn
 std::vector<std::string> names_of(const Problem& problem) {
   const Unknowns& u = problem.unknowns;
   std::vector<std::string> out;
-  for (const force::Quantity& K : force::coefficient_quantities(problem.law)) {
-    out.emplace_back(K.key);
+  for (const std::string& group : problem.groups) {
+    const bool alone = problem.groups.size() == 1;
+    for (const force::Quantity& K : force::coefficient_quantities(problem.law)) {
+      out.push_back(alone ? std::string(K.key)
+                          : fmt::format("{} of {}", K.key, label_of_group(group)));
+    }
   }
   for (int i = 0; i < problem.drift_columns(); ++i) {
     out.push_back(fmt::format("{} of channel {} in run {}",
@@ -221,6 +229,11 @@ std::vector<std::string> names_of(const Problem& problem) {
     out.push_back(u.phases == 1 ? "phase_deg" : fmt::format("phase_deg[{}]", r + 1));
   }
   return out;
+}
+
+std::vector<double> jacobian_of(const Problem& problem, Evaluation at,
+                                std::span<const double> K) {
+  return full_jacobian(problem, std::move(at), K).J;
 }
 
 Uncertainty uncertainty(const Problem& problem, Evaluation at,

@@ -52,6 +52,12 @@ Uncertainty uncertainty(const Problem& problem, Evaluation at,
 Uncertainty uncertainty(const Problem& problem, std::span<const double> p,
                         std::span<const double> K, const Leftover& left);
 
+/// @brief The Jacobian of I-4, by columns: [D] and the derivatives beside it.
+/// @param at  at the minimum; given away, its memory serves
+/// @param K   there, shape (linear), or the coefficients alone
+std::vector<double> jacobian_of(const Problem& problem, Evaluation at,
+                                std::span<const double> K);
+
 /// @brief Sum of squares of the folded rows about the means of the channels (or, with
 /// channel offsets, about constants and slopes) [N^2].
 double rss_of_means(const Problem& problem);

@@ -5,6 +5,7 @@
 #include <trochoid/force/setup.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/machine_tables.h>
+#include <trochoid/inputs/previous_clamping.h>
 
 #include <array>
 #include <filesystem>
@@ -60,6 +61,7 @@ struct Measurement {
   std::optional<double> sample_rate;   ///< [Hz]
   std::optional<double> from;          ///< what is before it is not used [s]
   std::optional<double> to;            ///< what is after it is not used [s]
+  std::string group;                   ///< those of one name share coefficients
   geometry::Cut cut;                   ///< [cut] with this run's overrides
   std::string location;                ///< file:line:col of its `file` key
 };
@@ -87,6 +89,20 @@ constexpr std::string_view name_of(ChannelOffset offset) noexcept {
   return {};
 }
 
+/// What measurements of different groups have in common.
+enum class Shared { runout, coefficients };
+
+/// Names of files.
+constexpr std::string_view name_of(Shared shared) noexcept {
+  switch (shared) {
+    case Shared::runout:
+      return "runout";
+    case Shared::coefficients:
+      return "coefficients";
+  }
+  return {};
+}
+
 /// [identify]
 struct Identify {
   std::vector<chip::Model> chip_models = {chip::Model::none, chip::Model::feed,
@@ -97,7 +113,39 @@ struct Identify {
   std::optional<int> band_harmonics;  ///< 0: all; absent: chosen from the record
   ChannelOffset channel_offsets = ChannelOffset::automatic;
   identification::Errors errors = identification::Errors::automatic;
+  Shared shared = Shared::runout;  ///< by groups of measurements
+  std::optional<PreviousClamping> previous_clamping;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
+};
+
+/// A kind of cut that a plan looks at.
+enum class PlannedEngagement { slot, up, down };
+
+/// Names of files.
+constexpr std::string_view name_of(PlannedEngagement engagement) noexcept {
+  switch (engagement) {
+    case PlannedEngagement::slot:
+      return "slot";
+    case PlannedEngagement::up:
+      return "up";
+    case PlannedEngagement::down:
+      return "down";
+  }
+  return {};
+}
+
+/// [plan]: the cuts among which the one to be measured next is chosen.
+struct Plan {
+  std::vector<PlannedEngagement> engagements = {
+      PlannedEngagement::slot, PlannedEngagement::up, PlannedEngagement::down};
+  std::vector<double> feeds;          ///< per tooth [m]
+  std::vector<double> axial_depths;   ///< [m]
+  std::vector<double> radial_depths;  ///< [m]
+  int turns = 10;
+  int samples_per_rev = 360;
+  std::optional<double> noise;          ///< of a sample [N]
+  std::optional<double> max_force;      ///< in the plane of the table [N]
+  std::vector<std::string> quantities;  ///< names without unit, coefficients, runout
 };
 
 /// @brief A case file, read and checked, in SI and radians.
@@ -111,6 +159,7 @@ struct Case {
   std::optional<Dynamometer> dynamometer;
   std::vector<Measurement> measurements;
   Identify identify;
+  Plan plan;
   MachineTables machine;      ///< of other commands
   std::string as_understood;  ///< TOML with every default filled in
 };

@@ -179,6 +179,15 @@ CaseTables actuator_example() {
   return t;
 }
 
+/// One slot was measured; or, without a record, coefficients that are about right.
+CaseTables plan_example() {
+  CaseTables t = identify_example();
+  t.title = "Which cut to measure next, 8 mm end mill";
+  t.dynamometer.reset();
+  t.plan.emplace();
+  return t;
+}
+
 /// What a new case of a command shows.
 struct Template {
   CaseTables tables;
@@ -210,6 +219,9 @@ Template template_for(Command command) {
       return {correct_example(),
               {"tool", "runout", "cut", "chip", "force", "sampling", "mode", "actuator",
                "correct", "controller"}};
+    case Command::plan:
+      return {plan_example(),
+              {"tool", "cut", "chip", "force", "measurement", "identify", "plan"}};
     case Command::modes:
       return {modes_example(), {"frf"}};
     case Command::actuator:
@@ -259,7 +271,8 @@ std::string new_case(Command command) {
   };
   const Visitor key_line = [&](const Key& key, const Field& field) {
     const auto value = toml_text(key, field);
-    if (command == Command::identify && key.need == Need::coefficient) {
+    const bool found = command == Command::identify || command == Command::plan;
+    if (found && key.need == Need::coefficient) {
       return;  // this is what will be found
     }
     line(value ? fmt::format("{} = {}", key.name, *value)

@@ -24,6 +24,9 @@ Command purpose_of(std::optional<Command> command, const Node& root) {
   if (command) {
     return *command;
   }
+  if (has("plan")) {
+    return Command::plan;
+  }
   if (has("correct")) {
     return Command::correct;
   }
@@ -123,7 +126,8 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
       .coefficients_needed =
           purpose == Command::simulate || purpose == Command::surface ||
           purpose == Command::stability || purpose == Command::dynamics ||
-          (purpose == Command::correct && find(root, "measurement") == nullptr),
+          ((purpose == Command::correct || purpose == Command::plan) &&
+           find(root, "measurement") == nullptr),
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(
@@ -190,7 +194,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
     c.measurements.push_back(
         measurement_of(t.measurements[i], i + 1, c.setup.cutter, findings));
   }
-  if (to_fit && !t.identify) {
+  if ((to_fit || purpose == Command::plan) && !t.identify) {
     t.identify.emplace();
   }
   if (t.identify) {
@@ -211,6 +215,10 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   if (purpose == Command::correct) {
     check_correct(t, findings);
   }
+  if (purpose == Command::plan) {
+    check_plan(t, findings);
+  }
+  c.plan = t.plan.value_or(Plan{});
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
     settle_surface_file(c.machine.surface_measurements[i], i + 1, findings);

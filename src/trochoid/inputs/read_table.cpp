@@ -90,11 +90,29 @@ struct TableReader {
       read_override(node, **cut, key, key_path);
       return;
     }
+    if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
+      read_clamping(node, **clamping, key, key_path);
+      return;
+    }
     const std::size_t before = findings.problems.size();
     read_value(node, key_path, key, field, findings);
     if (reading.only_own && node.inherited) {
       findings.problems.resize(before);
     }
+  }
+
+  void read_clamping(const Node& node, std::optional<PreviousClamping>& clamping,
+                     const Key& key, const std::string& key_path) const {
+    if (!std::holds_alternative<Members>(node.value)) {
+      report(findings, key_path, node.where,
+             fmt::format("{} = {}: not a table; must be {} ({})", key_path,
+                         to_string(node), expectation(key, &clamping), key.meaning));
+      return;
+    }
+    read_table(
+        node, key_path,
+        [&clamping](const Visitor& v) { describe(v, clamping.emplace()); }, reading,
+        findings);
   }
 
   void read_override(const Node& node, CutTable& cut, const Key& key,

@@ -183,6 +183,7 @@ struct Reader {
       choices.set(all);
     }
   }
+  void operator()(std::optional<PreviousClamping>*) const {}  // read_table does it
   void operator()(CutTable*) const {}  // read_table does it: it needs [cut] as well
 };
 

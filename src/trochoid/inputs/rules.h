@@ -50,6 +50,12 @@ void check_dynamics(const CaseTables& tables, Findings& findings);
 /// and runout or a record to find it in; fills in [correct].
 void check_correct(CaseTables& tables, Findings& findings);
 
+/// @brief What a plan needs: cuts to look at and what they are to tell; fills in [plan].
+void check_plan(CaseTables& tables, Findings& findings);
+
+/// A coefficient without its unit: K_tc of K_tc_MPa.
+std::string_view plain_name(std::string_view key);
+
 /// @brief First below last, and a whole number of them.
 /// @param what  `values` or `speeds`, for the message
 void check_steps(const std::optional<base::Steps>& steps, const std::string& key,

@@ -68,6 +68,29 @@ void check_invertible(const Matrix& m, Findings& findings) {
   }
 }
 
+/// Two clampings that are one separate nothing; nor do offsets.
+void check_clamping(const IdentifyTable& table, Findings& findings) {
+  const std::string key = "identify.previous_clamping";
+  if (!table.previous_clamping || !sound(findings, {key, key + ".turned_deg"})) {
+    return;
+  }
+  constexpr double least_turn = 1 * unit::deg;
+  if (std::abs(std::remainder(table.previous_clamping->turned, unit::turn)) <
+      least_turn) {
+    report(
+        findings, key + ".turned_deg",
+        fmt::format("{}.turned_deg = {} deg: the tool stood as before, so that nothing "
+                    "can be told apart; must be at least 1 deg off a whole turn",
+                    key, number_text(table.previous_clamping->turned, unit::deg)));
+  }
+  if (!table.runout || !identification::finds_eccentricity(*table.runout)) {
+    report(findings, key,
+           key +
+               ": only an eccentricity has a part of the holder; must go with "
+               "runout = \"eccentricity\"");
+  }
+}
+
 }  // namespace
 
 std::filesystem::path resolved(const std::string& file, const Location& named_at) {
@@ -138,11 +161,19 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .sample_rate = table.sample_rate,
                 .from = table.from,
                 .to = table.to,
+                .group = table.group,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
   if (sound(findings, {path + ".file"})) {
     check_file(m.file, path + ".file", table.file, "a force record (csv or dynoware)",
                findings);
+  }
+  if (std::any_of(table.group.begin(), table.group.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
+    report(findings, path + ".group",
+           fmt::format("{}.group = {}: must be text of one line (records of the same "
+                       "group share coefficients)",
+                       path, toml_string(table.group)));
   }
   if (!table.time_column.empty() && table.sample_rate) {
     report(
@@ -166,7 +197,9 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                   .phase = table.phase,
                   .band_harmonics = std::nullopt,
                   .channel_offsets = table.channel_offsets,
-                  .errors = table.errors};
+                  .errors = table.errors,
+                  .shared = table.shared,
+                  .previous_clamping = table.previous_clamping};
   if (table.band_harmonics && sound(findings, {"identify.band_harmonics"})) {
     const double n = *table.band_harmonics;
     if (n != std::round(n)) {
@@ -177,6 +210,13 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                       number_text(n)));
     }
     result.band_harmonics = static_cast<int>(n);
+  }
+  check_clamping(table, findings);
+  if (table.shared == Shared::coefficients) {
+    report(findings, "identify.shared",
+           "identify.shared = \"coefficients\": one tool of one sharpness, clamped "
+           "several times, is not fitted together yet; must be \"runout\", or a case "
+           "file for each clamping (what groups have in common)");
   }
   const auto& models = table.chip_models;
   if (tables.chip.lookback == chip::Lookback::previous &&

@@ -31,6 +31,7 @@ constexpr Ending endings[] = {
     {"_um", {unit::um, "um"}},
     {"_kg", {unit::one, "kg"}},
     {"_Hz", {unit::one, "Hz"}},
+    {"_N", {unit::one, "N"}},
     {"_s", {unit::one, "s"}},
 };
 
@@ -89,6 +90,9 @@ struct Expectation {
     return fmt::format("a list with any of \"{}\"", fmt::join(c.names, "\", \""));
   }
   std::string operator()(const CutTable*) const {
+    return "a table { key = value, ... }";
+  }
+  std::string operator()(const std::optional<PreviousClamping>*) const {
     return "a table { key = value, ... }";
   }
 };
@@ -153,6 +157,9 @@ struct Writer {
     }
     return fmt::format("[{}]", fmt::join(entries, ", "));
   }
+  Text operator()(const std::optional<PreviousClamping>*) const {
+    return {};
+  }                                                      // so this
   Text operator()(const CutTable*) const { return {}; }  // write_case.cpp does it
 };
 

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/command.h>
 #include <trochoid/base/steps.h>
+#include <trochoid/inputs/previous_clamping.h>
 
 #include <array>
 #include <cstddef>
@@ -88,10 +89,10 @@ using Rows = std::vector<std::array<double, 3>>;
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field =
-    std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
-                 std::vector<double>*, std::optional<base::Steps>*,
-                 std::vector<std::string>*, Rows*, Choice, Choices, CutTable*>;
+using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
+                           std::vector<double>*, std::optional<base::Steps>*,
+                           std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
+                           std::optional<PreviousClamping>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

@@ -111,10 +111,46 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .standard = "the longest steady cut",
      .example = "3.2"},
     &t.to);
+  v({.name = "group",
+     .meaning = "measurements of the same group share coefficients, for example those "
+                "of one state of wear; those without share one set as well",
+     .standard = "all share them",
+     .example = "\"after 10 min\""},
+    &t.group);
   v({.name = "cut",
      .meaning = "keys of [cut] that are different in this run",
      .example = "{ feed_per_tooth_mm = 0.06 }"},
     &t.cut);
+}
+
+void describe(const Visitor& v, PreviousClamping& t) {
+  v({.name = "eccentricity_mm",
+     .meaning = "eccentricity found before",
+     .range = between(0, 10),
+     .need = Need::always},
+    &t.eccentricity);
+  v({.name = "angle_deg",
+     .meaning = "its angle from tooth 1",
+     .range = between(-360, 360),
+     .need = Need::always},
+    &t.angle);
+  v({.name = "turned_deg",
+     .meaning =
+         "by which the tool was turned in its holder since, positive from tooth 1 "
+         "towards tooth 2",
+     .range = between(-360, 360),
+     .need = Need::always},
+    &t.turned);
+  v({.name = "eccentricity_se_mm",
+     .meaning = "standard error of that eccentricity",
+     .range = between(0, 10),
+     .standard = "that of the present one"},
+    &t.eccentricity_se);
+  v({.name = "angle_se_deg",
+     .meaning = "standard error of that angle",
+     .range = between(0, 360),
+     .standard = "that of the present one"},
+    &t.angle_se);
 }
 
 void describe(const Visitor& v, IdentifyTable& t) {
@@ -147,6 +183,19 @@ void describe(const Visitor& v, IdentifyTable& t) {
                 "their neighbours or repeat turn by turn, and how far records agree; "
                 "white: as if they were white noise"},
     choice(t.errors));
+  v({.name = "shared",
+     .meaning =
+         "what measurements of different groups have in common; runout: the tool "
+         "was not clamped anew between them"},
+    choice(t.shared));
+  v({.name = "previous_clamping",
+     .meaning =
+         "eccentricity_mm and angle_deg of this tool before it was turned in its "
+         "holder by turned_deg (positive from tooth 1 towards tooth 2), perhaps "
+         "with eccentricity_se_mm and angle_se_deg: what belongs to the tool, and "
+         "what to holder and spindle",
+     .example = "{ eccentricity_mm = 0.012, angle_deg = 40, turned_deg = 180 }"},
+    &t.previous_clamping);
   v({.name = "sweep_um",
      .meaning =
          "first, last and number of radial offsets of tooth 2 to try for sweep.csv",

@@ -47,7 +47,7 @@ TableEntry several(std::string_view name, std::string_view meaning,
 std::vector<TableEntry> tables_of(CaseTables& t) {
   const Commands all_commands{Command::simulate,  Command::identify,  Command::surface,
                               Command::calibrate, Command::stability, Command::dynamics,
-                              Command::correct};
+                              Command::correct,   Command::plan};
   return {
       one("tool", "the cutter", t.tool, all_commands),
       one("runout", "how the teeth stand out; left out: no runout", t.runout),
@@ -61,6 +61,7 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       several("measurement", "a force record; several are fitted together",
               t.measurements, {Command::identify}),
       perhaps("identify", "what is to be found from the measurements", t.identify),
+      perhaps("plan", "among which cuts the one to be measured next is chosen", t.plan),
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
       perhaps("wall",
               "the workpiece as an elastic plate, clamped below and at both ends; left "

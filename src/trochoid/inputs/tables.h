@@ -111,6 +111,7 @@ struct MeasurementTable {
   std::optional<double> sample_rate;
   std::optional<double> from;
   std::optional<double> to;
+  std::string group;
   CutTable cut;  ///< complete: [cut] with the overrides of this run
 };
 
@@ -121,6 +122,8 @@ struct IdentifyTable {
   std::optional<double> band_harmonics;
   ChannelOffset channel_offsets = ChannelOffset::automatic;
   identification::Errors errors = identification::Errors::automatic;
+  Shared shared = Shared::runout;
+  std::optional<PreviousClamping> previous_clamping;
   std::optional<base::Steps> sweep;
 };
 
@@ -135,6 +138,7 @@ struct CaseTables {
   std::optional<DynamometerTable> dynamometer;
   std::vector<MeasurementTable> measurements;
   std::optional<IdentifyTable> identify;
+  std::optional<Plan> plan;
   MachineTables machine;
 };
 
@@ -147,6 +151,8 @@ void describe(const Visitor& v, Sampling& t);
 void describe(const Visitor& v, DynamometerTable& t);
 void describe(const Visitor& v, MeasurementTable& t);
 void describe(const Visitor& v, IdentifyTable& t);
+void describe(const Visitor& v, Plan& t);
+void describe(const Visitor& v, PreviousClamping& t);
 /// The keys above all tables.
 void describe(const Visitor& v, CaseTables& t);
 

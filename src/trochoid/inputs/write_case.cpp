@@ -9,7 +9,8 @@ namespace trochoid::inputs {
 
 namespace {
 
-std::string inline_table(CutTable& cut) {
+template <class Table>
+std::string inline_table(Table& table) {
   std::string text;
   describe(
       [&text](const Key& key, const Field& field) {
@@ -17,8 +18,20 @@ std::string inline_table(CutTable& cut) {
           text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.name, *value);
         }
       },
-      cut);
+      table);
   return fmt::format("{{ {} }}", text);
+}
+
+/// A value of one line, tables in braces.
+std::optional<std::string> value_text(const Key& key, const Field& field) {
+  if (CutTable* const* cut = std::get_if<CutTable*>(&field)) {
+    return inline_table(**cut);
+  }
+  if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
+    return *clamping != nullptr && **clamping ? std::optional(inline_table(***clamping))
+                                              : std::nullopt;
+  }
+  return toml_text(key, field);
 }
 
 /// What every cut has, in any case.
@@ -31,9 +44,7 @@ bool is_of_a_cut(std::string_view table) {
 std::string written(CaseTables& tables, bool with_cut) {
   std::string text;
   const Visitor key_line = [&text](const Key& key, const Field& field) {
-    CutTable* const* cut = std::get_if<CutTable*>(&field);
-    const auto value = cut != nullptr ? inline_table(**cut) : toml_text(key, field);
-    if (value) {
+    if (const auto value = value_text(key, field)) {
       text += fmt::format("{} = {}\n", key.name, *value);
     }
   };

@@ -16,6 +16,7 @@ std::string_view charts_js();    ///< curves
 std::string_view parts_js();     ///< what several commands show
 std::string_view measured_js();  ///< measured against computed
 std::string_view simulate_js();
+std::string_view groups_js();
 std::string_view identify_js();
 std::string_view drawing_js();  ///< canvases drawn by hand
 std::string_view map_js();      ///< a quantity over two others
@@ -27,6 +28,7 @@ std::string_view stability_js();
 std::string_view correct_js();
 std::string_view modes_js();  ///< modes and actuators
 std::string_view dynamics_js();
+std::string_view plan_js();
 std::string_view any_js();  ///< every command without a page of its own
 std::string_view main_js();
 

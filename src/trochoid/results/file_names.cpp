@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 26> names = {"case.toml",
+constexpr std::array<std::string_view, 27> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -38,12 +38,28 @@ constexpr std::array<std::string_view, 26> names = {"case.toml",
                                                     "surface_location.csv",
                                                     "speeds.csv",
                                                     "command.h",
-                                                    "controller.csv"};
+                                                    "controller.csv",
+                                                    "plan.csv"};
+
+/// material_2.toml, material_3.toml, ...: of the second group of records and on.
+bool is_further_material(std::string_view name) {
+  constexpr std::string_view first = "material_";
+  constexpr std::string_view last = ".toml";
+  if (name.size() <= first.size() + last.size() || !name.starts_with(first) ||
+      !name.ends_with(last)) {
+    return false;
+  }
+  const std::string_view number =
+      name.substr(first.size(), name.size() - first.size() - last.size());
+  return std::all_of(number.begin(), number.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
 
 }  // namespace
 
 bool is_ours(std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::find(names.begin(), names.end(), name) != names.end() ||
+         is_further_material(name);
 }
 
 bool is_our_summary(std::string_view text) {

@@ -98,6 +98,16 @@ Object resonances_value(const Fit& fit) {
   return out;
 }
 
+/// Coefficients alone, each with its interval.
+Object coefficients_value(const identification::Group& group) {
+  Object out;
+  const auto names = force::coefficient_quantities(group.law);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    set(out, names[q].key, estimate_value(group.coefficients[q], names[q].unit));
+  }
+  return out;
+}
+
 /// `coefficients`, and which of them and of the rest are identifiable.
 void add_coefficients(const Fit& fit, Object& K, Object& identifiable) {
   const auto names = force::coefficient_quantities(fit.law);
@@ -117,6 +127,18 @@ void add_coefficients(const Fit& fit, Object& K, Object& identifiable) {
 }
 
 }  // namespace
+
+Array groups_value(const Fit& fit, std::span<const std::string> files) {
+  Array out;
+  for (const identification::Group& group : fit.groups) {
+    Array own;
+    for (const std::size_t r : group.runs) own.emplace_back(files[r]);
+    out.emplace_back(Object{{"group", group.name.empty() ? Value() : Value(group.name)},
+                            {"coefficients", coefficients_value(group)},
+                            {"files", std::move(own)}});
+  }
+  return out;
+}
 
 Object fit_value(const Fit& fit) {
   Object K;
@@ -147,7 +169,7 @@ Object fit_value(const Fit& fit) {
       {"condition", solved ? Value(fit.condition) : Value()},
       {"rank", solved ? Value(fit.rank) : Value()},
       {"degrees_of_freedom", number(fit.freedom)},
-      {"band_harmonics", band_of(fit)},
+      {"band_harmonics", fit.ok ? Value(band_of(fit)) : Value()},
       {"interval_factor", number(fit.interval_factor)},
       {"residual_correlation", number(fit.residual_correlation)},
       {"interval_widening", number(fit.widening)},

@@ -3,6 +3,7 @@
 #include <trochoid/base/rounded.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/results/text_table.h>
 
 #include <fmt/core.h>
 
@@ -78,7 +79,9 @@ std::string phase_text(const Fit& fit, std::size_t run) {
                     se ? std::optional(*se / unit::deg) : std::nullopt);
 }
 
-/// Lines of cells, each column as wide as its widest cell.
+using Cells = std::vector<std::string>;
+
+/// One column a fit.
 class Columns {
  public:
   explicit Columns(std::span<const Fit> fits) : fits_(fits) {}
@@ -93,23 +96,7 @@ class Columns {
 
   void head(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
-  [[nodiscard]] std::string text() const {
-    std::vector<std::size_t> width(rows_.front().size(), 0);
-    for (const auto& cells : rows_) {
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        width[i] = std::max(width[i], cells[i].size());
-      }
-    }
-    std::string out;
-    for (const auto& cells : rows_) {
-      out += fmt::format("{:<{}}", cells.front(), width.front());
-      for (std::size_t i = 1; i < cells.size(); ++i) {
-        out += fmt::format("  {:>{}}", cells[i], width[i]);
-      }
-      out += '\n';
-    }
-    return out;
-  }
+  [[nodiscard]] std::string text() const { return aligned(rows_); }
 
  private:
   std::span<const Fit> fits_;
@@ -143,6 +130,23 @@ void add_quality(Columns& columns) {
 
 }  // namespace
 
+std::string groups_table(const Fit& fit) {
+  Cells head{fmt::format("group ({}, 95 %: +-)", chip::name_of(fit.chip.model))};
+  for (const identification::Group& group : fit.groups) {
+    head.push_back(group.name.empty() ? "without a group" : group.name);
+  }
+  std::vector<Cells> rows{std::move(head)};
+  const auto names = force::coefficient_quantities(fit.law);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    Cells cells{std::string(names[q].key)};
+    for (const identification::Group& group : fit.groups) {
+      cells.push_back(coefficient_text(group.coefficients[q], names[q].unit));
+    }
+    rows.push_back(std::move(cells));
+  }
+  return aligned(rows);
+}
+
 std::string fits_table(std::span<const Fit> fits) {
   Columns columns(fits);
   std::vector<std::string> head{"chip model (95 %: +-)"};
@@ -151,7 +155,9 @@ std::string fits_table(std::span<const Fit> fits) {
   }
   columns.head(std::move(head));
   const auto names = force::coefficient_quantities(fits.front().law);
-  for (std::size_t q = 0; q < names.size(); ++q) {
+  const bool grouped =
+      std::ranges::any_of(fits, [](const Fit& fit) { return fit.groups.size() > 1; });
+  for (std::size_t q = 0; q < names.size() && !grouped; ++q) {
     columns.row(std::string(names[q].key), [&, q](const Fit& fit) {
       return coefficient_text(fit.coefficients[q], names[q].unit);
     });

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/results/clocking.h>
 #include <trochoid/results/curve_tables.h>
 #include <trochoid/results/estimate_value.h>
 #include <trochoid/results/fit_value.h>
@@ -99,17 +100,44 @@ std::string_view verdict_of(const IdentifyResult& r) {
   return r.reasons_for_care.empty() ? "usable" : "usable with care";
 }
 
+/// Half of a 95 % interval over its standard error.
+double factor_of(const IdentifyResult& r) {
+  return r.fits[*r.chosen].interval_factor;
+}
+
+/// Whether a record names the group that it is of.
+bool has_groups(const IdentifyResult& r) {
+  return std::any_of(r.runs.begin(), r.runs.end(),
+                     [](const identification::Run& run) { return !run.group.empty(); });
+}
+
 Object result_of(const IdentifyResult& r) {
+  std::vector<std::string> files;
+  for (const RecordSummary& record : r.records) {
+    files.push_back(record.file);
+  }
+  const bool grouped = has_groups(r);
   Array fits;
   for (const Fit& fit : r.fits) {
-    fits.emplace_back(fit_value(fit));
+    Object value = fit_value(fit);
+    if (grouped) {
+      set(value, "groups", groups_value(fit, files));
+    }
+    fits.emplace_back(std::move(value));
   }
   Object result{{"fits", std::move(fits)}, {"chosen", nullptr}};
   if (r.chosen) {
-    set(result, "chosen", chip::name_of(r.fits[*r.chosen].chip.model));
+    const Fit& chosen = r.fits[*r.chosen];
+    set(result, "chosen", chip::name_of(chosen.chip.model));
+    if (grouped) {
+      set(result, "groups", groups_value(chosen, files));
+    }
   }
   if (!r.records.empty()) {
     set(result, "signal", signal_value(r));
+  }
+  if (r.clocking) {
+    set(result, "clocking", clocking_value(*r.clocking, factor_of(r)));
   }
   if (r.chosen) {
     if (r.runout_form) set(result, "runout_form", form_value(*r.runout_form));
@@ -156,7 +184,13 @@ std::string short_table(const IdentifyResult& r) {
   if (!r.chosen) {
     return "No answer: " + r.heading.message + "\n";
   }
-  return verdict_line(r) + "\n\n" + fits_table(r.fits) + form_line(r) + signal_lines(r);
+  const Fit& chosen = r.fits[*r.chosen];
+  const std::string groups =
+      chosen.groups.size() > 1 ? groups_table(chosen) + "\n" : std::string();
+  const std::string gauge =
+      r.clocking ? clocking_lines(*r.clocking, factor_of(r)) : std::string();
+  return verdict_line(r) + "\n\n" + groups + fits_table(r.fits) + form_line(r) + gauge +
+         signal_lines(r);
 }
 
 /// folded.csv: mean and scatter of the measured force over one turn; none where no
@@ -239,8 +273,12 @@ Answer answer_of(const IdentifyResult& r) {
                 .short_table = short_table(r)};
   if (r.chosen) {
     answer.tables = tables_of(r);
-    answer.texts.push_back(
-        {"material.toml", material_toml(r.fits[*r.chosen], r.edge_length)});
+    const Fit& chosen = r.fits[*r.chosen];
+    answer.texts.push_back({"material.toml", material_toml(chosen, r.edge_length)});
+    for (std::size_t g = 1; g < chosen.groups.size(); ++g) {
+      answer.texts.push_back({fmt::format("material_{}.toml", g + 1),
+                              material_toml(chosen, chosen.groups[g], r.edge_length)});
+    }
   }
   return answer;
 }

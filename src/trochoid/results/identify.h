@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/force/slice.h>
+#include <trochoid/identification/clocking.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/identification/runout_form.h>
@@ -42,6 +43,15 @@ struct RunoutForm {
   std::vector<identification::FormTried> tried;
 };
 
+/// What an eccentricity means at the machine.
+struct Clocking {
+  identification::Offset present;
+  double height = 0.0;    ///< above the tip [m], at which it is told
+  int longest_tooth = 1;  ///< there
+  /// With a previous clamping.
+  std::optional<identification::Separation> separation;
+};
+
 /// @brief What `identify` answers: coefficients, runout and phase from measured forces.
 struct IdentifyResult {
   Heading heading;
@@ -63,6 +73,7 @@ struct IdentifyResult {
   std::optional<OffsetSweep> sweep;
   bool whole_curves = false;              ///< asked for however long the records are
   std::optional<force::ChipCurve> curve;  ///< of the chosen fit
+  std::optional<Clocking> clocking;       ///< of its eccentricity, where it has one
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };
 

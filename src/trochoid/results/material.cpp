@@ -1,6 +1,7 @@
 #include <trochoid/results/material.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/reliability.h>
 
 #include <fmt/core.h>
@@ -48,6 +49,11 @@ std::string law_shape_toml(const force::Law& law, force::EdgeLength edge_length)
 }
 
 std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
+  return material_toml(fit, identification::groups_of(fit).front(), edge_length);
+}
+
+std::string material_toml(const Fit& fit, const identification::Group& group,
+                          force::EdgeLength edge_length) {
   std::string text;
   if (const auto reasons = identification::reasons_against(fit); !reasons.empty()) {
     text += "# " + identification::do_not_use(reasons) + "\n\n";
@@ -55,17 +61,20 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
   text +=
       "# Found by trochoid identify. Use it in another case with\n"
       "#   include = \"<this file>\"\n";
+  if (fit.groups.size() > 1) {
+    text += fmt::format("# Of {}.\n", identification::label_of_group(group.name));
+  }
   if (fit.residual_correlation > identification::noise_correlation) {
     text += fmt::format(
         "# What the fit leaves is not noise: the intervals are {:.1f} times wider for it.\n",
         fit.widening);
   }
   text += "\n[force]\n";
-  text += fmt::format("law = \"{}\"\n", force::name_of(fit.law));
-  const auto names = force::coefficient_quantities(fit.law);
+  text += fmt::format("law = \"{}\"\n", force::name_of(group.law));
+  const auto names = force::coefficient_quantities(group.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
-    if (fit.coefficients[q]) {
-      const auto& K = *fit.coefficients[q];
+    if (group.coefficients[q]) {
+      const auto& K = *group.coefficients[q];
       text +=
           fmt::format("{} = {}  # 95 %: +- {:.2g}\n", names[q].key,
                       K.value / names[q].unit, 0.5 * (K.high - K.low) / names[q].unit);
@@ -73,7 +82,7 @@ std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
       text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
     }
   }
-  text += law_shape_toml(fit.law, edge_length);
+  text += law_shape_toml(group.law, edge_length);
   if (!chip::feels_runout(fit.chip.model)) {
     return text;
   }

@@ -11,6 +11,11 @@ namespace trochoid::results {
 std::string material_toml(const identification::Fit& fit,
                           force::EdgeLength edge_length);
 
+/// @brief The same of one group of records.
+std::string material_toml(const identification::Fit& fit,
+                          const identification::Group& group,
+                          force::EdgeLength edge_length);
+
 /// @brief The lines of [force] below the coefficients: exponents, and what counts as the
 /// length of an edge, where the law has them.
 std::string law_shape_toml(const force::Law& law, force::EdgeLength edge_length);

@@ -82,9 +82,9 @@ async function check(name, options, plots) {
   return { page, canvases, close };
 }
 
-const plotsOf = { identify: 8, doubtful: 8, simulate: 7, failed: 0, other: 2,
+const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2,
-  modes: 4, actuator: 2, dynamics: 8, chatter: 1, correct: 8 };
+  modes: 4, actuator: 2, dynamics: 8, chatter: 1, correct: 8, plan: 3 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -123,6 +123,29 @@ for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, 
     });
   }
 }
+
+test('groups stand side by side, and a change that intervals allow is no change', async () => {
+  const { page, close } = await open('worn');
+  const rows = await page.locator('#groups tbody tr').allInnerTexts();
+  assert.match(rows[0], /no sure change.*no sure change/s);
+  assert.match(rows[1], /13\.5.*\+90 %.*19\.9.*\+180 %/s);
+  assert.match(rows[2], /–.*–.*–/s);
+  assert.match(await page.locator('#groups thead').innerText(), /without a group.*20 min <b>/s);
+  assert.match(await page.locator('#figures').innerText(), /Of records without a group\..*29\.20 µm.*130°/s);
+  await close();
+});
+
+test('a plan names the cut, what it brings, and draws all cuts over what they cost', async () => {
+  const { page, close } = await open('plan');
+  assert.match(await page.locator('#answer').innerText(), /± 8\s*%\s*so far ± 17 %.*0\.\d+\s*µm/s);
+  assert.match(await page.locator('#best tbody').innerText(), /^so far.*?slot\s+0\.01 mm\s+3 mm\s+8 mm/s);
+  const before = JSON.stringify(await drawn(page));
+  await page.getByRole('button', { name: 'feed per tooth' }).click();
+  await shown(page);
+  assert.notEqual(JSON.stringify(await drawn(page)), before);
+  assert.match(await page.locator('#basis').innerText(), /left out: above max_force_N = 450 N\s+38/);
+  await close();
+});
 
 test('the map tells values, and a click or the slider chooses the profile', async () => {
   const { page, close } = await open('surface');

@@ -2,6 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/correct/correct.h>
+#include <trochoid/run/identify/plan.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/dynamics.h>
 #include <trochoid/run/vibration/modes.h>
@@ -46,6 +47,12 @@ Answer chatter() {
       trochoid::run::dynamics(inputs::read_case(examples / "stability_922Hz/case.toml",
                                                 inputs::Command::dynamics),
                               {}));
+}
+
+Answer plan() {
+  return answer_of(trochoid::run::plan(
+      inputs::read_case(examples / "plan_next_cut/case.toml", inputs::Command::plan),
+      {}));
 }
 
 }  // namespace sample

@@ -2,7 +2,8 @@
 
 #include <trochoid/results/answer.h>
 
-/// Answers of the commands about vibration, as the program gives them for the examples.
+/// Answers of the commands about vibration, and of plan, as the program gives them for the
+/// examples.
 namespace sample {
 
 /// Both from examples/tap_test.
@@ -17,5 +18,8 @@ trochoid::results::Answer correction();
 
 /// examples/stability_922Hz cut in time: it chatters.
 trochoid::results::Answer chatter();
+
+/// examples/plan_next_cut.
+trochoid::results::Answer plan();
 
 }  // namespace sample

@@ -230,6 +230,41 @@ Answer failed() {
   return answer;
 }
 
+/// The same answer with three states of wear, and an eccentricity of tool and holder.
+Answer worn() {
+  Answer answer = identify();
+  trochoid::results::Array groups;
+  for (const int state : {0, 1, 2}) {
+    trochoid::results::Object K;
+    const auto add = [&](const char* key, double value, double half) {
+      set(K, key,
+          trochoid::results::Object{{"value", value},
+                                    {"se", half / 2},
+                                    {"low", value - half},
+                                    {"high", value + half}});
+    };
+    add("K_tc_MPa", 2618.2 + 12 * state, 41);
+    add("K_te_N_per_mm", 7.1 + 6.4 * state, 1.5);
+    set(K, "K_ae_N_per_mm", nullptr);
+    groups.emplace_back(trochoid::results::Object{
+        {"group", state == 0 ? trochoid::results::Value()
+                             : "after " + std::to_string(10 * state) + " min <b>"},
+        {"coefficients", std::move(K)},
+        {"files", std::vector<std::string>{"a.csv", "b.csv"}}});
+  }
+  auto& result = std::get<trochoid::results::Object>(answer.result.data);
+  set(result, "groups", std::move(groups));
+  const std::string part =
+      R"({"eccentricity_mm": {"value": 0.006, "se": 1e-4, "low": 0.0058, "high": 0.0062},
+          "angle_deg": 50, "angle_se_deg": 1})";
+  set(result, "clocking",
+      json_value(R"({"total_indicator_reading_um": {"value": 29.2, "se": 0.1, "low": 29,
+                     "high": 29.4}, "height_mm": 1, "longest_tooth": 2, "best_turn_deg": 130,
+                     "least_eccentricity_mm": 0.004, "tool": )" +
+                 part + R"(, "holder": )" + part + "}"));
+  return answer;
+}
+
 /// The same answer with numbers that must not be used.
 Answer doubtful() {
   Answer answer = identify();
@@ -279,7 +314,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, answer] :
          {std::pair{"identify", identify()}, std::pair{"simulate", simulate()},
           std::pair{"failed", failed()}, std::pair{"doubtful", doubtful()},
-          std::pair{"other", other()},
+          std::pair{"worn", worn()}, std::pair{"other", other()},
           std::pair{"surface", sample::wall("envelope", cases / "envelope")},
           std::pair{"marks", sample::wall("imprint", cases / "imprint")},
           std::pair{"pulse", sample::wall("quasi_static", cases / "pulse")},
@@ -289,7 +324,7 @@ int main(int argc, char** argv) {
           std::pair{"modes", sample::modes()},
           std::pair{"actuator", sample::actuator()},
           std::pair{"dynamics", sample::motion()},
-          std::pair{"correct", sample::correction()},
+          std::pair{"correct", sample::correction()}, std::pair{"plan", sample::plan()},
           std::pair{"chatter", sample::chatter()},
           std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
           std::pair{"one_height", sample::one_height(cases / "one_height")}}) {

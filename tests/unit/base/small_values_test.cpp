@@ -12,7 +12,7 @@ namespace trochoid::base {
 namespace {
 
 TEST(Names, AreAllThereAndFindTheirEnumerator) {
-  EXPECT_EQ(names<Command>.size(), 9U);
+  EXPECT_EQ(names<Command>.size(), 10U);
   std::set<std::string_view> different;
   for (const std::string_view name : names<Command>) {
     EXPECT_TRUE(different.insert(name).second);

@@ -98,6 +98,26 @@ sweep_um = [-20, 20, 41]
   EXPECT_EQ(i.sweep->count, 41);
 }
 
+TEST_F(CaseMeasurement, APreviousClampingIsATableInATable) {
+  const Case c = read(R"(
+[[measurement]]
+file = "run.csv"
+[identify]
+runout = "eccentricity"
+previous_clamping = { eccentricity_mm = 0.012, angle_deg = 90, turned_deg = 180, angle_se_deg = 2 }
+)");
+  const PreviousClamping before = c.identify.previous_clamping.value();
+  EXPECT_DOUBLE_EQ(before.eccentricity, 12e-6);
+  EXPECT_DOUBLE_EQ(before.angle, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(before.turned, std::numbers::pi);
+  EXPECT_FALSE(before.eccentricity_se.has_value());
+  EXPECT_NE(
+      c.as_understood.find("previous_clamping = { eccentricity_mm = 0.012, angle_deg "
+                           "= 90, turned_deg = 180, angle_se_deg = 2 }"),
+      std::string::npos)
+      << c.as_understood;
+}
+
 TEST_F(CaseMeasurement, CheckAsksForWhatTheCaseIsMadeFor) {
   const std::string bare = test::tool + test::cut;
   EXPECT_EQ(

@@ -93,7 +93,7 @@ TEST(CasePage, NewCorrectIsAValidCase) {
 TEST(CasePage, EveryLineOfANewCaseIsExplained) {
   for (const Command command :
        {Command::simulate, Command::identify, Command::surface, Command::calibrate,
-        Command::stability, Command::dynamics, Command::correct}) {
+        Command::stability, Command::dynamics, Command::correct, Command::plan}) {
     std::istringstream lines(new_case(command));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;
@@ -127,7 +127,7 @@ TEST(CasePage, WhatIsHiddenInANewCaseIsValidTomlWithoutTheHash) {
   static_cast<void>(folder.write("record2.csv", "x"));
   for (const Command command :
        {Command::simulate, Command::identify, Command::surface, Command::calibrate,
-        Command::stability, Command::dynamics, Command::correct}) {
+        Command::stability, Command::dynamics, Command::correct, Command::plan}) {
     const std::string text = new_case(command);
     const auto hidden = hidden_lines(text);
     EXPECT_GT(hidden.size(), 10U);

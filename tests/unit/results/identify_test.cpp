@@ -81,6 +81,78 @@ TEST(IdentifyAnswer, IsNoMaterialWithoutAFit) {
   EXPECT_TRUE(says(json_text(answer.result), R"("chosen": null)"));
 }
 
+/// Two groups of one record each, the second with twice the coefficients.
+IdentifyResult grouped() {
+  IdentifyResult r = made();
+  identification::Fit& fit = r.fits[0];
+  identification::Group sharp{"", {0}, fit.law, fit.coefficients};
+  identification::Group blunt{"after 10 min", {1}, fit.law, fit.coefficients};
+  for (auto& K : blunt.coefficients) {
+    K->value *= 2;
+  }
+  fit.groups = {sharp, blunt};
+  r.records.push_back({"worn.csv", 3, 100 * unit::rpm, 0.01 * unit::rpm, 0.0});
+  r.runs.resize(2);
+  r.runs[1].group = "after 10 min";
+  for (auto& run : r.runs) {
+    run.angle = {0.0};
+    run.force = {{}};
+  }
+  fit.fitted.assign(2, {{}});
+  return r;
+}
+
+TEST(IdentifyAnswer, HasACoefficientForEachGroup) {
+  const Answer answer = answer_of(grouped());
+  const Value* groups = find(answer.result, "groups");
+  ASSERT_NE(groups, nullptr);
+  const auto& list = std::get<Array>(groups->data);
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_EQ(json_text(*find(list[0], "group")), "null");
+  EXPECT_EQ(json_text(*find(list[1], "group")), "\"after 10 min\"");
+  EXPECT_EQ(json_text(*find(list[1], "files")), "[\"worn.csv\"]");
+  const Value* K = find(*find(list[1], "coefficients"), "K_tc_MPa");
+  EXPECT_EQ(json_text(*find(*K, "value")), "5200");
+  EXPECT_TRUE(says(answer.short_table, "without a group    after 10 min\n"))
+      << answer.short_table;
+  EXPECT_TRUE(says(answer.short_table, "2600 +- 52")) << answer.short_table;
+  EXPECT_EQ(answer.short_table.find("K_tc_MPa"), answer.short_table.rfind("K_tc_MPa"))
+      << "the chip models side by side would show the first group alone";
+  ASSERT_EQ(answer.texts.size(), 2U);
+  EXPECT_EQ(answer.texts[1].file, "material_2.toml");
+  EXPECT_TRUE(says(answer.texts[1].text, "# Of \"after 10 min\".\n"));
+  EXPECT_TRUE(says(answer.texts[1].text, "K_tc_MPa = 5200 "));
+  EXPECT_FALSE(says(result(made()), "groups"));
+}
+
+TEST(IdentifyAnswer, SaysWhatADialGaugeWouldRead) {
+  IdentifyResult r = made();
+  EXPECT_FALSE(says(result(r), "clocking"));
+  r.clocking = Clocking{{{3e-6, 4e-6}, {1e-14, 0.0, 1e-14}}, 1e-3, 2, std::nullopt};
+  const Answer answer = answer_of(r);
+  const Value* clocking = find(answer.result, "clocking");
+  ASSERT_NE(clocking, nullptr);
+  const Value* reading = find(*clocking, "total_indicator_reading_um");
+  EXPECT_NEAR(std::get<double>(find(*reading, "value")->data), 10.0, 1e-12);
+  EXPECT_NEAR(std::get<double>(find(*reading, "high")->data), 10.4, 1e-12);
+  EXPECT_EQ(find(*clocking, "tool"), nullptr);
+  EXPECT_TRUE(says(answer.short_table, "would read 10.00 +- 0.40 um in all (TIR)"))
+      << answer.short_table;
+  EXPECT_TRUE(says(answer.short_table, "1 mm above the tip tooth 2 is the longest"));
+  r.clocking->separation =
+      identification::separate({{0.0, 9e-6}, {}}, {{3e-6, 4e-6}, {}}, 180 * unit::deg);
+  // t = (e1 + e2)/2, h = (e1 - e2)/2
+  const std::string text = result(r);
+  EXPECT_TRUE(says(text, "\"tool\": {")) << text;
+  EXPECT_NEAR(
+      std::get<double>(find(*find(*find(*find(answer_of(r).result, "clocking"), "tool"),
+                                  "eccentricity_mm"),
+                            "value")
+                           ->data),
+      std::hypot(1.5, 6.5) * 1e-3, 1e-12);
+  EXPECT_TRUE(says(answer_of(r).short_table, "of the tool itself 6.6"));
+}
+
 TEST(IdentifyAnswer, HasTheSweepByItsModel) {
   IdentifyResult r = made();
   r.sweep = OffsetSweep{.offset = {-1 * unit::um, 0.0},

@@ -47,6 +47,38 @@ TEST(Identify, FindsWhatTheRecordWasMadeWith) {
   ASSERT_TRUE(r.curve.has_value());
 }
 
+/// The same eccentricity before and after half a turn in the holder: all of it is the
+/// tool's.
+TEST(Identify, TellsToolAndHolderApart) {
+  force::Setup setup = made_setup();
+  setup.cutter.pitch = geometry::equal_pitch(3);
+  setup.runout = {{}, 9 * unit::um, 40 * unit::deg};
+  const auto record = identification::made_record(
+      setup, made_law(), {.per_turn = 90, .turns = 2.0, .noise = 2.0});
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(record, Axis::angle));
+  const auto answer = [&](const std::string& phase) {
+    const std::string text = inputs::test::slot + measurement + options;
+    return identify(
+        folder.read(
+            std::string(text).replace(text.find("teeth = 2"), 9, "teeth = 3") +
+                "runout = \"eccentricity\"\n" + phase +
+                "previous_clamping = { eccentricity_mm = 0.009, angle_deg = 40, "
+                "turned_deg = 180 }\n",
+            Command::identify),
+        [](const std::string&) {});
+  };
+  const IdentifyResult r = answer("phase_deg = 0\n");
+  ASSERT_TRUE(r.clocking && r.clocking->separation) << r.heading.message;
+  const auto& parts = *r.clocking->separation;
+  EXPECT_NEAR(parts.tool.amount(), 9e-6, 5 * parts.tool.amount_se());
+  EXPECT_LT(parts.holder.amount(), 5 * parts.holder.amount_se());
+  EXPECT_EQ(r.clocking->longest_tooth,
+            identification::longest_tooth(setup.cutter, setup.runout, 1 * unit::mm));
+  EXPECT_FALSE(warned(r, "teeth_renumbered"));
+  EXPECT_TRUE(warned(answer(""), "teeth_renumbered"));
+}
+
 TEST(Identify, SaysWhereZMayBeReversed) {
   auto record = two_turns(0.3, 2.0);
   EXPECT_FALSE(warned(identified(record, options), "axial_sign"));

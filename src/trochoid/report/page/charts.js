@@ -27,6 +27,7 @@ function axes(options) {
     {
       ...common, size: 30, space: 55, ...(options.showX ? {} : bare),
       ...(options.unit === '°' ? { incrs: degreeSteps } : {}),
+      ...(options.whole ? { incrs: [1, 2, 5, 10, 20, 50, 100] } : {}),
     },
     { ...common, size: 62, space: 24 },  // 50 px by default, which cuts "−1400"
   ];
@@ -120,7 +121,7 @@ function plotOf(stack, panel, last) {
     legend: { show: false },
     scales: { x: { time: false, ...(stack.points ? { range: aroundPoints(stack.x) } : {}) },
       y: { range: panel.range } },
-    axes: axes({ showX: last, unit: stack.unit }),
+    axes: axes({ showX: last, unit: stack.unit, whole: stack.whole }),
     // The band first, so that curves lie above it.
     series: [{}, ...edges.map(() => ({ points: { show: false } })), ...panel.series.map(curve)],
     bands: edges.length ? [{ series: [2, 1], fill: () => css('--band') }] : [],

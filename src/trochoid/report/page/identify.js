@@ -1,7 +1,7 @@
 // The page of `identify`.
 
-const identifyKnown = ['fits', 'chosen', 'signal', 'do_not_use', 'verdict', 'with_care',
-  'runout_form', 'views', 'curves'];
+const identifyKnown = ['fits', 'chosen', 'groups', 'clocking', 'signal', 'do_not_use', 'verdict',
+  'with_care', 'runout_form', 'views', 'curves'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -17,7 +17,9 @@ function identifyPage(report) {
   });
   return [
     { lead: best ? headline(best, fits, trust, verdictOf(result)) : null },
-    { part: best ? coefficientSection(best, trust) : null },
+    { part: best ? coefficientSection(best, trust, result.groups?.[0]) : null },
+    { part: result.clocking && trust ? clockingSection(result.clocking) : null },
+    groupsSection(result.groups),
     ...curves,
     foldedSection(report),
     { part: fitsSection(fits, best) },
@@ -112,7 +114,7 @@ function meter(level) {
     [1, 2, 3, 4].map((i) => el('i', { class: i <= level ? 'on' : '' })));
 }
 
-function coefficientSection(fit, trust) {
+function coefficientSection(fit, trust, group) {
   const rows = coefficientsOf(fit).map(([key, entry]) => {
     const { name, unit } = nameAndUnit(key);
     const head = [symbol(name), meanings[name] ? el('small', {}, meanings[name]) : null];
@@ -129,7 +131,8 @@ function coefficientSection(fit, trust) {
   });
   if (!rows.length) return null;
   return section('coefficients', 'Cutting coefficients', 'Coefficients',
-    prose('From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
+    prose(group ? ['Of ', el('b', {}, groupName(group)), '. '] : null,
+      'From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
       fit.interval_widening > 1.2 ? 'What the fit leaves is not white noise: the confidence intervals are ' +
@@ -155,6 +158,28 @@ function offsetTable(fit) {
         el('span', { class: 'text' }, isNumber(offsets[i]) ? `${i ? measured(r, 1000 * factor * se[i]) : '0'} µm` : 'not known',
           isNumber(se[i]) && i > 0 ? el('small', {}, `95 %: ± ${number(1000 * factor * se[i], 2)} µm`) : null));
     })));
+}
+
+/** What the eccentricity means for dial gauge and holder. */
+function clockingSection(clocking) {
+  const amount = (entry, factor, unit) => [
+    el('b', {}, measured(factor * entry.value, factor * half(entry))), ` ${unit}`,
+    el('small', {}, `± ${measured(factor * half(entry), factor * half(entry))}`)];
+  const rows = [['total indicator reading', amount(clocking.total_indicator_reading_um, 1, 'µm'), ''],
+    ['longest tooth', String(clocking.longest_tooth), `${number(clocking.height_mm)} mm above the tip`]];
+  for (const [key, name] of [['tool', 'of the tool itself'], ['holder', 'of holder and spindle']]) {
+    const part = clocking[key];
+    if (part) {
+      rows.push([name, amount(part.eccentricity_mm, 1000, 'µm'),
+        `at ${number(part.angle_deg, 3)}° from tooth 1${key === 'holder' ? ' as it stood before' : ''}`]);
+    }
+  }
+  const advice = isNumber(clocking.best_turn_deg) ? prose('Turned by ',
+    el('b', {}, `${number(clocking.best_turn_deg, 3)}°`), ' in its holder from where it is now (positive from tooth 1 ' +
+    `towards tooth 2), the tool runs out least: ${number(1000 * clocking.least_eccentricity_mm, 2)} µm remain.`) : null;
+  return section('clocking', 'At the machine', 'Dial gauge',
+    prose('What a dial gauge would read at a smooth shank at the height of the cut.'),
+    table(['', '', ''], rows), advice);
 }
 
 /** The fits side by side, as in Table 1 of the paper that the method is from. */

@@ -215,6 +215,36 @@ struct Identification {
     r.sweep = offset_sweep(given, r.runs, r.fits, progress);
   }
 
+  /// What the eccentricity of the chosen fit means at the machine.
+  void add_clocking() {
+    const Fit& fit = r.fits[*r.chosen];
+    if (!fit.eccentricity_se || !fit.angle_se) return;
+    const double rho = fit.runout.eccentricity;
+    const double lambda = fit.runout.angle;
+    results::Clocking c{.present = {{rho * std::cos(lambda), rho * std::sin(lambda)},
+                                    fit.eccentricity_covariance},
+                        .height = 0.5 * given.setup.cut.a_p};
+    c.longest_tooth =
+        identification::longest_tooth(given.setup.cutter, fit.runout, c.height);
+    if (const auto& before = given.identify.previous_clamping) {
+      c.separation = identification::separate(
+          identification::offset_of(
+              before->eccentricity, before->angle,
+              before->eccentricity_se.value_or(*fit.eccentricity_se),
+              before->angle_se.value_or(*fit.angle_se)),
+          c.present, before->turned);
+      if (!given.identify.phase &&
+          geometry::equally_pitched(given.setup.cutter.pitch)) {
+        r.heading.warnings.push_back(
+            {"teeth_renumbered",
+             "previous_clamping: with phase_deg = \"free\" the fit chooses which of the "
+             "equal teeth is tooth 1. If that is another one than before, what is said "
+             "of tool and holder is wrong: give phase_deg as a number."});
+      }
+    }
+    r.clocking = c;
+  }
+
   IdentifyResult answer() {
     r.heading.title = given.title;
     r.heading.case_toml = given.as_understood;
@@ -241,6 +271,7 @@ struct Identification {
       return failed(r.fits.back().message);
     }
     add_curves();
+    add_clocking();
     judge();
     return std::move(r);
   }

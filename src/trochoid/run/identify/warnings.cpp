@@ -2,6 +2,7 @@
 
 #include <trochoid/base/rounded.h>
 #include <trochoid/base/units.h>
+#include <trochoid/identification/groups.h>
 #include <trochoid/identification/reliability.h>
 
 #include <fmt/core.h>
@@ -18,6 +19,7 @@ namespace trochoid::run {
 namespace {
 
 using identification::Fit;
+using identification::Group;
 using Warnings = std::vector<base::Warning>;
 
 /// Cutting coefficients of real materials, from plastics to hardened steel [N/m^2].
@@ -65,14 +67,15 @@ void warn_unidentifiable(const Fit& chosen, Warnings& warnings) {
   }
 }
 
-void warn_signs(const Fit& chosen, Warnings& warnings) {
-  const auto names = force::coefficient_quantities(chosen.law);
-  std::vector<std::string_view> negative;
-  for (std::size_t q = 0; q < chosen.coefficients.size(); ++q) {
-    const auto& K = chosen.coefficients[q];
+void warn_signs(const Fit& chosen, const Group& group, Warnings& warnings) {
+  const auto names = force::coefficient_quantities(group.law);
+  const std::string whose = identification::of_group(chosen, group);
+  std::vector<std::string> negative;
+  for (std::size_t q = 0; q < group.coefficients.size(); ++q) {
+    const auto& K = group.coefficients[q];
     const bool along_the_axis = q % 3 == 2;  // may pull either way
     if (K && K->high < 0 && !along_the_axis) {
-      negative.push_back(names[q].key);
+      negative.push_back(std::string(names[q].key) + whose);
     }
   }
   if (!negative.empty()) {
@@ -81,7 +84,7 @@ void warn_signs(const Fit& chosen, Warnings& warnings) {
          fmt::format("{} came out negative, which no cut does: check the axes of the "
                      "dynamometer and the sense of rotation.",
                      fmt::join(negative, ", "))});
-  } else if (const auto& K_a = chosen.coefficients[2]; K_a && K_a->high < 0) {
+  } else if (const auto& K_a = group.coefficients[2]; K_a && K_a->high < 0) {
     // On a cylinder a reversed z changes nothing else.
     warnings.push_back(
         {"axial_sign",
@@ -89,13 +92,13 @@ void warn_signs(const Fit& chosen, Warnings& warnings) {
              "{} came out negative: the cut would push the tool into its holder, "
              "as a left-hand helix does. If the tool has none, z of the "
              "dynamometer has the other sign.",
-             names[2].key)});
+             std::string(names[2].key) + whose)});
   }
 }
 
-void warn_size(const Fit& chosen, Warnings& warnings) {
-  const auto& K_tc = chosen.coefficients.front();
-  if (!K_tc || force::form(chosen.law).power ||
+void warn_size(const Fit& chosen, const Group& group, Warnings& warnings) {
+  const auto& K_tc = group.coefficients.front();
+  if (!K_tc || force::form(group.law).power ||
       (K_tc->value >= softest && K_tc->value <= hardest)) {
     return;
   }
@@ -108,10 +111,10 @@ void warn_size(const Fit& chosen, Warnings& warnings) {
   warnings.push_back(
       {"implausible",
        fmt::format(
-           "K_tc_MPa = {:.4g} is outside of what materials have ({:g} to {:g} "
+           "K_tc_MPa{} = {:.4g} is outside of what materials have ({:g} to {:g} "
            "MPa): check the unit of the forces, the feed and the axial depth.{}",
-           K_tc->value / unit::MPa, softest / unit::MPa, hardest / unit::MPa,
-           unit_hint)});
+           identification::of_group(chosen, group), K_tc->value / unit::MPa,
+           softest / unit::MPa, hardest / unit::MPa, unit_hint)});
 }
 
 /// What the fit does not explain and has not looked at.
@@ -234,8 +237,10 @@ void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
     }
   }
   warn_unidentifiable(chosen, warnings);
-  warn_signs(chosen, warnings);
-  warn_size(chosen, warnings);
+  for (const Group& group : identification::groups_of(chosen)) {
+    warn_signs(chosen, group, warnings);
+    warn_size(chosen, group, warnings);
+  }
   warn_correlation(chosen, warnings);
   warn_resonance(chosen, warnings);
   warn_ringing(given, chosen, warnings);

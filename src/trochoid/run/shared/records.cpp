@@ -184,7 +184,9 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
   std::vector<MeasuredRun> runs;
   for (std::size_t i = 0; i < records.size(); ++i) {
     signal::Record& record = records[i];
-    MeasuredRun run{.file = record.file, .run = {.cut = given.measurements[i].cut}};
+    MeasuredRun run{.file = record.file,
+                    .run = {.cut = given.measurements[i].cut,
+                            .group = given.measurements[i].group}};
     for (const base::Warning& note : record.notes) {
       warnings.push_back({note.code, run.file + ": " + note.message});
     }

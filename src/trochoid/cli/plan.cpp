@@ -1,0 +1,21 @@
+#include <trochoid/cli/deliver.h>
+#include <trochoid/cli/progress_line.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/run/identify/plan.h>
+
+#include <functional>
+
+namespace trochoid::cli {
+
+int plan(const Options& options) {
+  const inputs::Case given = inputs::read_case(options.file, inputs::Command::plan,
+                                               result_folder(options, "plan"));
+  const auto answer = [&] {
+    ProgressLine progress(options.quiet);
+    return results::answer_of(run::plan(given, std::ref(progress)));
+  };
+  // What the run knows is let go of before it is written.
+  return deliver(answer(), options);
+}
+
+}  // namespace trochoid::cli
