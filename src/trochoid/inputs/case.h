@@ -33,19 +33,8 @@ struct Dynamometer {
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
-/// Of a force record.
-enum class RecordFormat { csv, dynoware };
-
-/// Names of files.
-constexpr std::string_view name_of(RecordFormat format) noexcept {
-  switch (format) {
-    case RecordFormat::csv:
-      return "csv";
-    case RecordFormat::dynoware:
-      return "dynoware";
-  }
-  return {};
-}
+/// Of a force record; its values stand in record_format.h.
+enum class RecordFormat : int;
 
 /// One [[measurement]].
 struct Measurement {
@@ -55,6 +44,7 @@ struct Measurement {
   std::string angle_column;            ///< empty: found by name
   std::string time_column;             ///< empty: found by name
   std::optional<double> sample_rate;   ///< [Hz]
+  std::vector<double> scale;           ///< [N] per unit of each channel; empty: by unit
   std::optional<double> from;          ///< what is before it is not used [s]
   std::optional<double> to;            ///< what is after it is not used [s]
   geometry::Cut cut;                   ///< [cut] with this run's overrides

@@ -117,8 +117,10 @@ Name split_name(std::string_view text, const ColumnSearch& search) {
     }
   }
   if (const auto slash = text.rfind('/'); slash != std::string_view::npos) {
-    return {without_blanks(text.substr(0, slash)),
-            without_blanks(text.substr(slash + 1))};
+    const auto unit = without_blanks(text.substr(slash + 1));
+    if (!search.head.paths || find_unit(unit) != nullptr) {
+      return {without_blanks(text.substr(0, slash)), unit};
+    }
   }
   const auto mark = text.rfind('_');
   if (mark != std::string_view::npos) {
@@ -141,8 +143,12 @@ void report_unit(const ColumnSearch& search, std::size_t index, Quantity quantit
       quantity == Quantity::number
           ? fmt::format("column {} has the unit {}: it is a plain number without one",
                         shown, excerpt(text))
-          : fmt::format("the unit {} of column {} is not one of {}: {} is right",
-                        excerpt(text), shown, noun(quantity), right_units(quantity)));
+          : fmt::format("the unit {} of column {} is not one of {}: {} is right{}",
+                        excerpt(text), shown, noun(quantity), right_units(quantity),
+                        quantity == Quantity::force
+                            ? ", or scale = [...] in the case file says how many "
+                              "newtons one unit is"
+                            : ""));
 }
 
 /// Factor to SI from the unit in the name or in the row of units.

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/dynoware.h>
+#include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
 
 #include <fmt/core.h>

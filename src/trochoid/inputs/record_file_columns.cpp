@@ -1,6 +1,7 @@
-#include <fmt/core.h>
 #include <trochoid/inputs/csv_columns.h>
 #include <trochoid/inputs/record_file_columns.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 
@@ -56,6 +57,13 @@ std::optional<TableColumn> find_axis(const ColumnSearch& search,
   return column_at(search, *at, quantity);
 }
 
+/// @param channel  from 0
+TableColumn force_column(const ColumnSearch& search, const Measurement& measurement,
+                         std::size_t at, std::size_t channel) {
+  if (measurement.scale.empty()) return column_at(search, at, Quantity::force);
+  return {at, measurement.scale[channel], std::string(search.head.names[at].text)};
+}
+
 std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& search) {
   std::array<std::optional<std::size_t>, 3> found;
   if (lacks_names(search, "angle_deg,Fx_N,Fy_N,Fz_N")) {
@@ -70,6 +78,15 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
     }
   }
   constexpr std::array shown = {"Fx", "Fy", "Fz"};
+  if (!found[0] && !found[1] && !found[2]) {
+    search.problems.add(
+        search.head.names_line, 1,
+        fmt::format(
+            "no column is named Fx, Fy or Fz: the columns are {}; columns = "
+            "[...] in the case file names the three forces, time_column the time",
+            all_names(search.head)));
+    return found;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     if (found[i]) continue;
     search.problems.add(
@@ -105,7 +122,7 @@ RecordColumns find_columns(const TableHead& head, const Measurement& measurement
                    "three different ones are needed");
       continue;
     }
-    columns.force[i] = column_at(search, *forces[i], Quantity::force);
+    columns.force[i] = force_column(search, measurement, *forces[i], i);
   }
   columns.time = find_axis(search, measurement.time_column, time_names, Quantity::time);
   // Who names a time wants the angle from it, whatever else the file holds.

@@ -22,7 +22,8 @@ struct RecordColumns {
 /// as `simulate` writes them), time or t, angle or phi are looked for, whatever the
 /// case of their letters. The unit is part of the name (`Fx_N`, `Fx [kN]`, `Fy (N)`,
 /// `Fz / N`) or stands in the row of units. Forces and time without a unit are taken
-/// in N and s, with a note; an angle without a unit is refused.
+/// in N and s, with a note; an angle without a unit is refused. Where the case file gives
+/// `scale`, the unit of a force is not looked at.
 /// @param[out] notes  what had to be assumed
 RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
                            Problems& problems, std::vector<base::Warning>& notes);

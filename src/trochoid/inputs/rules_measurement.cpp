@@ -128,13 +128,13 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .angle_column = table.angle_column,
                 .time_column = table.time_column,
                 .sample_rate = table.sample_rate,
+                .scale = table.scale,
                 .from = table.from,
                 .to = table.to,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
   if (sound(findings, {path + ".file"})) {
-    check_file(m.file, path + ".file", table.file, "a force record (csv or dynoware)",
-               findings);
+    check_file(m.file, path + ".file", table.file, "a force record", findings);
   }
   if (!table.time_column.empty() && table.sample_rate) {
     report(
@@ -142,6 +142,12 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
         fmt::format("{}.sample_rate_Hz = {} Hz: time_column is given as well; must be "
                     "one of the two",
                     path, number_text(*table.sample_rate)));
+  }
+  if (std::find(table.scale.begin(), table.scale.end(), 0.0) != table.scale.end()) {
+    report(findings, path + ".scale",
+           fmt::format("{}.scale: an entry is 0, so that its channel would read no "
+                       "force; must be newtons per unit of each channel",
+                       path));
   }
   if (table.from && table.to && !(*table.from < *table.to)) {
     report(findings, path + ".to_s",

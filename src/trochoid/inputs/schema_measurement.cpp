@@ -1,3 +1,4 @@
+#include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/schema_choice.h>
 #include <trochoid/inputs/tables.h>
 
@@ -86,6 +87,14 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .rival = "time_column",
      .example = "10000"},
     &t.sample_rate);
+  v({.name = "scale",
+     .meaning = "newtons per unit of channels 1 to 3, whatever unit the record names: "
+                "of volts, the range of the charge amplifier by its full output",
+     .range = between(-1e12, 1e12),
+     .count = 3,
+     .standard = "by the unit of each column",
+     .example = "[500, 500, 1000]"},
+    &t.scale);
   v({.name = "from_s",
      .meaning = "what was recorded before this time is not fitted",
      .range = between(-1e9, 1e9),

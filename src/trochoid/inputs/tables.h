@@ -93,6 +93,7 @@ struct MeasurementTable {
   std::string angle_column;
   std::string time_column;
   std::optional<double> sample_rate;
+  std::vector<double> scale;
   std::optional<double> from;
   std::optional<double> to;
   CutTable cut;  ///< complete: [cut] with the overrides of this run

@@ -2,6 +2,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/record_file.h>
+#include <trochoid/inputs/record_format.h>
 
 #include <algorithm>
 #include <array>
@@ -83,6 +84,17 @@ TEST(RecordCsv, FindsColumnsByNameWhateverTheirCaseAndOrder) {
   EXPECT_EQ(record.channel[2][0], 3.0);
   EXPECT_DOUBLE_EQ(record.time[1], 1e-3);
   EXPECT_DOUBLE_EQ(record.sample_rate, 1e3);
+  ASSERT_EQ(record.notes.size(), 1u);
+  EXPECT_EQ(record.notes[0].message, "Column \"comment\" holds text and is not used.");
+}
+
+TEST(RecordCsv, TakesNewtonsPerUnitOfTheCaseFile) {
+  Measurement m;
+  m.scale = {500, 500, -1000};
+  const auto record = read("time_s,Fx_V,Fy,Fz\ns,V,V,mV\n0,1,2,3\n1,4,5,6\n", m);
+  EXPECT_EQ(record.channel[0], (std::vector{500.0, 2000.0}));
+  EXPECT_EQ(record.channel[2], (std::vector{-3000.0, -6000.0}));
+  EXPECT_TRUE(record.notes.empty()) << "no unit was assumed";
 }
 
 TEST(RecordCsv, TakesTheNamesOfTheCaseFile) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+
+#include <string_view>
+
+namespace trochoid::inputs {
+
+/// Of a force record.
+enum class RecordFormat : int { csv, dynoware };
+
+/// Names of files.
+constexpr std::string_view name_of(RecordFormat format) noexcept {
+  switch (format) {
+    case RecordFormat::csv:
+      return "csv";
+    case RecordFormat::dynoware:
+      return "dynoware";
+  }
+  return {};
+}
+
+}  // namespace trochoid::inputs
