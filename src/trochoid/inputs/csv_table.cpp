@@ -70,7 +70,7 @@ std::optional<std::string_view> next_line(TableText& table) {
     if (table.lines.number() == 1) {
       if (const auto foreign = foreign_format(*line); !foreign.empty()) {
         table.problems.add(1, 1,
-                           fmt::format("this is {}, which is not read yet: export it "
+                           fmt::format("this is {}, which is not read here: export it "
                                        "as CSV text in UTF-8",
                                        foreign));
         return std::nullopt;

@@ -5,6 +5,7 @@
 #include <trochoid/inputs/dynoware.h>
 #include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
+#include <trochoid/inputs/tdms.h>
 
 #include <fmt/core.h>
 
@@ -30,6 +31,8 @@ struct Reader {
 constexpr std::array readers{
     Reader{RecordFormat::dynoware, "a DynoWare export",
            "begins with `DynoWare,Version ...`", is_dynoware, read_dynoware_record},
+    Reader{RecordFormat::tdms, "a TDMS file", "begins with `TDSm`", is_tdms,
+           read_tdms_record},
     Reader{RecordFormat::csv, "a CSV file", "is text",
            [](std::string_view) { return true; }, read_csv_record}};
 
