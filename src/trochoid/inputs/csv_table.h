@@ -21,6 +21,7 @@ struct TableKind {
   std::string_view row;             ///< `sample`
   std::string_view example;         ///< a row of names
   std::string_view comments = "#";  ///< marks that begin a comment
+  std::string_view begins = {};     ///< of files with a head: their first words
 };
 
 struct TableText {

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/dynoware.h>
+#include <trochoid/inputs/lvm.h>
 #include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
 #include <trochoid/inputs/tdms.h>
@@ -31,6 +32,8 @@ struct Reader {
 constexpr std::array readers{
     Reader{RecordFormat::dynoware, "a DynoWare export",
            "begins with `DynoWare,Version ...`", is_dynoware, read_dynoware_record},
+    Reader{RecordFormat::lvm, "a LabVIEW measurement file",
+           "begins with `LabVIEW Measurement`", is_lvm, read_lvm_record},
     Reader{RecordFormat::tdms, "a TDMS file", "begins with `TDSm`", is_tdms,
            read_tdms_record},
     Reader{RecordFormat::csv, "a CSV file", "is text",

@@ -7,7 +7,7 @@
 namespace trochoid::inputs {
 
 /// Of a force record.
-enum class RecordFormat : int { csv, dynoware, tdms };
+enum class RecordFormat : int { csv, dynoware, lvm, tdms };
 
 /// Names of files.
 constexpr std::string_view name_of(RecordFormat format) noexcept {
@@ -16,6 +16,8 @@ constexpr std::string_view name_of(RecordFormat format) noexcept {
       return "csv";
     case RecordFormat::dynoware:
       return "dynoware";
+    case RecordFormat::lvm:
+      return "lvm";
     case RecordFormat::tdms:
       return "tdms";
   }

@@ -54,9 +54,44 @@ files = {
 for name, content in files.items():
     (here / name).write_bytes(content)
 
+
+
+def lvm(rows=((0, 1, 2, 3), (1e-4, 4, 5, 6)), samples=None, decimal=".", unit="N",
+        more="", head=True):
+    t = (f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n"
+         f"Decimal_Separator\t{decimal}\nX_Columns\tOne\n***End_of_Header***\t\n\t\n")
+    count = len(rows) if samples is None else samples
+    t += f"Channels\t3\nSamples\t{count}\t{count}\t{count}\n"
+    t += f"Y_Unit_Label\t{unit}\t{unit}\t{unit}\nX_Dimension\tTime\tTime\tTime\n"
+    t += "X0\t0.5\t0.5\t0.5\nDelta_X\t1E-4\t1E-4\t1E-4\n"
+    if head:
+        t += "***End_of_Header***\t\t\t\n"
+    t += "X_Value\tFx\tFy\tFz\tComment\n"
+    for row in rows:
+        t += "\t".join(str(x).replace(".", decimal) for x in row) + "\n"
+    return (t + more).encode()
+
+
+texts = {
+    "lvm_cut_off.lvm": lvm()[:-9],
+    "lvm_head_cut_off.lvm": lvm()[:90],
+    "lvm_head_without_end.lvm": lvm(head=False),
+    "lvm_more_samples_than_rows.lvm": lvm(samples=500),
+    "lvm_text_for_number.lvm": lvm(rows=((0, 1, "x", 3), (1, 4, 5, 6))),
+    "lvm_wrong_decimals.lvm": lvm().replace(b"Separator\t.", b"Separator\t,").replace(
+        b"\t6\n", b"\t6.5\n"),
+    "lvm_wrong_unit.lvm": lvm(unit="Volts"),
+    "lvm_over_frequency.lvm": lvm().replace(b"Time", b"Frequency"),
+    "lvm_gap_in_a_channel.lvm": lvm(rows=((0, 1, "", 3), (1, 4, 5, 6))),
+    "lvm_of_nothing.lvm": lvm(rows=()),
+}
+for name, content in texts.items():
+    (here / name).write_bytes(content)
+
 # The first byte says what the case file says of the record (fuzz_record.cpp).
 seeds = {
     "tdms": b"\0" + whole,
+    "lvm": b"\0" + lvm(),
 }
 for name, content in seeds.items():
     (here / "../../fuzz/seeds/record" / name).write_bytes(content)
