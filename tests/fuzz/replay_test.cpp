@@ -31,13 +31,15 @@ TEST(Fuzz, FindingsStayRepaired) {
   EXPECT_GT(tried, 0);
 }
 
-/// Small sound files, where there are any: cut off anywhere, and with each byte wrong.
+/// Small sound files, where there are any: cut off anywhere, and with each byte wrong; of
+/// the longer ones a sample.
 TEST(Fuzz, SeedsBearAnyDamage) {
   std::error_code absent;
   for (const auto& entry : std::filesystem::directory_iterator(SEEDS, absent)) {
     SCOPED_TRACE(entry.path().string());
     const auto sound = bytes_of(entry.path());
-    for (std::size_t at = 1; at < sound.size(); ++at) {
+    const std::size_t step = 1 + sound.size() / 500;
+    for (std::size_t at = 1; at < sound.size(); at += step) {
       const auto end = sound.begin() + static_cast<std::ptrdiff_t>(at);
       EXPECT_EQ(try_one({sound.begin(), end}), 0);
       for (const int flip : {0x01, 0x20, 0x80, 0xFF}) {

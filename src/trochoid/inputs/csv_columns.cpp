@@ -116,7 +116,10 @@ struct Name {
 Name split_name(std::string_view text, const ColumnSearch& search) {
   if (!text.empty() && (text.back() == ']' || text.back() == ')')) {
     const auto open = text.rfind(text.back() == ']' ? '[' : '(');
-    if (open != std::string_view::npos) {
+    // In a binary file `F(:,1)` is a column of a matrix.
+    const bool index =
+        search.head.paths && text.find(':', open) != std::string_view::npos;
+    if (open != std::string_view::npos && !index) {
       return {without_blanks(text.substr(0, open)),
               without_brackets(text.substr(open))};
     }

@@ -20,6 +20,9 @@ struct NumericColumn {
   std::size_t count = 0;     ///< samples
   double sample_rate = 0.0;  ///< [Hz]; 0: not stated
   double first_time = 0.0;   ///< of the first sample [s]
+  std::string matrix = {};   ///< path of the matrix that it is a column of
+  std::size_t width = 1;     ///< columns of that matrix
+  std::size_t place = 0;     ///< of this one among them, from 0
 };
 
 /// The columns of a file; only those that a record needs are read.

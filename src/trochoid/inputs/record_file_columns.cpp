@@ -100,6 +100,16 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
 
 }  // namespace
 
+bool names_force(std::string_view name) {
+  const TableHead head{.names = {{name, 1}}, .paths = true};
+  Problems problems;
+  std::vector<base::Warning> notes;
+  const ColumnSearch search{head, problems, notes, is_known_name, advice};
+  return std::any_of(force_names.begin(), force_names.end(), [&](NameList names) {
+    return usual_column(search, names).has_value();
+  });
+}
+
 RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
                            Problems& problems, std::vector<base::Warning>& notes) {
   const ColumnSearch search{head, problems, notes, is_known_name, advice};

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 namespace trochoid::inputs {
 
@@ -15,6 +16,9 @@ struct RecordColumns {
   std::optional<TableColumn> time;
   std::optional<TableColumn> angle;
 };
+
+/// Whether a column is a force by the rules below, whatever its unit.
+bool names_force(std::string_view name);
 
 /// @brief Find forces, time and angle by name, and their units.
 ///

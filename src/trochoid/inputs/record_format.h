@@ -7,7 +7,7 @@
 namespace trochoid::inputs {
 
 /// Of a force record.
-enum class RecordFormat : int { csv, dynoware, lvm, tdms };
+enum class RecordFormat : int { csv, dynoware, mat, lvm, tdms, hdf5 };
 
 /// Names of files.
 constexpr std::string_view name_of(RecordFormat format) noexcept {
@@ -16,10 +16,14 @@ constexpr std::string_view name_of(RecordFormat format) noexcept {
       return "csv";
     case RecordFormat::dynoware:
       return "dynoware";
+    case RecordFormat::mat:
+      return "mat";
     case RecordFormat::lvm:
       return "lvm";
     case RecordFormat::tdms:
       return "tdms";
+    case RecordFormat::hdf5:
+      return "hdf5";
   }
   return {};
 }

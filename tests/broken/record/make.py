@@ -3,8 +3,13 @@
 
 /usr/bin/python3 tests/broken/record/make.py writes them again, bit by bit the same.
 """
+import io
 import pathlib
 import struct
+import zlib
+
+import numpy as np
+import scipy.io
 
 here = pathlib.Path(__file__).parent
 METADATA, NEW_LIST, RAW = 2, 4, 8
@@ -88,10 +93,63 @@ texts = {
 for name, content in texts.items():
     (here / name).write_bytes(content)
 
+
+
+def mat(variables, compress=False):
+    out = io.BytesIO()
+    scipy.io.savemat(out, variables, do_compression=compress, oned_as="column")
+    raw = bytearray(out.getvalue())
+    # The date of today would make other bytes every day.
+    raw[:116] = b"MATLAB 5.0 MAT-file, made for a test".ljust(116)
+    return bytes(raw)
+
+
+def mat_object():
+    """A table as MATLAB writes it: class 17, of which only names can be read."""
+    def element(kind, data):
+        return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
+    body = element(6, struct.pack("<II", 17, 0))
+    body += element(1, b"forces") + element(1, b"MCOS") + element(1, b"table")
+    body += mat({"x": np.ones((6, 1), dtype=np.uint32)})[128:]
+    return mat({})[:128] + element(14, body)
+
+
+vector = np.arange(1.0, 5.0)
+forces = {"Fx": vector, "Fy": 10 * vector, "Fz": 100 * vector, "t": vector}
+sound = mat(forces)
+packed = mat(forces, compress=True)
+named = mat({"data": {**forces, "note": "text"}}, compress=True)
+bomb = bytearray(mat({"Fx": np.zeros(1)}))
+at = bomb.index(struct.pack("<IIII", 5, 8, 1, 1)) + 8
+bomb[at:at + 8] = struct.pack("<II", 1 << 30, 4)
+inner = zlib.compress(struct.pack("<II", 14, 0x7F000000) + b"\0" * 4000)
+packed_bomb = sound[:128] + struct.pack("<II", 15, len(inner)) + inner
+mats = {
+    "mat_cut_off.mat": sound[:-20],
+    "mat_head_alone.mat": sound[:128],
+    "mat_head_cut_off.mat": sound[:100],
+    "mat_no_variable.mat": sound + b"rubbish and more",
+    "mat_packed_damaged.mat": packed[:150] + b"\xff" * 20 + packed[170:],
+    "mat_no_forces.mat": mat({"a": vector, "b": vector}),
+    "mat_two_matrices.mat": mat({"a": np.ones((5, 3)), "b": np.ones((5, 3))}),
+    "mat_matrix_without_time.mat": mat({"a": np.ones((5, 3))}),
+    "mat_two_lengths.mat": mat({**forces, "Fy": np.ones(3)}),
+    "mat_not_finite.mat": mat({**forces, "Fz": np.array([1, 2, np.nan, 4])}),
+    "mat_table.mat": mat_object(),
+    "mat_bomb.mat": bytes(bomb),
+    "mat_packed_bomb.mat": packed_bomb,
+    "mat_complex.mat": mat({k: v * 1j for k, v in forces.items()}),
+}
+for name, content in mats.items():
+    (here / name).write_bytes(content)
+
 # The first byte says what the case file says of the record (fuzz_record.cpp).
 seeds = {
     "tdms": b"\0" + whole,
     "lvm": b"\0" + lvm(),
+    "mat": b"\0" + sound,
+    "mat_packed": b"\0" + packed,
+    "mat_struct": b"\0" + named,
 }
 for name, content in seeds.items():
     (here / "../../fuzz/seeds/record" / name).write_bytes(content)
