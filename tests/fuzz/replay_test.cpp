@@ -38,7 +38,7 @@ TEST(Fuzz, SeedsBearAnyDamage) {
   for (const auto& entry : std::filesystem::directory_iterator(SEEDS, absent)) {
     SCOPED_TRACE(entry.path().string());
     const auto sound = bytes_of(entry.path());
-    const std::size_t step = 1 + sound.size() / 500;
+    const std::size_t step = sound.size() > 1000 ? sound.size() / 100 : 1;
     for (std::size_t at = 1; at < sound.size(); at += step) {
       const auto end = sound.begin() + static_cast<std::ptrdiff_t>(at);
       EXPECT_EQ(try_one({sound.begin(), end}), 0);

@@ -6,6 +6,7 @@
 #include <trochoid/inputs/hdf5_record.h>
 #include <trochoid/inputs/lvm.h>
 #include <trochoid/inputs/mat.h>
+#include <trochoid/inputs/npy.h>
 #include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
 #include <trochoid/inputs/tdms.h>
@@ -42,6 +43,8 @@ constexpr std::array readers{
            read_tdms_record},
     Reader{RecordFormat::hdf5, "an HDF5 file", "begins with the byte 0x89 and `HDF`",
            is_hdf5, read_hdf5_record},
+    Reader{RecordFormat::npy, "a NumPy array", "begins with the byte 0x93 and `NUMPY`",
+           is_npy, read_npy_record},
     Reader{RecordFormat::csv, "a CSV file", "is text",
            [](std::string_view) { return true; }, read_csv_record}};
 

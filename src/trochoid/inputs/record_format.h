@@ -7,7 +7,7 @@
 namespace trochoid::inputs {
 
 /// Of a force record.
-enum class RecordFormat : int { csv, dynoware, mat, lvm, tdms, hdf5 };
+enum class RecordFormat : int { csv, dynoware, mat, lvm, tdms, hdf5, npy };
 
 /// Names of files.
 constexpr std::string_view name_of(RecordFormat format) noexcept {
@@ -24,6 +24,8 @@ constexpr std::string_view name_of(RecordFormat format) noexcept {
       return "tdms";
     case RecordFormat::hdf5:
       return "hdf5";
+    case RecordFormat::npy:
+      return "npy";
   }
   return {};
 }

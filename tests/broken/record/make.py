@@ -143,11 +143,43 @@ mats = {
 for name, content in mats.items():
     (here / name).write_bytes(content)
 
+
+
+def npy(array, version=None):
+    out = io.BytesIO()
+    np.lib.format.write_array(out, array, version=version)
+    return out.getvalue()
+
+
+samples = np.arange(20.0).reshape(5, 4)
+rows = np.zeros(3, dtype=[("time_s", "<f8"), ("Fx_N", ">f4"), ("Fy_N", "<i2"), ("Fz_N", "<i4")])
+rows["time_s"] = [0, 1, 2]
+nested = np.zeros(3, dtype=[("F", [("x", "<f8"), ("y", "<f8")])])
+arrays = {
+    "npy_cut_off.npy": npy(samples)[:-9],
+    "npy_head_cut_off.npy": npy(samples)[:50],
+    "npy_without_rate.npy": npy(np.ones((5, 3))),
+    "npy_two_columns.npy": npy(np.ones((5, 2))),
+    "npy_three_dimensions.npy": npy(np.ones((5, 3, 2))),
+    "npy_complex.npy": npy(samples * 1j),
+    "npy_half.npy": npy(samples.astype("<f2")),
+    "npy_several.npy": npy(samples) + npy(samples),
+    "npy_not_finite.npy": npy(np.where(samples == 6, np.nan, samples)),
+    "npy_of_nothing.npy": npy(samples[:0]),
+    "npy_nested.npy": npy(nested),
+    "npy_promises_more.npy": npy(samples).replace(b"(5, 4), }", b"(500000000000, 4), }"),
+    "npy_no_description.npy": npy(samples).replace(b"'descr'", b"'dscr' "),
+}
+for name, content in arrays.items():
+    (here / name).write_bytes(content)
+
 # The first byte says what the case file says of the record (fuzz_record.cpp).
 seeds = {
     "tdms": b"\0" + whole,
     "lvm": b"\0" + lvm(),
     "mat": b"\0" + sound,
+    "npy": b"\0" + npy(samples),
+    "npy_fields": b"\0" + npy(rows, (2, 0)),
     "mat_packed": b"\0" + packed,
     "mat_struct": b"\0" + named,
 }
