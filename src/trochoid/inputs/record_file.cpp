@@ -10,6 +10,8 @@
 #include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
 #include <trochoid/inputs/tdms.h>
+#include <trochoid/inputs/uff58.h>
+#include <trochoid/inputs/uff58_record.h>
 
 #include <fmt/core.h>
 
@@ -45,6 +47,8 @@ constexpr std::array readers{
            is_hdf5, read_hdf5_record},
     Reader{RecordFormat::npy, "a NumPy array", "begins with the byte 0x93 and `NUMPY`",
            is_npy, read_npy_record},
+    Reader{RecordFormat::uff58, "a universal file",
+           "begins with a line that holds only -1", is_uff, read_uff58_record},
     Reader{RecordFormat::csv, "a CSV file", "is text",
            [](std::string_view) { return true; }, read_csv_record}};
 

@@ -7,7 +7,7 @@
 namespace trochoid::inputs {
 
 /// Of a force record.
-enum class RecordFormat : int { csv, dynoware, mat, lvm, tdms, hdf5, npy };
+enum class RecordFormat : int { csv, dynoware, mat, lvm, tdms, hdf5, npy, uff58 };
 
 /// Names of files.
 constexpr std::string_view name_of(RecordFormat format) noexcept {
@@ -26,6 +26,8 @@ constexpr std::string_view name_of(RecordFormat format) noexcept {
       return "hdf5";
     case RecordFormat::npy:
       return "npy";
+    case RecordFormat::uff58:
+      return "uff58";
   }
   return {};
 }

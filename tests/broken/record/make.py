@@ -173,11 +173,44 @@ arrays = {
 for name, content in arrays.items():
     (here / name).write_bytes(content)
 
+
+
+def uff(directions=(1, 2, 3), kind=13, unit="N", function=1, points=4, promised=None):
+    t = ""
+    for direction in directions:
+        t += "    -1\n    58\n" + "NONE\n" * 5
+        t += f"{function:5}{1:10}{0:5}{0:10} {'NONE':10}{1:10}{direction:4} "
+        t += f"{'NONE':10}{0:10}{0:4}\n"
+        t += f"{4:10}{points if promised is None else promised:10}{1:10}"
+        t += f"{0.5:13.5E}{1e-4:13.5E}{0:13.5E}\n"
+        for code, label, u in ((17, "Time", "s"), (kind, "Force", unit), (0, "NONE", "NONE"),
+                               (0, "NONE", "NONE")):
+            t += f"{code:10}{0:5}{0:5}{0:5} {label:20} {u:20}\n"
+        t += "".join(f"{x + direction:20.11E}" for x in range(points)) + "\n    -1\n"
+    return t.encode()
+
+
+universal = {
+    "uff58_cut_off.uff": uff()[:-100],
+    "uff58_head_cut_off.uff": uff()[:300],
+    "uff58_promises_more.uff": uff(promised=400000000),
+    "uff58_two_of_one_direction.uff": uff((1, 2, 3, 3)),
+    "uff58_no_z.uff": uff((1, 2)),
+    "uff58_frequency_responses.uff": uff(function=4),
+    "uff58_accelerations.uff": uff(kind=12),
+    "uff58_volts.uff": uff(unit="V"),
+    "uff58_no_number.uff": uff().replace(b"2.0", b"2.x", 1),
+    "uff58_of_nothing.uff": b"    -1\n   151\nmodel\n    -1\n",
+}
+for name, content in universal.items():
+    (here / name).write_bytes(content)
+
 # The first byte says what the case file says of the record (fuzz_record.cpp).
 seeds = {
     "tdms": b"\0" + whole,
     "lvm": b"\0" + lvm(),
     "mat": b"\0" + sound,
+    "uff58": b"\0" + uff(),
     "npy": b"\0" + npy(samples),
     "npy_fields": b"\0" + npy(rows, (2, 0)),
     "mat_packed": b"\0" + packed,
