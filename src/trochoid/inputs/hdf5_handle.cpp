@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <type_traits>
 
 #include <hdf5.h>
 
 namespace trochoid::inputs {
+
+static_assert(std::is_same_v<Hdf5Id, hid_t> && std::is_same_v<int, herr_t>);
 
 namespace {
 

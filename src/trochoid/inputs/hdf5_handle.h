@@ -1,21 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
-
-#include <H5public.h>
-
-#include <H5Ipublic.h>
 
 /// Objects of the HDF5 library that close themselves, and what is small to read.
 namespace trochoid::inputs {
 
+/// The library's hid_t, without its headers.
+using Hdf5Id = std::int64_t;
+
 /// One open object; not open where its identifier is negative.
 class Hdf5Handle {
  public:
-  using Close = herr_t (*)(hid_t);
+  using Close = int (*)(Hdf5Id);
 
-  Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Hdf5Handle(Hdf5Id id, Close close) : id_(id), close_(close) {}
   ~Hdf5Handle() {
     if (id_ >= 0) close_(id_);
   }
@@ -27,10 +27,10 @@ class Hdf5Handle {
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
 
   [[nodiscard]] bool open() const noexcept { return id_ >= 0; }
-  [[nodiscard]] hid_t id() const noexcept { return id_; }
+  [[nodiscard]] Hdf5Id id() const noexcept { return id_; }
 
  private:
-  hid_t id_;
+  Hdf5Id id_;
   Close close_;
 };
 
@@ -43,14 +43,14 @@ class Hdf5Silence {
   Hdf5Silence& operator=(const Hdf5Silence&) = delete;
 
  private:
-  herr_t (*print_)(hid_t, void*) = nullptr;
+  int (*print_)(Hdf5Id, void*) = nullptr;
   void* where_ = nullptr;
 };
 
 /// @return an attribute that is one text; none: there is no such one
-std::optional<std::string> hdf5_text(hid_t object, const char* attribute);
+std::optional<std::string> hdf5_text(Hdf5Id object, const char* attribute);
 
 /// @return an attribute that is one number; none: there is no such one
-std::optional<double> hdf5_number(hid_t object, const char* attribute);
+std::optional<double> hdf5_number(Hdf5Id object, const char* attribute);
 
 }  // namespace trochoid::inputs
