@@ -124,6 +124,30 @@ TEST(RecordNpy, TakesFieldsByTheirNames) {
   }
 }
 
+TEST(RecordNpy, ReadsMoreThanIsFetchedAtOnce) {
+  Measurement m;
+  m.sample_rate = 1e4;
+  std::vector<double> values;
+  for (int i = 0; i < 100000; ++i) {
+    for (const int axis : {1, 2, 3}) values.push_back(axis * 1e6 + i);
+  }
+  const auto record = read(plain("<f8", false, "(100000, 3)", values), m);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    ASSERT_EQ(record.channel[1][i], 2e6 + static_cast<double>(i));
+  }
+  // Items so long that their numbers are fetched one by one.
+  std::string data;
+  for (int i = 0; i < 3; ++i) {
+    for (const double value : {1.0, 2.0, 3.0}) put_number(data, "<f8", value + i);
+    data += std::string(70000, 'x');
+  }
+  const auto far = read(npy("[('Fx', '<f8'), ('Fy', '<f8'), ('Fz', '<f8'), "
+                            "('rest', '|V70000')]",
+                            false, "(3,)", data),
+                        m);
+  EXPECT_EQ(far.channel[2], (std::vector<double>{3, 4, 5}));
+}
+
 TEST(RecordNpy, IsCutOffNowhereWithoutAWord) {
   Measurement m;
   m.sample_rate = 1e4;
