@@ -43,6 +43,7 @@ struct Measurement {
   std::vector<std::string> columns;    ///< three names; empty: found by name
   std::string angle_column;            ///< empty: found by name
   std::string time_column;             ///< empty: found by name
+  std::string pulse_column;            ///< one pulse a turn; empty: none
   std::optional<double> sample_rate;   ///< [Hz]
   std::vector<double> scale;           ///< [N] per unit of each channel; empty: by unit
   std::optional<double> from;          ///< what is before it is not used [s]

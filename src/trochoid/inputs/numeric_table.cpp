@@ -2,6 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/record_file_columns.h>
+#include <trochoid/inputs/record_file_pulse.h>
 #include <trochoid/inputs/record_file_time.h>
 
 #include <fmt/core.h>
@@ -47,6 +48,7 @@ Measurement by_searched_names(const NumericTable& table,
   for (auto& text : wanted.columns) replace(text);
   replace(wanted.time_column);
   replace(wanted.angle_column);
+  replace(wanted.pulse_column);
   return wanted;
 }
 
@@ -64,6 +66,7 @@ Used used_of(const RecordColumns& found) {
   }
   if (found.time) used.columns.push_back(*found.time);
   if (found.angle) used.columns.push_back(*found.angle);
+  if (found.pulse) used.columns.push_back(*found.pulse);
   return used;
 }
 
@@ -197,6 +200,11 @@ signal::Record record_of(const NumericTable& table, const std::string& name,
   throw_if_any(problems);
   settle_time(record, {.values = record.time, .lines = {}}, rates, problems);
   throw_if_any(problems);
+  if (found.pulse) {
+    take_pulses(record, found.pulse->name, values_in_si(table, *found.pulse, problems),
+                problems);
+    throw_if_any(problems);
+  }
   return record;
 }
 

@@ -135,6 +135,11 @@ RecordColumns find_columns(const TableHead& head, const Measurement& measurement
     columns.force[i] = force_column(search, measurement, *forces[i], i);
   }
   columns.time = find_axis(search, measurement.time_column, time_names, Quantity::time);
+  if (!measurement.pulse_column.empty()) {
+    const auto at = named_column(search, measurement.pulse_column);
+    if (at) columns.pulse = TableColumn{*at, 1.0, std::string(head.names[*at].text)};
+    return columns;  // the angle follows from it
+  }
   // Who names a time wants the angle from it, whatever else the file holds.
   const bool by_time =
       !measurement.time_column.empty() || measurement.sample_rate.has_value();

@@ -15,6 +15,7 @@ struct RecordColumns {
   std::array<std::optional<TableColumn>, 3> force;
   std::optional<TableColumn> time;
   std::optional<TableColumn> angle;
+  std::optional<TableColumn> pulse;  ///< as it stands, in any unit
 };
 
 /// Whether a column is a force by the rules below, whatever its unit.

@@ -3,6 +3,7 @@
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/dynoware.h>
 #include <trochoid/inputs/record_file_columns.h>
+#include <trochoid/inputs/record_file_pulse.h>
 #include <trochoid/inputs/record_file_time.h>
 
 #include <fmt/core.h>
@@ -27,6 +28,7 @@ struct Reading {
   signal::Record record;
   std::optional<DynoWareHeader> header;  ///< of a DynoWare export
   RecordColumns columns;
+  std::vector<double> pulse;
   std::vector<std::size_t> row_lines;
   std::size_t time_column = 1;  ///< in the last row
   double time_step = std::numeric_limits<double>::infinity();
@@ -60,6 +62,9 @@ void read_row(Reading& reading, std::vector<Field>& fields) {
   if (columns.angle) {
     record.angle.push_back(number_in_row(reading.text, fields, *columns.angle));
   }
+  if (columns.pulse) {
+    reading.pulse.push_back(number_in_row(reading.text, fields, *columns.pulse));
+  }
   if (columns.time) {
     const auto& field = fields[columns.time->index];
     record.time.push_back(number_in_row(reading.text, fields, *columns.time));
@@ -84,7 +89,7 @@ void note_text_columns(Reading& reading, const TableHead& head,
   const auto& columns = reading.columns;
   const auto used = [&](std::size_t i) {
     const auto is = [i](const auto& column) { return column && column->index == i; };
-    return is(columns.time) || is(columns.angle) ||
+    return is(columns.time) || is(columns.angle) || is(columns.pulse) ||
            std::any_of(columns.force.begin(), columns.force.end(), is);
   };
   for (std::size_t i = 0; i < std::min(row.size(), head.names.size()); ++i) {
@@ -124,6 +129,7 @@ void drop_last_row(Reading& reading) {
   for (auto& values : record.channel) values.pop_back();
   if (!record.angle.empty()) record.angle.pop_back();
   if (!record.time.empty()) record.time.pop_back();
+  if (!reading.pulse.empty()) reading.pulse.pop_back();
   reading.row_lines.pop_back();
   record.notes.push_back(
       {"last_row_left_out",
@@ -168,6 +174,11 @@ void check_whole(Reading& reading) {
     if (!note.empty()) reading.record.notes.push_back({"part_of_record", note});
   }
   throw_problems(reading.text);
+  if (reading.columns.pulse) {
+    take_pulses(reading.record, reading.columns.pulse->name, reading.pulse,
+                reading.text.problems);
+    throw_problems(reading.text);
+  }
 }
 
 /// @param names  the row of names

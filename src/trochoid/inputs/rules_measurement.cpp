@@ -127,6 +127,7 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .columns = table.columns,
                 .angle_column = table.angle_column,
                 .time_column = table.time_column,
+                .pulse_column = table.pulse_column,
                 .sample_rate = table.sample_rate,
                 .scale = table.scale,
                 .from = table.from,
@@ -142,6 +143,13 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
         fmt::format("{}.sample_rate_Hz = {} Hz: time_column is given as well; must be "
                     "one of the two",
                     path, number_text(*table.sample_rate)));
+  }
+  if (!table.angle_column.empty() && !table.pulse_column.empty()) {
+    report(
+        findings, path + ".pulse_column",
+        fmt::format("{}.pulse_column = {}: angle_column is given as well; must be one "
+                    "of the two",
+                    path, toml_string(table.pulse_column)));
   }
   if (std::find(table.scale.begin(), table.scale.end(), 0.0) != table.scale.end()) {
     report(findings, path + ".scale",

@@ -81,6 +81,12 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .standard = "found by name",
      .example = "\"time_s\""},
     &t.time_column);
+  v({.name = "pulse_column",
+     .meaning =
+         "column with one pulse in each turn of the spindle, from which the angle "
+         "follows: 0 where it rises",
+     .example = "\"index_V\""},
+    &t.pulse_column);
   v({.name = "sample_rate_Hz",
      .meaning = "samples a second, when the record has no time",
      .range = above_up_to(0, 1e9),

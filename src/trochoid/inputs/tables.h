@@ -92,6 +92,7 @@ struct MeasurementTable {
   std::vector<std::string> columns;
   std::string angle_column;
   std::string time_column;
+  std::string pulse_column;
   std::optional<double> sample_rate;
   std::vector<double> scale;
   std::optional<double> from;

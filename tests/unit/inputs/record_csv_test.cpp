@@ -127,6 +127,31 @@ TEST(RecordCsv, PrefersTheForceToTheChannelsOfASimulation) {
   EXPECT_EQ(channels.channel[2][0], 6.0);
 }
 
+TEST(RecordCsv, TakesTheAngleFromPulses) {
+  Measurement m;
+  m.pulse_column = "index";
+  std::string text = "time_s,Fx_N,Fy_N,Fz_N,index_V,angle_deg\n";
+  for (int i = 0; i < 100; ++i) {
+    text += std::to_string(i * 0.001) + ",1,2,3," + (i % 20 == 10 ? "5" : "0") + ",0\n";
+  }
+  const auto record = read(text, m);
+  ASSERT_EQ(record.angle.size(), 100u);
+  EXPECT_NEAR(record.angle[50] - record.angle[30], unit::turn, 1e-9);
+  EXPECT_NEAR(record.angle[10], unit::turn * 0.5 / 20, 1e-9);
+  EXPECT_EQ(record.angle_column, "index_V");
+  ASSERT_EQ(record.notes.size(), 1u);
+  EXPECT_EQ(
+      record.notes[0].message,
+      "5 pulses were found in column \"index_V\"; the spindle turns at 3000.00 to "
+      "3000.00 rpm by them.");
+  m.pulse_column = "Fx_N";
+  EXPECT_EQ(refusal(text, m),
+            "r.csv: the pulses of column \"Fx_N\": it has 0 rising edges: at least 3 "
+            "pulses are needed\n");
+  m.pulse_column = "marker";
+  EXPECT_NE(refusal(text, m).find("there is no column \"marker\""), std::string::npos);
+}
+
 TEST(RecordCsv, LeavesTheAngleToWhomNamesATime) {
   Measurement m;
   m.time_column = "time_s";
