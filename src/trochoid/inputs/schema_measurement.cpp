@@ -82,9 +82,7 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .example = "\"time_s\""},
     &t.time_column);
   v({.name = "pulse_column",
-     .meaning =
-         "column with one pulse in each turn of the spindle, from which the angle "
-         "follows: 0 where it rises",
+     .meaning = "column with one pulse a turn: the spindle angle is 0 where it rises",
      .example = "\"index_V\""},
     &t.pulse_column);
   v({.name = "sample_rate_Hz",
