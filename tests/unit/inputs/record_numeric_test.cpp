@@ -127,15 +127,17 @@ TEST(RecordNumeric, RefusesMoreThanItWouldRead) {
 
 TEST(RecordNumeric, TakesTheAngleFromPulses) {
   const std::vector<double> force(12, 1.0);
-  Measurement m;
-  m.pulse_column = "index";
-  const auto record =
-      record_of(table_of({column("Fx", "N", force, 1e3), column("Fy", "N", force, 1e3),
-                          column("Fz", "N", force, 1e3),
-                          column("index", "V", {0, 5, 0, 0, 0, 5, 0, 0, 0, 5, 0, 0})}),
-                "r.bin", m);
-  ASSERT_EQ(record.angle.size(), 12u);
-  EXPECT_NEAR(record.angle[11] - record.angle[0], unit::turn * 11 / 4, 1e-9);
+  std::vector made{column("Fx", "N", force, 1e3), column("Fy", "N", force, 1e3),
+                   column("Fz", "N", force, 1e3),
+                   column("index", "V", {0, 5, 0, 0, 0, 5, 0, 0, 0, 5, 0, 0})};
+  made[3].column.path = "encoder/index";
+  for (const char* name : {"index", "encoder/index"}) {
+    Measurement m;
+    m.pulse_column = name;
+    const auto record = record_of(table_of(made), "r.bin", m);
+    ASSERT_EQ(record.angle.size(), 12u);
+    EXPECT_NEAR(record.angle[11] - record.angle[0], unit::turn * 11 / 4, 1e-9);
+  }
 }
 
 TEST(RecordNumeric, ScalesVoltsToNewtons) {

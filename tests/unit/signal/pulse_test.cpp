@@ -69,6 +69,18 @@ TEST(Pulse, IsFilledInWhereItIsMissing) {
   EXPECT_LT(error(m, found), sample);
 }
 
+TEST(Pulse, IsOneWhereNoiseCrossesTheMiddleSeveralTimes) {
+  auto m = made();
+  for (std::size_t i = 0; i < m.time.size(); ++i) {
+    const double part = m.angle[i] / unit::turn - std::floor(m.angle[i] / unit::turn);
+    const double rise = part < 0.05 ? part / 0.05 : part < 0.1 ? 1.0 : 0.0;
+    m.pulse[i] = 5.0 * rise + (i % 2 == 0 ? 0.4 : -0.4);
+  }
+  const auto found = angle_of_pulses(m.pulse, m.time);
+  ASSERT_EQ(found.why, "");
+  EXPECT_EQ(found.found, 95u);
+}
+
 TEST(Pulse, IsRefusedWhereItIsNotOneATurn) {
   auto m = made();
   for (std::size_t i = 0; i < m.time.size(); ++i) {
