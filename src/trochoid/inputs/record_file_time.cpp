@@ -9,6 +9,8 @@ namespace trochoid::inputs {
 
 namespace {
 
+/// Nothing is sampled faster [Hz].
+constexpr double highest_rate = 1e9;
 /// A step of this many usual ones is a gap.
 constexpr double gap_factor = 2.5;
 
@@ -52,6 +54,13 @@ void settle_time(signal::Record& record, const TimeColumn& time,
     check_increasing(time, problems);
     if (problems.lines.empty()) {
       record.sample_rate = even_rate(record.time);
+      if (record.sample_rate > highest_rate) {
+        problems.add(
+            line_of(time, 1), time.column,
+            fmt::format("time {} s comes after {} s: no record has more than {:g} "
+                        "samples a second; look at the unit of the times",
+                        record.time[1], record.time[0], highest_rate));
+      }
       const auto note = gap_note(record.time);
       if (!note.empty()) record.notes.push_back({"time_gap", note});
     }

@@ -114,6 +114,15 @@ TEST(RecordNumeric, RefusesWhatIsNoRecord) {
             "case file)\n");
 }
 
+TEST(RecordNumeric, RefusesTimesThatNoRecordHas) {
+  const std::vector<double> two{1, 2};
+  EXPECT_EQ(
+      refusal({column("Fx", "N", two), column("Fy", "N", two), column("Fz", "N", two),
+               column("t", "s", {0, 1e-310})}),
+      "r.bin: time 1e-310 s comes after 0 s: no record has more than 1e+09 samples a "
+      "second; look at the unit of the times\n");
+}
+
 TEST(RecordNumeric, RefusesMoreThanItWouldRead) {
   auto table = table_of({column("Fx", "N", {1, 2}, 1e4), column("Fy", "N", {1, 2}, 1e4),
                          column("Fz", "N", {1, 2}, 1e4)});
