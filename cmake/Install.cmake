@@ -3,6 +3,15 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Libraries of other formats that were there: what a static library links as well.
+set(TROCHOID_OPTIONAL_REQUIRES "")
+if(ZLIB_FOUND)
+  string(APPEND TROCHOID_OPTIONAL_REQUIRES ", zlib")
+endif()
+if(hdf5_FOUND)
+  string(APPEND TROCHOID_OPTIONAL_REQUIRES ", hdf5-serial")
+endif()
+
 # Two exports: what needs the controller only must find nothing else.
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/trochoid)
 install(TARGETS trochoid_controller EXPORT trochoidControllerTargets

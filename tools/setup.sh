@@ -19,15 +19,16 @@ libraries=(
   libtomlplusplus-dev  # case files
   nlohmann-json3-dev   # summary.json
   libcli11-dev         # command line
+  zlib1g-dev           # packed records of MATLAB
+  libhdf5-dev          # records in HDF5, those of MATLAB 7.3 among them
 )
 # Programs as command=package, so that one from another source is kept.
-programs=(g++=g++ cmake=cmake ninja=ninja-build git=git)
+programs=(g++=g++ cmake=cmake ninja=ninja-build git=git pkg-config=pkg-config)
 report_programs=(node=nodejs npm=npm)
-test_libraries=(libgtest-dev libbenchmark-dev python3-numpy python3-scipy)
+test_libraries=(libgtest-dev libbenchmark-dev libmatio-dev python3-numpy python3-scipy)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind)
-test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags
-  pkg-config=pkg-config)
+test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
 
 # One argument, one line.
 say() { printf '%s\n' "$@" >&2; }

@@ -22,6 +22,8 @@ Measurement said_by(std::uint8_t byte) {
   if ((byte & 2) != 0) m.columns = {"a", "Fx", "b"};
   if ((byte & 4) != 0) m.angle_column = "angle_deg";
   if ((byte & 8) != 0) m.time_column = "time";
+  if ((byte & 16) != 0) m.pulse_column = "Fz";
+  if ((byte & 32) != 0) m.scale = {500, -1, 1e3};
   return m;
 }
 

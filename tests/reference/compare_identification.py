@@ -420,6 +420,33 @@ class Identify(unittest.TestCase):
         value = result["fits"][0]["coefficients"]["K_tc_MPa"]["value"]
         self.assertAlmostEqual(value, K["K_tc_MPa"], delta=0.03 * K["K_tc_MPa"])
 
+    def test_pulses_give_the_angle(self):  # [S-7]
+        case, K_true = truth(tables())
+        rate = 8000.0
+        t = np.arange(8000) / rate
+        turns_at = 0.37 + 20.3 * t - 0.9 * t**2  # the spindle sags by a tenth
+        one = turns(3600)
+        F1 = record(case, K_true, one)
+        F = np.column_stack([np.interp(2 * np.pi * turns_at, one, F1[:, q],
+                                       period=2 * np.pi) for q in range(3)])
+        pulse = 5.0 * ((turns_at % 1) < 0.1)
+        pulse[(turns_at > 6.9) & (turns_at < 7.2)] = 0.0  # one is missing
+        run = self.write("pulse.csv", None, np.column_stack([F, pulse]),
+                         "time_s,Fx_N,Fy_N,Fz_N,index_V", t)
+        run["pulse_column"] = "index_V"
+        answer = self.identify("pulse", tables(), {"chip_models": ["trochoidal"]}, [run])
+        # A step from 0 to 5 passes 2.5 halfway between two samples.
+        rise = t[1:][(pulse[1:] > 2.5) & (pulse[:-1] < 2.5)] - 0.5 / rate
+        lost = int(np.argmax(np.diff(rise)))
+        rise = np.insert(rise, lost + 1, 0.5 * (rise[lost] + rise[lost + 1]))
+        want = np.interp(t, rise, 360.0 * np.arange(len(rise)))
+        col = answer.columns("fitted.csv")
+        angle = np.array(col["angle_deg"])
+        inside = (angle > 0) & (angle < 360.0 * (len(rise) - 1))
+        self.assertGreater(inside.sum(), 1000)
+        nearest = want[np.searchsorted(want, angle[inside] - 1e-6)]
+        self.assertLess(np.abs(nearest - angle[inside]).max(), 1e-6)
+
     def idle_record(self, per=120, idle=6, cutting=12):
         """A cut with idle turns before and after, drifting; and the force alone."""
         case, K_true = truth(tables())

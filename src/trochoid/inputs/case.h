@@ -37,19 +37,8 @@ struct Dynamometer {
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
-/// Of a force record.
-enum class RecordFormat { csv, dynoware };
-
-/// Names of files.
-constexpr std::string_view name_of(RecordFormat format) noexcept {
-  switch (format) {
-    case RecordFormat::csv:
-      return "csv";
-    case RecordFormat::dynoware:
-      return "dynoware";
-  }
-  return {};
-}
+/// Of a force record; its values stand in record_format.h.
+enum class RecordFormat : int;
 
 /// One [[measurement]].
 struct Measurement {
@@ -58,7 +47,9 @@ struct Measurement {
   std::vector<std::string> columns;    ///< three names; empty: found by name
   std::string angle_column;            ///< empty: found by name
   std::string time_column;             ///< empty: found by name
+  std::string pulse_column;            ///< one pulse a turn; empty: none
   std::optional<double> sample_rate;   ///< [Hz]
+  std::vector<double> scale;           ///< [N] per unit of each channel; empty: by unit
   std::optional<double> from;          ///< what is before it is not used [s]
   std::optional<double> to;            ///< what is after it is not used [s]
   std::string group;                   ///< those of one name share coefficients

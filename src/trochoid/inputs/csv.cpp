@@ -40,7 +40,9 @@ bool may_be_thousands(std::string_view text) {
 }  // namespace
 
 void Problems::add(std::size_t line, std::size_t column, const std::string& text) {
-  if (!full()) lines.push_back(fmt::format("{}:{}:{}: {}", file, line, column, text));
+  if (full()) return;
+  lines.push_back(line == 0 ? fmt::format("{}: {}", file, text)
+                            : fmt::format("{}:{}:{}: {}", file, line, column, text));
 }
 
 std::string excerpt(std::string_view text) {

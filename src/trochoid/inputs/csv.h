@@ -15,6 +15,7 @@ struct Problems {
   std::string file;
   std::vector<std::string> lines;
 
+  /// @param line  from 1; 0: the file has no lines
   void add(std::size_t line, std::size_t column, const std::string& text);
   /// So many that reading on is of no use.
   [[nodiscard]] bool full() const noexcept { return lines.size() >= 1000; }

@@ -22,8 +22,11 @@ constexpr std::array units = {
     Unit{"mN", Quantity::force, 1e-3},
     Unit{"daN", Quantity::force, 10.0},
     Unit{"lbf", Quantity::force, 4.4482216152605},
+    Unit{"Newton", Quantity::force, 1.0},  // as measuring programs write it out
+    Unit{"Newtons", Quantity::force, 1.0},
     Unit{"s", Quantity::time, 1.0},
     Unit{"sec", Quantity::time, 1.0},
+    Unit{"Seconds", Quantity::time, 1.0},
     Unit{"ms", Quantity::time, 1e-3},
     Unit{"us", Quantity::time, 1e-6},
     Unit{"\xC2\xB5s", Quantity::time, 1e-6},
@@ -43,6 +46,8 @@ constexpr std::array units = {
     Unit{"in", Quantity::other, 0.0},
     Unit{"inch", Quantity::other, 0.0},
     Unit{"V", Quantity::other, 0.0},
+    Unit{"Volt", Quantity::other, 0.0},
+    Unit{"Volts", Quantity::other, 0.0},
     Unit{"mV", Quantity::other, 0.0},
     Unit{"pC", Quantity::other, 0.0},
     Unit{"g", Quantity::other, 0.0},
@@ -111,14 +116,19 @@ struct Name {
 Name split_name(std::string_view text, const ColumnSearch& search) {
   if (!text.empty() && (text.back() == ']' || text.back() == ')')) {
     const auto open = text.rfind(text.back() == ']' ? '[' : '(');
-    if (open != std::string_view::npos) {
+    // In a binary file `F(:,1)` is a column of a matrix.
+    const bool index =
+        search.head.paths && text.find(':', open) != std::string_view::npos;
+    if (open != std::string_view::npos && !index) {
       return {without_blanks(text.substr(0, open)),
               without_brackets(text.substr(open))};
     }
   }
   if (const auto slash = text.rfind('/'); slash != std::string_view::npos) {
-    return {without_blanks(text.substr(0, slash)),
-            without_blanks(text.substr(slash + 1))};
+    const auto unit = without_blanks(text.substr(slash + 1));
+    if (!search.head.paths || find_unit(unit) != nullptr) {
+      return {without_blanks(text.substr(0, slash)), unit};
+    }
   }
   const auto mark = text.rfind('_');
   if (mark != std::string_view::npos) {
@@ -141,8 +151,12 @@ void report_unit(const ColumnSearch& search, std::size_t index, Quantity quantit
       quantity == Quantity::number
           ? fmt::format("column {} has the unit {}: it is a plain number without one",
                         shown, excerpt(text))
-          : fmt::format("the unit {} of column {} is not one of {}: {} is right",
-                        excerpt(text), shown, noun(quantity), right_units(quantity)));
+          : fmt::format("the unit {} of column {} is not one of {}: {} is right{}",
+                        excerpt(text), shown, noun(quantity), right_units(quantity),
+                        quantity == Quantity::force
+                            ? ", or scale = [...] in the case file says how many "
+                              "newtons one unit is"
+                            : ""));
 }
 
 /// Factor to SI from the unit in the name or in the row of units.

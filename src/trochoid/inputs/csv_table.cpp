@@ -68,9 +68,12 @@ std::optional<std::string_view> next_line(TableText& table) {
       line->remove_prefix(3);
     }
     if (table.lines.number() == 1) {
-      if (const auto foreign = foreign_format(*line); !foreign.empty()) {
+      const bool expected =
+          !table.kind.begins.empty() && line->starts_with(table.kind.begins);
+      const auto foreign = expected ? std::string() : foreign_format(*line);
+      if (!foreign.empty()) {
         table.problems.add(1, 1,
-                           fmt::format("this is {}, which is not read yet: export it "
+                           fmt::format("this is {}, which is not read here: export it "
                                        "as CSV text in UTF-8",
                                        foreign));
         return std::nullopt;

@@ -21,6 +21,7 @@ struct TableKind {
   std::string_view row;             ///< `sample`
   std::string_view example;         ///< a row of names
   std::string_view comments = "#";  ///< marks that begin a comment
+  std::string_view begins = {};     ///< of files with a head: their first words
 };
 
 struct TableText {
@@ -46,9 +47,10 @@ struct TableColumn {
 /// The head of a table: the row of names and, if there is one, the row of units.
 struct TableHead {
   std::vector<Field> names;
-  std::size_t names_line = 0;
-  std::vector<Field> units;  ///< empty: no such row
+  std::size_t names_line = 0;  ///< 0: the file has no lines
+  std::vector<Field> units;    ///< empty: no such row
   std::size_t units_line = 0;
+  bool paths = false;  ///< names may be paths: what follows a `/` need not be a unit
 };
 
 /// @brief Open a file that a case names.

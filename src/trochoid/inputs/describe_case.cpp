@@ -30,7 +30,8 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
   replaced whole. An included file may include another.
 * In the folder of results, `case.toml` is the case as it was understood, with every
   default filled in. It is a case file again.
-* A measured surface is [a CSV file](surface_csv.md).
+* A force record is a file of [one of these formats](record.md); a measured surface is
+  [a CSV file](surface_csv.md).
 * The letters and signs are those of [the notation](../notation.md).
 )";
 

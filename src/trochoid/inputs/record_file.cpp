@@ -3,7 +3,15 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/dynoware.h>
+#include <trochoid/inputs/hdf5_record.h>
+#include <trochoid/inputs/lvm.h>
+#include <trochoid/inputs/mat.h>
+#include <trochoid/inputs/npy.h>
+#include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
+#include <trochoid/inputs/tdms.h>
+#include <trochoid/inputs/uff58.h>
+#include <trochoid/inputs/uff58_record.h>
 
 #include <fmt/core.h>
 
@@ -29,6 +37,18 @@ struct Reader {
 constexpr std::array readers{
     Reader{RecordFormat::dynoware, "a DynoWare export",
            "begins with `DynoWare,Version ...`", is_dynoware, read_dynoware_record},
+    Reader{RecordFormat::lvm, "a LabVIEW measurement file",
+           "begins with `LabVIEW Measurement`", is_lvm, read_lvm_record},
+    Reader{RecordFormat::mat, "a MATLAB file", "begins with `MATLAB ... MAT-file`",
+           is_mat, read_mat_record},
+    Reader{RecordFormat::tdms, "a TDMS file", "begins with `TDSm`", is_tdms,
+           read_tdms_record},
+    Reader{RecordFormat::hdf5, "an HDF5 file", "begins with the byte 0x89 and `HDF`",
+           is_hdf5, read_hdf5_record},
+    Reader{RecordFormat::npy, "a NumPy array", "begins with the byte 0x93 and `NUMPY`",
+           is_npy, read_npy_record},
+    Reader{RecordFormat::uff58, "a universal file",
+           "begins with a line that holds only -1", is_uff, read_uff58_record},
     Reader{RecordFormat::csv, "a CSV file", "is text",
            [](std::string_view) { return true; }, read_csv_record}};
 

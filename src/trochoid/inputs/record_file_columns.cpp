@@ -1,6 +1,7 @@
-#include <fmt/core.h>
 #include <trochoid/inputs/csv_columns.h>
 #include <trochoid/inputs/record_file_columns.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 
@@ -56,6 +57,13 @@ std::optional<TableColumn> find_axis(const ColumnSearch& search,
   return column_at(search, *at, quantity);
 }
 
+/// @param channel  from 0
+TableColumn force_column(const ColumnSearch& search, const Measurement& measurement,
+                         std::size_t at, std::size_t channel) {
+  if (measurement.scale.empty()) return column_at(search, at, Quantity::force);
+  return {at, measurement.scale[channel], std::string(search.head.names[at].text)};
+}
+
 std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& search) {
   std::array<std::optional<std::size_t>, 3> found;
   if (lacks_names(search, "angle_deg,Fx_N,Fy_N,Fz_N")) {
@@ -70,6 +78,15 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
     }
   }
   constexpr std::array shown = {"Fx", "Fy", "Fz"};
+  if (!found[0] && !found[1] && !found[2]) {
+    search.problems.add(
+        search.head.names_line, 1,
+        fmt::format(
+            "no column is named Fx, Fy or Fz: the columns are {}; columns = "
+            "[...] in the case file names the three forces, time_column the time",
+            all_names(search.head)));
+    return found;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     if (found[i]) continue;
     search.problems.add(
@@ -82,6 +99,16 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
 }
 
 }  // namespace
+
+bool names_force(std::string_view name) {
+  const TableHead head{.names = {{name, 1}}, .paths = true};
+  Problems problems;
+  std::vector<base::Warning> notes;
+  const ColumnSearch search{head, problems, notes, is_known_name, advice};
+  return std::any_of(force_names.begin(), force_names.end(), [&](NameList names) {
+    return usual_column(search, names).has_value();
+  });
+}
 
 RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
                            Problems& problems, std::vector<base::Warning>& notes) {
@@ -105,9 +132,14 @@ RecordColumns find_columns(const TableHead& head, const Measurement& measurement
                    "three different ones are needed");
       continue;
     }
-    columns.force[i] = column_at(search, *forces[i], Quantity::force);
+    columns.force[i] = force_column(search, measurement, *forces[i], i);
   }
   columns.time = find_axis(search, measurement.time_column, time_names, Quantity::time);
+  if (!measurement.pulse_column.empty()) {
+    const auto at = named_column(search, measurement.pulse_column);
+    if (at) columns.pulse = TableColumn{*at, 1.0, std::string(head.names[*at].text)};
+    return columns;  // the angle follows from it
+  }
   // Who names a time wants the angle from it, whatever else the file holds.
   const bool by_time =
       !measurement.time_column.empty() || measurement.sample_rate.has_value();

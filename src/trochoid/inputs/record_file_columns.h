@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 namespace trochoid::inputs {
 
@@ -14,7 +15,11 @@ struct RecordColumns {
   std::array<std::optional<TableColumn>, 3> force;
   std::optional<TableColumn> time;
   std::optional<TableColumn> angle;
+  std::optional<TableColumn> pulse;  ///< as it stands, in any unit
 };
+
+/// Whether a column is a force by the rules below, whatever its unit.
+bool names_force(std::string_view name);
 
 /// @brief Find forces, time and angle by name, and their units.
 ///
@@ -22,7 +27,8 @@ struct RecordColumns {
 /// as `simulate` writes them), time or t, angle or phi are looked for, whatever the
 /// case of their letters. The unit is part of the name (`Fx_N`, `Fx [kN]`, `Fy (N)`,
 /// `Fz / N`) or stands in the row of units. Forces and time without a unit are taken
-/// in N and s, with a note; an angle without a unit is refused.
+/// in N and s, with a note; an angle without a unit is refused. Where the case file gives
+/// `scale`, the unit of a force is not looked at.
 /// @param[out] notes  what had to be assumed
 RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
                            Problems& problems, std::vector<base::Warning>& notes);

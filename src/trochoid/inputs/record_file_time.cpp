@@ -1,5 +1,6 @@
-#include <fmt/core.h>
 #include <trochoid/inputs/record_file_time.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,8 @@ namespace trochoid::inputs {
 
 namespace {
 
+/// Nothing is sampled faster [Hz].
+constexpr double highest_rate = 1e9;
 /// A step of this many usual ones is a gap.
 constexpr double gap_factor = 2.5;
 
@@ -22,13 +25,57 @@ double rounding(const PrintedTime& printed, double time, double rate) {
   return std::abs(steps - std::round(steps)) < 1e-6 && steps > 0.5 ? 0.0 : step;
 }
 
+std::size_t line_of(const TimeColumn& time, std::size_t i) {
+  return time.lines.empty() ? 0 : time.lines[i];
+}
+
 }  // namespace
+
+void settle_time(signal::Record& record, const TimeColumn& time,
+                 const SampleRates& rates, Problems& problems) {
+  const auto [given, stated, stated_line, first_time] = rates;
+  if (given > 0.0 && stated > 0.0 && std::abs(given - stated) > 1e-6 * stated) {
+    problems.add(stated_line, 1,
+                 fmt::format("the sampling rate here is {} Hz, the case file "
+                             "says {} Hz: they must agree",
+                             stated, given));
+    return;
+  }
+  const double rate = given > 0.0 ? given : stated;
+  if (rate > 0.0) {
+    if (!record.time.empty()) check_rate(time, rate, problems);
+    const double first = record.time.empty() ? first_time : record.time.front();
+    record.time.resize(record.size());
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      record.time[i] = first + static_cast<double>(i) / rate;
+    }
+    record.sample_rate = rate;
+  } else if (!record.time.empty()) {
+    check_increasing(time, problems);
+    if (problems.lines.empty()) {
+      record.sample_rate = even_rate(record.time);
+      if (record.sample_rate > highest_rate) {
+        problems.add(
+            line_of(time, 1), time.column,
+            fmt::format("time {} s comes after {} s: no record has more than {:g} "
+                        "samples a second; look at the unit of the times",
+                        record.time[1], record.time[0], highest_rate));
+      }
+      const auto note = gap_note(record.time);
+      if (!note.empty()) record.notes.push_back({"time_gap", note});
+    }
+  } else if (record.angle.empty()) {
+    problems.add(time.lines.empty() ? 0 : 1, 1,
+                 "neither angles nor times nor a sampling rate are known: add a "
+                 "column angle_deg or time_s, or sample_rate_Hz in the case file");
+  }
+}
 
 void check_increasing(const TimeColumn& time, Problems& problems) {
   for (std::size_t i = 1; i < time.values.size() && !problems.full(); ++i) {
     if (time.values[i] > time.values[i - 1]) continue;
     problems.add(
-        time.lines[i], time.column,
+        line_of(time, i), time.column,
         fmt::format("time {} s does not come after {} s of the "
                     "row before: times must increase{}",
                     time.values[i], time.values[i - 1],
@@ -46,7 +93,7 @@ void check_rate(const TimeColumn& time, double rate, Problems& problems) {
     const double allowed =
         0.5 / rate + rounding(time.printed, t, rate) + 1e-9 * std::abs(t);
     if (std::abs(t - expected) <= allowed) continue;
-    problems.add(time.lines[i], time.column,
+    problems.add(line_of(time, i), time.column,
                  fmt::format("time {} s where {:.9g} s should stand at {} Hz: rows are "
                              "missing or doubled, or the sampling rate is wrong",
                              t, expected, rate));

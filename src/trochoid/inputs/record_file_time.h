@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/inputs/csv.h>
+#include <trochoid/signal/record.h>
 
 #include <span>
 #include <string>
@@ -17,10 +18,24 @@ struct PrintedTime {
 /// Times as printed [s], and the line of each.
 struct TimeColumn {
   std::span<const double> values;
-  std::span<const std::size_t> lines;
+  std::span<const std::size_t> lines;  ///< empty: the file has none
   std::size_t column = 1;
   PrintedTime printed;
 };
+
+/// Who knows the sampling rate [Hz]; 0: does not say.
+struct SampleRates {
+  double given = 0.0;           ///< by the case file
+  double stated = 0.0;          ///< by the record
+  std::size_t stated_line = 0;  ///< 0: the file has no lines
+  double first_time = 0.0;      ///< of the first sample, where there is no time [s]
+};
+
+/// @brief Give a record with its forces and, where there are any, angles and times its
+/// sampling rate, and times that follow it.
+/// @param time  the times of the record as they were read
+void settle_time(signal::Record& record, const TimeColumn& time,
+                 const SampleRates& rates, Problems& problems);
 
 /// @brief Refuse times that do not increase, where no sampling rate replaces them.
 void check_increasing(const TimeColumn& time, Problems& problems);

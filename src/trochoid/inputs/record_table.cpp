@@ -3,6 +3,7 @@
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/dynoware.h>
 #include <trochoid/inputs/record_file_columns.h>
+#include <trochoid/inputs/record_file_pulse.h>
 #include <trochoid/inputs/record_file_time.h>
 
 #include <fmt/core.h>
@@ -27,6 +28,7 @@ struct Reading {
   signal::Record record;
   std::optional<DynoWareHeader> header;  ///< of a DynoWare export
   RecordColumns columns;
+  std::vector<double> pulse;
   std::vector<std::size_t> row_lines;
   std::size_t time_column = 1;  ///< in the last row
   double time_step = std::numeric_limits<double>::infinity();
@@ -60,6 +62,9 @@ void read_row(Reading& reading, std::vector<Field>& fields) {
   if (columns.angle) {
     record.angle.push_back(number_in_row(reading.text, fields, *columns.angle));
   }
+  if (columns.pulse) {
+    reading.pulse.push_back(number_in_row(reading.text, fields, *columns.pulse));
+  }
   if (columns.time) {
     const auto& field = fields[columns.time->index];
     record.time.push_back(number_in_row(reading.text, fields, *columns.time));
@@ -78,6 +83,24 @@ void keep_names(const RecordColumns& columns, signal::Record& record) {
   if (columns.time) record.time_column = columns.time->name;
 }
 
+/// Columns of text, a comment for example, are no mistake as long as nobody needs them.
+void note_text_columns(Reading& reading, const TableHead& head,
+                       const std::vector<Field>& row) {
+  const auto& columns = reading.columns;
+  const auto used = [&](std::size_t i) {
+    const auto is = [i](const auto& column) { return column && column->index == i; };
+    return is(columns.time) || is(columns.angle) || is(columns.pulse) ||
+           std::any_of(columns.force.begin(), columns.force.end(), is);
+  };
+  for (std::size_t i = 0; i < std::min(row.size(), head.names.size()); ++i) {
+    if (used(i) || parse_number(row[i].text).fault != NumberFault::not_a_number)
+      continue;
+    reading.record.notes.push_back(
+        {"column_skipped", fmt::format("Column {} holds text and is not used.",
+                                       excerpt(head.names[i].text))});
+  }
+}
+
 void read_rows(Reading& reading, TableHead& head) {
   std::vector<Field> fields;
   auto line = next_content(reading.text);
@@ -90,52 +113,12 @@ void read_rows(Reading& reading, TableHead& head) {
                                  reading.record.notes);
   keep_names(reading.columns, reading.record);
   if (!head.units.empty()) line = next_content(reading.text);
-  while (line) {
+  for (bool first = true; line; first = false) {
     split(*line, reading.text.separator, fields);
+    if (first) note_text_columns(reading, head, fields);
     read_row(reading, fields);
     if (reading.text.problems.full()) return;
     line = next_content(reading.text);
-  }
-}
-
-/// Angle, time and rate of the record from what is known of them.
-void settle_time(Reading& reading) {
-  auto& record = reading.record;
-  const double given = reading.measurement.sample_rate.value_or(0.0);
-  const double stated = reading.header ? reading.header->sample_rate : 0.0;
-  if (given > 0.0 && stated > 0.0 && std::abs(given - stated) > 1e-6 * stated) {
-    reading.text.problems.add(
-        reading.header->rate_line, 1,
-        fmt::format("the sampling rate here is {} Hz, the case file "
-                    "says {} Hz: they must agree",
-                    stated, given));
-    return;
-  }
-  const double rate = given > 0.0 ? given : stated;
-  const TimeColumn column{record.time,
-                          reading.row_lines,
-                          reading.time_column,
-                          {reading.header.has_value(), reading.time_step}};
-  if (rate > 0.0) {
-    if (!record.time.empty()) check_rate(column, rate, reading.text.problems);
-    const double first = record.time.empty() ? 0.0 : record.time.front();
-    record.time.resize(record.size());
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      record.time[i] = first + static_cast<double>(i) / rate;
-    }
-    record.sample_rate = rate;
-  } else if (!record.time.empty()) {
-    check_increasing(column, reading.text.problems);
-    if (reading.text.problems.lines.empty()) {
-      record.sample_rate = even_rate(record.time);
-      const auto note = gap_note(record.time);
-      if (!note.empty()) record.notes.push_back({"time_gap", note});
-    }
-  } else if (record.angle.empty()) {
-    reading.text.problems.add(
-        1, 1,
-        "neither angles nor times nor a sampling rate are known: add a "
-        "column angle_deg or time_s, or sample_rate_Hz in the case file");
   }
 }
 
@@ -146,6 +129,7 @@ void drop_last_row(Reading& reading) {
   for (auto& values : record.channel) values.pop_back();
   if (!record.angle.empty()) record.angle.pop_back();
   if (!record.time.empty()) record.time.pop_back();
+  if (!reading.pulse.empty()) reading.pulse.pop_back();
   reading.row_lines.pop_back();
   record.notes.push_back(
       {"last_row_left_out",
@@ -174,13 +158,27 @@ void check_whole(Reading& reading) {
   }
   const auto& time = reading.record.time;
   const auto first = time.empty() ? std::nullopt : std::optional(time.front());
-  settle_time(reading);
+  const SampleRates rates{
+      .given = reading.measurement.sample_rate.value_or(0.0),
+      .stated = reading.header ? reading.header->sample_rate : 0.0,
+      .stated_line = reading.header ? reading.header->rate_line : 0};
+  settle_time(reading.record,
+              {reading.record.time,
+               reading.row_lines,
+               reading.time_column,
+               {reading.header.has_value(), reading.time_step}},
+              rates, reading.text.problems);
   if (reading.header) {
     const auto note =
         check_sample_count(*reading.header, {rows, first}, reading.text.problems);
     if (!note.empty()) reading.record.notes.push_back({"part_of_record", note});
   }
   throw_problems(reading.text);
+  if (reading.columns.pulse) {
+    take_pulses(reading.record, reading.columns.pulse->name, reading.pulse,
+                reading.text.problems);
+    throw_problems(reading.text);
+  }
 }
 
 /// @param names  the row of names

@@ -158,15 +158,16 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .columns = table.columns,
                 .angle_column = table.angle_column,
                 .time_column = table.time_column,
+                .pulse_column = table.pulse_column,
                 .sample_rate = table.sample_rate,
+                .scale = table.scale,
                 .from = table.from,
                 .to = table.to,
                 .group = table.group,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
   if (sound(findings, {path + ".file"})) {
-    check_file(m.file, path + ".file", table.file, "a force record (csv or dynoware)",
-               findings);
+    check_file(m.file, path + ".file", table.file, "a force record", findings);
   }
   if (std::any_of(table.group.begin(), table.group.end(),
                   [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
@@ -181,6 +182,19 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
         fmt::format("{}.sample_rate_Hz = {} Hz: time_column is given as well; must be "
                     "one of the two",
                     path, number_text(*table.sample_rate)));
+  }
+  if (!table.angle_column.empty() && !table.pulse_column.empty()) {
+    report(
+        findings, path + ".pulse_column",
+        fmt::format("{}.pulse_column = {}: angle_column is given as well; must be one "
+                    "of the two",
+                    path, toml_string(table.pulse_column)));
+  }
+  if (std::find(table.scale.begin(), table.scale.end(), 0.0) != table.scale.end()) {
+    report(findings, path + ".scale",
+           fmt::format("{}.scale: an entry is 0, so that its channel would read no "
+                       "force; must be newtons per unit of each channel",
+                       path));
   }
   if (table.from && table.to && !(*table.from < *table.to)) {
     report(findings, path + ".to_s",

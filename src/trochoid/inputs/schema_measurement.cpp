@@ -1,3 +1,4 @@
+#include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/schema_choice.h>
 #include <trochoid/inputs/tables.h>
 
@@ -93,12 +94,24 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .standard = "found by name",
      .example = "\"time_s\""},
     &t.time_column);
+  v({.name = "pulse_column",
+     .meaning = "column with one pulse a turn: the spindle angle is 0 where it rises",
+     .example = "\"index_V\""},
+    &t.pulse_column);
   v({.name = "sample_rate_Hz",
      .meaning = "samples a second, when the record has no time",
      .range = above_up_to(0, 1e9),
      .rival = "time_column",
      .example = "10000"},
     &t.sample_rate);
+  v({.name = "scale",
+     .meaning = "newtons per unit of channels 1 to 3, whatever unit the record names: "
+                "of volts, the range of the charge amplifier by its full output",
+     .range = between(-1e12, 1e12),
+     .count = 3,
+     .standard = "by the unit of each column",
+     .example = "[500, 500, 1000]"},
+    &t.scale);
   v({.name = "from_s",
      .meaning = "what was recorded before this time is not fitted",
      .range = between(-1e9, 1e9),

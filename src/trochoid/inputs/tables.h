@@ -108,7 +108,9 @@ struct MeasurementTable {
   std::vector<std::string> columns;
   std::string angle_column;
   std::string time_column;
+  std::string pulse_column;
   std::optional<double> sample_rate;
+  std::vector<double> scale;
   std::optional<double> from;
   std::optional<double> to;
   std::string group;

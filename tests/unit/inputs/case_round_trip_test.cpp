@@ -80,6 +80,8 @@ void expect_equal(const Measurement& a, const Measurement& b) {
   EXPECT_EQ(a.angle_column, b.angle_column);
   EXPECT_EQ(a.time_column, b.time_column);
   EXPECT_EQ(a.sample_rate, b.sample_rate);
+  EXPECT_EQ(a.scale, b.scale);
+  EXPECT_EQ(a.pulse_column, b.pulse_column);
   expect_equal(a.cut, b.cut);
 }
 
@@ -198,6 +200,8 @@ angle_column = "phi"
 [[measurement]]
 file = "run 1.csv"
 sample_rate_Hz = 5000.5
+scale = [500.5, -500, 1e3]
+pulse_column = "index"
 cut = { feed_per_tooth_mm = 0.07, engagement = "band", stock_y_mm = [-1.1, 2.3] }
 [identify]
 chip_models = ["trochoidal", "none"]

@@ -2,6 +2,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/record_file.h>
+#include <trochoid/inputs/record_format.h>
 
 #include <algorithm>
 #include <array>
@@ -83,6 +84,17 @@ TEST(RecordCsv, FindsColumnsByNameWhateverTheirCaseAndOrder) {
   EXPECT_EQ(record.channel[2][0], 3.0);
   EXPECT_DOUBLE_EQ(record.time[1], 1e-3);
   EXPECT_DOUBLE_EQ(record.sample_rate, 1e3);
+  ASSERT_EQ(record.notes.size(), 1u);
+  EXPECT_EQ(record.notes[0].message, "Column \"comment\" holds text and is not used.");
+}
+
+TEST(RecordCsv, TakesNewtonsPerUnitOfTheCaseFile) {
+  Measurement m;
+  m.scale = {500, 500, -1000};
+  const auto record = read("time_s,Fx_V,Fy,Fz\ns,V,V,mV\n0,1,2,3\n1,4,5,6\n", m);
+  EXPECT_EQ(record.channel[0], (std::vector{500.0, 2000.0}));
+  EXPECT_EQ(record.channel[2], (std::vector{-3000.0, -6000.0}));
+  EXPECT_TRUE(record.notes.empty()) << "no unit was assumed";
 }
 
 TEST(RecordCsv, TakesTheNamesOfTheCaseFile) {
@@ -113,6 +125,31 @@ TEST(RecordCsv, PrefersTheForceToTheChannelsOfASimulation) {
   const auto channels =
       read("angle_deg,channel1_N,channel2_N,channel3_N\n0,4,5,6\n1,4,5,6\n");
   EXPECT_EQ(channels.channel[2][0], 6.0);
+}
+
+TEST(RecordCsv, TakesTheAngleFromPulses) {
+  Measurement m;
+  m.pulse_column = "index";
+  std::string text = "time_s,Fx_N,Fy_N,Fz_N,index_V,angle_deg\n";
+  for (int i = 0; i < 100; ++i) {
+    text += std::to_string(i * 0.001) + ",1,2,3," + (i % 20 == 10 ? "5" : "0") + ",0\n";
+  }
+  const auto record = read(text, m);
+  ASSERT_EQ(record.angle.size(), 100u);
+  EXPECT_NEAR(record.angle[50] - record.angle[30], unit::turn, 1e-9);
+  EXPECT_NEAR(record.angle[10], unit::turn * 0.5 / 20, 1e-9);
+  EXPECT_EQ(record.angle_column, "index_V");
+  ASSERT_EQ(record.notes.size(), 1u);
+  EXPECT_EQ(
+      record.notes[0].message,
+      "5 pulses were found in column \"index_V\"; the spindle turns at 3000.00 to "
+      "3000.00 rpm by them.");
+  m.pulse_column = "Fx_N";
+  EXPECT_EQ(refusal(text, m),
+            "r.csv: the pulses of column \"Fx_N\": it has 0 rising edges: at least 3 "
+            "pulses are needed\n");
+  m.pulse_column = "marker";
+  EXPECT_NE(refusal(text, m).find("there is no column \"marker\""), std::string::npos);
 }
 
 TEST(RecordCsv, LeavesTheAngleToWhomNamesATime) {

@@ -19,7 +19,10 @@ struct MadeSet {
   int function = 4;
   std::string unit = "m/s2";
   std::string denominator = "N";
-  int promised = -1;  ///< points in the head; below 0: as many as there are
+  int promised = -1;   ///< points in the head; below 0: as many as there are
+  int axis = 18;       ///< kind of the abscissa
+  int kind = 12;       ///< of the ordinate
+  int direction = -1;  ///< of the response
 };
 
 inline std::string head_of(const MadeSet& set) {
@@ -27,15 +30,15 @@ inline std::string head_of(const MadeSet& set) {
   const double step = set.even && set.x.size() > 1 ? set.x[1] - set.x[0] : 0.0;
   std::string text = "tip of the tool\nNONE\n01-Jan-20 10:00:00\nNONE\nNONE\n";
   text += fmt::format("{:5}{:10}{:5}{:10} {:<10}{:10}{:4} {:<10}{:10}{:4}\n",
-                      set.function, 1, 0, 0, "tip", 7, -1, "tip", 7, 1);
+                      set.function, 1, 0, 0, "tip", 7, set.direction, "tip", 7, 1);
   text += fmt::format("{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}\n", set.type, points,
                       set.even ? 1 : 0, set.x.empty() ? 0.0 : set.x[0], step, 0.0);
   const auto axis = [&](int type, const char* label, const std::string& unit) {
     text +=
         fmt::format("{:10}{:5}{:5}{:5} {:<20} {:<20}\n", type, 0, 0, 0, label, unit);
   };
-  axis(18, "Frequency", "Hz");
-  axis(12, "Acceleration", set.unit);
+  axis(set.axis, set.axis == 18 ? "Frequency" : "Time", set.axis == 18 ? "Hz" : "s");
+  axis(set.kind, set.kind == 12 ? "Acceleration" : "Force", set.unit);
   axis(13, "Force", set.denominator);
   axis(0, "NONE", "NONE");
   return text;

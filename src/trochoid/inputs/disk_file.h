@@ -1,0 +1,30 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+
+#include <filesystem>
+#include <istream>
+#include <string>
+
+namespace trochoid::inputs {
+
+/// @brief A record as a file with a name, which libraries of other formats ask for.
+///
+/// The file of the measurement where it has one; else the stream is written to a temporary
+/// file, which goes with this object.
+class DiskFile {
+ public:
+  /// @throws base::InputError  when no temporary file can be written
+  DiskFile(std::istream& in, const std::string& name, const Measurement& measurement);
+  ~DiskFile();
+  DiskFile(const DiskFile&) = delete;
+  DiskFile& operator=(const DiskFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool temporary_ = false;
+};
+
+}  // namespace trochoid::inputs

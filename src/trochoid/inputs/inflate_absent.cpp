@@ -1,0 +1,14 @@
+#include <trochoid/inputs/inflate.h>
+
+namespace trochoid::inputs {
+
+bool can_inflate() noexcept {
+  return false;
+}
+
+std::optional<std::string> inflated(std::string_view /*packed*/,
+                                    std::uint64_t /*count*/) {
+  return std::nullopt;
+}
+
+}  // namespace trochoid::inputs
