@@ -70,7 +70,10 @@ void describe(const Visitor& v, DynamometerTable& t) {
     choice(t.resonance));
 }
 
-void describe(const Visitor& v, MeasurementTable& t) {
+namespace {
+
+/// The file, and what its columns are.
+void describe_columns(const Visitor& v, MeasurementTable& t) {
   v({.name = "file",
      .meaning = "the force record, relative to the file that names it",
      .need = Need::always},
@@ -112,6 +115,12 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .standard = "by the unit of each column",
      .example = "[500, 500, 1000]"},
     &t.scale);
+}
+
+}  // namespace
+
+void describe(const Visitor& v, MeasurementTable& t) {
+  describe_columns(v, t);
   v({.name = "from_s",
      .meaning = "what was recorded before this time is not fitted",
      .range = between(-1e9, 1e9),

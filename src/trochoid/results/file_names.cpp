@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 27> names = {"case.toml",
+constexpr std::array<std::string_view, 28> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -39,7 +39,8 @@ constexpr std::array<std::string_view, 27> names = {"case.toml",
                                                     "speeds.csv",
                                                     "command.h",
                                                     "controller.csv",
-                                                    "plan.csv"};
+                                                    "plan.csv",
+                                                    "overview.csv"};
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

@@ -230,6 +230,42 @@ std::optional<base::Table> folded_table(
   return table;
 }
 
+/// overview.csv: the whole records in few pieces, and which of them were used.
+base::Table overview_table(std::span<const signal::Overview> overviews) {
+  struct Piece {
+    std::size_t run = 0;
+    std::size_t at = 0;
+  };
+  std::vector<Piece> pieces;
+  bool timed = true;
+  for (std::size_t r = 0; r < overviews.size(); ++r) {
+    timed = timed && !overviews[r].time.empty();
+    for (std::size_t k = 0; k < overviews[r].turn.size(); ++k) pieces.push_back({r, k});
+  }
+  base::Table table{"overview.csv", {}};
+  const std::size_t n = pieces.size();
+  const auto of = [&](std::size_t i) -> const signal::Overview& {
+    return overviews[pieces[i].run];
+  };
+  add_column(table, "run", n, [&](std::size_t i) { return pieces[i].run + 1; });
+  if (timed) {
+    add_column(table, "time_s", n,
+               [&](std::size_t i) { return of(i).time[pieces[i].at]; });
+  }
+  add_column(table, "turn", n, [&](std::size_t i) { return of(i).turn[pieces[i].at]; });
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto there = [&](const signal::Overview& o) { return !o.low[c].empty(); };
+    if (!std::ranges::all_of(overviews, there)) continue;
+    add_column(table, fmt::format("channel{}_low_N", c + 1), n,
+               [&](std::size_t i) { return of(i).low[c][pieces[i].at]; });
+    add_column(table, fmt::format("channel{}_high_N", c + 1), n,
+               [&](std::size_t i) { return of(i).high[c][pieces[i].at]; });
+  }
+  add_column(table, "used", n,
+             [&](std::size_t i) { return of(i).used[pieces[i].at] ? 1 : 0; });
+  return table;
+}
+
 base::Table sweep_table(const OffsetSweep& sweep) {
   base::Table table{"sweep.csv", {}};
   const std::size_t n = sweep.offset.size();
@@ -252,6 +288,7 @@ std::vector<base::Table> tables_of(const IdentifyResult& r) {
   std::vector<base::Table> tables =
       whole(r) ? curve_tables(r.runs, computed)
                : curve_tables(mean_turns(r.runs, computed), computed);
+  if (!r.overviews.empty()) tables.push_back(overview_table(r.overviews));
   if (auto folded = folded_table(r.folded)) {
     tables.push_back(std::move(*folded));
   }

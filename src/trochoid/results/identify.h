@@ -7,6 +7,7 @@
 #include <trochoid/identification/runout_form.h>
 #include <trochoid/identification/views.h>
 #include <trochoid/results/answer.h>
+#include <trochoid/signal/overview.h>
 #include <trochoid/signal/revolutions.h>
 
 #include <optional>
@@ -68,6 +69,7 @@ struct IdentifyResult {
   signal::Matrix3 channels{};             ///< channels = matrix times force on the tool
   std::optional<identification::AxesChoice> axes;  ///< where they were searched for
   std::vector<identification::Run> runs;           ///< measured force on the tool
+  std::vector<signal::Overview> overviews;         ///< of the whole records
   /// Turns of each record laid over one another; fewer than two: nothing to lay.
   std::vector<signal::OneRevolution> folded;
   std::optional<OffsetSweep> sweep;

@@ -21,6 +21,7 @@ function identifyPage(report) {
     { part: result.clocking && trust ? clockingSection(result.clocking) : null },
     groupsSection(result.groups),
     ...curves,
+    overviewSection(report),
     foldedSection(report),
     { part: fitsSection(fits, best) },
     { part: formSection(result.runout_form) },

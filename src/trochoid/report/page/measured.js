@@ -67,6 +67,39 @@ function drawResiduals(chart, values, model) {
     values('angle_deg'));
 }
 
+/** The whole records as they came, and which part of each was used. */
+function overviewSection(report) {
+  const overview = tableNamed(report, 'overview.csv');
+  if (!overview?.drawn) return null;
+  const runs = [...new Set(columnNamed(overview, 'run') || [1])];
+  const timed = Boolean(columnNamed(overview, 'time_s'));
+  const at = (run) => rowsOfRun(overview, run)(timed ? 'time_s' : 'turn');
+  const panelsOf = (run) => {
+    const values = rowsOfRun(overview, run);
+    const used = values('used');
+    const first = used.indexOf(1);
+    const last = used.lastIndexOf(1);
+    const marks = first > 0 || last < used.length - 1 ?
+      [{ x: at(run)[first], text: 'used from here' }, { x: at(run)[last], text: 'to here' }] : [];
+    return [1, 2, 3].map((c) => ({ low: values(`channel${c}_low_N`), high: values(`channel${c}_high_N`), c }))
+      .filter(({ low }) => low).map(({ low, high, c }, i) => ({
+        label: `channel ${c}`, unit: 'N', height: 100, color: seriesColor(c - 1),
+        series: [{ name: 'largest', values: high, color: seriesColor(c - 1), width: 1 }],
+        band: { low, high, name: 'smallest to largest reading' },
+        markers: marks.map((m) => (i ? { ...m, text: '' } : m)),
+      }));
+  };
+  const chart = figure({ key: 'record', x: at(runs[0]), label: timed ? 'time' : 'turn of the spindle, as stated',
+    unit: timed ? 's' : '', caption: zoomHint });
+  const draw = (run) => chart.draw(panelsOf(run), at(run));
+  chart.controls.append(...[choice('Run', runs.map((r) => ({ value: r, text: number(r) })),
+    runs[0], draw)].filter(Boolean));
+  const part = section('overview', 'The whole record, and what of it was used', 'Record',
+    prose('The channels as they were read. What is fitted lies between the dashed lines; without any, it is all.'),
+    chart.element);
+  return { part, draw: () => draw(runs[0]) };
+}
+
 /** One revolution: the mean of all, and how far single ones scatter around it. */
 function foldedSection(report) {
   const folded = tableNamed(report, 'folded.csv');

@@ -256,6 +256,7 @@ struct Identification {
     }
     r.runs = identification::on_tool(channels_of(measured), r.channels);
     r.records = summaries(measured);
+    for (MeasuredRun& one : measured) r.overviews.push_back(std::move(one.overview));
     Known known{std::nullopt,
                 measured_responses(given, r.runs, r.channels, r.heading.warnings)};
     if (r.axes) known.start = r.axes->start;

@@ -167,9 +167,10 @@ void warn_faults(const signal::Record& record, Warnings& warnings) {
 
 /// The steady cut of a record, without the offset of its channels.
 void keep_cut(const inputs::Case& given, const inputs::Measurement& measurement,
-              signal::Record& record, Warnings& warnings) {
+              signal::Record& record, MeasuredRun& run, Warnings& warnings) {
   const std::vector<double> angle = stated_angle(record, measurement.cut);
   const UsedPart used = used_part(record, angle, measurement);
+  run.overview = signal::overview_of(record, angle, used.part);
   take_drift_out(given, angle, used.air, record, warnings);
   if (!used.why.empty()) {
     warnings.push_back({"part_used", record.file + ": " + used.why});
@@ -191,7 +192,7 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
       warnings.push_back({note.code, run.file + ": " + note.message});
     }
     warn_faults(record, warnings);
-    keep_cut(given, given.measurements[i], record, warnings);
+    keep_cut(given, given.measurements[i], record, run, warnings);
     lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
     run.run.channel = std::move(record.channel);
     runs.push_back(std::move(run));

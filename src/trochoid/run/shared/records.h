@@ -3,6 +3,7 @@
 #include <trochoid/base/warning.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/signal/overview.h>
 
 #include <string>
 #include <vector>
@@ -13,9 +14,10 @@ namespace trochoid::run {
 struct MeasuredRun {
   std::string file;
   identification::ChannelRun run;
-  bool by_time = false;   ///< its angles follow from its times
-  double Omega = 0.0;     ///< found in the record, else as stated [rad/s]
-  double Omega_se = 0.0;  ///< [rad/s]; 0: not estimated
+  bool by_time = false;            ///< its angles follow from its times
+  double Omega = 0.0;              ///< found in the record, else as stated [rad/s]
+  double Omega_se = 0.0;           ///< [rad/s]; 0: not estimated
+  signal::Overview overview = {};  ///< of the whole record
 };
 
 /// @brief Read all measurements of a case.
