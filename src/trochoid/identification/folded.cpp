@@ -35,11 +35,46 @@ struct Groups {
   bool binned = false;
 };
 
+/// Bins of equal width instead of angles, numbered as they come in the turn.
+Groups in_bins(std::span<const double> in_turn) {
+  const auto bin_of = [](double angle) {
+    return std::min(bins_of_many - 1,
+                    static_cast<std::size_t>(angle / unit::turn * bins_of_many));
+  };
+  std::vector<std::size_t> number(bins_of_many, 0);
+  for (const double angle : in_turn) number[bin_of(angle)] = 1;
+  std::size_t next = 0;
+  for (std::size_t& one : number) one = one == 1 ? next++ : 0;
+  Groups out{{}, true};
+  out.of_sample.reserve(in_turn.size());
+  for (const double angle : in_turn) out.of_sample.push_back(number[bin_of(angle)]);
+  return out;
+}
+
+/// How many different angles there are.
+std::size_t different(std::vector<double> in_turn) {
+  std::ranges::sort(in_turn);
+  std::size_t count = 1;
+  for (std::size_t k = 1; k < in_turn.size(); ++k) {
+    if (in_turn[k] - in_turn[k - 1] > same_angle) ++count;
+  }
+  return count;
+}
+
 /// Groups of samples at the same angle, or nearly so if there are very many angles.
 Groups groups(std::span<const double> angle) {
   const std::size_t n = angle.size();
   std::vector<double> in_turn(n);
   std::ranges::transform(angle, in_turn.begin(), within_turn);
+  // Some of a long record, from all of its length, tell without sorting it.
+  constexpr std::size_t some = 5 * most_angles;
+  if (n > 2 * some) {
+    std::vector<double> here_and_there;
+    for (std::size_t i = 0; i < some; ++i) {
+      here_and_there.push_back(in_turn[i * (n / some)]);
+    }
+    if (different(std::move(here_and_there)) > most_angles) return in_bins(in_turn);
+  }
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return in_turn[i]; });
@@ -50,15 +85,7 @@ Groups groups(std::span<const double> angle) {
     group[order[k]] = current;
   }
   if (current < most_angles) return {std::move(group), false};
-  std::vector<std::size_t> number(bins_of_many, n);
-  std::size_t next = 0;
-  for (const std::size_t i : order) {
-    const auto bin = static_cast<std::size_t>(in_turn[i] / unit::turn * bins_of_many);
-    std::size_t& at = number[std::min(bin, bins_of_many - 1)];
-    if (at == n) at = next++;
-    group[i] = at;
-  }
-  return {std::move(group), true};
+  return in_bins(in_turn);
 }
 
 /// Means of the samples of each group.

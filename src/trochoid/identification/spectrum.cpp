@@ -73,8 +73,9 @@ struct Sums {
   std::size_t bins = 1;
 };
 
-Sums sums_of(std::span<const double> angle,
-             std::span<const std::array<double, 3>> values, const Blocks& blocks) {
+/// @param value  of a sample, by its number
+template <class Value>
+Sums sums_of(std::span<const double> angle, const Value& value, const Blocks& blocks) {
   Sums out;
   out.bins = std::clamp(static_cast<std::size_t>(4.0 * blocks.per_turn + 0.5),
                         std::size_t{90}, most_bins);
@@ -86,8 +87,9 @@ Sums sums_of(std::span<const double> angle,
     const double turns = angle[i] / unit::turn;
     const double at = (turns - std::floor(turns)) * static_cast<double>(out.bins);
     const std::size_t bin = static_cast<std::size_t>(at + 0.5) % out.bins;
+    const std::array<double, 3> of_sample = value(i);
     for (std::size_t q = 0; q < 3; ++q) {
-      out.sum[block * out.bins + bin][q] += values[i][q];
+      out.sum[block * out.bins + bin][q] += of_sample[q];
     }
     out.samples[block] += 1.0;
   }
@@ -141,10 +143,11 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
   out.highest = highest;
   out.turns = static_cast<double>(blocks.count);
   const std::size_t rows = out.rows();
-  std::vector<std::array<double, 3>> left(run.force);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    for (std::size_t q = 0; q < 3; ++q) left[i][q] -= fitted[i][q];
-  }
+  const auto left = [&](std::size_t i) {
+    std::array<double, 3> d = run.force[i];
+    for (std::size_t q = 0; q < 3; ++q) d[q] -= fitted[i][q];
+    return d;
+  };
   const std::vector<double> means =
       means_of(sums_of(run.angle, left, blocks), out.lines());
   const auto n = static_cast<double>(run.angle.size());
@@ -175,7 +178,10 @@ std::array<std::vector<std::complex<double>>, 3> turn_lines(
   const Blocks whole{1, std::max(1.0, std::floor(span / unit::turn + 1e-6)),
                      angle.front(),
                      static_cast<double>(angle.size() - 1) * unit::turn / span};
-  const std::vector<double> means = means_of(sums_of(angle, values, whole), lines);
+  const std::vector<double> means =
+      means_of(sums_of(
+                   angle, [&](std::size_t i) { return values[i]; }, whole),
+               lines);
   std::array<std::vector<std::complex<double>>, 3> out;
   for (std::size_t q = 0; q < 3; ++q) {
     const double* const c = &means[q * lines];
