@@ -113,12 +113,14 @@ Resonance best_resonance(std::span<const Line> lines, double lowest, double high
     const double omega_n = lowest * std::pow(highest / lowest, i / double(steps));
     for (const double zeta : dampings) try_one(omega_n, zeta);
   }
-  for (double step = 0.02; step > 1e-5; step *= 0.6) {
+  double step = 0.02;
+  while (step > 1e-5) {
     const Resonance at = best;
     for (const double f : {1.0 - step, 1.0 + step}) {
       try_one(at.omega * f, at.zeta);
       try_one(at.omega, at.zeta * (1.0 + 10.0 * (f - 1.0)));
     }
+    step *= 0.6;
   }
   double before = 0.0;
   for (const Line& l : lines) before += std::norm(l.measured - l.force);

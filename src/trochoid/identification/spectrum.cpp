@@ -77,7 +77,7 @@ struct Sums {
 template <class Value>
 Sums sums_of(std::span<const double> angle, const Value& value, const Blocks& blocks) {
   Sums out;
-  out.bins = std::clamp(static_cast<std::size_t>(4.0 * blocks.per_turn + 0.5),
+  out.bins = std::clamp(static_cast<std::size_t>(std::round(4.0 * blocks.per_turn)),
                         std::size_t{90}, most_bins);
   out.sum.assign(blocks.count * out.bins, {});
   out.samples.assign(blocks.count, 0.0);
@@ -86,7 +86,7 @@ Sums sums_of(std::span<const double> angle, const Value& value, const Blocks& bl
     if (block >= blocks.count) break;
     const double turns = angle[i] / unit::turn;
     const double at = (turns - std::floor(turns)) * static_cast<double>(out.bins);
-    const std::size_t bin = static_cast<std::size_t>(at + 0.5) % out.bins;
+    const std::size_t bin = static_cast<std::size_t>(std::round(at)) % out.bins;
     const std::array<double, 3> of_sample = value(i);
     for (std::size_t q = 0; q < 3; ++q) {
       out.sum[block * out.bins + bin][q] += of_sample[q];
@@ -222,7 +222,7 @@ std::vector<double> harmonic_rows(const FoldedRun& folded, const Spectrum& spect
     }
   }
   for (std::size_t row = 0; row < spectrum.rows(); ++row) {
-    const double scale = std::sqrt((row % lines == 0 ? 1.0 : 2.0) / n);
+    const double scale = std::sqrt((row % lines == 0 ? 1.0 : 2.0) / std::max(1.0, n));
     for (std::size_t c = 0; c < columns; ++c) out[row * columns + c] *= scale;
   }
   return out;

@@ -22,7 +22,7 @@ struct Spectrum {
   std::vector<double> scatter;  ///< variance by what differs from turn to turn [N^2]
 
   [[nodiscard]] std::size_t lines() const noexcept {
-    return static_cast<std::size_t>(2 * highest + 1);
+    return 2 * static_cast<std::size_t>(highest) + 1;
   }
   [[nodiscard]] std::size_t rows() const noexcept {
     return highest < 0 ? 0 : 3 * lines();
