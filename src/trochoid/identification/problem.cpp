@@ -34,6 +34,15 @@ void by_columns(std::span<const double> rows, std::size_t columns, std::size_t s
   }
 }
 
+/// Zero in the columns of a run what is not measured.
+void leave_out(const Problem& problem, std::size_t r, std::span<double> C) {
+  const FoldedRun& run = problem.runs[r];
+  const std::size_t stride = index(problem.rows());
+  for (std::size_t c = 0; c < index(problem.columns); ++c) {
+    leave_out_unmeasured(run, C.subspan(c * stride, index(run.rows)));
+  }
+}
+
 /// The columns of the channels; the rest is zero before.
 void fill_drift(const Problem& problem, std::span<double> D) {
   const std::size_t rows = index(problem.rows());
@@ -167,8 +176,11 @@ std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
   return out;
 }
 
-void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
-              std::span<double> C) {
+namespace {
+
+/// What all three forces would be.
+void fill_all_rows(const Problem& problem, const Evaluation& at, std::size_t r,
+                   std::span<double> C) {
   const FoldedRun& run = problem.runs[r];
   const std::size_t stride = index(problem.rows());
   const double phase = at.point.phase[r];
@@ -188,12 +200,21 @@ void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
   by_columns(rows_of(run, all, problem.columns), index(problem.columns), stride, C);
 }
 
+}  // namespace
+
+void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
+              std::span<double> C) {
+  fill_all_rows(problem, at, r, C);
+  leave_out(problem, r, C);
+}
+
 void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
                       std::span<double> C) {
   std::vector<double> slopes = slope_at_phase(at.turn[r], at.point.phase[r]);
   respond(problem.runs[r].response, index(problem.columns), slopes);
   by_columns(rows_of_turn(problem.runs[r], slopes, problem.columns),
              index(problem.columns), index(problem.rows()), C);
+  leave_out(problem, r, C);
 }
 
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {

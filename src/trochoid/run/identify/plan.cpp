@@ -10,9 +10,11 @@
 #include <trochoid/run/identify/identify.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <stdexcept>
 
@@ -100,11 +102,31 @@ struct Planning {
   std::size_t unknowns = 0;              ///< but for phases and channels
   std::vector<std::size_t> wanted = {};  ///< parameters of the determinant
   std::vector<Combination> combinations = {};
+  std::vector<std::string> untold = {};  ///< coefficients that no cut can tell
 
   PlanResult failed(const std::string& why) {
     r.heading.ok = false;
     r.heading.message = why;
     return std::move(r);
+  }
+
+  /// The next cut is measured as those before: what a missing channel does not tell of
+  /// them it does not tell of any.
+  void leave_out_untold(const identification::Group& group,
+                        const std::array<bool, 3>& measured) {
+    trial.measured = measured;
+    if (std::ranges::all_of(measured, std::identity())) return;
+    const auto names = force::coefficient_quantities(group.law);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      if (!group.coefficients[c]) untold.emplace_back(names[c].key);
+    }
+    if (untold.empty()) return;
+    r.heading.warnings.push_back(
+        {"not_planned",
+         fmt::format(
+             "Without a channel that was not measured no cut tells {}: they are "
+             "left out.",
+             fmt::join(untold, ", "))});
   }
 
   /// What the measurements tell.
@@ -133,6 +155,7 @@ struct Planning {
     trial.options.start.reset();
     trial.options.response.clear();  // of the runs measured
     trial.noise = identification::effective_noise(fit, found.runs);
+    leave_out_untold(fit.groups[last], fit.measured);
     r.noise_from = "records";
     for (const results::RecordSummary& record : found.records) {
       r.files.push_back(record.file);
@@ -204,6 +227,7 @@ struct Planning {
     for (std::size_t c = 0; c < all.size(); ++c) {
       const std::string key(all[c].key);
       const std::string plain = key.substr(0, key.find('_', key.find('_') + 1));
+      if (std::ranges::find(untold, key) != untold.end()) continue;
       if (asked("coefficients") || asked(plain)) {
         add_coefficient(c, all[c], K[c]);
       }
@@ -289,7 +313,8 @@ struct Planning {
 
   /// Equations less unknowns once the cut has been measured: it has a phase of its own.
   [[nodiscard]] double freedom_after() const {
-    const double equations = 3.0 * r.samples_per_rev * r.turns;
+    const auto forces = static_cast<double>(std::ranges::count(trial.measured, true));
+    const double equations = forces * r.samples_per_rev * r.turns;
     const double more = known.size > 0 ? 1.0 : 1.0 + static_cast<double>(unknowns);
     return std::max(1.0, freedom + equations - more);
   }
