@@ -135,6 +135,33 @@ def joint(case, angle, F, names, start, step=None):
                 cond=cond, rank=rank, correlation=correlation(J))
 
 
+def joint_in_plane(case, angle, F, names, start):
+    """joint of a cylinder of which x and y were measured: no K_a [I-3] [I-4]"""
+    y = np.asarray(F)[:, :2].ravel()
+    scale, step = 0.01, 1e-4
+
+    def plane(p):
+        new, phase = with_parameters(case, names, p)
+        D = stacked(new, angle, phase).reshape(len(angle), 3, -1)[:, :2]
+        return D.reshape(len(y), -1)[:, [0, 1, 3, 4]]
+
+    def residual(q):
+        D = plane(q * scale)
+        return y - D @ np.linalg.lstsq(D, y, rcond=None)[0]
+
+    fit = optimize.least_squares(residual, np.asarray(start, float) / scale,
+                                 method="lm", xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    p = fit.x * scale
+    D = plane(p)
+    K = linear(D, y)[0]
+    slopes = [(plane(p + step * scale * e) @ K - plane(p - step * scale * e) @ K) /
+              (2 * step * scale) for e in np.eye(len(p))]
+    res = y - D @ K
+    se = standard_errors(np.hstack([D, np.array(slopes).T]), res)
+    return dict(p=p, K=K, se_K=se[:4], se_p=se[4:], cond=linear(D, y)[2],
+                rms=np.sqrt(res @ res / len(angle)))
+
+
 def _moved(case, names, p, angle):
     new, phase = with_parameters(case, names, p)
     return new, angle, phase

@@ -6,6 +6,7 @@
 #include <trochoid/inputs/step_file.h>
 #include <trochoid/inputs/surface_file.h>
 #include <trochoid/run/identify/describe_record.h>
+#include <trochoid/run/shared/records.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/modes.h>
 
@@ -43,6 +44,9 @@ int check(const Options& options) {
     try {
       const signal::Record record = inputs::read_record(measurement);
       found += run::describe_record(record, measurement);
+      if (const auto why = run::missing_channel(record, given); !why.empty()) {
+        problems.push_back(why);
+      }
       for (const base::Warning& note : record.notes) {
         found +=
             fmt::format("warning [{}]: {}: {}\n", note.code, record.file, note.message);

@@ -293,9 +293,11 @@ void fill_phases(const Problem& problem, Reasons& reasons, Fit& fit) {
 double equations_of(const Problem& problem, std::span<const Run> runs) {
   double count = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    count += problem.runs[r].band > 0
-                 ? problem.runs[r].rows  // with those of the slopes
-                 : 3.0 * static_cast<double>(runs[r].angle.size());
+    const FoldedRun& folded = problem.runs[r];
+    const double triples = folded.band > 0
+                               ? folded.rows / 3.0  // with those of the slopes
+                               : static_cast<double>(runs[r].angle.size());
+    count += measured_count(folded) * triples;
   }
   return count;
 }
@@ -320,6 +322,7 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t q = 0; q < 3; ++q) {
         fitted[i][q] += offsets[q].constant + offsets[q].slope * slope_at(i, n);  // I-7
+        if (!folded.measured[q]) fitted[i][q] = runs[r].force[i][q];
       }
     }
   }

@@ -115,6 +115,7 @@ Cells cells_of(const FoldedRun& run) {
   out.weight.assign(n, 0.0);
   out.force.assign(n, {});
   out.centered = !run.drift.empty();
+  out.measured = run.measured;
   banded ? take_band(run, out) : take_means(run, out);
   out.even = std::ranges::all_of(out.weight, [&](double w) {
     return std::abs(w - out.weight[0]) < 1e-9 * out.weight[0];

@@ -15,7 +15,8 @@ struct Cells {
   bool even = false;                         ///< the weights are equal
   int harmonics = 0;      ///< of the band that the force is limited to; 0: no limit
   bool centered = false;  ///< the means of the channels count for nothing
-  double squares = 0.0;   ///< weighted sum of F^2, centered if so [N^2]
+  std::array<bool, 3> measured = {true, true, true};  ///< as of the run
+  double squares = 0.0;  ///< weighted sum of F^2, centered if so [N^2]
 
   [[nodiscard]] std::size_t size() const noexcept { return weight.size(); }
 };

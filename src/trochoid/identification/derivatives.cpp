@@ -50,9 +50,10 @@ void Derivatives::add_force(const Point& point, std::size_t r, double factor,
   const FoldedRun& run = problem_.runs[r];
   std::vector<double> phi(run.angle);
   for (double& a : phi) a += point.phase[r];
-  const std::vector<force::Vector3> F = force::forces(
+  std::vector<force::Vector3> F = force::forces(
       setup_of(problem_, point, run),
       force::with_coefficients(point.law, coefficients(r)), phi, problem_.tolerance);
+  leave_out_unmeasured(run, {F.front().data(), 3 * F.size()});
   double* const to = &out[first_row(problem_, r)];
   if (run.band == 0) {
     for (std::size_t g = 0; g < F.size(); ++g) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 namespace trochoid::identification {
@@ -249,12 +250,30 @@ std::vector<Judged> judged(const std::vector<Family>& families) {
   return out;
 }
 
+bool lacks_a_channel(const ChannelRun& run) {
+  return !std::ranges::all_of(run.measured, std::identity());
+}
+
 int positive(const Judged& r) {
   // The tangential force decides first, then the radial one.
   return (r.K[0] > 0 ? 4 : 0) + (r.K[1] > 0 ? 2 : 0) + (r.K[2] > 0 ? 1 : 0);
 }
 
 }  // namespace
+
+std::optional<std::array<bool, 3>> measured_forces(const std::array<bool, 3>& channels,
+                                                   const signal::Matrix3& M) {
+  if (std::ranges::all_of(channels, std::identity())) return channels;
+  const auto all = signal::axes_candidates();
+  if (std::ranges::find(all, M) == all.end()) return std::nullopt;
+  std::array<bool, 3> out{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (M[c][q] != 0.0) out[q] = channels[c];
+    }
+  }
+  return out;
+}
 
 std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3& M) {
   std::vector<Run> out;
@@ -263,7 +282,12 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
     if (!force) {
       throw std::invalid_argument("the matrix of the dynamometer cannot be inverted");
     }
-    out.push_back({run.cut, run.angle, std::move(*force), run.group});
+    const auto measured = measured_forces(run.measured, M);
+    if (!measured) {
+      throw std::invalid_argument(
+          "a channel is missing: no force can be told by a matrix");
+    }
+    out.push_back({run.cut, run.angle, std::move(*force), run.group, *measured});
   }
   return out;
 }
@@ -271,8 +295,13 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
 AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> runs,
                      const std::function<void(double)>& told) {
   AxesChoice choice;
-  Search search(problem, runs);
   const std::string none = "no reading of the channels could be fitted: ";
+  if (std::ranges::any_of(runs, lacks_a_channel)) {
+    choice.message = none + "a channel is missing, so give the axes of the others";
+    choice.rms = INFINITY;
+    return choice;
+  }
+  Search search(problem, runs);
   if (!search.prepare()) {
     choice.message = none + search.message();
     choice.rms = INFINITY;

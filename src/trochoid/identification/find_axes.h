@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,10 +19,17 @@ struct ChannelRun {
   std::vector<double> angle;                   ///< recorded angle [rad], shape (n)
   std::array<std::vector<double>, 3> channel;  ///< [N], shape (n) each
   std::string group = {};                      ///< as of Run
+  std::array<bool, 3> measured = {true, true, true};  ///< channels that there are
 };
 
+/// @brief Whether the force in x, y and z follows from the channels that are measured;
+/// absent: a channel is missing, and M is no signed permutation.
+std::optional<std::array<bool, 3>> measured_forces(const std::array<bool, 3>& channels,
+                                                   const signal::Matrix3& M);
+
 /// @brief Force on the tool of every run, channels = M force.
-/// @throws std::invalid_argument where M cannot be inverted
+/// @throws std::invalid_argument where M cannot be inverted, or the force cannot be told
+///         from the channels that are measured
 std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3& M);
 
 /// What is fitted to the channels, whatever they read.
@@ -50,7 +58,7 @@ struct AxesChoice {
 /// (I-12), and fitted in the order of the scan until the rest could change neither the
 /// choice nor what is said about it. Readings that no residual can tell apart (on a
 /// cylinder always eight, else two: the same with all signs turned) are decided by K_tc,
-/// K_rc, K_ac > 0.
+/// K_rc, K_ac > 0. Without one of the channels there is no choice.
 /// @param told  the part that is done, from 0 to 1, at every step; may be empty
 AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> runs,
                      const std::function<void(double)>& told);

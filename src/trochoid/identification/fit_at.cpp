@@ -30,8 +30,9 @@ using base::index;
 /// no more than a fit to noise explains.
 bool only_noise(const Problem& problem, const numerics::LeastSquares& linear,
                 double variance) {
-  const double unknowns = problem.linear() + problem.unknowns.count();
-  const double means = 3.0 * static_cast<double>(problem.runs.size());
+  const double unknowns = linear.rank + problem.unknowns.count();
+  double means = 0.0;
+  for (const FoldedRun& run : problem.runs) means += measured_count(run);
   return rss_of_means(problem) - linear.rss <
          least_F * std::max(1.0, unknowns - means) * variance;
 }
@@ -57,11 +58,13 @@ double samples_of(std::span<const Run> runs) {
 }
 
 /// Names of the columns of [D] that are zero or depend on one another.
-std::string dependent_names(const Problem& problem, const numerics::LeastSquares& fit) {
+std::string dependent_names(const Problem& problem, const numerics::LeastSquares& fit,
+                            std::span<const std::string> unmeasured) {
   const std::vector<std::string> names = names_of(problem);
   const std::size_t n = fit.x.size();
   std::string list;
   for (std::size_t c = 0; c < n; ++c) {
+    if (!unmeasured[c].empty()) continue;
     double part = 0.0;
     for (std::size_t v = c; v < fit.null_space.size(); v += n) {
       part = std::max(part, std::abs(fit.null_space[v]));
@@ -71,20 +74,40 @@ std::string dependent_names(const Problem& problem, const numerics::LeastSquares
   return list;
 }
 
+/// Condition of [D] without the columns that are zero for want of a channel.
+double condition_of(const Problem& problem, const numerics::Columns& D,
+                    const numerics::LeastSquares& all) {
+  const std::vector<std::string> unmeasured = unmeasured_reasons(problem, D);
+  std::vector<double> rest;
+  for (std::size_t c = 0; c < D.count(); ++c) {
+    if (unmeasured[c].empty()) rest.insert(rest.end(), D[c].begin(), D[c].end());
+  }
+  if (rest.empty() || rest.size() == D.count() * D.rows) return all.condition;
+  return numerics::least_squares({rest, D.rows}, measured(problem), rank_tolerance)
+      .condition;
+}
+
 }  // namespace
 
 std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
                          const numerics::LeastSquares& all) {
   if (all.rank == problem.linear()) return "";
+  const std::vector<std::string> unmeasured = unmeasured_reasons(problem, D);
+  const auto told = [&](int columns) {  // of the first so many
+    return static_cast<int>(
+        std::count(unmeasured.begin(), unmeasured.begin() + columns, std::string()));
+  };
+  if (all.rank == told(problem.linear())) return "";
   const numerics::LeastSquares force = numerics::least_squares(
       D.first(index(problem.force_columns())), measured(problem), rank_tolerance);
   if (*std::ranges::max_element(force.norms) == 0.0) {
     return "nothing is in cut at any of the measured angles";
   }
-  if (force.rank == problem.force_columns()) return "";
+  const int wanted = told(problem.force_columns());
+  if (force.rank == wanted) return "";
   return fmt::format(
       "the forces determine only {} of {} coefficients: {} cannot be told apart",
-      force.rank, problem.force_columns(), dependent_names(problem, force));
+      force.rank, wanted, dependent_names(problem, force, unmeasured));
 }
 
 Leftover leftover_of(const Problem& problem, std::span<const Run> runs, const Fit& fit,
@@ -109,7 +132,8 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
   const numerics::LeastSquares linear =
       numerics::least_squares(D, measured(problem), rank_tolerance);
   fit.rank = linear.rank;
-  fit.condition = linear.condition;
+  fit.condition = linear.rank == problem.linear() ? linear.condition
+                                                  : condition_of(problem, D, linear);
   fit.message = rank_refusal(problem, D, linear);
   if (!fit.message.empty()) {
     refuse_coefficients(problem, fit);

@@ -100,7 +100,9 @@ void take_means(const Run& run, bool drift, FoldedRun& out) {
     const std::size_t g = out.group[i];
     out.angle[g] += within_turn(run.angle[i]);
     out.weight[g] += 1.0;
-    for (std::size_t q = 0; q < 3; ++q) out.force[g][q] += run.force[i][q];
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (run.measured[q]) out.force[g][q] += run.force[i][q];
+    }
     if (drift) out.slope[g] += slope_at(i, n);
   }
   for (std::size_t g = 0; g < u; ++g) {
@@ -145,6 +147,7 @@ void make_rows(bool drift, FoldedRun& run) {
   std::vector<double> E(18 * u, 0.0);  // I-7
   for (std::size_t g = 0; g < u; ++g) {
     for (std::size_t q = 0; q < 3; ++q) {
+      if (!run.measured[q]) continue;
       E[18 * g + 6 * q + 2 * q] = 1.0;
       E[18 * g + 6 * q + 2 * q + 1] = run.slope[g];
     }
@@ -182,7 +185,7 @@ void add_slope_rows(const Run& source, FoldedRun& run) {
     const double d = slope_at(i, n) - known[g];
     norm2 += d * d;
     for (std::size_t q = 0; q < 3; ++q) {
-      product[q] += d * source.force[i][q];
+      if (source.measured[q]) product[q] += d * source.force[i][q];
     }
   }
   const double norm = std::sqrt(norm2);
@@ -190,7 +193,7 @@ void add_slope_rows(const Run& source, FoldedRun& run) {
   for (std::size_t q = 0; q < 3; ++q) {
     run.b.push_back(product[q] / norm);
     std::array<double, 6> row{};
-    row[2 * q + 1] = norm;
+    row[2 * q + 1] = source.measured[q] ? norm : 0.0;
     run.drift.insert(run.drift.end(), row.begin(), row.end());
   }
   run.rows += 3;
@@ -212,6 +215,17 @@ void copy_slope_rows(const FoldedRun& from, FoldedRun& to) {
 
 }  // namespace
 
+int measured_count(const FoldedRun& run) noexcept {
+  return static_cast<int>(std::ranges::count(run.measured, true));
+}
+
+void leave_out_unmeasured(const FoldedRun& run, std::span<double> column) {
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (run.measured[q]) continue;
+    for (std::size_t i = q; i < column.size(); i += 3) column[i] = 0.0;
+  }
+}
+
 double slope_at(std::size_t i, std::size_t n) noexcept {
   return n < 2 ? 0.0 : static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
 }
@@ -224,6 +238,7 @@ FoldedRun fold(const Run& run, const Options& options, const Response& response)
   }
   FoldedRun out;
   out.cut = run.cut;
+  out.measured = run.measured;
   Groups same = groups(run.angle);
   out.group = std::move(same.of_sample);
   out.binned = same.binned;
@@ -247,6 +262,7 @@ FoldedRun coarsen(const FoldedRun& run, int bins) {
   if (run.angle.size() <= count || !run.turn_map.empty()) return run;
   FoldedRun out;
   out.cut = run.cut;
+  out.measured = run.measured;
   out.harmonics = run.harmonics;
   std::vector<double> n(count, 0.0);
   std::vector<std::array<double, 5>> sums(count, std::array<double, 5>{});

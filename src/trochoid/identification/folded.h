@@ -2,6 +2,7 @@
 
 #include <trochoid/identification/identify.h>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct FoldedRun {
   std::vector<double> turn_map;
   int highest = 0;
 
+  /// Of the three rows of each angle or wave; what is not measured has rows of zeros.
+  std::array<bool, 3> measured = {true, true, true};
+
   int rows = 0;           ///< of b and drift
   std::vector<double> b;  ///< measured force, shape (rows)
   std::vector<double>
@@ -59,5 +63,12 @@ FoldedRun from_turn(const FoldedRun& run, int harmonics);
 /// @return   row-major, shape (rows, columns)
 std::vector<double> rows_of(const FoldedRun& run, std::span<const double> X,
                             int columns);
+
+/// How many of the three forces are measured.
+int measured_count(const FoldedRun& run) noexcept;
+
+/// @brief Make the rows of forces that are not measured zero.
+/// @param column  rows of the run, x, y and z by turns
+void leave_out_unmeasured(const FoldedRun& run, std::span<double> column);
 
 }  // namespace trochoid::identification

@@ -33,6 +33,12 @@ Fit identify(const force::Setup& setup, const force::Law& law,
   fit.chip = {options.chip_model, setup.chip.lookback};
   fit.law = law;
   fit.coefficients.resize(force::form(law).columns());
+  fit.measured = {};
+  for (const Run& run : runs) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      fit.measured[q] = fit.measured[q] || run.measured[q];
+    }
+  }
   Prepared prepared = prepare(setup, law, runs, options);
   fit.message = prepared.refusal;
   if (!fit.message.empty()) {

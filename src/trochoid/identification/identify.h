@@ -20,6 +20,8 @@ struct Run {
   std::vector<std::array<double, 3>> force;  ///< on the tool [N], shape (n)
   /// Runs of the same name share coefficients; all runs share the runout.
   std::string group = {};
+  /// Whether the force in x, y and z was measured; what was not is no equation.
+  std::array<bool, 3> measured = {true, true, true};
 };
 
 /// What is not searched is kept as the setup gives it: with `offsets` a given
@@ -152,7 +154,8 @@ struct Fit {
   std::vector<std::array<ChannelOffset, 3>> channel_offsets;  ///< one a run, or empty
   double rms = 0.0;                                           ///< [N], I-5
   std::array<double, 3> rms_axis{};                           ///< [N]
-  double condition = 0.0;        ///< of [D], unit-norm columns
+  std::array<bool, 3> measured = {true, true, true};  ///< in x, y, z, by any run
+  double condition = 0.0;                             ///< of [D], unit-norm columns
   int rank = 0;                  ///< of [D], channel columns included
   double freedom = 0.0;          ///< equations less unknowns
   double interval_factor = 0.0;  ///< half of a 95 % interval over its standard error

@@ -72,9 +72,15 @@ std::optional<Information> inverse_of(const Problem& problem, const Uncertainty&
   const std::size_t linear = index(problem.linear());
   const std::size_t columns = index(problem.columns);
   const Unknowns& u = problem.unknowns;
-  std::vector<std::size_t> asked;
-  for (std::size_t c = 0; c < columns; ++c) asked.push_back(group * columns + c);
-  for (std::size_t c = 0; c < index(u.first_phase()); ++c) asked.push_back(linear + c);
+  std::vector<std::size_t> asked;   // places among the unknowns
+  std::vector<std::size_t> places;  // and among the parameters
+  const std::size_t count = columns + index(u.first_phase());
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::size_t own = c < columns ? group * columns + c : linear + c - columns;
+    if (known.unmeasured[own]) continue;  // zero in rows and columns: nothing is known
+    asked.push_back(own);
+    places.push_back(c);
+  }
   const std::size_t n = asked.size();
   std::vector<double> C(n * n);
   std::vector<double> size(n);
@@ -89,18 +95,19 @@ std::optional<Information> inverse_of(const Problem& problem, const Uncertainty&
           known.covariance[asked[i] * width + asked[j]] / (size[i] * size[j]);
     }
   }
-  Information out{n, std::vector<double>(n * n)};
+  Information out{count, std::vector<double>(count * count)};
   std::vector<double> x(n);
   for (std::size_t j = 0; j < n; ++j) {
     std::vector<double> unit_vector(n, 0.0);
     unit_vector[j] = 1.0;
     numerics::solve_normal(C, unit_vector, x);
     const auto metres = [&](std::size_t k) {
-      const bool runout = k >= columns && k < columns + index(u.runout_count());
+      const bool runout =
+          places[k] >= columns && places[k] < columns + index(u.runout_count());
       return runout ? u.length * size[k] : size[k];
     };
     for (std::size_t i = 0; i < n; ++i) {
-      out.matrix[i * n + j] = x[i] / (metres(i) * metres(j));
+      out.matrix[places[i] * count + places[j]] = x[i] / (metres(i) * metres(j));
     }
   }
   return out;
@@ -108,7 +115,7 @@ std::optional<Information> inverse_of(const Problem& problem, const Uncertainty&
 
 /// One turn of a trial, without its forces.
 Run turn_of(const Trial& trial) {
-  Run out{trial.setup.cut, {}, {}};
+  Run out{trial.setup.cut, {}, {}, {}, trial.measured};
   const int n = trial.samples_per_turn;
   for (int i = 0; i < n; ++i) out.angle.push_back(unit::turn * (i + 0.5) / n);
   out.force.resize(index(n));

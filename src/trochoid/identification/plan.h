@@ -28,6 +28,7 @@ struct Trial {
   int samples_per_turn = 360;
   double turns = 1.0;
   double noise = 1.0;  ///< standard deviation of a sample of each channel [N]
+  std::array<bool, 3> measured = {true, true, true};  ///< of the force in x, y and z
 };
 
 /// Names as of the summary: coefficients, runout, exponents.

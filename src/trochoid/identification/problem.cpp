@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace trochoid::identification {
@@ -30,6 +31,27 @@ void by_columns(std::span<const double> rows, std::size_t columns, std::size_t s
   for (std::size_t i = 0; i * columns < rows.size(); ++i) {
     for (std::size_t c = 0; c < columns; ++c) {
       out[c * stride + i] = rows[i * columns + c];
+    }
+  }
+}
+
+/// Less of a column than this is rounding: it acts on what is not measured alone.
+constexpr double all_unmeasured = 1e-10;
+
+/// Zero in the columns of a run what is not measured.
+void leave_out(const Problem& problem, std::size_t r, std::span<double> C) {
+  const FoldedRun& run = problem.runs[r];
+  const std::size_t stride = index(problem.rows());
+  if (measured_count(run) == 3) return;
+  const auto squares = [](std::span<const double> v) {
+    return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+  };
+  for (std::size_t c = 0; c < index(problem.columns); ++c) {
+    const std::span<double> column = C.subspan(c * stride, index(run.rows));
+    const double whole = squares(column);
+    leave_out_unmeasured(run, column);
+    if (squares(column) <= all_unmeasured * all_unmeasured * whole) {
+      std::ranges::fill(column, 0.0);
     }
   }
 }
@@ -167,8 +189,11 @@ std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
   return out;
 }
 
-void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
-              std::span<double> C) {
+namespace {
+
+/// What all three forces would be.
+void fill_all_rows(const Problem& problem, const Evaluation& at, std::size_t r,
+                   std::span<double> C) {
   const FoldedRun& run = problem.runs[r];
   const std::size_t stride = index(problem.rows());
   const double phase = at.point.phase[r];
@@ -188,12 +213,21 @@ void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
   by_columns(rows_of(run, all, problem.columns), index(problem.columns), stride, C);
 }
 
+}  // namespace
+
+void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
+              std::span<double> C) {
+  fill_all_rows(problem, at, r, C);
+  leave_out(problem, r, C);
+}
+
 void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
                       std::span<double> C) {
   std::vector<double> slopes = slope_at_phase(at.turn[r], at.point.phase[r]);
   respond(problem.runs[r].response, index(problem.columns), slopes);
   by_columns(rows_of_turn(problem.runs[r], slopes, problem.columns),
              index(problem.columns), index(problem.rows()), C);
+  leave_out(problem, r, C);
 }
 
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {

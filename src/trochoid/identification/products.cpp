@@ -9,7 +9,9 @@ namespace {
 /// The force matrix in the cells, one entry after the other.
 class Planes {
  public:
-  Planes(std::span<const double> C, std::size_t columns)
+  /// @param measured  axes that count; the others are as good as zero
+  Planes(std::span<const double> C, std::size_t columns,
+         const std::array<bool, 3>& measured)
       : columns_(columns),
         length_(2 * C.size() / (3 * columns)),
         values_(3 * columns * length_),
@@ -19,7 +21,7 @@ class Planes {
       double* const plane = &values_[entry * length_];
       for (std::size_t i = 0; i < n; ++i) {
         plane[i] = plane[n + i] = C[i * zero_.size() + entry];
-        if (plane[i] != 0.0) zero_[entry] = false;
+        if (plane[i] != 0.0 && measured[entry / columns]) zero_[entry] = false;
       }
     }
   }
@@ -148,7 +150,7 @@ Products products(const Cells& cells, std::span<const double> C, std::size_t cou
   out.columns = C.size() / (3 * cells.size());
   out.shifts = count;
   out.mixed = mixed;
-  const Planes planes(C, out.columns);
+  const Planes planes(C, out.columns, cells.measured);
   fill_gram(cells, planes, out);  // I-12
   fill_right(cells, planes, out);
   return out;

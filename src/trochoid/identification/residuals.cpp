@@ -52,6 +52,7 @@ double squares_of(const Run& run, bool drift) {
   double out = 0.0;
   const std::size_t n = run.force.size();
   for (std::size_t q = 0; q < 3; ++q) {
+    if (!run.measured[q]) continue;
     double sum = 0.0;
     double along = 0.0;
     double slopes = 0.0;
@@ -87,7 +88,11 @@ double part(double some, double whole) {
 double scatter_of(const Run& run, const FoldedRun& folded) {
   if (folded.band > 0) return 0.0;
   double measured = 0.0;
-  for (const auto& F : run.force) measured += F[0] * F[0] + F[1] * F[1] + F[2] * F[2];
+  for (const auto& F : run.force) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (run.measured[q]) measured += F[q] * F[q];
+    }
+  }
   double kept = 0.0;
   for (const double b : folded.b) kept += b * b;
   return std::max(0.0, measured - kept);

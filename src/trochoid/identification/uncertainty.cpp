@@ -99,6 +99,17 @@ std::string together(const std::vector<std::string>& names,
   return "cannot be told apart from " + list;
 }
 
+/// Forces of a run that are not measured: `the axial force was not measured`.
+std::string missing_forces(const FoldedRun& run) {
+  std::string list;
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (run.measured[q]) continue;
+    list += list.empty() ? "" : " and ";
+    list += q == 2 ? "the axial force" : q == 1 ? "the force in y" : "the force in x";
+  }
+  return list + (measured_count(run) == 2 ? " was" : " were") + " not measured";
+}
+
 void drop_insensitive(const numerics::Columns& J, std::size_t linear, double force_norm,
                       Uncertainty& out) {
   for (std::size_t c = linear; c < J.count(); ++c) {
@@ -231,6 +242,25 @@ std::vector<std::string> names_of(const Problem& problem) {
   return out;
 }
 
+std::vector<std::string> unmeasured_reasons(const Problem& problem,
+                                            const numerics::Columns& D) {
+  std::vector<std::string> out(index(problem.linear()));
+  const std::size_t force = index(problem.force_columns());
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const FoldedRun& run = problem.runs[r];
+    if (measured_count(run) == 3) continue;
+    const std::string why = missing_forces(run);
+    for (std::size_t i = 0; i < index(problem.columns); ++i) {
+      const std::size_t c = first_column(problem, r) + i;
+      if (norm(D[c]) == 0.0) out[c] = why;
+    }
+    for (std::size_t i = 0; i < 6 && problem.drift_columns() > 0; ++i) {
+      if (!run.measured[i / 2]) out[force + 6 * r + i] = why;
+    }
+  }
+  return out;
+}
+
 std::vector<double> jacobian_of(const Problem& problem, Evaluation at,
                                 std::span<const double> K) {
   return full_jacobian(problem, std::move(at), K).J;
@@ -245,7 +275,9 @@ Uncertainty uncertainty(const Problem& problem, Evaluation at,
   const numerics::Columns J(all, index(problem.rows()));
   const std::vector<double> b = measured(problem);
   Uncertainty out;
-  out.reason.assign(width, "");
+  out.reason = unmeasured_reasons(problem, J);
+  out.reason.resize(width);
+  for (const std::string& why : out.reason) out.unmeasured.push_back(!why.empty());
   out.on_edge.assign(width, false);
   drop_insensitive(J, linear, norm(b), out);
   std::vector<std::size_t> kept;

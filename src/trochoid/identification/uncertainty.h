@@ -18,6 +18,7 @@ inline constexpr double final_tolerance = 1e-10;
 struct Uncertainty {
   /// Why an unknown is not determined; empty: it is. Shape (linear + count).
   std::vector<std::string> reason;
+  std::vector<bool> unmeasured;  ///< not determined for want of a channel
   /// The fit sits where a tooth just starts or stops cutting: determined, but by two
   /// different slopes, so that it has no standard error. It counts as known.
   std::vector<bool> on_edge;
@@ -28,6 +29,12 @@ struct Uncertainty {
   double widening = 1.0;
   double chance = 0.0;  ///< that one unknown explains by chance, on average [N^2]
 };
+
+/// @brief Why unknowns that only act on forces that are not measured have no value.
+/// @param D  at any place
+/// @return shape (linear), empty texts for all others
+std::vector<std::string> unmeasured_reasons(const Problem& problem,
+                                            const numerics::Columns& D);
 
 /// Names of the summary, in the order of Uncertainty::reason.
 std::vector<std::string> names_of(const Problem& problem);

@@ -44,17 +44,18 @@ enum class RecordFormat : int;
 struct Measurement {
   std::filesystem::path file;          ///< absolute, or relative to where we run
   std::optional<RecordFormat> format;  ///< absent: by its content
-  std::vector<std::string> columns;    ///< three names; empty: found by name
-  std::string angle_column;            ///< empty: found by name
-  std::string time_column;             ///< empty: found by name
-  std::string pulse_column;            ///< one pulse a turn; empty: none
-  std::optional<double> sample_rate;   ///< [Hz]
-  std::vector<double> scale;           ///< [N] per unit of each channel; empty: by unit
-  std::optional<double> from;          ///< what is before it is not used [s]
-  std::optional<double> to;            ///< what is after it is not used [s]
-  std::string group;                   ///< those of one name share coefficients
-  geometry::Cut cut;                   ///< [cut] with this run's overrides
-  std::string location;                ///< file:line:col of its `file` key
+  /// Three names, an empty one for a channel that is not there; empty: found by name.
+  std::vector<std::string> columns;
+  std::string angle_column;           ///< empty: found by name
+  std::string time_column;            ///< empty: found by name
+  std::string pulse_column;           ///< one pulse a turn; empty: none
+  std::optional<double> sample_rate;  ///< [Hz]
+  std::vector<double> scale;          ///< [N] per unit of each channel; empty: by unit
+  std::optional<double> from;         ///< what is before it is not used [s]
+  std::optional<double> to;           ///< what is after it is not used [s]
+  std::string group;                  ///< those of one name share coefficients
+  geometry::Cut cut;                  ///< [cut] with this run's overrides
+  std::string location;               ///< file:line:col of its `file` key
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.

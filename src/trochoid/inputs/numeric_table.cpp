@@ -156,9 +156,15 @@ void throw_if_any(const Problems& problems) {
 void read_columns(const NumericTable& table, const RecordColumns& found,
                   signal::Record& record, Problems& problems) {
   for (std::size_t i = 0; i < 3; ++i) {
+    record.measured[i] = found.force[i].has_value();
     if (!found.force[i]) continue;
     record.channel[i] = values_in_si(table, *found.force[i], problems);
     record.channel_column[i] = found.force[i]->name;
+  }
+  const auto count = std::max(
+      {record.channel[0].size(), record.channel[1].size(), record.channel[2].size()});
+  for (auto& values : record.channel) {
+    if (values.empty()) values.assign(count, 0.0);
   }
   if (found.angle) {
     record.angle = values_in_si(table, *found.angle, problems);

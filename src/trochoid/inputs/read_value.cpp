@@ -54,7 +54,8 @@ struct Reader {
     } else if (entries->empty()) {
       refuse(node, 0, "an empty list");
       return nullptr;
-    } else if (length > 0 && entries->size() != length) {
+    } else if (length > 0 &&
+               (entries->size() > length || (entries->size() < length && !key.gaps))) {
       refuse(node, 0, fmt::format("{} entries", entries->size()));
       return nullptr;
     }
@@ -142,7 +143,7 @@ struct Reader {
     const Array* entries = list(key.count);
     for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
       const auto* text = std::get_if<std::string>(&(*entries)[i].value);
-      if (text == nullptr || text->empty()) {
+      if (text == nullptr || (text->empty() && !key.gaps)) {
         refuse((*entries)[i], i + 1, "not a text");
       }
       target->push_back(text == nullptr ? "" : *text);

@@ -64,6 +64,14 @@ TableColumn force_column(const ColumnSearch& search, const Measurement& measurem
   return {at, measurement.scale[channel], std::string(search.head.names[at].text)};
 }
 
+/// Whether a force may be there by another name, such as `Fz at 1`, `Fz1` or `run/Fz`.
+bool begins_some_name(const ColumnSearch& search, std::string_view force) {
+  return std::ranges::any_of(search.head.names, [&](const auto& name) {
+    const std::string_view text = name.text;
+    return plain(text.substr(text.rfind('/') + 1)).starts_with(force);
+  });
+}
+
 std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& search) {
   std::array<std::optional<std::size_t>, 3> found;
   if (lacks_names(search, "angle_deg,Fx_N,Fy_N,Fz_N")) {
@@ -88,12 +96,22 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
     return found;
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (found[i]) continue;
-    search.problems.add(
-        search.head.names_line, 1,
-        fmt::format("no column is named {}, for example {}_N: the columns are {}; "
-                    "columns = [...] in the case file names the three forces",
-                    shown[i], shown[i], all_names(search.head)));
+    // One that several columns could be has a problem of its own.
+    if (found[i] || !search.problems.lines.empty()) continue;
+    if (begins_some_name(search, force_names[i].front())) {
+      search.problems.add(
+          search.head.names_line, 1,
+          fmt::format("no column is named {}, for example {}_N: the columns are {}; "
+                      "columns = [...] in the case file names the three forces",
+                      shown[i], shown[i], all_names(search.head)));
+      continue;
+    }
+    search.notes.push_back(
+        {"channel_missing",
+         fmt::format("no column is named {}, for example {}_N: the fit goes without "
+                     "channel {}. The columns are {}; columns = [...] in the case file "
+                     "names the forces, and \"\" one that was not measured.",
+                     shown[i], shown[i], i + 1, all_names(search.head))});
   }
   return found;
 }
@@ -120,6 +138,7 @@ RecordColumns find_columns(const TableHead& head, const Measurement& measurement
     forces = usual_forces(search);
   } else {
     for (std::size_t i = 0; i < 3; ++i) {
+      if (measurement.columns[i].empty()) continue;  // not measured
       forces[i] = named_column(search, measurement.columns[i]);
     }
   }

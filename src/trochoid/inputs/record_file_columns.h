@@ -28,7 +28,8 @@ bool names_force(std::string_view name);
 /// case of their letters. The unit is part of the name (`Fx_N`, `Fx [kN]`, `Fy (N)`,
 /// `Fz / N`) or stands in the row of units. Forces and time without a unit are taken
 /// in N and s, with a note; an angle without a unit is refused. Where the case file gives
-/// `scale`, the unit of a force is not looked at.
+/// `scale`, the unit of a force is not looked at. A force that no column is named after was
+/// not measured, with a note; one that the case file leaves empty, without.
 /// @param[out] notes  what had to be assumed
 RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
                            Problems& problems, std::vector<base::Warning>& notes);

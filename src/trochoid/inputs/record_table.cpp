@@ -54,10 +54,9 @@ void read_row(Reading& reading, std::vector<Field>& fields) {
   if (!complete_row(reading.text, fields, columns.count)) return;
   auto& record = reading.record;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (columns.force[i]) {
-      record.channel[i].push_back(
-          number_in_row(reading.text, fields, *columns.force[i]));
-    }
+    record.channel[i].push_back(
+        columns.force[i] ? number_in_row(reading.text, fields, *columns.force[i])
+                         : 0.0);
   }
   if (columns.angle) {
     record.angle.push_back(number_in_row(reading.text, fields, *columns.angle));
@@ -77,6 +76,7 @@ void read_row(Reading& reading, std::vector<Field>& fields) {
 
 void keep_names(const RecordColumns& columns, signal::Record& record) {
   for (std::size_t i = 0; i < 3; ++i) {
+    record.measured[i] = columns.force[i].has_value();
     if (columns.force[i]) record.channel_column[i] = columns.force[i]->name;
   }
   if (columns.angle) record.angle_column = columns.angle->name;
@@ -185,11 +185,12 @@ void check_whole(Reading& reading) {
 signal::Record read_table(Reading& reading, const std::string& names) {
   throw_problems(reading.text);
   TableHead head = head_of(reading.text, names);
-  if (head.names.size() < 3) {
+  const std::size_t fewest = reading.measurement.columns.empty() ? 2 : 1;
+  if (head.names.size() < fewest) {
     reading.text.problems.add(
         head.names_line, 1,
-        fmt::format("the row of names has {} column{}: three forces are needed, "
-                    "separated by , ; or a tab",
+        fmt::format("the row of names has {} column{}: the forces and what they were "
+                    "recorded over are needed, separated by , ; or a tab",
                     head.names.size(), head.names.size() == 1 ? "" : "s"));
     throw_problems(reading.text);
   }

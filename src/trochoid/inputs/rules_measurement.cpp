@@ -91,6 +91,15 @@ void check_clamping(const IdentifyTable& table, Findings& findings) {
   }
 }
 
+/// A record of no force at all is none.
+void check_columns(const std::vector<std::string>& columns, const std::string& key,
+                   Findings& findings) {
+  if (std::ranges::any_of(columns, [](const auto& name) { return !name.empty(); })) {
+    return;
+  }
+  report(findings, key, key + ": no entry names a column; must name a force at least");
+}
+
 }  // namespace
 
 std::filesystem::path resolved(const std::string& file, const Location& named_at) {
@@ -189,6 +198,10 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
         fmt::format("{}.pulse_column = {}: angle_column is given as well; must be one "
                     "of the two",
                     path, toml_string(table.pulse_column)));
+  }
+  if (!table.columns.empty()) {
+    m.columns.resize(3);
+    check_columns(table.columns, path + ".columns", findings);
   }
   if (std::find(table.scale.begin(), table.scale.end(), 0.0) != table.scale.end()) {
     report(findings, path + ".scale",

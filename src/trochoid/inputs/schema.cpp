@@ -63,6 +63,7 @@ struct Expectation {
     return symbol.empty() ? words : fmt::format("{} {}", words, symbol);
   }
   [[nodiscard]] std::string list(std::string_view what) const {
+    if (key.gaps) return fmt::format("a list of up to {} {}", key.count, what);
     return key.count > 0 ? fmt::format("a list of {} {}", key.count, what)
                          : fmt::format("a list of {}", what);
   }

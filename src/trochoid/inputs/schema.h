@@ -64,6 +64,7 @@ struct Key {
   Range range = {};
   Need need = Need::optional;
   std::size_t count = 0;  ///< entries of a list; 0: any number
+  bool gaps = false;      ///< entries may be empty, and missing at the end of a list
   Only only = {};
   std::optional<double> neutral = {};  ///< accepted even where the key has no meaning
   std::string_view word = {};          ///< text that may stand instead of the value

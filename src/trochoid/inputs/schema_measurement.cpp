@@ -72,17 +72,13 @@ void describe(const Visitor& v, DynamometerTable& t) {
 
 namespace {
 
-/// The file, and what its columns are.
+/// What the columns of a record are called.
 void describe_columns(const Visitor& v, MeasurementTable& t) {
-  v({.name = "file",
-     .meaning = "the force record, relative to the file that names it",
-     .need = Need::always},
-    &t.file);
-  v({.name = "format", .meaning = "format of the record; detect: from its content"},
-    choice(t.format, "detect"));
   v({.name = "columns",
-     .meaning = "names of the columns of channels 1 to 3",
+     .meaning = "names of the columns of channels 1 to 3; \"\": this channel was not "
+                "measured",
      .count = 3,
+     .gaps = true,
      .standard = "found by name",
      .example = "[\"Fx\", \"Fy\", \"Fz\"]"},
     &t.columns);
@@ -101,6 +97,18 @@ void describe_columns(const Visitor& v, MeasurementTable& t) {
      .meaning = "column with one pulse a turn: the spindle angle is 0 where it rises",
      .example = "\"index_V\""},
     &t.pulse_column);
+}
+
+}  // namespace
+
+void describe(const Visitor& v, MeasurementTable& t) {
+  v({.name = "file",
+     .meaning = "the force record, relative to the file that names it",
+     .need = Need::always},
+    &t.file);
+  v({.name = "format", .meaning = "format of the record; detect: from its content"},
+    choice(t.format, "detect"));
+  describe_columns(v, t);
   v({.name = "sample_rate_Hz",
      .meaning = "samples a second, when the record has no time",
      .range = above_up_to(0, 1e9),
@@ -115,12 +123,6 @@ void describe_columns(const Visitor& v, MeasurementTable& t) {
      .standard = "by the unit of each column",
      .example = "[500, 500, 1000]"},
     &t.scale);
-}
-
-}  // namespace
-
-void describe(const Visitor& v, MeasurementTable& t) {
-  describe_columns(v, t);
   v({.name = "from_s",
      .meaning = "what was recorded before this time is not fitted",
      .range = between(-1e9, 1e9),

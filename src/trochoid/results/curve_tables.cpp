@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trochoid::results {
 
@@ -18,6 +19,12 @@ struct Place {
   std::size_t run = 0;
   std::size_t sample = 0;
 };
+
+/// Whether any run has a force.
+bool is_measured(std::span<const identification::Run> runs, std::size_t q) {
+  return std::ranges::any_of(
+      runs, [q](const identification::Run& run) { return run.measured[q]; });
+}
 
 std::vector<Place> places_of(std::span<const identification::Run> runs) {
   std::vector<Place> places;
@@ -37,7 +44,9 @@ std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
   const std::vector<Place> places = places_of(runs);
   const std::size_t n = places.size();
   const auto measured = [&](std::size_t i, std::size_t q) {
-    return runs[places[i].run].force[places[i].sample][q];
+    const identification::Run& run = runs[places[i].run];
+    return run.measured[q] ? run.force[places[i].sample][q]
+                           : std::numeric_limits<double>::quiet_NaN();
   };
   base::Table fitted{"fitted.csv", {}};
   base::Table residual{"residual.csv", {}};
@@ -48,14 +57,18 @@ std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
     });
   }
   for (std::size_t q = 0; q < 3; ++q) {
+    if (!is_measured(runs, q)) continue;
     add_column(fitted, fmt::format("{}_measured_N", axis[q]), n,
                [&](std::size_t i) { return measured(i, q); });
   }
   for (const ComputedForces& c : computed) {
     for (std::size_t q = 0; q < 3; ++q) {
+      if (!is_measured(runs, q)) continue;
       const std::string name = fmt::format("{}_{}_N", axis[q], c.name);
       const auto value = [&](std::size_t i) {
-        return c.of_run[places[i].run][places[i].sample][q];
+        return runs[places[i].run].measured[q]
+                   ? c.of_run[places[i].run][places[i].sample][q]
+                   : std::numeric_limits<double>::quiet_NaN();
       };
       add_column(fitted, name, n, value);
       add_column(residual, name, n,
@@ -120,6 +133,7 @@ std::vector<identification::Run> mean_turns(std::span<const identification::Run>
     const TurnBins bins(runs[r].angle);
     identification::Run& mean = out.emplace_back();
     mean.cut = runs[r].cut;
+    mean.measured = runs[r].measured;
     mean.force = bins.means(runs[r].force);
     for (std::size_t b = 0; b < bins.count.size(); ++b) {
       if (bins.count[b] > 0.0) mean.angle.push_back(bins.angle[b]);

@@ -126,6 +126,15 @@ void add_coefficients(const Fit& fit, Object& K, Object& identifiable) {
   }
 }
 
+/// Of the forces that are measured.
+Array rms_axis_value(const Fit& fit) {
+  Array out;
+  for (std::size_t q = 0; q < 3; ++q) {
+    out.push_back(fit.measured[q] ? Value(fit.rms_axis[q]) : Value());
+  }
+  return out;
+}
+
 }  // namespace
 
 Array groups_value(const Fit& fit, std::span<const std::string> files) {
@@ -163,7 +172,7 @@ Object fit_value(const Fit& fit) {
   }
   const Object quality{
       {"rms_N", number(fit.rms)},
-      {"rms_axis_N", fit.ok ? Value(fit.rms_axis) : Value()},
+      {"rms_axis_N", fit.ok ? Value(rms_axis_value(fit)) : Value()},
       {"rms_meaning",
        "square root of the mean over samples of |dF|^2, and of dF_q^2 per axis"},
       {"condition", solved ? Value(fit.condition) : Value()},

@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace trochoid::results {
 
@@ -196,7 +197,8 @@ std::string short_table(const IdentifyResult& r) {
 /// folded.csv: mean and scatter of the measured force over one turn; none where no
 /// record holds two whole turns.
 std::optional<base::Table> folded_table(
-    const std::vector<signal::OneRevolution>& folded) {
+    const std::vector<signal::OneRevolution>& folded,
+    std::span<const identification::Run> runs) {
   struct Bin {
     std::size_t run;
     std::size_t at;
@@ -221,11 +223,18 @@ std::optional<base::Table> folded_table(
   });
   constexpr const char* axis[] = {"Fx", "Fy", "Fz"};
   for (std::size_t q = 0; q < 3; ++q) {
+    const auto measured = [&](const Bin& bin) {
+      return bin.run >= runs.size() || runs[bin.run].measured[q];
+    };
+    if (std::ranges::none_of(bins, measured)) continue;
+    const auto value = [&](std::size_t i, const auto& of) {
+      return measured(bins[i]) ? of[q][bins[i].at]
+                               : std::numeric_limits<double>::quiet_NaN();
+    };
     add_column(table, fmt::format("{}_mean_N", axis[q]), n,
-               [&](std::size_t i) { return folded[bins[i].run].mean[q][bins[i].at]; });
-    add_column(table, fmt::format("{}_sd_N", axis[q]), n, [&](std::size_t i) {
-      return folded[bins[i].run].scatter[q][bins[i].at];
-    });
+               [&](std::size_t i) { return value(i, folded[bins[i].run].mean); });
+    add_column(table, fmt::format("{}_sd_N", axis[q]), n,
+               [&](std::size_t i) { return value(i, folded[bins[i].run].scatter); });
   }
   return table;
 }
@@ -289,7 +298,7 @@ std::vector<base::Table> tables_of(const IdentifyResult& r) {
       whole(r) ? curve_tables(r.runs, computed)
                : curve_tables(mean_turns(r.runs, computed), computed);
   if (!r.overviews.empty()) tables.push_back(overview_table(r.overviews));
-  if (auto folded = folded_table(r.folded)) {
+  if (auto folded = folded_table(r.folded, r.runs)) {
     tables.push_back(std::move(*folded));
   }
   if (r.curve) {

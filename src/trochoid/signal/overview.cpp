@@ -21,7 +21,7 @@ Overview overview_of(const Record& record, std::span<const double> angle,
     out.used.push_back(middle >= used.begin && middle < used.end);
     for (std::size_t c = 0; c < 3; ++c) {
       const auto& values = record.channel[c];
-      if (values.size() < n) continue;
+      if (!record.measured[c]) continue;
       const auto [low, high] =
           std::ranges::minmax(std::span(values).subspan(begin, end - begin));
       out.low[c].push_back(low);

@@ -12,6 +12,8 @@ namespace trochoid::signal {
 struct Record {
   std::string file;                            ///< for messages
   std::array<std::vector<double>, 3> channel;  ///< [N], shape (n) each
+  /// A channel that the file does not hold is zero.
+  std::array<bool, 3> measured = {true, true, true};
   std::vector<double> angle;  ///< spindle angle phi [rad], shape (n); empty: unknown
   std::vector<double> time;   ///< [s], shape (n); rebuilt from the rate; empty: unknown
   double sample_rate = 0.0;   ///< [Hz]; 0: unknown

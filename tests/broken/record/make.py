@@ -195,7 +195,6 @@ universal = {
     "uff58_head_cut_off.uff": uff()[:300],
     "uff58_promises_more.uff": uff(promised=400000000),
     "uff58_two_of_one_direction.uff": uff((1, 2, 3, 3)),
-    "uff58_no_z.uff": uff((1, 2)),
     "uff58_frequency_responses.uff": uff(function=4),
     "uff58_accelerations.uff": uff(kind=12),
     "uff58_volts.uff": uff(unit="V"),

@@ -138,8 +138,15 @@ class WrongInput(InFolder):
                 self.wrong_record(content, where="record.csv:")
 
     def test_channels_that_are_missing(self):
-        self.wrong_record(record().replace("Fz_N", "temperature_C"), where="record.csv:1:",
-                          says="Fz")
+        without_z = record().replace("Fz_N", "temperature_C")
+        self.write("record.csv", without_z)
+        self.write("cut.toml", identification())
+        said = self.run_program("check", "cut.toml").stdout
+        self.assertIn("warning [channel_missing]: record.csv: no column is named Fz", said)
+        self.assertIn("channel 3 was not measured", said)
+        self.wrong_record(without_z.replace("Fx_N", "a_N").replace("Fy_N", "b_N"),
+                          where="record.csv:1:", says="Fz")
+        self.wrong_record(record().replace("Fz_N", "Fz1_N"), where="record.csv:1:", says="Fz")
 
     def test_rubbish_as_a_record(self):
         rubbish = random.Random(2).randbytes(1 << 20)

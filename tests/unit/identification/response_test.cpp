@@ -104,6 +104,29 @@ TEST(Response, KnownMakesTheFitExact) {  // [I-16]
   EXPECT_LT(fit.unexplained.in_band, 1e-3);
 }
 
+/// What the rows of a turn leave of K_a in x and y is rounding and tells nothing.
+TEST(Response, TellsNothingOfTheAxialForceWithoutZ) {  // [I-16]
+  Ringing ringing;
+  Options options = ringing.options();
+  for (Record& run : ringing.runs) {
+    run.measured[2] = false;
+    options.response.push_back(
+        response_of(ringing.truth, run.cut.Omega, resolved_harmonics(run)));
+  }
+  for (const bool drift : {false, true}) {
+    options.fit_channel_offsets = drift;
+    const Fit fit =
+        identify(without_runout(ringing.setup), steel(), ringing.runs, options);
+    ASSERT_TRUE(fit.ok) << fit.message;
+    EXPECT_FALSE(fit.coefficients[2]);
+    EXPECT_FALSE(fit.coefficients[5]);
+    EXPECT_NEAR(fit.coefficients[0]->value / 2600e6, 1.0, 2e-3);
+    EXPECT_NEAR(fit.runout.radial_offsets[1], -8.0 * unit::um, 0.01 * unit::um);
+    EXPECT_EQ(fit.rank, drift ? 4 + 2 * 4 : 4);
+    EXPECT_LT(fit.condition, 20.0);
+  }
+}
+
 TEST(Resonance, IsFoundWithTheForces) {  // [I-17]
   const Ringing ringing;
   const Viewed seen = fit_as_seen(without_runout(ringing.setup), steel(), ringing.runs,

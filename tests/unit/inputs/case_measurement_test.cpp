@@ -75,6 +75,22 @@ TEST_F(CaseMeasurement, AxesBecomeAMatrix) {
   EXPECT_TRUE(read(run + "[dynamometer]\naxes = \"auto\"\n").dynamometer->automatic);
 }
 
+TEST_F(CaseMeasurement, ColumnsMayLeaveChannelsOut) {
+  const std::string run = "[[measurement]]\nfile = \"run.csv\"\ncolumns = ";
+  const auto columns = [&](const std::string& list) {
+    return read(run + list).measurements.at(0).columns;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(columns("[\"a\", \"b\"]\n"), (Names{"a", "b", ""}));
+  EXPECT_EQ(columns("[\"a\", \"\", \"c\"]\n"), (Names{"a", "", "c"}));
+  EXPECT_EQ(columns("[\"a\"]\n"), (Names{"a", "", ""}));
+  EXPECT_NE(problems(run + "[\"\", \"\"]\n").find("no entry names a column"),
+            std::string::npos);
+  EXPECT_NE(problems(run + "[\"a\", \"b\", \"c\", \"d\"]\n")
+                .find("must be a list of up to 3 texts"),
+            std::string::npos);
+}
+
 TEST_F(CaseMeasurement, IdentifyTakesEveryOption) {
   const Identify i = read(R"(
 [[measurement]]

@@ -117,6 +117,38 @@ TEST(RecordCsv, TakesTheNamesOfTheCaseFile) {
             std::string::npos);
 }
 
+TEST(RecordCsv, GoesWithoutAChannelThatIsNotThere) {
+  const auto record = read("angle_deg,Fx_N,Fz_N,Mz_Nm\n0,1,3,4\n1,2,5,4\n");
+  EXPECT_EQ(record.measured, (std::array{true, false, true}));
+  EXPECT_EQ(record.channel[1], (std::vector{0.0, 0.0}));
+  EXPECT_EQ(record.channel[2], (std::vector{3.0, 5.0}));
+  EXPECT_EQ(record.channel_column[1], "");
+  ASSERT_EQ(record.notes.size(), 1U);
+  EXPECT_EQ(record.notes[0].code, "channel_missing");
+  EXPECT_NE(record.notes[0].message.find("goes without channel 2"), std::string::npos)
+      << record.notes[0].message;
+  EXPECT_EQ(read("angle_deg,Fy_N\n0,1\n1,2\n").measured,
+            (std::array{false, true, false}));
+}
+
+TEST(RecordCsv, DoesNotTakeAForceOfAnotherNameForAMissingOne) {
+  for (const std::string name : {"Fz1_N", "Fz at 1", "Fz1+2"}) {
+    EXPECT_NE(refusal("angle_deg,Fx_N,Fy_N," + name + "\n0,1,2,3\n1,1,2,3\n")
+                  .find("no column is named Fz"),
+              std::string::npos)
+        << name;
+  }
+}
+
+TEST(RecordCsv, LeavesOutAChannelThatTheCaseFileNamesByNothing) {
+  Measurement m;
+  m.columns = {"Fx_N", "", "Fz_N"};
+  const auto record = read("angle_deg,Fx_N,Fy_N,Fz_N\n0,1,2,3\n1,1,2,3\n", m);
+  EXPECT_EQ(record.measured, (std::array{true, false, true}));
+  EXPECT_EQ(record.channel[1], (std::vector{0.0, 0.0}));
+  EXPECT_TRUE(record.notes.empty()) << "the case file says so itself";
+}
+
 TEST(RecordCsv, PrefersTheForceToTheChannelsOfASimulation) {
   const std::string names =
       "angle_deg,time_s,Fx_N,Fy_N,Fz_N,channel1_N,channel2_N,channel3_N\n";

@@ -73,6 +73,20 @@ TEST(RecordNumeric, TakesTheRateThatTheColumnsState) {
   EXPECT_NE(refusal(made).find("a number from 0.001 to 1e9"), std::string::npos);
 }
 
+TEST(RecordNumeric, GoesWithoutAChannelThatIsNotThere) {
+  auto made = std::vector{column("Fx", "N", {1, 2, 5}), column("Fy", "N", {3, 4, 6})};
+  Measurement m;
+  m.sample_rate = 1e4;
+  const auto record = record_of(table_of(made), "r.bin", m);
+  EXPECT_EQ(record.measured, (std::array{true, true, false}));
+  EXPECT_EQ(record.channel[2], (std::vector{0.0, 0.0, 0.0}));
+  EXPECT_EQ(record.notes.at(0).code, "channel_missing");
+  m.columns = {"", "Fx", ""};
+  EXPECT_EQ(record_of(table_of(made), "r.bin", m).channel[0],
+            (std::vector{0., 0., 0.}));
+  EXPECT_EQ(record_of(table_of(made), "r.bin", m).size(), 3U);
+}
+
 TEST(RecordNumeric, TellsColumnsOfOneNameByTheirPaths) {
   auto made = std::vector{column("Fx", "N", {1, 2}), column("Fy", "N", {3, 4}),
                           column("Fz", "N", {5, 6}), column("Fx", "N", {7, 8}),

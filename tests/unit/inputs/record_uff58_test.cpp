@@ -80,13 +80,10 @@ TEST(RecordUff58, RefusesWhatIsNoRecord) {
   auto acceleration = force(1, {1, 2, 3});
   acceleration.kind = 12;
   EXPECT_EQ(
-      refusal(as_text(acceleration) + as_text(force(2, {1, 2}))),
-      "r.uff: no column is named Fx, for example Fx_N: the columns are "
-      "\"Acceleration\", \"Fy\"; columns = [...] in the case file names the three "
-      "forces\n"
-      "r.uff: no column is named Fz, for example Fz_N: the columns are "
-      "\"Acceleration\", \"Fy\"; columns = [...] in the case file names the three "
-      "forces\n");
+      refusal(as_text(acceleration)),
+      "r.uff: no column is named Fx, Fy or Fz: the columns are "
+      "\"Acceleration\"; columns = [...] in the case file names the three forces, "
+      "time_column the time\n");
   auto part = force(1, {1, 2, 3});
   part.promised = 500;
   EXPECT_NE(

@@ -3,6 +3,7 @@
 #include "made_record_file.h"
 
 #include <gtest/gtest.h>
+#include <trochoid/base/error.h>
 
 #include <algorithm>
 
@@ -120,6 +121,41 @@ TEST(Identify, FindsTheAxesToo) {
   ASSERT_TRUE(r.axes.has_value());
   EXPECT_EQ(signal::axes_names(r.channels),
             (std::array<std::string, 3>{"y", "-x", "z"}));
+}
+
+/// The two channels of a record, y and -x, and what the third would have told.
+TEST(Identify, GoesWithoutAChannel) {
+  auto record = two_turns(0.3, 2.0);
+  for (auto& F : record.force) {
+    F = {F[1], -F[0], 123.0};
+  }
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(record, Axis::angle));
+  const auto answer = [&](const std::string& dynamometer) {
+    return identify(folder.read(inputs::test::slot + measurement +
+                                    "columns = [\"Fx_N\", \"Fy_N\"]\n" + options +
+                                    "[dynamometer]\n" + dynamometer,
+                                Command::identify),
+                    [](const std::string&) {});
+  };
+  const IdentifyResult r = answer("axes = [\"y\", \"-x\", \"z\"]\n");
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_TRUE(r.reasons_against.empty());
+  const identification::Fit& fit = r.fits.at(*r.chosen);
+  EXPECT_NEAR(fit.coefficients[0]->value, 2620e6, 4 * fit.coefficients[0]->se);
+  EXPECT_FALSE(fit.coefficients[2]);
+  EXPECT_EQ(r.runs.at(0).measured, (std::array{true, true, false}));
+  for (const std::string wrong :
+       {"axes = \"auto\"\n", "matrix = [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]\n"}) {
+    try {
+      answer(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const base::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("not all three channels"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 /// The exact model answers; the others are told beside it.

@@ -57,6 +57,26 @@ TEST(Plan, StartsFromWhatIdentifyAnswers) {
   EXPECT_TRUE(r.heading.message.starts_with("Cut next: ")) << r.heading.message;
 }
 
+/// What the records told is what identify says of them, and the next cut has no z either.
+TEST(Plan, GoesWithoutAChannel) {
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(two_turns(0.3, 4.0), Axis::angle));
+  const auto given = folder.read(inputs::test::slot + measurement +
+                                     "columns = [\"Fx_N\", \"Fy_N\"]\n" + one_model +
+                                     "[plan]\nquantities = [\"coefficients\"]\n",
+                                 Command::plan);
+  const identification::Fit fit = identify(given, silent).fits.at(0);
+  const PlanResult r = plan(given, silent);
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_TRUE(warned(r, "not_planned"));
+  ASSERT_EQ(r.quantities.size(), 4U);
+  EXPECT_EQ(r.quantities[2].key, "K_te_N_per_mm");
+  EXPECT_NEAR(r.factor_before * *r.quantities[2].se,
+              fit.coefficients[3]->high - fit.coefficients[3]->value,
+              1e-5 * fit.coefficients[3]->value);
+  for (const auto& cut : r.cuts) EXPECT_LT(cut.se[0], *r.quantities[0].se);
+}
+
 TEST(Plan, NeedsNoRecord) {
   const PlanResult r = planned("");
   ASSERT_TRUE(r.heading.ok) << r.heading.message;

@@ -2,8 +2,8 @@
 
 /** The models whose curves a table holds, in its order: `Fx_feed_N` -> feed. */
 function modelsOf(t) {
-  const found = (t?.columns || []).map(({ name }) => /^Fx_(.+)_N$/.exec(name)?.[1]);
-  return found.filter((model) => model && model !== 'measured');
+  const found = (t?.columns || []).map(({ name }) => /^F[xyz]_(.+)_N$/.exec(name)?.[1]);
+  return [...new Set(found)].filter((model) => model && model !== 'measured');
 }
 
 /** Rows of one run; without a column `run` all rows belong to the only one. */
@@ -108,10 +108,10 @@ function foldedSection(report) {
   const panelsOf = (run) => {
     const values = rowsOfRun(folded, run);
     return forcePanels((axis) => [
-      { name: 'mean', values: values(`F${axis}_mean_N`), color: '--s1', width: 1.6 },
-    ].filter((series) => series.values)).map((panel, i) => {
+      { name: 'mean', values: values(`F${axis}_mean_N`), axis, color: '--s1', width: 1.6 },
+    ].filter((series) => series.values)).map((panel) => {
       const mean = panel.series[0].values;
-      const sd = values(`F${axesOfForce[i]}_sd_N`) || mean.map(() => 0);
+      const sd = values(`F${panel.series[0].axis}_sd_N`) || mean.map(() => 0);
       return { ...panel, height: 110, band: {
         low: mean.map((f, k) => f - sd[k]), high: mean.map((f, k) => f + sd[k]),
         name: 'mean ± standard deviation' } };

@@ -1,8 +1,11 @@
 #include <trochoid/run/correct/problem.h>
 
+#include <trochoid/base/error.h>
 #include <trochoid/run/shared/machine.h>
 #include <trochoid/run/shared/records.h>
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace trochoid::run {
@@ -26,6 +29,11 @@ correction::MovingCut moving_cut(const inputs::Case& given) {
 correction::ForceRecord record_of(const inputs::Case& given,
                                   std::vector<base::Warning>& warnings) {
   const auto runs = measured_runs(given, warnings);
+  for (const MeasuredRun& one : runs) {
+    if (std::ranges::all_of(one.run.measured, std::identity())) continue;
+    throw base::InputError(
+        {one.file + ": not all three channels were measured; must hold three forces"});
+  }
   const auto M = given.dynamometer.value_or(inputs::Dynamometer{}).matrix;
   identification::Run run = identification::on_tool(channels_of(runs), M).front();
   return {std::move(run.angle), std::move(run.force)};

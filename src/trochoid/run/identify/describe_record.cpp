@@ -59,6 +59,10 @@ std::string describe_record(const signal::Record& record,
     text += "  " + used.why + "\n";
   }
   for (std::size_t c = 0; c < 3; ++c) {
+    if (!record.measured[c]) {
+      text += fmt::format("  channel {} was not measured\n", c + 1);
+      continue;
+    }
     const auto& values = record.channel[c];
     const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) /

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace trochoid::run {
 
@@ -36,6 +37,9 @@ std::string better_axes(const inputs::Case& given, const std::vector<MeasuredRun
                         const Progress& progress) {
   const identification::AxesProblem problem = axes_problem(given);
   const auto channels = channels_of(runs);
+  for (const auto& run : channels) {  // what no search can find is no cause
+    if (!std::ranges::all_of(run.measured, std::identity())) return "";
+  }
   const auto other = identification::find_axes(
       problem, channels, [&](double part) { progress(axes_progress(part)); });
   const double now = identification::reading_rms(problem, channels, M);

@@ -10,9 +10,11 @@
 #include <trochoid/run/identify/identify.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <stdexcept>
 
@@ -100,11 +102,29 @@ struct Planning {
   std::size_t unknowns = 0;              ///< but for phases and channels
   std::vector<std::size_t> wanted = {};  ///< parameters of the determinant
   std::vector<Combination> combinations = {};
+  std::vector<std::string> untold = {};  ///< coefficients that no cut can tell
 
   PlanResult failed(const std::string& why) {
     r.heading.ok = false;
     r.heading.message = why;
     return std::move(r);
+  }
+
+  /// The next cut is measured as those before: what a missing channel does not tell of
+  /// them it does not tell of any.
+  void leave_out_untold() {
+    if (std::ranges::all_of(trial.measured, std::identity())) return;
+    const auto names = force::coefficient_quantities(trial.law);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      if (known.matrix[c * known.size + c] == 0.0) untold.emplace_back(names[c].key);
+    }
+    if (untold.empty()) return;
+    r.heading.warnings.push_back(
+        {"not_planned",
+         fmt::format(
+             "Without a channel that was not measured no cut tells {}: they are "
+             "left out.",
+             fmt::join(untold, ", "))});
   }
 
   /// What the measurements tell.
@@ -133,6 +153,8 @@ struct Planning {
     trial.options.start.reset();
     trial.options.response.clear();  // of the runs measured
     trial.noise = identification::effective_noise(fit, found.runs);
+    trial.measured = fit.measured;
+    leave_out_untold();
     r.noise_from = "records";
     for (const results::RecordSummary& record : found.records) {
       r.files.push_back(record.file);
@@ -204,6 +226,7 @@ struct Planning {
     for (std::size_t c = 0; c < all.size(); ++c) {
       const std::string key(all[c].key);
       const std::string plain = key.substr(0, key.find('_', key.find('_') + 1));
+      if (std::ranges::find(untold, key) != untold.end()) continue;
       if (asked("coefficients") || asked(plain)) {
         add_coefficient(c, all[c], K[c]);
       }
@@ -289,7 +312,8 @@ struct Planning {
 
   /// Equations less unknowns once the cut has been measured: it has a phase of its own.
   [[nodiscard]] double freedom_after() const {
-    const double equations = 3.0 * r.samples_per_rev * r.turns;
+    const auto forces = static_cast<double>(std::ranges::count(trial.measured, true));
+    const double equations = forces * r.samples_per_rev * r.turns;
     const double more = known.size > 0 ? 1.0 : 1.0 + static_cast<double>(unknowns);
     return std::max(1.0, freedom + equations - more);
   }

@@ -11,7 +11,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace trochoid::run {
 
@@ -24,6 +26,28 @@ constexpr double speed_slack = 1e-3;
 /// Beyond this a percentage says less than a factor.
 constexpr double far_off = 0.5;
 
+}  // namespace
+
+std::string missing_channel(const signal::Record& record, const inputs::Case& given) {
+  if (std::ranges::all_of(record.measured, std::identity())) return "";
+  const auto dynamometer = given.dynamometer.value_or(inputs::Dynamometer{});
+  const std::string begin =
+      record.file + ": not all three channels were measured, so that ";
+  if (dynamometer.automatic) {
+    return begin +
+           "axes = \"auto\" cannot find what the others read; give the axes, for "
+           "example axes = [\"x\", \"y\", \"z\"]";
+  }
+  if (!identification::measured_forces(record.measured, dynamometer.matrix)) {
+    return begin +
+           "a full matrix gives no force; give axes, for example axes = [\"x\", "
+           "\"y\", \"z\"], in its place";
+  }
+  return "";
+}
+
+namespace {
+
 std::vector<signal::Record> read_all(const inputs::Case& given) {
   std::vector<signal::Record> records;
   std::vector<std::string> problems;
@@ -32,6 +56,11 @@ std::vector<signal::Record> read_all(const inputs::Case& given) {
       records.push_back(inputs::read_record(m));
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  for (const signal::Record& record : records) {
+    if (const std::string why = missing_channel(record, given); !why.empty()) {
+      problems.push_back(why);
     }
   }
   if (!problems.empty()) {
@@ -154,6 +183,7 @@ std::pair<std::string_view, std::string_view> in_words(signal::ChannelFault faul
 
 void warn_faults(const signal::Record& record, Warnings& warnings) {
   for (std::size_t c = 0; c < record.channel.size(); ++c) {
+    if (!record.measured[c]) continue;
     const signal::ChannelFault fault = signal::channel_fault(record.channel[c]);
     if (fault == signal::ChannelFault::none) {
       continue;
@@ -195,6 +225,7 @@ std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warn
     keep_cut(given, given.measurements[i], record, run, warnings);
     lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
     run.run.channel = std::move(record.channel);
+    run.run.measured = record.measured;
     runs.push_back(std::move(run));
   }
   return runs;

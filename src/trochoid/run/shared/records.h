@@ -4,6 +4,7 @@
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/signal/overview.h>
+#include <trochoid/signal/record.h>
 
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct MeasuredRun {
   double Omega_se = 0.0;           ///< [rad/s]; 0: not estimated
   signal::Overview overview = {};  ///< of the whole record
 };
+
+/// @brief Why a record without all three channels cannot be used with the dynamometer of a
+/// case; empty: it can.
+std::string missing_channel(const signal::Record& record, const inputs::Case& given);
 
 /// @brief Read all measurements of a case.
 /// @param[out] warnings  what was found out about the records

@@ -2,6 +2,9 @@
 
 #include <trochoid/run/shared/records.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace trochoid::run {
 
 std::vector<results::Comparison> compare(const inputs::Case& given,
@@ -12,6 +15,14 @@ std::vector<results::Comparison> compare(const inputs::Case& given,
         {"not_compared",
          "axes = \"auto\" needs an identification; name the axes to compare here."});
     return {};
+  }
+  for (const MeasuredRun& one : measured) {
+    if (!std::ranges::all_of(one.run.measured, std::identity())) {
+      warnings.push_back({"not_compared", one.file +
+                                              ": not all three channels were measured; "
+                                              "identify fits such a record."});
+      return {};
+    }
   }
   const auto runs = identification::on_tool(
       channels_of(measured), given.dynamometer.value_or(inputs::Dynamometer{}).matrix);
