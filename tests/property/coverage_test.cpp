@@ -154,11 +154,8 @@ TEST(Coverage, IntervalsHoldTheTruth) {  // [I-8] [I-14] [I-15] [I-17]
                            Disturbance::repeating, Disturbance::ringing}) {
       for (const auto& [name, found] : held(tool, how, n)) {
         const double part = static_cast<double>(found.held) / found.all;
-        // 95 %, less three deviations of a count of so many seeds; of the ringing
-        // dynamometer, which the model knows only from the record, 90 % less two.
-        const double least = how == Disturbance::ringing
-                                 ? 0.90 - 2 * std::sqrt(0.90 * 0.10 / n)
-                                 : 0.95 - 3 * std::sqrt(0.95 * 0.05 / n);
+        // 95 %, less three deviations of a count of so many seeds.
+        const double least = 0.95 - 3 * std::sqrt(0.95 * 0.05 / n);
         EXPECT_GE(part, least)
             << tool.name << ", disturbance " << static_cast<int>(how) << ", " << name;
         if (n > 100) {

@@ -1,29 +1,16 @@
+#include "from_bytes.h"
 #include "hdf5_made.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/base/error.h>
-#include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/record_format.h>
 
 #include <array>
-#include <sstream>
 
 namespace trochoid::inputs {
 namespace {
 
-signal::Record read(const std::string& bytes, const Measurement& m = {}) {
-  std::istringstream in(bytes);
-  return read_record(in, "r.h5", m);
-}
-
-std::string refusal(const std::string& bytes, const Measurement& m = {}) {
-  try {
-    read(bytes, m);
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr RecordFrom read{"r.h5"};
+constexpr RefusalFrom refusal{"r.h5"};
 
 const std::vector<made::Hdf5Set> forces = {
     {.path = "run/Fx", .values = {1, 2, 3}, .unit = "kN", .rate = 1e4},

@@ -1,26 +1,13 @@
-#include <gtest/gtest.h>
-#include <trochoid/base/error.h>
-#include <trochoid/inputs/record_file.h>
-#include <trochoid/inputs/record_format.h>
+#include "from_bytes.h"
 
-#include <sstream>
+#include <gtest/gtest.h>
+#include <trochoid/inputs/record_format.h>
 
 namespace trochoid::inputs {
 namespace {
 
-signal::Record read(const std::string& text, const Measurement& m = {}) {
-  std::istringstream in(text);
-  return read_record(in, "r.lvm", m);
-}
-
-std::string refusal(const std::string& text, const Measurement& m = {}) {
-  try {
-    read(text, m);
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr RecordFrom read{"r.lvm"};
+constexpr RefusalFrom refusal{"r.lvm"};
 
 /// As LabVIEW writes it: lines end with CR LF, and heads are padded with tabs.
 std::string head(const std::string& x_columns = "One",

@@ -1,28 +1,16 @@
+#include "from_bytes.h"
+
 #include <gtest/gtest.h>
-#include <trochoid/base/error.h>
-#include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/record_format.h>
 
 #include <bit>
 #include <cstdint>
-#include <sstream>
 
 namespace trochoid::inputs {
 namespace {
 
-signal::Record read(const std::string& bytes, const Measurement& m = {}) {
-  std::istringstream in(bytes);
-  return read_record(in, "r.npy", m);
-}
-
-std::string refusal(const std::string& bytes, const Measurement& m = {}) {
-  try {
-    read(bytes, m);
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr RecordFrom read{"r.npy"};
+constexpr RefusalFrom refusal{"r.npy"};
 
 template <class Bits>
 void put(std::string& bytes, Bits bits, bool big) {

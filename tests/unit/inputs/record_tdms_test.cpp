@@ -1,8 +1,7 @@
+#include "from_bytes.h"
 #include "tdms_made.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/base/error.h>
-#include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/tdms.h>
 
@@ -11,19 +10,8 @@
 namespace trochoid::inputs {
 namespace {
 
-signal::Record read(const std::string& bytes, const Measurement& m = {}) {
-  std::istringstream in(bytes);
-  return read_record(in, "r.tdms", m);
-}
-
-std::string refusal(const std::string& bytes, const Measurement& m = {}) {
-  try {
-    read(bytes, m);
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr RecordFrom read{"r.tdms"};
+constexpr RefusalFrom refusal{"r.tdms"};
 
 TEST(RecordTdms, ReadsSegmentsOfEitherByteOrder) {
   for (const bool big : {false, true}) {

@@ -1,28 +1,14 @@
+#include "from_bytes.h"
 #include "uff58_made.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/base/error.h>
-#include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/record_format.h>
-
-#include <sstream>
 
 namespace trochoid::inputs {
 namespace {
 
-signal::Record read(const std::string& bytes, const Measurement& m = {}) {
-  std::istringstream in(bytes);
-  return read_record(in, "r.uff", m);
-}
-
-std::string refusal(const std::string& bytes, const Measurement& m = {}) {
-  try {
-    read(bytes, m);
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr RecordFrom read{"r.uff"};
+constexpr RefusalFrom refusal{"r.uff"};
 
 /// @param direction  of the response, 1 to 3 or negative
 MadeSet force(int direction, const std::vector<double>& values, bool even = true) {
