@@ -74,6 +74,8 @@ TEST(LookAtCut, NamesTheNumberOfTeeth) {
   EXPECT_EQ(found[0].code, "cut_fits_better");
   EXPECT_NE(found[0].message.find("with teeth = 2"), std::string::npos)
       << found[0].message;
+  EXPECT_NE(found[0].message.find("leaves far less than with 4"), std::string::npos)
+      << found[0].message << " (with 4 nothing is explained)";
 }
 
 TEST(LookAtCut, NamesUpThatWasTakenForDown) {

@@ -56,6 +56,13 @@ bool reverse(geometry::Engagement& engagement) {
   return false;
 }
 
+/// `2.4 times`, or `far` where one explains all and the other nothing.
+std::string how_much(double now, double other) {
+  constexpr double far = 100.0;
+  return now < far * other ? fmt::format("{:.1f} times", now / other)
+                           : std::string("far");
+}
+
 /// Offsets would let a cutter of too many teeth explain everything: some never cut.
 std::string better_count(const inputs::Case& given, std::span<const Run> runs) {
   force::Setup setup = given.setup;
@@ -70,8 +77,8 @@ std::string better_count(const inputs::Case& given, std::span<const Run> runs) {
     least = other;
     found = fmt::format(
         "The number of teeth: with teeth = {} (and the same feed in a turn) the fit "
-        "leaves {:.1f} times less than with {}.",
-        teeth, now / other, given.setup.cutter.teeth());
+        "leaves {} less than with {}.",
+        teeth, how_much(now, other), given.setup.cutter.teeth());
   }
   return found;
 }
@@ -92,9 +99,7 @@ std::string better_direction(const inputs::Case& given, std::span<const Run> run
   const bool up =
       std::holds_alternative<geometry::UpMilling>(reversed.front().cut.engagement);
   return fmt::format("Up for down: with engagement = \"{}\" the fit leaves {} less.",
-                     up ? "up" : "down",
-                     other > 0.01 * now ? fmt::format("{:.1f} times", now / other)
-                                        : std::string("far"));
+                     up ? "up" : "down", how_much(now, other));
 }
 
 }  // namespace
