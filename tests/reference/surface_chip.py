@@ -20,7 +20,6 @@ class Milling:
     rho: float = 0.0
     lam: float = 0.0
     disks: int = 240
-    entry_by_tooth: bool = False  # where deflection moves the entry: by R_i, not by R
 
     @property
     def R(self):

@@ -1,9 +1,8 @@
 """Deflection that changes the cut it comes from: E-10.
 
 delta = G f(delta) at every phi, marched tooth by tooth until the turn repeats.
-    entry         the edge cuts only where it reaches into the stock: R + sigma R cos(theta)
-                  + delta <= a_e; with `entry_by_tooth` R_i cos(theta), the real tooth
-                  (its numbers, and "none" as the limit of a stiff cutter, go with R)
+    entry         the edge cuts only where it reaches into the stock: R + sigma R_i cos(theta)
+                  + delta <= a_e, by the real tooth (without feedback, by R)
     regenerative  entry; and the chip is that between this path and the marks before, both bent
     direct        entry; and the chip is that between this path, bent, and marks unbent
 Only phi and phi - 2 pi m/N see one another, so any set of phi in one pitch is marched at once.
@@ -37,8 +36,8 @@ def enter(pieces, delta):
 
     def reach(s):
         z, theta = pieces.place(s)
-        R = m.radius(pieces.tooth, z) if m.entry_by_tooth else m.R
-        return m.ae - (m.R + m.sigma * R * np.cos(theta) + between(delta, s))
+        R_i = m.radius(pieces.tooth, z)
+        return m.ae - (m.R + m.sigma * R_i * np.cos(theta) + between(delta, s))
 
     lo, hi = pieces.s_from, pieces.s_to
     g_lo, g_hi = reach(lo), reach(hi)

@@ -113,11 +113,14 @@ double outer_radius(const Ray& ray, int outer) noexcept {
   }
 }
 
-/// How far the nominal edge point lies inside the window of the simple models.
+/// How far the edge point lies inside the window of the simple models: the nominal one,
+/// but where deflection decides the entry, that of the tooth as it is.
 double inside_window(const Ray& ray) noexcept {
-  const double y = ray.slice.r * ray.cosine;
+  const bool own = ray.slice.bent && ray.p.model.model == Model::radial;
+  const double R = own ? position(ray, 0).R : ray.slice.r;
+  const double y = R * ray.cosine;
   const geometry::Band band = stock(ray);
-  return std::min(ray.slice.r * ray.sine, std::min(y - band.y_lo, band.y_hi - y));
+  return std::min(R * ray.sine, std::min(y - band.y_lo, band.y_hi - y));
 }
 
 struct Closest {

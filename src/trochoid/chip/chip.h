@@ -35,6 +35,7 @@ struct Slice {
   double r = 0.0;                                 ///< nominal radius [m]
   std::span<const geometry::EdgePosition> teeth;  ///< shape (teeth)
   double shift = 0.0;  ///< of the axis in y, by deflection [m]
+  bool bent = false;   ///< something gives: `radial` meets the stock by its own radius
   /// How much farther out on the ray the axis stands than when the mark of the m-th
   /// tooth before was left [m], shape (teeth), or empty: no deflection.
   std::span<const double> advance = {};
@@ -68,7 +69,8 @@ bool ends_at_edge(const Chip& chip) noexcept;
 /// @src [riviere2009] eq. 1, 2, 6 to 13; min over m and the stock: derived
 /// @param tooth  0-based
 /// @param theta  nominal immersion angle [rad]
-/// @note C-2 to C-4 are 0 unless sin(theta) > 0 and r cos(theta) lies in the stock.
+/// @note C-2 to C-4 are 0 unless sin(theta) > 0 and r cos(theta) lies in the stock; C-4
+///       of a bent cutter unless R_j cos(theta) does.
 Chip chip_at(const Passage& passage, const Slice& slice, int tooth,
              double theta) noexcept;
 

@@ -135,6 +135,7 @@ chip::Slice EdgeCurve::slice(const EdgePoint& point) const {
   chip::Slice slice{point.meridian.r, teeth_};
   if (bend_ != nullptr) {
     slice.shift = bend_->shift(point.meridian.z);
+    slice.bent = true;
     if (bend_->advance) {
       bend_->advance(point.meridian.z, tooth_, theta_tip_ - point.lag, advance_);
       slice.advance = advance_;
@@ -174,9 +175,11 @@ void EdgeCurve::add_stock_edge(double y, std::vector<double>& grid) const {
   for (int k = 0; k < 3; ++k) {
     std::vector<double> there;
     for (const double s : here) {
-      const double met = y - bend_->shift(edges_.point(s).meridian.z);
-      if (std::abs(met) < R) {
-        add_passages(std::acos(met / R), there);
+      const chip::Slice teeth = slice(edges_.point(s));
+      const double own = teeth.teeth[tooth_].R;
+      const double met = y - teeth.shift;
+      if (std::abs(met) < own) {
+        add_passages(std::acos(met / own), there);
       }
     }
     grid.insert(grid.end(), there.begin(), there.end());

@@ -79,7 +79,7 @@ void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out)
   }
 }
 
-std::vector<double> EdgeMoments::kinks() const {
+std::vector<double> EdgeMoments::kinks(bool bent) const {
   std::vector<double> angles;
   std::vector<geometry::EdgePosition> positions(edges_.psi.size());
   for (const double s : {0.0, edges_.ends.back()}) {
@@ -87,9 +87,10 @@ std::vector<double> EdgeMoments::kinks() const {
     geometry::edge_positions(edges_.setup.runout, edges_.psi, point.meridian.r,
                              point.lag, positions);
     for (std::size_t j = 0; j < positions.size(); ++j) {
-      for (const chip::ChipPiece& piece :
-           chip::engaged_pieces(edges_.passage, {point.meridian.r, positions},
-                                static_cast<int>(j), -std::numbers::pi / 2)) {
+      for (const chip::ChipPiece& piece : chip::engaged_pieces(
+               edges_.passage,
+               {.r = point.meridian.r, .teeth = positions, .bent = bent},
+               static_cast<int>(j), -std::numbers::pi / 2)) {
         angles.push_back(piece.from + edges_.psi[j] + point.lag);
         angles.push_back(piece.to + edges_.psi[j] + point.lag);
       }

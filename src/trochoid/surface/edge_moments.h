@@ -38,7 +38,8 @@ class EdgeMoments {
 
   /// @brief Angles phi at which something switches at the tip or at the top of the cut,
   /// where the force has a kink [rad].
-  [[nodiscard]] std::vector<double> kinks() const;
+  /// @param bent  where deflection decides the entry, though there be none yet
+  [[nodiscard]] std::vector<double> kinks(bool bent) const;
 
   /// Do all teeth cut alike, so that everything repeats with every tooth?
   [[nodiscard]] bool equal_teeth() const noexcept;

@@ -287,6 +287,7 @@ SteadyState steady_state(const EdgeMoments& edges, std::span<const double, colum
   const Values largest = largest_values(edges, 1, rigid);
   numerics::PeriodicPieces::Options options =
       panels_for(edges, edges.equal_teeth(), largest, tolerance);
+  options.breaks = edges.kinks(true);
   const double rigid_deflection =
       passage.largest_deflection(Values(edges.values(), largest[0]));
   // A cutter that pulls itself in bends far beyond what a straight one would.

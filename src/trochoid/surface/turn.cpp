@@ -29,7 +29,7 @@ numerics::PeriodicPieces::Options panels_for(const EdgeMoments& edges, bool repe
   constexpr double longest = 0.35;
   numerics::PeriodicPieces::Options options{
       .period = repeats ? edges.setup().cutter.pitch.front() : unit::turn,
-      .breaks = edges.kinks(),
+      .breaks = edges.kinks(false),
       .longest = longest,
       .shortest = 0.1 * tolerance};
   const double everywhere = *std::max_element(largest.begin(), largest.end());

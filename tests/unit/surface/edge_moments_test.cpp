@@ -172,7 +172,7 @@ TEST(EdgeMoments, KinksAreWhereTheTipOrTheTopEntersOrLeaves) {  // [E-3]
       expected.push_back(last + lag + psi);
     }
   }
-  const auto kinks = edges.kinks();
+  const auto kinks = edges.kinks(false);
   for (const double want : expected) {
     const bool found = std::any_of(kinks.begin(), kinks.end(), [&](double kink) {
       return std::abs(std::remainder(kink - want, 2 * pi)) < 1e-9;

@@ -167,11 +167,17 @@ TEST(Feedback, ForcesFallTheMoreIsFedBack) {  // [E-10]
   EXPECT_LT(direct, 0.9 * entry);
 }
 
+/// Deflected or not, exact paths meet the stock where they are.
+MadeCut exact_cut() {
+  MadeCut s = bent_cut(true, 10e-6);
+  s.chip.model = chip::Model::trochoidal;
+  return s;
+}
+
 TEST(Feedback, AStiffCutterIsARigidOne) {  // [E-10]
   Bodies stiff = cutter_only()(0.0);
   stiff.cutter->youngs_modulus *= 1e9;
-  const MadeCut s = bent_cut(true, 10e-6);
-  const Bent it(s, stiff);
+  const Bent it(exact_cut(), stiff);
   const auto straight = it.straight();
   for (const Feedback feedback :
        {Feedback::entry, Feedback::regenerative, Feedback::direct}) {
@@ -184,12 +190,39 @@ TEST(Feedback, AStiffCutterIsARigidOne) {  // [E-10]
 }
 
 TEST(Feedback, ARigidCutterStaysStraight) {  // [E-10]
-  const Bent it(bent_cut(true, 10e-6), Bodies{});
+  const Bent it(exact_cut(), Bodies{});
   const SteadyState turn = it.turn(Feedback::regenerative);
   EXPECT_TRUE(turn.converged);
   const auto straight = it.straight();
   for (const double phi : angles(50)) {
     EXPECT_NEAR(F_y(turn.moments, phi), F_y(straight, phi), 2 * tolerance * 250);
+  }
+}
+
+TEST(Feedback, EachToothEntersByItsOwnRadius) {  // [E-10] [C-4]
+  // Of the simple chips `radial` alone knows the tooth as it is; without feedback it
+  // keeps to the nominal arc. A longer tooth enters earlier, a shorter one later.
+  const MadeCut s = bent_cut(true, 10e-6);
+  const Bent it(s, Bodies{});
+  const auto met = it.turn(Feedback::entry).moments;
+  const auto nominal = it.straight();
+  const double entry = entry_angle(s);
+  const double dR_dtheta = -(s.cutter.profile.D / 2) * std::tan(entry);
+  MadeCut straight = s;
+  straight.runout = {};
+  const auto teeth = edge_places(s, 0.0);
+  const auto nominal_teeth = edge_places(straight, 0.0);
+  for (std::size_t i = 0; i < teeth.size(); ++i) {
+    const double longer = teeth[i].R - s.cutter.profile.D / 2;
+    ASSERT_GT(std::abs(longer), 1e-6);
+    const double between = entry - 0.5 * longer / dR_dtheta + nominal_teeth[i].behind;
+    const double with = F_y(met, between);
+    const double without = F_y(nominal, between);
+    if (longer > 0) {
+      EXPECT_GT(std::abs(with), std::abs(without));
+    } else {
+      EXPECT_LT(std::abs(with), std::abs(without));
+    }
   }
 }
 
