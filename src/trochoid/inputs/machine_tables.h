@@ -7,6 +7,8 @@
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
+#include <trochoid/identification/identify.h>
+#include <trochoid/surface/datum.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
 
@@ -38,15 +40,31 @@ struct Wall {
   double position = 0.0;  ///< of the cutter along the wall [m]; default: its middle
 };
 
+/// What becomes of readings far from what all others say.
+enum class Outliers { leave_out, keep };
+
+/// Names of files.
+constexpr std::string_view name_of(Outliers outliers) noexcept {
+  switch (outliers) {
+    case Outliers::leave_out:
+      return "leave_out";
+    case Outliers::keep:
+      return "keep";
+  }
+  return {};
+}
+
 /// [surface]
 struct Surface {
   surface::Model model = surface::Model::envelope;
   surface::Load load = surface::Load::distributed;
-  surface::Feedback feedback = surface::Feedback::none;
+  std::optional<surface::Feedback> feedback;  ///< none: as the readings decide
   double phase = 0.0;                     ///< phi0 [rad]
   std::vector<double> heights;            ///< of the answer, above the tip [m]
   std::vector<double> influence_heights;  ///< of influence.csv, above the tip [m]
   double probe_diameter = 0.0;            ///< of the measuring tip [m]; 0: a point
+  Outliers outliers = Outliers::leave_out;
+  identification::Errors errors = identification::Errors::automatic;
 };
 
 /// One [[surface_measurement]].
@@ -54,6 +72,7 @@ struct SurfaceMeasurement {
   std::string file;           ///< absolute, or relative to where we run
   bool datum_offset = false;  ///< a constant shift of the readings is estimated
   bool datum_tilt = false;    ///< as are tilts along and across the feed
+  std::optional<surface::Form> form;  ///< none: as the readings decide
   std::string location;       ///< file:line:col of its `file` key
 };
 

@@ -79,8 +79,9 @@ void describe(const Visitor& v, Surface& t) {
   v({.name = "feedback",
      .meaning = "what the deflection changes; entry: where an edge enters the stock; "
                 "regenerative: the chip as well; direct: the chip as if earlier teeth "
-                "had not been deflected"},
-    choice(t.feedback));
+                "had not been deflected; auto: calibrate lets the readings decide "
+                "between none and regenerative, surface takes none"},
+    choice(t.feedback, "auto"));
   v({.name = "phase_deg",
      .meaning = "spindle angle phi0 at the start",
      .range = between(-360, 360)},
@@ -102,6 +103,15 @@ void describe(const Visitor& v, Surface& t) {
                 "machine cannot avoid; 0: a point",
      .range = between(0, 100)},
     &t.probe_diameter);
+  v({.name = "outliers",
+     .meaning = "calibrate: readings farther than five standard deviations from what "
+                "the others say"},
+    choice(t.outliers));
+  v({.name = "errors",
+     .meaning = "calibrate, standard errors and intervals: auto counts what readings of "
+                "one height or one place have in common; white: as if each were "
+                "independent"},
+    choice(t.errors));
 }
 
 void describe(const Visitor& v, SurfaceMeasurement& t) {
@@ -114,6 +124,12 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
   v({.name = "datum_tilt",
      .meaning = "estimate a tilt of the readings along and across the feed"},
     &t.datum_tilt);
+  v({.name = "form",
+     .meaning = "form of the wall that is no work of the cut, estimated beside the "
+                "coefficients; tilt has an offset as well, curvature both; auto: as "
+                "the readings decide, at least what datum_offset and datum_tilt ask "
+                "for; for quasi_static none"},
+    choice(t.form, "auto"));
 }
 
 void describe(const Visitor& v, Mode& t) {

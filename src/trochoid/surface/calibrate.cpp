@@ -1,6 +1,7 @@
 #include <trochoid/surface/calibrate.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trochoid::surface {
 
@@ -22,6 +23,121 @@ RunoutFit runout_of(const Setting& setting, std::span<const Reading> readings,
   return find_runout(setting, readings, datum, models);
 }
 
+/// Farther off than so many standard deviations, or this.
+constexpr double far_off = 5.0;
+constexpr double never_far = 0.25e-6;  // [m]
+/// More than this share are no outliers: the model does not fit.
+constexpr double most_outliers = 0.15;
+
+/// The readings that count, and which they were.
+struct Kept {
+  std::vector<Reading> readings;
+  std::vector<std::size_t> index;
+};
+
+Kept all_of(std::span<const Reading> readings) {
+  Kept kept{.readings = {readings.begin(), readings.end()}};
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    kept.index.push_back(i);
+  }
+  return kept;
+}
+
+/// Leave out what lies far from what is predicted. @return whether anything does
+bool leave_out(std::span<const double> predicted, std::size_t whole, Kept& kept,
+               std::vector<Outlier>& outliers) {
+  std::vector<double> size;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    size.push_back(std::abs(kept.readings[i].error - predicted[i]));
+  }
+  std::vector<double> sorted = size;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double most = std::max(far_off * 1.4826 * *middle, never_far);  // E-26
+  const auto count = static_cast<double>(
+      std::count_if(size.begin(), size.end(), [&](double s) { return s > most; }));
+  const double all = static_cast<double>(outliers.size()) + count;
+  if (count == 0 || all > most_outliers * static_cast<double>(whole)) {
+    return false;
+  }
+  Kept rest;
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    if (size[i] > most) {
+      outliers.push_back({kept.index[i], kept.readings[i].error - predicted[i]});
+    } else {
+      rest.readings.push_back(kept.readings[i]);
+      rest.index.push_back(kept.index[i]);
+    }
+  }
+  kept = std::move(rest);
+  return true;
+}
+
+/// Means, and runout if it shows, everything as stated.
+struct Stated {
+  ModelFits models;
+  RunoutFit runout;
+};
+
+Stated fit_stated(const Setting& setting, const Kept& kept, std::span<const Datum> datum,
+                  Feedback feedback, const std::function<void()>& means_fitted) {
+  Stated fit{.models = fit_models(setting, kept.readings, datum, feedback)};
+  if (chosen_fit(fit.models).ok) {
+    fit.runout = runout_of(setting, kept.readings, datum, fit.models, means_fitted);
+  }
+  return fit;
+}
+
+std::vector<double> predicted_by(const Stated& fit, std::size_t readings) {
+  return fit.runout.ok ? fit.runout.predicted : predicted_means(fit.models, readings);
+}
+
+FoundCoefficients found_by(const RunoutFit& joint) {
+  return {joint.K_tc, joint.K_rc, joint.correlation, joint.datum, joint.rms};
+}
+
+void count_stated(const Setting& setting, Feedback feedback, Calibration& c) {
+  const CoefficientFit& means = chosen_fit(c.models);
+  c.with_runout =
+      c.runout_seen && setting.model == Model::envelope && feedback == Feedback::none;
+  c.coefficients = c.with_runout
+                       ? found_by(c.runout)
+                       : FoundCoefficients{means.K_tc, means.K_rc, means.correlation,
+                                           means.datum, means.rms};
+}
+
+void count_joint(const JointFit& joint, std::span<const Datum> datum, Calibration& c) {
+  c.explanations = joint.explanations;
+  c.own_scatter = joint.own_scatter;
+  c.shared_scatter = joint.shared_scatter;
+  c.coefficients = found_by(joint.fit);
+  c.with_runout = joint.with_runout;
+  if (joint.with_runout) {
+    c.runout = joint.fit;
+  }
+  c.datum.assign(datum.begin(), datum.end());
+  for (Datum& d : c.datum) {
+    d = decided(d, c.explanations.front().form);
+  }
+}
+
+/// What was found of the readings that count, said of all of them.
+void spread_out(const Kept& kept, std::span<const Reading> readings, Calibration& c) {
+  std::vector<double> all(readings.size());
+  for (std::size_t i = 0; i < kept.index.size(); ++i) {
+    all[kept.index[i]] = c.predicted[i];
+  }
+  for (const Outlier& out : c.outliers) {
+    all[out.reading] = readings[out.reading].error - out.residual;
+  }
+  c.predicted = std::move(all);
+  for (Nominal& n : c.models.nominal) {
+    for (std::size_t& i : n.readings) {
+      i = kept.index[i];
+    }
+  }
+}
+
 }  // namespace
 
 bool is_seen(const RunoutFit& runout) noexcept {
@@ -29,28 +145,60 @@ bool is_seen(const RunoutFit& runout) noexcept {
 }
 
 Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
-                      std::span<const Datum> datum, Feedback feedback,
+                      std::span<const Datum> datum, const FitOptions& options,
                       const std::function<void()>& means_fitted) {
   static_cast<void>(side_of(setting));
-  Calibration c{.models = fit_models(setting, readings, datum, feedback)};
+  constexpr int most_rounds = 4;
+  const Feedback feedback = options.feedback.value_or(Feedback::none);
+  std::vector<Datum> first(datum.begin(), datum.end());
+  for (Datum& d : first) {
+    d = decided(d, Form::offset);
+  }
+  const bool decided = options.shared || !options.feedback ||
+                       std::any_of(datum.begin(), datum.end(),
+                                   [](const Datum& d) { return d.decide; });
+  const bool robust = options.robust && setting.model != Model::quasi_static;
+  Calibration c{.datum = first};
+  Kept kept = all_of(readings);
+  JointFit joint;
+  for (int round = 0; round < most_rounds; ++round) {
+    Stated stated = fit_stated(setting, kept, first, feedback, means_fitted);
+    const bool may_leave = robust && round + 1 < most_rounds;
+    if (may_leave && chosen_fit(stated.models).ok &&
+        leave_out(predicted_by(stated, kept.readings.size()), readings.size(), kept,
+                  c.outliers)) {
+      continue;
+    }
+    c.predicted = predicted_by(stated, kept.readings.size());
+    c.models = std::move(stated.models);
+    c.runout = std::move(stated.runout);
+    if (!chosen_fit(c.models).ok || !decided) {
+      break;
+    }
+    joint = fit_jointly(setting, kept.readings, datum, options, c.models, c.runout);
+    if (!joint.ok) {
+      break;
+    }
+    c.predicted = joint.fit.predicted;
+    if (!may_leave ||
+        !leave_out(joint.fit.predicted, readings.size(), kept, c.outliers)) {
+      break;
+    }
+  }
   const CoefficientFit& means = chosen_fit(c.models);
-  if (!means.ok) {
-    c.message = means.message;
+  c.ok = means.ok;
+  c.message = means.message;
+  if (!c.ok) {
     return c;
   }
-  c.ok = true;
-  c.runout = runout_of(setting, readings, datum, c.models, means_fitted);
+  if (joint.ok) {
+    count_joint(joint, datum, c);
+  }
   c.runout_seen = is_seen(c.runout);
-  c.with_runout =
-      c.runout_seen && setting.model == Model::envelope && feedback == Feedback::none;
-  const RunoutFit& joint = c.runout;
-  c.coefficients = c.with_runout
-                       ? FoundCoefficients{joint.K_tc, joint.K_rc, joint.correlation,
-                                           joint.datum, joint.rms}
-                       : FoundCoefficients{means.K_tc, means.K_rc, means.correlation,
-                                           means.datum, means.rms};
-  c.predicted =
-      c.runout.ok ? c.runout.predicted : predicted_means(c.models, readings.size());
+  if (!joint.ok) {
+    count_stated(setting, feedback, c);
+  }
+  spread_out(kept, readings, c);
   return c;
 }
 

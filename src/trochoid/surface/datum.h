@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::surface {
@@ -12,9 +13,44 @@ using base::Estimate;
 
 /// What is estimated of a measurement beside the coefficients.
 struct Datum {
-  bool offset = false;  ///< a constant of the readings
-  bool tilt = false;    ///< slopes along the feed and over the height
+  bool offset = false;     ///< a constant of the readings
+  bool tilt = false;       ///< slopes along the feed and over the height
+  bool curvature = false;  ///< over the height
+  bool decide = false;     ///< as the readings decide, at least these (E-24)
 };
+
+/// Form of a wall that is no work of this cut, each with those before it.
+enum class Form { none, offset, tilt, curvature };
+
+/// Names of files.
+constexpr std::string_view name_of(Form form) noexcept {
+  switch (form) {
+    case Form::none:
+      return "none";
+    case Form::offset:
+      return "offset";
+    case Form::tilt:
+      return "tilt";
+    case Form::curvature:
+      return "curvature";
+  }
+  return {};
+}
+
+constexpr Datum datum_of(Form form) noexcept {
+  return {form >= Form::offset, form >= Form::tilt, form >= Form::curvature, false};
+}
+
+/// A datum as it was decided: the form, and what was stated.
+constexpr Datum decided(const Datum& datum, Form form) noexcept {
+  if (!datum.decide) {
+    return datum;
+  }
+  Datum of = datum_of(form);
+  of.offset = of.offset || datum.offset;
+  of.tilt = of.tilt || datum.tilt;
+  return of;
+}
 
 /// Where a reading or a mean of readings lies.
 struct Spot {
@@ -23,10 +59,20 @@ struct Spot {
   std::size_t set = 0;
 };
 
-/// @brief Columns of the datum parameters: an offset of each set, then its slopes.
+/// What a column of the datum is.
+struct DatumPart {
+  std::size_t set = 0;
+  bool offset = false;
+  bool slope = false;    ///< neither: the curvature
+  double largest = 0.0;  ///< value in the column
+};
+
+/// @brief Columns of the datum parameters: of each set an offset, its slopes, and how far
+/// the middle of the heights lies below their ends.
 struct DatumColumns {
   std::size_t count = 0;
-  std::vector<double> values;  ///< row-major, shape (spots, count)
+  std::vector<double> values;    ///< row-major, shape (spots, count)
+  std::vector<DatumPart> parts;  ///< shape (count)
 };
 
 DatumColumns datum_columns(std::span<const Spot> spots, std::span<const Datum> datum);

@@ -93,8 +93,8 @@ std::shared_ptr<const Stations> NominalModel::stations_for(
   for (const Nominal& row : rows) {
     heights.push_back(row.height);
   }
-  return std::make_shared<Stations>(setting.bodies, places(rows), heights, a_p,
-                                    setting.load);
+  return std::make_shared<Stations>(setting.bodies, places(rows), heights,
+                                    LoadedWall{.a_p = a_p, .load = setting.load});
 }
 
 NominalModel::NominalModel(const Setting& setting, std::span<const Nominal> rows)

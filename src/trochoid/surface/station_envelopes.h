@@ -9,14 +9,18 @@
 
 namespace trochoid::surface {
 
+/// Moments of with_coefficients over the spindle angle: the same at all stations, or of
+/// each its own.
+using StationMoments = std::span<const numerics::PeriodicPieces>;
+
 /// @brief The envelope (E-9) at one height, at all stations along the wall together.
 ///
 /// Where the teeth pass is the same at each of them; only the deflection differs.
 class StationEnvelopes {
  public:
-  /// @param stations, moments  must live as long as this; moments of with_coefficients
+  /// @param stations, moments  must live as long as this
   /// @param node, level        the height, as of the stations
-  StationEnvelopes(const Stations& stations, const numerics::PeriodicPieces& moments,
+  StationEnvelopes(const Stations& stations, StationMoments moments,
                    const force::Setup& setup, std::size_t node, Level level);
 
   /// @brief The profile over a turn of the feed.
@@ -26,7 +30,7 @@ class StationEnvelopes {
 
  private:
   const Stations& stations_;
-  const numerics::PeriodicPieces& moments_;
+  StationMoments moments_;
   Side side_;
   double R_ = 0.0;     ///< [m]
   double feed_ = 0.0;  ///< of a turn [m]

@@ -12,18 +12,18 @@ namespace {
 
 /// Stations on a stretch as long as the wall, or as twice its height if that is less.
 constexpr double stations_per_wall = 10;
-constexpr std::size_t most_stations = 12;
 
 /// How many stations resolve a stretch: the compliance changes with the distance from
 /// the clamped ends, over lengths like the wall's own.
-std::size_t station_count(const std::optional<Wall>& wall, double stretch) {
+std::size_t station_count(const std::optional<Wall>& wall, double stretch,
+                          std::size_t most) {
   if (!wall || stretch == 0) {
     return 1;
   }
   const double size =
       std::min(wall->length > 0 ? wall->length : 2 * wall->height, 2 * wall->height);
   return std::min(
-      most_stations,
+      most,
       3 + static_cast<std::size_t>(std::ceil(stations_per_wall * stretch / size)));
 }
 
@@ -45,14 +45,15 @@ std::array<double, 3> heights_around(double height, double a_p) {
 }
 
 Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
-                   std::span<const double> heights, double a_p, Load load)
+                   std::span<const double> heights, const LoadedWall& loaded)
     : x_(distinct(x)), grid_(heights), along_(x_.front(), x_.back(), 1) {
   for (const double node : grid_.nodes()) {
-    const auto around = heights_around(node, a_p);
+    const auto around = heights_around(node, loaded.a_p);
     heights_.insert(heights_.end(), around.begin(), around.end());
   }
   const Bodies first = bodies(x_.front());
-  const std::size_t enough = station_count(first.wall, x_.back() - x_.front());
+  const std::size_t enough =
+      station_count(first.wall, x_.back() - x_.front(), loaded.most_stations);
   const double first_x = x_.front();
   if (enough == 1) {
     x_.resize(1);
@@ -64,7 +65,8 @@ Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
   std::vector<std::optional<Compliance>> solved(x_.size());
   rows_.resize(x_.size());
   numerics::for_each_index(x_.size(), [&](std::size_t i) {
-    solved[i].emplace(x_[i] == first_x ? first : bodies(x_[i]), a_p, x_[i], load);
+    solved[i].emplace(x_[i] == first_x ? first : bodies(x_[i]), loaded.a_p, x_[i],
+                      loaded.load);
     rows_[i] = solved[i]->rows(heights_);
   });
   for (auto& compliance : solved) {

@@ -13,6 +13,13 @@ namespace trochoid::surface {
 /// @brief Just below a height, there, and just above it: for slopes over the height.
 std::array<double, 3> heights_around(double height, double a_p);
 
+/// How the wall is loaded, and how closely it is looked at.
+struct LoadedWall {
+  double a_p = 0.0;  ///< axial depth [m]
+  Load load = Load::distributed;
+  std::size_t most_stations = 12;  ///< along a stretch
+};
+
 /// Which of heights_around.
 enum class Level : std::size_t { below = 0, there = 1, above = 2 };
 
@@ -26,7 +33,7 @@ class Stations {
   /// @param x        where the cutter comes along the wall [m], not empty
   /// @param heights  above the tip, in any order [m]
   Stations(const BodiesAt& bodies, std::span<const double> x,
-           std::span<const double> heights, double a_p, Load load);
+           std::span<const double> heights, const LoadedWall& loaded);
 
   /// Moments of the force refer to these points.
   [[nodiscard]] const numerics::LagrangeBasis& basis() const noexcept {

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/parallel.h>
+#include <trochoid/surface/march.h>
 #include <trochoid/surface/pass.h>
 #include <trochoid/surface/turn.h>
 
@@ -35,11 +36,17 @@ std::vector<double> places_along(std::span<const Reading> readings) {
 
 }  // namespace
 
+std::shared_ptr<const Stations> stations_for(const Setting& setting,
+                                             std::span<const Reading> readings,
+                                             std::size_t most) {
+  return std::make_shared<Stations>(
+      setting.bodies, places_along(readings), heights_of(readings),
+      LoadedWall{setting.setup.cut.a_p, setting.load, most});
+}
+
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings)
     : ToothModel(setting, readings,
-                 std::make_shared<Stations>(setting.bodies, places_along(readings),
-                                            heights_of(readings), setting.setup.cut.a_p,
-                                            setting.load)) {}
+                 stations_for(setting, readings, LoadedWall{}.most_stations)) {}
 
 ToothModel::ToothModel(const Setting& setting, std::span<const Reading> readings,
                        std::shared_ptr<const Stations> stations)
@@ -127,6 +134,24 @@ std::vector<double> ToothModel::angles(const force::Setup& setup) const {
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   return angles;
+}
+
+ToothModel::Forces ToothModel::forces_with(Feedback feedback, RunoutVector runout,
+                                           std::span<const double, columns> K) const {
+  const force::Setup setup = with(runout);
+  Forces result{.runout = runout};
+  const EdgeMoments edges(setup, setting_.law, stations_->basis());
+  const auto straight =
+      with_coefficients(unit_moments(edges, 10 * setting_.tolerance), K);
+  result.bent.resize(stations_->count());
+  std::vector<char> found(stations_->count());
+  numerics::for_each_index(stations_->count(), [&](std::size_t s) {
+    const Marched turn = march(setup, setting_.law, K, stations_->compliance(s), feedback);
+    found[s] = turn.converged ? 1 : 0;
+    result.bent[s] = with_feedback(straight, turn);
+  });
+  result.found = std::all_of(found.begin(), found.end(), [](char f) { return f != 0; });
+  return result;
 }
 
 ToothModel::Forces ToothModel::forces(RunoutVector runout) const {

@@ -16,6 +16,12 @@ struct RunoutVector {
   double s = 0.0;
 };
 
+/// @brief The stations that the places and heights of readings ask for.
+/// @param most  of them, along the wall
+std::shared_ptr<const Stations> stations_for(const Setting& setting,
+                                             std::span<const Reading> readings,
+                                             std::size_t most);
+
 /// @brief Every reading by itself: which tooth made it, and with which runout.
 ///
 /// quasi_static knows the tooth by the spindle angle, imprint by its label or by the
@@ -50,8 +56,15 @@ class ToothModel {
     std::vector<double> angles;  ///< where single values are known [rad], ascending
     std::vector<double> values;  ///< shape (angles, columns x values of EdgeMoments)
     numerics::PeriodicPieces table;  ///< envelope, and pulses at many angles
+    /// With feedback instead: at each station, the coefficients in it.
+    std::vector<numerics::PeriodicPieces> bent;
+    bool found = true;  ///< false: no steady state was found
   };
   [[nodiscard]] Forces forces(RunoutVector runout) const;
+  /// @brief The same in the steady state that the deflection leads to (E-10).
+  /// @param K  of which they are; predict leaves its own aside
+  [[nodiscard]] Forces forces_with(Feedback feedback, RunoutVector runout,
+                                   std::span<const double, columns> K) const;
 
   /// @brief Errors of all readings.
   /// @param runout  of the tooth paths; the forces may be those of another
@@ -75,8 +88,12 @@ class ToothModel {
   /// Angles at which single values of the force are wanted, ascending [rad].
   [[nodiscard]] std::vector<double> angles(const force::Setup& setup) const;
   /// Sums over the coefficients of what `forces` knows at an angle, shape (values).
-  void moments_at(const Forces& forces, std::span<const double, columns> K, double phi,
-                  std::span<double> out) const;
+  static void moments_at(const Forces& forces, std::span<const double, columns> K,
+                         double phi, std::span<double> out);
+  /// Deflection at a place and an angle [m].
+  [[nodiscard]] double deflection_at(const Forces& forces,
+                                     std::span<const double, columns> K, double phi,
+                                     std::size_t station, std::size_t node) const;
   /// At the stations and nodes, from one error of each, shape (readings).
   template <class ErrorAt>
   [[nodiscard]] std::vector<double> along_the_wall(const ErrorAt& error_at) const;
@@ -91,9 +108,10 @@ class ToothModel {
                                                      std::span<const double, columns> K,
                                                      const force::Setup& setup,
                                                      double x_0) const;
-  [[nodiscard]] std::vector<double> profiles(const numerics::PeriodicPieces& moments,
-                                             const force::Setup& setup,
-                                             std::size_t node) const;
+  /// @param moments  of all stations, or of each
+  [[nodiscard]] std::vector<double> profiles(
+      std::span<const numerics::PeriodicPieces> moments, const force::Setup& setup,
+      std::size_t node) const;
 
   Setting setting_;
   std::vector<Reading> readings_;

@@ -52,7 +52,7 @@ std::vector<double> ToothModel::along_the_wall(const ErrorAt& error_at) const {
 }
 
 void ToothModel::moments_at(const Forces& forces, std::span<const double, columns> K,
-                            double phi, std::span<double> out) const {
+                            double phi, std::span<double> out) {
   const std::size_t n = out.size();
   std::vector<double> from_table;
   const double* m = nullptr;
@@ -71,6 +71,19 @@ void ToothModel::moments_at(const Forces& forces, std::span<const double, column
       out[q] += K[c] * m[c * n + q];
     }
   }
+}
+
+double ToothModel::deflection_at(const Forces& forces,
+                                 std::span<const double, columns> K, double phi,
+                                 std::size_t station, std::size_t node) const {
+  const auto row = stations_->row(station, node);
+  std::vector<double> moments(row.size() + 2);
+  if (forces.bent.empty()) {
+    moments_at(forces, K, phi, moments);
+  } else {
+    forces.bent[station].value(phi, moments);
+  }
+  return deflection_of(row, moments);
 }
 
 std::vector<double> ToothModel::predict(const Forces& forces,
@@ -98,14 +111,11 @@ std::vector<double> ToothModel::predict_pulses(const Forces& forces,
   for (const double height : stations_->grid().nodes()) {
     teeth.push_back(edge_places(setup, height));
   }
-  const std::size_t n = stations_->basis().size() + 2;
   return along_the_wall([&](std::size_t i) {
     const double phi = places_[i].phi;
-    std::vector<double> moments(n);
-    moments_at(forces, K, phi, moments);
-    return [&, tooth = last_entered(tips, entry_angle(setup), phi),
-            m = std::move(moments)](std::size_t s, std::size_t node) {
-      return side.sigma * deflection_of(stations_->row(s, node), m) -
+    return [&, phi, tooth = last_entered(tips, entry_angle(setup), phi)](
+               std::size_t s, std::size_t node) {
+      return side.sigma * deflection_at(forces, K, phi, s, node) -
              (teeth[node][tooth].R - R);  // E-7
     };
   });
@@ -120,15 +130,14 @@ std::vector<double> ToothModel::predict_imprints(const Forces& forces,
   std::vector<double> table(stations_->count() * nodes.size() * teeth);
   // The forces may be those of another runout: known at its own angles only.
   const force::Setup there = with(forces.runout);
-  std::vector<double> moments(stations_->basis().size() + 2);
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const auto places = edge_places(setup, nodes[node]);
     const auto touch = edge_places(there, nodes[node]);
     for (std::size_t tooth = 0; tooth < teeth; ++tooth) {
-      moments_at(forces, K, within_turn(side.theta + touch[tooth].behind), moments);
+      const double phi = within_turn(side.theta + touch[tooth].behind);
       for (std::size_t s = 0; s < stations_->count(); ++s) {
         table[(s * nodes.size() + node) * teeth + tooth] =
-            side.sigma * deflection_of(stations_->row(s, node), moments) -
+            side.sigma * deflection_at(forces, K, phi, s, node) -
             (places[tooth].R - setup.cutter.profile.D / 2);  // E-8
       }
     }
@@ -140,9 +149,9 @@ std::vector<double> ToothModel::predict_imprints(const Forces& forces,
   });
 }
 
-std::vector<double> ToothModel::profiles(const numerics::PeriodicPieces& moments,
-                                         const force::Setup& setup,
-                                         std::size_t node) const {
+std::vector<double> ToothModel::profiles(
+    std::span<const numerics::PeriodicPieces> moments, const force::Setup& setup,
+    std::size_t node) const {
   const auto n = static_cast<std::size_t>(setup.cutter.teeth()) * points_per_feed;
   auto all =
       StationEnvelopes(*stations_, moments, setup, node, Level::there).profiles(n);
@@ -182,7 +191,9 @@ std::vector<double> ToothModel::predict_envelope(const Forces& forces,
                                                  double x_0) const {
   const auto n = static_cast<std::size_t>(setup.cutter.teeth()) * points_per_feed;
   const double feed = setup.cutter.teeth() * setup.cut.f_z;
-  const auto moments = with_coefficients(forces.table, K);
+  const std::vector<numerics::PeriodicPieces> moments =
+      forces.bent.empty() ? std::vector{with_coefficients(forces.table, K)}
+                          : forces.bent;
   std::vector<std::vector<double>> at_nodes(stations_->grid().nodes().size());
   numerics::for_each_index(at_nodes.size(), [&](std::size_t node) {
     at_nodes[node] = profiles(moments, setup, node);

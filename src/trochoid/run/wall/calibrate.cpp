@@ -44,13 +44,13 @@ results::CalibrateResult calibrate(const inputs::Case& given,
       .heading = {.title = given.title, .case_toml = given.as_understood},
       .calibration =
           surface::calibrate(wall_setting(given), wall.readings, wall.datum,
-                             wall_feedback(given), [&] { tell("Looking for runout"); }),
+                             wall_fit(given), [&] { tell("Looking for runout"); }),
       .law = given.law,
       .edge_length = given.setup.edge_length,
       .order = given.setup.runout.order,
       .teeth = given.setup.cutter.teeth()};
   r.readings = std::move(wall.readings);
-  r.datum = std::move(wall.datum);
+  r.datum = r.calibration.datum;
   const surface::ModelFits& models = r.calibration.models;
   if (!r.calibration.ok) {
     r.heading.ok = false;

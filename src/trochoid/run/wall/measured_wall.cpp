@@ -21,6 +21,18 @@ void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
   reading.travel = along + read.feed_offset.value_or(0.0);
 }
 
+/// What is estimated of a file beside the coefficients.
+surface::Datum datum_of(const inputs::Case& given, const inputs::SurfaceMeasurement& m) {
+  const bool pulse = given.machine.surface->model == surface::Model::quasi_static;
+  surface::Datum datum{.decide = !m.form && !pulse};
+  if (m.form) {
+    datum = surface::datum_of(*m.form);
+  }
+  datum.offset = datum.offset || m.datum_offset;
+  datum.tilt = datum.tilt || m.datum_tilt;
+  return datum;
+}
+
 }  // namespace
 
 MeasuredWall measured_wall(const inputs::Case& given) {
@@ -44,7 +56,7 @@ MeasuredWall measured_wall(const inputs::Case& given) {
       set_place(given, read, reading);
       wall.readings.push_back(reading);
     }
-    wall.datum.push_back({m.datum_offset, m.datum_tilt});
+    wall.datum.push_back(datum_of(given, m));
   }
   if (!problems.empty()) {
     throw base::InputError(problems);

@@ -36,7 +36,21 @@ surface::Setting wall_setting(const inputs::Case& given) {
 }
 
 surface::Feedback wall_feedback(const inputs::Case& given) {
-  return given.machine.surface.value_or(inputs::Surface{}).feedback;
+  return given.machine.surface.value_or(inputs::Surface{})
+      .feedback.value_or(surface::Feedback::none);
+}
+
+surface::FitOptions wall_fit(const inputs::Case& given) {
+  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
+  const bool pulse = table.model == surface::Model::quasi_static;
+  surface::FitOptions fit{
+      .feedback = table.feedback,
+      .robust = table.outliers == inputs::Outliers::leave_out,
+      .shared = !pulse && table.errors == identification::Errors::automatic};
+  if (pulse && !fit.feedback) {
+    fit.feedback = surface::Feedback::none;
+  }
+  return fit;
 }
 
 double wall_position(const inputs::Case& given) {
@@ -51,7 +65,7 @@ surface::MapOptions map_options(const inputs::Case& given) {
           .heights = table.heights,
           .influence_heights = table.influence_heights,
           .position = wall_position(given),
-          .feedback = table.feedback,
+          .feedback = wall_feedback(given),
           .tolerance = given.sampling.tolerance};
 }
 

@@ -2,6 +2,7 @@
 
 #include <trochoid/inputs/case.h>
 #include <trochoid/surface/error_map.h>
+#include <trochoid/surface/joint_fit.h>
 #include <trochoid/surface/setting.h>
 
 #include <optional>
@@ -16,7 +17,11 @@ std::optional<structure::Plate> wall_plate(const inputs::MachineTables& machine)
 
 surface::Setting wall_setting(const inputs::Case& given);
 
+/// Of the wall that `surface` computes.
 surface::Feedback wall_feedback(const inputs::Case& given);
+
+/// How `calibrate` fits.
+surface::FitOptions wall_fit(const inputs::Case& given);
 
 /// @brief Of the cutter along the wall, at the phase; 0 without [wall] [m].
 double wall_position(const inputs::Case& given);

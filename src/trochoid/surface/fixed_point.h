@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// Deflections that the forces they lead to bring about.
+namespace trochoid::surface::fixed_point {
+
+inline double largest_of(std::span<const double> v) {
+  double largest = 0.0;
+  for (const double x : v) {
+    largest = std::max(largest, std::abs(x));
+  }
+  return largest;
+}
+
+inline double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += a[i] * b[i];
+  }
+  return sum;
+}
+
+/// What a solution must reach, and beyond what there is none.
+struct Limits {
+  double allowed = 0.0;  ///< of the residual [m]
+  double largest = 0.0;  ///< deflection [m]
+};
+
+/// Steps on the way may overshoot the largest deflection by this.
+inline constexpr double lost = 50;
+
+/// @brief u with image(u) = u, by Broyden's method
+/// from the Jacobian -1 of the residual.
+/// @src [broyden1965], as in [kelley1995] 7.3: only the steps are kept
+template <class Image>
+bool solve_fixed_point(const Image& image, std::vector<double>& u, const Limits& limits) {
+  constexpr int most_steps = 60;
+  std::vector<double> r(u.size());
+  std::vector<std::vector<double>> steps;
+  for (int k = 0; k < most_steps; ++k) {
+    image(u, r);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      r[i] -= u[i];
+    }
+    if (largest_of(r) <= limits.allowed) {
+      return largest_of(u) <= limits.largest;
+    }
+    if (largest_of(u) > lost * limits.largest) {
+      return false;
+    }
+    std::vector<double> z = r;
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+      const double part = dot(steps[n], z) / dot(steps[n], steps[n]);
+      const bool last = n + 1 == steps.size();
+      const double factor = last ? 1 / std::max(1 - part, 0.1) : 1.0;
+      for (std::size_t i = 0; i < z.size(); ++i) {
+        z[i] = last ? factor * z[i] : z[i] + part * steps[n + 1][i];
+      }
+    }
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      u[i] += z[i];
+    }
+    steps.push_back(std::move(z));
+  }
+  return false;
+}
+
+}  // namespace trochoid::surface::fixed_point

@@ -1,0 +1,322 @@
+#include <trochoid/surface/march.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/force/edge_curve.h>
+#include <trochoid/numerics/gauss_kronrod.h>
+#include <trochoid/surface/fixed_point.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::surface {
+
+namespace {
+
+using Values = std::vector<double>;
+
+constexpr std::size_t steps_per_pitch = 72;
+constexpr std::size_t radii = 33;  ///< heights between which radii are interpolated
+constexpr double settled = 1e-3;   ///< change of the deflection in a turn, of its peak
+constexpr int most_turns = 100;
+/// Panels of the table [rad], and how good it is, as a part of the largest value.
+constexpr double longest_panel = 0.2;
+constexpr double shortest_panel = 0.01;
+constexpr double table_tolerance = 1e-3;
+/// Exact paths cut a little before and behind where a circle does [rad].
+constexpr double beyond = 0.06;
+
+/// A value between equal steps of a turn, by the cubic through four of them.
+void between_steps(std::span<const double> table, std::size_t steps, double phi,
+                   std::span<double> out) {
+  const std::size_t n = out.size();
+  double at = phi / unit::turn;
+  at = (at - std::floor(at)) * static_cast<double>(steps);
+  const auto first = static_cast<std::size_t>(at) % steps;
+  const double t = at - std::floor(at);
+  const std::array<double, 4> w = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
+                                   -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+  std::fill(out.begin(), out.end(), 0.0);
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    const double* row = table.data() + (first + steps + i - 1) % steps * n;
+    for (std::size_t q = 0; q < n; ++q) {
+      out[q] += w[i] * row[q];
+    }
+  }
+}
+
+/// The edges of a cylinder, and what they meet.
+class Edges {
+ public:
+  Edges(const force::Setup& setup, const force::Law& law,
+        std::span<const double, columns> K, const Compliance& compliance)
+      : edges_(setup),
+        form_(force::form(law)),
+        K_(K),
+        basis_(compliance.basis()),
+        a_p_(setup.cut.a_p),
+        R_(setup.cutter.profile.D / 2),
+        point_(edges_.point(0.5 * edges_.ends.back())) {
+    const std::size_t teeth = edges_.psi.size();
+    positions_.resize(radii * teeth);
+    for (std::size_t i = 0; i < radii; ++i) {
+      const force::EdgePoint p = edges_.point(edges_.ends.back() *
+                                              static_cast<double>(i) / (radii - 1));
+      geometry::edge_positions(edges_.setup.runout, edges_.psi, p.meridian.r, p.lag,
+                               std::span(positions_).subspan(i * teeth, teeth));
+    }
+    lag_ = edges_.lag_at_ends.back();
+    near_.resize(teeth);
+    gained_.resize(teeth);
+    L_.resize(basis_.size());
+  }
+
+  [[nodiscard]] std::size_t teeth() const { return edges_.psi.size(); }
+  [[nodiscard]] std::span<const double> back() const { return edges_.passage.back; }
+
+  /// m_q, F_x, F_y with the deflections u now and, of each tooth and mark, before.
+  void forces(double phi, std::span<const double> u, std::span<const double> before,
+              std::span<double> out) {
+    std::fill(out.begin(), out.end(), 0.0);
+    for (std::size_t j = 0; j < teeth(); ++j) {
+      double theta = phi - edges_.psi[j];
+      theta -= unit::turn * std::floor(theta / unit::turn);
+      for (; theta - lag_ < std::numbers::pi + beyond; theta += unit::turn) {
+        add_tooth(j, theta, u, before, out);
+      }
+    }
+  }
+
+ private:
+  /// One passage of a tooth whose tip is at theta.
+  void add_tooth(std::size_t j, double theta, std::span<const double> u,
+                 std::span<const double> before, std::span<double> out) {
+    if (lag_ < 1e-6) {
+      add_part(j, theta, {0.0, a_p_}, u, before, out);
+      return;
+    }
+    const bool exact = edges_.setup.chip.model == chip::Model::trochoidal;
+    const double more = exact ? beyond : 0.0;
+    // Heights at which the edge passes angles, from the last angle down.
+    std::array<double, 6> z = {height(theta, std::numbers::pi + more),
+                               height(theta, std::numbers::pi),
+                               passes(theta, j, edges_.passage.stock.y_hi, u),
+                               passes(theta, j, edges_.passage.stock.y_lo, u),
+                               height(theta, 0.0), height(theta, -more)};
+    std::sort(z.begin(), z.end());
+    for (std::size_t i = 0; i + 1 < z.size(); ++i) {
+      const double from = std::clamp(z[i], 0.0, a_p_);
+      const double to = std::clamp(z[i + 1], 0.0, a_p_);
+      if (to > from) {
+        add_part(j, theta, {from, to}, u, before, out);
+      }
+    }
+  }
+
+  [[nodiscard]] double height(double tip, double angle) const {
+    return (tip - angle) / lag_ * a_p_;
+  }
+
+  /// Where the edge passes the edge of the stock.
+  double passes(double tip, std::size_t j, double y, std::span<const double> u) {
+    double z = height(tip, 0.0);
+    if (!(std::abs(y) < 2 * R_)) {
+      return z;
+    }
+    double shift = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      z = height(tip, std::acos(std::clamp((y - shift) / radius(j, z), -1.0, 1.0)));
+      basis_.weights(std::clamp(z, 0.0, a_p_), L_);
+      shift = fixed_point::dot(L_, u);
+    }
+    return z;
+  }
+
+  void stand_at(double z) {
+    const double at = std::clamp(z / a_p_, 0.0, 1.0) * (radii - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), radii - 2);
+    const double t = at - static_cast<double>(i);
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      const geometry::EdgePosition& a = positions_[i * near_.size() + k];
+      const geometry::EdgePosition& b = positions_[(i + 1) * near_.size() + k];
+      near_[k] = {a.R + t * (b.R - a.R), a.epsilon + t * (b.epsilon - a.epsilon)};
+    }
+  }
+
+  double radius(std::size_t j, double z) {
+    stand_at(z);
+    return near_[j].R;
+  }
+
+  void add_part(std::size_t j, double tip, std::array<double, 2> z,
+                std::span<const double> u, std::span<const double> before,
+                std::span<double> out) {
+    const numerics::KronrodRule& rule = numerics::kronrod_rule();
+    const double half = 0.5 * (z[1] - z[0]);
+    for (std::size_t i = 0; i < rule.t.size(); ++i) {
+      if (rule.gauss[i] > 0) {
+        add_point(j, tip, z[0] + half * (1 + rule.t[i]), half * rule.gauss[i], u, before,
+                  out);
+      }
+    }
+  }
+
+  // seven parameters: one point of an edge, and everything that acts there
+  void add_point(std::size_t j, double tip, double z, double dz,
+                 std::span<const double> u, std::span<const double> before,
+                 std::span<double> out) {
+    stand_at(z);
+    basis_.weights(z, L_);
+    const double theta = tip - lag_ * z / a_p_;
+    const double now = fixed_point::dot(L_, u);
+    chip::Slice slice{.r = R_, .teeth = near_, .shift = now, .bent = true};
+    if (!before.empty()) {
+      const double cosine = std::cos(theta);
+      const std::size_t n = L_.size();
+      for (std::size_t m = 0; m < teeth(); ++m) {
+        const double then =
+            fixed_point::dot(L_, before.subspan((j * teeth() + m) * n, n));
+        gained_[m] = cosine * (now - then);  // E-10
+      }
+      slice.advance = gained_;
+    }
+    const chip::Chip chip =
+        chip::chip_at(edges_.passage, slice, static_cast<int>(j), theta);
+    if (!chip.in_cut) {
+      return;
+    }
+    const force::ColumnWeights w = force::column_weights(
+        form_, chip.h, point_.meridian.sin_kappa, point_.dS);
+    const double angle = theta + near_[j].epsilon;
+    const double s = std::sin(angle);
+    const double c = std::cos(angle);
+    const double t = K_[0] * w.cutting[0] + K_[2] * w.edge;
+    const double r = K_[1] * w.cutting[1] + K_[3] * w.edge;
+    const double F_y = dz * (t * s - r * c);  // E-2
+    for (std::size_t q = 0; q < L_.size(); ++q) {
+      out[q] += L_[q] * F_y;  // E-3
+    }
+    out[L_.size()] -= dz * (t * c + r * s);
+    out[L_.size() + 1] += F_y;
+  }
+
+  force::Edges edges_;
+  force::Form form_;
+  std::span<const double, columns> K_;
+  const numerics::LagrangeBasis& basis_;
+  double a_p_;
+  double R_;
+  double lag_ = 0.0;  ///< of the top behind the tip [rad]
+  force::EdgePoint point_;
+  std::vector<geometry::EdgePosition> positions_;  ///< shape (radii, teeth)
+  std::vector<geometry::EdgePosition> near_;
+  Values gained_;
+  Values L_;
+};
+
+/// u at the basis points from moments.
+void deflect(std::span<const double> G, std::span<const double> moments,
+             std::span<double> u) {
+  for (std::size_t p = 0; p < u.size(); ++p) {
+    u[p] = fixed_point::dot(G.subspan(p * u.size(), u.size()), moments.first(u.size()));
+  }
+}
+
+}  // namespace
+
+// six parameters: a cut with its law and coefficients, what bends, and where to begin
+Marched march(const force::Setup& setup, const force::Law& law,
+              std::span<const double, columns> K, const Compliance& compliance,
+              Feedback feedback, const Marched* start) {
+  Edges edges(setup, law, K, compliance);
+  const std::size_t points = compliance.basis().size();
+  const std::size_t width = points + 2;
+  const std::size_t steps = steps_per_pitch * edges.teeth();
+  const Values G = compliance.rows(compliance.basis().points());
+  Marched turn{.steps = steps, .moments = Values(steps * width)};
+  Values past(steps * points);  // u of the turn, the newest known
+  const bool knows_past = start != nullptr && start->moments.size() == turn.moments.size();
+  const auto at_step = [&](std::size_t k) {
+    return unit::turn * static_cast<double>(k) / static_cast<double>(steps);
+  };
+  const Values none(points);
+  for (std::size_t k = 0; k < steps; ++k) {
+    edges.forces(at_step(k), none, {}, std::span(turn.moments).subspan(k * width, width));
+  }
+  turn.straight = turn.moments;
+  if (knows_past) {
+    turn.moments = start->moments;
+  }
+  for (std::size_t k = 0; k < steps; ++k) {
+    deflect(G, std::span(turn.moments).subspan(k * width, width),
+            std::span(past).subspan(k * points, points));
+  }
+  const double peak = fixed_point::largest_of(past);
+  const bool remembers = feedback == Feedback::regenerative;
+  const bool chip_changes = remembers || feedback == Feedback::direct;
+  const std::span<const double> back = edges.back();
+  Values before(chip_changes ? back.size() * points : 0);
+  Values u(points);
+  const fixed_point::Limits limits{1e-4 * peak, 20 * peak};
+  for (int t = 0; t < most_turns && peak > 0; ++t) {
+    double change = 0.0;
+    for (std::size_t k = 0; k < steps; ++k) {
+      const double phi = at_step(k);
+      for (std::size_t m = 0; remembers && m < back.size(); ++m) {
+        between_steps(past, steps, phi - back[m],
+                      std::span(before).subspan(m * points, points));
+      }
+      std::copy_n(past.begin() + static_cast<std::ptrdiff_t>(k * points), points,
+                  u.begin());
+      const std::span<double> moments = std::span(turn.moments).subspan(k * width, width);
+      const auto image = [&](const Values& state, Values& result) {
+        edges.forces(phi, state, before, moments);
+        deflect(G, moments, result);
+      };
+      if (!fixed_point::solve_fixed_point(image, u, limits)) {
+        return turn;
+      }
+      for (std::size_t p = 0; p < points; ++p) {
+        change = std::max(change, std::abs(u[p] - past[k * points + p]));
+        past[k * points + p] = u[p];
+      }
+    }
+    if (change <= settled * peak || (!remembers && t > 0)) {
+      turn.converged = true;
+      return turn;
+    }
+  }
+  turn.converged = peak == 0;
+  return turn;
+}
+
+numerics::PeriodicPieces with_feedback(const numerics::PeriodicPieces& straight,
+                                       const Marched& turn) {
+  const std::size_t width = straight.functions();
+  Values change = turn.moments;
+  Values largest(width);
+  for (std::size_t k = 0; k < change.size(); ++k) {
+    largest[k % width] = std::max(largest[k % width], std::abs(change[k]));
+    change[k] -= turn.straight[k];
+  }
+  const double everywhere = *std::max_element(largest.begin(), largest.end());
+  numerics::PeriodicPieces::Options options{
+      .period = unit::turn,
+      .breaks = {straight.ends().begin(), straight.ends().end()},
+      .longest = longest_panel,
+      .shortest = shortest_panel};
+  for (const double value : largest) {
+    options.allowed.push_back(table_tolerance * (value > 0 ? value : everywhere));
+  }
+  return {[&](double phi, std::span<double> out) {
+            Values more(width);
+            straight.value(phi, out);
+            between_steps(change, turn.steps, phi, more);
+            std::transform(out.begin(), out.end(), more.begin(), out.begin(),
+                           std::plus<>());
+          },
+          options};
+}
+
+}  // namespace trochoid::surface

@@ -1,0 +1,197 @@
+#include <trochoid/surface/row_fit.h>
+
+#include <trochoid/numerics/dense.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trochoid::surface {
+
+namespace {
+
+using numerics::Matrix;
+using Values = std::vector<double>;
+
+/// Products of all columns and what is measured, with the priors of the form in them.
+struct Normal {
+  Matrix A;     ///< of the unknowns, then the form
+  Values g;     ///< of these with what is left
+  double rest = 0.0;  ///< of what is left with itself
+};
+
+Values rows_of(const RowProblem& problem, const Linearised& at, std::size_t unknowns) {
+  const std::size_t k = problem.form.count;
+  Values rows;
+  rows.reserve(problem.error.size() * (unknowns + k + 1));
+  for (std::size_t i = 0; i < problem.error.size(); ++i) {
+    const double* J = at.J.data() + i * unknowns;
+    rows.insert(rows.end(), J, J + unknowns);
+    const double* B = problem.form.values.data() + i * k;
+    rows.insert(rows.end(), B, B + k);
+    rows.push_back(problem.error[i] - at.f[i]);
+  }
+  return rows;
+}
+
+Normal normal_of(const RowProblem& problem, const Scatter& scatter, const Values& rows,
+                 std::size_t unknowns) {
+  const std::size_t n = unknowns + problem.form.count;
+  const Values G = weighted_products({rows, n + 1, problem.count}, scatter);
+  Normal normal{numerics::zeros(n, n), Values(n), 0.0};
+  const double s2 = scatter.s2;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) {
+      normal.A(a, b) = G[a * (n + 1) + b] / s2;
+    }
+    normal.g[a] = G[a * (n + 1) + n] / s2;
+  }
+  normal.rest = G.back() / s2;
+  for (std::size_t k = 0; k < problem.form.count; ++k) {
+    normal.A(unknowns + k, unknowns + k) += problem.prior[k];
+  }
+  return normal;
+}
+
+/// The unknowns from `first` on alone, the others where they are: x, and the cost left.
+std::pair<Values, double> solved_from(const Normal& normal, std::size_t first) {
+  const std::size_t n = normal.g.size() - first;
+  if (n == 0) {
+    return {{}, normal.rest};
+  }
+  // Columns of very different size: scaled to one.
+  Matrix A = numerics::zeros(n, n);
+  Values scale(n);
+  Values g(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double square = normal.A(first + i, first + i);
+    scale[i] = square > 0 ? 1 / std::sqrt(square) : 1.0;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      A(i, k) = scale[i] * scale[k] * normal.A(first + i, first + k);
+    }
+    g[i] = scale[i] * normal.g[first + i];
+  }
+  Values x(n);
+  numerics::solve(numerics::lu(A), g, x);
+  double cost = normal.rest;
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] *= scale[i];
+    cost -= x[i] * normal.g[first + i];
+  }
+  return {x, cost};
+}
+
+/// (A)^-1 and the logarithm of its determinant.
+std::pair<Values, double> inverse_of(const Matrix& A) {
+  const std::size_t n = A.rows;
+  Matrix scaled = A;
+  Values scale(n);
+  double log_det = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    scale[i] = 1 / std::sqrt(std::max(A(i, i), std::numeric_limits<double>::min()));
+    log_det += 2 * std::log(scale[i]);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      scaled(i, k) *= scale[i] * scale[k];
+    }
+  }
+  const numerics::Lu factors = numerics::lu(scaled);
+  Values inverse(n * n);
+  Values unit(n);
+  Values x(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::fill(unit.begin(), unit.end(), 0.0);
+    unit[k] = 1.0;
+    numerics::solve(factors, unit, x);
+    for (std::size_t i = 0; i < n; ++i) {
+      inverse[i * n + k] = scale[i] * scale[k] * x[i];
+    }
+    log_det -= std::log(std::abs(factors.factors(k, k)));
+  }
+  return {inverse, log_det};
+}
+
+void describe(const RowProblem& problem, Values rows, const Normal& normal,
+              RowFit& fit) {
+  const std::size_t unknowns = fit.p.size();
+  const std::size_t width = unknowns + problem.form.count + 1;
+  const auto [inverse, log_det] = inverse_of(normal.A);
+  fit.covariance = inverse;
+  Scatter own{.s2 = problem.scatter.s2};
+  const auto variances =
+      inverse_of(normal_of(problem, own, rows, unknowns).A).first;
+  for (std::size_t k = 0; k < width - 1; ++k) {
+    fit.own.push_back(variances[k * width]);
+  }
+  double readings = 0.0;
+  for (std::size_t i = 0; i < problem.error.size(); ++i) {
+    double& left = rows[i * width + width - 1];
+    for (std::size_t k = 0; k < fit.form.size(); ++k) {
+      left -= rows[i * width + unknowns + k] * fit.form[k];
+    }
+    fit.residual.push_back(left);
+    readings += problem.count[i];
+  }
+  fit.columns = std::move(rows);
+  const double freedom = std::max(1.0, readings - static_cast<double>(unknowns));
+  fit.evidence = -0.5 * freedom * std::log(std::max(fit.cost, 1e-300)) + 0.5 * log_det;
+  for (const double prior : problem.prior) {
+    fit.evidence += prior > 0 ? 0.5 * std::log(prior) : 0.0;
+  }
+  fit.ok = std::all_of(inverse.begin(), inverse.end(),
+                       [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+RowFit fit_rows(const RowProblem& problem, const RowModel& model, Values start) {
+  constexpr int most_steps = 30;
+  constexpr double negligible = 1e-2;  // of the cost: a step of 0.1 se
+  constexpr int most_halvings = 4;     // a kink of the model sends steps to and fro
+  RowFit fit;
+  Values p = std::move(start);
+  Values step(p.size());
+  Values rows;
+  Normal normal;
+  fit.cost = std::numeric_limits<double>::infinity();
+  int halvings = 0;
+  for (int k = 0; k < most_steps; ++k) {
+    const Linearised at = model(p);
+    if (!at.good && fit.p.empty()) {
+      return fit;
+    }
+    Values here = rows_of(problem, at, p.size());
+    Normal there = normal_of(problem, problem.scatter, here, p.size());
+    const auto [form, stay] = solved_from(there, p.size());
+    const bool better = at.good && stay < fit.cost;
+    const bool done = better && fit.cost - stay < negligible;
+    if (better) {
+      fit.p = p;
+      fit.form = form;
+      fit.cost = stay;
+      rows = std::move(here);
+      normal = std::move(there);
+      halvings = 0;
+      const auto [x, go] = solved_from(normal, 0);
+      if (done || stay - go <= negligible) {
+        break;
+      }
+      std::copy_n(x.begin(), p.size(), step.begin());
+    } else if (++halvings > most_halvings) {
+      break;
+    } else {
+      std::transform(step.begin(), step.end(), step.begin(),
+                     [](double s) { return 0.5 * s; });
+    }
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p[i] = fit.p[i] + step[i];
+    }
+  }
+  describe(problem, std::move(rows), normal, fit);
+  return fit;
+}
+
+}  // namespace trochoid::surface
