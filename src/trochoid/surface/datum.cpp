@@ -48,21 +48,21 @@ DatumColumns datum_columns(std::span<const Spot> spots, std::span<const Datum> d
     };
     if (datum[set].offset) {
       add([](const Spot&) { return 1.0; });
-      described.back().offset = true;
     }
-    if (datum[set].tilt && moves) {
+    if ((datum[set].tilt || datum[set].lean) && moves) {
       add([&](const Spot& spot) { return spot.x - x_mean / count; });
-      described.back().slope = true;
+      described.back().kind = DatumPart::Kind::lean;
     }
     if (datum[set].tilt) {
       add([&](const Spot& spot) { return spot.height - height_mean / count; });
-      described.back().slope = true;
+      described.back().kind = DatumPart::Kind::tilt;
     }
     if (datum[set].curvature && high > low) {
       add([&](const Spot& spot) {
         const double u = (2 * spot.height - low - high) / (high - low);
         return u * u;  // E-22
       });
+      described.back().kind = DatumPart::Kind::curvature;
     }
   }
   DatumColumns result{.count = parts.size(), .parts = std::move(described)};

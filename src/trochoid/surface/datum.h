@@ -15,6 +15,7 @@ using base::Estimate;
 struct Datum {
   bool offset = false;     ///< a constant of the readings
   bool tilt = false;       ///< slopes along the feed and over the height
+  bool lean = false;       ///< along the feed alone
   bool curvature = false;  ///< over the height
   bool decide = false;     ///< as the readings decide, at least these (E-24)
 };
@@ -38,10 +39,13 @@ constexpr std::string_view name_of(Form form) noexcept {
 }
 
 constexpr Datum datum_of(Form form) noexcept {
-  return {form >= Form::offset, form >= Form::tilt, form >= Form::curvature, false};
+  return {.offset = form >= Form::offset,
+          .tilt = form >= Form::tilt,
+          .curvature = form >= Form::curvature};
 }
 
-/// A datum as it was decided: the form, and what was stated.
+/// A datum as it was decided: the form, and what was stated. How a wall leans along the
+/// feed tells nothing of the cut, costs little, and is always left open.
 constexpr Datum decided(const Datum& datum, Form form) noexcept {
   if (!datum.decide) {
     return datum;
@@ -49,6 +53,7 @@ constexpr Datum decided(const Datum& datum, Form form) noexcept {
   Datum of = datum_of(form);
   of.offset = of.offset || datum.offset;
   of.tilt = of.tilt || datum.tilt;
+  of.lean = true;
   return of;
 }
 
@@ -62,8 +67,8 @@ struct Spot {
 /// What a column of the datum is.
 struct DatumPart {
   std::size_t set = 0;
-  bool offset = false;
-  bool slope = false;    ///< neither: the curvature
+  enum class Kind { offset, lean, tilt, curvature };
+  Kind kind = Kind::offset;
   double largest = 0.0;  ///< value in the column
 };
 

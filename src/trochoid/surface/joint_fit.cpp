@@ -78,9 +78,12 @@ DatumColumns add_form(const Fitted& rows, std::span<const Datum> datum, Form for
   }
   problem.prior.clear();
   for (const DatumPart& part : all.parts) {
-    const double usual = part.offset ? usual_offset : usual_form;
+    using Kind = DatumPart::Kind;
     const Datum& asked = datum[part.set];
-    const bool open = !asked.decide || (part.offset ? asked.offset : part.slope && asked.tilt);
+    const bool open = !asked.decide || part.kind == Kind::lean ||
+                      (part.kind == Kind::offset && asked.offset) ||
+                      (part.kind == Kind::tilt && asked.tilt);
+    const double usual = part.kind == Kind::offset ? usual_offset : usual_form;
     problem.prior.push_back(open ? 0.0 : std::pow(part.largest * um / usual, 2));
   }
   return all;
