@@ -5,6 +5,7 @@
 #include <trochoid/correction/plan.h>
 #include <trochoid/dynamics/imposed_command.h>
 #include <trochoid/dynamics/stability.h>
+#include <trochoid/inputs/surface_frame.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
 #include <trochoid/surface/feedback.h>
@@ -51,10 +52,12 @@ struct Surface {
 
 /// One [[surface_measurement]].
 struct SurfaceMeasurement {
-  std::string file;           ///< absolute, or relative to where we run
-  bool datum_offset = false;  ///< a constant shift of the readings is estimated
-  bool datum_tilt = false;    ///< as are tilts along and across the feed
-  std::string location;       ///< file:line:col of its `file` key
+  std::string file;                   ///< absolute, or relative to where we run
+  bool datum_offset = false;          ///< a constant shift of the readings is estimated
+  bool datum_tilt = false;            ///< as are tilts along and across the feed
+  std::optional<LengthUnit> unit;     ///< of columns that name none
+  std::optional<SurfaceFrame> frame;  ///< of coordinates X, Y, Z, or of a map
+  std::string location;               ///< file:line:col of its `file` key
 };
 
 enum class ResidualTerms { choose, yes, no };

@@ -104,18 +104,6 @@ void describe(const Visitor& v, Surface& t) {
     &t.probe_diameter);
 }
 
-void describe(const Visitor& v, SurfaceMeasurement& t) {
-  v({.name = "file",
-     .meaning = "the measured surface, relative to the file that names it",
-     .need = Need::always},
-    &t.file);
-  v({.name = "datum_offset", .meaning = "estimate a constant shift of the readings"},
-    &t.datum_offset);
-  v({.name = "datum_tilt",
-     .meaning = "estimate a tilt of the readings along and across the feed"},
-    &t.datum_tilt);
-}
-
 void describe(const Visitor& v, Mode& t) {
   v({.name = "body", .meaning = "what vibrates", .need = Need::always}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction", .need = Need::always},
