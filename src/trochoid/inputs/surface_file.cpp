@@ -85,7 +85,8 @@ struct Extent {
 /// What would bring all values of a column inside, in words; empty: nothing would.
 std::string likely_cause(const Extent& extent, double most, const std::string& unit) {
   const auto fits = [&](double factor) {
-    const auto [low, high] = std::minmax(extent.low * factor, extent.high * factor);
+    const double low = std::min(extent.low * factor, extent.high * factor);
+    const double high = std::max(extent.low * factor, extent.high * factor);
     return !Limits::beyond(low, most) && !Limits::beyond(high, most) &&
            high >= 0.02 * most;
   };

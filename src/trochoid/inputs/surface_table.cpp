@@ -23,6 +23,8 @@ struct TextBelow {
   std::size_t first = 0;
   std::size_t last = 0;
   std::size_t heads = 0;  ///< the row of names again, on every page of a print
+  /// Rows that begin with a word and lack values: statistics, unless readings follow.
+  std::vector<std::size_t> perhaps;
 };
 
 /// Everything that is known while the rows are read.
@@ -117,8 +119,30 @@ void read_row(Reading& reading, const std::vector<Field>& fields) {
   reading.surface.readings.push_back(one);
 }
 
+void count_gap(Reading& reading, std::size_t line) {
+  if (reading.surface.counts.skipped++ == 0) reading.first_skipped = line;
+}
+
+void count_text_at(TextBelow& text, std::size_t line) {
+  if (text.count++ == 0) text.first = line;
+  text.last = line;
+}
+
+/// `Statistics;;;` and, below it, `Mean;;;0.05`; or else points that failed.
+bool may_be_statistics(const Reading& reading, const std::vector<Field>& fields) {
+  const auto& used = reading.used;
+  return is_text(fields.front()) && used.front() != 0 &&
+         (!reading.text.open.empty() || !reading.text.perhaps.empty() ||
+          std::all_of(used.begin(), used.end(),
+                      [&](std::size_t i) { return is_missing(fields[i].text); }));
+}
+
 /// Text was at the end, or else there is a row that cannot be read.
 void refuse_open_text(Reading& reading) {
+  for (const std::size_t line : reading.text.perhaps) {
+    count_gap(reading, line);
+  }
+  reading.text.perhaps.clear();
   for (const std::size_t line : reading.text.open) {
     reading.table.problems.add(line, 1,
                                "this line is no row of numbers, but rows follow: leave "
@@ -136,8 +160,7 @@ void count_text(Reading& reading, std::string_view line) {
   }
   if (is_rule(line)) return;
   if (text.open.size() < 1000) text.open.push_back(at);
-  if (text.count++ == 0) text.first = at;
-  text.last = at;
+  count_text_at(text, at);
 }
 
 void take_line(Reading& reading, std::string_view line, std::vector<Field>& fields) {
@@ -156,16 +179,19 @@ void take_line(Reading& reading, std::string_view line, std::vector<Field>& fiel
     count_text(reading, line);
     return;
   }
-  refuse_open_text(reading);
-  if (!complete_row(table, fields, count)) return;
-  if (std::any_of(reading.used.begin(), reading.used.end(),
-                  [&](std::size_t i) { return is_missing(fields[i].text); })) {
-    if (reading.surface.counts.skipped++ == 0) {
-      reading.first_skipped = table.lines.number();
-    }
+  const bool gap =
+      whole && std::any_of(reading.used.begin(), reading.used.end(),
+                           [&](std::size_t i) { return is_missing(fields[i].text); });
+  if (gap && may_be_statistics(reading, fields)) {
+    reading.text.perhaps.push_back(table.lines.number());
     return;
   }
-  read_row(reading, fields);
+  if (gap) {
+    count_gap(reading, table.lines.number());
+    return;
+  }
+  refuse_open_text(reading);
+  if (complete_row(table, fields, count)) read_row(reading, fields);
 }
 
 void read_rows(Reading& reading) {
@@ -191,6 +217,9 @@ void read_rows(Reading& reading) {
   while (line && !table.problems.full()) {
     take_line(reading, *line, fields);
     line = next_content(table);
+  }
+  for (const std::size_t at : reading.text.perhaps) {
+    count_text_at(reading.text, at);
   }
 }
 

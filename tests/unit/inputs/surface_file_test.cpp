@@ -144,6 +144,28 @@ TEST(SurfaceReadings, LieWithinTheCutAndTheWall) {
   EXPECT_EQ(check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", c).size(), 2U);
 }
 
+TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {
+  const auto said = [](double x, double height, const char* unit) {
+    SurfaceFile surface;
+    surface.readings = one_reading(x, height);
+    surface.readings.push_back({.x = x / 2, .height = height / 2});
+    surface.x_unit = surface.height_unit = unit;
+    return check_readings(surface, "w.csv", thin_wall()).front();
+  };
+  const auto ends = [](const std::string& text, const std::string& unit) {
+    return text.ends_with("; in " + unit + " all readings would lie inside");
+  };
+  EXPECT_TRUE(ends(said(0.03, 2.5, "m"), "mm instead of m"));
+  EXPECT_TRUE(ends(said(0.03, 2.5, "mm"), "um instead of mm"));
+  EXPECT_TRUE(ends(said(30.0, 0.0, "mm"), "um instead of mm"));
+  EXPECT_TRUE(ends(said(0.0, 2.5 * 25.4e-3, "in"), "mm instead of in"));
+  EXPECT_NE(said(0.0, -2.5 * mm, "mm").find("with the other sign"), std::string::npos);
+  EXPECT_NE(said(0.0, 3.1 * mm, "mm").find("above the tip of the cutter"),
+            std::string::npos);
+  EXPECT_EQ(said(0.0, 3.1 * mm, "mm").find("instead"), std::string::npos)
+      << "one a little too high is no wrong unit";
+}
+
 TEST(SurfaceReadings, AlongTheTurnOfAQuasiStaticModelOrARigidWallXIsFree) {
   Case c = thin_wall();
   c.machine.surface.emplace().model = surface::Model::imprint;

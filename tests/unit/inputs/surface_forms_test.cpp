@@ -97,6 +97,20 @@ TEST(SurfaceText, IsSkippedAboveAndBelowAndTold) {
   EXPECT_EQ(surface.counts.skipped, 0U);
 }
 
+TEST(SurfaceText, StatisticsMayKeepToTheColumns) {
+  const auto surface = read(
+      "point;x_mm;z_mm;dev_mm\nP1;10;0.5;0.048\nP2;;0.5;\nP3;12;0.5;0.046\n"
+      "Statistics;;;\nMean;;;0.047\n");
+  EXPECT_EQ(surface.readings.size(), 2U);
+  EXPECT_EQ(surface.counts.skipped, 1U);
+  EXPECT_TRUE(says(note(surface, "lines_skipped"), "lines 5 to 6 after"));
+  const auto failed = read(
+      "point;x_mm;z_mm;dev_mm\nP1;10;0.5;0.048\nP2;;;\nP3;;0.5;0.046\n"
+      "P4;11;0.5;0.046\n");
+  EXPECT_EQ(failed.readings.size(), 2U);
+  EXPECT_EQ(failed.counts.skipped, 2U);
+}
+
 TEST(SurfaceText, NamesMayStandAgainOnEveryPage) {
   const auto surface = read("x_mm,z_mm,dev_um\n1,1,48\nx_mm,z_mm,dev_um\n2,1,47\n");
   EXPECT_EQ(surface.readings.size(), 2U);
