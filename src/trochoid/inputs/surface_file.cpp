@@ -83,7 +83,9 @@ struct Extent {
 };
 
 /// What would bring all values of a column inside, in words; empty: nothing would.
-std::string likely_cause(const Extent& extent, double most, const std::string& unit) {
+/// @param unit  of its column; none: they were placed by a frame
+std::string likely_cause(const Extent& extent, double most,
+                         const std::optional<std::string>& unit) {
   const auto fits = [&](double factor) {
     const double low = std::min(extent.low * factor, extent.high * factor);
     const double high = std::max(extent.low * factor, extent.high * factor);
@@ -93,8 +95,9 @@ std::string likely_cause(const Extent& extent, double most, const std::string& u
   if (extent.high <= 0.0 && fits(-1.0)) {
     return "; with the other sign all readings would lie inside";
   }
+  if (!unit) return "; frame in the case says how the wall lies";
   if (extent.high < 3.0 * most) return {};  // a reading or two too far
-  const std::string said = unit.empty() ? "mm" : unit;
+  const std::string said = unit->empty() ? "mm" : *unit;
   const auto known = base::named<LengthUnit>(said).value_or(LengthUnit::mm);
   for (const auto other : {LengthUnit::um, LengthUnit::mm, LengthUnit::m,
                            LengthUnit::in, LengthUnit::thou}) {
@@ -156,12 +159,18 @@ void SurfaceCounts::add(const SurfaceCounts& other) {
 
 SurfaceFile read_surface_file(std::istream& in, const SurfaceMeasurement& measurement,
                               int teeth) {
+  const auto& frame = measurement.frame;
+  if (frame &&
+      (frame->origin.size() != 3 || !frame->feed || !frame->normal || !frame->up)) {
+    throw std::invalid_argument("read_surface: the frame lacks a direction");
+  }
   const std::string head = first_bytes(in);
   if (is_archive(head) || is_sdf(head)) {
     return read_map(in, measurement, is_archive(head));
   }
   SurfaceFile surface = read_surface_table(in, measurement, teeth);
   average_repeats(surface);
+  surface.framed = frame.has_value();
   return surface;
 }
 
@@ -199,16 +208,17 @@ std::vector<std::string> check_readings(const SurfaceFile& surface,
   const Limits limits = limits_of(given);
   const auto& readings = surface.readings;
   Problems problems{file, {}};
-  const std::string height_hint = likely_cause(
-      extent_of(readings, [](const SurfaceReading& r) { return r.height; }),
-      limits.height, surface.height_unit);
+  const auto hint = [&](const Extent& extent, double most, const std::string& unit) {
+    return likely_cause(extent, most,
+                        surface.framed ? std::nullopt : std::optional(unit));
+  };
+  const std::string height_hint =
+      hint(extent_of(readings, [](const SurfaceReading& r) { return r.height; }),
+           limits.height, surface.height_unit);
+  const auto x_of = [](const SurfaceReading& r) { return r.x.value_or(0.0); };
   const std::string x_hint =
-      limits.length
-          ? likely_cause(
-                extent_of(readings,
-                          [](const SurfaceReading& r) { return r.x.value_or(0.0); }),
-                *limits.length, surface.x_unit)
-          : "";
+      limits.length ? hint(extent_of(readings, x_of), *limits.length, surface.x_unit)
+                    : std::string();
   for (const SurfaceReading& reading : readings) {
     if (problems.full()) break;
     if (limits.misses_height(reading)) {

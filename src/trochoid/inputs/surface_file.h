@@ -40,6 +40,7 @@ struct SurfaceFile {
   SurfaceCounts counts;
   std::vector<base::Warning> notes;  ///< what was skipped, and what was averaged
   bool map = false;                  ///< x3p or sdf
+  bool framed = false;               ///< placed by the frame of the case
   std::string x_unit;                ///< as its column was read; empty: not known
   std::string height_unit;
 };
