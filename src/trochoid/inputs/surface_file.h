@@ -50,7 +50,7 @@ struct SurfaceFile {
 /// Text: a table after any other lines, its columns found by name, with their unit in it,
 /// in a row below or in the case; coordinates are turned by the frame of the case. Rows
 /// without a value are left out, repeated ones averaged; the notes say so. Binary: a map
-/// in X3P or SDF. docs/formats/surface_csv.md says what is understood.
+/// in X3P or SDF. docs/formats/surface.md says what is understood.
 /// @param teeth  of the cutter; 0: a tooth may have any number
 /// @throws base::InputError with every problem of the file; reading stops after 1000
 SurfaceFile read_surface_file(const SurfaceMeasurement& measurement, int teeth = 0);
