@@ -98,9 +98,9 @@ void average_repeats(SurfaceFile& surface) {
   readings.resize(kept);
   surface.notes.push_back(
       {"repeats_averaged",
-       fmt::format("{} readings repeat a place: they were averaged with its first, and "
-                   "differ with a standard deviation of {:.3g} um.",
-                   surface.counts.repeats,
+       fmt::format("{} of {} rows repeat a place: each place became one reading, the "
+                   "mean. The standard deviation of a single one is {:.3g} um.",
+                   surface.counts.repeats, gone.size(),
                    *surface.counts.repeatability() / unit::um)});
 }
 

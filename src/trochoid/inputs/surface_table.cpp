@@ -261,7 +261,6 @@ void add_notes(Reading& reading) {
 void check_whole(Reading& reading) {
   auto& table = reading.table;
   table.style.check(table.problems);
-  throw_problems(table);
   const std::size_t gaps = reading.surface.counts.skipped;
   const std::size_t read = reading.surface.readings.size();
   if (gaps > read) {
@@ -269,7 +268,9 @@ void check_whole(Reading& reading) {
                        fmt::format("{} of {} rows, this one first, lack a value in one "
                                    "of the columns that are used: at most half may",
                                    gaps, gaps + read));
-  } else if (read == 0) {
+  }
+  throw_problems(table);
+  if (read == 0) {
     table.problems.add(std::max<std::size_t>(table.lines.number(), 1), 1,
                        "no reading follows the row of names: "
                        "rows of numbers are needed");

@@ -187,7 +187,7 @@ TEST(SurfaceRepeats, AreAveragedAndPooled) {
   // Squares about the means: 4 + 4 + 0 and 4 + 4, over 2 + 1 degrees of freedom.
   EXPECT_NEAR(surface.counts.repeatability().value(), std::sqrt(16.0 / 3.0) * um,
               1e-12);
-  EXPECT_TRUE(says(note(surface, "repeats_averaged"), "3 readings repeat a place"));
+  EXPECT_TRUE(says(note(surface, "repeats_averaged"), "3 of 6 rows repeat a place"));
   EXPECT_FALSE(read("x_mm,z_mm,dev_mm\n1,1,0\n").counts.repeatability());
 }
 
