@@ -56,6 +56,7 @@ struct SurfaceMeasurement {
   bool datum_offset = false;          ///< a constant shift of the readings is estimated
   bool datum_tilt = false;            ///< as are tilts along and across the feed
   std::optional<LengthUnit> unit;     ///< of columns that name none
+  std::optional<double> height;       ///< above the tip, of a trace along the feed [m]
   std::optional<SurfaceFrame> frame;  ///< of coordinates X, Y, Z, or of a map
   std::string location;               ///< file:line:col of its `file` key
 };

@@ -17,6 +17,12 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
   v({.name = "unit",
      .meaning = "unit of lengths whose column names none; as_named: every column must"},
     choice(t.unit, "as_named"));
+  v({.name = "height_mm",
+     .meaning = "height above the tip of a trace along the feed, whose file has no "
+                "column of heights; its column Z is the error",
+     .range = between(0, 10000),
+     .example = "1.5"},
+    &t.height);
   v({.name = "frame",
      .meaning = "how the wall lies in the coordinates X, Y, Z of the file: feed, where "
                 "the tool goes; normal, out of the material; up, towards the shank; "

@@ -30,11 +30,14 @@ constexpr std::array nominal_names = {"nominal"sv, "nom"sv, "nom."sv, "soll"sv,
 constexpr std::array tooth_names = {"tooth"sv, "zahn"sv};
 constexpr std::array coordinate_names = {
     std::array{"x"sv, "xcoordinate"sv, "xcoord"sv, "xactual"sv, "actualx"sv, "xmeas"sv,
-               "measx"sv, "xist"sv, "istx"sv},
+               "measx"sv, "measuredx"sv, "xmeasured"sv, "testx"sv, "xtest"sv, "xist"sv,
+               "istx"sv},
     std::array{"y"sv, "ycoordinate"sv, "ycoord"sv, "yactual"sv, "actualy"sv, "ymeas"sv,
-               "measy"sv, "yist"sv, "isty"sv},
+               "measy"sv, "measuredy"sv, "ymeasured"sv, "testy"sv, "ytest"sv, "yist"sv,
+               "isty"sv},
     std::array{"z"sv, "zcoordinate"sv, "zcoord"sv, "zactual"sv, "actualz"sv, "zmeas"sv,
-               "measz"sv, "zist"sv, "istz"sv}};
+               "measz"sv, "measuredz"sv, "zmeasured"sv, "testz"sv, "ztest"sv, "zist"sv,
+               "istz"sv}};
 constexpr std::array axis_names = {"ax"sv, "axis"sv, "achse"sv};
 constexpr std::array<NameList, 11> all_lists = {x_names,
                                                 step_names,
@@ -67,8 +70,11 @@ struct Trial {
 };
 
 /// Whether a coordinate changes where a reading lies, or what it is.
-bool matters(const SurfaceFrame& frame, std::size_t axis, bool error_known) {
-  return (*frame.feed)[axis] != 0.0 || (*frame.up)[axis] != 0.0 ||
+bool matters(const SurfaceMeasurement& measurement, std::size_t axis,
+             bool error_known) {
+  const SurfaceFrame& frame = *measurement.frame;
+  return (*frame.feed)[axis] != 0.0 ||
+         (!measurement.height && (*frame.up)[axis] != 0.0) ||
          (!error_known && (*frame.normal)[axis] != 0.0);
 }
 
@@ -99,10 +105,10 @@ struct Finder {
 
   /// Where a reading lies, and its error if it has no column, by coordinates.
   void find_coordinates(const SurfaceFrame& frame) {
-    const bool error_known = columns.error || (columns.actual && columns.nominal);
+    const bool error_known = this->error_known();
     if (!error_known) columns.actual.reset();
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!matters(frame, i, error_known)) continue;
+      if (!matters(measurement, i, error_known)) continue;
       columns.coordinate[i] = found(coordinate_names[i], Quantity::length);
       if (!columns.coordinate[i]) {
         lacks(fmt::format("{0}, for example {0}_mm, which the frame of the case needs",
@@ -121,30 +127,50 @@ struct Finder {
 
   void find_place() {
     columns.x = found(x_names, Quantity::length);
-    columns.height = found(height_names, Quantity::length);
+    const bool points = has(coordinate_names[0]) && has(coordinate_names[1]) &&
+                        has(coordinate_names[2]);
+    constexpr std::string_view frame =
+        "; for coordinates X, Y, Z the case says how the wall lies by frame = { feed = "
+        "..., normal = ..., up = ..., origin_mm = [...] }";
     if (!columns.x && !columns.step) {
       lacks("x or position, for example x_mm, or step",
-            columns.error && columns.actual
+            points ? frame
+            : columns.error && columns.actual
                 ? "; a list of characteristics does not say where each point lies: "
                   "export the points with their coordinates"
                 : "");
     }
-    if (!columns.height) {
-      lacks("height or z, for example height_mm");
+    const auto height = found(height_names, Quantity::length);
+    if (!measurement.height) {
+      columns.height = height;
+      if (!height) {
+        lacks("height or z, for example height_mm",
+              columns.x && !points
+                  ? "; of a trace at one height the case says height_mm = ..."
+                  : "");
+      }
+    } else if (!error_known()) {
+      columns.error = height;  // as a roughness instrument has it
     }
-    if (!columns.error && !(columns.actual && columns.nominal)) {
-      const auto has = [&](NameList names) {
-        return usual_column(search, names).has_value();
-      };
-      lacks(
-          "error or deviation, for example error_mm",
-          columns.actual || columns.nominal
-              ? "; measured values need nominal ones beside them"
-          : has(coordinate_names[1]) && has(coordinate_names[2])
-              ? "; for coordinates X, Y, Z the case says how the wall lies by frame = "
-                "{ feed = ..., normal = ..., up = ..., origin_mm = [...] }"
-              : "");
+    if (!error_known()) {
+      lacks("error or deviation, for example error_mm",
+            columns.actual || columns.nominal
+                ? "; measured values need nominal ones beside them"
+            : points ? frame
+            : has(coordinate_names[2]) && !measurement.height
+                ? "; of a trace at one height, whose z is the error, the case says "
+                  "height_mm = ..."
+                : "");
     }
+  }
+
+  [[nodiscard]] bool error_known() const {
+    return columns.error || (columns.actual && columns.nominal);
+  }
+  [[nodiscard]] bool has(NameList names) const {
+    return std::any_of(
+        search.head.names.begin(), search.head.names.end(),
+        [&](const Field& name) { return among(base_name(search, name.text), names); });
   }
 };
 
@@ -180,18 +206,18 @@ SurfaceColumns find_surface_columns(const TableHead& head,
 
 bool names_surface(const TableHead& head, const SurfaceMeasurement& measurement) {
   Trial trial(head);
-  const auto has = [&](NameList names) {
-    return std::any_of(head.names.begin(), head.names.end(), [&](const Field& name) {
-      return among(base_name(trial.search, name.text), names);
-    });
-  };
+  const SurfaceMeasurement none;
+  const Finder finder{trial.search, none};
+  const auto has = [&](NameList names) { return finder.has(names); };
   const bool error = has(error_names) || (has(actual_names) && has(nominal_names));
   if (!measurement.frame) {
-    return (has(x_names) || has(step_names)) && has(height_names) && error;
+    const bool place = has(x_names) || has(step_names);
+    // Of a trace at one height Z is the error.
+    return place && (measurement.height ? error || has(height_names)
+                                        : error && has(height_names));
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (matters(*measurement.frame, i, error) && !has(coordinate_names[i]))
-      return false;
+    if (matters(measurement, i, error) && !has(coordinate_names[i])) return false;
   }
   return true;
 }

@@ -48,7 +48,9 @@ void join_units(std::string_view line, std::vector<Field>& fields) {
   fields = std::move(joined);
 }
 
-bool is_row_of_numbers(std::string_view line, std::vector<Field>& fields) {
+/// @return the separator that makes numbers only of a line; none: it is another line
+std::optional<char> separator_of_numbers(std::string_view line,
+                                         std::vector<Field>& fields) {
   for (const char separator : separators) {
     split_names(line, separator, fields);
     while (!fields.empty() && fields.back().text.empty()) fields.pop_back();
@@ -57,10 +59,10 @@ bool is_row_of_numbers(std::string_view line, std::vector<Field>& fields) {
           const auto fault = parse_number(f.text).fault;
           return fault != NumberFault::not_a_number && fault != NumberFault::missing;
         })) {
-      return true;
+      return separator;
     }
   }
-  return false;
+  return std::nullopt;
 }
 
 void take_line(std::string_view line, char separator, std::size_t number,
@@ -207,7 +209,7 @@ void find_head(TableText& table, const SurfaceMeasurement& measurement,
       continue;
     }
     if (settle(table, *line, measurement, head)) return;
-    if (is_row_of_numbers(*line, fields)) {
+    if (const auto mark = separator_of_numbers(*line, fields)) {
       head.row = std::string(*line);
       if (comment_line > 0 && take_comment(table, comment, measurement, head)) {
         head.head.names_line = comment_line;
@@ -215,7 +217,7 @@ void find_head(TableText& table, const SurfaceMeasurement& measurement,
       }
       head.row.reset();
       if (nearest.number == 0) {
-        nearest.see(*line, number);
+        nearest = {.line = std::string(*line), .number = number, .separator = *mark};
         nearest.numbers = true;
       }
       if (++rows == numbers_at_most) break;

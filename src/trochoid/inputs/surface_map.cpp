@@ -38,6 +38,12 @@ std::string wrong_size(double columns, double rows) {
 SurfaceFile readings_of(const SurfaceMap& map, const SurfaceMeasurement& measurement) {
   const SurfaceFrame frame =
       measurement.frame.value_or(SurfaceFrame{{0, 0, 0}, along_x, along_z, along_y});
+  if (measurement.height && map.rows > 1) {
+    refuse(
+        measurement.file,
+        "height_mm of the [[surface_measurement]]: a map has heights of its own; leave "
+        "it out");
+  }
   SurfaceFile surface;
   surface.map = true;
   surface.readings.reserve(map.z.size());
@@ -49,6 +55,7 @@ SurfaceFile readings_of(const SurfaceMap& map, const SurfaceMeasurement& measure
                           map.z[k]};
     SurfaceReading reading;
     place_in_frame(frame, point, {}, reading);
+    if (measurement.height) reading.height = *measurement.height;
     if (!std::isfinite(*reading.x + reading.height + reading.error)) {
       ++surface.counts.skipped;
       continue;

@@ -44,6 +44,26 @@ bool is_rule(std::string_view line) {
          (has("---") || has("===") || has("___"));
 }
 
+void put_below(std::span<const Field> names, std::vector<Field>& fields) {
+  if (fields.size() >= names.size()) return;
+  const auto middle = [](const Field& field) {
+    return static_cast<double>(field.column) +
+           0.5 * static_cast<double>(field.text.size());
+  };
+  std::vector<Field> row(names.size());
+  for (const Field& field : fields) {
+    const auto nearest = std::min_element(names.begin(), names.end(),
+                                          [&](const Field& a, const Field& b) {
+                                            return std::abs(middle(a) - middle(field)) <
+                                                   std::abs(middle(b) - middle(field));
+                                          });
+    Field& place = row[static_cast<std::size_t>(nearest - names.begin())];
+    if (!place.text.empty()) return;
+    place = field;
+  }
+  fields = std::move(row);
+}
+
 double last_decimal_of(std::string_view text) {
   const auto point = text.find_first_of(".,");
   if (point == std::string_view::npos) return 1.0;

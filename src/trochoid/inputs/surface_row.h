@@ -2,7 +2,9 @@
 
 #include <trochoid/inputs/csv.h>
 
+#include <span>
 #include <string_view>
+#include <vector>
 
 /// What a line below the row of names is.
 namespace trochoid::inputs {
@@ -16,6 +18,11 @@ bool is_text(const Field& field);
 
 /// @brief Whether a line is a rule: `-----  -----`.
 bool is_rule(std::string_view line);
+
+/// @brief Of a row in columns that leaves some out, put each field below its name.
+///
+/// Nothing is done where there are as many fields as names, or two belong to one.
+void put_below(std::span<const Field> names, std::vector<Field>& fields);
 
 /// @brief The last decimal of a number as it is written, in its own unit: 0.01 of `2.50`.
 double last_decimal_of(std::string_view text);

@@ -109,6 +109,7 @@ void read_row(Reading& reading, const std::vector<Field>& fields) {
   } else {
     one.error = error_of(values).value_or(0.0);
   }
+  if (reading.measurement.height) one.height = *reading.measurement.height;
   if (table.problems.lines.size() > before) return;
   if (values.error && values.actual && values.nominal) {
     check_deviation(reading, fields, values);
@@ -194,6 +195,21 @@ void take_line(Reading& reading, std::string_view line, std::vector<Field>& fiel
   if (complete_row(table, fields, count)) read_row(reading, fields);
 }
 
+/// The names may have commas where the rows have blanks.
+void settle_rows(Reading& reading, std::string_view line, std::vector<Field>& fields) {
+  const std::size_t count = reading.head.head.names.size();
+  split_row(reading.table, line, fields);
+  if (fields.size() > 1) return;
+  const char stated = reading.table.separator;
+  for (const char mark : {';', '\t', ',', ' '}) {
+    reading.table.separator = mark;
+    split_row(reading.table, line, fields);
+    if (fields.size() == count) return;
+  }
+  reading.table.separator = stated;
+  split_row(reading.table, line, fields);
+}
+
 void read_rows(Reading& reading) {
   auto& table = reading.table;
   std::vector<Field> fields;
@@ -202,7 +218,8 @@ void read_rows(Reading& reading) {
     line = *reading.head.row;
   } else if ((line = next_content(table))) {
     reading.units = *line;
-    split_row(table, reading.units, fields);
+    settle_rows(reading, reading.units, fields);
+    if (table.separator == ' ') put_below(reading.head.head.names, fields);
     take_units(table, fields, reading.head.head);
   }
   reading.columns =
@@ -270,7 +287,11 @@ void check_whole(Reading& reading) {
                                    gaps, gaps + read));
   }
   throw_problems(table);
-  if (read == 0) {
+  if (read == 0 && reading.text.count > 0) {
+    table.problems.add(reading.text.first, 1,
+                       "this line is no row of numbers, and none follows: its place or "
+                       "its error is a text");
+  } else if (read == 0) {
     table.problems.add(std::max<std::size_t>(table.lines.number(), 1), 1,
                        "no reading follows the row of names: "
                        "rows of numbers are needed");

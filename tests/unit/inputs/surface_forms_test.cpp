@@ -137,6 +137,40 @@ TEST(SurfaceText, IsSeparatedByAnythingUsual) {
   expect_the_reading(read("sep=|\nx_mm|height_mm|error_um\n10|0.5|48\n"), "stated");
 }
 
+TEST(SurfaceText, RowsMayHaveBlanksWhereTheNamesHaveCommas) {
+  expect_the_reading(read("x_mm, height_mm, error_um\n10 0.5 48\n"), "commas");
+}
+
+TEST(SurfaceText, UnitsInColumnsStandBelowTheirNames) {
+  expect_the_reading(read("  Point       X      height    error\n"
+                          "            [mm]      [mm]      [um]\n"
+                          "      1       10       0.5        48\n"),
+                     "in columns");
+  EXPECT_TRUE(
+      says(refusal("no   x   height   error\n    mm     mm\n1   10   0.5   48\n"),
+           "\"error\" says no unit"));
+}
+
+TEST(SurfaceText, WithoutNamesOrNumbersIsRefusedInWords) {
+  EXPECT_TRUE(says(refusal("10 0.5 0.048\n11 0.5 0.047\n"),
+                   "wall.csv:1:1: the first row holds numbers"));
+  EXPECT_TRUE(says(refusal("x_mm,z_mm,dev_mm\nten,1,1\neleven,1,1\n"),
+                   "wall.csv:2:1: this line is no row of numbers"));
+}
+
+/// A roughness instrument traces along the feed at one height.
+TEST(SurfaceTraces, LieAtTheHeightThatTheCaseSays) {
+  SurfaceMeasurement trace;
+  trace.height = 0.5 * mm;
+  expect_the_reading(read("No.,X(mm),Z(um)\n1,10,48\n", trace), "x, z");
+  expect_the_reading(read("x_mm,dev_um\n10,48\n", trace), "x, deviation");
+  expect_the_reading(read("x_mm,z_mm,dev_um\n10,7,48\n", trace), "both");
+  EXPECT_TRUE(says(refusal("x_mm,z_um\n10,48\n"), "the case says height_mm"));
+  trace.frame = SurfaceFrame{
+      {12 * mm, 0, 0}, Direction{-1, 0, 0}, Direction{0, 0, 1}, Direction{0, 1, 0}};
+  expect_the_reading(read("x_mm,z_um\n2,48\n", trace), "in a frame");
+}
+
 TEST(SurfaceNames, AreThoseOfMeasuringMachines) {
   for (const std::string names :
        {"X [mm];Z [mm];Dev [mm]", "pos_mm;H\xC3\xB6he [mm];Abw. [mm]",

@@ -115,6 +115,20 @@ TEST(SurfaceX3p, LiesAsTheFrameSays) {
   EXPECT_NEAR(surface.readings[4].error, -6 * um, 1e-12);
 }
 
+TEST(SurfaceX3p, AProfileLiesAtTheHeightThatTheCaseSays) {
+  SurfaceMeasurement trace;
+  trace.height = 0.5 * mm;
+  const std::string profile =
+      x3p_file({.size = "<SizeX>2</SizeX><SizeY>1</SizeY>", .feature = "PRF"},
+               all_little(std::vector<double>{1e-6, 2e-6}));
+  const auto surface = read(profile, trace);
+  ASSERT_EQ(surface.readings.size(), 2U);
+  EXPECT_EQ(surface.readings[1].height, 0.5 * mm);
+  EXPECT_NEAR(surface.readings[1].error, 2 * um, 1e-15);
+  EXPECT_TRUE(
+      says(refusal(x3p_file({}, all_little(heights)), trace), "heights of its own"));
+}
+
 TEST(SurfaceSdf, IsReadAsTextAndInBinary) {
   expect_the_map(read(sdf_text("1 2 3\r\n4 BAD 6")), 0.0, "text");
   expect_the_map(read(sdf_head(7, 1.0) + all_little(heights)), 0.0, "double");
