@@ -151,6 +151,12 @@ struct Finder {
       }
     } else if (!error_known()) {
       columns.error = height;  // as a roughness instrument has it
+    } else if (height && base_name(search, height->name) != "z") {
+      search.problems.add(search.head.names_line,
+                          search.head.names[height->index].column,
+                          fmt::format("column {} has the heights of the readings, but "
+                                      "the case says height_mm: leave out one of both",
+                                      excerpt(height->name)));
     }
     if (!error_known()) {
       lacks("error or deviation, for example error_mm",

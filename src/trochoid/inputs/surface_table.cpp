@@ -68,12 +68,14 @@ int tooth_in_row(Reading& reading, const std::vector<Field>& fields,
 void check_deviation(Reading& reading, const std::vector<Field>& fields,
                      const SurfaceValues& values) {
   const auto& columns = reading.columns;
-  const auto step = [&](const std::optional<TableColumn>& column) {
-    return last_decimal_of(fields[column->index].text) * column->factor;
-  };
+  double rounded = 0.0;  // a number without decimals beside others is exact
+  double whole = 0.0;
+  for (const auto* column : {&columns.actual, &columns.nominal, &columns.error}) {
+    const double step = last_decimal_of(fields[(*column)->index].text);
+    (step < 1.0 ? rounded : whole) += 0.505 * step * (*column)->factor;
+  }
   const double difference = *values.actual - *values.nominal;
-  const double allowed =
-      1.01 * (step(columns.actual) + step(columns.nominal) + step(columns.error));
+  const double allowed = rounded > 0.0 ? rounded : whole;
   if (std::abs(difference - *values.error) <= allowed) return;
   const auto& field = fields[columns.error->index];
   reading.table.problems.add(
@@ -216,6 +218,7 @@ void read_rows(Reading& reading) {
   std::optional<std::string_view> line;
   if (reading.head.row) {
     line = *reading.head.row;
+    settle_rows(reading, *line, fields);
   } else if ((line = next_content(table))) {
     reading.units = *line;
     settle_rows(reading, reading.units, fields);

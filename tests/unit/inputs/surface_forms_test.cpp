@@ -139,6 +139,7 @@ TEST(SurfaceText, IsSeparatedByAnythingUsual) {
 
 TEST(SurfaceText, RowsMayHaveBlanksWhereTheNamesHaveCommas) {
   expect_the_reading(read("x_mm, height_mm, error_um\n10 0.5 48\n"), "commas");
+  expect_the_reading(read("# x_mm, height_mm, error_um\n10 0.5 48\n"), "a comment");
 }
 
 TEST(SurfaceText, UnitsInColumnsStandBelowTheirNames) {
@@ -165,6 +166,8 @@ TEST(SurfaceTraces, LieAtTheHeightThatTheCaseSays) {
   expect_the_reading(read("No.,X(mm),Z(um)\n1,10,48\n", trace), "x, z");
   expect_the_reading(read("x_mm,dev_um\n10,48\n", trace), "x, deviation");
   expect_the_reading(read("x_mm,z_mm,dev_um\n10,7,48\n", trace), "both");
+  EXPECT_TRUE(says(refusal("x_mm,height_mm,dev_um\n10,7,48\n", trace),
+                   "wall.csv:1:6: column \"height_mm\" has the heights"));
   EXPECT_TRUE(says(refusal("x_mm,z_um\n10,48\n"), "the case says height_mm"));
   trace.frame = SurfaceFrame{
       {12 * mm, 0, 0}, Direction{-1, 0, 0}, Direction{0, 0, 1}, Direction{0, 1, 0}};
@@ -189,6 +192,17 @@ TEST(SurfaceNames, AreThoseOfMeasuringMachines) {
         refusal("x;z;" + names + ";dev\n10;0.5;-5.000;-4.952;0.0520\n", measurement),
         "wall.csv:2:22: "));
   }
+}
+
+/// Rounded numbers may differ by half of their last decimals; whole ones are exact then.
+TEST(SurfaceNames, OfThreeValuesMustAgreeToTheirLastDecimals) {
+  const std::string names = "x_mm;z_mm;soll_mm;ist_mm;abw_um\n10;0.5;";
+  EXPECT_EQ(refusal(names + "-5;-4.952;48.4\n"), "");
+  EXPECT_EQ(refusal(names + "-5.000;-4.952;49.0\n"), "");
+  EXPECT_TRUE(says(refusal(names + "-5;-4.952;48.8\n"), "turn its sign round"));
+  EXPECT_TRUE(says(refusal(names + "-5;-4.952;-48\n"), "turn its sign round"));
+  EXPECT_EQ(refusal("x;z;soll;ist;abw\num;um;um;um;um\n10;5;5000;5048;48\n"), "");
+  EXPECT_NE(refusal("x;z;soll;ist;abw\num;um;um;um;um\n10;5;5000;5048;40\n"), "");
 }
 
 TEST(SurfaceGaps, AreLeftOutAndCounted) {
