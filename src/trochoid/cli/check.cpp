@@ -58,10 +58,11 @@ int check(const Options& options) {
   const auto& surfaces = given.machine.surface_measurements;
   for (const inputs::SurfaceMeasurement& measurement : surfaces) {
     try {
-      const auto wrong = inputs::check_readings(
-          inputs::read_surface(measurement, given.setup.cutter.teeth()),
-          measurement.file, given);
-      problems.insert(problems.end(), wrong.begin(), wrong.end());
+      const inputs::SurfaceFile surface = inputs::read_surface_of(given, measurement);
+      for (const base::Warning& note : surface.notes) {
+        found += fmt::format("warning [{}]: {}: {}\n", note.code, measurement.file,
+                             note.message);
+      }
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -97,10 +97,18 @@ std::optional<std::string_view> LineReader::next() {
 void split(std::string_view line, char separator, std::vector<Field>& fields) {
   fields.clear();
   std::size_t begin = 0;
+  bool quoted = false;  // a mark within a field, `z / "`, is a part of it
   bool inside = false;
+  bool blank = true;  // so far
   for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') inside = !inside;
-    if (i < line.size() && (inside || line[i] != separator)) continue;
+    if (i < line.size() && line[i] == '"') {
+      quoted = quoted || blank;
+      inside = quoted && !inside;
+    }
+    if (i < line.size() && (inside || line[i] != separator)) {
+      blank = blank && (line[i] == ' ' || line[i] == '\t');
+      continue;
+    }
     auto text = trimmed(line.substr(begin, i - begin));
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
       text = trimmed(text.substr(1, text.size() - 2));
@@ -110,6 +118,8 @@ void split(std::string_view line, char separator, std::vector<Field>& fields) {
                             : static_cast<std::size_t>(text.data() - line.data()) + 1;
     fields.push_back({text, column});
     begin = i + 1;
+    quoted = false;
+    blank = true;
   }
 }
 

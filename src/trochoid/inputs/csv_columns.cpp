@@ -43,8 +43,22 @@ constexpr std::array units = {
     Unit{"\xC2\xB5m", Quantity::length, unit::um},
     Unit{"\xCE\xBCm", Quantity::length, unit::um},
     Unit{"\xB5m", Quantity::length, unit::um},
-    Unit{"in", Quantity::other, 0.0},
-    Unit{"inch", Quantity::other, 0.0},
+    Unit{"micron", Quantity::length, unit::um},
+    Unit{"microns", Quantity::length, unit::um},
+    Unit{"MM", Quantity::length, unit::mm},
+    Unit{"cm", Quantity::length, 1e-2},
+    Unit{"nm", Quantity::length, 1e-9},
+    Unit{"in", Quantity::length, unit::inch},
+    Unit{"IN", Quantity::length, unit::inch},
+    Unit{"inch", Quantity::length, unit::inch},
+    Unit{"inches", Quantity::length, unit::inch},
+    Unit{"Inch", Quantity::length, unit::inch},
+    Unit{"\"", Quantity::length, unit::inch},
+    Unit{"\"\"", Quantity::length, unit::inch},  // as quoted fields have it
+    Unit{"thou", Quantity::length, unit::thou},
+    Unit{"mil", Quantity::length, unit::thou},
+    Unit{"mils", Quantity::length, unit::thou},
+    Unit{"uin", Quantity::length, 1e-6 * unit::inch},
     Unit{"V", Quantity::other, 0.0},
     Unit{"Volt", Quantity::other, 0.0},
     Unit{"Volts", Quantity::other, 0.0},
@@ -71,7 +85,7 @@ std::string_view right_units(Quantity quantity) {
     case Quantity::time:
       return "s, ms or us";
     case Quantity::length:
-      return "mm, um or m";
+      return "mm, um, m, in or thou";
     default:
       return "deg, rad or rev";
   }
@@ -177,6 +191,9 @@ double unit_factor(const ColumnSearch& search, std::size_t index, Quantity quant
   if (quantity == Quantity::number) {
     if (unit) report_unit(search, index, quantity, *unit);
     return 1.0;
+  }
+  if (!unit && quantity == Quantity::length && search.length_unit > 0.0) {
+    return search.length_unit;
   }
   if (!unit && (quantity == Quantity::angle || quantity == Quantity::length)) {
     const bool angle = quantity == Quantity::angle;

@@ -33,6 +33,7 @@ struct ColumnSearch {
   std::vector<base::Warning>& notes;            ///< what had to be assumed
   std::function<bool(std::string_view)> known;  ///< a `plain` name without its unit
   std::string_view advice;                      ///< where several columns would do
+  double length_unit = 0.0;  ///< to SI, of lengths that name none; 0: they must
 };
 
 /// @brief A name of a column without its unit, as `plain` makes it.

@@ -31,7 +31,7 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
 * In the folder of results, `case.toml` is the case as it was understood, with every
   default filled in. It is a case file again.
 * A force record is a file of [one of these formats](record.md); a measured surface is
-  [a CSV file](surface_csv.md).
+  [text or a map](surface.md).
 * The letters and signs are those of [the notation](../notation.md).
 )";
 

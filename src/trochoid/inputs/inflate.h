@@ -15,4 +15,7 @@ bool can_inflate() noexcept;
 /// @return none: the packed bytes are damaged or end before
 std::optional<std::string> inflated(std::string_view packed, std::uint64_t count);
 
+/// @brief The same for bytes without zlib's head and check, as in a ZIP archive.
+std::optional<std::string> raw_inflated(std::string_view packed, std::uint64_t count);
+
 }  // namespace trochoid::inputs

@@ -11,4 +11,9 @@ std::optional<std::string> inflated(std::string_view /*packed*/,
   return std::nullopt;
 }
 
+std::optional<std::string> raw_inflated(std::string_view /*packed*/,
+                                        std::uint64_t /*count*/) {
+  return std::nullopt;
+}
+
 }  // namespace trochoid::inputs

@@ -5,9 +5,10 @@
 #include <trochoid/correction/plan.h>
 #include <trochoid/dynamics/imposed_command.h>
 #include <trochoid/dynamics/stability.h>
+#include <trochoid/identification/identify.h>
+#include <trochoid/inputs/surface_frame.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
-#include <trochoid/identification/identify.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
@@ -59,21 +60,24 @@ struct Surface {
   surface::Model model = surface::Model::envelope;
   surface::Load load = surface::Load::distributed;
   std::optional<surface::Feedback> feedback;  ///< none: as the readings decide
-  double phase = 0.0;                     ///< phi0 [rad]
-  std::vector<double> heights;            ///< of the answer, above the tip [m]
-  std::vector<double> influence_heights;  ///< of influence.csv, above the tip [m]
-  double probe_diameter = 0.0;            ///< of the measuring tip [m]; 0: a point
+  double phase = 0.0;                         ///< phi0 [rad]
+  std::vector<double> heights;                ///< of the answer, above the tip [m]
+  std::vector<double> influence_heights;      ///< of influence.csv, above the tip [m]
+  double probe_diameter = 0.0;                ///< of the measuring tip [m]; 0: a point
   Outliers outliers = Outliers::leave_out;
   identification::Errors errors = identification::Errors::automatic;
 };
 
 /// One [[surface_measurement]].
 struct SurfaceMeasurement {
-  std::string file;           ///< absolute, or relative to where we run
-  bool datum_offset = false;  ///< a constant shift of the readings is estimated
-  bool datum_tilt = false;    ///< as are tilts along and across the feed
+  std::string file;                   ///< absolute, or relative to where we run
+  bool datum_offset = false;          ///< a constant shift of the readings is estimated
+  bool datum_tilt = false;            ///< as are tilts along and across the feed
   std::optional<surface::Form> form;  ///< none: as the readings decide
-  std::string location;       ///< file:line:col of its `file` key
+  std::optional<LengthUnit> unit;     ///< of columns that name none
+  std::optional<double> height;       ///< above the tip, of a trace along the feed [m]
+  std::optional<SurfaceFrame> frame;  ///< of coordinates X, Y, Z, or of a map
+  std::string location;               ///< file:line:col of its `file` key
 };
 
 enum class ResidualTerms { choose, yes, no };

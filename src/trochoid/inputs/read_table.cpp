@@ -91,7 +91,11 @@ struct TableReader {
       return;
     }
     if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
-      read_clamping(node, **clamping, key, key_path);
+      read_inner(node, **clamping, key, key_path);
+      return;
+    }
+    if (auto* const* frame = std::get_if<std::optional<SurfaceFrame>*>(&field)) {
+      read_inner(node, **frame, key, key_path);
       return;
     }
     const std::size_t before = findings.problems.size();
@@ -101,18 +105,18 @@ struct TableReader {
     }
   }
 
-  void read_clamping(const Node& node, std::optional<PreviousClamping>& clamping,
-                     const Key& key, const std::string& key_path) const {
+  template <class Inner>
+  void read_inner(const Node& node, std::optional<Inner>& inner, const Key& key,
+                  const std::string& key_path) const {
     if (!std::holds_alternative<Members>(node.value)) {
       report(findings, key_path, node.where,
              fmt::format("{} = {}: not a table; must be {} ({})", key_path,
-                         to_string(node), expectation(key, &clamping), key.meaning));
+                         to_string(node), expectation(key, &inner), key.meaning));
       return;
     }
     read_table(
-        node, key_path,
-        [&clamping](const Visitor& v) { describe(v, clamping.emplace()); }, reading,
-        findings);
+        node, key_path, [&inner](const Visitor& v) { describe(v, inner.emplace()); },
+        reading, findings);
   }
 
   void read_override(const Node& node, CutTable& cut, const Key& key,

@@ -14,6 +14,17 @@ bool contains(const Range& range, double value) {
          (range.open_high ? value < range.high : value <= range.high);
 }
 
+/// `+x`, `x` or `-X`
+std::optional<Direction> axis_named(std::string_view text) {
+  const bool minus = text.starts_with('-');
+  if (minus || text.starts_with('+')) text.remove_prefix(1);
+  const auto at = std::string_view("xyzXYZ").find(text);
+  if (text.size() != 1 || at == std::string_view::npos) return std::nullopt;
+  Direction direction{};
+  direction[at % 3] = minus ? -1.0 : 1.0;
+  return direction;
+}
+
 struct Reader {
   const Node& node;
   const std::string& path;
@@ -184,7 +195,30 @@ struct Reader {
       choices.set(all);
     }
   }
+  void operator()(std::optional<Direction>* target) const {
+    if (const auto* text = std::get_if<std::string>(&node.value)) {
+      *target = axis_named(*text);
+      if (!*target) refuse(node, 0, "no direction");
+      return;
+    }
+    const Array* entries = list(3);
+    if (entries == nullptr) return;
+    Direction direction{};
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto entry = number((*entries)[i], i + 1);
+      if (!entry) return;
+      direction[i] = *entry;
+      largest = std::max(largest, std::abs(*entry));
+    }
+    if (largest == 0.0) {
+      refuse(node, 0, "points nowhere");
+    } else {
+      *target = direction;
+    }
+  }
   void operator()(std::optional<PreviousClamping>*) const {}  // read_table does it
+  void operator()(std::optional<SurfaceFrame>*) const {}      // so this
   void operator()(CutTable*) const {}  // read_table does it: it needs [cut] as well
 };
 

@@ -65,6 +65,10 @@ void check_steps(const std::optional<base::Steps>& steps, const std::string& key
 void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings);
 
+/// @brief Its frame: perpendicular directions, which become unit vectors.
+/// @param number  1, 2 ... of the [[surface_measurement]]
+void settle_frame(SurfaceFrame& frame, std::size_t number, Findings& findings);
+
 /// @brief The same for [frf] and [step].
 void settle_machine_files(MachineTables& machine, Findings& findings);
 

@@ -155,10 +155,13 @@ void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
   const std::string shown = measurement.file;
   const auto file = resolved(shown, named_at);
   if (sound(findings, {key})) {
-    check_file(file, key, shown, "a measured surface (csv)", findings);
+    check_file(file, key, shown, "a measured surface (csv, x3p or sdf)", findings);
   }
   measurement.file = file.string();
   measurement.location = to_string(named_at);
+  if (measurement.frame) {
+    settle_frame(*measurement.frame, number, findings);
+  }
 }
 
 }  // namespace trochoid::inputs

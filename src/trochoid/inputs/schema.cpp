@@ -51,6 +51,22 @@ std::string in_words(const Range& range) {
                      range.open_high ? "below" : "at most", high);
 }
 
+/// `"-y"`, or three numbers.
+std::string direction_text(const Direction& direction) {
+  constexpr std::string_view axes = "xyz";
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const double sign : {1.0, -1.0}) {
+      Direction axis{};
+      axis[i] = sign;
+      if (direction == axis) {
+        return fmt::format("\"{}{}\"", sign > 0 ? '+' : '-', axes[i]);
+      }
+    }
+  }
+  return fmt::format("[{}, {}, {}]", number_text(direction[0]),
+                     number_text(direction[1]), number_text(direction[2]));
+}
+
 struct Expectation {
   const Key& key;
 
@@ -95,6 +111,12 @@ struct Expectation {
   }
   std::string operator()(const std::optional<PreviousClamping>*) const {
     return "a table { key = value, ... }";
+  }
+  std::string operator()(const std::optional<SurfaceFrame>*) const {
+    return "a table { key = value, ... }";
+  }
+  std::string operator()(const std::optional<Direction>*) const {
+    return "one of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\", or 3 numbers";
   }
 };
 
@@ -158,9 +180,11 @@ struct Writer {
     }
     return fmt::format("[{}]", fmt::join(entries, ", "));
   }
-  Text operator()(const std::optional<PreviousClamping>*) const {
-    return {};
-  }                                                      // so this
+  Text operator()(const std::optional<Direction>* v) const {
+    return *v ? Text(direction_text(**v)) : Text{};
+  }
+  Text operator()(const std::optional<PreviousClamping>*) const { return {}; }
+  Text operator()(const std::optional<SurfaceFrame>*) const { return {}; }  // these
   Text operator()(const CutTable*) const { return {}; }  // write_case.cpp does it
 };
 

@@ -3,6 +3,7 @@
 #include <trochoid/base/command.h>
 #include <trochoid/base/steps.h>
 #include <trochoid/inputs/previous_clamping.h>
+#include <trochoid/inputs/surface_frame.h>
 
 #include <array>
 #include <cstddef>
@@ -93,7 +94,8 @@ struct CutTable;
 using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
                            std::vector<double>*, std::optional<base::Steps>*,
                            std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
-                           std::optional<PreviousClamping>*>;
+                           std::optional<PreviousClamping>*,
+                           std::optional<SurfaceFrame>*, std::optional<Direction>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

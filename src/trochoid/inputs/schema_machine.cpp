@@ -108,28 +108,11 @@ void describe(const Visitor& v, Surface& t) {
                 "the others say"},
     choice(t.outliers));
   v({.name = "errors",
-     .meaning = "calibrate, standard errors and intervals: auto counts what readings of "
-                "one height or one place have in common; white: as if each were "
-                "independent"},
+     .meaning =
+         "calibrate, standard errors and intervals: auto counts what readings of "
+         "one height or one place have in common; white: as if each were "
+         "independent"},
     choice(t.errors));
-}
-
-void describe(const Visitor& v, SurfaceMeasurement& t) {
-  v({.name = "file",
-     .meaning = "the measured surface, relative to the file that names it",
-     .need = Need::always},
-    &t.file);
-  v({.name = "datum_offset", .meaning = "estimate a constant shift of the readings"},
-    &t.datum_offset);
-  v({.name = "datum_tilt",
-     .meaning = "estimate a tilt of the readings along and across the feed"},
-    &t.datum_tilt);
-  v({.name = "form",
-     .meaning = "form of the wall that is no work of the cut, estimated beside the "
-                "coefficients; tilt has an offset as well, curvature both; auto: as "
-                "the readings decide, at least what datum_offset and datum_tilt ask "
-                "for; for quasi_static none"},
-    choice(t.form, "auto"));
 }
 
 void describe(const Visitor& v, Mode& t) {

@@ -1,241 +1,248 @@
-#include <fmt/core.h>
-#include <trochoid/base/units.h>
-#include <trochoid/inputs/csv_columns.h>
 #include <trochoid/inputs/surface_file.h>
 
+#include <trochoid/base/error.h>
+#include <trochoid/base/names.h>
+#include <trochoid/base/units.h>
+#include <trochoid/inputs/numeric_table.h>
+#include <trochoid/inputs/surface_columns.h>
+#include <trochoid/inputs/surface_map.h>
+#include <trochoid/inputs/surface_place.h>
+#include <trochoid/inputs/surface_repeats.h>
+#include <trochoid/inputs/surface_table.h>
+
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <tuple>
+#include <stdexcept>
 
 namespace trochoid::inputs {
 
 namespace {
 
-using namespace std::string_view_literals;
+/// Enough to recognise a format by.
+constexpr std::size_t longest_head = 16;
 
-constexpr TableKind surface_kind{.noun = "a measured surface",
-                                 .files = "a CSV file",
-                                 .row = "reading",
-                                 .example = "x_mm,height_mm,error_mm"};
-
-constexpr std::array x_names = {"x"sv, "position"sv};
-constexpr std::array step_names = {"step"sv, "k"sv};
-constexpr std::array offset_names = {"feedoffset"sv};
-constexpr std::array height_names = {"height"sv, "z"sv};
-constexpr std::array error_names = {"error"sv, "deviation"sv};
-constexpr std::array tooth_names = {"tooth"sv};
-constexpr std::array<NameList, 6> all_lists = {x_names,      step_names,  offset_names,
-                                               height_names, error_names, tooth_names};
-
-/// More teeth than a case can have.
-constexpr double most_teeth = 64;
-
-bool is_known_name(std::string_view name) {
-  return std::any_of(all_lists.begin(), all_lists.end(), [&](const NameList& list) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  });
+/// @return the first bytes of a file, which then stands at its beginning again
+std::string first_bytes(std::istream& in) {
+  std::string head(longest_head, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  in.clear();
+  if (!in.seekg(0)) {
+    throw std::invalid_argument("read_surface: the stream cannot be set back");
+  }
+  return head;
 }
 
-struct SurfaceColumns {
-  std::optional<TableColumn> x, step, feed_offset, height, error, tooth;
+SurfaceFile read_map(std::istream& in, const SurfaceMeasurement& measurement,
+                     bool archive) {
+  const SurfaceMap map =
+      archive ? read_x3p(in, measurement.file) : read_sdf(in, measurement.file);
+  if (measurement.unit) {
+    refuse(
+        measurement.file,
+        "unit of the [[surface_measurement]]: X3P and SDF files are in metres; leave "
+        "it out");
+  }
+  return readings_of(map, measurement);
+}
+
+/// Where readings may lie.
+struct Limits {
+  double height = 0.0;             ///< from 0 to this [m]
+  std::optional<double> length{};  ///< x from 0 to this [m]; none: anywhere
+
+  /// Numbers in um and in mm differ in the last bit.
+  static constexpr double slack = 1e-9;
+  static bool beyond(double value, double most) {
+    return value < -slack * most || value > most * (1 + slack);
+  }
+  [[nodiscard]] bool misses_height(const SurfaceReading& r) const {
+    return beyond(r.height, height);
+  }
+  [[nodiscard]] bool misses_length(const SurfaceReading& r) const {
+    return length && r.x && beyond(*r.x, *length);
+  }
 };
 
-SurfaceColumns find_columns(const TableHead& head, Problems& problems) {
-  std::vector<base::Warning> notes;  // lengths without a unit are refused: none come
-  const ColumnSearch search{head, problems, notes, is_known_name,
-                            "leave out, or rename, the one that is not meant"};
-  SurfaceColumns columns;
-  if (lacks_names(search, surface_kind.example)) {
-    return columns;
-  }
-  const auto found = [&](NameList names, Quantity quantity) {
-    const auto at = usual_column(search, names);
-    return at ? std::optional(column_at(search, *at, quantity)) : std::nullopt;
-  };
-  columns.x = found(x_names, Quantity::length);
-  columns.step = found(step_names, Quantity::number);
-  columns.feed_offset = found(offset_names, Quantity::length);
-  columns.height = found(height_names, Quantity::length);
-  columns.error = found(error_names, Quantity::length);
-  columns.tooth = found(tooth_names, Quantity::number);
-  const auto lacks = [&](std::string_view wanted) {
-    problems.add(head.names_line, 1,
-                 fmt::format("no column is named {}: the columns are {}", wanted,
-                             all_names(head)));
-  };
-  if (!columns.x && !columns.step) {
-    lacks("x or position, for example x_mm, or step");
-  }
-  if (!columns.height) {
-    lacks("height or z, for example height_mm");
-  }
-  if (!columns.error) {
-    lacks("error or deviation, for example error_mm");
-  }
-  return columns;
+Limits limits_of(const Case& given) {
+  const auto& wall = given.machine.wall;
+  const bool along_wall = wall && given.machine.surface.value_or(Surface{}).model !=
+                                      surface::Model::quasi_static;
+  Limits limits{.height = given.setup.cut.a_p};
+  if (along_wall) limits.length = wall->length;
+  return limits;
 }
 
-int tooth_in_row(TableText& table, const std::vector<Field>& fields,
-                 const TableColumn& column, int teeth) {
-  const auto before = table.problems.lines.size();
-  const double tooth = number_in_row(table, fields, column);
-  if (table.problems.lines.size() > before) {
-    return 0;
-  }
-  const double most = teeth > 0 ? teeth : most_teeth;
-  if (tooth < 1 || tooth > most || tooth != std::floor(tooth)) {
-    const auto& field = fields[column.index];
-    table.problems.add(table.lines.number(), field.column,
-                       fmt::format("column {}: {} is no tooth: must be a whole number "
-                                   "from 1 to {}",
-                                   excerpt(column.name), excerpt(field.text), most));
-    return 0;
-  }
-  return static_cast<int>(tooth);
-}
+/// Smallest and largest of a length over all readings.
+struct Extent {
+  double low = 0.0;
+  double high = 0.0;
+};
 
-SurfaceReading reading_of(TableText& table, const std::vector<Field>& fields,
-                          const SurfaceColumns& columns, int teeth) {
-  SurfaceReading reading;
-  const auto number = [&](const std::optional<TableColumn>& column) {
-    return column ? std::optional(number_in_row(table, fields, *column)) : std::nullopt;
+/// What would bring all values of a column inside, in words; empty: nothing would.
+/// @param unit  of its column; none: they were placed by a frame
+std::string likely_cause(const Extent& extent, double most,
+                         const std::optional<std::string>& unit) {
+  const auto fits = [&](double factor) {
+    const double low = std::min(extent.low * factor, extent.high * factor);
+    const double high = std::max(extent.low * factor, extent.high * factor);
+    return !Limits::beyond(low, most) && !Limits::beyond(high, most) &&
+           high >= 0.02 * most;
   };
-  reading.x = number(columns.x);
-  reading.step = number(columns.step);
-  reading.feed_offset = number(columns.feed_offset);
-  reading.height = number(columns.height).value_or(0.0);
-  reading.error = number(columns.error).value_or(0.0);
-  if (columns.tooth) {
-    reading.tooth = tooth_in_row(table, fields, *columns.tooth, teeth);
+  if (extent.high <= 0.0 && fits(-1.0)) {
+    return "; with the other sign all readings would lie inside";
   }
-  reading.line = table.lines.number();
-  return reading;
-}
-
-/// Two rows for one place: nobody can say which of them is right.
-void check_twice(const std::vector<SurfaceReading>& readings, Problems& problems) {
-  const auto place = [&](std::size_t i) {
-    const auto& r = readings[i];
-    return std::tuple(r.x, r.step, r.feed_offset, r.height, r.tooth);
-  };
-  std::vector<std::size_t> order(readings.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  std::vector<std::pair<std::size_t, std::size_t>> twice;  // the later line first
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (place(order[i]) == place(order[first])) {
-      twice.emplace_back(readings[order[i]].line, readings[order[first]].line);
-    } else {
-      first = i;
+  if (!unit) return "; frame in the case says how the wall lies";
+  if (extent.high < 3.0 * most) return {};  // a reading or two too far
+  const std::string said = unit->empty() ? "mm" : *unit;
+  const auto known = base::named<LengthUnit>(said).value_or(LengthUnit::mm);
+  for (const auto other : {LengthUnit::um, LengthUnit::mm, LengthUnit::m,
+                           LengthUnit::in, LengthUnit::thou}) {
+    if (other != known && fits(factor_of(other) / factor_of(known))) {
+      return fmt::format("; in {} instead of {} all readings would lie inside",
+                         name_of(other), said);
     }
   }
-  std::sort(twice.begin(), twice.end());
-  for (const auto& [later, earlier] : twice) {
-    problems.add(later, 1,
-                 fmt::format("the same place as in line {}: leave out one of the two, "
-                             "or put a repeated measurement into a file of its own",
-                             earlier));
-  }
+  return {};
 }
 
-std::vector<SurfaceReading> read_rows(TableText& table, TableHead& head, int teeth) {
-  std::vector<Field> fields;
-  auto line = next_content(table);
-  if (line) {
-    split(*line, table.separator, fields);
-    take_units(table, fields, head);
+template <class Value>
+Extent extent_of(const std::vector<SurfaceReading>& readings, const Value& value) {
+  Extent extent{std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity()};
+  for (const SurfaceReading& reading : readings) {
+    extent.low = std::min(extent.low, value(reading));
+    extent.high = std::max(extent.high, value(reading));
   }
-  // The texts of the unit row end with the next line.
-  const SurfaceColumns columns = find_columns(head, table.problems);
-  throw_problems(table);
-  if (!head.units.empty()) line = next_content(table);
-  std::vector<SurfaceReading> readings;
-  while (line && !table.problems.full()) {
-    split(*line, table.separator, fields);
-    if (complete_row(table, fields, head.names.size())) {
-      readings.push_back(reading_of(table, fields, columns, teeth));
-    }
-    line = next_content(table);
-  }
-  return readings;
+  return extent;
 }
 
-std::string mm(double length) {
-  return fmt::format("{:.10g}", length / unit::mm);
+/// Leave out what a map shows beside the wall.
+void keep_inside(SurfaceFile& surface, const Limits& limits, const std::string& file) {
+  const std::size_t before = surface.readings.size();
+  std::erase_if(surface.readings, [&](const SurfaceReading& reading) {
+    return limits.misses_height(reading) || limits.misses_length(reading);
+  });
+  const std::size_t outside = before - surface.readings.size();
+  if (surface.readings.empty()) {
+    refuse(file,
+           "no point of the map lies inside the cut: x from 0 to the length of the "
+           "wall, height from 0 to the axial depth; frame = { origin_mm = [...], "
+           "feed = ..., normal = ..., up = ... } says how it lies");
+  }
+  if (outside > 0) {
+    surface.counts.skipped += outside;
+    surface.notes.push_back(
+        {"points_outside",
+         fmt::format(
+             "{} of {} points of the map were left out because they lie outside "
+             "the cut.",
+             outside, before)});
+  }
 }
 
 }  // namespace
 
+std::optional<double> SurfaceCounts::repeatability() const {
+  if (repeats == 0) return std::nullopt;
+  return std::sqrt(squares / static_cast<double>(repeats));
+}
+
+void SurfaceCounts::add(const SurfaceCounts& other) {
+  skipped += other.skipped;
+  repeats += other.repeats;
+  squares += other.squares;
+}
+
+SurfaceFile read_surface_file(std::istream& in, const SurfaceMeasurement& measurement,
+                              int teeth) {
+  const auto& frame = measurement.frame;
+  if (frame &&
+      (frame->origin.size() != 3 || !frame->feed || !frame->normal || !frame->up)) {
+    throw std::invalid_argument("read_surface: the frame lacks a direction");
+  }
+  const std::string head = first_bytes(in);
+  if (is_archive(head) || is_sdf(head)) {
+    return read_map(in, measurement, is_archive(head));
+  }
+  SurfaceFile surface = read_surface_table(in, measurement, teeth);
+  average_repeats(surface);
+  surface.framed = frame.has_value();
+  return surface;
+}
+
+SurfaceFile read_surface_file(const SurfaceMeasurement& measurement, int teeth) {
+  auto in = open_table(measurement.file, measurement.location, surface_kind);
+  return read_surface_file(in, measurement, teeth);
+}
+
 std::vector<SurfaceReading> read_surface(std::istream& in, const std::string& name,
                                          int teeth) {
-  TableText table(in, name, surface_kind);
-  const auto first = next_content(table);
-  const std::string names = first ? names_row(table, *first) : std::string();
-  if (names.empty() && table.problems.lines.empty()) {
-    table.problems.add(
-        1, 1,
-        fmt::format("the file holds no data: a row of names, for example {}, and rows "
-                    "of numbers are needed",
-                    surface_kind.example));
-  }
-  throw_problems(table);
-  TableHead head = head_of(table, names);
-  if (head.names.size() == 1) {
-    table.problems.add(head.names_line, 1,
-                       "the row of names has 1 column: place, height and error are "
-                       "needed, separated by , ; or a tab");
-    throw_problems(table);
-  }
-  auto readings = read_rows(table, head, teeth);
-  table.style.check(table.problems);
-  throw_problems(table);
-  if (readings.empty()) {
-    table.problems.add(table.lines.number(), 1,
-                       "no reading follows the row of names: "
-                       "rows of numbers are needed");
-  }
-  check_twice(readings, table.problems);
-  throw_problems(table);
-  return readings;
+  SurfaceMeasurement measurement;
+  measurement.file = name;
+  return read_surface_file(in, measurement, teeth).readings;
 }
 
 std::vector<SurfaceReading> read_surface(const SurfaceMeasurement& measurement,
                                          int teeth) {
-  auto in = open_table(measurement.file, measurement.location, surface_kind);
-  return read_surface(in, measurement.file, teeth);
+  return read_surface_file(measurement, teeth).readings;
+}
+
+SurfaceFile read_surface_of(const Case& given, const SurfaceMeasurement& measurement) {
+  SurfaceFile surface = read_surface_file(measurement, given.setup.cutter.teeth());
+  if (surface.map) {
+    keep_inside(surface, limits_of(given), measurement.file);
+  }
+  auto misplaced = check_readings(surface, measurement.file, given);
+  if (!misplaced.empty()) {
+    throw base::InputError(std::move(misplaced));
+  }
+  return surface;
+}
+
+std::vector<std::string> check_readings(const SurfaceFile& surface,
+                                        const std::string& file, const Case& given) {
+  const Limits limits = limits_of(given);
+  const auto& readings = surface.readings;
+  Problems problems{file, {}};
+  const auto hint = [&](const Extent& extent, double most, const std::string& unit) {
+    return likely_cause(extent, most,
+                        surface.framed ? std::nullopt : std::optional(unit));
+  };
+  const std::string height_hint =
+      hint(extent_of(readings, [](const SurfaceReading& r) { return r.height; }),
+           limits.height, surface.height_unit);
+  const auto x_of = [](const SurfaceReading& r) { return r.x.value_or(0.0); };
+  const std::string x_hint =
+      limits.length ? hint(extent_of(readings, x_of), *limits.length, surface.x_unit)
+                    : std::string();
+  for (const SurfaceReading& reading : readings) {
+    if (problems.full()) break;
+    if (limits.misses_height(reading)) {
+      problems.add(
+          reading.line, 1,
+          fmt::format("the height of {} mm is outside the cut: must be from 0 "
+                      "to axial_depth_mm = {} mm, above the tip of the cutter{}",
+                      in_mm(reading.height), in_mm(limits.height), height_hint));
+    }
+    if (limits.misses_length(reading)) {
+      problems.add(reading.line, 1,
+                   fmt::format("x = {} mm is outside the wall: must be from 0 to "
+                               "length_mm = {} mm{}",
+                               in_mm(*reading.x), in_mm(*limits.length), x_hint));
+    }
+  }
+  return problems.lines;
 }
 
 std::vector<std::string> check_readings(const std::vector<SurfaceReading>& readings,
                                         const std::string& file, const Case& given) {
-  constexpr double slack = 1e-9;  // numbers in um and in mm differ in the last bit
-  const double a_p = given.setup.cut.a_p;
-  const auto& wall = given.machine.wall;
-  const bool along_wall = wall && given.machine.surface.value_or(Surface{}).model !=
-                                      surface::Model::quasi_static;
-  const auto beyond = [&](double value, double most) {
-    return value < -slack * most || value > most * (1 + slack);
-  };
-  Problems problems{file, {}};
-  for (const SurfaceReading& reading : readings) {
-    if (beyond(reading.height, a_p)) {
-      problems.add(reading.line, 1,
-                   fmt::format("the height of {} mm is outside the cut: must be from 0 "
-                               "to axial_depth_mm = {} mm, above the tip of the cutter",
-                               mm(reading.height), mm(a_p)));
-    }
-    if (along_wall && reading.x && beyond(*reading.x, wall->length)) {
-      problems.add(reading.line, 1,
-                   fmt::format("x = {} mm is outside the wall: must be from 0 to "
-                               "length_mm = {} mm",
-                               mm(*reading.x), mm(wall->length)));
-    }
-  }
-  return problems.lines;
+  SurfaceFile surface;
+  surface.readings = readings;
+  return check_readings(surface, file, given);
 }
 
 }  // namespace trochoid::inputs

@@ -155,6 +155,7 @@ void describe(const Visitor& v, MeasurementTable& t);
 void describe(const Visitor& v, IdentifyTable& t);
 void describe(const Visitor& v, Plan& t);
 void describe(const Visitor& v, PreviousClamping& t);
+void describe(const Visitor& v, SurfaceFrame& t);
 /// The keys above all tables.
 void describe(const Visitor& v, CaseTables& t);
 

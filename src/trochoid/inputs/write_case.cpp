@@ -22,14 +22,22 @@ std::string inline_table(Table& table) {
   return fmt::format("{{ {} }}", text);
 }
 
+template <class Inner>
+std::optional<std::string> inner_text(std::optional<Inner>* inner) {
+  return inner != nullptr && *inner ? std::optional(inline_table(**inner))
+                                    : std::nullopt;
+}
+
 /// A value of one line, tables in braces.
 std::optional<std::string> value_text(const Key& key, const Field& field) {
   if (CutTable* const* cut = std::get_if<CutTable*>(&field)) {
     return inline_table(**cut);
   }
   if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
-    return *clamping != nullptr && **clamping ? std::optional(inline_table(***clamping))
-                                              : std::nullopt;
+    return inner_text(*clamping);
+  }
+  if (auto* const* frame = std::get_if<std::optional<SurfaceFrame>*>(&field)) {
+    return inner_text(*frame);
   }
   return toml_text(key, field);
 }

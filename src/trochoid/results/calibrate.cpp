@@ -105,6 +105,15 @@ Object runout_value(const CalibrateResult& r) {
   return value;
 }
 
+/// How many readings there are, and what became of the others.
+Object readings_value(const CalibrateResult& r) {
+  return {{"used", r.readings.size()},
+          {"skipped", r.skipped},
+          {"repeats", r.repeats},
+          {"repeatability_mm",
+           r.repeatability ? Value(*r.repeatability / unit::mm) : Value()}};
+}
+
 Object result_of(const CalibrateResult& r) {
   const surface::Calibration& c = r.calibration;
   const CoefficientFit& chosen = chosen_fit(c.models);
@@ -127,6 +136,7 @@ Object result_of(const CalibrateResult& r) {
   }
   add("noise_mm", c.ok ? Value(chosen.noise / unit::mm) : Value());
   add("means", c.models.nominal.size());
+  add("readings", readings_value(r));
   Array fits;
   for (const CoefficientFit& fit : c.models.fits) {
     fits.emplace_back(model_value(r.law, fit));

@@ -3,6 +3,8 @@
 #include <trochoid/results/answer.h>
 #include <trochoid/surface/calibrate.h>
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace trochoid::results {
@@ -12,6 +14,9 @@ struct CalibrateResult {
   Heading heading;
   std::vector<surface::Reading> readings;  ///< of all files
   std::vector<surface::Datum> datum;       ///< what was estimated of each file
+  std::size_t skipped = 0;                 ///< readings left out: without a value
+  std::size_t repeats = 0;              ///< readings averaged with one of their place
+  std::optional<double> repeatability;  ///< their standard deviation [m]
   surface::Calibration calibration;
   force::Law law;  ///< of the case: what the wall does not show is taken from it
   force::EdgeLength edge_length = force::EdgeLength::true_length;

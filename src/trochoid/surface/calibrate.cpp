@@ -79,8 +79,9 @@ struct Stated {
   RunoutFit runout;
 };
 
-Stated fit_stated(const Setting& setting, const Kept& kept, std::span<const Datum> datum,
-                  Feedback feedback, const std::function<void()>& means_fitted) {
+Stated fit_stated(const Setting& setting, const Kept& kept,
+                  std::span<const Datum> datum, Feedback feedback,
+                  const std::function<void()>& means_fitted) {
   Stated fit{.models = fit_models(setting, kept.readings, datum, feedback)};
   if (chosen_fit(fit.models).ok) {
     fit.runout = runout_of(setting, kept.readings, datum, fit.models, means_fitted);
@@ -154,9 +155,9 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   for (Datum& d : first) {
     d = decided(d, Form::offset);
   }
-  const bool decided = options.shared || !options.feedback ||
-                       std::any_of(datum.begin(), datum.end(),
-                                   [](const Datum& d) { return d.decide; });
+  const bool decided =
+      options.shared || !options.feedback ||
+      std::any_of(datum.begin(), datum.end(), [](const Datum& d) { return d.decide; });
   const bool robust = options.robust && setting.model != Model::quasi_static;
   Calibration c{.datum = first};
   Kept kept = all_of(readings);

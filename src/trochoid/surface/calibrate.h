@@ -37,7 +37,7 @@ struct Calibration {
   std::vector<Datum> datum;        ///< of each set, as it was decided
   std::vector<Outlier> outliers;
   std::vector<Explanation> explanations;  ///< likeliest first; empty: one was asked for
-  double own_scatter = 0.0;     ///< of a reading by itself [m]
+  double own_scatter = 0.0;               ///< of a reading by itself [m]
   double shared_scatter = 0.0;  ///< shared by readings of a height or a place [m]
 };
 

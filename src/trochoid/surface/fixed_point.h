@@ -39,7 +39,8 @@ inline constexpr double lost = 50;
 /// from the Jacobian -1 of the residual.
 /// @src [broyden1965], as in [kelley1995] 7.3: only the steps are kept
 template <class Image>
-bool solve_fixed_point(const Image& image, std::vector<double>& u, const Limits& limits) {
+bool solve_fixed_point(const Image& image, std::vector<double>& u,
+                       const Limits& limits) {
   constexpr int most_steps = 60;
   std::vector<double> r(u.size());
   std::vector<std::vector<double>> steps;

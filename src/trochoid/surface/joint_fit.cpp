@@ -177,8 +177,8 @@ Way joint_way(const Setting& setting, std::span<const Reading> readings,
 Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedback) {
   auto model = std::make_shared<NominalModel>(setting, found.nominal, found.stations);
   const CoefficientFit& fit = chosen_fit(found);
-  const auto at = [model, feedback, rest = wall_coefficients(setting.law)](
-                      std::span<const double> p) {
+  const auto at = [model, feedback,
+                   rest = wall_coefficients(setting.law)](std::span<const double> p) {
     auto K = rest;
     K[0] = MN_m2 * p[0];
     K[1] = MN_m2 * p[1];
@@ -200,7 +200,9 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
     }
     return e;
   };
-  return {at, [](std::span<const double>) { return 0.0; }, predict,
+  return {at,
+          [](std::span<const double>) { return 0.0; },
+          predict,
           {{fit.K_tc.value / MN_m2, fit.K_rc.value / MN_m2}}};
 }
 
@@ -261,9 +263,9 @@ std::vector<Tried> try_feedbacks(const Given& wall, const Fitted& rows,
 }
 
 const Tried& cheapest(std::span<const Tried> tried) {
-  return *std::min_element(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
-    return a.fit.cost < b.fit.cost;
-  });
+  return *std::min_element(
+      tried.begin(), tried.end(),
+      [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
 }
 
 /// Forms below what is stated of every file are no choice.
@@ -348,14 +350,14 @@ struct Mixture {
 Mixture mixture_of(const Given& wall, std::span<const Tried> tried) {
   const Values& likeliest = tried.front().fit.p;
   const std::size_t n = likeliest.size();
-  const bool turn = wall.runout.ok && !wall.runout.labelled &&
-                    wall.setting.model == Model::envelope;
+  const bool turn =
+      wall.runout.ok && !wall.runout.labelled && wall.setting.model == Model::envelope;
   std::vector<Values> all;
   Mixture m{Values(n), Values(n * n), tried.front().fit.own};
   for (const Tried& t : tried) {
-    all.push_back(turn ? turned_towards(likeliest, t.fit.p,
-                                        wall.setting.setup.cutter.teeth())
-                       : t.fit.p);
+    all.push_back(
+        turn ? turned_towards(likeliest, t.fit.p, wall.setting.setup.cutter.teeth())
+             : t.fit.p);
     for (std::size_t k = 0; k < n; ++k) {
       m.mean[k] += t.what.weight * all.back()[k];
     }
@@ -423,9 +425,9 @@ void put_coefficients(const Mixture& m, const Scatter& scatter, RunoutFit& fit) 
   };
   put(n - 2, fit.K_tc);
   put(n - 1, fit.K_rc);
-  fit.correlation = m.covariance[(n - 2) * n + n - 1] /
-                    std::sqrt(m.covariance[(n - 2) * n + n - 2] *
-                              m.covariance[(n - 1) * n + n - 1]);
+  fit.correlation =
+      m.covariance[(n - 2) * n + n - 1] /
+      std::sqrt(m.covariance[(n - 2) * n + n - 2] * m.covariance[(n - 1) * n + n - 1]);
 }
 
 /// What the likeliest explanation says of all readings, its form included.
@@ -435,8 +437,7 @@ void put_predicted(const Given& wall, const Tried& likeliest, RunoutFit& fit) {
   double sum = 0.0;
   for (std::size_t i = 0; i < fit.predicted.size(); ++i) {
     for (std::size_t k = 0; k < n; ++k) {
-      fit.predicted[i] +=
-          um * likeliest.fit.form[k] * likeliest.form.values[i * n + k];
+      fit.predicted[i] += um * likeliest.fit.form[k] * likeliest.form.values[i * n + k];
     }
     sum += std::pow(wall.readings[i].error - fit.predicted[i], 2);
   }
@@ -537,10 +538,10 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
   for (int form = static_cast<int>(richest) - 1; form >= least_form(datum); --form) {
     form_columns = add_form(rows, datum, static_cast<Form>(form), problem);
     for (std::size_t w = 0; w < ways; ++w) {
-      Tried one{.what = {.feedback = tried[w].what.feedback,
-                         .form = static_cast<Form>(form)},
-                .way = tried[w].way,
-                .form = form_columns};
+      Tried one{
+          .what = {.feedback = tried[w].what.feedback, .form = static_cast<Form>(form)},
+          .way = tried[w].way,
+          .form = form_columns};
       one.fit = settle(problem, one.way, tried[w].fit.p);
       tried.push_back(std::move(one));
     }

@@ -13,7 +13,7 @@ namespace trochoid::surface {
 /// @brief How a wall is fitted.
 struct FitOptions {
   std::optional<Feedback> feedback = Feedback::none;  ///< none: as the readings decide
-  bool robust = false;  ///< readings far off are left out
+  bool robust = false;                                ///< readings far off are left out
   bool shared = false;  ///< readings of one height or place may share an error (E-20)
 };
 

@@ -126,9 +126,9 @@ double JointModel::rebase(std::span<const double> p) {
 }
 
 /// Slopes of e_0 [units of scale], found anew where the last ones were found far off.
-const std::vector<double>& JointModel::stiff_slopes(
-    std::span<const double> p, std::span<const double> f,
-    const ToothModel::Forces& forces) {
+const std::vector<double>& JointModel::stiff_slopes(std::span<const double> p,
+                                                    std::span<const double> f,
+                                                    const ToothModel::Forces& forces) {
   const std::size_t n = p.size();
   bool near = !stiff_at_.empty();
   for (std::size_t k = 0; near && k < n; ++k) {

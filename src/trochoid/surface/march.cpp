@@ -35,8 +35,9 @@ void between_steps(std::span<const double> table, std::size_t steps, double phi,
   at = (at - std::floor(at)) * static_cast<double>(steps);
   const auto first = static_cast<std::size_t>(at) % steps;
   const double t = at - std::floor(at);
-  const std::array<double, 4> w = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
-                                   -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+  const std::array<double, 4> w = {
+      -t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
+      -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
   std::fill(out.begin(), out.end(), 0.0);
   for (std::size_t i = 0; i < w.size(); ++i) {
     const double* row = table.data() + (first + steps + i - 1) % steps * n;
@@ -61,8 +62,8 @@ class Edges {
     const std::size_t teeth = edges_.psi.size();
     positions_.resize(radii * teeth);
     for (std::size_t i = 0; i < radii; ++i) {
-      const force::EdgePoint p = edges_.point(edges_.ends.back() *
-                                              static_cast<double>(i) / (radii - 1));
+      const force::EdgePoint p =
+          edges_.point(edges_.ends.back() * static_cast<double>(i) / (radii - 1));
       geometry::edge_positions(edges_.setup.runout, edges_.psi, p.meridian.r, p.lag,
                                std::span(positions_).subspan(i * teeth, teeth));
     }
@@ -103,7 +104,8 @@ class Edges {
                                height(theta, std::numbers::pi),
                                passes(theta, j, edges_.passage.stock.y_hi, u),
                                passes(theta, j, edges_.passage.stock.y_lo, u),
-                               height(theta, 0.0), height(theta, -more)};
+                               height(theta, 0.0),
+                               height(theta, -more)};
     std::sort(z.begin(), z.end());
     for (std::size_t i = 0; i + 1 < z.size(); ++i) {
       const double from = std::clamp(z[i], 0.0, a_p_);
@@ -156,8 +158,8 @@ class Edges {
     const double half = 0.5 * (z[1] - z[0]);
     for (std::size_t i = 0; i < rule.t.size(); ++i) {
       if (rule.gauss[i] > 0) {
-        add_point(j, tip, z[0] + half * (1 + rule.t[i]), half * rule.gauss[i], u, before,
-                  out);
+        add_point(j, tip, z[0] + half * (1 + rule.t[i]), half * rule.gauss[i], u,
+                  before, out);
       }
     }
   }
@@ -186,8 +188,8 @@ class Edges {
     if (!chip.in_cut) {
       return;
     }
-    const force::ColumnWeights w = force::column_weights(
-        form_, chip.h, point_.meridian.sin_kappa, point_.dS);
+    const force::ColumnWeights w =
+        force::column_weights(form_, chip.h, point_.meridian.sin_kappa, point_.dS);
     const double angle = theta + near_[j].epsilon;
     const double s = std::sin(angle);
     const double c = std::cos(angle);
@@ -236,13 +238,15 @@ Marched march(const force::Setup& setup, const force::Law& law,
   const Values G = compliance.rows(compliance.basis().points());
   Marched turn{.steps = steps, .moments = Values(steps * width)};
   Values past(steps * points);  // u of the turn, the newest known
-  const bool knows_past = start != nullptr && start->moments.size() == turn.moments.size();
+  const bool knows_past =
+      start != nullptr && start->moments.size() == turn.moments.size();
   const auto at_step = [&](std::size_t k) {
     return unit::turn * static_cast<double>(k) / static_cast<double>(steps);
   };
   const Values none(points);
   for (std::size_t k = 0; k < steps; ++k) {
-    edges.forces(at_step(k), none, {}, std::span(turn.moments).subspan(k * width, width));
+    edges.forces(at_step(k), none, {},
+                 std::span(turn.moments).subspan(k * width, width));
   }
   turn.straight = turn.moments;
   if (knows_past) {
@@ -269,7 +273,8 @@ Marched march(const force::Setup& setup, const force::Law& law,
       }
       std::copy_n(past.begin() + static_cast<std::ptrdiff_t>(k * points), points,
                   u.begin());
-      const std::span<double> moments = std::span(turn.moments).subspan(k * width, width);
+      const std::span<double> moments =
+          std::span(turn.moments).subspan(k * width, width);
       const auto image = [&](const Values& state, Values& result) {
         edges.forces(phi, state, before, moments);
         deflect(G, moments, result);

@@ -15,8 +15,8 @@ using Values = std::vector<double>;
 
 /// Products of all columns and what is measured, with the priors of the form in them.
 struct Normal {
-  Matrix A;     ///< of the unknowns, then the form
-  Values g;     ///< of these with what is left
+  Matrix A;           ///< of the unknowns, then the form
+  Values g;           ///< of these with what is left
   double rest = 0.0;  ///< of what is left with itself
 };
 
@@ -121,8 +121,7 @@ void describe(const RowProblem& problem, Values rows, const Normal& normal,
   const auto [inverse, log_det] = inverse_of(normal.A);
   fit.covariance = inverse;
   Scatter own{.s2 = problem.scatter.s2};
-  const auto variances =
-      inverse_of(normal_of(problem, own, rows, unknowns).A).first;
+  const auto variances = inverse_of(normal_of(problem, own, rows, unknowns).A).first;
   for (std::size_t k = 0; k < width - 1; ++k) {
     fit.own.push_back(variances[k * width]);
   }

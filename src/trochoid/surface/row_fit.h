@@ -33,7 +33,7 @@ struct RowFit {
   std::vector<double> p;           ///< of the model
   std::vector<double> form;        ///< coefficients of the form
   std::vector<double> covariance;  ///< of p, then form: row-major
-  std::vector<double> own;  ///< variances if no error were shared: p, then form
+  std::vector<double> own;         ///< variances if no error were shared: p, then form
   double cost = 0.0;               ///< chi^2 with that of the priors
   double evidence = 0.0;           ///< E-24, but for what all fits of these rows share
   std::vector<double> residual;    ///< shape (rows)

@@ -14,9 +14,9 @@ using numerics::Matrix;
 using Values = std::vector<double>;
 
 constexpr std::size_t fewest_levels = 4;
-constexpr std::size_t most_levels = 48;   // of heights, and of places
-constexpr std::size_t most_cells = 400;   // of both
-constexpr double same_height = 1e-9;      // [m]
+constexpr std::size_t most_levels = 48;  // of heights, and of places
+constexpr std::size_t most_cells = 400;  // of both
+constexpr double same_height = 1e-9;     // [m]
 
 /// Levels of a quantity: its distinct values, or bins where these are very many.
 template <class Of>
@@ -39,7 +39,8 @@ Sharing levels_of(std::span<const Reading> readings, double apart, const Of& of)
   if (starts.size() > most_levels || scan) {
     starts.clear();
     for (std::size_t i = 0; i < bins; ++i) {
-      starts.push_back(from + reach * static_cast<double>(i) / static_cast<double>(bins));
+      starts.push_back(from +
+                       reach * static_cast<double>(i) / static_cast<double>(bins));
     }
   }
   Sharing sharing{.levels = starts.size()};
@@ -54,8 +55,7 @@ Sharing cells_of(const Sharing& a, const Sharing& b) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;
   Sharing cells;
   for (std::size_t i = 0; i < a.level.size(); ++i) {
-    const auto [at, is_new] =
-        known.try_emplace({a.level[i], b.level[i]}, known.size());
+    const auto [at, is_new] = known.try_emplace({a.level[i], b.level[i]}, known.size());
     cells.level.push_back(at->second);
   }
   cells.levels = known.size();
@@ -74,7 +74,8 @@ Matrix sums_over_levels(const Sharing& sharing, const Rows& rows) {
 }
 
 /// Z_a^T Z_b: readings in both levels.
-Matrix shared_counts(const Sharing& a, const Sharing& b, std::span<const double> count) {
+Matrix shared_counts(const Sharing& a, const Sharing& b,
+                     std::span<const double> count) {
   Matrix counts = numerics::zeros(a.levels, b.levels);
   for (std::size_t i = 0; i < count.size(); ++i) {
     counts(a.level[i], b.level[i]) += count[i];

@@ -55,7 +55,6 @@ std::vector<double> weighted_products(const Rows& rows, const Scatter& scatter);
 /// @param within  sum of squares of the readings about the rows that are their means
 /// @param readings  how many there are
 Scatter estimate_scatter(const Rows& rows, std::span<const double> prior,
-                         std::vector<Sharing> sharings, double within,
-                         double readings);
+                         std::vector<Sharing> sharings, double within, double readings);
 
 }  // namespace trochoid::surface

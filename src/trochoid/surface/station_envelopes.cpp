@@ -8,8 +8,7 @@
 
 namespace trochoid::surface {
 
-StationEnvelopes::StationEnvelopes(const Stations& stations,
-                                   StationMoments moments,
+StationEnvelopes::StationEnvelopes(const Stations& stations, StationMoments moments,
                                    const force::Setup& setup, std::size_t node,
                                    Level level)
     : stations_(stations),

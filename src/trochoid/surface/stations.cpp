@@ -22,9 +22,8 @@ std::size_t station_count(const std::optional<Wall>& wall, double stretch,
   }
   const double size =
       std::min(wall->length > 0 ? wall->length : 2 * wall->height, 2 * wall->height);
-  return std::min(
-      most,
-      3 + static_cast<std::size_t>(std::ceil(stations_per_wall * stretch / size)));
+  return std::min(most, 3 + static_cast<std::size_t>(
+                                std::ceil(stations_per_wall * stretch / size)));
 }
 
 std::vector<double> distinct(std::span<const double> x) {

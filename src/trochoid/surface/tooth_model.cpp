@@ -146,7 +146,8 @@ ToothModel::Forces ToothModel::forces_with(Feedback feedback, RunoutVector runou
   result.bent.resize(stations_->count());
   std::vector<char> found(stations_->count());
   numerics::for_each_index(stations_->count(), [&](std::size_t s) {
-    const Marched turn = march(setup, setting_.law, K, stations_->compliance(s), feedback);
+    const Marched turn =
+        march(setup, setting_.law, K, stations_->compliance(s), feedback);
     found[s] = turn.converged ? 1 : 0;
     result.bent[s] = with_feedback(straight, turn);
   });

@@ -159,13 +159,14 @@ class WrongInput(InFolder):
     # a measured surface: 3 mm deep on a wall 60 mm long
 
     def test_every_bad_row_of_a_surface(self):
-        said = self.wrong_surface("30,0.5,0.05\n30,1.5,nan\n30,2.5\n30,,0.05\n",
+        said = self.wrong_surface("30,0.5,0.05\n30,1.5,inf\n30,2.5\n30,x,0.05\n",
                                   where="wall.csv:3:8: ")
         self.assertEqual(len(said.splitlines()), 3, said)
 
-    def test_the_same_place_twice(self):
-        self.wrong_surface("30,0.5,0.05\n30,0.5,0.04\n", where="wall.csv:3:",
-                           says="line 2")
+    def test_mostly_gaps(self):
+        said = self.wrong_surface("30,0.5,0.05\n30,1.5,nan\n30,,0.05\n30,2.5\n",
+                                  where="wall.csv:3:1: 2 of 3 rows")
+        self.assertEqual(len(said.splitlines()), 2, said)
 
     def test_readings_outside_the_cut_and_the_wall(self):
         said = self.wrong_surface("30,3.5,0.05\n-1,0.5,0.05\n60,3.0,0.05\n61,-1,0\n",

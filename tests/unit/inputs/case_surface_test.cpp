@@ -128,5 +128,38 @@ TEST(CaseSurface, AnotherCommandMayCutASlotInTheSameFile) {
   EXPECT_EQ(CaseFolder().problems(test::slot + body + wall + "[surface]\n"), "");
 }
 
+/// What the case says of coordinates is written back as it stood, and computed with as
+/// unit vectors.
+TEST(CaseSurface, AFrameIsThreePerpendicularDirections) {
+  const auto with = [](const std::string& frame) {
+    return tool + body + wall + measured + "frame = { " + frame + " }\n";
+  };
+  CaseFolder folder;
+  folder.write("wall.csv", "x_mm,y_mm,z_mm\n1,1,1\n");
+  const Case axes = folder.read(
+      with("origin_mm = [12.5, -5, 40], feed = \"x\", normal = \"-y\", up = \"+Z\""),
+      Command::calibrate);
+  const SurfaceFrame& frame = axes.machine.surface_measurements.at(0).frame.value();
+  EXPECT_EQ(frame.origin, (std::vector<double>{12.5e-3, -5e-3, 40e-3}));
+  EXPECT_EQ(*frame.feed, (Direction{1, 0, 0}));
+  EXPECT_EQ(*frame.normal, (Direction{0, -1, 0}));
+  EXPECT_EQ(*frame.up, (Direction{0, 0, 1}));
+  EXPECT_NE(
+      axes.as_understood.find("frame = { origin_mm = [12.5, -5, 40], feed = \"+x\", "
+                              "normal = \"-y\", up = \"+z\" }\n"),
+      std::string::npos)
+      << axes.as_understood;
+  // Without up the three are right-handed; numbers need not be exact.
+  const Case numbers = folder.read(
+      with("feed = [0.707, 0.707, 0], normal = [-2, 2.004, 0]"), Command::calibrate);
+  const SurfaceFrame& turned = numbers.machine.surface_measurements.at(0).frame.value();
+  EXPECT_NEAR((*turned.up)[2], 1.0, 1e-15);
+  double cosine = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) cosine += (*turned.feed)[i] * (*turned.normal)[i];
+  EXPECT_NEAR(cosine, 0.0, 1e-15);
+  EXPECT_NEAR((*turned.feed)[0], 0.7071, 1e-3);
+  EXPECT_NE(numbers.as_understood.find("normal = [-2, 2.004, 0]"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace trochoid::inputs

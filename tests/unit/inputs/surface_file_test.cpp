@@ -78,13 +78,12 @@ TEST(SurfaceFile, AcceptsReadingsThatAreAllZero) {
 
 TEST(SurfaceFile, TellsPlacesApartByEveryColumn) {
   const std::string names = "x_mm,step,feed_offset_mm,height_mm,error_mm,tooth\n";
-  EXPECT_EQ(refusal(names + "1,2,0.2,0.5,0.048,1\n" + "2,2,0.2,0.5,0.048,1\n" +
-                    "1,3,0.2,0.5,0.048,1\n" + "1,2,0.4,0.5,0.048,1\n" +
-                    "1,2,0.2,0.7,0.048,1\n" + "1,2,0.2,0.5,0.048,2\n"),
-            "");
-  EXPECT_NE(refusal(names + "1,2,0.2,0.5,0.048,1\n1,2,0.2,0.5,0.047,1\n")
-                .find("wall.csv:3:1: the same place as in line 2"),
-            std::string::npos);
+  EXPECT_EQ(read(names + "1,2,0.2,0.5,0.048,1\n" + "2,2,0.2,0.5,0.048,1\n" +
+                 "1,3,0.2,0.5,0.048,1\n" + "1,2,0.4,0.5,0.048,1\n" +
+                 "1,2,0.2,0.7,0.048,1\n" + "1,2,0.2,0.5,0.048,2\n")
+                .size(),
+            6U);
+  EXPECT_EQ(read(names + "1,2,0.2,0.5,0.048,1\n1,2,0.2,0.5,0.047,1\n").size(), 1U);
 }
 
 TEST(SurfaceFile, AToothMayHaveAnyNumberWhereTheCutterIsNotKnown) {
@@ -96,7 +95,7 @@ TEST(SurfaceFile, AToothMayHaveAnyNumberWhereTheCutterIsNotKnown) {
 
 TEST(SurfaceFile, ReportsEveryBadRowAtOnce) {
   const std::string said = refusal(
-      "x_mm,height_mm,error_mm\n0,0.5,nan\n0,0.5\n1,0.5,0.05\n2,a,0.05\n2,0.5,\n");
+      "x_mm,height_mm,error_mm\n0,0.5,inf\n0,0.5\n1,0.5,0.05\n2,a,0.05\n2,0.5,x\n");
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 4) << said;
   for (const auto* place :
        {"wall.csv:2:7", "wall.csv:3:1", "wall.csv:5:3", "wall.csv:6:7"}) {
@@ -143,6 +142,28 @@ TEST(SurfaceReadings, LieWithinTheCutAndTheWall) {
             std::vector<std::string>{"w.csv:5:1: x = 60.1 mm is outside the wall: must "
                                      "be from 0 to length_mm = 60 mm"});
   EXPECT_EQ(check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", c).size(), 2U);
+}
+
+TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {
+  const auto said = [](double x, double height, const char* unit) {
+    SurfaceFile surface;
+    surface.readings = one_reading(x, height);
+    surface.readings.push_back({.x = x / 2, .height = height / 2});
+    surface.x_unit = surface.height_unit = unit;
+    return check_readings(surface, "w.csv", thin_wall()).front();
+  };
+  const auto ends = [](const std::string& text, const std::string& unit) {
+    return text.ends_with("; in " + unit + " all readings would lie inside");
+  };
+  EXPECT_TRUE(ends(said(0.03, 2.5, "m"), "mm instead of m"));
+  EXPECT_TRUE(ends(said(0.03, 2.5, "mm"), "um instead of mm"));
+  EXPECT_TRUE(ends(said(30.0, 0.0, "mm"), "um instead of mm"));
+  EXPECT_TRUE(ends(said(0.0, 2.5 * 25.4e-3, "in"), "mm instead of in"));
+  EXPECT_NE(said(0.0, -2.5 * mm, "mm").find("with the other sign"), std::string::npos);
+  EXPECT_NE(said(0.0, 3.1 * mm, "mm").find("above the tip of the cutter"),
+            std::string::npos);
+  EXPECT_EQ(said(0.0, 3.1 * mm, "mm").find("instead"), std::string::npos)
+      << "one a little too high is no wrong unit";
 }
 
 TEST(SurfaceReadings, AlongTheTurnOfAQuasiStaticModelOrARigidWallXIsFree) {

@@ -107,6 +107,19 @@ TEST(CalibrateAnswer, TheFitThatCountsStandsOnTop) {
   EXPECT_EQ(text_at(fits[1], {"coefficients", "K_tc_MPa", "value"}), "810");
 }
 
+TEST(CalibrateAnswer, SaysWhatBecameOfTheReadings) {
+  CalibrateResult r = made();
+  EXPECT_EQ(text_at(answer_of(r).result, {"readings", "used"}), "2");
+  EXPECT_EQ(text_at(answer_of(r).result, {"readings", "repeatability_mm"}), "null");
+  r.skipped = 3;
+  r.repeats = 4;
+  r.repeatability = 2e-6;
+  const Value result = answer_of(r).result;
+  EXPECT_EQ(text_at(result, {"readings", "skipped"}), "3");
+  EXPECT_EQ(text_at(result, {"readings", "repeats"}), "4");
+  EXPECT_EQ(text_at(result, {"readings", "repeatability_mm"}), "0.002");
+}
+
 TEST(CalibrateAnswer, DatumIsToldOfEachFile) {
   CalibrateResult r = made();
   r.datum = {{}, {.offset = true, .tilt = true}};

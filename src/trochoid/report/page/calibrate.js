@@ -1,7 +1,7 @@
 // The page of `calibrate`.
 
 const calibrateKnown = ['model', 'feedback', 'coefficients', 'correlation', 'rank', 'condition', 'rms_mm',
-  'offset_mm', 'datum', 'noise_mm', 'means', 'answers', 'ten_more_readings', 'runout', 'with_runout',
+  'offset_mm', 'datum', 'noise_mm', 'means', 'readings', 'answers', 'ten_more_readings', 'runout', 'with_runout',
   'combination', 'message'];
 
 /** `envelope`, `entry` -> words of a heading. */
@@ -61,6 +61,9 @@ function calibrateLead(report, readings, keys) {
         note: result.with_runout ? 'of the single readings' : `of ${result.means} means` },
       { label: 'Noise of a reading', value: isNumber(result.noise_mm) ?
         fixed(micro(result.noise_mm), 2) : null, unit: 'µm', note: 'standard deviation' },
+      isNumber(result.readings?.repeatability_mm) && { label: 'Repeatability',
+        value: fixed(micro(result.readings.repeatability_mm), 2), unit: 'µm',
+        note: `standard deviation of ${result.readings.repeats} repeated readings` },
       isNumber(result.runout?.eccentricity_mm) && { label: 'Runout',
         value: measured(micro(result.runout.eccentricity_mm), micro(1.96 * result.runout.eccentricity_se_mm)),
         unit: 'µm', note: `± ${number(micro(1.96 * result.runout.eccentricity_se_mm), 2)} µm${

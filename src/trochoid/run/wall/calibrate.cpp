@@ -50,6 +50,10 @@ results::CalibrateResult calibrate(const inputs::Case& given,
       .order = given.setup.runout.order,
       .teeth = given.setup.cutter.teeth()};
   r.readings = std::move(wall.readings);
+  r.skipped = wall.counts.skipped;
+  r.repeats = wall.counts.repeats;
+  r.repeatability = wall.counts.repeatability();
+  r.heading.warnings = std::move(wall.notes);
   r.datum = r.calibration.datum;
   const surface::ModelFits& models = r.calibration.models;
   if (!r.calibration.ok) {

@@ -22,7 +22,8 @@ void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
 }
 
 /// What is estimated of a file beside the coefficients.
-surface::Datum datum_of(const inputs::Case& given, const inputs::SurfaceMeasurement& m) {
+surface::Datum datum_of(const inputs::Case& given,
+                        const inputs::SurfaceMeasurement& m) {
   const bool pulse = given.machine.surface->model == surface::Model::quasi_static;
   surface::Datum datum{.decide = !m.form && !pulse};
   if (m.form) {
@@ -39,16 +40,18 @@ MeasuredWall measured_wall(const inputs::Case& given) {
   MeasuredWall wall;
   std::vector<std::string> problems;
   for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
-    std::vector<inputs::SurfaceReading> readings;
+    inputs::SurfaceFile file;
     try {
-      readings = inputs::read_surface(m, given.setup.cutter.teeth());
+      file = inputs::read_surface_of(given, m);
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
       continue;
     }
-    const auto misplaced = inputs::check_readings(readings, m.file, given);
-    problems.insert(problems.end(), misplaced.begin(), misplaced.end());
-    for (const inputs::SurfaceReading& read : readings) {
+    for (const base::Warning& note : file.notes) {
+      wall.notes.push_back({note.code, m.file + ": " + note.message});
+    }
+    wall.counts.add(file.counts);
+    for (const inputs::SurfaceReading& read : file.readings) {
       surface::Reading reading{.height = read.height,
                                .error = read.error,
                                .tooth = read.tooth - 1,

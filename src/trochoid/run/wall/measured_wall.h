@@ -1,6 +1,8 @@
 #pragma once
 
+#include <trochoid/base/warning.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/inputs/surface_file.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/readings.h>
 
@@ -12,6 +14,8 @@ namespace trochoid::run {
 struct MeasuredWall {
   std::vector<surface::Reading> readings;
   std::vector<surface::Datum> datum;  ///< of each file
+  inputs::SurfaceCounts counts;       ///< of all files
+  std::vector<base::Warning> notes;   ///< what was left out or averaged, by file
 };
 
 /// @throws base::InputError with the problems of all files

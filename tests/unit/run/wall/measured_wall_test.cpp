@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "wall_case.h"
 
 namespace trochoid::run {
@@ -48,6 +50,27 @@ TEST(MeasuredWall, APulseIsAllMadeWhereTheCutterStands) {
     EXPECT_EQ(reading.tooth, -1);
   }
   EXPECT_NEAR(wall.readings[1].travel, 0.3e-3, 1e-12) << "half a turn of the feed";
+}
+
+/// Repeats of two files are pooled; a place that both have stays two readings.
+TEST(MeasuredWall, CountsWhatWasLeftOutAndAveraged) {
+  inputs::Case given = measured("imprint",
+                                "x_mm,height_mm,error_um,tooth\n"
+                                "10,0.5,20,1\n"
+                                "10,0.5,26,1\n"
+                                "11,0.5,,1\n");
+  given.machine.surface_measurements.push_back(given.machine.surface_measurements[0]);
+  const MeasuredWall wall = measured_wall(given);
+  ASSERT_EQ(wall.readings.size(), 2U);
+  EXPECT_NEAR(wall.readings[0].error, 23e-6, 1e-15);
+  EXPECT_EQ(wall.readings[1].set, 1U);
+  EXPECT_EQ(wall.counts.skipped, 2U);
+  EXPECT_EQ(wall.counts.repeats, 2U);
+  EXPECT_NEAR(wall.counts.repeatability().value(), std::sqrt(18.0) * 1e-6, 1e-12);
+  ASSERT_EQ(wall.notes.size(), 4U);
+  EXPECT_EQ(wall.notes[0].code, "readings_skipped");
+  EXPECT_NE(wall.notes[0].message.find(".csv: 1 of 3 rows"), std::string::npos);
+  EXPECT_EQ(wall.notes[3].code, "repeats_averaged");
 }
 
 TEST(MeasuredWall, NamesWhatIsWrongWithItsPlaces) {

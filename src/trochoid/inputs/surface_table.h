@@ -1,0 +1,14 @@
+#pragma once
+
+#include <trochoid/inputs/surface_file.h>
+
+#include <istream>
+
+/// A measured surface as text.
+namespace trochoid::inputs {
+
+/// @brief Read a table; as read_surface_file, without the averages.
+SurfaceFile read_surface_table(std::istream& in, const SurfaceMeasurement& measurement,
+                               int teeth);
+
+}  // namespace trochoid::inputs
