@@ -162,6 +162,26 @@ TEST(ErrorGrid, GrowsWithTheFeed) {
   }
 }
 
+TEST(ErrorGrid, FindsFeedbackAtSomeCellsAndBetweenThem) {
+  Setting s = made_setting(Model::imprint);
+  s.law = law(800e6, 300e6);
+  s.tolerance = 1e-4;
+  MapOptions samples{.samples_per_turn = 36, .heights = {0.0, a_p}};
+  std::vector<double> feeds;
+  for (int i = 0; i < 7; ++i) feeds.push_back(0.05e-3 + 0.02e-3 * i);
+  const std::vector<double> depths = {0.3e-3, 0.5e-3};
+  const auto rigid = error_grid(s, samples, feeds, depths);
+  samples.feedback = Feedback::entry;
+  const auto bent = error_grid(s, samples, feeds, depths);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{5}, std::size_t{13}}) {
+    const GridCell alone =
+        error_grid(s, samples, {&bent[i].f_z, 1}, {&bent[i].a_e, 1}).front();
+    EXPECT_TRUE(bent[i].ok);
+    EXPECT_NEAR(bent[i].peak, alone.peak, 2e-2 * std::abs(alone.peak - rigid[i].peak));
+    EXPECT_GT(std::abs(alone.peak - rigid[i].peak), 1e-3 * rigid[i].peak) << i;
+  }
+}
+
 TEST(FeedLimits, LieBetweenCells) {
   const std::vector<GridCell> cells = {
       {.f_z = 1.0, .ok = true, .peak = 10.0}, {.f_z = 2.0, .ok = true, .peak = 20.0},
