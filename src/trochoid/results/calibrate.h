@@ -3,6 +3,7 @@
 #include <trochoid/results/answer.h>
 #include <trochoid/surface/calibrate.h>
 
+#include <string>
 #include <vector>
 
 namespace trochoid::results {
@@ -18,6 +19,10 @@ struct CalibrateResult {
   geometry::EccentricityOrder order = geometry::EccentricityOrder::exact;
   int teeth = 1;
 };
+
+/// @brief `K_tc = 812 +- 40 MPa and K_rc = ... from 468 readings; runout ...`, and
+/// whether to trust it; of an answer that is there, its warnings known.
+std::string calibration_sentence(const CalibrateResult& result);
 
 Answer answer_of(const CalibrateResult& result);
 

@@ -51,15 +51,13 @@ results::CalibrateResult calibrate(const inputs::Case& given,
       .teeth = given.setup.cutter.teeth()};
   r.readings = std::move(wall.readings);
   r.datum = std::move(wall.datum);
-  const surface::ModelFits& models = r.calibration.models;
   if (!r.calibration.ok) {
     r.heading.ok = false;
-    r.heading.message = refusal(given, chosen_fit(models));
+    r.heading.message = refusal(given, chosen_fit(r.calibration.models));
     return r;
   }
   add_calibration_warnings(given, r.readings, r.calibration, r.heading.warnings);
-  r.heading.message =
-      fmt::format("{} readings, {} means.", r.readings.size(), models.nominal.size());
+  r.heading.message = calibration_sentence(r);
   return r;
 }
 
