@@ -1,65 +1,13 @@
 // The pages of write_samples.cpp in headless Chromium, as a reader opens them from a file.
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { closeBrowser, colorOf, drawn, has, open, openBrowser, painted, pictures, samples,
+  shown } from './pages.mjs';
 
-// From the working folder, where `npm ci` puts it.
-const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
-const samples = process.env.SAMPLES;
-const pictures = path.join(samples, '..', 'pictures');
-const hangs = 1_200_000;  // ms; for what never comes, not for a busy machine
-let browser;
-
-before(async () => {
-  mkdirSync(pictures, { recursive: true });
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
-    args: ['--no-sandbox', '--disable-dev-shm-usage'],
-    timeout: hangs,
-  });
-});
-after(() => browser?.close());
-
-/** Until what was asked for is drawn: a frame begins, draws, and the next one begins. */
-const shown = (page) => page.evaluate(() => new Promise((resolve) => {
-  requestAnimationFrame(() => requestAnimationFrame(() => resolve()));
-}));
-
-/** Open a report; whatever it requests, prints or throws is recorded. */
-async function open(name, options = {}) {
-  const { width = 1200, ...rest } = options;
-  const context = await browser.newContext({ viewport: { width, height: 900 }, ...rest });
-  context.setDefaultTimeout(hangs);
-  const page = await context.newPage();
-  const seen = { requests: [], complaints: [] };
-  page.on('request', (request) => seen.requests.push(request.url()));
-  page.on('console', (message) => seen.complaints.push(message.text()));
-  page.on('pageerror', (error) => seen.complaints.push(String(error)));
-  const url = pathToFileURL(path.join(samples, name, 'report.html')).href;
-  await page.goto(url);
-  if (rest.javaScriptEnabled !== false) await shown(page);
-  return { page, seen, url, close: () => context.close() };
-}
-
-/** The opaque colours of each canvas, with their numbers of pixels. */
-const drawn = (page) => page.$$eval('.uplot canvas', (canvases) => canvases.map((canvas) => {
-  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  const colors = new Map();
-  for (let i = 0; i < data.length; i += 4) {
-    if (data[i + 3] !== 255) continue;
-    const color = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
-    colors.set(color, (colors.get(color) || 0) + 1);
-  }
-  return [...colors].sort((a, b) => b[1] - a[1]).map(([color, n]) => ({ color, n }));
-}));
-
-const hex = (text) => parseInt(text.trim().slice(1), 16);
-const colorOf = (page, name) => page.evaluate((n) =>
-  getComputedStyle(document.documentElement).getPropertyValue(n), name).then(hex);
-const has = (canvas, color) => canvas.some((entry) => entry.color === color && entry.n > 100);
+before(openBrowser);
+after(closeBrowser);
 
 const curveColors = ['--measured', '--s1', '--s2', '--s3', '--s4', '--s5', '--s6'];
 
@@ -94,19 +42,6 @@ for (const [name, plots] of Object.entries(plotsOf)) {
     });
   }
 }
-
-/** How many colours each drawing holds, and how many points of its canvas are painted. */
-const painted = (page) => page.$$eval('.drawing canvas', (canvases) => canvases.map((canvas) => {
-  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  const colors = new Set();
-  let points = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    if (data[i + 3] !== 255) continue;
-    ++points;
-    colors.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
-  }
-  return { colors: colors.size, points, width: canvas.clientWidth, text: canvas.toDataURL() };
-}));
 
 for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 2, teeth: 2, wall_plan: 1,
   stability: 1, dynamics: 1, correct: 1 })) {
@@ -145,53 +80,6 @@ test('a plan names the cut, what it brings, and draws all cuts over what they co
   await shown(page);
   assert.notEqual(JSON.stringify(await drawn(page)), before);
   assert.match(await page.locator('#basis').innerText(), /left out: above max_force_N = 450 N\s+38/);
-  await close();
-});
-
-test('a plan of a wall says how to measure it, and draws the error with its limit', async () => {
-  const { page, close } = await open('wall_plan');
-  const answer = await page.locator('#answer').innerText();
-  assert.match(answer, /Readings\s*\d+\s*\d+ at each of \d+ heights/);
-  assert.match(answer, /Best cut within 40 µm.*Thinnest wall/s);
-  assert.match(await page.locator('#designs tbody').innerText(), /chosen|best/);
-  const limit = await page.locator('#cuts canvas').evaluate((canvas) => {
-    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-    let n = 0;
-    for (let i = 0; i < data.length; i += 4) n += data[i] === 0xc0 && data[i + 1] === 0x28 && data[i + 2] === 0x1e;
-    return n;
-  });
-  assert.ok(limit > 200, `${limit} points of the limit`);
-  const map = page.locator('#cuts canvas');
-  await map.scrollIntoViewIfNeeded();
-  const box = await map.boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height - 100);
-  assert.match(await page.locator('#cuts .readout').innerText(),
-    /feed 0\.\d+ mm per tooth, radial depth [\d.]+ mm: [\d.]+ µm at most, .* cm³\/min/);
-  const changes = async () => page.locator('#changes canvas').first().evaluate((c) => c.toDataURL());
-  const before = await changes();
-  await page.getByRole('button', { name: 'thickness of the wall' }).click();
-  await shown(page);
-  assert.notEqual(await changes(), before);
-  await close();
-});
-
-test('readings lie on the wall, and what they leave tells its value', async () => {
-  const { page, close } = await open('calibrate');
-  const map = page.locator('#wall canvas');
-  await map.scrollIntoViewIfNeeded();
-  const before = await map.evaluate((canvas) => canvas.toDataURL());
-  const box = await map.boundingBox();
-  // Across the lowest readings until one is near.
-  let text = '';
-  for (let x = 60; x < 400 && !/measured/.test(text); x += 7) {
-    await page.mouse.move(box.x + x, box.y + box.height - 55);
-    text = await page.locator('#wall .readout').innerText();
-  }
-  assert.match(text, /height 0\.3 mm: measured [\d.−]+ µm, fitted [\d.−]+ µm, left [\d.−]+ µm/);
-  await page.locator('#wall').getByRole('button', { name: 'left over' }).click();
-  assert.notEqual(await map.evaluate((canvas) => canvas.toDataURL()), before);
-  const first = await page.locator('#means .legend').first().innerText();
-  assert.match(first, /measured mean\s*all readings, with runout\s*imprint/);
   await close();
 });
 
