@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace trochoid::run {
@@ -217,7 +218,8 @@ struct WallPlanning {
     for (std::size_t i = 0; i < measured.size(); ++i) {
       so_far.row.push_back(i);
     }
-    r.so_far = prediction_of(trial, d, so_far);
+    // By themselves: teeth may be numbered in the ten and not in these.
+    r.so_far = prediction_of(trial, derivatives_of(trial, measured), so_far);
     for (const PlannedReadings& ten : tens) {
       PlannedReadings both = so_far;
       both.readings.insert(both.readings.end(), ten.readings.begin(),
@@ -308,9 +310,13 @@ struct WallPlanning {
     if (!r.designs[*r.chosen].enough) {
       const double factor = shortfall(r, r.designs[*r.chosen].told);
       add("not_enough",
-          fmt::format("The best way to measure is {:.2g} times too wide: it takes some "
-                      "{:.3g} times as many readings, or a cut that tells more.",
-                      factor, factor * factor));
+          !std::isfinite(factor)
+              ? "No way to measure tells the runout: readings at more places along the "
+                "feed might."
+              : fmt::format(
+                    "The best way to measure is {:.2g} times too wide: it takes some "
+                    "{:.3g} times as many readings, or a cut that tells more.",
+                    factor, factor * factor));
     }
     if (!r.cutting.limit) {
       add("no_error_limit",
