@@ -78,7 +78,7 @@ constexpr std::string_view purpose_of(Command command) noexcept {
              "feedforward command for it";
     case Command::plan:
       return "Which cut to measure next: the one that narrows cutting coefficients and "
-             "runout most";
+             "runout most; or how to measure a wall, and how to cut it";
   }
   return {};
 }

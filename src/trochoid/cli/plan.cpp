@@ -2,6 +2,7 @@
 #include <trochoid/cli/progress_line.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/identify/plan.h>
+#include <trochoid/run/wall/plan.h>
 
 #include <functional>
 
@@ -12,7 +13,9 @@ int plan(const Options& options) {
                                                result_folder(options, "plan"));
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
-    return results::answer_of(run::plan(given, std::ref(progress)));
+    return given.plan.of == inputs::PlanOf::wall
+               ? results::answer_of(run::plan_wall(given, std::ref(progress)))
+               : results::answer_of(run::plan(given, std::ref(progress)));
   };
   // What the run knows is let go of before it is written.
   return deliver(answer(), options);

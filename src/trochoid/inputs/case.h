@@ -6,6 +6,7 @@
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/machine_tables.h>
 #include <trochoid/inputs/previous_clamping.h>
+#include <trochoid/inputs/wall_plan.h>
 
 #include <array>
 #include <filesystem>
@@ -126,8 +127,12 @@ constexpr std::string_view name_of(PlannedEngagement engagement) noexcept {
   return {};
 }
 
-/// [plan]: the cuts among which the one to be measured next is chosen.
+/// [plan]: the cuts among which the one to be measured next is chosen, or how a wall is
+/// to be measured and cut.
 struct Plan {
+  std::optional<PlanOf> of;  ///< absent: as the other tables say
+  bool settled = false;      ///< `of` is: keys of the other kind are not written
+  WallPlan wall = {};
   std::vector<PlannedEngagement> engagements = {
       PlannedEngagement::slot, PlannedEngagement::up, PlannedEngagement::down};
   std::vector<double> feeds;          ///< per tooth [m]

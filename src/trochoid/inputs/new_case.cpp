@@ -184,7 +184,9 @@ CaseTables plan_example() {
   CaseTables t = identify_example();
   t.title = "Which cut to measure next, 8 mm end mill";
   t.dynamometer.reset();
-  t.plan.emplace();
+  Plan& plan = t.plan.emplace();
+  plan.of = PlanOf::forces;
+  plan.settled = true;
   return t;
 }
 

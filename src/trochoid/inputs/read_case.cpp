@@ -126,8 +126,9 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
       .coefficients_needed =
           purpose == Command::simulate || purpose == Command::surface ||
           purpose == Command::stability || purpose == Command::dynamics ||
-          ((purpose == Command::correct || purpose == Command::plan) &&
-           find(root, "measurement") == nullptr),
+          (purpose == Command::correct && find(root, "measurement") == nullptr) ||
+          (purpose == Command::plan && find(root, "measurement") == nullptr &&
+           find(root, "surface_measurement") == nullptr),
       .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
                                                                            : nullptr};
   read_table(

@@ -53,6 +53,13 @@ void check_correct(CaseTables& tables, Findings& findings);
 /// @brief What a plan needs: cuts to look at and what they are to tell; fills in [plan].
 void check_plan(CaseTables& tables, Findings& findings);
 
+/// @brief Whether [plan] is of forces or of a wall, if it does not say so itself; what
+/// belongs to the other kind is reported.
+void settle_plan(CaseTables& tables, Findings& findings);
+
+/// @brief What a plan of a wall needs; fills in [plan].
+void check_wall_plan(CaseTables& tables, Findings& findings);
+
 /// A coefficient without its unit: K_tc of K_tc_MPa.
 std::string_view plain_name(std::string_view key);
 

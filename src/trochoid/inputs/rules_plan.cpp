@@ -108,14 +108,16 @@ std::string_view plain_name(std::string_view key) {
 }
 
 void check_plan(CaseTables& t, Findings& findings) {
-  if (!t.plan) {
-    t.plan.emplace();
+  settle_plan(t, findings);
+  check_radial(t, findings);
+  if (t.plan->of == PlanOf::wall) {
+    check_wall_plan(t, findings);
+    return;
   }
   Plan& plan = *t.plan;
   fill(plan.feeds, {0.5, 0.75, 1.0, 1.5, 2.0}, t.cut.feed_per_tooth.value_or(0.0));
   fill(plan.axial_depths, {1.0}, t.cut.axial_depth);
   fill(plan.radial_depths, {0.1, 0.25, 0.5, 0.75}, t.tool.diameter);
-  check_radial(t, findings);
   check_quantities(t, findings);
   if (!(t.cut.feed_per_tooth.value_or(0.0) > 0) &&
       sound(findings, {"cut", "cut.feed_per_tooth_mm", "cut.feed_rate_mm_per_min"})) {

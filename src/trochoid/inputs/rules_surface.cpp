@@ -109,10 +109,11 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
   }
   check_feed(tables.cut, verb, findings);
   const bool rigid = !tables.machine.cutter_body && !tables.machine.wall;
-  if (verb == "calibrate" && rigid && sound(findings, {"cutter_body", "wall"})) {
+  if (verb != "surface" && rigid && sound(findings, {"cutter_body", "wall"})) {
     report(findings, "cutter_body",
-           "[cutter_body] and [wall] are missing: nothing bends, so the wall tells "
-           "nothing of the forces; calibrate needs one of them");
+           fmt::format("[cutter_body] and [wall] are missing: nothing bends, so the "
+                       "wall tells nothing of the forces; {} needs one of them",
+                       verb));
   }
 }
 

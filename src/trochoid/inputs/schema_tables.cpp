@@ -61,7 +61,11 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       several("measurement", "a force record; several are fitted together",
               t.measurements, {Command::identify}),
       perhaps("identify", "what is to be found from the measurements", t.identify),
-      perhaps("plan", "among which cuts the one to be measured next is chosen", t.plan),
+      perhaps(
+          "plan",
+          "among which cuts the one to be measured next is chosen; or how a wall is "
+          "measured and cut",
+          t.plan),
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
       perhaps("wall",
               "the workpiece as an elastic plate, clamped below and at both ends; left "

@@ -22,13 +22,15 @@ std::string_view drawing_js();  ///< canvases drawn by hand
 std::string_view map_js();      ///< a quantity over two others
 std::string_view bent_js();     ///< cutter and wall
 std::string_view surface_js();
-std::string_view ellipse_js();  ///< two coefficients known together
+std::string_view wall_map_js();  ///< readings on a wall
+std::string_view ellipse_js();   ///< two coefficients known together
 std::string_view calibrate_js();
 std::string_view stability_js();
 std::string_view correct_js();
 std::string_view modes_js();  ///< modes and actuators
 std::string_view dynamics_js();
 std::string_view plan_js();
+std::string_view plan_wall_js();
 std::string_view any_js();  ///< every command without a page of its own
 std::string_view main_js();
 

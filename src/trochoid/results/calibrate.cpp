@@ -202,7 +202,7 @@ base::Table fitted_table(const surface::ModelFits& models) {
 Answer answer_of(const CalibrateResult& r) {
   Answer answer{.command = "calibrate", .heading = r.heading, .result = result_of(r)};
   if (r.calibration.ok) {
-    answer.short_table = calibration_table(r);
+    answer.short_table = r.heading.message + "\n\n" + calibration_table(r);
     answer.tables.push_back(residual_table(r));
     answer.tables.push_back(fitted_table(r.calibration.models));
     answer.texts = {{"material.toml", calibrated_material(r)}};

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace trochoid::results {
@@ -23,6 +24,10 @@ struct CalibrateResult {
   geometry::EccentricityOrder order = geometry::EccentricityOrder::exact;
   int teeth = 1;
 };
+
+/// @brief `K_tc = 812 +- 40 MPa and K_rc = ... from 468 readings; runout ...`, and
+/// whether to trust it; of an answer that is there, its warnings known.
+std::string calibration_sentence(const CalibrateResult& result);
 
 Answer answer_of(const CalibrateResult& result);
 

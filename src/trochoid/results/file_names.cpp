@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 28> names = {"case.toml",
+constexpr std::array<std::string_view, 29> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -40,6 +40,7 @@ constexpr std::array<std::string_view, 28> names = {"case.toml",
                                                     "command.h",
                                                     "controller.csv",
                                                     "plan.csv",
+                                                    "error_map.csv",
                                                     "overview.csv"};
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.

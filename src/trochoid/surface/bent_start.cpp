@@ -82,7 +82,8 @@ std::vector<JointState> bent_starts(const Setting& setting,
     const double angle = range * a / angles;
     JointState state = about;
     state.runout = {size * std::cos(angle), size * std::sin(angle)};
-    const auto forces = model.forces_with(feedback, state.runout, state.K);
+    const auto forces =
+        model.forces_with(feedback, model.forces(state.runout), state.K);
     for (int k = 0; forces.found && k < starts; ++k) {
       state.start = feed * k / starts;
       tried.emplace_back(

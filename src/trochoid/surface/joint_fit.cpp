@@ -165,7 +165,9 @@ Way joint_way(const Setting& setting, std::span<const Reading> readings,
       starts.push_back(model->pack(state));
     }
   }
-  return {[model](std::span<const double> p) { return model->at(p); },
+  return {[model](std::span<const double> p, std::span<const double> steps) {
+            return model->at(p, steps);
+          },
           [model](std::span<const double> p) { return model->rebase(p); },
           [model](std::span<const Reading> all, std::span<const double> p) {
             return model->predict(all, p);
@@ -177,8 +179,8 @@ Way joint_way(const Setting& setting, std::span<const Reading> readings,
 Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedback) {
   auto model = std::make_shared<NominalModel>(setting, found.nominal, found.stations);
   const CoefficientFit& fit = chosen_fit(found);
-  const auto at = [model, feedback,
-                   rest = wall_coefficients(setting.law)](std::span<const double> p) {
+  const auto at = [model, feedback, rest = wall_coefficients(setting.law)](
+                      std::span<const double> p, std::span<const double>) {
     auto K = rest;
     K[0] = MN_m2 * p[0];
     K[1] = MN_m2 * p[1];
@@ -194,7 +196,7 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
     return out;
   };
   const auto predict = [at](std::span<const Reading>, std::span<const double> p) {
-    Values e = at(p).f;
+    Values e = at(p, {}).f;
     for (double& x : e) {
       x *= um;
     }
@@ -209,7 +211,7 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
 /// Fit, and where the way knows the feedback at one place only, go there and fit again.
 RowFit settle(const RowProblem& problem, const Way& way, Values start) {
   constexpr int most_rounds = 5;
-  constexpr double negligible = 0.03;  // of the scatter of a reading
+  constexpr double negligible = 0.05;  // of the scatter of a reading
   if (way.rebase(start) < 0) {
     return {};
   }
@@ -242,6 +244,37 @@ Way way_of(const Given& wall, const Fitted& rows, Feedback feedback) {
              : nominal_way(wall.setting, wall.found, feedback);
 }
 
+/// Settled, and again from either side along what is known least: the valley between
+/// coefficients and form is long and its floor rough.
+RowFit settle_twice(const RowProblem& problem, const Way& way, const Values& start) {
+  constexpr double aside = 1.5;  // standard errors of K_tc
+  constexpr double gain = 0.3;   // of the cost
+  constexpr int most_rounds = 3;
+  RowFit best = settle(problem, way, start);
+  for (int k = 0; best.ok && k < most_rounds; ++k) {
+    const std::size_t n = best.p.size();
+    const std::size_t width = best.own.size();
+    const std::size_t K_tc = n - 2;
+    const double before = best.cost;
+    const RowFit from = best;
+    for (const double side : {-aside, aside}) {
+      Values p = from.p;
+      for (std::size_t i = 0; i < n; ++i) {
+        p[i] += side * from.covariance[i * width + K_tc] /
+                std::sqrt(from.covariance[K_tc * width + K_tc]);
+      }
+      RowFit fit = settle(problem, way, std::move(p));
+      if (fit.ok && fit.cost < best.cost) {
+        best = std::move(fit);
+      }
+    }
+    if (before - best.cost < gain) {
+      break;
+    }
+  }
+  return best;
+}
+
 /// The richest form with each feedback: what it leaves shows the scatter.
 std::vector<Tried> try_feedbacks(const Given& wall, const Fitted& rows,
                                  std::span<const Feedback> feedbacks,
@@ -250,10 +283,16 @@ std::vector<Tried> try_feedbacks(const Given& wall, const Fitted& rows,
   for (const Feedback feedback : feedbacks) {
     Tried one{.what = {.feedback = feedback}, .way = way_of(wall, rows, feedback)};
     for (const Values& start : one.way.starts) {
-      RowFit fit = settle(problem, one.way, start);
+      RowFit fit;
+      if (one.way.rebase(start) >= 0) {
+        fit = fit_rows(problem, one.way.model, start);
+      }
       if (fit.ok && (!one.fit.ok || fit.cost < one.fit.cost)) {
         one.fit = std::move(fit);
       }
+    }
+    if (one.fit.ok) {
+      one.fit = settle(problem, one.way, one.fit.p);
     }
     if (one.fit.ok) {
       tried.push_back(std::move(one));
@@ -531,7 +570,7 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
       scatter_after(wall, rows, problem, cheapest(tried).fit, options.shared);
   const std::size_t ways = tried.size();
   for (std::size_t w = 0; w < ways; ++w) {
-    tried[w].fit = settle(problem, tried[w].way, tried[w].fit.p);
+    tried[w].fit = settle_twice(problem, tried[w].way, tried[w].fit.p);
     tried[w].what.form = richest;
     tried[w].form = form_columns;
   }
@@ -542,7 +581,7 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
           .what = {.feedback = tried[w].what.feedback, .form = static_cast<Form>(form)},
           .way = tried[w].way,
           .form = form_columns};
-      one.fit = settle(problem, one.way, tried[w].fit.p);
+      one.fit = settle_twice(problem, one.way, tried[w].fit.p);
       tried.push_back(std::move(one));
     }
   }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double MN_m2 = 1e8;  // scale of coefficients
 
-/// Steps for differences of e_0, wide enough to reach over the kinks that the readings
-/// blur, and wider ones for D, which is known to the tolerance of its steady state only.
+/// Steps of differences: to begin with, at least, and at most; wide for D as well, which
+/// is known to the tolerance of its steady state only.
 struct Steps {
   double runout;
   double start;
@@ -21,11 +21,12 @@ struct Steps {
   }
 };
 constexpr Steps fine = {0.05, 0.01, 0.02};
+/// Forces that are kept for the next time.
+constexpr std::size_t most_known = 12;
 /// Beyond, slopes of D are found anew: a micrometre, or 100 MPa.
 constexpr double far_off = 1.0;
-constexpr Steps wide = {0.3, 0.02, 0.2};
-/// Within, slopes of e_0 stay as they are.
-constexpr Steps close_by = {0.4, 0.05, 0.4};
+constexpr Steps wide = {0.3, 0.05, 0.3};
+constexpr Steps least = {1e-3, 1e-3, 1e-3};
 
 }  // namespace
 
@@ -60,8 +61,29 @@ JointState JointModel::unpack(std::span<const double> p) const {
   return state;
 }
 
+std::shared_ptr<const ToothModel::Forces> JointModel::forces_of(
+    RunoutVector runout) const {
+  for (const auto& known : known_) {
+    if (known->runout.c == runout.c && known->runout.s == runout.s) {
+      return known;
+    }
+  }
+  if (known_.size() == most_known) {
+    known_.erase(known_.begin());
+  }
+  known_.push_back(std::make_shared<ToothModel::Forces>(model_.forces(runout)));
+  return known_.back();
+}
+
 JointModel::BothForces JointModel::both(const JointState& s) const {
-  return {coarse_.forces_with(feedback_, s.runout, s.K), coarse_.forces(s.runout)};
+  const auto straight = forces_of(s.runout);
+  BothForces forces{coarse_.forces_with(feedback_, *straight, s.K,
+                                        last_.turns.empty() ? nullptr : &last_),
+                    straight};
+  if (forces.bent.found) {
+    last_ = forces.bent;
+  }
+  return forces;
 }
 
 std::vector<double> JointModel::change(const JointState& s,
@@ -70,7 +92,7 @@ std::vector<double> JointModel::change(const JointState& s,
     return {};
   }
   std::vector<double> D = coarse_.predict(forces.bent, s.K, s.runout, s.start);
-  const auto straight = coarse_.predict(forces.straight, s.K, s.runout, s.start);
+  const auto straight = coarse_.predict(*forces.straight, s.K, s.runout, s.start);
   std::transform(D.begin(), D.end(), straight.begin(), D.begin(), std::minus<>());
   return D;
 }
@@ -125,41 +147,51 @@ double JointModel::rebase(std::span<const double> p) {
   return std::sqrt(moved / static_cast<double>(here.size()));
 }
 
-/// Slopes of e_0 [units of scale], found anew where the last ones were found far off.
+/// Slopes of e_0 [units of scale], found anew where the last ones were found far off, or
+/// with other steps.
 const std::vector<double>& JointModel::stiff_slopes(std::span<const double> p,
-                                                    std::span<const double> f,
-                                                    const ToothModel::Forces& forces) {
+                                                    std::span<const double> steps) {
   const std::size_t n = p.size();
   bool near = !stiff_at_.empty();
   for (std::size_t k = 0; near && k < n; ++k) {
-    near = std::abs(p[k] - stiff_at_[k]) <= close_by.of(k, n);
+    const double apart = std::abs(p[k] - stiff_at_[k]);
+    near = apart <= 2 * steps[k] && 2 * stiff_steps_[k] > steps[k] &&
+           stiff_steps_[k] < 2 * steps[k];
   }
   if (near) {
     return stiff_slopes_;
   }
   stiff_at_.assign(p.begin(), p.end());
-  stiff_slopes_.resize(f.size() * n);
+  stiff_steps_.assign(steps.begin(), steps.end());
   std::vector<double> q = stiff_at_;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double step = fine.of(k, n);
-    q[k] = p[k] + step;
+  const auto predicted = [&](std::size_t k, double by) {
+    q[k] = p[k] + by;
     const JointState s = unpack(q);
-    const auto moved = model_.predict(k < 2 ? model_.forces(s.runout) : forces, s.K,
-                                      s.runout, s.start);
     q[k] = p[k];
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      stiff_slopes_[i * n + k] = (moved[i] - f[i]) / step / scale;
+    return model_.predict(*forces_of(s.runout), s.K, s.runout, s.start);
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto above = predicted(k, steps[k]);
+    const auto below = predicted(k, -steps[k]);
+    stiff_slopes_.resize(above.size() * n);
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      stiff_slopes_[i * n + k] = (above[i] - below[i]) / (2 * steps[k]) / scale;
     }
   }
   return stiff_slopes_;
 }
 
-Linearised JointModel::at(std::span<const double> p) {
+Linearised JointModel::at(std::span<const double> p, std::span<const double> steps) {
   const std::size_t n = p.size();
+  std::vector<double> own(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    own[k] = steps.empty() ? fine.of(k, n)
+                           : std::clamp(steps[k], least.of(k, n), wide.of(k, n));
+  }
   const JointState here = unpack(p);
-  const ToothModel::Forces forces = model_.forces(here.runout);
-  Linearised out{.f = model_.predict(forces, here.K, here.runout, here.start)};
-  out.J = stiff_slopes(p, out.f, forces);
+  Linearised out{
+      .f = model_.predict(*forces_of(here.runout), here.K, here.runout, here.start)};
+  out.J = stiff_slopes(p, own);
   if (!base_.empty()) {
     const std::vector<double> D = said(p);
     for (std::size_t i = 0; i < D.size(); ++i) {
@@ -179,7 +211,7 @@ std::vector<double> JointModel::predict(std::span<const Reading> readings,
                                         std::span<const double> p) const {
   JointModel all(setting_, readings, stations_, coarse_stations_, feedback_);
   const JointState state = unpack(p);
-  std::vector<double> e = all.model_.predict(all.model_.forces(state.runout), state.K,
+  std::vector<double> e = all.model_.predict(*all.forces_of(state.runout), state.K,
                                              state.runout, state.start);
   if (feedback_ != Feedback::none) {
     const std::vector<double> D = all.change(state, all.both(state));

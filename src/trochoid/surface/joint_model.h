@@ -41,7 +41,8 @@ class JointModel {
   double rebase(std::span<const double> p);
 
   /// Of the readings, in units of `scale` [m].
-  [[nodiscard]] Linearised at(std::span<const double> p);
+  /// @param steps  of differences; empty: small ones
+  [[nodiscard]] Linearised at(std::span<const double> p, std::span<const double> steps);
 
   /// @brief Of any readings of this wall [m].
   [[nodiscard]] std::vector<double> predict(std::span<const Reading> readings,
@@ -56,16 +57,18 @@ class JointModel {
   /// With and without feedback, as `coarse` knows them.
   struct BothForces {
     ToothModel::Forces bent;
-    ToothModel::Forces straight;
+    std::shared_ptr<const ToothModel::Forces> straight;
   };
+  /// Without feedback: the same for e_0 and D.
+  [[nodiscard]] std::shared_ptr<const ToothModel::Forces> forces_of(
+      RunoutVector runout) const;
   [[nodiscard]] BothForces both(const JointState& state) const;
   /// D of the readings [m]; empty: no steady state was found.
   [[nodiscard]] std::vector<double> change(const JointState& state,
                                            const BothForces& forces) const;
   [[nodiscard]] std::vector<double> said(std::span<const double> p) const;
   const std::vector<double>& stiff_slopes(std::span<const double> p,
-                                          std::span<const double> f,
-                                          const ToothModel::Forces& forces);
+                                          std::span<const double> steps);
 
   Setting setting_;
   std::shared_ptr<const Stations> stations_;
@@ -78,7 +81,10 @@ class JointModel {
   std::vector<double> slopes_;  ///< D' [m], row-major, shape (readings, unknowns)
   std::vector<double> slopes_at_;
   std::vector<double> stiff_slopes_;  ///< of e_0, shape (readings, unknowns)
+  mutable std::vector<std::shared_ptr<const ToothModel::Forces>> known_;
+  mutable ToothModel::Forces last_;  ///< with feedback
   std::vector<double> stiff_at_;
+  std::vector<double> stiff_steps_;
 };
 
 }  // namespace trochoid::surface

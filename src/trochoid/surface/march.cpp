@@ -18,12 +18,12 @@ using Values = std::vector<double>;
 
 constexpr std::size_t steps_per_pitch = 72;
 constexpr std::size_t radii = 33;  ///< heights between which radii are interpolated
-constexpr double settled = 1e-3;   ///< change of the deflection in a turn, of its peak
+constexpr double settled = 1e-4;   ///< change of the deflection in a turn, of its peak
 constexpr int most_turns = 100;
 /// Panels of the table [rad], and how good it is, as a part of the largest value.
 constexpr double longest_panel = 0.2;
 constexpr double shortest_panel = 0.01;
-constexpr double table_tolerance = 1e-3;
+constexpr double table_tolerance = 2e-4;
 /// Exact paths cut a little before and behind where a circle does [rad].
 constexpr double beyond = 0.06;
 
@@ -262,7 +262,7 @@ Marched march(const force::Setup& setup, const force::Law& law,
   const std::span<const double> back = edges.back();
   Values before(chip_changes ? back.size() * points : 0);
   Values u(points);
-  const fixed_point::Limits limits{1e-4 * peak, 20 * peak};
+  const fixed_point::Limits limits{0.2 * settled * peak, 20 * peak};
   for (int t = 0; t < most_turns && peak > 0; ++t) {
     double change = 0.0;
     for (std::size_t k = 0; k < steps; ++k) {

@@ -147,46 +147,50 @@ void describe(const RowProblem& problem, Values rows, const Normal& normal,
 }  // namespace
 
 RowFit fit_rows(const RowProblem& problem, const RowModel& model, Values start) {
-  constexpr int most_steps = 30;
+  constexpr int most_steps = 40;
   constexpr double negligible = 1e-2;  // of the cost: a step of 0.1 se
-  constexpr int most_halvings = 4;     // a kink of the model sends steps to and fro
+  constexpr int most_halvings = 5;
+  // Slopes over half a standard error: the kinks of the model are finer than that.
+  constexpr double step_in_se = 0.5;
   RowFit fit;
   Values p = std::move(start);
   Values step(p.size());
+  Values differences;
   Values rows;
   Normal normal;
   fit.cost = std::numeric_limits<double>::infinity();
   int halvings = 0;
   for (int k = 0; k < most_steps; ++k) {
-    const Linearised at = model(p);
+    const Linearised at = model(p, differences);
     if (!at.good && fit.p.empty()) {
       return fit;
     }
     Values here = rows_of(problem, at, p.size());
     Normal there = normal_of(problem, problem.scatter, here, p.size());
     const auto [form, stay] = solved_from(there, p.size());
-    const bool better = at.good && stay < fit.cost;
-    const bool done = better && fit.cost - stay < negligible;
-    if (better) {
+    if (at.good && stay < fit.cost) {
       fit.p = p;
       fit.form = form;
       fit.cost = stay;
       rows = std::move(here);
       normal = std::move(there);
       halvings = 0;
-      const auto [x, go] = solved_from(normal, 0);
-      if (done || stay - go <= negligible) {
-        break;
-      }
-      std::copy_n(x.begin(), p.size(), step.begin());
     } else if (++halvings > most_halvings) {
       break;
-    } else {
-      std::transform(step.begin(), step.end(), step.begin(),
-                     [](double s) { return 0.5 * s; });
     }
+    const bool first = differences.empty();
+    const Values variances = inverse_of(normal.A).first;
+    differences.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) {
-      p[i] = fit.p[i] + step[i];
+      differences[i] = step_in_se * std::sqrt(variances[i * (normal.A.rows + 1)]);
+    }
+    const auto [x, go] = solved_from(normal, 0);
+    if (!first && halvings == 0 && fit.cost - go <= negligible) {
+      break;
+    }
+    const double share = std::ldexp(1.0, -halvings);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p[i] = fit.p[i] + share * x[i];
     }
   }
   describe(problem, std::move(rows), normal, fit);

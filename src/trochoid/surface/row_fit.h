@@ -16,7 +16,9 @@ struct Linearised {
   bool good = true;       ///< false: the model has no answer there
 };
 
-using RowModel = std::function<Linearised(std::span<const double> p)>;
+/// @param steps  of differences, for a model that takes them; empty: its own
+using RowModel =
+    std::function<Linearised(std::span<const double> p, std::span<const double> steps)>;
 
 /// Rows to fit, with the form of the wall beside the model.
 struct RowProblem {

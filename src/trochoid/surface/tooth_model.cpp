@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/parallel.h>
-#include <trochoid/surface/march.h>
 #include <trochoid/surface/pass.h>
 #include <trochoid/surface/turn.h>
 
@@ -136,22 +135,28 @@ std::vector<double> ToothModel::angles(const force::Setup& setup) const {
   return angles;
 }
 
-ToothModel::Forces ToothModel::forces_with(Feedback feedback, RunoutVector runout,
-                                           std::span<const double, columns> K) const {
-  const force::Setup setup = with(runout);
-  Forces result{.runout = runout};
-  const EdgeMoments edges(setup, setting_.law, stations_->basis());
-  const auto straight =
-      with_coefficients(unit_moments(edges, 10 * setting_.tolerance), K);
+ToothModel::Forces ToothModel::forces_with(Feedback feedback, const Forces& straight,
+                                           std::span<const double, columns> K,
+                                           const Forces* close_by) const {
+  const force::Setup setup = with(straight.runout);
+  Forces result{.runout = straight.runout};
+  const auto unit =
+      straight.table.functions() > 0
+          ? straight.table
+          : unit_moments(EdgeMoments(setup, setting_.law, stations_->basis()),
+                         10 * setting_.tolerance);
+  const auto moments = with_coefficients(unit, K);
   result.bent.resize(stations_->count());
-  std::vector<char> found(stations_->count());
+  result.turns.resize(stations_->count());
   numerics::for_each_index(stations_->count(), [&](std::size_t s) {
-    const Marched turn =
-        march(setup, setting_.law, K, stations_->compliance(s), feedback);
-    found[s] = turn.converged ? 1 : 0;
-    result.bent[s] = with_feedback(straight, turn);
+    const Marched* start =
+        close_by != nullptr && close_by->found ? &close_by->turns[s] : nullptr;
+    Marched& turn = result.turns[s];
+    turn = march(setup, setting_.law, K, stations_->compliance(s), feedback, start);
+    result.bent[s] = with_feedback(moments, turn);
   });
-  result.found = std::all_of(found.begin(), found.end(), [](char f) { return f != 0; });
+  result.found = std::all_of(result.turns.begin(), result.turns.end(),
+                             [](const Marched& turn) { return turn.converged; });
   return result;
 }
 

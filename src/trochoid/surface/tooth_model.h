@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/numerics/periodic_pieces.h>
+#include <trochoid/surface/march.h>
 #include <trochoid/surface/setting.h>
 
 #include <memory>
@@ -58,13 +59,17 @@ class ToothModel {
     numerics::PeriodicPieces table;  ///< envelope, and pulses at many angles
     /// With feedback instead: at each station, the coefficients in it.
     std::vector<numerics::PeriodicPieces> bent;
-    bool found = true;  ///< false: no steady state was found
+    std::vector<Marched> turns;  ///< of which these are
+    bool found = true;           ///< false: no steady state was found
   };
   [[nodiscard]] Forces forces(RunoutVector runout) const;
   /// @brief The same in the steady state that the deflection leads to (E-10).
-  /// @param K  of which they are; predict leaves its own aside
-  [[nodiscard]] Forces forces_with(Feedback feedback, RunoutVector runout,
-                                   std::span<const double, columns> K) const;
+  /// @param straight  those without feedback
+  /// @param K         of which they are; predict leaves its own aside
+  /// @param close_by  of another cut close to this one: where to begin; or none
+  [[nodiscard]] Forces forces_with(Feedback feedback, const Forces& straight,
+                                   std::span<const double, columns> K,
+                                   const Forces* close_by = nullptr) const;
 
   /// @brief Errors of all readings.
   /// @param runout  of the tooth paths; the forces may be those of another

@@ -91,6 +91,50 @@ class Plan(InFolder):
         self.run_program("check", "wrong.toml", code=2)
 
 
+class PlanOfAWall(InFolder):
+    def rows(self, folder, file):
+        with open(self.folder / folder / file) as stream:
+            return list(csv.DictReader(stream))
+
+    def test_what_it_writes(self):
+        done = self.run_program("plan", ROOT / "examples/plan_wall/case.toml", "-o", "out")
+        files = {p.name for p in (self.folder / "out").iterdir()}
+        self.assertEqual(files, {"case.toml", "summary.json", "report.html", "plan.csv",
+                                 "error_map.csv"})
+        self.assertRegex(done.stdout, r"(?m)^\* \d+ heights")
+        summary = self.summary("out")
+        self.assertTrue(summary["message"].startswith("Measure "))
+        result, rows = summary["result"], self.rows("out", "plan.csv")
+        self.assertEqual(len(rows), len(result["designs"]))
+        readings = [int(row["readings"]) for row in rows]
+        self.assertEqual(readings, sorted(readings))
+        enough = [row for row in rows if row["enough"] == "1"]
+        self.assertEqual(int(enough[0]["readings"]), result["chosen"]["readings"])
+        self.assertEqual(len(self.rows("out", "error_map.csv")), 15 * 15)
+        best, limit = result["cutting"]["best"], result["cutting"]["largest_error_um"]
+        self.assertLessEqual(best["peak_error_um"], limit)
+
+    def test_what_is_promised_is_what_calibrate_then_says(self):
+        """The readings of the example: planned and fitted, the same standard errors."""
+        case = ROOT / "examples/thin_wall_calibrate/case.toml"
+        self.run_program("plan", case, "-o", "plan", "-q", "--no-report")
+        self.run_program("calibrate", case, "-o", "fit", "-q", "--no-report")
+        so_far = self.summary("plan")["result"]["so_far"]
+        found = self.summary("fit")["result"]
+        for key in ("K_tc_MPa", "K_rc_MPa"):
+            self.assertAlmostEqual(so_far[key]["se"], found["coefficients"][key]["se"],
+                                   delta=0.02 * so_far[key]["se"])
+        self.assertAlmostEqual(so_far["eccentricity_mm"]["se"],
+                               found["runout"]["eccentricity_se_mm"], delta=1e-5)
+
+    def test_no_answer(self):
+        text = (ROOT / "examples/plan_wall/case.toml").read_text()
+        self.write("none.toml", text.replace("helix_deg = 45.0", "helix_deg = 0.0").replace(
+            'model = "envelope"', 'model = "imprint"').replace("probe_diameter_mm = 1.0", ""))
+        self.run_program("plan", "none.toml", code=1)
+        self.assertEqual(self.summary("none.plan")["status"], "failed")
+
+
 class Groups(InFolder):
     def test_each_group_has_a_column_and_a_material(self):
         for name, factor in (("new", 1.0), ("worn", 1.5)):

@@ -2,7 +2,8 @@
 from in_folder import InFolder, ROOT, main
 
 EXAMPLES = {"st52_slot": "identify", "st52_predict": "simulate", "ball": "simulate",
-            "up_milling_runout": "simulate", "plan_next_cut": "plan"}
+            "up_milling_runout": "simulate", "plan_next_cut": "plan",
+            "plan_wall": "plan"}
 
 
 class SameBytes(InFolder):

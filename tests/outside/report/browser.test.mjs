@@ -1,65 +1,13 @@
 // The pages of write_samples.cpp in headless Chromium, as a reader opens them from a file.
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { closeBrowser, colorOf, drawn, has, open, openBrowser, painted, pictures, samples,
+  shown } from './pages.mjs';
 
-// From the working folder, where `npm ci` puts it.
-const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
-const samples = process.env.SAMPLES;
-const pictures = path.join(samples, '..', 'pictures');
-const hangs = 1_200_000;  // ms; for what never comes, not for a busy machine
-let browser;
-
-before(async () => {
-  mkdirSync(pictures, { recursive: true });
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
-    args: ['--no-sandbox', '--disable-dev-shm-usage'],
-    timeout: hangs,
-  });
-});
-after(() => browser?.close());
-
-/** Until what was asked for is drawn: a frame begins, draws, and the next one begins. */
-const shown = (page) => page.evaluate(() => new Promise((resolve) => {
-  requestAnimationFrame(() => requestAnimationFrame(() => resolve()));
-}));
-
-/** Open a report; whatever it requests, prints or throws is recorded. */
-async function open(name, options = {}) {
-  const { width = 1200, ...rest } = options;
-  const context = await browser.newContext({ viewport: { width, height: 900 }, ...rest });
-  context.setDefaultTimeout(hangs);
-  const page = await context.newPage();
-  const seen = { requests: [], complaints: [] };
-  page.on('request', (request) => seen.requests.push(request.url()));
-  page.on('console', (message) => seen.complaints.push(message.text()));
-  page.on('pageerror', (error) => seen.complaints.push(String(error)));
-  const url = pathToFileURL(path.join(samples, name, 'report.html')).href;
-  await page.goto(url);
-  if (rest.javaScriptEnabled !== false) await shown(page);
-  return { page, seen, url, close: () => context.close() };
-}
-
-/** The opaque colours of each canvas, with their numbers of pixels. */
-const drawn = (page) => page.$$eval('.uplot canvas', (canvases) => canvases.map((canvas) => {
-  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  const colors = new Map();
-  for (let i = 0; i < data.length; i += 4) {
-    if (data[i + 3] !== 255) continue;
-    const color = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
-    colors.set(color, (colors.get(color) || 0) + 1);
-  }
-  return [...colors].sort((a, b) => b[1] - a[1]).map(([color, n]) => ({ color, n }));
-}));
-
-const hex = (text) => parseInt(text.trim().slice(1), 16);
-const colorOf = (page, name) => page.evaluate((n) =>
-  getComputedStyle(document.documentElement).getPropertyValue(n), name).then(hex);
-const has = (canvas, color) => canvas.some((entry) => entry.color === color && entry.n > 100);
+before(openBrowser);
+after(closeBrowser);
 
 const curveColors = ['--measured', '--s1', '--s2', '--s3', '--s4', '--s5', '--s6'];
 
@@ -84,7 +32,8 @@ async function check(name, options, plots) {
 
 const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2,
-  modes: 4, actuator: 2, dynamics: 8, chatter: 1, correct: 8, plan: 3 };
+  modes: 4, actuator: 2, dynamics: 8, chatter: 1, correct: 8, plan: 3,
+  wall_plan: 6 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -94,20 +43,7 @@ for (const [name, plots] of Object.entries(plotsOf)) {
   }
 }
 
-/** How many colours each drawing holds, and how many points of its canvas are painted. */
-const painted = (page) => page.$$eval('.drawing canvas', (canvases) => canvases.map((canvas) => {
-  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  const colors = new Set();
-  let points = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    if (data[i + 3] !== 255) continue;
-    ++points;
-    colors.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
-  }
-  return { colors: colors.size, points, width: canvas.clientWidth, text: canvas.toDataURL() };
-}));
-
-for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 1, teeth: 1,
+for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 2, teeth: 2, wall_plan: 1,
   stability: 1, dynamics: 1, correct: 1 })) {
   for (const width of [1200, 480]) {
     test(`the drawings of ${name} are painted, ${width} px wide`, async () => {

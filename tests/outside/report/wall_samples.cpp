@@ -4,6 +4,7 @@
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/vibration/stability.h>
 #include <trochoid/run/wall/calibrate.h>
+#include <trochoid/run/wall/plan.h>
 #include <trochoid/run/wall/surface.h>
 
 #include <fstream>
@@ -141,6 +142,16 @@ Answer lobes(const std::filesystem::path& folder) {
 Answer calibration(const char* model, bool number_teeth,
                    const std::filesystem::path& folder) {
   return calibrated(model, number_teeth, 3e-3, folder);
+}
+
+Answer wall_plan(const std::filesystem::path& folder) {
+  const auto file = written(
+      folder / "plan.toml",
+      cut + material + wall_table + surface_table("envelope") +
+          "[plan]\nlargest_error_um = 40\nheights = [3, 7, 13]\nreadings_per_height = "
+          "[3, 12, 36]\n");
+  return answer_of(
+      trochoid::run::plan_wall(inputs::read_case(file, inputs::Command::plan), {}));
 }
 
 Answer one_height(const std::filesystem::path& folder) {

@@ -24,4 +24,7 @@ trochoid::results::Answer one_height(const std::filesystem::path& folder);
 /// The lobes of a new case of `stability`.
 trochoid::results::Answer lobes(const std::filesystem::path& folder);
 
+/// How to measure and cut a wall.
+trochoid::results::Answer wall_plan(const std::filesystem::path& folder);
+
 }  // namespace sample

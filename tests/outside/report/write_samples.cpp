@@ -312,9 +312,12 @@ int main(int argc, char** argv) {
   const auto cases = root / "cases";
   try {
     for (const auto& [name, answer] :
-         {std::pair{"identify", identify()}, std::pair{"simulate", simulate()},
-          std::pair{"failed", failed()}, std::pair{"doubtful", doubtful()},
-          std::pair{"worn", worn()}, std::pair{"other", other()},
+         {std::pair{"identify", identify()},
+          std::pair{"simulate", simulate()},
+          std::pair{"failed", failed()},
+          std::pair{"doubtful", doubtful()},
+          std::pair{"worn", worn()},
+          std::pair{"other", other()},
           std::pair{"surface", sample::wall("envelope", cases / "envelope")},
           std::pair{"marks", sample::wall("imprint", cases / "imprint")},
           std::pair{"pulse", sample::wall("quasi_static", cases / "pulse")},
@@ -324,9 +327,11 @@ int main(int argc, char** argv) {
           std::pair{"modes", sample::modes()},
           std::pair{"actuator", sample::actuator()},
           std::pair{"dynamics", sample::motion()},
-          std::pair{"correct", sample::correction()}, std::pair{"plan", sample::plan()},
+          std::pair{"correct", sample::correction()},
+          std::pair{"plan", sample::plan()},
           std::pair{"chatter", sample::chatter()},
           std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
+          std::pair{"wall_plan", sample::wall_plan(cases / "wall_plan")},
           std::pair{"one_height", sample::one_height(cases / "one_height")}}) {
       const std::string summary = trochoid::results::summary_json(answer);
       trochoid::results::write_folder(root / name, answer,

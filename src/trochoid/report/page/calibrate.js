@@ -34,6 +34,7 @@ function calibratePage(report) {
   return [
     { lead: fitted ? calibrateLead(report, readings, keys) : null },
     { part: isEmpty(result.combination) ? null : combinationPart(result, keys) },
+    measuredWall(report),
     meansSection(report, readings),
     readingResiduals(report),
     { part: answersTable(result, readings, keys) },
@@ -171,6 +172,29 @@ function meansLayout(t) {
     ({ value, rows: rows.sort((a, b) => along[a] - along[b]) })) };
 }
 
+/** The fit to single readings as means of fitted.csv; nothing where their readings are not told apart. */
+function jointMeans(report, reading, means) {
+  const t = tableNamed(report, 'residual.csv');
+  if (!isNumber(reading.eccentricity_mm) || !t || t.drawn < t.rows) return null;
+  const [height, fitted, was, x] = ['height_mm', 'fitted_mm', 'measured_mm', report.result.model === 'quasi_static' ?
+    'feed_mm' : 'x_mm'].map((name) => columnNamed(t, name));
+  const [heights, count, mean, from] = ['height_mm', 'readings', 'mean_mm', 'feed_mm'].map((name) =>
+    columnNamed(means, name));
+  const out = heights.map(() => null);
+  let off = 0;
+  for (const h of new Set(heights)) {
+    const order = height.map((_, i) => i).filter((i) => height[i] === h).sort((a, b) => x[a] - x[b]);
+    const rows = heights.map((_, i) => i).filter((i) => heights[i] === h).sort((a, b) => from[a] - from[b]);
+    for (const row of rows) {
+      const own = order.splice(0, count[row]);
+      const average = (values) => own.reduce((sum, i) => sum + values[i], 0) / own.length;
+      out[row] = average(fitted);
+      off = Math.max(off, Math.abs(average(was) - mean[row]));
+    }
+  }
+  return off < 1e-5 ? out : null;  // mm; else these are not the readings of each mean
+}
+
 function meansSection(report, readings) {
   const t = tableNamed(report, 'fitted.csv');
   const mean = columnNamed(t, 'mean_mm');
@@ -178,7 +202,9 @@ function meansSection(report, readings) {
   const { tall, along, groups, numbered } = meansLayout(t);
   const of = (values, rows) => rows.map((i) => micro(values[i]));
   const xOf = (group) => group.rows.map((i) => along[i]);
-  const fits = readings.filter((reading) => columnNamed(t, reading.column));
+  const fits = readings.map((reading) => ({ ...reading, values: columnNamed(t, reading.column) ||
+    jointMeans(report, reading, t) })).filter((reading) => reading.values)
+    .sort((a, b) => Number(b.chosen) - Number(a.chosen));
   const chart = figure({ key: 'means', points: true, x: xOf(groups[0]), unit: 'mm', caption: zoomHint + thinned(t),
     label: tall ? 'height above the tip' : 'travel along the feed' });
   const state = { group: groups[0] };
@@ -186,8 +212,8 @@ function meansSection(report, readings) {
     state.group = group;
     const few = group.rows.length < 80;
     // Answers often lie on one another: the later ones are thinner and broken.
-    const curves = fits.map((fit, i) => ({ name: fit.name, color: fit.color, width: [3.4, 2.2, 1.4][i % 3],
-      dash: [undefined, [9, 5], [3, 4]][i % 3], values: of(columnNamed(t, fit.column), group.rows) }));
+    const curves = fits.map((fit, i) => ({ name: fit.name, color: fit.color, width: [3.4, 2.2, 1.6, 1.4][Math.min(i, 3)],
+      dash: [undefined, [9, 5], [3, 4], [1, 5]][Math.min(i, 3)], values: of(fit.values, group.rows) }));
     chart.draw([
       { label: 'error', unit: 'µm', height: 250, series: [
         { name: 'measured mean', color: '--ink', line: false, points: few ? 7 : 4,
@@ -197,8 +223,9 @@ function meansSection(report, readings) {
         values: curve.values.map((v, k) => micro(mean[group.rows[k]]) - v) })) },
     ], xOf(group));
   };
-  const text = tall ? 'Means over whole turns of the feed at each height, and what every reading of the ' +
-    'profile makes of them.' : 'Measured means along the feed, and what every reading makes of them.';
+  const text = tall ? 'Means over whole turns of the feed at each height, and what every way to read ' +
+    'the profile makes of them, the answer that counts first.' : 'Measured means along the feed, and what every way to ' +
+    'read them makes of them, the answer that counts first.';
   const place = numbered ? 'Mean' : tall ? 'Travel [mm]' : 'Height [mm]';
   chart.controls.append(...[choice(place, groups.map((group) => ({ value: group,
     text: number(group.value, 5) })), state.group, draw)].filter(Boolean));

@@ -55,15 +55,13 @@ results::CalibrateResult calibrate(const inputs::Case& given,
   r.repeatability = wall.counts.repeatability();
   r.heading.warnings = std::move(wall.notes);
   r.datum = r.calibration.datum;
-  const surface::ModelFits& models = r.calibration.models;
   if (!r.calibration.ok) {
     r.heading.ok = false;
-    r.heading.message = refusal(given, chosen_fit(models));
+    r.heading.message = refusal(given, chosen_fit(r.calibration.models));
     return r;
   }
   add_calibration_warnings(given, r.readings, r.calibration, r.heading.warnings);
-  r.heading.message =
-      fmt::format("{} readings, {} means.", r.readings.size(), models.nominal.size());
+  r.heading.message = calibration_sentence(r);
   return r;
 }
 
