@@ -114,6 +114,9 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
            "[cutter_body] and [wall] are missing: nothing bends, so the wall tells "
            "nothing of the forces; calibrate needs one of them");
   }
+  if (verb == "calibrate") {
+    refuse_for_calibrate(tables.machine, findings);
+  }
 }
 
 void check_surface(CaseTables& tables, Findings& findings) {
@@ -126,6 +129,7 @@ void check_surface(CaseTables& tables, Findings& findings) {
     check_depth_below(m.wall->height, "wall.height_mm", "it would reach below the wall",
                       tables.cut, findings);
   }
+  check_passes(tables, findings);
   if (!m.surface) {
     return;
   }

@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 28> names = {"case.toml",
+constexpr std::array<std::string_view, 30> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -40,7 +40,9 @@ constexpr std::array<std::string_view, 28> names = {"case.toml",
                                                     "command.h",
                                                     "controller.csv",
                                                     "plan.csv",
-                                                    "overview.csv"};
+                                                    "overview.csv",
+                                                    "passes.csv",
+                                                    "wall_loads.csv"};
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

@@ -1,4 +1,4 @@
-#include <trochoid/results/surface.h>
+#include <trochoid/results/surface_parts.h>
 
 #include <trochoid/base/units.h>
 
@@ -180,6 +180,7 @@ Object result_of(const SurfaceResult& r) {
   if (map.shape) {
     add("bent", shape_value(r));
   }
+  add_surface_parts(r, result);
   return result;
 }
 
@@ -212,7 +213,7 @@ std::string short_table(const SurfaceResult& r) {
                       unit::in(map.rows.front().height, unit::mm),
                       map.rows.front().compliance / unit::um,
                       r.cutter ? "" : " (rigid cutter)", r.wall ? "" : " (rigid wall)");
-  return text;
+  return text + surface_parts_text(r);
 }
 
 }  // namespace
@@ -228,6 +229,7 @@ Answer answer_of(const SurfaceResult& r) {
   if (r.map.shape) {
     answer.tables.push_back(shape_table(*r.map.shape));
   }
+  add_surface_tables(r, answer.tables);
   return answer;
 }
 

@@ -11,6 +11,7 @@ namespace {
 constexpr int default_x = 21;  ///< odd, so that the middle is among them
 constexpr int default_y = 11;
 constexpr double tolerance = 2e-4;
+constexpr double nothing = 1e-12;  ///< of the largest: rounding at the clamps
 
 std::vector<double> spread(double length, int count) {
   std::vector<double> out;
@@ -89,6 +90,9 @@ LoadedWalls loaded_walls(const Plate& plate, const WallLoads& loads) {
         wall.x = out.x[i / out.y.size()];
         wall.y = out.y[i % out.y.size()];
       }
+    }
+    for (double& w : wall.w) {
+      w = std::abs(w) < nothing * std::abs(wall.largest) ? 0.0 : w;
     }
     wall.coefficient = wall.largest * D / handbook_scale(plate, loads, load);  // B-11
     out.walls.push_back(std::move(wall));

@@ -16,8 +16,9 @@ namespace trochoid::surface {
 /// The wall as the cutter meets it.
 struct Wall {
   std::shared_ptr<const structure::PlateSolution> plate;
-  double height = 0.0;  ///< of the free edge above the clamping [m]
-  double length = 0.0;  ///< along the feed [m]
+  double height = 0.0;     ///< of the free edge above the clamping [m]
+  double length = 0.0;     ///< along the feed [m]
+  double thickness = 0.0;  ///< where the cutter meets it, before the cut [m]
 };
 
 /// @brief What bends; what is absent is rigid.
@@ -82,6 +83,14 @@ class Compliance {
   [[nodiscard]] std::vector<double> of_wall(std::span<const double> heights,
                                             std::span<const double> loads) const;
 
+  /// @brief Deflection per couple at the basis points, of the cutter alone (B-12);
+  /// row-major, shape (heights, basis points) [m/(N m)].
+  [[nodiscard]] std::vector<double> of_cutter_couples(
+      std::span<const double> heights) const;
+  /// @brief The same of the wall alone (B-10); zero above the free edge's height.
+  [[nodiscard]] std::vector<double> of_wall_couples(std::span<const double> heights,
+                                                    structure::Along along) const;
+
   /// @brief Deflection per whole force where that is concentrated (E-6), whatever the
   /// load of this compliance; shape of heights [m/N].
   [[nodiscard]] std::vector<double> concentrated(std::span<const double> heights) const;
@@ -93,6 +102,10 @@ class Compliance {
       std::span<const double> heights) const;
 
  private:
+  [[nodiscard]] std::vector<double> on_the_wall(std::span<const double> heights) const;
+  void clear_above(std::span<const double> heights, std::span<const double> loads,
+                   std::vector<double>& G) const;
+
   Bodies bodies_;
   double a_p_;
   double x_;
