@@ -42,8 +42,15 @@ std::vector<double> means(const ErrorMap& map, std::size_t from) {
   return out;
 }
 
-double mean_of(std::span<const double> values) {
-  return mean_and_extremes(values).mean;
+/// Mean and extremes of the polynomial through values at the points.
+MeanAndExtremes over_the_height(const numerics::LagrangeBasis& basis, double a_p,
+                                std::span<const double> values) {
+  constexpr int samples = 100;
+  std::vector<double> even;
+  for (int i = 0; i < samples; ++i) {
+    even.push_back(basis.value(values, a_p * (i + 0.5) / samples));
+  }
+  return mean_and_extremes(even);
 }
 
 double largest_deflection(const ErrorMap& map) {
@@ -125,14 +132,17 @@ PassSequence pass_sequence(const Setting& setting, const MapOptions& options,
     }
     PassOutcome outcome{.cut = cut,
                         .thickness_before = thickness,
-                        .radial_depth = mean_and_extremes(left),
+                        .radial_depth = over_the_height(over_height, a_p, left),
                         .error = out.map.error,
                         .F_normal = out.map.F_normal,
                         .without_feedback = done.without_feedback};
     outcome.radial_depth.mean += cut.a_e;
     outcome.radial_depth.min += cut.a_e;
     outcome.radial_depth.max += cut.a_e;
-    thickness += bodies.wall ? mean_of(done.left) - outcome.radial_depth.mean : 0.0;
+    if (bodies.wall) {
+      thickness +=
+          over_the_height(over_height, a_p, done.left).mean - outcome.radial_depth.mean;
+    }
     outcome.thickness_after = thickness;  // E-41
     left = std::move(done.left);
     out.passes.push_back(outcome);
