@@ -4,6 +4,7 @@ import os
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
@@ -113,9 +114,11 @@ class Walls(unittest.TestCase):
 
     def test_passes(self):  # [E-40] [E-41] [B-9]
         wall = Wall(60.0, 30.0, 4.0, 69e3, 0.33)
-        cuts = [(0.5, 0.1), (0.3, 0.06), (0.0, 0.06)]
-        for mode, body, x in (("down", wall, 20.0), ("up", None, 0.0)):
-            with self.subTest(mode=mode):
+        there = [(0.5, 0.1, 0.0), (0.3, 0.06, 0.0), (0.0, 0.06, 0.0)]
+        down = [(0.9, 0.1, 0.0), (0.9, 0.1, 3.0), (0.0, 0.1, 3.0)]
+        for mode, body, x, cuts in (("down", wall, 20.0, there), ("up", None, 0.0, there),
+                                    ("down", replace(wall, thickness=2.0), 30.0, down)):
+            with self.subTest(mode=mode, cuts=cuts):
                 self.passes(mode, body, x, cuts)
 
     def passes(self, mode, wall, x, cuts):
@@ -125,7 +128,7 @@ class Walls(unittest.TestCase):
         if wall:
             t["wall"] = wall_table(wall, x)
         text = "".join(f"\n[[pass]]\nradial_depth_mm = {a}\nfeed_per_tooth_mm = {f}\n"
-                       for a, f in cuts)
+                       f"below_edge_mm = {b}\n" for a, f, b in cuts)
         answer = self.run_program(f"passes_{mode}", t, text)
         m, b = made.milling(t, disks=160), t["cutter_body"]
         cutter = Cutter(b["overhang_mm"], b["flute_length_mm"], b["shank_diameter_mm"],

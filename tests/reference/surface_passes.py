@@ -13,7 +13,7 @@ import surface_structure as st
 from surface_finite_plate import finite
 
 GRID = 13  # heights between which influence and error are interpolated
-TURN = 1800
+TURN = 1200
 
 
 def arcs(m, left):
@@ -35,14 +35,28 @@ def normal_loads(m, phi, K, left):
     return out
 
 
-def influence(m, cutter, wall, x, thickness, heights):
-    """mm per N at heights for loads on the ends of the disks; the wall thinner above the tip"""
+def layers(wall, ap, levels):
+    """(from, thickness) ascending, of a wall that was cut at {below: thickness}"""
+    out, above = [], 0.0
+    for below in sorted(levels, reverse=True):
+        top = wall.height - below
+        if above and top - ap > above + 1e-9:
+            out.append((above, wall.thickness))
+        out.append((top - ap, levels[below]))
+        above = top
+    if above and above < wall.height - 1e-9:
+        out.append((above, wall.thickness))
+    return tuple(out)
+
+
+def influence(m, cutter, wall, x, below, levels, heights):
+    """mm per N at heights for loads on the ends of the disks; the wall thinner where it was cut"""
     G = np.array([[st.cutter_influence(cutter, h, z) for z in m.nodes] for h in heights])
     if wall is None:
         return G
-    at, foot = np.linspace(0.0, m.ap, GRID), wall.height - m.ap
-    layers = ((foot, thickness),) if thickness != wall.thickness else ()
-    plate = finite(wall, (x,), tuple(foot + at), layers=layers)
+    at, foot = np.linspace(0.0, m.ap, GRID), wall.height - below - m.ap
+    plate = finite(wall, (x,), tuple(foot + at), layers=layers(wall, m.ap, levels),
+                   finest=4e-3)
     nodes = [plate.at(x, foot + z) for z in at]
     known = np.array([plate.single(x, foot + z)[nodes] for z in at])
     return G + RectBivariateSpline(at, at, known)(heights[:, None], m.nodes, grid=False)
@@ -61,27 +75,27 @@ class Pass:
 
 
 def sequence(m, cutter, wall, x, K, cuts, heights):
-    """A Pass for every (radial depth, feed per tooth), none of which has feedback"""
-    at, out = np.linspace(0.0, m.ap, GRID), []
-    left = lambda z: 0.0 * z  # noqa: E731
-    thickness = wall.thickness if wall else 0.0
+    """A Pass for every (radial depth, feed per tooth, below the edge), without feedback"""
+    at, out, even = np.linspace(0.0, m.ap, GRID), [], np.linspace(0.0, m.ap, 400)
+    left, levels = {}, {}  # of the level that lies so far below the edge
     phi = se.whole_turn(TURN)
-    for ae, fz in cuts:
+    for ae, fz, below in cuts:
         now = replace(m, ae=ae, fz=fz)
-        load = normal_loads(now, phi, K, left)
+        stock = left.get(below, lambda z: 0.0 * z)
+        thickness = levels.get(below, wall.thickness) if wall else 0.0
+        load = normal_loads(now, phi, K, stock)
         where = np.concatenate([heights, at])
-        d = load @ influence(now, cutter, wall, x, thickness, where).T
+        d = load @ influence(now, cutter, wall, x, below, levels, where).T
         e = np.array([se.Envelope(now, h, se.table(phi, d[:, i])).at(se.feed_grid(now, 720))[0]
                       for i, h in enumerate(where)])
-        if out:
-            e = np.minimum(e, (ae + left(where))[:, None])  # E-41
-        before = left(np.linspace(0, m.ap, 400)).mean()
-        left = CubicSpline(at, e[len(heights):].mean(axis=1))
-        after = left(np.linspace(0, m.ap, 400)).mean()
+        if below in left:
+            e = np.minimum(e, (ae + stock(where))[:, None])  # E-41
+        left[below] = CubicSpline(at, e[len(heights):].mean(axis=1))
+        gone = ae + stock(even).mean() - left[below](even).mean()
         wanted = e[:len(heights)]
-        gone = ae + before - after
-        out.append(Pass(thickness, ae + before, wanted.mean(axis=1), wanted.min(axis=1),
-                        wanted.max(axis=1), load.sum(axis=1).max(),
-                        thickness - gone if wall else 0.0))
-        thickness -= gone if wall else 0.0
+        if wall:
+            levels[below] = thickness - gone
+        out.append(Pass(thickness, ae + stock(even).mean(), wanted.mean(axis=1),
+                        wanted.min(axis=1), wanted.max(axis=1), load.sum(axis=1).max(),
+                        levels.get(below, 0.0)))
     return out

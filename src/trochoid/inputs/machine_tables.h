@@ -52,6 +52,7 @@ struct Wall {
 struct WallPass {
   std::optional<double> radial_depth;    ///< [m]; 0: nothing but what was left
   std::optional<double> feed_per_tooth;  ///< [m]
+  std::optional<double> below_edge;      ///< of its top below the free edge [m]
 };
 
 /// [surface]

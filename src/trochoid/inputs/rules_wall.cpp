@@ -4,8 +4,11 @@
 
 #include <fmt/core.h>
 
-#include <optional>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace trochoid::inputs {
 
@@ -39,40 +42,102 @@ void check_places(const Places& places, Findings& findings) {
   }
 }
 
-std::string pass_key(std::size_t i) {
-  return fmt::format("pass[{}].radial_depth_mm", i + 1);
+std::string pass_key(std::size_t i, std::string_view key) {
+  return fmt::format("pass[{}].{}", i + 1, key);
 }
 
-/// @return the sum of the radial depths, where all of them are sound [m]
-std::optional<double> check_depths(const CaseTables& tables, Findings& findings) {
-  double sum = 0.0;
-  bool all_sound = true;
-  for (std::size_t i = 0; i < tables.machine.passes.size(); ++i) {
-    const std::string key = pass_key(i);
-    const double a_e = tables.machine.passes[i].radial_depth.value_or(
-        tables.cut.radial_depth.value_or(0.0));
-    sum += a_e;
-    if (!sound(findings, {key, "cut.radial_depth_mm", "tool.diameter_mm"})) {
-      all_sound = false;
-      continue;
-    }
-    if (i == 0 && tables.machine.passes[i].radial_depth == 0.0) {
-      all_sound = false;
-      report(findings, key,
-             fmt::format("{} = 0 mm: nothing was left before the first pass; must be "
-                         "above 0 mm (how much this pass takes off)",
-                         key));
-    }
-    if (a_e > tables.tool.diameter) {
-      all_sound = false;
+double below_of(const WallPass& pass) {
+  return pass.below_edge.value_or(0.0);
+}
+
+/// Is a pass the first one at its level?
+bool first_there(const std::vector<WallPass>& passes, std::size_t i) {
+  return std::none_of(
+      passes.begin(), passes.begin() + static_cast<std::ptrdiff_t>(i),
+      [&](const WallPass& before) { return below_of(before) == below_of(passes[i]); });
+}
+
+void check_depth(const CaseTables& tables, std::size_t i, Findings& findings) {
+  const std::vector<WallPass>& passes = tables.machine.passes;
+  const std::string key = pass_key(i, "radial_depth_mm");
+  const double a_e = passes[i].radial_depth.value_or(0.0);
+  if (!passes[i].radial_depth || !sound(findings, {key, "tool.diameter_mm"})) {
+    return;
+  }
+  if (a_e == 0 && first_there(passes, i)) {
+    report(findings, key,
+           fmt::format("{} = 0 mm: nothing was left before the first pass{}; must be "
+                       "above 0 mm (how much this pass takes off)",
+                       key, below_of(passes[i]) > 0 ? " at this level" : ""));
+  }
+  if (a_e > tables.tool.diameter) {
+    report(findings, key,
+           fmt::format("{} = {} mm: more than tool.diameter_mm = {} mm (how much this "
+                       "pass takes off)",
+                       key, mm(a_e), mm(tables.tool.diameter)));
+  }
+}
+
+/// On the wall, and either over a level of before or beside all of them.
+void check_level(const CaseTables& tables, std::size_t i, Findings& findings) {
+  const std::vector<WallPass>& passes = tables.machine.passes;
+  const std::string key = pass_key(i, "below_edge_mm");
+  const double a_p = tables.cut.axial_depth;
+  const double below = below_of(passes[i]);
+  if (!sound(findings, {key, "cut.axial_depth_mm", "wall.height_mm"})) {
+    return;
+  }
+  constexpr double rounding = 1e-9 * unit::mm;
+  const auto& wall = tables.machine.wall;
+  if (below > 0 && wall && below + a_p > wall->height + rounding) {
+    report(
+        findings, key,
+        fmt::format("{} = {} mm: with cut.axial_depth_mm = {} mm it would reach below "
+                    "wall.height_mm = {} mm; must be at most {} mm",
+                    key, mm(below), mm(a_p), mm(wall->height),
+                    mm(std::max(0.0, wall->height - a_p))));
+  }
+  for (std::size_t k = 0; k < i; ++k) {
+    const double apart = std::abs(below - below_of(passes[k]));
+    if (apart > 0 && apart < a_p - rounding) {
       report(
           findings, key,
-          fmt::format("{} = {} mm: more than tool.diameter_mm = {} mm (how much this "
-                      "pass takes off)",
-                      key, mm(a_e), mm(tables.tool.diameter)));
+          fmt::format("{} = {} mm: overlaps pass {} at {} mm in part; must be the same "
+                      "or differ by at least cut.axial_depth_mm = {} mm",
+                      key, mm(below), k + 1, mm(below_of(passes[k])), mm(a_p)));
+      return;
     }
   }
-  return all_sound ? std::optional(sum) : std::nullopt;
+}
+
+/// No level may lose its whole thickness.
+void check_thickness(const CaseTables& tables, Findings& findings) {
+  const std::vector<WallPass>& passes = tables.machine.passes;
+  if (!tables.machine.wall ||
+      !sound(findings, {"wall.thickness_mm", "cut.radial_depth_mm"})) {
+    return;
+  }
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const WallPass& pass : passes) {
+      if (below_of(pass) == below_of(passes[i])) {
+        sum += pass.radial_depth.value_or(tables.cut.radial_depth.value_or(0.0));
+        ++count;
+      }
+    }
+    if (first_there(passes, i) && sum >= tables.machine.wall->thickness) {
+      report(findings, fmt::format("pass[{}]", i + 1),
+             fmt::format(
+                 "[[pass]]: {} passes take off {} mm{}, and wall.thickness_mm = {} "
+                 "mm before the first; must leave some of it",
+                 count, mm(sum),
+                 below_of(passes[i]) > 0
+                     ? fmt::format(" at {} mm below the edge", mm(below_of(passes[i])))
+                     : "",
+                 mm(tables.machine.wall->thickness)));
+    }
+  }
 }
 
 void check_also_bends(const Surface& surface, Findings& findings) {
@@ -123,14 +188,15 @@ void check_passes(const CaseTables& tables, Findings& findings) {
   if (m.passes.empty()) {
     return;
   }
-  const std::optional<double> sum = check_depths(tables, findings);
-  if (sum && m.wall && sound(findings, {"wall.thickness_mm"}) &&
-      *sum >= m.wall->thickness) {
-    report(
-        findings, "pass[1]",
-        fmt::format("[[pass]]: {} passes take off {} mm, and wall.thickness_mm = {} mm "
-                    "before the first; must leave some of it",
-                    m.passes.size(), mm(*sum), mm(m.wall->thickness)));
+  bool all_sound = true;
+  for (std::size_t i = 0; i < m.passes.size(); ++i) {
+    check_depth(tables, i, findings);
+    check_level(tables, i, findings);
+    all_sound = all_sound && sound(findings, {pass_key(i, "radial_depth_mm"),
+                                              pass_key(i, "below_edge_mm")});
+  }
+  if (all_sound) {
+    check_thickness(tables, findings);
   }
   if (m.surface && m.surface->model == surface::Model::quasi_static &&
       sound(findings, {"surface.model"})) {

@@ -89,6 +89,13 @@ void describe(const Visitor& v, WallPass& t) {
      .standard = "that of [cut]",
      .example = "0.1"},
     &t.feed_per_tooth);
+  v({.name = "below_edge_mm",
+     .meaning = "how far below the free edge of the wall the top of this pass lies: to "
+                "step down by the axial depth",
+     .range = between(0, longest_mm),
+     .standard = "0",
+     .example = "3"},
+    &t.below_edge);
 }
 
 void describe(const Visitor& v, Wall& t) {

@@ -129,8 +129,9 @@ Object height_value(const ErrorRow& row) {
   return value;
 }
 
-/// What bent.csv shows, and the bodies that it is drawn on.
+/// What bent.csv shows, and the bodies that it is drawn on: the wall up to the cut.
 Object shape_value(const SurfaceResult& r) {
+  const double below = r.passes.empty() ? 0.0 : r.passes.back().cut.below;
   Object value{{"angle_deg", unit::in(r.map.shape->phi, unit::deg)},
                {"F_normal_N", r.map.shape->F_normal},
                {"cutter", nullptr},
@@ -144,7 +145,7 @@ Object shape_value(const SurfaceResult& r) {
   }
   if (r.wall) {
     set(value, "wall",
-        Object{{"height_mm", unit::in(r.wall->height, unit::mm)},
+        Object{{"height_mm", unit::in(r.wall->height - below, unit::mm)},
                {"thickness_mm", unit::in(r.wall->thickness, unit::mm)},
                {"edge_height_mm", unit::in(r.a_p, unit::mm)}});
   }

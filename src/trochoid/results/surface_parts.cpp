@@ -23,6 +23,8 @@ constexpr PassColumn pass_columns[] = {
      [](const PassOutcome& p) { return unit::in(p.cut.a_e, unit::mm); }},
     {"feed_per_tooth_mm",
      [](const PassOutcome& p) { return unit::in(p.cut.f_z, unit::mm); }},
+    {"below_edge_mm",
+     [](const PassOutcome& p) { return unit::in(p.cut.below, unit::mm); }},
     {"stock_min_mm",
      [](const PassOutcome& p) { return p.radial_depth.min / unit::mm; }},
     {"stock_mean_mm",

@@ -140,11 +140,8 @@ struct Refinement {
 std::vector<double> rigidities(const Plate& plate, const Patches& patches) {
   std::vector<double> parts;
   for (std::size_t i = 0; !plate.layers.empty() && i + 1 < patches.y.size(); ++i) {
-    double thickness = plate.thickness;
-    for (const Layer& layer : plate.layers) {
-      thickness = layer.from <= patches.y[i] ? layer.thickness : thickness;
-    }
-    parts.push_back(std::pow(thickness / plate.thickness, 3));  // B-9
+    const double middle = (patches.y[i] + patches.y[i + 1]) / 2;
+    parts.push_back(std::pow(thickness_at(plate, middle) / plate.thickness, 3));  // B-9
   }
   return parts;
 }
@@ -156,6 +153,14 @@ RitzSystem system(const Plate& plate, const Patches& patches, const Refinement& 
 }
 
 }  // namespace
+
+double thickness_at(const Plate& plate, double y) {
+  double thickness = plate.thickness;
+  for (const Layer& layer : plate.layers) {
+    thickness = layer.from <= y ? layer.thickness : thickness;
+  }
+  return thickness;
+}
 
 double flexural_rigidity(const Plate& plate) {
   const double t = plate.thickness;

@@ -58,6 +58,9 @@ struct Plate {
   std::vector<Layer> layers = {};  ///< ascending, none: as thick everywhere
 };
 
+/// @param y  above the clamped bottom [m]
+double thickness_at(const Plate& plate, double y);
+
 /// D of B-3 [N m], of the foot where there are layers.
 double flexural_rigidity(const Plate& plate);
 

@@ -17,14 +17,17 @@ constexpr double plate_tolerance = 2e-4;
 }  // namespace
 
 BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
-                   const std::optional<structure::Plate>& wall, double a_p) {
-  return [cutter, wall, a_p](double x) {
+                   const std::optional<structure::Plate>& wall, double a_p,
+                   double below) {
+  return [cutter, wall, a_p, below](double x) {
     Bodies bodies{.cutter = cutter};
     if (wall) {
-      bodies.wall = Wall{
-          std::make_shared<structure::PlateSolution>(*wall, x, plate_tolerance, a_p),
-          wall->height, wall->length,
-          wall->layers.empty() ? wall->thickness : wall->layers.back().thickness};
+      const double top = wall->height - below;
+      bodies.wall = Wall{.plate = std::make_shared<structure::PlateSolution>(
+                             *wall, x, plate_tolerance, a_p + below),
+                         .height = top,
+                         .length = wall->length,
+                         .thickness = structure::thickness_at(*wall, top - a_p / 2)};
     }
     return bodies;
   };

@@ -16,7 +16,7 @@ namespace trochoid::surface {
 /// The wall as the cutter meets it.
 struct Wall {
   std::shared_ptr<const structure::PlateSolution> plate;
-  double height = 0.0;     ///< of the free edge above the clamping [m]
+  double height = 0.0;     ///< of the top of the cut above the clamping [m]
   double length = 0.0;     ///< along the feed [m]
   double thickness = 0.0;  ///< where the cutter meets it, before the cut [m]
 };
@@ -31,9 +31,11 @@ struct Bodies {
 using BodiesAt = std::function<Bodies(double x)>;
 
 /// @brief Cutter and wall by their dimensions; the wall is solved anew at each x.
-/// @param a_p  axial depth: loads reach down to it from the free edge [m]
+/// @param a_p    axial depth: loads reach down to it from the top of the cut [m]
+/// @param below  of the top of the cut below the free edge [m]
 BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
-                   const std::optional<structure::Plate>& wall, double a_p);
+                   const std::optional<structure::Plate>& wall, double a_p,
+                   double below = 0.0);
 
 /// How the force is spread over the axial depth.
 enum class Load {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -20,15 +21,63 @@ geometry::Engagement engagement(const geometry::Engagement& given, double a_e) {
   return geometry::DownMilling{a_e};
 }
 
-/// The wall before a pass: thinner where passes before have cut.
-structure::Plate thinned(structure::Plate wall, double a_p, double thickness) {
-  if (thickness == wall.thickness) {
-    return wall;
+/// Heights nearer to each other than this are the same [m].
+constexpr double same_height = 1e-9;
+
+/// A part of the wall that passes go over, from its top down by the axial depth.
+struct WallBand {
+  double below = 0.0;             ///< of its top below the free edge [m]
+  bool cut = false;               ///< by a pass before
+  double thickness = 0.0;         ///< of the wall there; 0: rigid [m]
+  std::vector<double> left = {};  ///< by the pass before, at the points [m]
+};
+
+/// All levels of the passes, from the lowest up.
+std::vector<WallBand> levels_of(std::span<const PassCut> cuts, double a_p,
+                                double thickness, std::size_t points) {
+  std::vector<WallBand> levels;
+  for (const PassCut& cut : cuts) {
+    bool known = false;
+    for (const WallBand& level : levels) {
+      const double apart = std::abs(level.below - cut.below);
+      known = known || apart < same_height;
+      if (apart >= same_height && apart < a_p - same_height) {
+        throw std::invalid_argument("levels of passes overlap");
+      }
+    }
+    if (!known) {
+      levels.push_back({.below = cut.below,
+                        .thickness = thickness,
+                        .left = std::vector<double>(points)});
+    }
   }
-  if (a_p < wall.height) {
-    wall.layers = {{.from = wall.height - a_p, .thickness = thickness}};
-  } else {
-    wall.thickness = thickness;
+  std::ranges::sort(levels, std::greater<>(), &WallBand::below);
+  return levels;
+}
+
+/// The wall before a pass: thinner where passes before have cut.
+structure::Plate thinned(structure::Plate wall, double a_p,
+                         std::span<const WallBand> levels) {
+  const double whole = wall.thickness;
+  double above = 0.0;  // where the last level ended
+  for (const WallBand& level : levels) {
+    if (!level.cut) {
+      continue;
+    }
+    const double top = wall.height - level.below;
+    const double from = top - a_p;
+    if (from < same_height) {
+      wall.thickness = level.thickness;
+    } else {
+      if (above > 0 && from - above > same_height) {
+        wall.layers.push_back({.from = above, .thickness = whole});
+      }
+      wall.layers.push_back({.from = from, .thickness = level.thickness});
+    }
+    above = top;
+  }
+  if (above > 0 && wall.height - above > same_height) {
+    wall.layers.push_back({.from = above, .thickness = whole});
   }
   return wall;
 }
@@ -51,6 +100,13 @@ MeanAndExtremes over_the_height(const numerics::LagrangeBasis& basis, double a_p
     even.push_back(basis.value(values, a_p * (i + 0.5) / samples));
   }
   return mean_and_extremes(even);
+}
+
+StockLeft stock_left(const numerics::LagrangeBasis& basis,
+                     const std::vector<double>& values) {
+  std::vector<double> series(values.size());
+  basis.series(values, series);
+  return [basis, series](double z) { return basis.series_value(series, z); };
 }
 
 double largest_deflection(const ErrorMap& map) {
@@ -106,24 +162,23 @@ PassSequence pass_sequence(const Setting& setting, const MapOptions& options,
   }
   const double a_p = setting.setup.cut.a_p;
   const numerics::LagrangeBasis over_height(0.0, a_p, points_over_height);
-  std::vector<double> left(over_height.size(), 0.0);
-  double thickness = bodies.wall ? bodies.wall->thickness : 0.0;
+  std::vector<WallBand> levels = levels_of(
+      cuts, a_p, bodies.wall ? bodies.wall->thickness : 0.0, over_height.size());
   PassSequence out;
   for (const PassCut& cut : cuts) {
+    WallBand& level = *std::ranges::find_if(levels, [&](const WallBand& l) {
+      return std::abs(l.below - cut.below) < same_height;
+    });
     Setting now = setting;
     now.setup.cut.f_z = cut.f_z;
     now.setup.cut.engagement = engagement(setting.setup.cut.engagement, cut.a_e);
     std::optional<structure::Plate> wall = bodies.wall;
     if (wall) {
-      wall = thinned(*wall, a_p, thickness);
+      wall = thinned(*wall, a_p, levels);
     }
-    now.bodies = bodies_at(bodies.cutter, wall, a_p);
-    if (!out.passes.empty()) {
-      std::vector<double> series(left.size());
-      over_height.series(left, series);
-      now.left = [over_height, series](double z) {
-        return over_height.series_value(series, z);
-      };
+    now.bodies = bodies_at(bodies.cutter, wall, a_p, cut.below);
+    if (level.cut) {
+      now.left = stock_left(over_height, level.left);
     }
     Step done = step(now, options, over_height);
     out.map = std::move(done.map);
@@ -131,20 +186,21 @@ PassSequence pass_sequence(const Setting& setting, const MapOptions& options,
       return out;
     }
     PassOutcome outcome{.cut = cut,
-                        .thickness_before = thickness,
-                        .radial_depth = over_the_height(over_height, a_p, left),
+                        .thickness_before = level.thickness,
+                        .radial_depth = over_the_height(over_height, a_p, level.left),
                         .error = out.map.error,
                         .F_normal = out.map.F_normal,
                         .without_feedback = done.without_feedback};
     outcome.radial_depth.mean += cut.a_e;
     outcome.radial_depth.min += cut.a_e;
     outcome.radial_depth.max += cut.a_e;
+    level.left = std::move(done.left);
+    level.cut = true;
     if (bodies.wall) {
-      thickness +=
-          over_the_height(over_height, a_p, done.left).mean - outcome.radial_depth.mean;
+      level.thickness += over_the_height(over_height, a_p, level.left).mean -
+                         outcome.radial_depth.mean;  // E-41
     }
-    outcome.thickness_after = thickness;  // E-41
-    left = std::move(done.left);
+    outcome.thickness_after = level.thickness;
     out.passes.push_back(outcome);
   }
   return out;

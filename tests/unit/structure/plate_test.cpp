@@ -278,6 +278,15 @@ TEST(Plate, AThinnerTopIsABeamOfTwoParts) {  // [B-9]
               part(0, 0.25, 0.5) + part(0.25, 0.4, 0.8) + part(0.4, 1, 1), 1e-9);
 }
 
+TEST(Plate, HasTheThicknessOfItsLayers) {  // [B-9]
+  Plate wall = unit_plate(1, 1, 0.3);
+  EXPECT_EQ(thickness_at(wall, 0.9), 1);
+  wall.layers = {{0.5, 0.8}, {0.8, 0.6}};
+  EXPECT_EQ(thickness_at(wall, 0.4), 1);
+  EXPECT_EQ(thickness_at(wall, 0.5), 0.8);
+  EXPECT_EQ(thickness_at(wall, 1.0), 0.6);
+}
+
 TEST(Plate, ACoupleIsTheSlopeOfTheInfluence) {  // [B-10]
   Plate wall = unit_plate(2, 1, 0.33);
   wall.ends = Ends::free_start;

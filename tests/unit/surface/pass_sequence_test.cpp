@@ -194,6 +194,47 @@ TEST(PassSequence, OfFullDepthThinsTheWholeWall) {  // [E-41]
   EXPECT_NEAR(all.map.influence_of_wall[0] / G, 1, 1e-9);
 }
 
+TEST(PassSequence, StepsDownTheWall) {  // [E-41] [B-9]
+  MapOptions top = coarse();
+  top.influence_heights = {3e-3};
+  const auto G = [](const structure::Plate& wall, double y) {
+    const std::vector<double> at = {y};
+    return structure::PlateSolution(wall, 30e-3, 2e-4, 12e-3)
+        .influence(30e-3, at, 30e-3, at)[0];
+  };
+  const auto run = [&](std::vector<PassCut> cuts) {
+    return pass_sequence(cutting(), top, cuts,
+                         {.cutter = made_cutter(), .wall = plate});
+  };
+  const PassCut first{1e-3, 0.2e-3};
+  const PassCut lower{1e-3, 0.2e-3, 3e-3};
+  const PassCut lowest{1e-3, 0.2e-3, 9e-3};
+  // A lower level has nothing left before it, on a wall that is thin above.
+  const PassSequence two = run({first, lower});
+  EXPECT_EQ(two.passes[1].radial_depth.max, 1e-3);
+  EXPECT_EQ(two.passes[1].thickness_before, 4e-3);
+  structure::Plate stepped = plate;
+  stepped.layers = {{27e-3, two.passes[0].thickness_after}};
+  EXPECT_NEAR(two.map.influence_of_wall[0] / G(stepped, 27e-3), 1, 1e-3);
+  // Back at the first level: both are thin.
+  const PassSequence back = run({first, lower, first});
+  EXPECT_EQ(back.passes[2].thickness_before, back.passes[0].thickness_after);
+  EXPECT_GT(back.passes[2].radial_depth.max, 1e-3);
+  stepped.layers = {{24e-3, back.passes[1].thickness_after},
+                    {27e-3, back.passes[0].thickness_after}};
+  EXPECT_NEAR(back.map.influence_of_wall[0] / G(stepped, 30e-3), 1, 1e-3);
+  // Whole again between two levels that do not touch, and above one that is alone.
+  const PassSequence apart = run({first, lowest, lower});
+  stepped.layers = {{18e-3, apart.passes[1].thickness_after},
+                    {21e-3, 4e-3},
+                    {27e-3, apart.passes[0].thickness_after}};
+  EXPECT_NEAR(apart.map.influence_of_wall[0] / G(stepped, 27e-3), 1, 1e-3);
+  const PassSequence alone = run({lowest, first});
+  stepped.layers = {{18e-3, alone.passes[0].thickness_after}, {21e-3, 4e-3}};
+  EXPECT_NEAR(alone.map.influence_of_wall[0] / G(stepped, 30e-3), 1, 1e-3);
+  EXPECT_THROW(run({first, {1e-3, 0.2e-3, 2e-3}}), std::invalid_argument);
+}
+
 TEST(PassSequence, StopsAtThePassWithoutASteadyState) {  // [E-41]
   structure::Cantilever soft = made_cutter();
   soft.youngs_modulus /= 1000;

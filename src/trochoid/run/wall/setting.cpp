@@ -56,7 +56,8 @@ std::vector<surface::PassCut> wall_passes(const inputs::Case& given) {
   std::vector<surface::PassCut> cuts;
   for (const inputs::WallPass& pass : given.machine.passes) {
     cuts.push_back({pass.radial_depth.value_or(surface::radial_depth(cut.engagement)),
-                    pass.feed_per_tooth.value_or(cut.f_z)});
+                    pass.feed_per_tooth.value_or(cut.f_z),
+                    pass.below_edge.value_or(0.0)});
   }
   return cuts;
 }

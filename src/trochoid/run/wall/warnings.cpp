@@ -205,11 +205,20 @@ void add_surface_warnings(const inputs::Case& given, const results::SurfaceResul
     add_bending_warnings(given, largest(map.error),
                          surface::radial_depth(given.setup.cut.engagement), warnings);
   } else {
-    // Of the pass whose error is the largest part of what stood there.
-    const auto& pass = *std::ranges::max_element(r.passes, {}, [&](const auto& p) {
+    // Of the pass whose error is the largest part of what it was to take off.
+    const surface::PassOutcome* worst = nullptr;
+    const auto part = [&](const surface::PassOutcome& p) {
       return largest(p.error) / p.radial_depth.max;
-    });
-    add_bending_warnings(given, largest(pass.error), pass.radial_depth.max, warnings);
+    };
+    for (const surface::PassOutcome& p : r.passes) {
+      if (p.cut.a_e > 0 && (worst == nullptr || part(p) > part(*worst))) {
+        worst = &p;
+      }
+    }
+    if (worst != nullptr) {
+      add_bending_warnings(given, largest(worst->error), worst->radial_depth.max,
+                           warnings);
+    }
   }
   add_load_warnings(r, warnings);
   for (std::size_t i = 0; i < r.passes.size(); ++i) {
