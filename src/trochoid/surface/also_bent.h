@@ -18,12 +18,12 @@ namespace trochoid::surface {
 /// @src derived from the work of the forces on tilted sections: B-10, B-12
 class AlsoBent {
  public:
-  /// @param tolerance  relative, of each kind of moment
+  /// @param compliance  must outlive this
+  /// @param tolerance   relative, of each kind of moment
   AlsoBent(const Setting& setting, const EdgeMoments& edges,
            const Compliance& compliance, double tolerance);
 
-  /// @brief What is added to m_q and forces, so that one series holds all:
-  /// E-4 and E-43 at one height.
+  /// @brief Deflection across the wall at one height: E-4 with what E-43 adds.
   /// @param row  G_q of E-5 [m/N], shape (basis points)
   /// @return delta [m], one function
   [[nodiscard]] numerics::PeriodicPieces deflection(double height,

@@ -91,8 +91,8 @@ TEST(AlsoBends, NothingMoreBendsWithoutAxialForce) {  // [E-43]
 }
 
 TEST(AlsoBends, AnAxialForceTiltsCutterAndWallApart) {  // [E-42] [E-43]
-  // The chip pulls the cutter down at the wall: its tip swings away, and so does the
-  // wall, which is pushed... up at its face.
+  // The cutter is pulled down at the wall and swings away from it; the wall is pulled up
+  // at its face and swings away as well.
   for (const bool down : {true, false}) {
     const double plain = mean_error(bending({}, with_wall(4e-3), down));
     const double tilted = mean_error(bending({AlsoBends::z}, with_wall(4e-3), down));
