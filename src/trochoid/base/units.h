@@ -15,6 +15,7 @@ inline constexpr double thou = 25.4e-6;                  ///< a thousandth of it
 inline constexpr double deg = std::numbers::pi / 180.0;  ///< [rad]
 inline constexpr double rpm = turn / 60.0;               ///< [rad/s]
 inline constexpr double Hz = turn;                       ///< [rad/s]
+inline constexpr double kPa = 1e3;                       ///< [N/m^2]
 inline constexpr double MPa = 1e6;                       ///< [N/m^2]
 inline constexpr double GPa = 1e9;                       ///< [N/m^2]
 inline constexpr double N_per_mm = 1e3;                  ///< [N/m]

@@ -135,7 +135,7 @@ chip::Slice EdgeCurve::slice(const EdgePoint& point) const {
   chip::Slice slice{point.meridian.r, teeth_};
   if (bend_ != nullptr) {
     slice.shift = bend_->shift(point.meridian.z);
-    slice.bent = true;
+    slice.bent = bend_->deflected;
     if (bend_->advance) {
       bend_->advance(point.meridian.z, tooth_, theta_tip_ - point.lag, advance_);
       slice.advance = advance_;

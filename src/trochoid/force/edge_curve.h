@@ -50,6 +50,7 @@ struct Edges {
 /// @brief How the axis of a bent cutter stands in y, at one spindle angle.
 struct Bend {
   std::function<double(double z)> shift;  ///< of the axis in y at a height [m]
+  bool deflected = true;  ///< false: the stock stands elsewhere, and nothing gives
   /// How much farther out on its ray a tooth stands than the teeth before it did when
   /// they left their marks there [m], shape (teeth); empty: as far as they did.
   std::function<void(double z, std::size_t tooth, double theta, std::span<double> out)>

@@ -9,6 +9,8 @@
 #include <trochoid/inputs/surface_frame.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
+#include <trochoid/structure/plate.h>
+#include <trochoid/surface/also_bends.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
@@ -31,7 +33,9 @@ struct CutterBody {
   double youngs_modulus = 0.0;                ///< [N/m^2]
 };
 
-/// [wall]: the workpiece as a plate, clamped below and at both ends, free on top.
+using structure::Ends;
+
+/// [wall]: the workpiece as a plate, clamped below, free on top.
 struct Wall {
   double length = 0.0;          ///< [m]
   double height = 0.0;          ///< [m]
@@ -39,6 +43,19 @@ struct Wall {
   double youngs_modulus = 0.0;  ///< [N/m^2]
   double poisson_ratio = 0.0;
   double position = 0.0;  ///< of the cutter along the wall [m]; default: its middle
+  Ends ends = Ends::clamped;
+  std::optional<double> pressure;     ///< to compare with handbooks [N/m^2]
+  std::optional<double> edge_load;    ///< to compare with handbooks [N/m]
+  std::optional<double> line_load;    ///< to compare with handbooks [N/m]
+  std::vector<double> loads_x;        ///< of their deflections, along the wall [m]
+  std::vector<double> loads_heights;  ///< of their deflections, above the foot [m]
+};
+
+/// One [[pass]]: what is different from [cut].
+struct WallPass {
+  std::optional<double> radial_depth;    ///< [m]; 0: nothing but what was left
+  std::optional<double> feed_per_tooth;  ///< [m]
+  std::optional<double> below_edge;      ///< of its top below the free edge [m]
 };
 
 /// What becomes of readings far from what all others say.
@@ -66,6 +83,7 @@ struct Surface {
   double probe_diameter = 0.0;                ///< of the measuring tip [m]; 0: a point
   Outliers outliers = Outliers::leave_out;
   identification::Errors errors = identification::Errors::automatic;
+  std::vector<surface::AlsoBends> also_bends;  ///< what more than y
 };
 
 /// One [[surface_measurement]].
@@ -176,6 +194,7 @@ struct MachineTables {
   std::optional<CutterBody> cutter_body;
   std::optional<Wall> wall;
   std::optional<Surface> surface;
+  std::vector<WallPass> passes;
   std::vector<SurfaceMeasurement> surface_measurements;
   std::vector<Mode> modes;
   std::optional<Actuator> actuator;

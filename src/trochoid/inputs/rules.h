@@ -38,6 +38,15 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
 /// @brief Heights, cut, flutes and wall against one another.
 void check_surface(CaseTables& tables, Findings& findings);
 
+/// @brief Where the deflection under the loads of [wall] is wanted.
+void check_wall_loads(const Wall& wall, Findings& findings);
+
+/// @brief [[pass]] and also_bends against what they need.
+void check_passes(const CaseTables& tables, Findings& findings);
+
+/// @brief What `surface` knows and `calibrate` does not.
+void refuse_for_calibrate(const MachineTables& machine, Findings& findings);
+
 /// @brief Modes that the chip can feel, and the
 /// ranges of the lobes; fills in [stability].
 void check_stability(CaseTables& tables, Findings& findings);

@@ -153,6 +153,7 @@ void check_machine(MachineTables& machine, const ToolTable& tool, Findings& find
   }
   if (machine.wall) {
     settle_wall(*machine.wall, findings);
+    check_wall_loads(*machine.wall, findings);
   }
 }
 

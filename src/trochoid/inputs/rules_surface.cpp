@@ -115,6 +115,9 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
                        "wall tells nothing of the forces; {} needs one of them",
                        verb));
   }
+  if (verb == "calibrate") {
+    refuse_for_calibrate(tables.machine, findings);
+  }
 }
 
 void check_surface(CaseTables& tables, Findings& findings) {
@@ -127,6 +130,7 @@ void check_surface(CaseTables& tables, Findings& findings) {
     check_depth_below(m.wall->height, "wall.height_mm", "it would reach below the wall",
                       tables.cut, findings);
   }
+  check_passes(tables, findings);
   if (!m.surface) {
     return;
   }

@@ -25,6 +25,7 @@ constexpr Ending endings[] = {
     {"_N_per_m", {unit::one, "N/m"}},
     {"_MPa", {unit::MPa, "MPa"}},
     {"_GPa", {unit::GPa, "GPa"}},
+    {"_kPa", {unit::kPa, "kPa"}},
     {"_deg", {unit::deg, "deg"}},
     {"_rpm", {unit::rpm, "rpm"}},
     {"_mm", {unit::mm, "mm"}},
@@ -178,7 +179,7 @@ struct Writer {
     for (const int i : c.get()) {
       entries.push_back(toml_string(c.names[static_cast<std::size_t>(i)]));
     }
-    return fmt::format("[{}]", fmt::join(entries, ", "));
+    return entries.empty() ? Text{} : fmt::format("[{}]", fmt::join(entries, ", "));
   }
   Text operator()(const std::optional<Direction>* v) const {
     return *v ? Text(direction_text(**v)) : Text{};

@@ -9,6 +9,40 @@ constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);
 constexpr Range modulus = above_up_to(0, 10000);
 
+/// Loads that no cut makes.
+void describe_loads(const Visitor& v, Wall& t) {
+  const auto load = [&](std::string_view name, std::string_view meaning,
+                        std::optional<double>& value) {
+    v({.name = name,
+       .meaning = meaning,
+       .range = between(-1e6, 1e6),
+       .standard = "none",
+       .example = "1"},
+      &value);
+  };
+  load("pressure_kPa",
+       "a pressure on the whole wall, whose deflection is told beside the cut",
+       t.pressure);
+  load("edge_load_N_per_mm",
+       "a load along the whole free edge, whose deflection is told", t.edge_load);
+  load("line_load_N_per_mm",
+       "a load on an upright line at position_mm, from the free edge down to the axial "
+       "depth, whose deflection is told",
+       t.line_load);
+  v({.name = "loads_x_mm",
+     .meaning = "where along the wall the deflections under these loads are wanted",
+     .range = between(0, longest_mm),
+     .standard = "spread over length_mm",
+     .example = "[10, 30]"},
+    &t.loads_x);
+  v({.name = "loads_heights_mm",
+     .meaning = "heights above the foot of the wall where they are wanted",
+     .range = between(0, longest_mm),
+     .standard = "spread over height_mm",
+     .example = "[15, 30]"},
+    &t.loads_heights);
+}
+
 }  // namespace
 
 void describe(const Visitor& v, CutterBody& t) {
@@ -41,6 +75,29 @@ void describe(const Visitor& v, CutterBody& t) {
     &t.youngs_modulus);
 }
 
+void describe(const Visitor& v, WallPass& t) {
+  v({.name = "radial_depth_mm",
+     .meaning = "how much this pass takes off; 0: a spring pass, which takes what the "
+                "pass before left",
+     .range = between(0, longest_mm),
+     .standard = "that of [cut]",
+     .example = "0.5"},
+    &t.radial_depth);
+  v({.name = "feed_per_tooth_mm",
+     .meaning = "feed per tooth of this pass",
+     .range = above_up_to(0, 1000),
+     .standard = "that of [cut]",
+     .example = "0.1"},
+    &t.feed_per_tooth);
+  v({.name = "below_edge_mm",
+     .meaning = "how far below the free edge of the wall the top of this pass lies: to "
+                "step down by the axial depth",
+     .range = between(0, longest_mm),
+     .standard = "0",
+     .example = "3"},
+    &t.below_edge);
+}
+
 void describe(const Visitor& v, Wall& t) {
   const auto size = [&](std::string_view name, std::string_view meaning,
                         double& value) {
@@ -65,6 +122,11 @@ void describe(const Visitor& v, Wall& t) {
      .range = between(0, longest_mm),
      .standard = "half of length_mm"},
     &t.position);
+  v({.name = "ends",
+     .meaning = "how the two ends of the wall are held, at 0 and at length_mm; "
+                "free_start: only the far one is clamped; free_end: only the near one"},
+    choice(t.ends));
+  describe_loads(v, t);
 }
 
 void describe(const Visitor& v, Surface& t) {
@@ -113,6 +175,13 @@ void describe(const Visitor& v, Surface& t) {
          "one height or one place have in common; white: as if each were "
          "independent"},
     choice(t.errors));
+  v({.name = "also_bends",
+     .meaning =
+         "forces that bend cutter and wall beside that across the wall; x: along "
+         "the feed; z: along the axis, by its lever arm",
+     .standard = "none",
+     .example = "[\"x\", \"z\"]"},
+    choices(t.also_bends));
 }
 
 void describe(const Visitor& v, Mode& t) {

@@ -7,6 +7,7 @@ namespace trochoid::inputs {
 
 void describe(const Visitor& v, CutterBody& t);
 void describe(const Visitor& v, Wall& t);
+void describe(const Visitor& v, WallPass& t);
 void describe(const Visitor& v, Surface& t);
 void describe(const Visitor& v, SurfaceMeasurement& t);
 void describe(const Visitor& v, Mode& t);

@@ -68,10 +68,14 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
           t.plan),
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
       perhaps("wall",
-              "the workpiece as an elastic plate, clamped below and at both ends; left "
-              "out: rigid",
+              "the workpiece as an elastic plate, clamped below and, unless said "
+              "otherwise, at both ends; left out: rigid",
               t.machine.wall),
       perhaps("surface", "how the machined surface is computed", t.machine.surface),
+      several("pass",
+              "one of several passes over the wall, in their order; left out: one, as "
+              "[cut] has it",
+              t.machine.passes),
       several("surface_measurement", "a measured surface; several are fitted together",
               t.machine.surface_measurements, {Command::calibrate}),
       several("mode", "a mode of vibration", t.machine.modes,

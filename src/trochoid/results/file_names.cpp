@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 29> names = {"case.toml",
+constexpr std::array<std::string_view, 31> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -41,7 +41,9 @@ constexpr std::array<std::string_view, 29> names = {"case.toml",
                                                     "controller.csv",
                                                     "plan.csv",
                                                     "error_map.csv",
-                                                    "overview.csv"};
+                                                    "overview.csv",
+                                                    "passes.csv",
+                                                    "wall_loads.csv"};
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

@@ -1,4 +1,4 @@
-#include <trochoid/results/surface.h>
+#include <trochoid/results/surface_parts.h>
 
 #include <trochoid/base/units.h>
 
@@ -129,8 +129,9 @@ Object height_value(const ErrorRow& row) {
   return value;
 }
 
-/// What bent.csv shows, and the bodies that it is drawn on.
+/// What bent.csv shows, and the bodies that it is drawn on: the wall up to the cut.
 Object shape_value(const SurfaceResult& r) {
+  const double below = r.passes.empty() ? 0.0 : r.passes.back().cut.below;
   Object value{{"angle_deg", unit::in(r.map.shape->phi, unit::deg)},
                {"F_normal_N", r.map.shape->F_normal},
                {"cutter", nullptr},
@@ -144,7 +145,7 @@ Object shape_value(const SurfaceResult& r) {
   }
   if (r.wall) {
     set(value, "wall",
-        Object{{"height_mm", unit::in(r.wall->height, unit::mm)},
+        Object{{"height_mm", unit::in(r.wall->height - below, unit::mm)},
                {"thickness_mm", unit::in(r.wall->thickness, unit::mm)},
                {"edge_height_mm", unit::in(r.a_p, unit::mm)}});
   }
@@ -180,6 +181,7 @@ Object result_of(const SurfaceResult& r) {
   if (map.shape) {
     add("bent", shape_value(r));
   }
+  add_surface_parts(r, result);
   return result;
 }
 
@@ -212,7 +214,7 @@ std::string short_table(const SurfaceResult& r) {
                       unit::in(map.rows.front().height, unit::mm),
                       map.rows.front().compliance / unit::um,
                       r.cutter ? "" : " (rigid cutter)", r.wall ? "" : " (rigid wall)");
-  return text;
+  return text + surface_parts_text(r);
 }
 
 }  // namespace
@@ -228,6 +230,7 @@ Answer answer_of(const SurfaceResult& r) {
   if (r.map.shape) {
     answer.tables.push_back(shape_table(*r.map.shape));
   }
+  add_surface_tables(r, answer.tables);
   return answer;
 }
 

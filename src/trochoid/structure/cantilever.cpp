@@ -62,4 +62,19 @@ double compliance(const Cantilever& cutter, double z_observed,
   return parts.arbor_deflection + parts.arbor_slope + parts.fluted;
 }
 
+double couple_compliance(const Cantilever& cutter, double z_observed,
+                         double z_loaded) noexcept {
+  const double s = positive(cutter.overhang - z_observed);
+  const double end = std::min(s, positive(cutter.overhang - z_loaded));
+  const double L_s = positive(cutter.overhang - cutter.flute_length);
+  // The integral of s1 - s from a to b, per E I of a round bar.
+  const auto part = [&](double a, double b, double diameter) {
+    return b > a ? (b - a) * (s - 0.5 * (a + b)) /
+                       bending_stiffness(cutter.youngs_modulus, diameter)
+                 : 0.0;
+  };
+  return -part(0.0, std::min(end, L_s), cutter.shank_diameter) -
+         part(L_s, end, cutter.flute_diameter);  // B-12
+}
+
 }  // namespace trochoid::structure

@@ -43,4 +43,14 @@ double compliance(const Cantilever& cutter, double z_observed,
 CantileverParts compliance_parts(const Cantilever& cutter, double z_observed,
                                  double z_loaded) noexcept;
 
+/// @brief Deflection at one height for a couple of 1 N m at another.
+///
+/// A couple is a force and its opposite a little higher up: the derivative of
+/// `compliance` by the height of the load.
+/// @eq  B-12  G_M(z1,z2) = dG(z1,z2)/dz2 = -int_0^min(s1,s2) (s1-s)/(E I(s)) ds
+/// @src derived from B-1
+/// @return [m/(N m)], never positive; 0 at or above the holder
+double couple_compliance(const Cantilever& cutter, double z_observed,
+                         double z_loaded) noexcept;
+
 }  // namespace trochoid::structure

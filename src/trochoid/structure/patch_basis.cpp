@@ -29,7 +29,7 @@ std::vector<double> legendre_integrals(std::size_t n, double t) {
 
 }  // namespace
 
-PatchBasis::PatchBasis(std::vector<double> nodes, std::size_t degree, bool clamped_end)
+PatchBasis::PatchBasis(std::vector<double> nodes, std::size_t degree, Clamps clamps)
     : nodes_(std::move(nodes)), degree_(degree) {
   const std::size_t last = nodes_.size() - 1;
   for (std::size_t patch = 0; patch < last; ++patch) {
@@ -40,7 +40,8 @@ PatchBasis::PatchBasis(std::vector<double> nodes, std::size_t degree, bool clamp
       }
     }
   }
-  for (std::size_t node = 1; node + (clamped_end ? 1 : 0) <= last; ++node) {
+  for (std::size_t node = clamps.start ? 1 : 0; node + (clamps.end ? 1 : 0) <= last;
+       ++node) {
     add_node(node);
   }
 }
@@ -68,9 +69,14 @@ PatchBasis::Piece PatchBasis::cubic(std::size_t patch, std::array<double, 4> c) 
 }
 
 void PatchBasis::add_node(std::size_t node) {
-  const double before = length(node - 1) / 2;
-  Function value{cubic(node - 1, {0.5, 0.6, 0, -0.1})};
-  Function slope{cubic(node - 1, {-before / 6, -before / 10, before / 6, before / 10})};
+  Function value;
+  Function slope;
+  if (node > 0) {
+    const double before = length(node - 1) / 2;
+    value.push_back(cubic(node - 1, {0.5, 0.6, 0, -0.1}));
+    slope.push_back(
+        cubic(node - 1, {-before / 6, -before / 10, before / 6, before / 10}));
+  }
   if (node + 1 < nodes_.size()) {
     const double after = length(node) / 2;
     value.push_back(cubic(node, {0.5, -0.6, 0, 0.1}));
@@ -80,7 +86,8 @@ void PatchBasis::add_node(std::size_t node) {
   functions_.push_back(std::move(slope));
 }
 
-std::vector<double> PatchBasis::gram(std::size_t p, std::size_t q) const {
+std::vector<double> PatchBasis::gram(std::size_t p, std::size_t q,
+                                     std::span<const double> weights) const {
   const std::size_t n = size();
   const auto product = [&](const Piece& f, const Piece& g) {
     double sum = 0.0;
@@ -90,7 +97,7 @@ std::vector<double> PatchBasis::gram(std::size_t p, std::size_t q) const {
         sum += f.c[p][i] * g.c[q][k - g.first] / (2 * static_cast<double>(k) + 1);
       }
     }
-    return sum * length(f.patch);
+    return sum * length(f.patch) * (weights.empty() ? 1.0 : weights[f.patch]);
   };
   std::vector<double> G(n * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -105,7 +112,7 @@ std::vector<double> PatchBasis::gram(std::size_t p, std::size_t q) const {
   return G;
 }
 
-std::vector<double> PatchBasis::values(double x) const {
+std::vector<double> PatchBasis::at(double x, std::size_t derivative) const {
   const auto inner = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, x);
   const auto patch = static_cast<std::size_t>(inner - nodes_.begin()) - 1;
   const double t = std::clamp(2 * (x - nodes_[patch]) / length(patch) - 1, -1.0, 1.0);
@@ -114,7 +121,8 @@ std::vector<double> PatchBasis::values(double x) const {
   for (std::size_t i = 0; i < size(); ++i) {
     for (const Piece& f : functions_[i]) {
       for (std::size_t k = 0; f.patch == patch && k < 5; ++k) {
-        values[i] += f.c[0][k] * (f.c[0][k] == 0 ? 0 : P[f.first + k]);
+        const double c = f.c[derivative][k];
+        values[i] += c * (c == 0 ? 0 : P[f.first + k]);
       }
     }
   }

@@ -7,7 +7,13 @@
 
 namespace trochoid::structure {
 
-/// @brief Bending shapes of a line that is cut into patches, clamped at its beginning.
+/// Which ends of a line are clamped: value and slope are zero there.
+struct Clamps {
+  bool start = true;
+  bool end = true;
+};
+
+/// @brief Bending shapes of a line that is cut into patches.
 ///
 /// On each patch: Legendre polynomials integrated twice, which leave value and slope
 /// zero at both of its ends. At each node that is not clamped: one shape with value 1
@@ -20,8 +26,8 @@ class PatchBasis {
  public:
   /// @param nodes   ends of the patches, ascending [m]
   /// @param degree  of the polynomials, at least 3
-  /// @param clamped_end  whether the last node is clamped as the first one is
-  PatchBasis(std::vector<double> nodes, std::size_t degree, bool clamped_end);
+  /// @param clamps  a node at an end that is not clamped has its two shapes as well
+  PatchBasis(std::vector<double> nodes, std::size_t degree, Clamps clamps);
 
   [[nodiscard]] std::size_t size() const { return functions_.size(); }
   [[nodiscard]] const std::vector<double>& nodes() const { return nodes_; }
@@ -29,11 +35,16 @@ class PatchBasis {
   /// @brief Integrals over the line of the p-th times the q-th derivatives, p, q <= 2.
   ///
   /// Exact: the functions are short sums of Legendre polynomials.
+  /// @param weights  of the patches, shape (patches); empty: all 1
   /// @return row-major, shape (size, size); few entries are not 0
-  [[nodiscard]] std::vector<double> gram(std::size_t p, std::size_t q) const;
+  [[nodiscard]] std::vector<double> gram(std::size_t p, std::size_t q,
+                                         std::span<const double> weights = {}) const;
 
   /// Values of all functions at a point of the line, shape (size).
-  [[nodiscard]] std::vector<double> values(double x) const;
+  [[nodiscard]] std::vector<double> values(double x) const { return at(x, 0); }
+
+  /// Their first derivatives there, shape (size).
+  [[nodiscard]] std::vector<double> slopes(double x) const { return at(x, 1); }
 
   /// Mean of each function between two points of the line, shape (size).
   [[nodiscard]] std::vector<double> means(double from, double to) const;
@@ -54,6 +65,7 @@ class PatchBasis {
   [[nodiscard]] Piece bubble(std::size_t patch, std::size_t k) const;
   [[nodiscard]] Piece cubic(std::size_t patch, std::array<double, 4> c) const;
   void add_node(std::size_t node);
+  [[nodiscard]] std::vector<double> at(double x, std::size_t derivative) const;
 
   std::vector<double> nodes_;
   std::size_t degree_ = 3;

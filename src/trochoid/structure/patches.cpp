@@ -19,8 +19,12 @@ constexpr double apart = 0.5;
 /// they hardly bend the wall.
 constexpr double nearest = 0.05;
 
-double reach_at(double length, double height, double x) {
-  return std::min({x, length - x, height});
+/// Distance to the next clamped side; no more than the length.
+double reach_at(const Plate& plate, double x) {
+  const Clamps clamps = clamps_of(plate.ends);
+  double reach = std::min(plate.height, plate.length);
+  reach = clamps.start ? std::min(reach, x) : reach;
+  return clamps.end ? std::min(reach, plate.length - x) : reach;
 }
 
 bool is_free(std::span<const double> cuts, double at, double distance) {
@@ -43,13 +47,21 @@ void grow(std::vector<double>& cuts, double at, double patch, double even, doubl
 
 }  // namespace
 
-Patches patches(double length, double height, std::span<const double> x, double depth) {
+Patches patches(const Plate& plate, std::span<const double> x, double depth) {
+  const double length = plate.length;
+  const double height = plate.height;
+  const Clamps clamps = clamps_of(plate.ends);
   Patches out{.x = {0.0, length}, .y = {0.0, height}, .loads = {}, .depth = height};
+  for (const Layer& layer : plate.layers) {
+    out.y.push_back(layer.from);
+  }
   const double near = nearest * std::min(length, height);
+  const double first = clamps.start ? near : 0.0;
+  const double last = clamps.end ? length - near : length;
   double least_reach = height;
   for (const double at : x) {
-    const double load = std::clamp(at, near, length - near);
-    const double reach = reach_at(length, height, load);
+    const double load = std::clamp(at, first, last);
+    const double reach = reach_at(plate, load);
     least_reach = std::min(least_reach, reach);
     out.loads.push_back(load);
     if (is_free(out.x, load, same_cut * reach)) {
@@ -57,7 +69,7 @@ Patches patches(double length, double height, std::span<const double> x, double 
     }
   }
   for (const double load : out.loads) {
-    const double patch = first_patch * reach_at(length, height, load);
+    const double patch = first_patch * reach_at(plate, load);
     grow(out.x, load, patch, 0, length);
     grow(out.x, load, -patch, 0, length);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/structure/plate.h>
+
 #include <span>
 #include <vector>
 
@@ -17,11 +19,11 @@ struct Patches {
 ///
 /// A load on the free edge bends the wall over its reach: the distance to the next
 /// clamped side. Patches begin with twice that and each is three times as long as the
-/// one before.
+/// one before. Where the thickness changes, there is a cut as well.
 /// @param x of the loads, in [0, length]; those nearer to a
 /// clamped end than a twentieth of the shorter side bend the
 /// wall so little that they are taken to be there
 /// @param depth  from the free edge down to the lowest load [m]; two reaches at least
-Patches patches(double length, double height, std::span<const double> x, double depth);
+Patches patches(const Plate& plate, std::span<const double> x, double depth);
 
 }  // namespace trochoid::structure

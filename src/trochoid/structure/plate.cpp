@@ -28,16 +28,30 @@ constexpr std::array<double, 9> probed_at_top = {0.0,  0.02, 0.06, 0.14, 0.26,
                                                  0.38, 0.52, 0.67, 0.84};
 constexpr std::array<double, 3> probed_below = {0.14, 0.38, 0.62};
 
+/// Layers within the wall, one above the other.
+bool sound_layers(const Plate& plate) {
+  double below = 0.0;
+  for (const Layer& layer : plate.layers) {
+    if (!(layer.from > below && layer.from < plate.height && layer.thickness > 0 &&
+          std::isfinite(layer.thickness))) {
+      return false;
+    }
+    below = layer.from;
+  }
+  return true;
+}
+
 void check(const Plate& plate, std::span<const double> x) {
   const bool sound = std::isfinite(plate.length + plate.height + plate.thickness +
                                    plate.youngs_modulus) &&
                      plate.length > 0 && plate.height > 0 && plate.thickness > 0 &&
                      plate.youngs_modulus > 0 && plate.poisson_ratio > -1 &&
-                     plate.poisson_ratio <= 0.5;
+                     plate.poisson_ratio <= 0.5 && sound_layers(plate);
   if (!sound) {
     throw std::invalid_argument(fmt::format(
-        "no plate: length {}, height {}, thickness {}, E {}, nu {}", plate.length,
-        plate.height, plate.thickness, plate.youngs_modulus, plate.poisson_ratio));
+        "no plate: length {}, height {}, thickness {}, E {}, nu {}, {} layers",
+        plate.length, plate.height, plate.thickness, plate.youngs_modulus,
+        plate.poisson_ratio, plate.layers.size()));
   }
   for (const double at : x) {
     if (!(at >= 0 && at <= plate.length)) {
@@ -45,11 +59,6 @@ void check(const Plate& plate, std::span<const double> x) {
           fmt::format("x = {} is outside 0..{}", at, plate.length));
     }
   }
-}
-
-double flexural_rigidity(const Plate& p) {
-  return p.youngs_modulus * p.thickness * p.thickness * p.thickness /
-         (12 * (1 - p.poisson_ratio * p.poisson_ratio));  // B-3
 }
 
 std::vector<double> line_shapes(const PatchBasis& basis, std::span<const double> y) {
@@ -127,12 +136,37 @@ struct Refinement {
   double y_error = std::numeric_limits<double>::infinity();
 };
 
+/// Rigidities of the patches in y, as parts of that of the foot; none: all alike.
+std::vector<double> rigidities(const Plate& plate, const Patches& patches) {
+  std::vector<double> parts;
+  for (std::size_t i = 0; !plate.layers.empty() && i + 1 < patches.y.size(); ++i) {
+    const double middle = (patches.y[i] + patches.y[i + 1]) / 2;
+    parts.push_back(std::pow(thickness_at(plate, middle) / plate.thickness, 3));  // B-9
+  }
+  return parts;
+}
+
 RitzSystem system(const Plate& plate, const Patches& patches, const Refinement& at) {
-  return {PatchBasis(patches.x, degrees[at.x], true),
-          PatchBasis(patches.y, degrees[at.y], false), plate.poisson_ratio};
+  return {PatchBasis(patches.x, degrees[at.x], clamps_of(plate.ends)),
+          PatchBasis(patches.y, degrees[at.y], {.start = true, .end = false}),
+          plate.poisson_ratio, rigidities(plate, patches)};
 }
 
 }  // namespace
+
+double thickness_at(const Plate& plate, double y) {
+  double thickness = plate.thickness;
+  for (const Layer& layer : plate.layers) {
+    thickness = layer.from <= y ? layer.thickness : thickness;
+  }
+  return thickness;
+}
+
+double flexural_rigidity(const Plate& plate) {
+  const double t = plate.thickness;
+  const double nu = plate.poisson_ratio;
+  return plate.youngs_modulus * t * t * t / (12 * (1 - nu * nu));  // B-3
+}
 
 PlateSolution::Refined PlateSolution::refined(const Plate& plate,
                                               std::span<const double> x,
@@ -141,7 +175,7 @@ PlateSolution::Refined PlateSolution::refined(const Plate& plate,
   if (x.empty()) {
     throw std::invalid_argument("a wall without a load");
   }
-  const Patches mesh = patches(plate.length, plate.height, x, depth);
+  const Patches mesh = patches(plate, x, depth);
   const Probes at = probes(mesh);
   Refinement now;
   Refined out{.ritz = system(plate, mesh, now),
@@ -174,14 +208,23 @@ PlateSolution::PlateSolution(const Plate& plate, std::span<const double> x,
     : plate_(plate),
       D_(flexural_rigidity(plate)),
       found_(refined(plate, x, tolerance, depth)) {
-  std::vector<double> fx = ritz().x().means(0, plate.length);
-  for (double& f : fx) {
-    f *= plate.length * plate.height;
+  std::vector<double> over_height = ritz().y().means(0, plate.height);
+  for (double& f : over_height) {
+    f *= plate.height;
   }
-  even_pressure_ = ritz().reduced(fx, ritz().y().means(0, plate.height));
+  even_pressure_ = reduced_along(over_height);
+  edge_load_ = reduced_along(ritz().y().values(plate.height));
 }
 
-std::vector<double> PlateSolution::reduced(double x, std::span<const double> y) const {
+std::vector<double> PlateSolution::reduced_along(std::span<const double> fy) const {
+  std::vector<double> fx = ritz().x().means(0, plate_.length);
+  for (double& f : fx) {
+    f *= plate_.length;
+  }
+  return ritz().reduced(fx, fy);
+}
+
+void PlateSolution::check_line(double x, std::span<const double> y) const {
   check(plate_, std::span<const double>(&x, 1));
   for (const double at : y) {
     if (!(at >= 0 && at <= plate_.height)) {
@@ -189,6 +232,10 @@ std::vector<double> PlateSolution::reduced(double x, std::span<const double> y) 
           fmt::format("y = {} is outside 0..{}", at, plate_.height));
     }
   }
+}
+
+std::vector<double> PlateSolution::reduced(double x, std::span<const double> y) const {
+  check_line(x, y);
   return ritz().reduced(ritz().x().values(x), line_shapes(ritz().y(), y));
 }
 
@@ -227,9 +274,37 @@ std::vector<double> PlateSolution::line_load(double x_observed,
   return w;
 }
 
-double PlateSolution::pressure(double x, double y) const {
+std::vector<double> PlateSolution::couple(Line observed, Line loaded,
+                                          Along along) const {
+  check_line(loaded.x, loaded.y);
+  const PatchBasis& bx = ritz().x();
+  const PatchBasis& by = ritz().y();
+  std::vector<double> fy;
+  for (const double y : loaded.y) {
+    const std::vector<double> f = along == Along::y ? by.slopes(y) : by.values(y);
+    fy.insert(fy.end(), f.begin(), f.end());
+  }
+  const std::vector<double> fx =
+      along == Along::x ? bx.slopes(loaded.x) : bx.values(loaded.x);
+  std::vector<double> G =
+      products(reduced(observed.x, observed.y), ritz().reduced(fx, fy), ritz().size());
+  for (double& g : G) {
+    g /= D_;  // B-10
+  }
+  return G;
+}
+
+double PlateSolution::under(double x, double y, std::span<const double> load) const {
   const std::vector<double> observed = reduced(x, std::span<const double>(&y, 1));
-  return products(observed, even_pressure_, ritz().size()).front() / D_;
+  return products(observed, load, ritz().size()).front() / D_;
+}
+
+double PlateSolution::pressure(double x, double y) const {
+  return under(x, y, even_pressure_);
+}
+
+double PlateSolution::edge_load(double x, double y) const {
+  return under(x, y, edge_load_);
 }
 
 }  // namespace trochoid::structure

@@ -4,11 +4,47 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::structure {
 
-/// @brief A thin wall: clamped at both ends and at its bottom, free at its upper edge.
+/// How the ends of a wall are held, at x = 0 and at x = length.
+enum class Ends {
+  clamped,     ///< both
+  free_start,  ///< the wall begins in the air
+  free_end,    ///< it ends there
+  free,        ///< both: a cantilever plate
+};
+
+/// Names of files.
+constexpr std::string_view name_of(Ends ends) noexcept {
+  switch (ends) {
+    case Ends::clamped:
+      return "clamped";
+    case Ends::free_start:
+      return "free_start";
+    case Ends::free_end:
+      return "free_end";
+    case Ends::free:
+      return "free";
+  }
+  return {};
+}
+
+constexpr Clamps clamps_of(Ends ends) noexcept {
+  return {.start = ends == Ends::clamped || ends == Ends::free_end,
+          .end = ends == Ends::clamped || ends == Ends::free_start};
+}
+
+/// Upper part of a wall that is not as thick as its foot.
+struct Layer {
+  double from = 0.0;       ///< height above the clamped bottom where it begins [m]
+  double thickness = 0.0;  ///< from there to the next layer or the free edge [m]
+};
+
+/// @brief A thin wall: clamped at its bottom, free at its upper edge, clamped or free at
+/// its ends.
 ///
 /// Its frame: x along the wall from 0 to `length`, y up from the clamped bottom, so
 /// that the free edge is y = `height`. Deflections are across the wall.
@@ -18,7 +54,24 @@ struct Plate {
   double thickness = 0.0;  ///< [m], positive; thin against the other two
   double youngs_modulus = 0.0;  ///< [N/m^2], positive
   double poisson_ratio = 0.0;   ///< in (-1, 0.5]
+  Ends ends = Ends::clamped;
+  std::vector<Layer> layers = {};  ///< ascending, none: as thick everywhere
 };
+
+/// @param y  above the clamped bottom [m]
+double thickness_at(const Plate& plate, double y);
+
+/// D of B-3 [N m], of the foot where there are layers.
+double flexural_rigidity(const Plate& plate);
+
+/// Points of a wall above one another.
+struct Line {
+  double x = 0.0;             ///< [m]
+  std::span<const double> y;  ///< [m]
+};
+
+/// Along which axis of the wall the two forces of a couple lie apart.
+enum class Along { x, y };
 
 /// @brief Deflections of a thin wall (Kirchhoff plate), found once and then evaluated.
 ///
@@ -37,12 +90,13 @@ struct Plate {
 /// a thickness that is small against the height and the length.
 ///
 /// @eq  B-3  Pi = D/2 int (w_xx + w_yy)^2 - 2 (1-nu) (w_xx w_yy - w_xy^2) dx dy
-///           - int q w,  D = E t^3/(12 (1-nu^2));  w = w_x = 0 at x = 0, length,
+///           - int q w,  D = E t^3/(12 (1-nu^2));  w = w_x = 0 at clamped ends,
 ///           w = w_y = 0 at y = 0; the edge y = height is free
 /// @eq  B-4  w = sum C_mn X_m(x) Y_n(y),  dPi/dC_mn = 0
 /// @eq  B-8  error = sum over x, y of max |w_now - w_before|/w_edge r/(1-r),
 ///           r = (n_before/n_now)^2 with the degrees n
-/// @src [wang2015] eq. (6), (7), reconstructed
+/// @eq  B-9  where the thickness t(y) changes, D in B-3 is that of each layer
+/// @src [wang2015] eq. (6), (7), reconstructed; B-9 derived, about one middle plane
 class PlateSolution {
  public:
   /// @param x  where the wall is loaded, in [0, length] [m]
@@ -82,9 +136,24 @@ class PlateSolution {
                                               double x_loaded, double y_from,
                                               double y_to) const;
 
+  /// @brief Deflection at points of one line for couples of 1 N m on another.
+  ///
+  /// A couple is a force and its opposite a little further on: the derivative of
+  /// `influence` by the place of the load.
+  /// @eq  B-10  G_M(1, 2) = dG(1, 2)/ds_2, s the direction from the negative to the
+  ///            positive force of the couple: x or y
+  /// @return row-major, shape (observed, loaded) [m/(N m)]
+  /// @throws std::invalid_argument when a point lies beside the wall
+  [[nodiscard]] std::vector<double> couple(Line observed, Line loaded,
+                                           Along along) const;
+
   /// @brief Deflection under an even pressure of 1 N/m^2 [m per N/m^2].
   /// @throws std::invalid_argument when the point lies beside the wall
   [[nodiscard]] double pressure(double x, double y) const;
+
+  /// @brief Deflection under 1 N/m along the whole free edge [m per N/m].
+  /// @throws std::invalid_argument when the point lies beside the wall
+  [[nodiscard]] double edge_load(double x, double y) const;
 
   /// Estimated, as a part of the deflection of the loaded edge; worst of the x given.
   [[nodiscard]] double error() const { return found_.error; }
@@ -105,11 +174,16 @@ class PlateSolution {
 
   [[nodiscard]] const RitzSystem& ritz() const { return found_.ritz; }
   [[nodiscard]] std::vector<double> reduced(double x, std::span<const double> y) const;
+  /// A load that is the same at all x, fy in y.
+  [[nodiscard]] std::vector<double> reduced_along(std::span<const double> fy) const;
+  [[nodiscard]] double under(double x, double y, std::span<const double> load) const;
+  void check_line(double x, std::span<const double> y) const;
 
   Plate plate_;
   double D_ = 0.0;  ///< flexural rigidity [N m]
   Refined found_;
   std::vector<double> even_pressure_;  ///< reduced, shape (terms)
+  std::vector<double> edge_load_;      ///< reduced, shape (terms)
 };
 
 }  // namespace trochoid::structure

@@ -26,11 +26,11 @@ struct Entry {
 };
 using Entries = std::vector<std::vector<Entry>>;  ///< [i]: those with j that meet i
 
-Entries entries(const PatchBasis& basis) {
+Entries entries(const PatchBasis& basis, std::span<const double> weights = {}) {
   const std::size_t n = basis.size();
-  const std::array<std::vector<double>, 5> G = {basis.gram(2, 2), basis.gram(0, 0),
-                                                basis.gram(2, 0), basis.gram(0, 2),
-                                                basis.gram(1, 1)};
+  const std::array<std::vector<double>, 5> G = {
+      basis.gram(2, 2, weights), basis.gram(0, 0, weights), basis.gram(2, 0, weights),
+      basis.gram(0, 2, weights), basis.gram(1, 1, weights)};
   Entries out(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
@@ -56,9 +56,10 @@ double stiffness(const Entry& x, const Entry& y, double nu) {
 }
 
 /// Lower triangle of the stiffness matrix.
-Sparse assemble(const PatchBasis& x, const PatchBasis& y, double nu) {
+Sparse assemble(const PatchBasis& x, const PatchBasis& y, double nu,
+                std::span<const double> rigidity) {
   const Entries in_x = entries(x);
-  const Entries in_y = entries(y);
+  const Entries in_y = entries(y, rigidity);  // B-9
   const std::size_t m = y.size();
   Sparse K(index(x.size() * m), index(x.size() * m));
   std::vector<Eigen::Triplet<double>> triplets;
@@ -86,9 +87,10 @@ struct RitzSystem::Factor {
   Eigen::SimplicialLLT<Sparse> llt;
 };
 
-RitzSystem::RitzSystem(PatchBasis x, PatchBasis y, double poisson_ratio)
+RitzSystem::RitzSystem(PatchBasis x, PatchBasis y, double poisson_ratio,
+                       std::span<const double> rigidity)
     : x_(std::move(x)), y_(std::move(y)) {
-  Sparse K = assemble(x_, y_, poisson_ratio);
+  Sparse K = assemble(x_, y_, poisson_ratio, rigidity);
   auto factor = std::make_shared<Factor>();
   factor->scale = K.diagonal().cwiseSqrt().cwiseInverse();
   K = factor->scale.asDiagonal() * K * factor->scale.asDiagonal();

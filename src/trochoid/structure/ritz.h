@@ -10,14 +10,16 @@ namespace trochoid::structure {
 
 /// @brief The stiffness of a plate in products of line shapes, factored once.
 ///
-/// For flexural rigidity 1. Few products of line shapes meet, so the matrix is sparse.
+/// For flexural rigidity 1, or one that changes from patch to patch in y. Few products of line shapes meet, so the matrix is sparse.
 ///
 /// @eq  B-6  K = A22 x B00 + A00 x B22 + nu (A20 x B02 + A02 x B20)
 ///           + 2 (1-nu) A11 x B11,  A_pq = int X^(p) X^(q)' dx, B_pq the same in y
 /// @src [wang2015] eq. (7)
 class RitzSystem {
  public:
-  RitzSystem(PatchBasis x, PatchBasis y, double poisson_ratio);
+  /// @param rigidity  of the patches in y, as a part of the whole's; empty: all 1
+  RitzSystem(PatchBasis x, PatchBasis y, double poisson_ratio,
+             std::span<const double> rigidity = {});
 
   [[nodiscard]] const PatchBasis& x() const { return x_; }
   [[nodiscard]] const PatchBasis& y() const { return y_; }

@@ -17,13 +17,17 @@ constexpr double plate_tolerance = 2e-4;
 }  // namespace
 
 BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
-                   const std::optional<structure::Plate>& wall, double a_p) {
-  return [cutter, wall, a_p](double x) {
+                   const std::optional<structure::Plate>& wall, double a_p,
+                   double below) {
+  return [cutter, wall, a_p, below](double x) {
     Bodies bodies{.cutter = cutter};
     if (wall) {
-      bodies.wall = Wall{
-          std::make_shared<structure::PlateSolution>(*wall, x, plate_tolerance, a_p),
-          wall->height, wall->length};
+      const double top = wall->height - below;
+      bodies.wall = Wall{.plate = std::make_shared<structure::PlateSolution>(
+                             *wall, x, plate_tolerance, a_p + below),
+                         .height = top,
+                         .length = wall->length,
+                         .thickness = structure::thickness_at(*wall, top - a_p / 2)};
     }
     return bodies;
   };
@@ -46,25 +50,56 @@ std::vector<double> Compliance::of_cutter(std::span<const double> heights,
   return G;
 }
 
-std::vector<double> Compliance::of_wall(std::span<const double> heights,
-                                        std::span<const double> loads) const {
-  std::vector<double> G(heights.size() * loads.size());
-  if (!bodies_.wall) {
-    return G;
-  }
+std::vector<double> Compliance::on_the_wall(std::span<const double> heights) const {
   const double tip = bodies_.wall->height - a_p_;
-  const auto on_the_wall = [&](std::span<const double> from) {
-    std::vector<double> y;
-    for (const double height : from) {
-      y.push_back(std::min(std::min(height, a_p_) + tip, bodies_.wall->height));
-    }
-    return y;
-  };
-  G = bodies_.wall->plate->influence(x_, on_the_wall(heights), x_, on_the_wall(loads));
+  std::vector<double> y;
+  for (const double height : heights) {
+    y.push_back(std::min(std::min(height, a_p_) + tip, bodies_.wall->height));
+  }
+  return y;
+}
+
+void Compliance::clear_above(std::span<const double> heights,
+                             std::span<const double> loads,
+                             std::vector<double>& G) const {
   for (std::size_t i = 0; i < G.size(); ++i) {
     if (heights[i / loads.size()] > a_p_ || loads[i % loads.size()] > a_p_) {
       G[i] = 0.0;  // above the free edge there is no wall
     }
+  }
+}
+
+std::vector<double> Compliance::of_wall(std::span<const double> heights,
+                                        std::span<const double> loads) const {
+  std::vector<double> G(heights.size() * loads.size());
+  if (bodies_.wall) {
+    G = bodies_.wall->plate->influence(x_, on_the_wall(heights), x_,
+                                       on_the_wall(loads));
+    clear_above(heights, loads, G);
+  }
+  return G;
+}
+
+std::vector<double> Compliance::of_cutter_couples(
+    std::span<const double> heights) const {
+  const std::vector<double>& points = basis_.points();
+  std::vector<double> G(heights.size() * points.size());
+  for (std::size_t i = 0; bodies_.cutter && i < G.size(); ++i) {
+    G[i] = structure::couple_compliance(*bodies_.cutter, heights[i / points.size()],
+                                        points[i % points.size()]);
+  }
+  return G;
+}
+
+std::vector<double> Compliance::of_wall_couples(std::span<const double> heights,
+                                                structure::Along along) const {
+  const std::vector<double>& points = basis_.points();
+  std::vector<double> G(heights.size() * points.size());
+  if (bodies_.wall) {
+    const std::vector<double> seen = on_the_wall(heights);
+    const std::vector<double> loaded = on_the_wall(points);
+    G = bodies_.wall->plate->couple({x_, seen}, {x_, loaded}, along);
+    clear_above(heights, points, G);
   }
   return G;
 }

@@ -16,8 +16,9 @@ namespace trochoid::surface {
 /// The wall as the cutter meets it.
 struct Wall {
   std::shared_ptr<const structure::PlateSolution> plate;
-  double height = 0.0;  ///< of the free edge above the clamping [m]
-  double length = 0.0;  ///< along the feed [m]
+  double height = 0.0;     ///< of the top of the cut above the clamping [m]
+  double length = 0.0;     ///< along the feed [m]
+  double thickness = 0.0;  ///< where the cutter meets it, before the cut [m]
 };
 
 /// @brief What bends; what is absent is rigid.
@@ -30,9 +31,11 @@ struct Bodies {
 using BodiesAt = std::function<Bodies(double x)>;
 
 /// @brief Cutter and wall by their dimensions; the wall is solved anew at each x.
-/// @param a_p  axial depth: loads reach down to it from the free edge [m]
+/// @param a_p    axial depth: loads reach down to it from the top of the cut [m]
+/// @param below  of the top of the cut below the free edge [m]
 BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
-                   const std::optional<structure::Plate>& wall, double a_p);
+                   const std::optional<structure::Plate>& wall, double a_p,
+                   double below = 0.0);
 
 /// How the force is spread over the axial depth.
 enum class Load {
@@ -82,6 +85,14 @@ class Compliance {
   [[nodiscard]] std::vector<double> of_wall(std::span<const double> heights,
                                             std::span<const double> loads) const;
 
+  /// @brief Deflection per couple at the basis points, of the cutter alone (B-12);
+  /// row-major, shape (heights, basis points) [m/(N m)].
+  [[nodiscard]] std::vector<double> of_cutter_couples(
+      std::span<const double> heights) const;
+  /// @brief The same of the wall alone (B-10); zero above the free edge's height.
+  [[nodiscard]] std::vector<double> of_wall_couples(std::span<const double> heights,
+                                                    structure::Along along) const;
+
   /// @brief Deflection per whole force where that is concentrated (E-6), whatever the
   /// load of this compliance; shape of heights [m/N].
   [[nodiscard]] std::vector<double> concentrated(std::span<const double> heights) const;
@@ -93,6 +104,10 @@ class Compliance {
       std::span<const double> heights) const;
 
  private:
+  [[nodiscard]] std::vector<double> on_the_wall(std::span<const double> heights) const;
+  void clear_above(std::span<const double> heights, std::span<const double> loads,
+                   std::vector<double>& G) const;
+
   Bodies bodies_;
   double a_p_;
   double x_;

@@ -1,10 +1,13 @@
 #include <trochoid/surface/edge_moments.h>
 
 #include <trochoid/numerics/gauss_kronrod.h>
+#include <trochoid/surface/pass.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 
 namespace trochoid::surface {
 
@@ -21,41 +24,43 @@ std::array<double, columns> wall_coefficients(const force::Law& law) {
 }
 
 EdgeMoments::EdgeMoments(const force::Setup& setup, const force::Law& law,
-                         const numerics::LagrangeBasis& basis)
-    : edges_(setup), form_(force::form(law)), basis_(basis) {}
+                         const numerics::LagrangeBasis& basis, const StockLeft& left)
+    : edges_(setup), form_(force::form(law)), terms_(force::terms(law)), basis_(basis) {
+  const std::optional<Side> side = side_of(setup.cut.engagement);
+  if (left && !side) {
+    throw std::invalid_argument("stock left before a cut that has no single wall");
+  }
+  if (left) {
+    shift_ = [left, sigma = side->sigma](double z) {
+      return -sigma * left(z);
+    };  // E-40
+  }
+}
 
-void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out) const {
-  std::fill(out.begin(), out.end(), 0.0);
-  const std::size_t n = values();
+template <class Add>
+void EdgeMoments::integrate(double phi, const force::Bend* bend, const Add& add) const {
+  force::Bend shifted;
+  if (shift_) {
+    shifted.shift = [this, bend](double z) {
+      return (bend == nullptr ? 0.0 : bend->shift(z)) + shift_(z);
+    };
+    shifted.deflected = bend != nullptr;
+    if (bend != nullptr) {
+      shifted.advance = bend->advance;
+    }
+    bend = &shifted;
+  }
   force::EdgeCurve curve(edges_, bend);
   numerics::PieceFinder<force::EdgeCurve> finder(
       curve, relative_resolution * edges_.ends.back());
   std::vector<numerics::Piece<force::EdgeState>> pieces;
   std::vector<double> grid;
-  std::vector<double> L(basis_.size());
   const numerics::KronrodRule& rule = numerics::kronrod_rule();
-  const auto add = [&](double s, double ds) {
+  const auto add_at = [&](double s, double ds) {
     const force::EdgePoint point = edges_.point(s);
     const force::EdgeState state = curve.state(point);
-    if (!state.active()) {
-      return;
-    }
-    const force::ColumnWeights w =
-        force::column_weights(form_, state.chip.h, point.meridian.sin_kappa, point.dS);
-    const double sine = std::sin(state.theta);
-    const double cosine = std::cos(state.theta);
-    const std::array<double, columns> x = {-cosine * w.cutting[0], -sine * w.cutting[1],
-                                           -cosine * w.edge, -sine * w.edge};
-    const std::array<double, columns> y = {sine * w.cutting[0], -cosine * w.cutting[1],
-                                           sine * w.edge, -cosine * w.edge};  // E-2
-    basis_.weights(point.meridian.z, L);
-    for (std::size_t c = 0; c < columns; ++c) {
-      double* row = out.data() + c * n;
-      for (std::size_t q = 0; q < L.size(); ++q) {
-        row[q] += ds * y[c] * L[q];  // E-3
-      }
-      row[L.size()] += ds * x[c];
-      row[L.size() + 1] += ds * y[c];
+    if (state.active()) {
+      add(point, state, ds);
     }
   };
   for (std::size_t j = 0; j < edges_.psi.size(); ++j) {
@@ -70,13 +75,71 @@ void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out)
         if (to > from) {
           for (std::size_t i = 0; i < rule.t.size(); ++i) {
             const double half = 0.5 * (to - from);
-            add(from + half * (1 + rule.t[i]), half * rule.kronrod[i]);
+            add_at(from + half * (1 + rule.t[i]), half * rule.kronrod[i]);
           }
           from = to;
         }
       }
     }
   }
+}
+
+void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out) const {
+  std::fill(out.begin(), out.end(), 0.0);
+  const std::size_t n = values();
+  std::vector<double> L(basis_.size());
+  integrate(
+      phi, bend,
+      [&](const force::EdgePoint& point, const force::EdgeState& state, double ds) {
+        const force::ColumnWeights w = force::column_weights(
+            form_, state.chip.h, point.meridian.sin_kappa, point.dS);
+        const double sine = std::sin(state.theta);
+        const double cosine = std::cos(state.theta);
+        const std::array<double, columns> x = {-cosine * w.cutting[0],
+                                               -sine * w.cutting[1], -cosine * w.edge,
+                                               -sine * w.edge};
+        const std::array<double, columns> y = {sine * w.cutting[0],
+                                               -cosine * w.cutting[1], sine * w.edge,
+                                               -cosine * w.edge};  // E-2
+        basis_.weights(point.meridian.z, L);
+        for (std::size_t c = 0; c < columns; ++c) {
+          double* row = out.data() + c * n;
+          for (std::size_t q = 0; q < L.size(); ++q) {
+            row[q] += ds * y[c] * L[q];  // E-3
+          }
+          row[L.size()] += ds * x[c];
+          row[L.size() + 1] += ds * y[c];
+        }
+      });
+}
+
+void EdgeMoments::couples_at(double phi, const LeverArms& arms,
+                             std::span<double> out) const {
+  std::fill(out.begin(), out.end(), 0.0);
+  const std::size_t n = basis_.size();
+  std::vector<double> L(n);
+  integrate(
+      phi, nullptr,
+      [&](const force::EdgePoint& point, const force::EdgeState& state, double ds) {
+        const force::ColumnWeights w = force::column_weights(
+            form_, state.chip.h, point.meridian.sin_kappa, point.dS);
+        std::array<double, 3> tra{};
+        for (std::size_t q = 0; q < 3; ++q) {
+          tra[q] = terms_.K[q] * w.cutting[q] + terms_.K_e[q] * w.edge;
+        }
+        const double across = state.R * std::cos(state.theta);
+        const double F_x =
+            -tra[0] * std::cos(state.theta) - tra[1] * std::sin(state.theta);
+        const double F_z = -tra[2];
+        const double arm = arms.sigma * arms.mid_plane + across;  // sigma l
+        const std::array<double, 4> parts = {F_x, arm * F_x, across * F_z, arm * F_z};
+        basis_.weights(point.meridian.z, L);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+          for (std::size_t q = 0; q < n; ++q) {
+            out[k * n + q] += ds * parts[k] * L[q];  // E-42
+          }
+        }
+      });
 }
 
 std::vector<double> EdgeMoments::kinks(bool bent) const {
@@ -86,11 +149,11 @@ std::vector<double> EdgeMoments::kinks(bool bent) const {
     const force::EdgePoint point = edges_.point(s);
     geometry::edge_positions(edges_.setup.runout, edges_.psi, point.meridian.r,
                              point.lag, positions);
+    chip::Slice slice{.r = point.meridian.r, .teeth = positions, .bent = bent};
+    slice.shift = shift_ ? shift_(point.meridian.z) : 0.0;
     for (std::size_t j = 0; j < positions.size(); ++j) {
       for (const chip::ChipPiece& piece : chip::engaged_pieces(
-               edges_.passage,
-               {.r = point.meridian.r, .teeth = positions, .bent = bent},
-               static_cast<int>(j), -std::numbers::pi / 2)) {
+               edges_.passage, slice, static_cast<int>(j), -std::numbers::pi / 2)) {
         angles.push_back(piece.from + edges_.psi[j] + point.lag);
         angles.push_back(piece.to + edges_.psi[j] + point.lag);
       }

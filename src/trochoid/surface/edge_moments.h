@@ -5,6 +5,7 @@
 #include <trochoid/numerics/lagrange.h>
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,16 @@ inline constexpr std::size_t columns = 4;
 /// @brief Those coefficients of a law; 0 of the edge where it has no edge forces.
 std::array<double, columns> wall_coefficients(const force::Law& law);
 
+/// How much more than the radial depth stands before the cutter, by the height above its
+/// tip [m]; empty: nothing.
+using StockLeft = std::function<double(double z)>;
+
+/// Where forces are taken about.
+struct LeverArms {
+  double sigma = 1.0;      ///< of the side (E-1)
+  double mid_plane = 0.0;  ///< of the wall, from the axis towards the wall [m]
+};
+
 /// @brief How the force along the edges is spread over the height, at a spindle angle.
 ///
 /// @eq E-2 dF_y = (K_tc sin(theta) - K_rc cos(theta)) h dz + (K_te sin(theta) - K_re
@@ -25,8 +36,11 @@ std::array<double, columns> wall_coefficients(const force::Law& law);
 /// @src [wang2015] eq. 1 to 3; E-3 derived
 class EdgeMoments {
  public:
+  /// @eq E-40 radial depth at z: a_e + left(z), which the stock at y + sigma left(z) is
+  /// @param left  by the pass before; empty: the stock is as deep as the setup says
+  /// @throws std::invalid_argument where something is left beside no single wall
   EdgeMoments(const force::Setup& setup, const force::Law& law,
-              const numerics::LagrangeBasis& basis);
+              const numerics::LagrangeBasis& basis, const StockLeft& left = {});
 
   /// Values of one coefficient: the moments, then F_x, then F_y.
   [[nodiscard]] std::size_t values() const noexcept { return basis_.size() + 2; }
@@ -35,6 +49,13 @@ class EdgeMoments {
   /// @param[in]  bend  of the cutter relative to the wall, or none
   /// @param[out] out   per unit coefficient, row-major, shape (columns, values())
   void at(double phi, const force::Bend* bend, std::span<double> out) const;
+
+  /// @brief Forces along the feed and couples of forces out of line, by the same L_q.
+  ///
+  /// @eq E-42 m_q = integral of L_q(z) dM_q of dF_x, of sigma l dF_x, of R cos(theta) dF_z
+  ///          and of sigma l dF_z, l = mid plane + sigma R cos(theta), dF_z = -dF_a
+  /// @param[out] out  with the coefficients of the law, shape (4, basis points)
+  void couples_at(double phi, const LeverArms& arms, std::span<double> out) const;
 
   /// @brief Angles phi at which something switches at the tip or at the top of the cut,
   /// where the force has a kink [rad].
@@ -53,8 +74,14 @@ class EdgeMoments {
   [[nodiscard]] const numerics::LagrangeBasis& basis() const noexcept { return basis_; }
 
  private:
+  /// add(point, state, ds) at the nodes of all edges in the cut.
+  template <class Add>
+  void integrate(double phi, const force::Bend* bend, const Add& add) const;
+
   force::Edges edges_;
   force::Form form_;
+  force::Terms terms_;
+  std::function<double(double z)> shift_;  ///< of the axis in y that stands for `left`
   numerics::LagrangeBasis basis_;
 };
 

@@ -24,6 +24,39 @@ double first_value(const numerics::PeriodicPieces& f, double phi) noexcept {
 /// Farther from the wall than this a tooth does not make it [rad].
 constexpr double near_the_wall = 1.3;
 
+/// @brief A pass of a cutter that bends along the feed by u_x: where it is at the same x.
+/// @param[in,out] phi, rise  without u_x; then with it (E-44)
+bool move_along(const HeightCut& cut, const Passes& passes, std::size_t tooth,
+                double& phi, double& rise) noexcept {
+  constexpr int most_steps = 20;
+  constexpr double enough = 1e-9;  // [rad]
+  const EdgePlace& place = passes.teeth[tooth];
+  const double slope = passes.side.sigma > 0 ? -1.0 : 1.0;
+  const double phi_wall = passes.side.theta + place.behind;
+  const double turns = unit::turn * std::round((phi - phi_wall) / unit::turn);
+  const double first = phi - phi_wall - turns;
+  const double dx =
+      passes.feed * first / unit::turn + slope * place.R * std::sin(first);
+  double t = first;
+  for (int i = 0; i < most_steps; ++i) {
+    const double before = t;
+    if (!angle_at(passes, place.R,
+                  dx - first_value(cut.along, phi_wall + turns + before), t)) {
+      return false;
+    }
+    if (std::abs(t - before) < enough) {
+      break;
+    }
+  }
+  phi = phi_wall + turns + t;
+  const double s = std::sin(0.5 * t);
+  rise = passes.R - place.R + 2 * place.R * s * s;
+  return true;
+}
+
+/// So steep a path may be where it still makes the wall.
+constexpr double steepest = 0.3;
+
 }  // namespace
 
 bool angle_at(const Passes& passes, double R, double dx, double& t) noexcept {
@@ -81,11 +114,15 @@ std::vector<SurfacePoint> imprint_errors(const HeightCut& cut) {
 
 SurfacePoint envelope_error(const HeightCut& cut, double x) noexcept {
   const double lowest = cut.deflection.lower_bound(0);
+  const Passes passes{cut.side, cut.R, cut.feed, cut.x_0, cut.teeth};
+  const double slack = steepest * cut.most_along;  // a moved pass may come lower
   SurfacePoint best{.error = std::numeric_limits<double>::infinity()};
   for_each_pass(
-      {cut.side, cut.R, cut.feed, cut.x_0, cut.teeth}, x,
-      [&](double bound) { return bound + lowest < best.error; },
+      passes, x, [&](double bound) { return bound - slack + lowest < best.error; },
       [&](std::size_t tooth, double phi, double rise) {
+        if (cut.along.functions() != 0 && !move_along(cut, passes, tooth, phi, rise)) {
+          return;
+        }
         const double error = rise + first_value(cut.deflection, phi);  // E-9
         if (error < best.error) {
           best = {error, static_cast<int>(tooth), phi};

@@ -23,6 +23,8 @@ struct HeightCut {
   double x_0 = 0.0;                     ///< of the axis at phi = 0 [m]
   std::vector<EdgePlace> teeth;         ///< at this height
   numerics::PeriodicPieces deflection;  ///< delta(phi), the first function [m]
+  numerics::PeriodicPieces along = {};  ///< u_x(phi); without functions: none [m]
+  double most_along = 0.0;              ///< no |u_x| is larger [m]
 };
 
 /// @brief The tooth whose tip entered the stock last, 0-based.
@@ -49,6 +51,7 @@ std::vector<SurfacePoint> imprint_errors(const HeightCut& cut);
 /// @brief The wall that all passes of all teeth leave: nothing stands above any path.
 /// @eq E-9 e(x, h) = min over passes of R + sigma R_i cos(theta) + delta(phi, h),
 ///         x = x_0 + f phi / 2 pi + R_i sin(theta)
+/// @eq E-44 the same with x = x_0 + f phi / 2 pi + R_i sin(theta) + u_x(phi, h)
 /// @src derived; one-sided form of the swept envelope
 /// @param x  along the feed [m]
 SurfacePoint envelope_error(const HeightCut& cut, double x) noexcept;

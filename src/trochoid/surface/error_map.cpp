@@ -2,30 +2,22 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/parallel.h>
+#include <trochoid/surface/also_bent.h>
 #include <trochoid/surface/envelope.h>
 #include <trochoid/surface/nominal_model.h>
 #include <trochoid/surface/probe.h>
 #include <trochoid/surface/turn.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace trochoid::surface {
 
 namespace {
 
 constexpr int default_heights = 21;
-
-std::vector<double> heights_of(const MapOptions& options, double a_p) {
-  std::vector<double> heights = options.heights;
-  if (heights.empty()) {
-    for (int i = 0; i + 1 < default_heights; ++i) {
-      heights.push_back(a_p * i / (default_heights - 1));
-    }
-    heights.push_back(a_p);  // not a bit more: there is no wall above
-  }
-  return heights;
-}
 
 /// How many samples there are along the feed.
 int samples_of(const MapOptions& options) {
@@ -40,17 +32,21 @@ struct Pass {
   const Compliance& compliance;
   Side side;
   double feed;  ///< per turn [m]
+  std::optional<AlsoBent> also_bent;
   numerics::PeriodicPieces moments;
 };
 
+double tolerance_of(const Setting& setting, const MapOptions& options) {
+  return std::min(setting.tolerance, options.tolerance);
+}
+
 /// Moments over a turn, in the steady state if there is feedback.
 numerics::PeriodicPieces moments_of(const Setting& setting, const MapOptions& options,
+                                    const EdgeMoments& edges,
                                     const Compliance& compliance, ErrorMap& map) {
-  const EdgeMoments edges(setting.setup, setting.law, compliance.basis());
   const auto K = wall_coefficients(setting.law);
   if (options.feedback == Feedback::none) {
-    const double tolerance = std::min(setting.tolerance, options.tolerance);
-    return with_coefficients(unit_moments(edges, tolerance), K);
+    return with_coefficients(unit_moments(edges, tolerance_of(setting, options)), K);
   }
   SteadyState state =
       steady_state(edges, K, compliance, options.feedback, setting.tolerance);
@@ -61,17 +57,46 @@ numerics::PeriodicPieces moments_of(const Setting& setting, const MapOptions& op
   return std::move(state.moments);
 }
 
+/// Deflection and path at one height.
+HeightCut height_cut(const Pass& pass, double height, std::span<const double> row) {
+  const force::Setup& setup = pass.setting.setup;
+  HeightCut cut{
+      .side = pass.side,
+      .R = setup.cutter.profile.D / 2,
+      .feed = pass.feed,
+      .x_0 = pass.options.position - pass.feed * pass.setting.phase / unit::turn,
+      .teeth = edge_places(setup, height),
+      .deflection = {}};
+  if (!pass.also_bent) {
+    cut.deflection = deflection(pass.moments, row, pass.side.sigma);
+    return cut;
+  }
+  cut.deflection = pass.also_bent->deflection(height, row);
+  cut.along = pass.also_bent->along(height);
+  if (cut.along.functions() != 0) {
+    const std::array<double, 1> opposite = {-1.0};
+    cut.most_along = std::max(-cut.along.lower_bound(0),
+                              -cut.along.combined(opposite).lower_bound(0));
+  }
+  return cut;
+}
+
 void put(double x, const SurfacePoint& point, ErrorRow& row) {
+  const bool cut = point.error <= row.stock;
   row.x.push_back(x);
-  row.error.push_back(point.error);
-  row.tooth.push_back(point.tooth);
+  row.error.push_back(cut ? point.error : row.stock);  // E-41
+  row.tooth.push_back(cut ? point.tooth : -1);
 }
 
 void put_imprints(const Pass& pass, const HeightCut& cut, ErrorRow& row) {
   const int turns = std::max(1, static_cast<int>(std::lround(pass.options.turns)));
   for (int n = 0; n < turns; ++n) {
     for (const SurfacePoint& point : imprint_errors(cut)) {
-      put(cut.x_0 + pass.feed * (point.phi / unit::turn + n), point, row);
+      std::vector<double> u_x(std::max<std::size_t>(1, cut.along.functions()));
+      if (cut.along.functions() != 0) {
+        cut.along.value(point.phi, u_x);
+      }
+      put(cut.x_0 + pass.feed * (point.phi / unit::turn + n) + u_x[0], point, row);
     }
   }
 }
@@ -156,21 +181,18 @@ void add_forces(const Pass& pass, ErrorMap& map) {
 }
 
 void add_rows(const Pass& pass, const std::vector<double>& heights, ErrorMap& map) {
-  const force::Setup& setup = pass.setting.setup;
   const std::vector<double> rows = pass.compliance.rows(heights);
   const std::size_t points = pass.compliance.basis().size();
   map.rows.resize(heights.size());
   numerics::for_each_index(heights.size(), [&](std::size_t i) {
     ErrorRow& row = map.rows[i];
     row.height = heights[i];
-    const HeightCut cut{
-        pass.side,
-        setup.cutter.profile.D / 2,
-        pass.feed,
-        pass.options.position - pass.feed * pass.setting.phase / unit::turn,
-        edge_places(setup, heights[i]),
-        deflection(pass.moments, std::span(rows).subspan(i * points, points),
-                   pass.side.sigma)};
+    if (pass.setting.left) {
+      row.stock = radial_depth(pass.setting.setup.cut.engagement) +
+                  pass.setting.left(heights[i]);
+    }
+    const HeightCut cut =
+        height_cut(pass, heights[i], std::span(rows).subspan(i * points, points));
     put_errors(pass, cut, row);
     std::vector<double> value(1);
     for (const ForceSample& force : map.forces) {
@@ -184,15 +206,10 @@ void add_rows(const Pass& pass, const std::vector<double>& heights, ErrorMap& ma
 }
 
 void add_statistics(int teeth, ErrorMap& map) {
-  map.error = {.min = map.rows.front().error.front(),
-               .max = map.rows.front().error.front()};
   for (ErrorRow& row : map.rows) {
     row.statistics = error_statistics(row.error, row.tooth, teeth);
-    const MeanAndExtremes& e = row.statistics.error;
-    map.error.mean += e.mean / static_cast<double>(map.rows.size());
-    map.error.min = std::min(map.error.min, e.min);
-    map.error.max = std::max(map.error.max, e.max);
   }
+  map.error = error_of_rows(map.rows);
 }
 
 /// How the imprints grow with the coefficients.
@@ -239,31 +256,63 @@ void add_compliance(const Pass& pass, const std::vector<double>& heights,
 
 }  // namespace
 
+std::vector<double> map_heights(const MapOptions& options, double a_p) {
+  std::vector<double> heights = options.heights;
+  if (heights.empty()) {
+    for (int i = 0; i + 1 < default_heights; ++i) {
+      heights.push_back(a_p * i / (default_heights - 1));
+    }
+    heights.push_back(a_p);  // not a bit more: there is no wall above
+  }
+  return heights;
+}
+
+MeanAndExtremes error_of_rows(std::span<const ErrorRow> rows) {
+  MeanAndExtremes all{.min = rows.front().statistics.error.min,
+                      .max = rows.front().statistics.error.max};
+  for (const ErrorRow& row : rows) {
+    const MeanAndExtremes& e = row.statistics.error;
+    all.mean += e.mean / static_cast<double>(rows.size());
+    all.min = std::min(all.min, e.min);
+    all.max = std::max(all.max, e.max);
+  }
+  return all;
+}
+
 ErrorMap error_map(const Setting& setting, const MapOptions& options,
                    const std::function<void()>& wall_solved) {
   const force::Setup& setup = setting.setup;
   const double a_p = setup.cut.a_p;
   const Side side = side_of(setting);
+  if (!setting.also_bends.empty() && options.feedback != Feedback::none) {
+    throw std::invalid_argument("also_bends knows no feedback");
+  }
   ErrorMap map{.model = setting.model, .feedback = options.feedback};
   const Compliance compliance(setting.bodies(options.position), a_p, options.position,
                               setting.load);
   if (wall_solved) {
     wall_solved();
   }
-  const Pass pass{setting,
-                  options,
-                  compliance,
-                  side,
-                  setup.cutter.teeth() * setup.cut.f_z,
-                  moments_of(setting, options, compliance, map)};
+  const EdgeMoments edges(setup, setting.law, compliance.basis(), setting.left);
+  Pass pass{.setting = setting,
+            .options = options,
+            .compliance = compliance,
+            .side = side,
+            .feed = setup.cutter.teeth() * setup.cut.f_z};
+  if (setting.also_bends.empty()) {
+    pass.moments = moments_of(setting, options, edges, compliance, map);
+  } else {
+    pass.also_bent.emplace(setting, edges, compliance, tolerance_of(setting, options));
+    pass.moments = pass.also_bent->moments();
+  }
   if (!map.converged) {
     return map;
   }
-  const std::vector<double> heights = heights_of(options, a_p);
+  const std::vector<double> heights = map_heights(options, a_p);
   add_forces(pass, map);
   add_rows(pass, heights, map);
   add_statistics(setup.cutter.teeth(), map);
-  if (setting.model == Model::imprint) {
+  if (setting.model == Model::imprint && !setting.left) {
     add_per_K(pass, map);
   }
   if (compliance.bodies().cutter || compliance.bodies().wall) {

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace trochoid::surface {
@@ -25,10 +27,12 @@ struct MapOptions {
 
 /// The wall at one height.
 struct ErrorRow {
-  double height = 0.0;        ///< above the tip [m]
-  std::vector<double> x;      ///< along the feed [m]
+  double height = 0.0;  ///< above the tip [m]
+  double stock =
+      std::numeric_limits<double>::infinity();  ///< before the cut, where known [m]
+  std::vector<double> x;                        ///< along the feed [m]
   std::vector<double> error;  ///< positive: material left, shape of x [m]
-  std::vector<int> tooth;     ///< that made it, 0-based, shape of x
+  std::vector<int> tooth;     ///< that made it, 0-based, -1: a pass before; shape of x
   ErrorStatistics statistics;
   std::optional<FeedWaves> waves;              ///< of whole turns of an envelope
   std::vector<double> deflection;              ///< at the angles of the forces [m]
@@ -64,9 +68,18 @@ struct ErrorMap {
   std::vector<double> influence_of_wall;    ///< shape (heights, heights) [m/N]
 };
 
+/// The heights of the options; 21 over the axial depth where they name none [m].
+std::vector<double> map_heights(const MapOptions& options, double a_p);
+
+/// Mean of the means of all heights, least and largest of all.
+MeanAndExtremes error_of_rows(std::span<const ErrorRow> rows);
+
 /// @brief Error of a wall over feed and height, read as the model of the setting says.
+///
+/// What stands of the stock of setting.left beyond the reach of the teeth stays (E-41).
 /// @param wall_solved  called once the bodies are known, before the cut; may be empty
-/// @throws std::invalid_argument where the cut leaves no single wall
+/// @throws std::invalid_argument where the cut leaves no single wall, and where
+/// also_bends meets feedback
 ErrorMap error_map(const Setting& setting, const MapOptions& options = {},
                    const std::function<void()>& wall_solved = {});
 

@@ -40,7 +40,9 @@ ErrorStatistics error_statistics(std::span<const double> error,
   const double part = 1.0 / static_cast<double>(error.size());
   for (std::size_t i = 0; i < error.size(); ++i) {
     found.Ra += part * std::abs(error[i] - found.error.mean);
-    found.share[static_cast<std::size_t>(tooth[i])] += part;
+    if (tooth[i] >= 0) {
+      found.share[static_cast<std::size_t>(tooth[i])] += part;
+    }
   }
   return found;
 }

@@ -24,7 +24,7 @@ struct ErrorStatistics {
 };
 
 /// @param error  at even steps along the feed, at least one [m]
-/// @param tooth  that made it, 0-based, shape of error
+/// @param tooth  that made it, 0-based, negative: none; shape of error
 /// @param teeth  of the cutter
 ErrorStatistics error_statistics(std::span<const double> error,
                                  std::span<const int> tooth, int teeth);

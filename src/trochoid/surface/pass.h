@@ -29,6 +29,15 @@ inline std::optional<Side> side_of(const geometry::Engagement& engagement) {
   return std::nullopt;
 }
 
+/// Radial depth of an up or a down cut, else 0 [m].
+inline double radial_depth(const geometry::Engagement& engagement) {
+  if (const auto* down = std::get_if<geometry::DownMilling>(&engagement)) {
+    return down->a_e;
+  }
+  const auto* up = std::get_if<geometry::UpMilling>(&engagement);
+  return up == nullptr ? 0.0 : up->a_e;
+}
+
 /// @brief One tooth at one height.
 struct EdgePlace {
   double R = 0.0;       ///< from the axis of rotation [m]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/force/setup.h>
+#include <trochoid/surface/also_bends.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/pass.h>
 #include <trochoid/surface/readings.h>
@@ -15,9 +16,11 @@ struct Setting {
   BodiesAt bodies;
   Load load = Load::distributed;
   Model model = Model::envelope;
-  double phase = 0.0;         ///< spindle angle where travel is 0 [rad]
-  double probe_radius = 0.0;  ///< of the measuring tip [m]; 0: a point
-  double tolerance = 1e-5;    ///< of force and deflection, relative
+  double phase = 0.0;                      ///< spindle angle where travel is 0 [rad]
+  double probe_radius = 0.0;               ///< of the measuring tip [m]; 0: a point
+  double tolerance = 1e-5;                 ///< of force and deflection, relative
+  StockLeft left = {};                     ///< by a pass before; for error_map only
+  std::vector<AlsoBends> also_bends = {};  ///< for error_map only
 };
 
 /// @brief The side of the finished wall.

@@ -1,5 +1,5 @@
-// The worked cases of ../shared on the cutter and the wall alone. No command shows
-// these numbers by themselves, so they go through the library.
+// The worked cases of ../shared on the cutter and the wall alone, through the library;
+// surface_cases_test.py takes them through the program.
 
 #include <trochoid/base/units.h>
 #include <trochoid/structure/cantilever.h>

@@ -75,7 +75,28 @@ class SurfaceCases(unittest.TestCase):
         return all_near(got, want["G"], tol["rel"], tol["abs"], c["id"])
 
     def check_plate_uniform(self, c, g, want, tol):
-        self.skipTest(f"{c['id']}: no command puts a pressure on a wall; a unit test does")
+        # D = 1 N mm for a wall 1 mm thick; the cut is there because surface needs one.
+        nu, a, b = g["nu"], g["length"], g["height"]
+        scale = 100.0  # mm, so that a cutter fits before the wall
+        wall = {"length": scale * a, "height": scale * b, "thickness": 1.0,
+                "E": 12e3 * (1 - nu**2), "nu": nu}
+        tables = sc.tables({"wall": wall, "KT": 500.0, "KR": 200.0, "cut": {**sc.CUT, "ae": 0.1}},
+                           "imprint", heights_mm=[1.0])
+        height = {"w_free_edge_mid": b, "w_centre": b / 2}
+        tables["wall"].update(pressure_kPa=1e-3, loads_x_mm=[scale * a / 2],
+                              loads_heights_mm=sorted(scale * height[k] for k in want))
+        answer = self.run_program("surface", tables, c["id"])
+        col = answer.columns("wall_loads.csv")
+        out = []
+        for key, value in want.items():
+            i = close_to(col["wall_height_mm"], scale * height[key])[0]
+            # p = 1 Pa = 1e-6 N/mm^2 and D = 1e3 N mm
+            w = col["pressure_deflection_mm"][i] * 1e3 / (1e-6 * (scale * a)**4)
+            out += near(w, value, tol["rel"], tol["abs"], f"{c['id']} {key}")
+        if "w_free_edge_mid" in want:
+            out += near(answer.result["wall_loads"]["pressure"]["coefficient"],
+                        want["w_free_edge_mid"], tol["rel"], tol["abs"], f"{c['id']} coefficient")
+        return out
 
     def check_plate_line(self, c, g, want, tol):
         # Gauss nodes make of the answers to single loads that to a load spread evenly.
@@ -89,7 +110,18 @@ class SurfaceCases(unittest.TestCase):
         G = self.influence(given, c["id"], heights + [z for z, _ in loads])
         got = [sum(w * G[h, z][1] for z, w in loads) for h in heights]
         return (all_near(got, want["w"], tol["rel"], tol["abs"], f"{c['id']} influence.csv")
-                + self.line_problems(c, given, heights, want, tol))
+                + self.line_problems(c, given, heights, want, tol)
+                + self.line_load_problems(c, given, want, tol))
+
+    def line_load_problems(self, c, given, want, tol):
+        """The same as a load of [wall]: 1 N over the axial depth"""
+        g = c["inputs"]
+        tables = sc.tables({**given, "KT": 500.0, "KR": 200.0}, "imprint", heights_mm=[1.0])
+        tables["wall"].update(line_load_N_per_mm=1 / g["ap"], loads_x_mm=[g["x"]],
+                              loads_heights_mm=g["y_obs"])
+        col = self.run_program("surface", tables, c["id"] + "_load").columns("wall_loads.csv")
+        return all_near(col["line_load_deflection_mm"], want["w"], tol["rel"], tol["abs"],
+                        f"{c['id']} wall_loads.csv")
 
     def line_problems(self, c, given, heights, want, tol):
         """The same from the compliance for the concentrated load, less the cutter's part"""

@@ -113,5 +113,71 @@ TEST(SurfaceAnswer, WithoutASteadyStateIsItsModelAlone) {
   EXPECT_TRUE(answer.short_table.empty());
 }
 
+TEST(SurfaceAnswer, TellsOfEachPass) {
+  SurfaceResult r = made();
+  for (const double a_e : {1e-3, 0.0}) {
+    r.passes.push_back({.cut = {a_e, 0.1e-3},
+                        .thickness_before = 2e-3,
+                        .thickness_after = 1.01e-3,
+                        .radial_depth = {a_e, a_e - 1e-6, a_e + 2e-6},
+                        .error = {10e-6, 5e-6, 20e-6},
+                        .F_normal = {3, -1, 9}});
+  }
+  const Answer answer = answer_of(r);
+  const auto& passes = std::get<Array>(find(answer.result, "passes")->data);
+  ASSERT_EQ(passes.size(), 2U);
+  EXPECT_EQ(json_text(*find(passes[0], "radial_depth_mm")), "1");
+  EXPECT_EQ(json_text(*find(passes[0], "F_normal_max_N")), "9");
+  EXPECT_EQ(json_text(*find(passes[0], "thickness_before_mm")), "2");
+  const Columns columns = columns_of(answer, "passes.csv");
+  ASSERT_EQ(columns.size(), 14U);
+  EXPECT_EQ(columns[0], (Columns::value_type{"pass", {1, 2}}));
+  EXPECT_EQ(columns[1], (Columns::value_type{"radial_depth_mm", {1, 0}}));
+  EXPECT_EQ(columns[13].first, "thickness_left_mm");
+  EXPECT_NEAR(columns[13].second[1], 1.01, 1e-12);
+  EXPECT_NE(answer.short_table.find("thickness mm"), std::string::npos);
+  r.wall.reset();
+  const Answer rigid = answer_of(r);
+  EXPECT_EQ(columns_of(rigid, "passes.csv").size(), 12U);
+  const auto& all = std::get<Array>(find(rigid.result, "passes")->data);
+  EXPECT_EQ(json_text(*find(all[1], "thickness_left_mm")), "null");
+}
+
+TEST(SurfaceAnswer, TellsWhatOtherForcesChange) {
+  SurfaceResult r = made();
+  r.also_bends = {surface::AlsoBends::x, surface::AlsoBends::z};
+  r.straight = surface::MeanAndExtremes{1.5e-6, 1e-6, 2e-6};
+  const Answer answer = answer_of(r);
+  const Value& bends = *find(answer.result, "also_bends");
+  EXPECT_EQ(json_text(*find(bends, "axes")), "[\"x\", \"z\"]");
+  EXPECT_EQ(json_text(*find(bends, "peak_error_without_mm")), "0.002");
+  EXPECT_NEAR(std::get<double>(find(bends, "mean_change_um")->data), 0.5, 1e-9);
+  EXPECT_NE(answer.short_table.find("forces along x and z change the mean error by "
+                                    "+0.500 um, the largest by +1.000 um\n"),
+            std::string::npos);
+}
+
+TEST(SurfaceAnswer, TellsOfLoadsInTheirUnits) {
+  SurfaceResult r = made();
+  r.loads = structure::LoadedWalls{
+      .x = {0.0, 30e-3},
+      .y = {30e-3},
+      .walls = {
+          {structure::WallLoad::pressure, 2e3, {0.0, 4e-6}, 4e-6, 30e-3, 30e-3, 3e-3},
+          {structure::WallLoad::edge_load, 5e2, {0.0, 6e-6}, 6e-6, 30e-3, 30e-3, 0.2}}};
+  const Answer answer = answer_of(r);
+  const Value& loads = *find(answer.result, "wall_loads");
+  EXPECT_EQ(json_text(*find(*find(loads, "pressure"), "pressure_kPa")), "2");
+  EXPECT_EQ(json_text(*find(*find(loads, "edge_load"), "edge_load_N_per_mm")), "0.5");
+  EXPECT_EQ(json_text(*find(*find(loads, "edge_load"), "coefficient")), "0.2");
+  const Columns columns = columns_of(answer, "wall_loads.csv");
+  ASSERT_EQ(columns.size(), 4U);
+  EXPECT_EQ(columns[0], (Columns::value_type{"x_mm", {0, 30}}));
+  EXPECT_EQ(columns[1], (Columns::value_type{"wall_height_mm", {30, 30}}));
+  EXPECT_EQ(columns[3].first, "edge_load_deflection_mm");
+  EXPECT_NEAR(columns[3].second[1], 6e-3, 1e-15);
+  EXPECT_EQ(find(answer_of(made()).result, "wall_loads"), nullptr);
+}
+
 }  // namespace
 }  // namespace trochoid::results

@@ -103,6 +103,24 @@ TEST(Cantilever, PartsAreTheThreeTermsOfThePaper) {  // [B-2]
       1e-13);
 }
 
+TEST(Cantilever, ACoupleIsTheSlopeOfTheCompliance) {  // [B-12]
+  const double d = 1e-5;
+  for (const double seen : {0.0, 20e-3, 60e-3}) {
+    for (const double at : {1e-3, 30e-3, 50e-3, 70e-3}) {
+      const double slope =
+          (compliance(paper, seen, at + d) - compliance(paper, seen, at - d)) / (2 * d);
+      EXPECT_NEAR(couple_compliance(paper, seen, at), slope,
+                  1e-6 * std::abs(couple_compliance(paper, 0, 0)));
+    }
+  }
+  Cantilever bar = paper;  // M L^2/(2 E I), the textbook
+  bar.flute_length = bar.overhang;
+  const double EI = 206e9 * std::numbers::pi * std::pow(9.6e-3, 4) / 64;
+  EXPECT_NEAR(couple_compliance(bar, 0, 0) * 2 * EI / (83e-3 * 83e-3), -1, 1e-13);
+  EXPECT_EQ(couple_compliance(paper, 83e-3, 0), 0);
+  EXPECT_EQ(couple_compliance(paper, 0, 90e-3), 0);
+}
+
 TEST(Cantilever, StandsStillInTheHolder) {  // [B-1]
   for (const double z : {83e-3, 90e-3}) {
     EXPECT_EQ(compliance(paper, z, 0), 0);

@@ -20,7 +20,7 @@ double combination(const std::vector<double>& shapes) {
   return sum;
 }
 
-const PatchBasis basis({0.0, 0.3, 0.5, 2.0}, 7, false);
+const PatchBasis basis({0.0, 0.3, 0.5, 2.0}, 7, {.end = false});
 
 double w(double x) {
   return combination(basis.values(x));
@@ -49,8 +49,9 @@ TEST(PatchBasis, HasAsManyShapesAsThePolynomialsLeave) {  // [B-5]
   // Degree 7: 8 coefficients on each of 3 patches, less 2 at each of 2 inner nodes and
   // at each clamped end.
   EXPECT_EQ(basis.size(), 3 * 8 - 2 * 2 - 2);
-  EXPECT_EQ(PatchBasis({0.0, 0.3, 0.5, 2.0}, 7, true).size(), 3 * 8 - 2 * 2 - 4);
-  EXPECT_EQ(PatchBasis({0.0, 2.0}, 3, false).size(), 2);
+  EXPECT_EQ(PatchBasis({0.0, 0.3, 0.5, 2.0}, 7, {}).size(), 3 * 8 - 2 * 2 - 4);
+  EXPECT_EQ(PatchBasis({0.0, 2.0}, 3, {.end = false}).size(), 2);
+  EXPECT_EQ(PatchBasis({0.0, 2.0}, 3, {.start = false, .end = false}).size(), 4);
 }
 
 TEST(PatchBasis, IsClampedAndBendsWithoutKinks) {  // [B-5]

@@ -149,8 +149,8 @@ TEST(Plate, LongEdgeUnderALineLoadIsACantileverBeam) {  // [B-6]
   // 1 N/m along the whole free edge, far from the ends: b^3 / 3 D, whatever nu is.
   for (const double nu : {0.0, 0.3}) {
     const double length = 40;
-    const RitzSystem ritz(PatchBasis({0, 2, 8, 20, 32, 38, length}, 12, true),
-                          PatchBasis({0, 1}, 8, false), nu);
+    const RitzSystem ritz(PatchBasis({0, 2, 8, 20, 32, 38, length}, 12, {}),
+                          PatchBasis({0, 1}, 8, {.end = false}), nu);
     const auto edge = ritz.y().values(1);
     auto along = ritz.x().means(0, length);
     for (double& one : along) {
@@ -241,6 +241,75 @@ TEST(Plate, HasNoEnd) {  // [B-4]
               1, 4e-4);
 }
 
+TEST(Plate, AFreeCornerGivesWayMost) {  // [B-3] [B-4]
+  // Conforming finite elements (tests/reference/surface_finite_plate.py), nu = 0.3: a
+  // load on the corner of a half-infinite wall, and the same at the other end.
+  Plate wall = unit_plate(10, 1, 0.3);
+  wall.ends = Ends::free_end;
+  EXPECT_NEAR(under_load(PlateSolution(wall, 10, 1e-4), 10, 1), 0.41622, 5e-5);
+  wall.ends = Ends::free_start;
+  EXPECT_NEAR(under_load(PlateSolution(wall, 0, 1e-4), 0, 1), 0.41622, 5e-5);
+  // Far from its ends a wall does not know whether they are free.
+  wall.ends = Ends::free;
+  EXPECT_NEAR(under_load(PlateSolution(wall, 5, 1e-4), 5, 1), 0.16654, 2e-5);
+}
+
+TEST(Plate, AFreeStripIsACantileverBeam) {  // [B-3] [B-4]
+  // nu = 0: no curvature across, so the beam of width a is exact for an even edge load;
+  // a point load adds what it does within a width.
+  Plate strip = unit_plate(0.05, 1, 0.0);
+  strip.ends = Ends::free;
+  const PlateSolution plate(strip, 0.025, 1e-4);
+  EXPECT_NEAR(3 * plate.edge_load(0.025, 1), 1, 1e-9);
+  EXPECT_NEAR(8 * plate.pressure(0.01, 1), 1, 1e-9);
+  EXPECT_NEAR(under_load(plate, 0.025, 1) * 3 * 0.05, 1, 1e-4);
+}
+
+TEST(Plate, AThinnerTopIsABeamOfTwoParts) {  // [B-9]
+  // 1 N/m at the end of a beam: integral of s^2/D(s), s from the end.
+  Plate strip = unit_plate(0.1, 1, 0.0);
+  strip.ends = Ends::free;
+  strip.layers = {{0.6, 0.8}, {0.75, 0.5}};
+  const PlateSolution plate(strip, 0.05, 1e-3);
+  const auto part = [](double from, double to, double t) {
+    return (to * to * to - from * from * from) / (3 * t * t * t);
+  };
+  EXPECT_NEAR(plate.edge_load(0.05, 1),
+              part(0, 0.25, 0.5) + part(0.25, 0.4, 0.8) + part(0.4, 1, 1), 1e-9);
+}
+
+TEST(Plate, HasTheThicknessOfItsLayers) {  // [B-9]
+  Plate wall = unit_plate(1, 1, 0.3);
+  EXPECT_EQ(thickness_at(wall, 0.9), 1);
+  wall.layers = {{0.5, 0.8}, {0.8, 0.6}};
+  EXPECT_EQ(thickness_at(wall, 0.4), 1);
+  EXPECT_EQ(thickness_at(wall, 0.5), 0.8);
+  EXPECT_EQ(thickness_at(wall, 1.0), 0.6);
+}
+
+TEST(Plate, ACoupleIsTheSlopeOfTheInfluence) {  // [B-10]
+  Plate wall = unit_plate(2, 1, 0.33);
+  wall.ends = Ends::free_start;
+  wall.layers = {{0.7, 0.5}};
+  const PlateSolution plate(wall, 0.5, 1e-4, 0.3);
+  const std::array<double, 2> seen = {0.9, 1.0};
+  const std::array<double, 1> at = {0.9};
+  const double d = 1e-4;
+  const std::array<double, 2> beside = {0.9 + d, 0.9 - d};
+  const auto G = plate.influence(0.5, seen, 0.5, beside);
+  const auto G_y = plate.couple({0.5, seen}, {0.5, at}, Along::y);
+  const auto right = plate.influence(0.5, seen, 0.5 + d, at);
+  const auto left = plate.influence(0.5, seen, 0.5 - d, at);
+  const auto G_x = plate.couple({0.5, seen}, {0.5, at}, Along::x);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(G_y[i], (G[2 * i] - G[2 * i + 1]) / (2 * d), 1e-4);
+    EXPECT_NEAR(G_x[i], (right[i] - left[i]) / (2 * d), 1e-4);
+  }
+  // Finite elements; the slope of r^2 ln r comes slowly.
+  EXPECT_NEAR(G_y[0], 0.55517, 2e-4);
+  EXPECT_NEAR(G_x[1], -0.098968, 5e-5);
+}
+
 TEST(Plate, RefusesWhatIsNoPlate) {  // [B-3]
   const Plate good = unit_plate(2, 1, 0.3);
   for (double Plate::*field :
@@ -253,6 +322,14 @@ TEST(Plate, RefusesWhatIsNoPlate) {  // [B-3]
   }
   EXPECT_THROW(PlateSolution(good, -0.1, 1e-2), std::invalid_argument);
   EXPECT_THROW(PlateSolution(good, 2.1, 1e-2), std::invalid_argument);
+  for (const std::vector<Layer>& bad : {std::vector<Layer>{{0.0, 1.0}},
+                                        {{1.0, 1.0}},
+                                        {{0.5, 0.0}},
+                                        {{0.5, 1}, {0.4, 1}}}) {
+    Plate plate = good;
+    plate.layers = bad;
+    EXPECT_THROW(PlateSolution(plate, 0.1, 1e-2), std::invalid_argument);
+  }
   const PlateSolution plate(good, 1, 1e-2);
   EXPECT_THROW(static_cast<void>(plate.pressure(1, 1.01)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(plate.pressure(std::nan(""), 1)),

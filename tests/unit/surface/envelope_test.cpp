@@ -43,8 +43,9 @@ double brute_force(const HeightCut& cut, double x) {
       for (int i = 0; i <= pieces; ++i) {
         const double theta = cut.side.theta + reach * (2.0 * i / pieces - 1);
         const double phi = theta + tooth.behind + 2 * pi * n;
-        const double at =
-            cut.x_0 + cut.feed * phi / (2 * pi) + tooth.R * std::sin(theta);
+        const double at = cut.x_0 + cut.feed * phi / (2 * pi) +
+                          tooth.R * std::sin(theta) +
+                          (cut.along.functions() == 0 ? 0.0 : value_at(cut.along, phi));
         const bool first = i == 0;
         if (first && std::abs(at - x) > 2 * reach * tooth.R + 1e-3) break;
         if ((x < at) != (x < x_before) || first) {
@@ -62,6 +63,42 @@ double brute_force(const HeightCut& cut, double x) {
     }
   }
   return lowest;
+}
+
+/// The same with a cutter that also bends along the feed.
+HeightCut bent_along(HeightCut cut, const std::function<double(double)>& u_x,
+                     double most) {
+  cut.along = course(u_x);
+  cut.most_along = most;
+  return cut;
+}
+
+TEST(Envelope, AnEvenBendAlongTheFeedShiftsTheWall) {  // [E-44]
+  const HeightCut cut =
+      made_height(with_runout(made_cut(), 5e-6, 0.4), 1e-3,
+                  [](double phi) { return 9e-6 * std::sin(3 * phi); });
+  const HeightCut bent = bent_along(
+      cut, [](double) { return 0.07e-3; }, 0.07e-3);
+  for (int i = 0; i < 40; ++i) {
+    const double x = 0.6e-3 * (i + 0.37) / 40;
+    const SurfacePoint a = envelope_error(bent, x);
+    const SurfacePoint b = envelope_error(cut, x - 0.07e-3);
+    EXPECT_NEAR(a.error, b.error, 1e-12);
+    EXPECT_EQ(a.tooth, b.tooth);
+  }
+}
+
+TEST(Envelope, AnUnevenOneIsThatOfThePathsThemselves) {  // [E-44]
+  for (const bool down : {true, false}) {
+    const auto u_x = [](double phi) { return 40e-6 * std::cos(2 * phi + 0.4); };
+    const auto delta = [](double phi) { return 20e-6 * std::sin(3 * phi + 0.2); };
+    const HeightCut bent = bent_along(
+        made_height(with_runout(made_cut(down), 5e-6, 0.4), 1e-3, delta), u_x, 40e-6);
+    for (int i = 0; i < 8; ++i) {
+      const double x = 0.6e-3 * (i + 0.37) / 8;
+      EXPECT_NEAR(envelope_error(bent, x).error, brute_force(bent, x), 2e-9) << down;
+    }
+  }
 }
 
 TEST(QuasiStatic, IsDeflectionMinusTheRadiusOfTheOwner) {  // [E-7]

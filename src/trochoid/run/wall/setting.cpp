@@ -19,8 +19,23 @@ std::optional<structure::Plate> wall_plate(const inputs::MachineTables& machine)
     return std::nullopt;
   }
   const inputs::Wall& w = *machine.wall;
-  return structure::Plate{w.length, w.height, w.thickness, w.youngs_modulus,
-                          w.poisson_ratio};
+  return structure::Plate{.length = w.length,
+                          .height = w.height,
+                          .thickness = w.thickness,
+                          .youngs_modulus = w.youngs_modulus,
+                          .poisson_ratio = w.poisson_ratio,
+                          .ends = w.ends};
+}
+
+structure::WallLoads wall_loads(const inputs::Case& given) {
+  const inputs::Wall w = given.machine.wall.value_or(inputs::Wall{});
+  return {.pressure = w.pressure.value_or(0.0),
+          .edge_load = w.edge_load.value_or(0.0),
+          .line_load = w.line_load.value_or(0.0),
+          .position = w.position,
+          .depth = given.setup.cut.a_p,
+          .x = w.loads_x,
+          .y = w.loads_heights};
 }
 
 surface::Setting wall_setting(const inputs::Case& given) {
@@ -32,7 +47,19 @@ surface::Setting wall_setting(const inputs::Case& given) {
           .load = table.load,
           .model = table.model,
           .phase = table.phase,
-          .probe_radius = table.probe_diameter / 2};
+          .probe_radius = table.probe_diameter / 2,
+          .also_bends = table.also_bends};
+}
+
+std::vector<surface::PassCut> wall_passes(const inputs::Case& given) {
+  const geometry::Cut& cut = given.setup.cut;
+  std::vector<surface::PassCut> cuts;
+  for (const inputs::WallPass& pass : given.machine.passes) {
+    cuts.push_back({pass.radial_depth.value_or(surface::radial_depth(cut.engagement)),
+                    pass.feed_per_tooth.value_or(cut.f_z),
+                    pass.below_edge.value_or(0.0)});
+  }
+  return cuts;
 }
 
 surface::Feedback wall_feedback(const inputs::Case& given) {

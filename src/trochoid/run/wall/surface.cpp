@@ -6,6 +6,10 @@
 
 #include <fmt/core.h>
 
+#include <functional>
+#include <utility>
+#include <vector>
+
 namespace trochoid::run {
 
 namespace {
@@ -19,6 +23,31 @@ std::string why_no_map(const surface::ErrorMap& map) {
                      "pulls cutter and wall together faster than they resist";
 }
 
+/// The cut, or all passes.
+void cut(const inputs::Case& given, const surface::Setting& setting,
+         const std::function<void()>& solved, results::SurfaceResult& r) {
+  const std::vector<surface::PassCut> cuts = wall_passes(given);
+  if (cuts.empty()) {
+    r.map = surface::error_map(setting, map_options(given), solved);
+    return;
+  }
+  solved();
+  surface::PassSequence sequence =
+      surface::pass_sequence(setting, map_options(given), cuts, {r.cutter, r.wall});
+  r.passes = std::move(sequence.passes);
+  r.map = std::move(sequence.map);
+}
+
+/// The error of the same cut, bent by the force across the wall alone.
+surface::MeanAndExtremes straight_error(const inputs::Case& given,
+                                        results::SurfaceResult r) {
+  surface::Setting setting = wall_setting(given);
+  setting.also_bends.clear();
+  cut(
+      given, setting, [] {}, r);
+  return r.map.error;
+}
+
 }  // namespace
 
 results::SurfaceResult surface(const inputs::Case& given, const Progress& progress) {
@@ -30,21 +59,34 @@ results::SurfaceResult surface(const inputs::Case& given, const Progress& progre
   tell("Solving the wall");
   results::SurfaceResult r{
       .heading = {.title = given.title, .case_toml = given.as_understood},
-      .map = surface::error_map(wall_setting(given), map_options(given),
-                                [&] { tell("Cutting"); }),
       .diameter = given.setup.cutter.profile.D,
       .a_p = given.setup.cut.a_p,
       .cutter = wall_cutter(given.machine),
       .wall = wall_plate(given.machine)};
+  const surface::Setting setting = wall_setting(given);
+  cut(
+      given, setting, [&] { tell("Cutting"); }, r);
   if (!r.map.converged) {
     r.heading.ok = false;
-    r.heading.message = why_no_map(r.map);
+    r.heading.message =
+        given.machine.passes.empty()
+            ? why_no_map(r.map)
+            : fmt::format("pass {}: {}", r.passes.size() + 1, why_no_map(r.map));
     return r;
   }
-  add_surface_warnings(given, r.map, r.heading.warnings);
+  if (!setting.also_bends.empty()) {
+    r.also_bends = setting.also_bends;
+    r.straight = straight_error(given, r);
+  }
+  const structure::WallLoads loads = wall_loads(given);
+  if (r.wall && (loads.pressure != 0 || loads.edge_load != 0 || loads.line_load != 0)) {
+    r.loads = structure::loaded_walls(*r.wall, loads);
+  }
+  add_surface_warnings(given, r, r.heading.warnings);
   r.heading.message = fmt::format(
-      "The error of the wall is {:.3g} um on average and {:.3g} um at most (positive: "
+      "The error of the wall{} is {:.3g} um on average and {:.3g} um at most (positive: "
       "material left).",
+      r.passes.empty() ? "" : fmt::format(" after {} passes", r.passes.size()),
       r.map.error.mean / unit::um, r.map.error.max / unit::um);
   return r;
 }

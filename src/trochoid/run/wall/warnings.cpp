@@ -16,14 +16,6 @@ namespace {
 using surface::CoefficientFit;
 using Warnings = std::vector<base::Warning>;
 
-double radial_depth(const geometry::Engagement& engagement) {
-  if (const auto* down = std::get_if<geometry::DownMilling>(&engagement)) {
-    return down->a_e;
-  }
-  const auto* up = std::get_if<geometry::UpMilling>(&engagement);
-  return up == nullptr ? 0.0 : up->a_e;
-}
-
 /// A coefficient that is negative, or known worse than to half of itself.
 void judge_coefficients(const inputs::Case& given,
                         const surface::FoundCoefficients& found, Warnings& warnings) {
@@ -152,7 +144,8 @@ void judge_runout(const inputs::Case& given, const surface::Calibration& calibra
 void judge_bending(const inputs::Case& given, const surface::Calibration& calibration,
                    double largest, Warnings& warnings) {
   Warnings bending;
-  add_bending_warnings(given, largest, bending);
+  add_bending_warnings(given, largest,
+                       surface::radial_depth(given.setup.cut.engagement), bending);
   for (base::Warning& warning : bending) {
     if (warning.code == "feedback" && calibration.with_runout) {
       warning.message =
@@ -164,9 +157,23 @@ void judge_bending(const inputs::Case& given, const surface::Calibration& calibr
   }
 }
 
+/// A plate is linear below half of its thickness only.
+void add_load_warnings(const results::SurfaceResult& r, Warnings& warnings) {
+  for (std::size_t i = 0; r.loads && i < r.loads->walls.size(); ++i) {
+    const structure::LoadedWall& wall = r.loads->walls[i];
+    if (std::abs(wall.largest) > r.wall->thickness / 2) {
+      warnings.push_back(
+          {"thick_deflection",
+           fmt::format("Under {} the wall deflects by {:.3g} mm, more than half of its "
+                       "thickness: a thin plate bends in proportion only below that.",
+                       name_of(wall.load), wall.largest / unit::mm)});
+    }
+  }
+}
+
 }  // namespace
 
-void add_bending_warnings(const inputs::Case& given, double largest,
+void add_bending_warnings(const inputs::Case& given, double largest, double a_e,
                           Warnings& warnings) {
   constexpr double visible = 0.01;
   if (given.machine.wall && largest > given.machine.wall->thickness / 2) {
@@ -177,7 +184,6 @@ void add_bending_warnings(const inputs::Case& given, double largest,
              "a thin plate bends in proportion to the force only below that.",
              largest / unit::mm)});
   }
-  const double a_e = radial_depth(given.setup.cut.engagement);
   if (wall_feedback(given) == surface::Feedback::none && largest > visible * a_e) {
     warnings.push_back(
         {"feedback",
@@ -189,10 +195,42 @@ void add_bending_warnings(const inputs::Case& given, double largest,
   }
 }
 
-void add_surface_warnings(const inputs::Case& given, const surface::ErrorMap& map,
+void add_surface_warnings(const inputs::Case& given, const results::SurfaceResult& r,
                           Warnings& warnings) {
-  add_bending_warnings(
-      given, std::max(std::abs(map.error.max), std::abs(map.error.min)), warnings);
+  const surface::ErrorMap& map = r.map;
+  const auto largest = [](const surface::MeanAndExtremes& error) {
+    return std::max(std::abs(error.max), std::abs(error.min));
+  };
+  if (r.passes.empty()) {
+    add_bending_warnings(given, largest(map.error),
+                         surface::radial_depth(given.setup.cut.engagement), warnings);
+  } else {
+    // Of the pass whose error is the largest part of what it was to take off.
+    const surface::PassOutcome* worst = nullptr;
+    const auto part = [&](const surface::PassOutcome& p) {
+      return largest(p.error) / p.radial_depth.max;
+    };
+    for (const surface::PassOutcome& p : r.passes) {
+      if (p.cut.a_e > 0 && (worst == nullptr || part(p) > part(*worst))) {
+        worst = &p;
+      }
+    }
+    if (worst != nullptr) {
+      add_bending_warnings(given, largest(worst->error), worst->radial_depth.max,
+                           warnings);
+    }
+  }
+  add_load_warnings(r, warnings);
+  for (std::size_t i = 0; i < r.passes.size(); ++i) {
+    if (r.passes[i].without_feedback) {
+      warnings.push_back(
+          {"without_feedback",
+           fmt::format(
+               "Pass {} hardly touches the wall: it bends by less than 0.1 um and "
+               "was taken without feedback.",
+               i + 1)});
+    }
+  }
   if (!given.machine.cutter_body && !given.machine.wall) {
     warnings.push_back(
         {"rigid", "Neither [cutter_body] nor [wall] is given: nothing bends."});

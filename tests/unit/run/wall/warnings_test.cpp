@@ -105,18 +105,18 @@ TEST(WallWarnings, SayWhichFitCountsWhereThereIsRunout) {
 
 TEST(WallWarnings, MeasureTheDeflectionByThicknessAndDepth) {
   std::vector<base::Warning> warnings;
-  add_bending_warnings(given(), 5e-6, warnings);
+  add_bending_warnings(given(), 5e-6, 1e-3, warnings);
   EXPECT_TRUE(warnings.empty());
-  add_bending_warnings(given(), 1.1e-3, warnings);
+  add_bending_warnings(given(), 1.1e-3, 1e-3, warnings);
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(warnings[0].code, "thick_deflection");
   EXPECT_EQ(warnings[1].code, "feedback");
   warnings.clear();
-  add_bending_warnings(given(), 0.5e-3, warnings);
+  add_bending_warnings(given(), 0.5e-3, 1e-3, warnings);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_TRUE(warnings[0].message.starts_with("The error is 50 % of the radial depth"));
   warnings.clear();
-  add_bending_warnings(given("entry"), 0.1e-3, warnings);
+  add_bending_warnings(given("entry"), 0.1e-3, 1e-3, warnings);
   EXPECT_TRUE(warnings.empty());
 }
 
