@@ -210,8 +210,8 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
 
 /// Fit, and where the way knows the feedback at one place only, go there and fit again.
 RowFit settle(const RowProblem& problem, const Way& way, Values start) {
-  constexpr int most_rounds = 5;
-  constexpr double negligible = 0.05;  // of the scatter of a reading
+  constexpr int most_rounds = 6;
+  constexpr double negligible = 0.02;  // of the scatter of a reading
   if (way.rebase(start) < 0) {
     return {};
   }

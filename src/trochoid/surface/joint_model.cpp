@@ -26,6 +26,7 @@ constexpr std::size_t most_known = 12;
 /// Beyond, slopes of D are found anew: a micrometre, or 100 MPa.
 constexpr double far_off = 1.0;
 constexpr Steps wide = {0.3, 0.05, 0.3};
+constexpr Steps of_change = {0.5, 0.05, 0.5};
 constexpr Steps least = {1e-3, 1e-3, 1e-3};
 
 }  // namespace
@@ -131,14 +132,18 @@ double JointModel::rebase(std::span<const double> p) {
     slopes_at_.assign(p.begin(), p.end());
     slopes_.assign(here.size() * n, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
-      std::vector<double> q(p.begin(), p.end());
-      const double step = wide.of(k, n);
-      q[k] += step;
-      const JointState near = unpack(q);
-      const bool same_cut = has_start() && k == 2;
-      const std::vector<double> there = change(near, same_cut ? forces : both(near));
-      for (std::size_t i = 0; i < there.size(); ++i) {
-        slopes_[i * n + k] = (there[i] - here[i]) / step;
+      const double step = of_change.of(k, n);
+      const auto there = [&](double by) {
+        std::vector<double> q(p.begin(), p.end());
+        q[k] += by;
+        const JointState state = unpack(q);
+        const bool same_cut = has_start() && k == 2;
+        return change(state, same_cut ? forces : both(state));
+      };
+      const std::vector<double> above = there(step);
+      const std::vector<double> below = there(-step);
+      for (std::size_t i = 0; i < std::min(above.size(), below.size()); ++i) {
+        slopes_[i * n + k] = (above[i] - below[i]) / (2 * step);
       }
     }
   }

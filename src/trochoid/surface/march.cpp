@@ -18,12 +18,12 @@ using Values = std::vector<double>;
 
 constexpr std::size_t steps_per_pitch = 72;
 constexpr std::size_t radii = 33;  ///< heights between which radii are interpolated
-constexpr double settled = 1e-4;   ///< change of the deflection in a turn, of its peak
+constexpr double settled = 2e-5;   ///< change of the deflection in a turn, of its peak
 constexpr int most_turns = 100;
 /// Panels of the table [rad], and how good it is, as a part of the largest value.
 constexpr double longest_panel = 0.2;
 constexpr double shortest_panel = 0.01;
-constexpr double table_tolerance = 2e-4;
+constexpr double table_tolerance = 3e-5;
 /// Exact paths cut a little before and behind where a circle does [rad].
 constexpr double beyond = 0.06;
 
