@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace trochoid::results {
 
 namespace {
@@ -48,19 +50,29 @@ Object model_value(const force::Law& law, const CoefficientFit& fit) {
   return value;
 }
 
-/// The parameters of each file's datum, in the order in which they were fitted.
+/// The parameters of each file's datum.
 Array datum_value(const CalibrateResult& r) {
+  using Kind = surface::DatumPart::Kind;
   const std::vector<Estimate>& found = r.calibration.coefficients.datum;
+  const auto& parts = r.calibration.datum_parts;
   Array all;
-  std::size_t k = 0;
-  for (const surface::Datum& datum : r.datum) {
+  for (std::size_t set = 0; set < r.datum.size(); ++set) {
     Object one;
-    if (datum.offset && k < found.size()) {
-      one.push_back({"offset_mm", estimate_value(found[k++], unit::mm)});
-    }
     Array slopes;
-    while (datum.tilt && k < found.size() && slopes.size() < 2) {
-      slopes.push_back(estimate_value(found[k++], 1.0));
+    for (std::size_t k = 0; k < std::min(parts.size(), found.size()); ++k) {
+      if (parts[k].set != set) {
+        continue;
+      }
+      switch (parts[k].kind) {
+        case Kind::offset:
+          one.push_back({"offset_mm", estimate_value(found[k], unit::mm)});
+          break;
+        case Kind::curvature:
+          one.push_back({"curvature_mm", estimate_value(found[k], unit::mm)});
+          break;
+        default:
+          slopes.push_back(estimate_value(found[k], 1.0));
+      }
     }
     if (!slopes.empty()) {
       one.push_back({"slopes_mm_per_mm", std::move(slopes)});
@@ -114,22 +126,63 @@ Object readings_value(const CalibrateResult& r) {
            r.repeatability ? Value(*r.repeatability / unit::mm) : Value()}};
 }
 
+/// One way to explain the readings.
+Object explanation_value(const CalibrateResult& r, const surface::Explanation& e) {
+  return {
+      {"form", surface::name_of(e.form)},
+      {"feedback", surface::name_of(e.feedback)},
+      {"weight", e.weight},
+      {"coefficients", coefficients_value(r.law, true, e.K_tc, e.K_rc)},
+      {"eccentricity_mm",
+       r.calibration.with_runout ? Value(e.eccentricity.value / unit::mm) : Value()},
+      {"rms_mm", e.rms / unit::mm}};
+}
+
+/// What the readings decided, how they scatter, and which were left out.
+void add_decisions(const CalibrateResult& r, Object& result) {
+  const surface::Calibration& c = r.calibration;
+  Array outliers;
+  for (const surface::Outlier& out : c.outliers) {
+    const Reading& one = r.readings[out.reading];
+    outliers.emplace_back(Object{{"reading", out.reading + 1},
+                                 {"x_mm", unit::in(one.travel, unit::mm)},
+                                 {"height_mm", unit::in(one.height, unit::mm)},
+                                 {"off_mm", out.residual / unit::mm}});
+  }
+  result.push_back({"outliers", std::move(outliers)});
+  if (c.explanations.empty()) {
+    return;
+  }
+  Array tried;
+  for (const surface::Explanation& e : c.explanations) {
+    tried.emplace_back(explanation_value(r, e));
+  }
+  result.push_back({"form", surface::name_of(c.explanations.front().form)});
+  result.push_back({"explanations", std::move(tried)});
+  result.push_back({"scatter", Object{{"own_mm", c.own_scatter / unit::mm},
+                                      {"shared_mm", c.shared_scatter / unit::mm}}});
+}
+
 Object result_of(const CalibrateResult& r) {
   const surface::Calibration& c = r.calibration;
   const CoefficientFit& chosen = chosen_fit(c.models);
   Object result = model_value(r.law, chosen);
-  if (c.with_runout) {
+  if (c.with_runout || !c.explanations.empty()) {
     const surface::FoundCoefficients& found = c.coefficients;
     set(result, "coefficients",
         coefficients_value(r.law, true, found.K_tc, found.K_rc));
     set(result, "correlation", found.correlation);
     set(result, "rms_mm", found.rms / unit::mm);
   }
+  if (!c.explanations.empty()) {
+    set(result, "feedback", surface::name_of(c.explanations.front().feedback));
+  }
   const auto add = [&](const char* key, Value value) {
     result.push_back({key, std::move(value)});
   };
   const std::vector<Estimate>& datum = c.coefficients.datum;
-  const bool offset = !datum.empty() && r.datum.front().offset;
+  const bool offset = !datum.empty() && !c.datum_parts.empty() &&
+                      c.datum_parts.front().kind == surface::DatumPart::Kind::offset;
   add("offset_mm", offset ? Value(datum.front().value / unit::mm) : Value());
   if (!datum.empty()) {
     add("datum", datum_value(r));
@@ -149,6 +202,7 @@ Object result_of(const CalibrateResult& r) {
   if (c.runout.ok) {
     add("with_runout", c.with_runout);
   }
+  add_decisions(r, result);
   return result;
 }
 

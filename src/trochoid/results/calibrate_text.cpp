@@ -70,6 +70,21 @@ std::string runout_rows(const CalibrateResult& r) {
                             pair(runout.angle, unit::deg), unless_numbered);
 }
 
+/// What was decided, and what the other ways say.
+std::string explanation_rows(const CalibrateResult& r) {
+  std::string text;
+  for (const surface::Explanation& e : r.calibration.explanations) {
+    text += fit_row(
+        r,
+        fmt::format("    {:.0f} % {}{}", 100 * e.weight, surface::name_of(e.form),
+                    e.feedback == surface::Feedback::none
+                        ? ""
+                        : fmt::format(" + {}", surface::name_of(e.feedback))),
+        {e.K_tc, e.K_rc, e.correlation, {}, e.rms});
+  }
+  return text.empty() ? text : "  by form of the wall and feedback:\n" + text;
+}
+
 std::string runout_toml(const CalibrateResult& r) {
   const RunoutFit& runout = r.calibration.runout;
   if (!r.calibration.runout_seen) {
@@ -92,10 +107,11 @@ std::string calibration_table(const CalibrateResult& r) {
                   names[0].key, names[1].key, "corr.", "rms um");
   const surface::ModelFits& models = r.calibration.models;
   for (std::size_t i = 0; i < models.fits.size(); ++i) {
-    text +=
-        model_row(r, models.fits[i], i == models.chosen && !r.calibration.with_runout);
+    text += model_row(r, models.fits[i],
+                      i == models.chosen && !r.calibration.with_runout &&
+                          r.calibration.explanations.empty());
   }
-  return text + runout_rows(r);
+  return text + runout_rows(r) + explanation_rows(r);
 }
 
 std::string calibrated_material(const CalibrateResult& r) {

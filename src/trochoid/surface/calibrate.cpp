@@ -199,6 +199,11 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   if (!joint.ok) {
     count_stated(setting, feedback, c);
   }
+  std::vector<Spot> spots;
+  for (const Nominal& n : c.models.nominal) {
+    spots.push_back({n.x, n.height, n.set});
+  }
+  c.datum_parts = datum_columns(spots, c.datum).parts;
   spread_out(kept, readings, c);
   return c;
 }

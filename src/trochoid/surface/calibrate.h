@@ -26,15 +26,16 @@ struct Outlier {
 
 /// @brief What a measured wall tells of the cut that made it.
 struct Calibration {
-  bool ok = false;                 ///< are there coefficients at all
-  std::string message;             ///< when not ok, why
-  ModelFits models;                ///< from the means of the readings
-  RunoutFit runout;                ///< from all readings, together with runout
-  bool runout_seen = false;        ///< it stands out of its own uncertainty
-  bool with_runout = false;        ///< the fit that counts is that with runout
-  FoundCoefficients coefficients;  ///< of the fit that counts
-  std::vector<double> predicted;   ///< of each reading, as well as is known [m]
-  std::vector<Datum> datum;        ///< of each set, as it was decided
+  bool ok = false;                     ///< are there coefficients at all
+  std::string message;                 ///< when not ok, why
+  ModelFits models;                    ///< from the means of the readings
+  RunoutFit runout;                    ///< from all readings, together with runout
+  bool runout_seen = false;            ///< it stands out of its own uncertainty
+  bool with_runout = false;            ///< the fit that counts is that with runout
+  FoundCoefficients coefficients;      ///< of the fit that counts
+  std::vector<double> predicted;       ///< of each reading, as well as is known [m]
+  std::vector<Datum> datum;            ///< of each set, as it was decided
+  std::vector<DatumPart> datum_parts;  ///< what each estimate of the datum is
   std::vector<Outlier> outliers;
   std::vector<Explanation> explanations;  ///< likeliest first; empty: one was asked for
   double own_scatter = 0.0;               ///< of a reading by itself [m]

@@ -501,6 +501,7 @@ Explanation described(const Tried& tried, const Scatter& scatter, bool with_runo
   }
   what.K_tc = fit.K_tc;
   what.K_rc = fit.K_rc;
+  what.correlation = fit.correlation;
   what.eccentricity = fit.eccentricity;
   double sum = 0.0;
   for (const double r : tried.fit.residual) {

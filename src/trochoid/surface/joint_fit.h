@@ -20,12 +20,13 @@ struct FitOptions {
 /// @brief One explanation of the readings.
 struct Explanation {
   Feedback feedback = Feedback::none;
-  Form form = Form::none;  ///< beside what is stated
-  double weight = 0.0;     ///< how likely it is among those tried
-  Estimate K_tc;           ///< [N/m^2]
-  Estimate K_rc;           ///< [N/m^2]
-  Estimate eccentricity;   ///< [m]; 0 where runout is not fitted
-  double rms = 0.0;        ///< [m]
+  Form form = Form::none;    ///< beside what is stated
+  double weight = 0.0;       ///< how likely it is among those tried
+  Estimate K_tc;             ///< [N/m^2]
+  Estimate K_rc;             ///< [N/m^2]
+  double correlation = 0.0;  ///< of the two
+  Estimate eccentricity;     ///< [m]; 0 where runout is not fitted
+  double rms = 0.0;          ///< [m]
 };
 
 /// @brief Coefficients, and runout where the readings show it, from all explanations.

@@ -1,6 +1,7 @@
 #include <trochoid/run/wall/calibrate.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/run/wall/doubts.h>
 #include <trochoid/run/wall/measured_wall.h>
 #include <trochoid/run/wall/setting.h>
 #include <trochoid/run/wall/warnings.h>
@@ -59,6 +60,19 @@ results::CalibrateResult calibrate(const inputs::Case& given,
     r.heading.ok = false;
     r.heading.message = refusal(given, chosen_fit(r.calibration.models));
     return r;
+  }
+  const std::string negative = why_negative(given, r.readings, r.calibration);
+  if (!negative.empty()) {
+    r.heading.ok = false;
+    r.heading.message = negative;
+    r.calibration.ok = false;
+    return r;
+  }
+  tell("Looking for doubts");
+  withdraw_hidden_runout(given, r.readings, wall.datum, r.calibration);
+  const std::string origin = origin_doubt(given, r.readings, r.calibration);
+  if (!origin.empty()) {
+    r.heading.warnings.push_back({"origin", origin});
   }
   add_calibration_warnings(given, r.readings, r.calibration, r.heading.warnings);
   r.heading.message = calibration_sentence(r);

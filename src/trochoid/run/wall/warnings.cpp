@@ -16,20 +16,14 @@ namespace {
 using surface::CoefficientFit;
 using Warnings = std::vector<base::Warning>;
 
-/// A coefficient that is negative, or known worse than to half of itself.
+/// A coefficient that is known worse than to half of itself.
 void judge_coefficients(const inputs::Case& given,
                         const surface::FoundCoefficients& found, Warnings& warnings) {
   const auto names = force::coefficient_quantities(given.law);
   const surface::Estimate* both[] = {&found.K_tc, &found.K_rc};
   for (std::size_t q = 0; q < 2; ++q) {
     const surface::Estimate& e = *both[q];
-    if (e.value < 0) {
-      warnings.push_back(
-          {"negative_coefficient",
-           fmt::format("{} = {:.3g} is negative: the readings, their sign (positive "
-                       "must be material left) or the model do not fit the cut.",
-                       names[q].key, e.value / names[q].unit)});
-    } else if (std::isfinite(e.se) && e.high - e.low > std::abs(e.value)) {
+    if (std::isfinite(e.se) && e.high - e.low > std::abs(e.value)) {
       warnings.push_back(
           {"poorly_known",
            fmt::format(
@@ -43,6 +37,57 @@ void judge_coefficients(const inputs::Case& given,
                         "There are as many means as unknowns: nothing tells how well "
                         "the coefficients are known."});
   }
+}
+
+/// Which readings were left out, and how far off they are.
+void judge_outliers(std::span<const surface::Reading> readings,
+                    const surface::Calibration& calibration, Warnings& warnings) {
+  constexpr std::size_t named = 5;
+  std::vector<surface::Outlier> out = calibration.outliers;
+  if (out.empty()) {
+    return;
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.residual) > std::abs(b.residual);
+  });
+  std::string which;
+  for (std::size_t i = 0; i < std::min(named, out.size()); ++i) {
+    const surface::Reading& r = readings[out[i].reading];
+    which += fmt::format("{}x {:.6g} mm, height {:.4g} mm: {:+.3g} um",
+                         i > 0 ? "; " : "", unit::in(r.travel, unit::mm),
+                         unit::in(r.height, unit::mm), out[i].residual / unit::um);
+  }
+  warnings.push_back(
+      {"outliers",
+       fmt::format(
+           "{} of {} readings lie far from what the others say and are left out: "
+           "{}{}.",
+           out.size(), readings.size(), which, out.size() > named ? " and more" : "")});
+}
+
+/// What the readings decided, where it was not clear.
+void judge_explanations(const inputs::Case& given,
+                        const surface::Calibration& calibration, Warnings& warnings) {
+  constexpr double clear = 0.8;
+  const auto& tried = calibration.explanations;
+  if (tried.size() < 2 || tried.front().weight > clear) {
+    return;
+  }
+  const auto names = force::coefficient_quantities(given.law);
+  std::string which;
+  for (std::size_t i = 0; i < tried.size() && tried[i].weight > 0.05; ++i) {
+    which += fmt::format(
+        "{}{:.0f} % for form {} with feedback {} ({} = {:.4g}, {} = {:.4g})",
+        i > 0 ? ", " : "", 100 * tried[i].weight, surface::name_of(tried[i].form),
+        surface::name_of(tried[i].feedback), names[0].key,
+        tried[i].K_tc.value / names[0].unit, names[1].key,
+        tried[i].K_rc.value / names[1].unit);
+  }
+  warnings.push_back(
+      {"not_decided",
+       fmt::format("The readings do not decide how they came about: {}. The answer is "
+                   "that of all of them; state form or feedback where you know it.",
+                   which)});
 }
 
 std::string full_name(const CoefficientFit& fit) {
@@ -122,12 +167,12 @@ void judge_runout(const inputs::Case& given, const surface::Calibration& calibra
                      runout.eccentricity.value / unit::um,
                      runout.eccentricity.se / unit::um)});
   }
-  if (calibration.with_runout) {
+  if (calibration.with_runout && calibration.explanations.empty()) {
     warnings.push_back(
         {"runout_in_mean",
          "The mean of a real surface is not free of runout: the coefficients are those "
          "that were fitted together with it."});
-  } else if (calibration.runout_seen &&
+  } else if (calibration.runout_seen && calibration.explanations.empty() &&
              chosen_fit(calibration.models).model == surface::Model::envelope) {
     const auto names = force::coefficient_quantities(given.law);
     warnings.push_back(
@@ -146,7 +191,12 @@ void judge_bending(const inputs::Case& given, const surface::Calibration& calibr
   Warnings bending;
   add_bending_warnings(given, largest,
                        surface::radial_depth(given.setup.cut.engagement), bending);
+  const bool decided = !given.machine.surface.value_or(inputs::Surface{}).feedback &&
+                       !calibration.explanations.empty();
   for (base::Warning& warning : bending) {
+    if (warning.code == "feedback" && decided) {
+      continue;
+    }
     if (warning.code == "feedback" && calibration.with_runout) {
       warning.message =
           "The deflection is large enough to even out the teeth, which the fit with "
@@ -255,7 +305,9 @@ void add_calibration_warnings(const inputs::Case& given,
     warnings.push_back({"all_zero", "All readings are zero: so are the coefficients."});
     return;
   }
+  judge_outliers(readings, calibration, warnings);
   judge_coefficients(given, calibration.coefficients, warnings);
+  judge_explanations(given, calibration, warnings);
   compare_models(given, calibration.models, warnings);
   judge_means(given, calibration.models, warnings);
   judge_runout(given, calibration, warnings);
