@@ -28,7 +28,8 @@ WALL = {"length_mm": 60.0, "height_mm": 30.0, "thickness_mm": 2.0,
 
 def tables(model, wall=True, **changes):
     out = {"tool": TOOL, "cut": CUT, "cutter_body": BODY, "chip": {"model": "radial"},
-           "force": {"law": "linear_edge"}, "surface": {"model": model}}
+           "force": {"law": "linear_edge"},
+           "surface": {"model": model, "feedback": "none", "errors": "white"}}
     if wall:
         out["wall"] = WALL
     for name, table in changes.items():
@@ -44,7 +45,7 @@ class Calibrate(unittest.TestCase):
     def calibrate(self, name, given, readings, labelled=False, code=0, **measurement):
         file = readings.write(pathlib.Path(self.folder.name) / f"{name}.csv", labelled)
         text = program.case_text(name, given) + "\n[[surface_measurement]]\n" + "".join(
-            f"{k} = {program.toml(v)}\n" for k, v in {"file": file, **measurement}.items())
+            f"{k} = {program.toml(v)}\n" for k, v in {"file": file, "form": "none", **measurement}.items())
         answer = program.run("calibrate", text, self.folder.name, name)
         self.assertEqual(answer.code, code, f"{name}: exit {answer.code} {answer.stderr}\n"
                                             f"{text}")

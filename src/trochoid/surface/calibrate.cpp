@@ -73,23 +73,17 @@ bool leave_out(std::span<const double> predicted, std::size_t whole, Kept& kept,
   return true;
 }
 
-/// Means, and runout if it shows, everything as stated.
-struct Stated {
-  ModelFits models;
-  RunoutFit runout;
-};
-
-Stated fit_stated(const Setting& setting, const Kept& kept,
-                  std::span<const Datum> datum, Feedback feedback,
-                  const std::function<void()>& means_fitted) {
-  Stated fit{.models = fit_models(setting, kept.readings, datum, feedback)};
+StatedFits fit_stated(const Setting& setting, const Kept& kept,
+                      std::span<const Datum> datum, Feedback feedback,
+                      const std::function<void()>& means_fitted) {
+  StatedFits fit{.models = fit_models(setting, kept.readings, datum, feedback)};
   if (chosen_fit(fit.models).ok) {
     fit.runout = runout_of(setting, kept.readings, datum, fit.models, means_fitted);
   }
   return fit;
 }
 
-std::vector<double> predicted_by(const Stated& fit, std::size_t readings) {
+std::vector<double> predicted_by(const StatedFits& fit, std::size_t readings) {
   return fit.runout.ok ? fit.runout.predicted : predicted_means(fit.models, readings);
 }
 
@@ -107,7 +101,7 @@ void count_stated(const Setting& setting, Feedback feedback, Calibration& c) {
                                            means.datum, means.rms};
 }
 
-void count_joint(const JointFit& joint, std::span<const Datum> datum, Calibration& c) {
+void count_joint(const JointFit& joint, Calibration& c) {
   c.explanations = joint.explanations;
   c.own_scatter = joint.own_scatter;
   c.shared_scatter = joint.shared_scatter;
@@ -115,10 +109,6 @@ void count_joint(const JointFit& joint, std::span<const Datum> datum, Calibratio
   c.with_runout = joint.with_runout;
   if (joint.with_runout) {
     c.runout = joint.fit;
-  }
-  c.datum.assign(datum.begin(), datum.end());
-  for (Datum& d : c.datum) {
-    d = decided(d, c.explanations.front().form);
   }
 }
 
@@ -139,6 +129,54 @@ void spread_out(const Kept& kept, std::span<const Reading> readings, Calibration
   }
 }
 
+/// The fits, and whether anything was left to decide.
+struct Fits {
+  StatedFits stated;
+  JointFit joint;
+  std::vector<double> predicted;  ///< of what is kept
+};
+
+/// Fit, leave out what lies far off, and fit again until nothing does.
+// six parameters: a wall with how it is fitted, and what becomes of its readings
+Fits fit_robustly(const Setting& setting, std::span<const Datum> datum,
+                  const FitOptions& options, Kept& kept, std::vector<Outlier>& outliers,
+                  const std::function<void()>& means_fitted) {
+  constexpr int most_rounds = 4;
+  const std::size_t whole = kept.readings.size();
+  std::vector<Datum> first(datum.begin(), datum.end());
+  for (Datum& d : first) {
+    d = decided(d, Form::offset);
+  }
+  const bool robust = options.robust && setting.model != Model::quasi_static;
+  const bool open =
+      options.shared || !options.feedback ||
+      std::any_of(datum.begin(), datum.end(), [](const Datum& d) { return d.decide; });
+  Fits fits;
+  for (int round = 0; round < most_rounds; ++round) {
+    const bool may_leave = robust && round + 1 < most_rounds;
+    fits.stated = fit_stated(setting, kept, first,
+                             options.feedback.value_or(Feedback::none), means_fitted);
+    if (!chosen_fit(fits.stated.models).ok) {
+      break;
+    }
+    fits.predicted = predicted_by(fits.stated, kept.readings.size());
+    if (may_leave && leave_out(fits.predicted, whole, kept, outliers)) {
+      continue;
+    }
+    if (open) {
+      fits.joint = fit_jointly(setting, kept.readings, datum, options, fits.stated);
+    }
+    if (!fits.joint.ok) {
+      break;
+    }
+    fits.predicted = fits.joint.fit.predicted;
+    if (!may_leave || !leave_out(fits.predicted, whole, kept, outliers)) {
+      break;
+    }
+  }
+  return fits;
+}
+
 }  // namespace
 
 bool is_seen(const RunoutFit& runout) noexcept {
@@ -149,55 +187,27 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
                       std::span<const Datum> datum, const FitOptions& options,
                       const std::function<void()>& means_fitted) {
   static_cast<void>(side_of(setting));
-  constexpr int most_rounds = 4;
-  const Feedback feedback = options.feedback.value_or(Feedback::none);
-  std::vector<Datum> first(datum.begin(), datum.end());
-  for (Datum& d : first) {
-    d = decided(d, Form::offset);
-  }
-  const bool decided =
-      options.shared || !options.feedback ||
-      std::any_of(datum.begin(), datum.end(), [](const Datum& d) { return d.decide; });
-  const bool robust = options.robust && setting.model != Model::quasi_static;
-  Calibration c{.datum = first};
+  Calibration c;
   Kept kept = all_of(readings);
-  JointFit joint;
-  for (int round = 0; round < most_rounds; ++round) {
-    Stated stated = fit_stated(setting, kept, first, feedback, means_fitted);
-    const bool may_leave = robust && round + 1 < most_rounds;
-    if (may_leave && chosen_fit(stated.models).ok &&
-        leave_out(predicted_by(stated, kept.readings.size()), readings.size(), kept,
-                  c.outliers)) {
-      continue;
-    }
-    c.predicted = predicted_by(stated, kept.readings.size());
-    c.models = std::move(stated.models);
-    c.runout = std::move(stated.runout);
-    if (!chosen_fit(c.models).ok || !decided) {
-      break;
-    }
-    joint = fit_jointly(setting, kept.readings, datum, options, c.models, c.runout);
-    if (!joint.ok) {
-      break;
-    }
-    c.predicted = joint.fit.predicted;
-    if (!may_leave ||
-        !leave_out(joint.fit.predicted, readings.size(), kept, c.outliers)) {
-      break;
-    }
-  }
-  const CoefficientFit& means = chosen_fit(c.models);
-  c.ok = means.ok;
-  c.message = means.message;
+  Fits fits = fit_robustly(setting, datum, options, kept, c.outliers, means_fitted);
+  c.models = std::move(fits.stated.models);
+  c.runout = std::move(fits.stated.runout);
+  c.predicted = std::move(fits.predicted);
+  c.ok = chosen_fit(c.models).ok;
+  c.message = chosen_fit(c.models).message;
   if (!c.ok) {
     return c;
   }
-  if (joint.ok) {
-    count_joint(joint, datum, c);
+  c.datum.assign(datum.begin(), datum.end());
+  if (fits.joint.ok) {
+    count_joint(fits.joint, c);
+  }
+  for (Datum& d : c.datum) {
+    d = decided(d, fits.joint.ok ? c.explanations.front().form : Form::offset);
   }
   c.runout_seen = is_seen(c.runout);
-  if (!joint.ok) {
-    count_stated(setting, feedback, c);
+  if (!fits.joint.ok) {
+    count_stated(setting, options.feedback.value_or(Feedback::none), c);
   }
   std::vector<Spot> spots;
   for (const Nominal& n : c.models.nominal) {

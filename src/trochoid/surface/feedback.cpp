@@ -1,7 +1,6 @@
 #include <trochoid/surface/feedback.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/numerics/least_squares.h>
 #include <trochoid/surface/fixed_point.h>
 #include <trochoid/surface/scale.h>
 
@@ -16,59 +15,9 @@ namespace {
 using fixed_point::dot;
 using fixed_point::largest_of;
 using fixed_point::Limits;
+using fixed_point::solve_by_newton;
 using fixed_point::solve_fixed_point;
 using Values = std::vector<double>;
-
-/// u with image(u) = u, by Newton's method with differences and shortened steps: slow,
-/// and sure where Broyden's method loses its way.
-template <class Image>
-bool solve_by_newton(const Image& image, Values& u, const Limits& limits) {
-  constexpr int most_steps = 40;
-  const std::size_t n = u.size();
-  Values r(n);
-  Values moved(n);
-  const auto residual = [&](const Values& at, Values& out) {
-    image(at, out);
-    for (std::size_t i = 0; i < n; ++i) {
-      out[i] -= at[i];
-    }
-  };
-  residual(u, r);
-  for (int k = 0; k < most_steps && largest_of(r) > limits.allowed; ++k) {
-    if (largest_of(u) > limits.largest) {
-      return false;
-    }
-    const double h = std::max(10 * limits.allowed, 1e-4 * largest_of(u));
-    Values J(n * n);
-    for (std::size_t c = 0; c < n; ++c) {
-      Values there = u;
-      there[c] += h;
-      residual(there, moved);
-      for (std::size_t i = 0; i < n; ++i) {
-        J[i * n + c] = (r[i] - moved[i]) / h;
-      }
-    }
-    const Values step = numerics::least_squares(J, static_cast<int>(n), r, 1e-13).x;
-    bool better = false;
-    for (int halvings = 0; halvings <= 13 && !better; ++halvings) {
-      const double share = std::ldexp(1.0, -halvings);
-      Values there = u;
-      for (std::size_t i = 0; i < n; ++i) {
-        there[i] += share * step[i];
-      }
-      residual(there, moved);
-      better = dot(moved, moved) < (1 - 0.2 * share) * dot(r, r);
-      if (better) {
-        u = there;
-        r = moved;
-      }
-    }
-    if (!better) {
-      return false;
-    }
-  }
-  return largest_of(r) <= limits.allowed && largest_of(u) <= limits.largest;
-}
 
 /// One passage over the turn, with the deflections of the passage before as the past.
 class Passage {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/numerics/least_squares.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -70,6 +72,58 @@ bool solve_fixed_point(const Image& image, std::vector<double>& u,
     steps.push_back(std::move(z));
   }
   return false;
+}
+
+/// u with image(u) = u, by Newton's method with differences and shortened steps: slow,
+/// and sure where Broyden's method loses its way.
+template <class Image>
+bool solve_by_newton(const Image& image, std::vector<double>& u, const Limits& limits) {
+  constexpr int most_steps = 40;
+  const std::size_t n = u.size();
+  std::vector<double> r(n);
+  std::vector<double> moved(n);
+  const auto residual = [&](const std::vector<double>& at, std::vector<double>& out) {
+    image(at, out);
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] -= at[i];
+    }
+  };
+  residual(u, r);
+  for (int k = 0; k < most_steps && largest_of(r) > limits.allowed; ++k) {
+    if (largest_of(u) > limits.largest) {
+      return false;
+    }
+    const double h = std::max(10 * limits.allowed, 1e-4 * largest_of(u));
+    std::vector<double> J(n * n);
+    for (std::size_t c = 0; c < n; ++c) {
+      std::vector<double> there = u;
+      there[c] += h;
+      residual(there, moved);
+      for (std::size_t i = 0; i < n; ++i) {
+        J[i * n + c] = (r[i] - moved[i]) / h;
+      }
+    }
+    const std::vector<double> step =
+        numerics::least_squares(J, static_cast<int>(n), r, 1e-13).x;
+    bool better = false;
+    for (int halvings = 0; halvings <= 13 && !better; ++halvings) {
+      const double share = std::ldexp(1.0, -halvings);
+      std::vector<double> there = u;
+      for (std::size_t i = 0; i < n; ++i) {
+        there[i] += share * step[i];
+      }
+      residual(there, moved);
+      better = dot(moved, moved) < (1 - 0.2 * share) * dot(r, r);
+      if (better) {
+        u = there;
+        r = moved;
+      }
+    }
+    if (!better) {
+      return false;
+    }
+  }
+  return largest_of(r) <= limits.allowed && largest_of(u) <= limits.largest;
 }
 
 }  // namespace trochoid::surface::fixed_point

@@ -17,6 +17,12 @@ struct FitOptions {
   bool shared = false;  ///< readings of one height or place may share an error (E-20)
 };
 
+/// @brief What is found with everything as stated, the form no more than an offset.
+struct StatedFits {
+  ModelFits models;
+  RunoutFit runout;  ///< not ok: the means alone are fitted
+};
+
 /// @brief One explanation of the readings.
 struct Explanation {
   Feedback feedback = Feedback::none;
@@ -51,10 +57,9 @@ inline constexpr double usual_form = 3e-6;
 /// @eq E-24 weight ~ exp(-(nu/2) ln chi^2) |C|^(1/2) prod 1/tau_k; mean and covariance
 ///          are those over all explanations, what these differ by included
 /// @src derived: [kass1995]; explanations are equally likely beforehand
-/// @param found   of the same readings, datum as in `datum`
-/// @param runout  where the search begins; not ok: the means are fitted
+/// @param stated  of the same readings: where the search begins
 JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
                      std::span<const Datum> datum, const FitOptions& options,
-                     const ModelFits& found, const RunoutFit& runout);
+                     const StatedFits& stated);
 
 }  // namespace trochoid::surface

@@ -24,6 +24,10 @@ constexpr int most_turns = 100;
 constexpr double longest_panel = 0.2;
 constexpr double shortest_panel = 0.01;
 constexpr double table_tolerance = 3e-5;
+/// Parts of an edge shorter than this are taken as they are; ends of chips are found to
+/// this part of the depth.
+constexpr double shortest_part = 1e-7;
+constexpr double resolution = 1e-9;
 /// Exact paths cut a little before and behind where a circle does [rad].
 constexpr double beyond = 0.06;
 
@@ -79,22 +83,24 @@ class Edges {
   /// m_q, F_x, F_y with the deflections u now and, of each tooth and mark, before.
   void forces(double phi, std::span<const double> u, std::span<const double> before,
               std::span<double> out) {
+    u_ = u;
+    before_ = before;
+    out_ = out;
     std::fill(out.begin(), out.end(), 0.0);
     for (std::size_t j = 0; j < teeth(); ++j) {
       double theta = phi - edges_.psi[j];
       theta -= unit::turn * std::floor(theta / unit::turn);
       for (; theta - lag_ < std::numbers::pi + beyond; theta += unit::turn) {
-        add_tooth(j, theta, u, before, out);
+        add_tooth(j, theta);
       }
     }
   }
 
  private:
   /// One passage of a tooth whose tip is at theta.
-  void add_tooth(std::size_t j, double theta, std::span<const double> u,
-                 std::span<const double> before, std::span<double> out) {
+  void add_tooth(std::size_t j, double theta) {
     if (lag_ < 1e-6) {
-      add_part(j, theta, {0.0, a_p_}, u, before, out);
+      add_part(j, theta, {0.0, a_p_});
       return;
     }
     const bool exact = edges_.setup.chip.model == chip::Model::trochoidal;
@@ -102,8 +108,8 @@ class Edges {
     // Heights at which the edge passes angles, from the last angle down.
     std::array<double, 6> z = {height(theta, std::numbers::pi + more),
                                height(theta, std::numbers::pi),
-                               passes(theta, j, edges_.passage.stock.y_hi, u),
-                               passes(theta, j, edges_.passage.stock.y_lo, u),
+                               passes(theta, j, edges_.passage.stock.y_hi),
+                               passes(theta, j, edges_.passage.stock.y_lo),
                                height(theta, 0.0),
                                height(theta, -more)};
     std::sort(z.begin(), z.end());
@@ -111,7 +117,7 @@ class Edges {
       const double from = std::clamp(z[i], 0.0, a_p_);
       const double to = std::clamp(z[i + 1], 0.0, a_p_);
       if (to > from) {
-        add_part(j, theta, {from, to}, u, before, out);
+        add_part(j, theta, {from, to});
       }
     }
   }
@@ -121,7 +127,7 @@ class Edges {
   }
 
   /// Where the edge passes the edge of the stock.
-  double passes(double tip, std::size_t j, double y, std::span<const double> u) {
+  double passes(double tip, std::size_t j, double y) {
     double z = height(tip, 0.0);
     if (!(std::abs(y) < 2 * R_)) {
       return z;
@@ -130,7 +136,7 @@ class Edges {
     for (int k = 0; k < 3; ++k) {
       z = height(tip, std::acos(std::clamp((y - shift) / radius(j, z), -1.0, 1.0)));
       basis_.weights(std::clamp(z, 0.0, a_p_), L_);
-      shift = fixed_point::dot(L_, u);
+      shift = fixed_point::dot(L_, u_);
     }
     return z;
   }
@@ -151,56 +157,94 @@ class Edges {
     return near_[j].R;
   }
 
-  void add_part(std::size_t j, double tip, std::array<double, 2> z,
-                std::span<const double> u, std::span<const double> before,
-                std::span<double> out) {
+  /// Gauss points between two heights; where the chip ends between them, anew up to
+  /// there: an edge force is not small at the end of a chip.
+  void add_part(std::size_t j, double tip, std::array<double, 2> z) {
     const numerics::KronrodRule& rule = numerics::kronrod_rule();
     const double half = 0.5 * (z[1] - z[0]);
+    std::array<double, 15> at{};
+    std::array<chip::Chip, 15> chips;
+    std::size_t count = 0;
+    std::size_t cutting = 0;
     for (std::size_t i = 0; i < rule.t.size(); ++i) {
       if (rule.gauss[i] > 0) {
-        add_point(j, tip, z[0] + half * (1 + rule.t[i]), half * rule.gauss[i], u,
-                  before, out);
+        at[count] = z[0] + half * (1 + rule.t[i]);
+        chips[count] = chip_at(j, tip, at[count]);
+        cutting += chips[count].in_cut ? std::size_t{1} : std::size_t{0};
+        ++count;
+      }
+    }
+    if (cutting == 0) {
+      return;
+    }
+    if (cutting < count && z[1] - z[0] > shortest_part * a_p_) {
+      std::size_t last = 0;
+      while (chips[last + 1].in_cut == chips[0].in_cut) {
+        ++last;
+      }
+      const double end = chip_end(j, tip, at[last], at[last + 1], chips[last].in_cut);
+      add_part(j, tip, {z[0], end});
+      add_part(j, tip, {end, z[1]});
+      return;
+    }
+    count = 0;
+    for (const double weight : rule.gauss) {
+      if (weight > 0) {
+        add_point(j, tip, at[count], half * weight, chips[count]);
+        ++count;
       }
     }
   }
 
-  // seven parameters: one point of an edge, and everything that acts there
-  void add_point(std::size_t j, double tip, double z, double dz,
-                 std::span<const double> u, std::span<const double> before,
-                 std::span<double> out) {
+  /// Where between two heights the chip ends, `first` in cut or not.
+  double chip_end(std::size_t j, double tip, double from, double to, bool first) {
+    for (int k = 0; k < 40 && to - from > resolution * a_p_; ++k) {
+      const double middle = 0.5 * (from + to);
+      (chip_at(j, tip, middle).in_cut == first ? from : to) = middle;
+    }
+    return 0.5 * (from + to);
+  }
+
+  /// Leaves near_ and L_ at that height.
+  chip::Chip chip_at(std::size_t j, double tip, double z) {
     stand_at(z);
     basis_.weights(z, L_);
     const double theta = tip - lag_ * z / a_p_;
-    const double now = fixed_point::dot(L_, u);
+    const double now = fixed_point::dot(L_, u_);
     chip::Slice slice{.r = R_, .teeth = near_, .shift = now, .bent = true};
-    if (!before.empty()) {
+    if (!before_.empty()) {
       const double cosine = std::cos(theta);
       const std::size_t n = L_.size();
       for (std::size_t m = 0; m < teeth(); ++m) {
         const double then =
-            fixed_point::dot(L_, before.subspan((j * teeth() + m) * n, n));
+            fixed_point::dot(L_, before_.subspan((j * teeth() + m) * n, n));
         gained_[m] = cosine * (now - then);  // E-10
       }
       slice.advance = gained_;
     }
-    const chip::Chip chip =
-        chip::chip_at(edges_.passage, slice, static_cast<int>(j), theta);
+    return chip::chip_at(edges_.passage, slice, static_cast<int>(j), theta);
+  }
+
+  void add_point(std::size_t j, double tip, double z, double dz,
+                 const chip::Chip& chip) {
     if (!chip.in_cut) {
       return;
     }
+    stand_at(z);
+    basis_.weights(z, L_);
     const force::ColumnWeights w =
         force::column_weights(form_, chip.h, point_.meridian.sin_kappa, point_.dS);
-    const double angle = theta + near_[j].epsilon;
+    const double angle = tip - lag_ * z / a_p_ + near_[j].epsilon;
     const double s = std::sin(angle);
     const double c = std::cos(angle);
     const double t = K_[0] * w.cutting[0] + K_[2] * w.edge;
     const double r = K_[1] * w.cutting[1] + K_[3] * w.edge;
     const double F_y = dz * (t * s - r * c);  // E-2
     for (std::size_t q = 0; q < L_.size(); ++q) {
-      out[q] += L_[q] * F_y;  // E-3
+      out_[q] += L_[q] * F_y;  // E-3
     }
-    out[L_.size()] -= dz * (t * c + r * s);
-    out[L_.size() + 1] += F_y;
+    out_[L_.size()] -= dz * (t * c + r * s);
+    out_[L_.size() + 1] += F_y;
   }
 
   force::Edges edges_;
@@ -215,6 +259,9 @@ class Edges {
   std::vector<geometry::EdgePosition> near_;
   Values gained_;
   Values L_;
+  std::span<const double> u_;  ///< what forces() was given
+  std::span<const double> before_;
+  std::span<double> out_;
 };
 
 /// u at the basis points from moments.
@@ -225,6 +272,76 @@ void deflect(std::span<const double> G, std::span<const double> moments,
   }
 }
 
+double angle_of(std::size_t step, std::size_t steps) {
+  return unit::turn * static_cast<double>(step) / static_cast<double>(steps);
+}
+
+/// A turn that is passed over until it repeats.
+struct Turn {
+  Edges& edges;
+  std::span<const double> G;
+  std::size_t points;
+  Feedback feedback;
+  Marched& marched;
+  Values past;  ///< u over the turn, the newest known
+
+  [[nodiscard]] std::span<double> moments(std::size_t step) const {
+    return std::span(marched.moments).subspan(step * (points + 2), points + 2);
+  }
+
+  void bend_all() {
+    for (std::size_t k = 0; k < marched.steps; ++k) {
+      deflect(G, moments(k), std::span(past).subspan(k * points, points));
+    }
+  }
+
+  /// @return the largest change of u; negative: at some angle none was found
+  double pass_once(const fixed_point::Limits& limits) {
+    const bool remembers = feedback == Feedback::regenerative;
+    const std::span<const double> back = edges.back();
+    const bool chip_changes = remembers || feedback == Feedback::direct;
+    Values before(chip_changes ? back.size() * points : 0);
+    Values u(points);
+    double change = 0.0;
+    bool found = false;
+    for (std::size_t k = 0; k < marched.steps; ++k) {
+      const double phi = angle_of(k, marched.steps);
+      for (std::size_t m = 0; remembers && m < back.size(); ++m) {
+        between_steps(past, marched.steps, phi - back[m],
+                      std::span(before).subspan(m * points, points));
+      }
+      std::copy_n(past.begin() + static_cast<std::ptrdiff_t>(k * points), points,
+                  u.begin());
+      const auto image = [&](const Values& state, Values& result) {
+        edges.forces(phi, state, before, moments(k));
+        deflect(G, moments(k), result);
+      };
+      const Values begin = u;
+      // An edge force jumps where a chip ends: then only nearly so.
+      for (const double wider : {1.0, 50.0, 500.0}) {
+        u = begin;
+        const fixed_point::Limits allowed{wider * limits.allowed, limits.largest};
+        found = fixed_point::solve_fixed_point(image, u, allowed);
+        if (!found) {
+          u = begin;
+          found = fixed_point::solve_by_newton(image, u, allowed);
+        }
+        if (found) {
+          break;
+        }
+      }
+      if (!found) {
+        return -1.0;
+      }
+      for (std::size_t p = 0; p < points; ++p) {
+        change = std::max(change, std::abs(u[p] - past[k * points + p]));
+        past[k * points + p] = u[p];
+      }
+    }
+    return change;
+  }
+};
+
 }  // namespace
 
 // six parameters: a cut with its law and coefficients, what bends, and where to begin
@@ -233,67 +350,31 @@ Marched march(const force::Setup& setup, const force::Law& law,
               Feedback feedback, const Marched* start) {
   Edges edges(setup, law, K, compliance);
   const std::size_t points = compliance.basis().size();
-  const std::size_t width = points + 2;
-  const std::size_t steps = steps_per_pitch * edges.teeth();
+  Marched marched{.steps = steps_per_pitch * edges.teeth()};
+  marched.moments.resize(marched.steps * (points + 2));
   const Values G = compliance.rows(compliance.basis().points());
-  Marched turn{.steps = steps, .moments = Values(steps * width)};
-  Values past(steps * points);  // u of the turn, the newest known
-  const bool knows_past =
-      start != nullptr && start->moments.size() == turn.moments.size();
-  const auto at_step = [&](std::size_t k) {
-    return unit::turn * static_cast<double>(k) / static_cast<double>(steps);
-  };
+  Turn turn{edges, G, points, feedback, marched, Values(marched.steps * points)};
   const Values none(points);
-  for (std::size_t k = 0; k < steps; ++k) {
-    edges.forces(at_step(k), none, {},
-                 std::span(turn.moments).subspan(k * width, width));
+  for (std::size_t k = 0; k < marched.steps; ++k) {
+    edges.forces(angle_of(k, marched.steps), none, {}, turn.moments(k));
   }
-  turn.straight = turn.moments;
-  if (knows_past) {
-    turn.moments = start->moments;
+  marched.straight = marched.moments;
+  if (start != nullptr && start->moments.size() == marched.moments.size()) {
+    marched.moments = start->moments;
   }
-  for (std::size_t k = 0; k < steps; ++k) {
-    deflect(G, std::span(turn.moments).subspan(k * width, width),
-            std::span(past).subspan(k * points, points));
-  }
-  const double peak = fixed_point::largest_of(past);
-  const bool remembers = feedback == Feedback::regenerative;
-  const bool chip_changes = remembers || feedback == Feedback::direct;
-  const std::span<const double> back = edges.back();
-  Values before(chip_changes ? back.size() * points : 0);
-  Values u(points);
+  turn.bend_all();
+  const double peak = fixed_point::largest_of(turn.past);
   const fixed_point::Limits limits{0.2 * settled * peak, 20 * peak};
-  for (int t = 0; t < most_turns && peak > 0; ++t) {
-    double change = 0.0;
-    for (std::size_t k = 0; k < steps; ++k) {
-      const double phi = at_step(k);
-      for (std::size_t m = 0; remembers && m < back.size(); ++m) {
-        between_steps(past, steps, phi - back[m],
-                      std::span(before).subspan(m * points, points));
-      }
-      std::copy_n(past.begin() + static_cast<std::ptrdiff_t>(k * points), points,
-                  u.begin());
-      const std::span<double> moments =
-          std::span(turn.moments).subspan(k * width, width);
-      const auto image = [&](const Values& state, Values& result) {
-        edges.forces(phi, state, before, moments);
-        deflect(G, moments, result);
-      };
-      if (!fixed_point::solve_fixed_point(image, u, limits)) {
-        return turn;
-      }
-      for (std::size_t p = 0; p < points; ++p) {
-        change = std::max(change, std::abs(u[p] - past[k * points + p]));
-        past[k * points + p] = u[p];
-      }
+  const bool remembers = feedback == Feedback::regenerative;
+  marched.converged = peak == 0;
+  for (int t = 0; t < most_turns && !marched.converged; ++t) {
+    const double change = turn.pass_once(limits);
+    if (change < 0) {
+      break;
     }
-    if (change <= settled * peak || (!remembers && t > 0)) {
-      turn.converged = true;
-      return turn;
-    }
+    marched.converged = change <= settled * peak || (!remembers && t > 0);
   }
-  turn.converged = peak == 0;
-  return turn;
+  return marched;
 }
 
 numerics::PeriodicPieces with_feedback(const numerics::PeriodicPieces& straight,

@@ -153,7 +153,19 @@ ToothModel::Forces ToothModel::forces_with(Feedback feedback, const Forces& stra
         close_by != nullptr && close_by->found ? &close_by->turns[s] : nullptr;
     Marched& turn = result.turns[s];
     turn = march(setup, setting_.law, K, stations_->compliance(s), feedback, start);
-    result.bent[s] = with_feedback(moments, turn);
+    if (!turn.converged && start != nullptr) {
+      turn = march(setup, setting_.law, K, stations_->compliance(s), feedback);
+    }
+    if (turn.converged) {
+      result.bent[s] = with_feedback(moments, turn);
+      return;
+    }
+    // Slow, and sure where the march loses its way.
+    SteadyState state =
+        steady_state(EdgeMoments(setup, setting_.law, stations_->basis()), K,
+                     stations_->compliance(s), feedback, 10 * setting_.tolerance);
+    turn.converged = state.converged;
+    result.bent[s] = std::move(state.moments);
   });
   result.found = std::all_of(result.turns.begin(), result.turns.end(),
                              [](const Marched& turn) { return turn.converged; });

@@ -16,7 +16,7 @@ Calibration calibration(const Setting& s, const std::vector<Reading>& readings,
                         Feedback feedback = Feedback::none, Datum datum = {}) {
   Setting blind = s;
   blind.setup.runout = {.order = s.setup.runout.order};
-  return calibrate(blind, readings, std::array{datum}, feedback);
+  return calibrate(blind, readings, std::array{datum}, {.feedback = feedback});
 }
 
 Setting with_eccentricity(Model model) {
@@ -79,7 +79,7 @@ TEST(Calibrate, ReadingsOfZeroHaveNoRunoutToLookFor) {
   for (Reading& r : readings) r.error = 0.0;
   int looked = 0;
   const Calibration c =
-      calibrate(s, readings, std::array{Datum{}}, Feedback::none, [&] { ++looked; });
+      calibrate(s, readings, std::array{Datum{}}, {}, [&] { ++looked; });
   EXPECT_TRUE(c.ok);
   EXPECT_EQ(c.runout.message, "all readings are zero");
   EXPECT_EQ(looked, 0);
@@ -99,9 +99,8 @@ TEST(Calibrate, WithoutRunoutAReadingIsHeldAgainstItsMean) {  // [E-11]
 TEST(Calibrate, SaysWhyThereAreNoCoefficients) {  // [E-15]
   const Setting s = made_setting(Model::imprint);
   int looked = 0;
-  const Calibration c =
-      calibrate(s, imprints(s, K, {.heights = {1e-3}}), std::array{Datum{}},
-                Feedback::none, [&] { ++looked; });
+  const Calibration c = calibrate(s, imprints(s, K, {.heights = {1e-3}}),
+                                  std::array{Datum{}}, {}, [&] { ++looked; });
   EXPECT_FALSE(c.ok);
   EXPECT_EQ(c.message, chosen_fit(c.models).message);
   EXPECT_FALSE(c.message.empty());

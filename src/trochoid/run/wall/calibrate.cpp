@@ -61,6 +61,11 @@ results::CalibrateResult calibrate(const inputs::Case& given,
     r.heading.message = refusal(given, chosen_fit(r.calibration.models));
     return r;
   }
+  tell("Looking for doubts");
+  const std::string origin = origin_doubt(given, r.readings, r.calibration);
+  if (!origin.empty()) {
+    r.heading.warnings.push_back({"origin", origin});
+  }
   const std::string negative = why_negative(given, r.readings, r.calibration);
   if (!negative.empty()) {
     r.heading.ok = false;
@@ -68,12 +73,7 @@ results::CalibrateResult calibrate(const inputs::Case& given,
     r.calibration.ok = false;
     return r;
   }
-  tell("Looking for doubts");
   withdraw_hidden_runout(given, r.readings, wall.datum, r.calibration);
-  const std::string origin = origin_doubt(given, r.readings, r.calibration);
-  if (!origin.empty()) {
-    r.heading.warnings.push_back({"origin", origin});
-  }
   add_calibration_warnings(given, r.readings, r.calibration, r.heading.warnings);
   r.heading.message = calibration_sentence(r);
   return r;

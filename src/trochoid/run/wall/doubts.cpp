@@ -51,7 +51,9 @@ std::string both(const inputs::Case& given, const surface::Estimate& K_tc,
 std::string why_negative(const inputs::Case& given, std::span<const Reading> readings,
                          const surface::Calibration& calibration) {
   const surface::FoundCoefficients& found = calibration.coefficients;
-  if (found.K_tc.value >= 0 && found.K_rc.value >= 0) {
+  const bool all_zero = std::all_of(readings.begin(), readings.end(),
+                                    [](const Reading& r) { return r.error == 0; });
+  if (all_zero || (found.K_tc.value >= 0 && found.K_rc.value >= 0)) {
     return {};
   }
   std::vector<Reading> turned = without_outliers(readings, calibration);
@@ -59,7 +61,8 @@ std::string why_negative(const inputs::Case& given, std::span<const Reading> rea
     r.error = -r.error;
   }
   const CoefficientFit other = fit_of_means(given, turned, calibration);
-  if (found.K_tc.value < 0 && other.ok && other.K_tc.value > 0) {
+  if (found.K_tc.value < 0 && other.ok && other.K_tc.value > 0 &&
+      other.K_rc.value > 0) {
     return fmt::format(
         "the readings have the wrong sign: positive must be where material is left; "
         "turned round they give {}",

@@ -1,10 +1,12 @@
 #include <trochoid/base/units.h>
+#include <trochoid/results/calibrate.h>
 #include <trochoid/run/wall/calibrate.h>
 #include <trochoid/run/wall/surface.h>
 
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -39,8 +41,10 @@ std::string readings_at(const std::string& heights, double factor = 1.0) {
 
 /// A calibration from such a file.
 inputs::Case calibrating(const std::string& file, const std::string& more = "") {
-  return case_of(cut_tables + cutter_table + "[surface]\nmodel = \"imprint\"\n" + more +
-                     "\n[[surface_measurement]]\nfile = \"" + file + "\"\n",
+  return case_of(cut_tables + cutter_table +
+                     "[surface]\nmodel = \"imprint\"\nfeedback = \"none\"\n" + more +
+                     "\n[[surface_measurement]]\nform = \"none\"\nfile = \"" + file +
+                     "\"\n",
                  inputs::Command::calibrate);
 }
 
@@ -63,8 +67,9 @@ TEST(CalibrateWall, FindsWhatTheWallWasMadeWith) {
   EXPECT_EQ(r.readings.size(), 15U);
   EXPECT_EQ(r.datum.size(), 1U);
   EXPECT_EQ(r.teeth, 3);
-  EXPECT_EQ(told, (std::vector<std::string>{"Fitting the coefficients",
-                                            "Looking for runout"}));
+  EXPECT_EQ(told,
+            (std::vector<std::string>{"Fitting the coefficients", "Looking for runout",
+                                      "Looking for doubts"}));
 }
 
 TEST(CalibrateWall, SaysWhatIsKnownWhereHeightsAreTooFew) {
@@ -83,11 +88,93 @@ TEST(CalibrateWall, WarnsOfReadingsOfZeroAndOfNothingElse) {
   EXPECT_EQ(r.heading.warnings[0].code, "all_zero");
 }
 
-TEST(CalibrateWall, WarnsOfTheWrongSign) {
+TEST(CalibrateWall, RefusesReadingsOfTheWrongSign) {
   const results::CalibrateResult r =
       calibrate(calibrating(readings_at(heights, -1.0)), {});
-  EXPECT_TRUE(warned(r, "negative_coefficient"));
-  EXPECT_FALSE(warned(r, "all_zero"));
+  EXPECT_FALSE(r.heading.ok);
+  EXPECT_TRUE(r.heading.message.starts_with("the readings have the wrong sign"))
+      << r.heading.message;
+  EXPECT_NE(r.heading.message.find("K_tc_MPa = 399.9"), std::string::npos)
+      << r.heading.message;
+  EXPECT_TRUE(results::answer_of(r).texts.empty());  // no material.toml
+}
+
+/// A profile that the cut of `more` leaves around x, as a file: noise of 1 um, moved
+/// along x, and with `off` of every 50th reading.
+std::string profile_at(const std::string& x, double moved, double off,
+                       const std::string& more = "",
+                       const std::string& feedback = "none") {
+  std::string text = cut_tables + cutter_table + wall_table +
+                     "[surface]\nfeedback = \"" + feedback +
+                     "\"\nheights_mm = [0.4, 0.8, 1.2, 1.6, 2.0, 2.4, 2.8]\n" +
+                     "[sampling]\nsamples_per_rev = 24\nrevolutions = 1\n" + more;
+  text.replace(text.find("position_mm = 20"), 16, "position_mm = " + x);
+  text.replace(text.find("\"up\""), 4, "\"down\"");
+  const results::SurfaceResult made = surface(case_of(text), {});
+  const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
+  const auto file = written(std::string(info->name()) + x + ".csv", "");
+  std::ofstream out(file);
+  out << "x_mm,height_mm,error_mm\n";
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 1e-3);
+  int count = 0;
+  for (const surface::ErrorRow& row : made.map.rows) {
+    for (std::size_t i = 0; i < row.x.size(); ++i) {
+      out << row.x[i] / unit::mm + moved << ',' << row.height / unit::mm << ','
+          << row.error[i] / unit::mm + noise(random) + (++count % 50 == 0 ? off : 0.0)
+          << '\n';
+    }
+  }
+  return file.string();
+}
+
+inputs::Case measuring(const std::string& file, const std::string& x,
+                       const std::string& surface_keys = "") {
+  std::string text = cut_tables + cutter_table + wall_table + "[surface]\n" +
+                     surface_keys + "\n[[surface_measurement]]\nfile = \"" + file +
+                     "\"\nform = \"none\"\n";
+  text.replace(text.find("position_mm = 20"), 16, "position_mm = " + x);
+  text.replace(text.find("\"up\""), 4, "\"down\"");
+  return case_of(text, inputs::Command::calibrate);
+}
+
+TEST(CalibrateWall, NamesReadingsFarOff) {  // [E-26]
+  const std::string file = profile_at("30", 0.0, 0.05);
+  const results::CalibrateResult r =
+      calibrate(measuring(file, "30", "feedback = \"none\""), {});
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_EQ(r.calibration.outliers.size(), 3U);
+  EXPECT_TRUE(warned(r, "outliers"));
+  const surface::FoundCoefficients& found = r.calibration.coefficients;
+  EXPECT_LT(found.K_tc.low, 400e6);
+  EXPECT_GT(found.K_tc.high, 400e6);
+  const results::CalibrateResult kept =
+      calibrate(measuring(file, "30", "feedback = \"none\"\noutliers = \"keep\""), {});
+  EXPECT_TRUE(kept.calibration.outliers.empty());
+  EXPECT_GT(kept.calibration.coefficients.rms, 2 * found.rms);
+}
+
+TEST(CalibrateWall, DoubtsAnXThatCountsFromTheScan) {
+  const std::string file = profile_at("30", -29.9, 0.0);
+  EXPECT_TRUE(
+      warned(calibrate(measuring(file, "30", "feedback = \"none\""), {}), "origin"));
+  const std::string right = profile_at("30", 0.0, 0.0);
+  EXPECT_FALSE(
+      warned(calibrate(measuring(right, "30", "feedback = \"none\""), {}), "origin"));
+}
+
+TEST(CalibrateWall, ARunoutThatFeedbackHidesIsNotGiven) {  // [E-25]
+  const std::string runout = "[runout]\neccentricity_mm = 0.005\nangle_deg = 70\n";
+  const auto found = [&](const std::string& feedback) {
+    const std::string file = profile_at("30", 0.0, 0.0, runout, feedback);
+    return calibrate(measuring(file, "30", "feedback = \"none\""), {});
+  };
+  EXPECT_TRUE(found("none").calibration.runout.ok);
+  const results::CalibrateResult hidden = found("regenerative");
+  EXPECT_FALSE(hidden.calibration.runout.ok);
+  EXPECT_TRUE(hidden.calibration.runout.message.starts_with(
+      "the readings follow the feedback of the deflection"))
+      << hidden.calibration.runout.message;
 }
 
 TEST(CalibrateWall, WarnsOfARunoutThatWasGivenToo) {
