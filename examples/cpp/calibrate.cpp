@@ -33,7 +33,7 @@ int main() {
 
   wall.law = force::LinearEdge{};  // nothing is known of it
   const surface::Datum none;
-  const auto found = surface::calibrate(wall, readings, {&none, 1}, surface::Feedback::none);
+  const auto found = surface::calibrate(wall, readings, {&none, 1});
   if (!found.ok) return std::printf("no answer: %s\n", found.message.c_str()), 1;
   const auto print = [](const char* name, const base::Estimate& K) {
     std::printf("%s %5.0f +- %.0f MPa\n", name, K.value / 1e6, (K.high - K.low) / 2e6);

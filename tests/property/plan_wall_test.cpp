@@ -65,8 +65,8 @@ void expect_promised(const WallTrial& trial, const WallDesign& design) {
   for (unsigned seed = 0; seed < seeds; ++seed) {
     std::vector<Reading> readings = exact;
     add_noise(readings, trial.noise, seed);
-    const Calibration c = calibrate(trial.setting, readings,
-                                    std::array{Datum{.offset = true}}, Feedback::none);
+    const Calibration c =
+        calibrate(trial.setting, readings, std::array{Datum{.offset = true}});
     ASSERT_TRUE(c.ok) << c.message;
     ASSERT_TRUE(c.runout.ok) << c.runout.message;
     K_tc.add(c.coefficients.K_tc.value);
