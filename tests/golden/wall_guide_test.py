@@ -65,8 +65,9 @@ class Guide(unittest.TestCase):
         lines = [f"{x},{h},{e + NOISE_MM * random.standard_normal()!r}" for x, h, e in rows]
         (self.folder / "wall.csv").write_text(
             "\n".join([f"{name},height_mm,error_mm", *lines]) + "\n")
-        text = program.case_text("read", read) + (
-            f'\n[[surface_measurement]]\nfile = "wall.csv"\n'
+        stated = {**read["surface"], "feedback": "none", "errors": "white"}
+        text = program.case_text("read", {**read, "surface": stated}) + (
+            f'\n[[surface_measurement]]\nform = "none"\nfile = "wall.csv"\n'
             f"datum_offset = {str(datum).lower()}\n")
         answer = program.run("calibrate", text, self.folder, "read")
         self.assertEqual(answer.code, 0, answer.stderr)

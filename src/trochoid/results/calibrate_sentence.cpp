@@ -58,6 +58,11 @@ std::string trust(const CalibrateResult& r) {
   if (found.K_tc.value <= 0 || found.K_rc.value <= 0) {
     return "Do not use them: a coefficient is not above 0.";
   }
+  const bool moved = std::any_of(r.heading.warnings.begin(), r.heading.warnings.end(),
+                                 [](const auto& w) { return w.code == "origin"; });
+  if (moved) {
+    return "Do not use them before x is clear: see the warning.";
+  }
   const double worst = std::max(half(found.K_tc) / found.K_tc.value,
                                 half(found.K_rc) / found.K_rc.value);
   if (worst > rough) {
@@ -65,7 +70,8 @@ std::string trust(const CalibrateResult& r) {
   }
   const auto names_a_doubt = [](const base::Warning& w) {
     return w.code == "thick_deflection" || w.code == "feedback" ||
-           w.code == "single_readings" || w.code == "uneven_readings";
+           w.code == "single_readings" || w.code == "uneven_readings" ||
+           w.code == "not_decided" || w.code == "outliers";
   };
   return std::any_of(r.heading.warnings.begin(), r.heading.warnings.end(),
                      names_a_doubt)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace trochoid::surface {
 
@@ -137,6 +138,23 @@ struct Fits {
 };
 
 /// Fit, leave out what lies far off, and fit again until nothing does.
+/// What may be decided: of too few heights no form, beyond what is stated.
+std::vector<Datum> decidable(std::span<const Datum> datum,
+                             std::span<const Reading> readings) {
+  constexpr std::size_t fewest_heights = 5;
+  std::set<double> heights;
+  for (const Reading& r : readings) {
+    if (heights.size() < fewest_heights) {
+      heights.insert(r.height);
+    }
+  }
+  std::vector<Datum> out(datum.begin(), datum.end());
+  for (Datum& d : out) {
+    d.decide = d.decide && heights.size() >= fewest_heights;
+  }
+  return out;
+}
+
 // six parameters: a wall with how it is fitted, and what becomes of its readings
 Fits fit_robustly(const Setting& setting, std::span<const Datum> datum,
                   const FitOptions& options, Kept& kept, std::vector<Outlier>& outliers,
@@ -189,7 +207,8 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   static_cast<void>(side_of(setting));
   Calibration c;
   Kept kept = all_of(readings);
-  Fits fits = fit_robustly(setting, datum, options, kept, c.outliers, means_fitted);
+  c.datum = decidable(datum, readings);
+  Fits fits = fit_robustly(setting, c.datum, options, kept, c.outliers, means_fitted);
   c.models = std::move(fits.stated.models);
   c.runout = std::move(fits.stated.runout);
   c.predicted = std::move(fits.predicted);
@@ -198,7 +217,6 @@ Calibration calibrate(const Setting& setting, std::span<const Reading> readings,
   if (!c.ok) {
     return c;
   }
-  c.datum.assign(datum.begin(), datum.end());
   if (fits.joint.ok) {
     count_joint(fits.joint, c);
   }

@@ -87,6 +87,19 @@ void drop_hopeless(std::vector<Tried>& tried) {
   std::erase_if(tried, [&](const Tried& t) { return t.fit.cost > least + hopeless; });
 }
 
+/// Of all readings, what they scatter about their means included [m].
+double rms_of(const FittedRows& rows, const RowFit& fit) {
+  double sum = rows.within;
+  for (std::size_t i = 0; i < fit.residual.size(); ++i) {
+    sum += rows.count[i] * fit.residual[i] * fit.residual[i];
+  }
+  double readings = 0.0;
+  for (const double n : rows.count) {
+    readings += n;
+  }
+  return um * std::sqrt(sum / readings);
+}
+
 void set_weights(std::vector<Tried>& tried) {
   double most = -std::numeric_limits<double>::infinity();
   double sum = 0.0;
@@ -153,6 +166,9 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
   std::erase_if(tried, [](const Tried& t) { return !t.fit.ok; });
   if (tried.empty()) {
     return {.message = "no fit of all readings settled"};
+  }
+  for (Tried& t : tried) {
+    t.what.rms = rms_of(rows, t.fit);
   }
   set_weights(tried);
   return together(wall, problem.scatter, tried);

@@ -161,11 +161,6 @@ Explanation described(const Tried& tried, const Scatter& scatter, bool with_runo
   what.K_rc = fit.K_rc;
   what.correlation = fit.correlation;
   what.eccentricity = fit.eccentricity;
-  double sum = 0.0;
-  for (const double r : tried.fit.residual) {
-    sum += r * r;
-  }
-  what.rms = um * std::sqrt(sum / static_cast<double>(tried.fit.residual.size()));
   return what;
 }
 

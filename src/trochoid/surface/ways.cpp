@@ -74,10 +74,19 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
     }
     return out;
   };
-  const auto predict = [at](std::span<const Reading>, std::span<const double> p) {
-    Values e = at(p, {}).f;
-    for (double& x : e) {
-      x *= um;
+  std::vector<std::size_t> mean_of;
+  for (std::size_t i = 0; i < found.nominal.size(); ++i) {
+    for (const std::size_t k : found.nominal[i].readings) {
+      mean_of.resize(std::max(mean_of.size(), k + 1));
+      mean_of[k] = i;
+    }
+  }
+  const auto predict = [at, mean_of](std::span<const Reading> readings,
+                                     std::span<const double> p) {
+    const Values means = at(p, {}).f;
+    Values e(readings.size());
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      e[i] = um * means[mean_of[i]];
     }
     return e;
   };

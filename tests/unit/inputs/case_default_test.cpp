@@ -126,7 +126,7 @@ peak_to_peak_um = 26
   EXPECT_DOUBLE_EQ(c.machine.cutter_body->equivalent_diameter.value(), 6.4e-3);
   EXPECT_EQ(c.machine.surface->model, surface::Model::envelope);
   EXPECT_EQ(c.machine.surface->load, surface::Load::distributed);
-  EXPECT_EQ(c.machine.surface->feedback, surface::Feedback::none);
+  EXPECT_EQ(c.machine.surface->feedback, std::nullopt);
   EXPECT_EQ(c.machine.surface->phase, 0.0);
   EXPECT_FALSE(c.machine.surface_measurements[0].datum_offset);
   EXPECT_EQ(c.machine.correct->options.target, correction::Target::peak_force);

@@ -37,7 +37,7 @@ TEST(CaseSurface, IsThereWithItsDefaultsWhereItIsLeftOut) {
   ASSERT_TRUE(c.machine.surface.has_value());
   EXPECT_EQ(c.machine.surface->model, surface::Model::envelope);
   EXPECT_EQ(c.machine.surface->load, surface::Load::distributed);
-  EXPECT_EQ(c.machine.surface->feedback, surface::Feedback::none);
+  EXPECT_EQ(c.machine.surface->feedback, std::nullopt);
   EXPECT_EQ(c.machine.surface->phase, 0.0);
   EXPECT_EQ(c.machine.surface->probe_diameter, 0.0);
   EXPECT_TRUE(c.machine.surface->heights.empty());
