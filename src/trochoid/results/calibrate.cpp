@@ -182,6 +182,7 @@ Object result_of(const CalibrateResult& r) {
   };
   const std::vector<Estimate>& datum = c.coefficients.datum;
   const bool offset = !datum.empty() && !c.datum_parts.empty() &&
+                      c.datum_parts.front().set == 0 &&
                       c.datum_parts.front().kind == surface::DatumPart::Kind::offset;
   add("offset_mm", offset ? Value(datum.front().value / unit::mm) : Value());
   if (!datum.empty()) {

@@ -42,6 +42,7 @@ CalibrateResult made() {
   c.models.fits.push_back(fit);
   c.models.chosen = 1;
   c.coefficients = {fit.K_tc, fit.K_rc, fit.correlation, fit.datum, fit.rms};
+  c.datum_parts = {{.set = 0, .kind = trochoid::surface::DatumPart::Kind::offset}};
   c.predicted = {5e-6, 5e-6};
   c.runout.message = "one tooth";
   return r;
@@ -123,6 +124,10 @@ TEST(CalibrateAnswer, SaysWhatBecameOfTheReadings) {
 TEST(CalibrateAnswer, DatumIsToldOfEachFile) {
   CalibrateResult r = made();
   r.datum = {{}, {.offset = true, .tilt = true}};
+  using Kind = trochoid::surface::DatumPart::Kind;
+  r.calibration.datum_parts = {{.set = 1, .kind = Kind::offset},
+                               {.set = 1, .kind = Kind::lean},
+                               {.set = 1, .kind = Kind::tilt}};
   r.calibration.coefficients.datum = {estimate(1e-6, 0), estimate(2e-3, 0),
                                       estimate(3e-3, 0)};
   const Value result = answer_of(r).result;
