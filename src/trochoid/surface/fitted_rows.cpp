@@ -80,6 +80,7 @@ FittedRows folded_rows(const Setting& setting, std::span<const Reading> readings
     rows.within += apart * apart;
   }
   rows.of = std::move(folded.of);
+  rows.independent = static_cast<double>(readings.size());
   return rows;
 }
 
@@ -97,6 +98,7 @@ FittedRows mean_rows(std::span<const Nominal> nominal, std::size_t readings) {
              .set = n.set},
             static_cast<double>(n.readings.size()), rows);
   }
+  rows.independent = static_cast<double>(nominal.size());
   return rows;
 }
 

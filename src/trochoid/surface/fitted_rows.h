@@ -17,6 +17,7 @@ struct FittedRows {
   std::vector<std::size_t> of;  ///< which row a reading is in
   std::vector<Spot> spots;      ///< of every reading
   double within = 0.0;          ///< sum of squares about the means [um^2]
+  double independent = 0.0;     ///< how many values scatter: readings, or means
 };
 
 /// @brief Readings one by one, folded where they are many.

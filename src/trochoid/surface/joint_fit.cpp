@@ -75,7 +75,7 @@ Scatter scatter_after(const Given& wall, const FittedRows& rows,
       {fit.columns, prior.size() + 1, rows.count}, prior,
       shared ? sharing_of(rows.readings, setup.cutter.teeth() * setup.cut.f_z)
              : std::vector<Sharing>{},
-      rows.within, static_cast<double>(wall.readings.size()));
+      rows.within, rows.independent);
   scatter.s2 = std::max(scatter.s2, least_variance);
   return scatter;
 }
@@ -135,7 +135,8 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
   const bool decide =
       std::any_of(datum.begin(), datum.end(), [](const Datum& d) { return d.decide; });
   const Form richest = decide ? Form::curvature : Form::none;
-  RowProblem problem{.error = rows.error, .count = rows.count};
+  RowProblem problem{
+      .error = rows.error, .count = rows.count, .independent = rows.independent};
   const double rms = (runout.ok ? runout.rms : chosen_fit(found).rms) / um;
   problem.scatter.s2 = std::max(rms * rms, least_variance);
   DatumColumns form_columns = add_form(rows, datum, richest, problem);
@@ -148,7 +149,10 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
       scatter_after(wall, rows, problem, cheapest(tried).fit, options.shared);
   const std::size_t ways = tried.size();
   for (std::size_t w = 0; w < ways; ++w) {
-    tried[w].fit = settle_twice(problem, tried[w].way, tried[w].fit.p);
+    RowFit again = settle_twice(problem, tried[w].way, tried[w].fit.p);
+    if (again.ok) {  // else the first one stays
+      tried[w].fit = std::move(again);
+    }
     tried[w].what.form = richest;
     tried[w].form = form_columns;
   }

@@ -125,17 +125,16 @@ void describe(const RowProblem& problem, Values rows, const Normal& normal,
   for (std::size_t k = 0; k < width - 1; ++k) {
     fit.own.push_back(variances[k * width]);
   }
-  double readings = 0.0;
   for (std::size_t i = 0; i < problem.error.size(); ++i) {
     double& left = rows[i * width + width - 1];
     for (std::size_t k = 0; k < fit.form.size(); ++k) {
       left -= rows[i * width + unknowns + k] * fit.form[k];
     }
     fit.residual.push_back(left);
-    readings += problem.count[i];
   }
   fit.columns = std::move(rows);
-  const double freedom = std::max(1.0, readings - static_cast<double>(unknowns));
+  const double freedom =
+      std::max(1.0, problem.independent - static_cast<double>(unknowns));
   fit.evidence = -0.5 * freedom * std::log(std::max(fit.cost, 1e-300)) + 0.5 * log_det;
   for (const double prior : problem.prior) {
     fit.evidence += prior > 0 ? 0.5 * std::log(prior) : 0.0;

@@ -24,6 +24,7 @@ using RowModel =
 struct RowProblem {
   std::span<const double> error;  ///< measured, shape (rows)
   std::span<const double> count;  ///< of readings in each row
+  double independent = 0.0;       ///< how many values scatter: readings, or means
   DatumColumns form;
   std::vector<double> prior;  ///< 1/variance of each coefficient of the form; 0: open
   Scatter scatter;

@@ -200,7 +200,8 @@ std::vector<Sharing> sharing_of(std::span<const Reading> readings, double feed) 
       levels_of(readings, 1.5 * feed, [](const Reading& r) { return r.x; });
   std::vector<Sharing> all;
   for (const Sharing* sharing : {&heights, &places}) {
-    if (sharing->levels >= fewest_levels) {
+    // Of one row a level, nobody can say what is shared.
+    if (sharing->levels >= fewest_levels && 2 * sharing->levels <= readings.size()) {
       all.push_back(*sharing);
     }
   }

@@ -18,8 +18,8 @@ struct Sharing {
 /// wall, and at both.
 ///
 /// Of very many heights or places, neighbours count as one; a scan along the wall is
-/// stretches of it. What has fewer than four levels shows no scatter between them, and
-/// is left out.
+/// stretches of it. What has fewer than four levels, or a level for
+/// each row, shows no scatter between them, and is left out.
 /// @param feed  of a turn: what lies within is one place [m]
 std::vector<Sharing> sharing_of(std::span<const Reading> readings, double feed);
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <stdexcept>
 
 namespace trochoid::surface {
@@ -115,6 +117,30 @@ TEST(Calibrate, ASlotHasNoSingleWall) {
   EXPECT_THROW(
       static_cast<void>(calibration(made_setting(Model::imprint, slot), readings)),
       std::invalid_argument);
+}
+
+TEST(Calibrate, MeansScatterAsManyAsTheyAre) {  // [E-20] [E-21]
+  // One tooth shows no runout: the means are fitted, and their number counts, not that
+  // of the readings in them.
+  Setting s = made_setting(Model::envelope);
+  s.setup = made_cut(true, 1);
+  auto readings =
+      profiles(s, K, {.places = {30e-3}, .labelled = false, .per_tooth = 12});
+  std::mt19937 random(3);
+  std::normal_distribution<double> shared(0.0, 1e-6);
+  double height = -1.0;
+  double off = 0.0;
+  for (Reading& r : readings) {
+    off = r.height != height ? shared(random) : off;
+    height = r.height;
+    r.error += off;
+  }
+  const std::array datum{Datum{}};
+  const Calibration means = calibrate(s, readings, datum);
+  const Calibration joint = calibrate(s, readings, datum, {.shared = true});
+  ASSERT_TRUE(means.ok && joint.ok);
+  EXPECT_FALSE(joint.with_runout);
+  EXPECT_NEAR(joint.coefficients.K_tc.se / means.coefficients.K_tc.se, 1.0, 0.1);
 }
 
 }  // namespace
