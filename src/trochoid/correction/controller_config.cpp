@@ -7,6 +7,8 @@ namespace {
 
 using trochoid::correction::within;
 
+constexpr double most_gain = 1e6;  // larger ones are absurd as an input
+
 double largest(const TrochoidControllerConfig& c) {
   double most = 0.0;
   for (int32_t i = 0; i < c.points; ++i) {
@@ -140,7 +142,7 @@ bool repair_memory(TrochoidController& c) {
   const double half = 0.5 * (c.config.upper_m - c.config.lower_m);
   const double slope = fmin(c.config.slew_m_per_s, half / c.config.ramp_s);
   const bool derived = c.middle_m == c.config.lower_m + half &&
-                       c.ramp_m_per_s == slope && within(c.gain_limit, 1.0, 1e30);
+                       c.ramp_m_per_s == slope && within(c.gain_limit, 1.0, most_gain);
   if (derived && finite_state(c)) {
     return true;
   }
@@ -201,7 +203,7 @@ int32_t trochoid_controller_init(TrochoidController* controller,
   const double most = largest(*config);
   c.middle_m = config->lower_m + half;
   c.ramp_m_per_s = fmin(config->slew_m_per_s, half / config->ramp_s);
-  c.gain_limit = most > 0.0 ? half / most : 1.0;
+  c.gain_limit = most > 0.0 ? fmin(half / most, most_gain) : 1.0;
   c.output_m = config->start_m;
   c.gain = 1.0;
   c.state = TROCHOID_DISABLED;

@@ -179,6 +179,10 @@ class Loop {
     if (rigid_.teeth() > 2) {  // from nothing: the waves take the place of the table
       TrochoidEstimatorConfig config;
       trochoid_estimator_defaults(&config);
+      if (rigid_.teeth() > TROCHOID_ESTIMATOR_TEETH) {
+        refused_estimator_ = TROCHOID_ESTIMATOR_REFUSED_TEETH;
+        return;
+      }
       set_estimator_model(s, plan.motion, config);
       config.wait_turns =
           1 + static_cast<int32_t>(settling_time(s.cut.plant) * omega_ / unit::turn);

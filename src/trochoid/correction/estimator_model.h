@@ -12,6 +12,7 @@ namespace trochoid::correction {
 ///          W_ji = dv_j/drho_i
 /// @src derived
 /// @param around  the table's motion about which the differences are taken
+/// @param setting  of at most TROCHOID_ESTIMATOR_TEETH teeth
 /// @param config  its teeth, harmonics, windows, models and most_m are set
 void set_estimator_model(const Setting& setting, const PeriodicMotion& around,
                          TrochoidEstimatorConfig& config);

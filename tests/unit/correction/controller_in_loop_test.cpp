@@ -246,6 +246,21 @@ ControllerInLoop four_flutes(bool adapt) {
 
 }  // namespace
 
+TEST(ControllerInLoop, RefusesToLearnFromMoreFlutesThanItHolds) {
+  MovingCut nine = moving_case(0.0);
+  nine.setup = slot_with({10e-6, 0, -10e-6, 0, 0, 0, 0, 0, 0});
+  nine.setup.cut.a_p = 0.05e-3;
+  const Setting s = known_setting(nine, {}, RunoutEstimate::known);
+  const Plan plan = plan_correction(s, {.peak_to_peak = 10e-6});
+  LoopOptions options = quick();
+  EXPECT_TRUE(controller_in_loop(s, plan, options).ok);
+  options.adapt = true;
+  const ControllerInLoop loop = controller_in_loop(s, plan, options);
+  EXPECT_FALSE(loop.ok);
+  EXPECT_EQ(loop.reason,
+            "the controller refuses its configuration: teeth 2 to 8, harmonics 1 to 8");
+}
+
 TEST(ControllerInLoop, LearnsTheWavesOfFourFlutes) {  // [L-9] [L-10] [L-11]
   const ControllerInLoop loop = four_flutes(true);
   ASSERT_TRUE(loop.ok) << loop.reason;

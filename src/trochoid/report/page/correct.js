@@ -50,43 +50,47 @@ function flutesSection({ before, after }) {
   const kinds = [
     { name: 'peak of |Fy|, N', of: (f) => f.peak_Fy_N },
     { name: 'chip area, mm rad', of: (f) => f.chip_area_mm_rad },
-    { name: 'thickest chip, µm', of: (f) => 1000 * f.peak_chip_mm },
-    before.flutes.length > 2 && isNumber(before.flutes[0].own_peak_Fy_N) &&
-      { name: 'own |Fy|, N', of: (f) => f.own_peak_Fy_N },
-  ].filter(Boolean);
+    before.flutes.length > 2 && isNumber(before.flutes[0].own_peak_Fy_N)
+      ? { name: 'its own |Fy|, N', of: (f) => f.own_peak_Fy_N, alone: true }
+      : { name: 'thickest chip, µm', of: (f) => 1000 * f.peak_chip_mm },
+  ];
+  const inRow = (width) => (width < 520 ? 1 : kinds.length);
   const rows = before.flutes.map((f, i) => [`${f.tooth}`,
     ...kinds.flatMap(({ of }) => [number(of(f), 4), number(of(after.flutes[i]), 4)])]);
-  const paint = (c, width, height) => {
-    const each = width / kinds.length;
-    kinds.forEach((kind, k) => {
+  const paint = (c, width) => {
+    const columns = inRow(width);
+    const each = width / columns;
+    kinds.forEach((kind, index) => {
+      const k = index % columns;
+      const top = 220 * Math.floor(index / columns);
       const most = Math.max(...before.flutes.map(kind.of), ...after.flutes.map(kind.of)) || 1;
-      write(c, kind.name, k * each + 4, 10, { color: '--ink' });
+      write(c, kind.name, k * each + 4, top + 10, { color: '--ink' });
       const n = before.flutes.length;
       const slot = (each - 24) / n;
-      const floor = height - 22;
+      const floor = top + 198;
       for (let j = 0; j < n; ++j) {
         const x = k * each + 8 + j * slot;
         [[before, '--s2', 0.08], [after, '--s1', 0.5]].forEach(([side, color, shift]) => {
-          const high = (floor - 26) * kind.of(side.flutes[j]) / most;
+          const high = 172 * kind.of(side.flutes[j]) / most;
           const x0 = x + shift * slot;
           filled(c, [[x0, floor], [x0, floor - high], [x0 + 0.38 * slot, floor - high],
             [x0 + 0.38 * slot, floor]], css(color));
         });
-        write(c, `flute ${before.flutes[j].tooth}`, x + 0.48 * slot, height - 10,
+        write(c, `flute ${before.flutes[j].tooth}`, x + 0.48 * slot, top + 210,
           { align: 'center' });
       }
     });
   };
   const chart = drawing({ label: 'Bars of every flute before and after', paint,
-    height: () => 220 });
+    height: (width) => 220 * Math.ceil(kinds.length / inRow(width)) });
   const part = section('flutes', 'Flutes before and after', 'Flutes',
     prose('Left bar: without the command. Right bar: with it. The peaks are those of the whole ' +
       'force on the tool while a flute cuts; the chip area is what the flute takes at its tip. ' +
-      'Equal peaks are not equal chip loads.' + (kinds.length > 3 ? ' Its own |Fy| is that of ' +
+      'Equal peaks are not equal chip loads.' + (kinds.some(({ alone }) => alone) ? ' Its own |Fy| is that of ' +
       'this flute alone, which no dynamometer shows while several cut at once.' : '')),
     chart.element,
     table(['flute', ...kinds.flatMap(({ name }, k) => [k === 0 ? '|Fy| before, N' :
-      name.replace(/,(?=[^,]*$)/, ' before,'), 'after'])], rows), optimumText(after, before));
+      name.replace(/,(?=[^,]*$)/, ' before,'), 'after'])], rows), ownForces(after, before));
   return { part, draw: () => chart.resize() };
 }
 
@@ -103,7 +107,8 @@ function optimumOf(optimum) {
   return 'Local minimum of a problem that is not convex: another shape or strategy may do better.';
 }
 
-function optimumText(after, before) {
+/** What a dynamometer does not show. */
+function ownForces(after, before) {
   return isNumber(after.own_difference) && after.flutes.length > 2 ? prose(
     `The peaks of the flutes' own |Fy| differ by ${inPercent(before.own_difference)} % before and ` +
     `${inPercent(after.own_difference)} % after.`) : null;
