@@ -159,6 +159,9 @@ struct Correction {
   std::optional<base::Steps> spindle_speed;  ///< of the map [rad/s]
 };
 
+/// [spindle]: what turns the tool.
+using Spindle = correction::SpindleDrive;
+
 /// [controller]: the real-time controller when it is simulated.
 using Controller = correction::LoopOptions;
 
@@ -202,6 +205,7 @@ struct MachineTables {
   std::optional<StepTables> step;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
+  std::optional<Spindle> spindle;
   std::optional<Controller> controller;
   std::optional<Stability> stability;
 };
