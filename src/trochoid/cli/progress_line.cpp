@@ -32,7 +32,8 @@ ProgressLine::ProgressLine(bool quiet)
   if (!quiet) {
     try {
       teller_ = std::thread([this] { tell_until_done(); });
-    } catch (const std::exception&) {  // no thread to be had: the work is done in silence
+    } catch (
+        const std::exception&) {  // no thread to be had: the work is done in silence
     }
   }
 }
