@@ -20,7 +20,7 @@ struct MarkedWall {
 /// @brief The moving cut with a command, in its last turn.
 struct MovedCut {
   dynamics::Motion motion;
-  dynamics::Verdict verdict = dynamics::Verdict::periodic;
+  dynamics::Verdict verdict;
   /// Those that the arc of cut reaches; of a rigid tool, none where it chatters.
   std::vector<MarkedWall> walls;
 };
@@ -32,7 +32,8 @@ struct BeforeAfter {
   double table_deviation = 0.0;  ///< of the table from the motion wanted, at most [m]
 };
 
-/// @brief The cut of a setting with a command, from rest on.
+/// @brief The cut of a setting with a command, from rest on; followed further where it
+/// seems to chatter.
 /// @param command  of the actuator, about mid-stroke
 MovedCut moved_cut(const Setting& setting, const PeriodicMotion& command);
 

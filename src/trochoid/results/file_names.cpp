@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 31> names = {"case.toml",
+constexpr std::array<std::string_view, 32> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -37,6 +37,7 @@ constexpr std::array<std::string_view, 31> names = {"case.toml",
                                                     "once_per_turn.csv",
                                                     "surface_location.csv",
                                                     "speeds.csv",
+                                                    "spectrum.csv",
                                                     "command.h",
                                                     "controller.csv",
                                                     "plan.csv",
