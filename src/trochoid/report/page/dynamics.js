@@ -22,6 +22,7 @@ function dynamicsPage(report) {
   return [
     { lead: dynamicsLead(report.result) },
     { part: flutesOfMotion(report.result) },
+    movingSection(report),
     motionForces(report),
     fluteForces(report),
     motionSection(report),
