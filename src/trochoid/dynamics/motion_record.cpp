@@ -17,6 +17,8 @@ constexpr std::size_t turns_compared = 8;
 constexpr std::size_t many_nodes = 200000;
 /// So many turns before, what is there to stay was there.
 constexpr std::size_t turns_before = 4;
+/// More than any change.
+constexpr double all = std::numeric_limits<double>::infinity();
 
 /// Place and speed between the ends of a step: the cubic through both.
 std::array<double, 2> between(const std::array<double, 2>& a,
@@ -161,11 +163,11 @@ void TurnComparison::forget(int turn, std::size_t node) {
   forgotten_[place(n, node + 1 < nodes_ ? node + 1 : 0)] = 1;
 }
 
-/// Largest change of a component over nodes from that so many nodes before.
-double TurnComparison::change(std::size_t shift, std::size_t from,
-                              std::size_t to) const {
+/// Largest change of a component over nodes from that so many nodes before; the first one
+/// that is more than enough will do.
+double TurnComparison::change(std::size_t shift, Window window, double enough) const {
   double largest = 0.0;
-  for (std::size_t i = from; i < to; ++i) {
+  for (std::size_t i = window.from; i < window.to && largest <= enough; ++i) {
     const std::size_t a = i % force_.size();
     const std::size_t b = (i - shift) % force_.size();
     for (std::size_t c = 0; c < 3 && !forgotten_[a] && !forgotten_[b]; ++c) {
@@ -180,8 +182,8 @@ double TurnComparison::persistence(std::size_t shift) const {
   if (back + nodes_ + shift > done_ - first_) {
     return 0.0;
   }
-  const double early = change(shift, done_ - back - nodes_, done_ - back);
-  return early > 0 ? change(shift, done_ - nodes_, done_) / early : 0.0;
+  const double early = change(shift, {done_ - back - nodes_, done_ - back}, all);
+  return early > 0 ? change(shift, {done_ - nodes_, done_}, all) / early : 0.0;
 }
 
 void TurnComparison::finish(Motion& motion) const {
@@ -191,7 +193,7 @@ void TurnComparison::finish(Motion& motion) const {
     return;
   }
   motion.last_change =
-      seen < 2 * nodes_ ? motion.peak : change(nodes_, done_ - nodes_, done_);
+      seen < 2 * nodes_ ? motion.peak : change(nodes_, {done_ - nodes_, done_}, all);
   const double same = periodic_tolerance * motion.peak;
   const std::size_t unit = pitch_ > 0 ? pitch_ : nodes_;
   const std::size_t passes = pitch_ > 0 ? 1 : teeth_;
@@ -201,7 +203,7 @@ void TurnComparison::finish(Motion& motion) const {
     if (window + shift > seen) {
       return;
     }
-    if (change(shift, done_ - window, done_) <= same) {
+    if (change(shift, {done_ - window, done_}, same) <= same) {
       motion.passes = static_cast<int>(k * passes);  // T-15
       motion.persistence = persistence(shift > nodes_ ? nodes_ : unit);
     }

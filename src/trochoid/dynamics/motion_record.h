@@ -47,12 +47,12 @@ class MotionSamples {
   std::vector<std::pair<double, double>> commands_;
 };
 
-/// @brief What each flute does in the last revolution.
+/// @brief What each flute does in the last revolutions, as many as are watched.
 class FluteWatch {
  public:
   FluteWatch(const MotionProblem& problem, const EngagedGrid& grid);
 
-  /// A step of the last turn, and the force at its start.
+  /// A step of a turn that is watched, and the force at its start.
   void add(const TakenStep& step, const Force& F, Motion& motion);
 
  private:
@@ -82,8 +82,12 @@ class TurnComparison {
   void finish(Motion& motion) const;
 
  private:
-  [[nodiscard]] double change(std::size_t shift, std::size_t from,
-                              std::size_t to) const;
+  /// Nodes of the record, from one to another, excluded.
+  struct Window {
+    std::size_t from = 0;
+    std::size_t to = 0;
+  };
+  [[nodiscard]] double change(std::size_t shift, Window window, double enough) const;
   [[nodiscard]] double persistence(std::size_t shift) const;
   [[nodiscard]] std::size_t place(std::size_t turn, std::size_t node) const noexcept {
     return (turn % turns_) * nodes_ + node;
