@@ -152,6 +152,50 @@ class Compared(unittest.TestCase):
                      slices=100)
 
 
+class Verdicts(unittest.TestCase):
+    """What the motion comes to, from what the program wrote of it."""
+
+    def moved(self, **changed):
+        cut = {"engagement": "slot", "axial_depth_mm": 0.5, "feed_per_tooth_mm": 0.05,
+               "spindle_rpm": 5000, **changed}
+        text = program.case_text("verdict", {
+            "tool": {"teeth": 2, "diameter_mm": 10, "helix_deg": 0}, "cut": cut,
+            "chip": {"model": "none"},
+            "force": {"K_tc_MPa": 600, "K_rc_MPa": 200, "K_ac_MPa": 0, "K_te_N_per_mm": 0,
+                      "K_re_N_per_mm": 0, "K_ae_N_per_mm": 0}})
+        given, _ = mode("tool", "x", 0.03993, 922, 0.011)
+        text += "\n[[mode]]\n" + "".join(f"{k} = {program.toml(v)}\n" for k, v in given.items())
+        with tempfile.TemporaryDirectory() as folder:
+            answer = program.run("dynamics", text, folder, "case")
+            self.assertEqual(answer.code, 0, answer.stderr)
+            forces = answer.columns("forces.csv")
+            spectrum = None if answer.result["period"] else answer.columns("spectrum.csv")
+        return answer.result, np.array([forces["Fx_N"], forces["Fy_N"]]).T, spectrum
+
+    def test_periods(self):  # [T-15]
+        interrupted = {"engagement": "up", "radial_depth_mm": 0.6, "spindle_rpm": 19500}
+        for changed, teeth in (({"axial_depth_mm": 0.2}, 1),
+                               ({**interrupted, "axial_depth_mm": 1.7}, 1),
+                               ({**interrupted, "axial_depth_mm": 2.5}, 2)):
+            result, force, _ = self.moved(**changed)
+            self.assertEqual(mo.passes(force, 2, result["peak_xy_N"]), teeth)
+            self.assertEqual(result["period"]["teeth"], teeth)
+
+    def test_the_lines_of_a_spectrum(self):  # [T-13] [T-14]
+        t = np.arange(4096) / 4096
+        q = 3 + 5 * np.sin(2 * np.pi * 200.3 * t) + 2 * np.sin(2 * np.pi * 517 * t)
+        k, height = mo.line_near(mo.hann_amplitudes(q), 200)
+        np.testing.assert_allclose([k, height], [200.3, 5], rtol=1e-4)
+        result, _, spectrum = self.moved()
+        a = np.hypot(spectrum["x_um"], spectrum["y_um"])
+        step = spectrum["frequency_Hz"][1]
+        self.assertGreater(len(result["vibration"]["lines"]), 1)
+        for line in result["vibration"]["lines"]:
+            k, height = mo.line_near(a, int(round(line["frequency_Hz"] / step)))
+            self.assertAlmostEqual(k * step, line["frequency_Hz"], delta=1e-6 * step)
+            self.assertAlmostEqual(height, np.hypot(line["x_um"], line["y_um"]), delta=1e-6 * height)
+
+
 if __name__ == "__main__":
     if not program.pathlib.Path(program.PROGRAM).exists():
         print("the program is not built", file=sys.stderr)

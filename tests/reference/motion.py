@@ -7,6 +7,8 @@ leaves, with steps that are short at both ends, and the motion of the past is re
 cubic Hermite pieces (method of steps). A helix is a stack of straight slices.
 Units: N, m, s, rad.
 
+Below: what repeats after how many teeth, and lines of a spectrum.
+
 Source: [diez2010] eq. 1 to 15 with their repairs, T-1, T-2 and T-4; power law with the
 chip in units of 1 mm.
 """
@@ -175,3 +177,30 @@ class Motion:
             self.left.append(self.rate(b, z, inside))
         self.slopes.append(self.left[-1])
         return self
+
+
+def passes(force, teeth, peak):
+    """After how many teeth the force is as it was (T-15); rows of two whole turns."""
+    per_tooth = len(force) // (2 * teeth)
+    for k in range(1, teeth + 1):
+        shift = k * per_tooth
+        last = force[len(force) // 2:]
+        before = force[len(force) // 2 - shift:len(force) - shift]
+        if np.abs(last - before).max() <= peak / 300:
+            return k
+    return None
+
+
+def hann_amplitudes(q):
+    """Amplitudes at the frequencies of a discrete Fourier transform (T-13)."""
+    n = len(q)
+    window = np.sin(np.pi * np.arange(n) / n) ** 2
+    return 4 / n * np.abs(np.fft.rfft((q - q.mean()) * window))
+
+
+def line_near(amplitude, k):
+    """Place and height of the line whose largest sample is the k-th (T-14)."""
+    side = 1 if amplitude[k + 1] > amplitude[k - 1] else -1
+    r = amplitude[k + side] / amplitude[k]
+    d = (2 * r - 1) / (1 + r)
+    return k + side * d, amplitude[k] / (np.sinc(d) / (1 - d * d))

@@ -9,7 +9,7 @@ namespace trochoid::base {
 struct Steps {
   double first = 0.0;
   double last = 0.0;
-  double count = 0.0;  ///< a whole number from 2 on, once it has been checked
+  double count = 0.0;  ///< a whole number, once it has been checked; 1: of `last`
 };
 
 inline std::vector<double> values(const Steps& steps) {

@@ -78,7 +78,13 @@ double root_factor(const Goal& goal, const PeriodicMotion& X, std::string& reaso
   };
   double last = f(factors[0]);
   if (last == 0) {
-    reason = "the flutes cut alike without any motion";
+    const auto flutes = goal.flutes(scaled(X, factors[0]));
+    const bool cut = std::any_of(flutes.begin(), flutes.end(), [&](const Flute& flute) {
+      return flute.*goal.value > 0;
+    });
+    reason = cut ? "the flutes cut alike without any motion"
+                 : "without any motion no flute cuts, or the tool is thrown out of the "
+                   "cut: there is nothing to compare";
     return 0.0;
   }
   for (std::size_t i = 1; i < factors.size(); ++i) {

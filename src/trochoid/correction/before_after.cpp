@@ -1,17 +1,21 @@
 #include <trochoid/correction/before_after.h>
 
+#include <trochoid/base/units.h>
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace trochoid::correction {
 
 namespace {
 
+using dynamics::Bounded;
 using dynamics::Motion;
-using dynamics::Verdict;
+using dynamics::Periodic;
 
 /// How far the arc of cut may miss a wall that it reaches [rad].
 constexpr double wall_slack = 1e-6;
@@ -59,9 +63,14 @@ MovedCut moved_cut(const Setting& setting, const PeriodicMotion& command) {
   dynamics::MotionProblem p = problem_of(setting.cut, command);
   p.kept = 1;
   MovedCut cut{.motion = dynamics::motion(p)};
-  cut.verdict = dynamics::verdict_so_far(cut.motion);
+  cut.verdict = dynamics::verdict_so_far(p, cut.motion);
+  if (dynamics::chatters(cut.verdict) && cut.motion.finite && cut.motion.solved) {
+    dynamics::SteadyState steady = dynamics::steady_state(p);
+    cut.motion = std::move(steady.motion);
+    cut.verdict = std::move(steady.verdict);
+  }
   take_whole_force(setting, cut);
-  if (cut.verdict != Verdict::chatter) {
+  if (!dynamics::chatters(cut.verdict)) {
     cut.walls = walls_of(setting, cut.motion);
   }
   return cut;
@@ -69,19 +78,38 @@ MovedCut moved_cut(const Setting& setting, const PeriodicMotion& command) {
 
 std::string chatter_in(const MovedCut& cut, std::string_view when) {
   const Motion& m = cut.motion;
-  if (cut.verdict != Verdict::chatter) {
+  if (!dynamics::chatters(cut.verdict)) {
     return {};
   }
-  if (!m.finite || !m.solved) {
-    return fmt::format(
-        "chatter {} the correction: after {} turns the "
-        "motion had grown beyond all bounds",
-        when, m.turns_done);
+  const std::string text = fmt::format("chatter {} the correction: ", when);
+  const std::string end = "; there are no steady peaks to make equal";
+  if (!m.solved) {
+    return text + "no force was found that agrees with the motion it makes";
   }
-  return fmt::format(
-      "chatter {} the correction: the force still changes by {:.3g} of {:.3g} N "
-      "from turn to turn; there are no steady peaks to make equal",
-      when, m.last_change, dynamics::largest_component(m));
+  if (!m.finite) {
+    return text + fmt::format(
+                      "after {} turns the tool is more than {:.0f} mm from "
+                      "where it would rest: far out of the cut",
+                      m.turns_done, dynamics::run_away / unit::mm);
+  }
+  if (const auto* periodic = std::get_if<Periodic>(&cut.verdict)) {
+    return text + "the motion repeats " +
+           dynamics::period_text(*periodic, m.flutes.size()) + " only" + end;
+  }
+  const auto* bounded = std::get_if<Bounded>(&cut.verdict);
+  if (bounded != nullptr && bounded->turns > 0) {
+    return text +
+           fmt::format(
+               "the motion does not repeat; over the last {} turns it stays "
+               "within {:.4g} um of its middle along x and {:.4g} um along y",
+               bounded->turns, bounded->amplitude[0] / unit::um,
+               bounded->amplitude[1] / unit::um) +
+           end;
+  }
+  return text +
+         fmt::format("the force still changes by {:.3g} of {:.3g} N from turn to turn",
+                     m.last_change, dynamics::largest_component(m)) +
+         end;
 }
 
 double table_deviation(const Setting& setting, const Plan& plan,

@@ -26,7 +26,7 @@ struct MovedCut {
   /// Of each flute's own force, which no dynamometer shows where several teeth cut at
   /// once.
   std::vector<dynamics::FluteMotion> own;
-  dynamics::Verdict verdict = dynamics::Verdict::periodic;
+  dynamics::Verdict verdict;
   /// Those that the arc of cut reaches; of a rigid tool, none where it chatters.
   std::vector<MarkedWall> walls;
 };
@@ -38,7 +38,8 @@ struct BeforeAfter {
   double table_deviation = 0.0;  ///< of the table from the motion wanted, at most [m]
 };
 
-/// @brief The cut of a setting with a command, from rest on.
+/// @brief The cut of a setting with a command, from rest on; followed further where it
+/// seems to chatter.
 /// @param command  of the actuator, about mid-stroke
 MovedCut moved_cut(const Setting& setting, const PeriodicMotion& command);
 

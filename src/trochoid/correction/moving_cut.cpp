@@ -140,7 +140,8 @@ dynamics::MotionProblem problem_of(const MovingCut& cut,
 namespace {
 
 MovingFlutes flutes_in(const MovingCut& cut, const dynamics::Motion& motion) {
-  MovingFlutes out{.periodic = motion.periodic, .last_change = motion.last_change};
+  MovingFlutes out{.periodic = dynamics::repeats_every_turn(motion),
+                   .last_change = motion.last_change};
   if (!motion.finite || !motion.solved) {
     out.flutes.resize(static_cast<std::size_t>(cut.setup.cutter.teeth()));
     return out;

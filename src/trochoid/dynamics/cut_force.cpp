@@ -27,6 +27,18 @@ Displaced delayed(const EngagedGrid& grid, std::size_t node, std::size_t tooth,
           w[0] * past.y[a] + w[1] * past.y[b] + w[2] * past.dy[a] + w[3] * past.dy[b]};
 }
 
+/// Force per width at the thinnest chip that counts [N/m]: with an exponent near 1 a power
+/// law is a jump there.
+double least_force(const force::Terms& law) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < 2; ++e) {
+    const double m = law.form.power ? law.form.m[e] : 0.0;
+    sum += std::abs(law.K[e]) * chip::h_threshold *
+           std::pow(chip::h_threshold / force::h_0, -m);
+  }
+  return sum;
+}
+
 }  // namespace
 
 NearPower::NearPower(double m, std::size_t teeth) : m_(m), anchors_(teeth) {
@@ -46,19 +58,23 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
     : grid_(grid), law_(force::terms(law)) {
   std::size_t most = 1;
   double most_edge = 0.0;
+  double most_width = 0.0;
   for (const auto* ranges : {&grid.before, &grid.after}) {
     for (const Contacts& range : *ranges) {
       std::size_t points = 0;
       double edge = 0.0;
+      double width = 0.0;
       for (std::size_t k = range.first; k < range.last; ++k) {
         const Stretch& stretch = grid.stretches[k];
         points += stretch.count;
         for (std::size_t i = 0; i < stretch.count; ++i) {
           edge += grid.edge[stretch.first + i];
+          width += grid.width[stretch.first + i];
         }
       }
       most = std::max(most, points);
       most_edge = std::max(most_edge, edge);
+      most_width = std::max(most_width, width);
     }
   }
   constant_.resize(most);
@@ -67,7 +83,8 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
   crossings_.reserve(grid.teeth);
   const auto& [form, K, K_e] = law_;
   watches_ = grid.one_point && (K_e[0] != 0 || K_e[1] != 0);
-  largest_jump_ = 2 * std::hypot(K_e[0], K_e[1]) * most_edge;
+  largest_jump_ =
+      2 * (std::hypot(K_e[0], K_e[1]) * most_edge + least_force(law_) * most_width);
   if (!form.power) {
     return;
   }

@@ -122,7 +122,7 @@ class CutForce {
     }
     return crossings_;
   }
-  /// By how much forces may jump at h = 0, all teeth together [N].
+  /// By how much forces may jump where chips begin, all teeth together [N].
   [[nodiscard]] double largest_jump() const noexcept { return largest_jump_; }
 
  private:

@@ -103,4 +103,13 @@ std::optional<double> late_change(std::span<const Point> once) {
   return before > 0 ? std::optional(std::sqrt(late / before)) : std::nullopt;
 }
 
+double late_size(std::span<const Point> once) {
+  const std::vector<Point> d = changes(once);
+  double largest = 0.0;
+  for (std::size_t n = d.size() - d.size() / 4; n < d.size(); ++n) {
+    largest = std::max(largest, std::sqrt(dot(d[n], d[n])));
+  }
+  return largest;
+}
+
 }  // namespace trochoid::dynamics

@@ -28,4 +28,7 @@ std::optional<double> growth_per_turn(std::span<const std::array<double, 2>> onc
 /// @return nothing below eight turns
 std::optional<double> late_change(std::span<const std::array<double, 2>> once);
 
+/// @brief The largest change of a turn over the last quarter [m]; 0 below two turns.
+double late_size(std::span<const std::array<double, 2>> once);
+
 }  // namespace trochoid::dynamics

@@ -29,8 +29,6 @@ constexpr double no_motion = 1e-9;
 constexpr double too_much = 1e-6;
 /// Changes from turn to turn up to this fraction of the feed per tooth are small.
 constexpr double small_change = 0.2;
-/// A displacement that no cut has [m]: the motion has run away.
-constexpr double run_away = 0.1;
 double size_of(const Force& F) {
   return std::abs(F[0]) + std::abs(F[1]);
 }
@@ -65,7 +63,7 @@ class Run {
         past_(grid_),
         samples_(problem, grid_),
         flutes_(problem, grid_),
-        comparison_(grid_.angle.size()),
+        comparison_(grid_),
         kept_(std::max(1, problem.kept)) {
     const auto turns = static_cast<int>(grid_.memory() / grid_.angle.size());
     with_slope_ =
@@ -101,6 +99,9 @@ class Run {
     motion_.growth =
         growth_per_turn(motion_.once, small_change * problem_.setup.cut.f_z);
     samples_.finish(motion_);
+    for (FluteMotion& flute : motion_.flutes) {
+      flute.chip_area /= std::max(1, problem_.watched);
+    }
     comparison_.finish(motion_);
     return std::move(motion_);
   }
@@ -170,9 +171,7 @@ class Run {
       step_.to = stepper_.snapshot();
       samples_.add(step_, motion_);
     }
-    if (left <= 2) {
-      record(left, F, jumped);
-    }
+    record(left, n, F, jumped);
     if (!grid_.jump[next]) {
       cut_.watch(q[0], q[1]);
       before_ = F;
@@ -184,14 +183,16 @@ class Run {
     return before_;
   }
 
-  /// What the last two turns tell, so many turns before the end.
-  void record(int left, const Force& F, bool jumped) {
-    if (left == 1) {
+  /// What the last turns tell, so many turns before the end.
+  void record(int left, int n, const Force& F, bool jumped) {
+    if (left <= problem_.watched) {
       flutes_.add(step_, F, motion_);
     }
-    comparison_.add(left == 1, step_.node, F);
-    if (jumped) {
-      comparison_.forget(step_.node);
+    if (left <= comparison_.turns()) {
+      comparison_.add(n, step_.node, F);
+      if (jumped) {
+        comparison_.forget(n, step_.node);
+      }
     }
   }
 
@@ -239,8 +240,9 @@ class Run {
         balanced_force(response_of, stepper_.per_force(), guess, no_motion * f_z);
     // A tooth that touches with an edge force, but not without it, has no force that
     // agrees: one of both is as good as the other.
-    motion_.solved = found.motion_error <= too_much * f_z ||
-                     found.force_error <= cut_.largest_jump();
+    const auto& P = stepper_.per_force();
+    const double of_jump = std::hypot(P[0], P[1], P[2]) * cut_.largest_jump();
+    motion_.solved = found.motion_error <= std::max(too_much * f_z, of_jump);
     return found.F;
   }
 

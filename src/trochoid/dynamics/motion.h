@@ -51,14 +51,18 @@ struct MotionProblem {
   Start start = Start::rest;
   int revolutions = 20;
   int kept = 1;               ///< last revolutions that are returned
+  int watched = 1;            ///< last revolutions in which the flutes are looked at
   int samples_per_rev = 720;  ///< of what is returned
 };
 
-/// One flute in the last revolution.
+/// A displacement that no cut has [m]: the motion has run away.
+inline constexpr double run_away = 0.1;
+
+/// One flute in the last revolution, or in the last ones that are watched.
 struct FluteMotion {
   double peak_x = 0.0;     ///< largest |F_x| while its tip is in the stock [N]
   double peak_y = 0.0;     ///< largest |F_y| [N]
-  double chip_area = 0.0;  ///< integral of h over its angle, at the tip [m rad]
+  double chip_area = 0.0;  ///< mean integral of h over its angle, at the tip [m rad]
   double peak_chip = 0.0;  ///< [m]
 };
 
@@ -73,16 +77,26 @@ struct Motion {
   std::vector<double> command;               ///< x_com [m]
   std::vector<std::array<double, 2>> once;   ///< q at the start of every revolution [m]
   std::vector<FluteMotion> flutes;
-  bool finite = true;  ///< false: it grew beyond all bounds
+  bool finite = true;  ///< false: it was displaced by more than run_away
   bool solved = true;  ///< false: some step had no force that agrees with its motion
   /// Largest change of a component of the force from turn to turn, in the last one,
   /// apart from steps in which an edge force came or went [N].
   double last_change = 0.0;
-  double peak = 0.0;      ///< largest force in the plane of the table, last turn [N]
-  bool periodic = false;  ///< last_change is within periodic_tolerance of the peak
+  double peak = 0.0;  ///< largest force in the plane of the table, where watched [N]
+  /// Teeth that pass until the force is as it was, within periodic_tolerance of the
+  /// peak; none: not within a few turns.
+  std::optional<int> passes;
+  /// What tells that period from a shorter one: the change over a tooth, or over a turn
+  /// for longer ones, in the last turn over that four turns before; below 1 it fades.
+  double persistence = 0.0;
   std::optional<double> growth;  ///< of a small vibration in a turn (T-11), where seen
   int turns_done = 0;
 };
+
+/// @brief Whether the motion repeats with every turn.
+inline bool repeats_every_turn(const Motion& motion) noexcept {
+  return motion.passes && static_cast<int>(motion.flutes.size()) % *motion.passes == 0;
+}
 
 /// @brief How many steps a tooth period needs: 1000, and 20 in a period of the fastest
 /// mode that the cut can move (by more than 1e-5 of the chip).

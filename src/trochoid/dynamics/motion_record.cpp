@@ -12,6 +12,13 @@ namespace trochoid::dynamics {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// Turns that are compared: periods of up to four turns show; and two of many nodes.
+constexpr std::size_t turns_compared = 8;
+constexpr std::size_t many_nodes = 200000;
+/// So many turns before, what is there to stay was there.
+constexpr std::size_t turns_before = 4;
+/// More than any change.
+constexpr double all = std::numeric_limits<double>::infinity();
 
 /// Place and speed between the ends of a step: the cubic through both.
 std::array<double, 2> between(const std::array<double, 2>& a,
@@ -132,18 +139,75 @@ void FluteWatch::add(const TakenStep& step, const Force& F, Motion& motion) {
   }
 }
 
-TurnComparison::TurnComparison(std::size_t nodes)
-    : before_(nodes), last_(nodes), forgotten_(nodes) {}
+TurnComparison::TurnComparison(const EngagedGrid& grid)
+    : nodes_(grid.angle.size()),
+      teeth_(grid.teeth),
+      pitch_(grid.pitch),
+      turns_(nodes_ < many_nodes ? turns_compared : 2),
+      force_(turns_ * nodes_),
+      forgotten_(force_.size()) {}
 
-void TurnComparison::finish(Motion& motion) const {
-  for (std::size_t i = 0; i < last_.size(); ++i) {
-    for (std::size_t a = 0; a < 3 && !forgotten_[i]; ++a) {
-      motion.last_change =
-          std::max(motion.last_change, std::abs(last_[i][a] - before_[i][a]));
+void TurnComparison::add(int turn, std::size_t node, const Force& F) {
+  const auto n = static_cast<std::size_t>(turn);
+  if (done_ == 0) {
+    first_ = n * nodes_ + node;
+  }
+  done_ = n * nodes_ + node + 1;
+  force_[place(n, node)] = F;
+  forgotten_[place(n, node)] = 0;
+}
+
+void TurnComparison::forget(int turn, std::size_t node) {
+  const auto n = static_cast<std::size_t>(turn);
+  forgotten_[place(n, node)] = 1;
+  forgotten_[place(n, node + 1 < nodes_ ? node + 1 : 0)] = 1;
+}
+
+/// Largest change of a component over nodes from that so many nodes before; the first one
+/// that is more than enough will do.
+double TurnComparison::change(std::size_t shift, Window window, double enough) const {
+  double largest = 0.0;
+  for (std::size_t i = window.from; i < window.to && largest <= enough; ++i) {
+    const std::size_t a = i % force_.size();
+    const std::size_t b = (i - shift) % force_.size();
+    for (std::size_t c = 0; c < 3 && !forgotten_[a] && !forgotten_[b]; ++c) {
+      largest = std::max(largest, std::abs(force_[a][c] - force_[b][c]));
     }
   }
-  motion.periodic = motion.finite && motion.solved &&
-                    motion.last_change <= periodic_tolerance * motion.peak;
+  return largest;
+}
+
+double TurnComparison::persistence(std::size_t shift) const {
+  const std::size_t back = turns_before * nodes_;
+  if (back + nodes_ + shift > done_ - first_) {
+    return 0.0;
+  }
+  const double early = change(shift, {done_ - back - nodes_, done_ - back}, all);
+  return early > 0 ? change(shift, {done_ - nodes_, done_}, all) / early : 0.0;
+}
+
+void TurnComparison::finish(Motion& motion) const {
+  const std::size_t seen = done_ - first_;
+  if (!motion.finite || !motion.solved || seen < nodes_) {
+    motion.last_change = motion.peak;
+    return;
+  }
+  motion.last_change =
+      seen < 2 * nodes_ ? motion.peak : change(nodes_, {done_ - nodes_, done_}, all);
+  const double same = periodic_tolerance * motion.peak;
+  const std::size_t unit = pitch_ > 0 ? pitch_ : nodes_;
+  const std::size_t passes = pitch_ > 0 ? 1 : teeth_;
+  for (std::size_t k = 1; !motion.passes; ++k) {
+    const std::size_t shift = k * unit;
+    const std::size_t window = std::max(nodes_, shift);
+    if (window + shift > seen) {
+      return;
+    }
+    if (change(shift, {done_ - window, done_}, same) <= same) {
+      motion.passes = static_cast<int>(k * passes);  // T-15
+      motion.persistence = persistence(shift > nodes_ ? nodes_ : unit);
+    }
+  }
 }
 
 }  // namespace trochoid::dynamics

@@ -47,12 +47,12 @@ class MotionSamples {
   std::vector<std::pair<double, double>> commands_;
 };
 
-/// @brief What each flute does in the last revolution.
+/// @brief What each flute does in the last revolutions, as many as are watched.
 class FluteWatch {
  public:
   FluteWatch(const MotionProblem& problem, const EngagedGrid& grid);
 
-  /// A step of the last turn, and the force at its start.
+  /// A step of a turn that is watched, and the force at its start.
   void add(const TakenStep& step, const Force& F, Motion& motion);
 
  private:
@@ -65,25 +65,42 @@ class FluteWatch {
   std::vector<std::size_t> flute_;  ///< whose turn it is at each node
 };
 
-/// @brief Whether the last two turns are alike.
+/// @brief After how many teeth the force is as it was, from the last turns.
+///
+/// @eq T-15 passes: the least k with |F(phi) - F(phi - k pitches)| <= peak/300 at every
+///          node of the last turn, and of the last k pitches
+/// @src derived
 class TurnComparison {
  public:
-  explicit TurnComparison(std::size_t nodes);
+  explicit TurnComparison(const EngagedGrid& grid);
 
-  void add(bool last, std::size_t node, const Force& F) {
-    (last ? last_ : before_)[node] = F;
-  }
+  /// Turns at the end that it wants to see.
+  [[nodiscard]] int turns() const noexcept { return static_cast<int>(turns_); }
+  void add(int turn, std::size_t node, const Force& F);
   /// An edge force came or went in the step that began at this node.
-  void forget(std::size_t node) {
-    forgotten_[node] = true;
-    forgotten_[node + 1 < forgotten_.size() ? node + 1 : 0] = true;
-  }
+  void forget(int turn, std::size_t node);
   void finish(Motion& motion) const;
 
  private:
-  std::vector<Force> before_;
-  std::vector<Force> last_;
-  std::vector<bool> forgotten_;
+  /// Nodes of the record, from one to another, excluded.
+  struct Window {
+    std::size_t from = 0;
+    std::size_t to = 0;
+  };
+  [[nodiscard]] double change(std::size_t shift, Window window, double enough) const;
+  [[nodiscard]] double persistence(std::size_t shift) const;
+  [[nodiscard]] std::size_t place(std::size_t turn, std::size_t node) const noexcept {
+    return (turn % turns_) * nodes_ + node;
+  }
+
+  std::size_t nodes_;
+  std::size_t teeth_;
+  std::size_t pitch_;  ///< nodes from tooth to tooth; 0: pitches differ
+  std::size_t turns_;
+  std::size_t done_ = 0;   ///< nodes seen since the start, were all seen
+  std::size_t first_ = 0;  ///< the first of those
+  std::vector<Force> force_;
+  std::vector<char> forgotten_;
 };
 
 }  // namespace trochoid::dynamics

@@ -15,6 +15,11 @@ namespace {
 /// More would take hours and fill the disk.
 constexpr double most_points = 5000;
 
+/// A diagram of one row or column: [5000, 5000, 1].
+bool is_one_value(const std::optional<base::Steps>& steps) {
+  return steps && steps->count == 1 && steps->first == steps->last;
+}
+
 }  // namespace
 
 void check_steps(const std::optional<base::Steps>& steps, const std::string& key,
@@ -49,10 +54,14 @@ void check_stability(CaseTables& t, Findings& findings) {
     t.machine.stability.emplace();
   }
   Stability& s = *t.machine.stability;
-  check_steps(s.spindle_speed, "stability.spindle_rpm", "values", most_points,
-              findings);
-  check_steps(s.axial_depth, "stability.axial_depth_mm", "values", most_points,
-              findings);
+  if (!is_one_value(s.spindle_speed)) {
+    check_steps(s.spindle_speed, "stability.spindle_rpm", "values", most_points,
+                findings);
+  }
+  if (!is_one_value(s.axial_depth)) {
+    check_steps(s.axial_depth, "stability.axial_depth_mm", "values", most_points,
+                findings);
+  }
   if (!s.spindle_speed) {
     const double speed = t.cut.spindle_speed;
     s.spindle_speed = base::Steps{as_written(0.5 * speed, unit::rpm),

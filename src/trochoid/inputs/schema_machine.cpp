@@ -336,14 +336,16 @@ void describe(const Visitor& v, ImposedCommand& t) {
 void describe(const Visitor& v, Stability& t) {
   v({.name = "spindle_rpm",
      .meaning =
-         "first, last and number of the spindle speeds of the stability lobe diagram",
+         "first, last and number of the spindle speeds of the stability lobe diagram; "
+         "one speed: [5000, 5000, 1]",
      .range = above_up_to(0, 1e6),
      .standard = "from half to one and a half of that of [cut]",
      .example = "[5000, 25000, 200]"},
     &t.spindle_speed);
   v({.name = "axial_depth_mm",
      .meaning =
-         "first, last and number of the axial depths of the stability lobe diagram",
+         "first, last and number of the axial depths of the stability lobe diagram; one "
+         "depth: [1, 1, 1]",
      .range = above_up_to(0, longest_mm),
      .standard = "up to twice that of [cut]",
      .example = "[0.05, 5, 100]"},

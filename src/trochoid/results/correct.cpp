@@ -80,7 +80,7 @@ Object cut_value(const MovedCut& cut) {
           {"difference", dynamics::peak_difference(m)},
           {"own_difference", correction::own_difference(cut)},
           {"area_difference", dynamics::area_difference(m)},
-          {"periodic", cut.verdict == dynamics::Verdict::periodic},
+          {"periodic", std::holds_alternative<dynamics::Periodic>(cut.verdict)},
           {"change_N", m.last_change},
           {"walls", walls_value(cut.walls)}};
 }

@@ -11,9 +11,11 @@ namespace trochoid::results {
 namespace {
 
 using base::add_column;
+using dynamics::Bounded;
 using dynamics::FluteMotion;
+using dynamics::Growing;
 using dynamics::Motion;
-using dynamics::Verdict;
+using dynamics::Periodic;
 using dynamics::WallLocation;
 
 bool at_the_tip(const WallLocation& wall) {
@@ -56,27 +58,86 @@ Array walls_value(const std::vector<WallLocation>& walls) {
   return all;
 }
 
+Value period_value(const MotionResult& r) {
+  const auto* periodic = std::get_if<Periodic>(&r.steady->verdict);
+  if (periodic == nullptr) {
+    return {};
+  }
+  const double teeth = static_cast<double>(r.steady->motion.flutes.size());
+  return Object{{"teeth", periodic->passes},
+                {"turns", periodic->passes / teeth},
+                {"teeth_of_cut", periodic->passes_of_cut}};
+}
+
+Value vibration_value(const MotionResult& r) {
+  const auto* bounded = std::get_if<Bounded>(&r.steady->verdict);
+  if (bounded == nullptr || bounded->fades) {
+    return {};
+  }
+  Array lines;
+  for (const dynamics::VibrationLine& line : bounded->lines) {
+    lines.push_back(Object{
+        {"frequency_Hz", line.frequency},
+        {"x_um", line.amplitude[0] / unit::um},
+        {"y_um", line.amplitude[1] / unit::um},
+        {"spindle_harmonic", line.harmonic > 0 ? Value(line.harmonic) : Value()}});
+  }
+  const auto* own = dynamics::chatter_line(*bounded);
+  return Object{
+      {"turns", bounded->turns},
+      {"x_um", bounded->amplitude[0] / unit::um},
+      {"y_um", bounded->amplitude[1] / unit::um},
+      {"chatter_frequency_Hz", own != nullptr ? Value(own->frequency) : Value()},
+      {"lines", std::move(lines)}};
+}
+
 Object result_of(const MotionResult& r) {
   const Motion& m = r.steady->motion;
-  const Verdict verdict = r.steady->verdict;
-  const bool chatter = verdict == Verdict::chatter;
+  const dynamics::Verdict& verdict = r.steady->verdict;
+  const auto* growing = std::get_if<Growing>(&verdict);
+  const auto* bounded = std::get_if<Bounded>(&verdict);
   Object result{{"verdict", name_of(verdict)},
-                {"periodic", verdict == Verdict::periodic},
+                {"periodic", std::holds_alternative<Periodic>(verdict)},
+                {"chatter", dynamics::chatters(verdict)},
+                {"settles", bounded != nullptr ? Value(bounded->fades) : Value()},
+                {"period", period_value(r)},
                 {"turns", m.turns_done},
                 {"steps_per_tooth", r.steps_per_tooth},
                 {"linear_growth_per_turn", r.linear_growth},
-                {"growth_per_turn", m.growth},
-                {"change_N", chatter ? Value() : Value(m.last_change)}};
-  if (!chatter) {
-    const Object steady{{"engagement_deg", Array{unit::in(r.engagement.from, unit::deg),
-                                                 unit::in(r.engagement.to, unit::deg)}},
-                        {"flutes", flutes_value(m, r.entry)},
-                        {"difference", dynamics::peak_difference(m)},
-                        {"peak_xy_N", m.peak},
-                        {"surface_location", walls_value(r.walls)}};
-    result.insert(result.end(), steady.begin(), steady.end());
+                {"growth_per_turn", growing != nullptr ? growing->per_turn : m.growth},
+                {"change_N", growing != nullptr ? Value() : Value(m.last_change)}};
+  if (growing == nullptr) {
+    const Object followed{
+        {"engagement_deg", Array{unit::in(r.engagement.from, unit::deg),
+                                 unit::in(r.engagement.to, unit::deg)}},
+        {"flutes", flutes_value(m, r.entry)},
+        {"difference", dynamics::peak_difference(m)},
+        {"peak_xy_N", m.peak},
+        {"vibration", vibration_value(r)},
+        {"surface_location", walls_value(r.walls)}};
+    result.insert(result.end(), followed.begin(), followed.end());
   }
   return result;
+}
+
+std::string verdict_text(const MotionResult& r) {
+  if (const auto* periodic = std::get_if<Periodic>(&r.steady->verdict)) {
+    return "it repeats " + dynamics::period_text(*periodic, r.entry.size());
+  }
+  const auto& bounded = std::get<Bounded>(r.steady->verdict);
+  return bounded.fades ? "it does not repeat yet"
+                       : "it stays bounded, and does not repeat";
+}
+
+std::string vibration_text(const Bounded& bounded) {
+  std::string text = fmt::format(
+      "chatter within {:.4g} um along x and {:.4g} um along y of the middle, last {} "
+      "turns\n",
+      bounded.amplitude[0] / unit::um, bounded.amplitude[1] / unit::um, bounded.turns);
+  if (const auto* line = dynamics::chatter_line(bounded)) {
+    text += fmt::format("chatter frequency {:.5g} Hz\n", line->frequency);
+  }
+  return text;
 }
 
 std::string short_table(const MotionResult& r) {
@@ -92,10 +153,12 @@ std::string short_table(const MotionResult& r) {
   }
   text += fmt::format("difference of the peaks of Fy: {:.2f} % of the larger\n",
                       100 * dynamics::peak_difference(m));
-  text += fmt::format(
-      "the force changed by {:.3g} N in the last of {} turns: {}\n", m.last_change,
-      m.turns_done,
-      r.steady->verdict == Verdict::periodic ? "it repeats" : "it does not repeat");
+  text += fmt::format("the force changed by {:.3g} N in the last of {} turns: {}\n",
+                      m.last_change, m.turns_done, verdict_text(r));
+  if (const auto* bounded = std::get_if<Bounded>(&r.steady->verdict);
+      bounded != nullptr && !bounded->fades) {
+    text += vibration_text(*bounded);
+  }
   for (const WallLocation& wall : r.walls) {
     if (at_the_tip(wall)) {
       text += fmt::format("{}-milled wall {:.3f} um off at the tip ({})\n",
@@ -169,6 +232,19 @@ base::Table once_table(const Motion& m) {
   return table;
 }
 
+/// spectrum.csv: amplitudes of tool minus work over the frequency.
+base::Table spectrum_table(const Bounded& bounded) {
+  base::Table table{"spectrum.csv", {}};
+  const auto& a = bounded.spectrum;
+  const std::size_t n = a.size();
+  add_column(table, "frequency_Hz", n, [&](std::size_t i) {
+    return static_cast<double>(i) * bounded.spectrum_step;
+  });
+  add_column(table, "x_um", n, [&](std::size_t i) { return a[i][0] / unit::um; });
+  add_column(table, "y_um", n, [&](std::size_t i) { return a[i][1] / unit::um; });
+  return table;
+}
+
 /// surface_location.csv: sigma of the wall, height, tooth and its error.
 base::Table surface_location_table(const std::vector<WallLocation>& walls) {
   struct Row {
@@ -203,12 +279,16 @@ Answer answer_of(const MotionResult& r) {
   const Motion& m = r.steady->motion;
   answer.result = result_of(r);
   answer.tables = {once_table(m)};
-  // Amplitudes of chatter are those of the moment at which the computation ended.
-  if (r.steady->verdict != Verdict::chatter) {
+  // Of a motion that grows they would be those of the moment at which it was left.
+  if (!std::holds_alternative<Growing>(r.steady->verdict)) {
     answer.short_table = short_table(r);
     answer.tables.push_back(surface_location_table(r.walls));
     answer.tables.push_back(motion_table(r.system, m));
     answer.tables.push_back(force_table(m));
+  }
+  if (const auto* bounded = std::get_if<Bounded>(&r.steady->verdict);
+      bounded != nullptr && !bounded->fades) {
+    answer.tables.push_back(spectrum_table(*bounded));
   }
   return answer;
 }

@@ -1,4 +1,5 @@
 """dynamics: a cut that moves, and one that chatters."""
+import csv
 import json
 import math
 
@@ -32,28 +33,72 @@ class Chatter(InFolder):
         self.assertAlmostEqual(result["growth_per_turn"], 0.8197427843**2, delta=1e-3)
         self.assertIn("it repeats", done.stdout)
 
-    def test_an_unstable_cut_is_called_chatter_with_its_growth(self):
+    def test_an_unstable_cut_chatters_with_its_growth_and_its_amplitudes(self):
         for depth, multiplier in ((0.5, 1.0739755867), (0.7, None), (1.0, 1.4064735254),
                                   (2.0, 1.7606359579)):
             with self.subTest(depth):
-                done, summary = self.cut(depth, code=1)
-                self.assertEqual(summary["status"], "failed")
-                self.assertIn("chatter", summary["message"])
-                self.assertIn(summary["message"], done.stderr)
+                done, summary = self.cut(depth, code=0)
+                self.assertEqual(summary["status"], "ok")
+                self.assertEqual([w["code"] for w in summary["warnings"]], ["chatter"])
+                self.assertIn("chatters", summary["message"])
                 result = summary["result"]
-                self.assertEqual(result["verdict"], "chatter")
-                self.assertFalse(result["periodic"])
+                self.assertTrue(result["chatter"])
                 linear = result["linear_growth_per_turn"]
                 if multiplier:
                     self.assertAlmostEqual(linear, multiplier**2, 5)
                 if depth < 1:  # at larger depths the teeth leave the cut at once
                     self.assertAlmostEqual(result["growth_per_turn"], linear, delta=2e-3)
+                if result["verdict"] == "bounded":
+                    self.assertFalse(result["periodic"])
+                    self.assertIsNone(result["period"])
+                    vibration = result["vibration"]
+                    self.assertGreater(vibration["x_um"], 10)  # of a feed of 50
+                    self.assertLess(vibration["x_um"], 500)
+                    self.assertEqual(vibration["y_um"], 0)
+                    self.assertIn(f"chatter within {vibration['x_um']:.4g} um", done.stdout)
+                    self.assertEqual(result["surface_location"], [])
 
-    def test_no_amplitude_is_given_as_if_it_were_steady(self):
-        done, summary = self.cut(1.0, code=1)
+    def test_chatter_sounds_as_its_spectrum_says(self):
+        _, summary = self.cut(0.5, code=0)
+        vibration = summary["result"]["vibration"]
+        sound = vibration["chatter_frequency_Hz"]
+        self.assertTrue(922 < sound < 1.1 * 922, sound)  # a little above the mode
+        with open(self.folder / "cut.dynamics/spectrum.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        spectrum = {key: [float(row[key]) for row in rows] for key in rows[0]}
+        step = spectrum["frequency_Hz"][1]
+        own = [line for line in vibration["lines"] if line["spindle_harmonic"] is None]
+        self.assertEqual(own[0]["frequency_Hz"], sound)
+        for line in vibration["lines"]:
+            k = round(line["frequency_Hz"] / step)
+            self.assertAlmostEqual(spectrum["x_um"][k], line["x_um"], delta=0.2 * line["x_um"])
+            if line["spindle_harmonic"]:
+                self.assertAlmostEqual(line["frequency_Hz"],
+                                       5000 / 60 * line["spindle_harmonic"], delta=step)
+
+    def test_a_period_of_its_own_is_told(self):
+        """Two teeth in turns, beyond a period doubling of interrupted cutting."""
+        text = BENCHMARK.replace("axial_depth_mm = 0.5", "axial_depth_mm = 2.5")
+        text = text.replace('engagement = "slot"', 'engagement = "up"\nradial_depth_mm = 0.6')
+        self.write("cut.toml", text.replace("spindle_rpm = 5000", "spindle_rpm = 19500"))
+        done = self.run_program("dynamics", "cut.toml")
+        result = self.summary("cut.dynamics")["result"]
+        self.assertEqual(result["verdict"], "periodic")
+        self.assertEqual(result["period"], {"teeth": 2, "turns": 1, "teeth_of_cut": 1})
+        self.assertTrue(result["chatter"])
+        self.assertIn("repeats with every turn only", done.stdout)
+
+    def test_a_tool_that_is_thrown_out_is_no_answer(self):
+        text = BENCHMARK.replace("mass_kg = 0.03993", "mass_kg = 1e-5")
+        self.write("cut.toml", text.replace("frequency_Hz = 922", "frequency_Hz = 200"))
+        done = self.run_program("dynamics", "cut.toml", code=1)
+        summary = self.summary("cut.dynamics")
+        self.assertEqual(summary["status"], "failed")
+        self.assertIn("more than 100 mm from where it would rest", done.stderr)
+        self.assertEqual(summary["result"]["verdict"], "growing")
         self.assertLessEqual(keys_of(summary["result"]), {
-            "verdict", "periodic", "turns", "steps_per_tooth", "linear_growth_per_turn",
-            "growth_per_turn", "change_N"})
+            "verdict", "periodic", "chatter", "settles", "period", "turns",
+            "steps_per_tooth", "linear_growth_per_turn", "growth_per_turn", "change_N"})
         self.assertIsNone(summary["result"]["change_N"])
         self.assertNotIn("peak", done.stdout)
         files = {p.name for p in (self.folder / "cut.dynamics").iterdir()}
@@ -74,8 +119,8 @@ class Chatter(InFolder):
 
     def test_json(self):
         self.write("cut.toml", BENCHMARK)
-        done = self.run_program("dynamics", "cut.toml", "--json", code=1)
-        self.assertEqual(json.loads(done.stdout)["result"]["verdict"], "chatter")
+        done = self.run_program("dynamics", "cut.toml", "--json")
+        self.assertEqual(json.loads(done.stdout)["result"]["verdict"], "bounded")
 
 
 class Commanded(InFolder):

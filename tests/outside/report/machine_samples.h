@@ -16,7 +16,7 @@ trochoid::results::Answer motion();
 /// examples/runout_correction, with the controller in the loop.
 trochoid::results::Answer correction();
 
-/// examples/stability_922Hz cut in time: it chatters.
+/// examples/stability_922Hz cut in time: it chatters within bounds.
 trochoid::results::Answer chatter();
 
 /// examples/plan_next_cut.

@@ -22,8 +22,8 @@ TEST(BeforeAfter, TheCommandMakesThePeaksEqual) {
   const Plan plan = plan_correction(s, {.strategy = Method::lead});
   const BeforeAfter cuts = before_after(s, plan.command.wave);
   EXPECT_EQ(chatter_in(cuts.before, "before"), "");
-  EXPECT_EQ(cuts.before.verdict, dynamics::Verdict::periodic);
-  EXPECT_EQ(cuts.after.verdict, dynamics::Verdict::periodic);
+  EXPECT_EQ(dynamics::name_of(cuts.before.verdict), "periodic");
+  EXPECT_EQ(dynamics::name_of(cuts.after.verdict), "periodic");
   EXPECT_NEAR(dynamics::peak_difference(cuts.before.motion), 0.388, 0.002);
   EXPECT_LT(dynamics::peak_difference(cuts.after.motion), 0.002);
   ASSERT_TRUE(reduction(cuts));
@@ -67,25 +67,36 @@ TEST(BeforeAfter, SaysThatACutChatters) {
   soft.setup.cut.a_p = 3e-3;
   const Setting s = known_setting(soft, {}, RunoutEstimate::known);
   const MovedCut moved = moved_cut(s, Harmonics{});
-  EXPECT_EQ(moved.verdict, dynamics::Verdict::chatter);
+  EXPECT_TRUE(dynamics::chatters(moved.verdict));
   EXPECT_TRUE(moved.walls.empty());
 }
 
 TEST(ChatterIn, SaysHowFarItWent) {
-  MovedCut cut{.verdict = dynamics::Verdict::not_periodic};
+  MovedCut cut{.verdict = dynamics::Bounded{.fades = true}};
   EXPECT_EQ(chatter_in(cut, "before"), "") << "transients are no chatter";
-  cut.verdict = dynamics::Verdict::chatter;
-  cut.motion.flutes = {{.peak_x = 30, .peak_y = 40}};
+  cut.verdict = dynamics::Bounded{};
+  cut.motion.flutes = {{.peak_x = 30, .peak_y = 40}, {}};
   cut.motion.last_change = 8;
   EXPECT_EQ(chatter_in(cut, "before"),
             "chatter before the correction: the force still changes by 8 of 40 N from "
             "turn to turn; there are no steady peaks to make equal");
+  cut.verdict = dynamics::Bounded{.amplitude = {12e-6, 3e-6}, .turns = 32};
+  EXPECT_EQ(
+      chatter_in(cut, "before"),
+      "chatter before the correction: the motion does not repeat; over the last 32 "
+      "turns it stays within 12 um of its middle along x and 3 um along y; there "
+      "are no steady peaks to make equal");
+  cut.verdict = dynamics::Periodic{.passes = 4, .passes_of_cut = 2};
+  EXPECT_EQ(
+      chatter_in(cut, "before"),
+      "chatter before the correction: the motion repeats every 2 turns only; there "
+      "are no steady peaks to make equal");
+  cut.verdict = dynamics::Growing{};
   cut.motion.finite = false;
   cut.motion.turns_done = 3;
-  EXPECT_EQ(
-      chatter_in(cut, "after"),
-      "chatter after the correction: after 3 turns the motion had grown beyond all "
-      "bounds");
+  EXPECT_EQ(chatter_in(cut, "after"),
+            "chatter after the correction: after 3 turns the tool is more than 100 mm "
+            "from where it would rest: far out of the cut");
 }
 
 TEST(Reduction, IsOfADifferenceThatThereWas) {

@@ -11,6 +11,9 @@
 namespace trochoid::results {
 namespace {
 
+using dynamics::Bounded;
+using dynamics::Growing;
+using dynamics::Periodic;
 using dynamics::Verdict;
 using test::column_of;
 using test::columns_of;
@@ -78,7 +81,7 @@ TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
 }
 
 /// Two teeth, two samples, a tool and a table mode.
-MotionResult motion_result(Verdict verdict) {
+MotionResult motion_result(const Verdict& verdict) {
   MotionResult r;
   r.system.modes = {{.x = 1.0, .y = 0.0}, {.x = -1.0, .y = 0.0}};
   r.steps_per_tooth = 1000;
@@ -102,7 +105,7 @@ MotionResult motion_result(Verdict verdict) {
 }
 
 TEST(MotionAnswer, OfASteadyStateHasItsTables) {
-  const Answer answer = answer_of(motion_result(Verdict::periodic));
+  const Answer answer = answer_of(motion_result(Periodic{2, 2}));
   const base::Table& motion = table_of(answer, "motion.csv");
   EXPECT_EQ(columns_of(motion),
             (Names{"angle_deg", "time_s", "x_tool_um", "y_tool_um", "x_table_um",
@@ -122,27 +125,59 @@ TEST(MotionAnswer, OfASteadyStateHasItsTables) {
 }
 
 TEST(MotionAnswer, OfASteadyStateSaysThatItRepeats) {
-  const Answer answer = answer_of(motion_result(Verdict::periodic));
+  const Answer answer = answer_of(motion_result(Periodic{2, 2}));
   EXPECT_EQ(json_at(answer, "verdict"), "\"periodic\"");
   EXPECT_EQ(json_at(answer, "difference"), "0.5");
   EXPECT_EQ(json_at(answer, "growth_per_turn"), "null") << "none was seen";
   EXPECT_EQ(json_at(answer, "linear_growth_per_turn"), "null");
   EXPECT_EQ(json_at(answer, "engagement_deg"), "[0, 180]");
-  EXPECT_NE(answer.short_table.find("0.5 N in the last of 20 turns: it repeats\n"),
+  EXPECT_NE(answer.short_table.find(
+                "0.5 N in the last of 20 turns: it repeats with every turn\n"),
             std::string::npos)
       << answer.short_table;
   EXPECT_NE(answer.short_table.find("up-milled wall -4.000 um off at the tip"),
             std::string::npos);
-  EXPECT_NE(answer_of(motion_result(Verdict::not_periodic))
-                .short_table.find("it does not repeat"),
+  EXPECT_NE(answer_of(motion_result(Bounded{.fades = true}))
+                .short_table.find("it does not repeat yet"),
             std::string::npos);
 }
 
-TEST(MotionAnswer, OfChatterGivesNoAmplitudes) {
-  MotionResult r = motion_result(Verdict::chatter);
-  r.steady->motion.growth = 1.15;
-  const Answer answer = answer_of(r);
-  EXPECT_EQ(json_at(answer, "verdict"), "\"chatter\"");
+TEST(MotionAnswer, OfAPeriodSaysHowLongItIs) {
+  const Answer answer =
+      answer_of(motion_result(Periodic{.passes = 4, .passes_of_cut = 1}));
+  EXPECT_EQ(json_at(answer, "period", "teeth"), "4");
+  EXPECT_EQ(json_at(answer, "period", "turns"), "2");
+  EXPECT_EQ(json_at(answer, "period", "teeth_of_cut"), "1");
+  EXPECT_EQ(json_at(answer, "chatter"), "true");
+  EXPECT_NE(answer.short_table.find("it repeats every 2 turns\n"), std::string::npos);
+}
+
+TEST(MotionAnswer, OfBoundedChatterHasItsAmplitudes) {
+  const Bounded bounded{.amplitude = {20e-6, 5e-6},
+                        .turns = 32,
+                        .lines = {{83.0, {3e-6, 0}, 1}, {931.5, {15e-6, 1e-6}, 0}},
+                        .spectrum_step = 2.5,
+                        .spectrum = {{0, 0}, {1e-6, 2e-6}}};
+  const Answer answer = answer_of(motion_result(bounded));
+  EXPECT_EQ(json_at(answer, "verdict"), "\"bounded\"");
+  EXPECT_EQ(json_at(answer, "chatter"), "true");
+  EXPECT_EQ(json_at(answer, "settles"), "false");
+  EXPECT_EQ(json_at(answer, "period"), "null");
+  EXPECT_EQ(json_at(answer, "vibration", "turns"), "32");
+  EXPECT_EQ(json_at(answer, "vibration", "chatter_frequency_Hz"), "931.5");
+  EXPECT_NE(answer.short_table.find("chatter within 20 um along x and 5 um along y"),
+            std::string::npos)
+      << answer.short_table;
+  EXPECT_NE(answer.short_table.find("chatter frequency 931.5 Hz"), std::string::npos);
+  const base::Table& spectrum = table_of(answer, "spectrum.csv");
+  EXPECT_EQ(columns_of(spectrum), (Names{"frequency_Hz", "x_um", "y_um"}));
+  EXPECT_EQ(column_of(spectrum, "frequency_Hz"), (std::vector<double>{0, 2.5}));
+  EXPECT_DOUBLE_EQ(column_of(spectrum, "y_um")[1], 2.0);
+}
+
+TEST(MotionAnswer, OfAMotionThatGrowsGivesNoAmplitudes) {
+  const Answer answer = answer_of(motion_result(Growing{1.15}));
+  EXPECT_EQ(json_at(answer, "verdict"), "\"growing\"");
   EXPECT_EQ(json_at(answer, "change_N"), "null");
   EXPECT_EQ(json_at(answer, "growth_per_turn"), "1.15");
   EXPECT_EQ(json_at(answer, "flutes"), "");
@@ -152,7 +187,7 @@ TEST(MotionAnswer, OfChatterGivesNoAmplitudes) {
 }
 
 TEST(MotionAnswer, WithoutAMotionIsEmpty) {
-  MotionResult r = motion_result(Verdict::periodic);
+  MotionResult r = motion_result(Periodic{2, 2});
   r.steady.reset();
   r.heading = {.ok = false, .message = "why"};
   const Answer answer = answer_of(r);

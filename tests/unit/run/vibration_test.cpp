@@ -15,7 +15,6 @@
 namespace trochoid::run {
 namespace {
 
-using dynamics::Verdict;
 using inputs::Command;
 using inputs::test::CaseFolder;
 
@@ -130,22 +129,49 @@ TEST_F(Vibration, AStableCutReachesASteadyState) {
   const auto r = run::dynamics(read(benchmark, Command::dynamics), {});
   EXPECT_TRUE(r.heading.ok);
   ASSERT_TRUE(r.steady);
-  EXPECT_EQ(r.steady->verdict, Verdict::periodic);
+  EXPECT_EQ(dynamics::name_of(r.steady->verdict), "periodic");
   EXPECT_NEAR(*r.linear_growth, std::pow(0.8197427843, 2), 1e-5);
   EXPECT_EQ(r.walls.size(), 2U) << "a slot has two walls";
   EXPECT_NEAR(r.entry.at(1), unit::turn / 2, 1e-12);
   EXPECT_EQ(r.steps_per_tooth, 1000);
 }
 
-TEST_F(Vibration, AnUnstableCutIsNoAnswer) {
+TEST_F(Vibration, AnUnstableCutChattersWithItsAmplitudes) {
   const auto r = run::dynamics(read(deeper(benchmark, "0.5"), Command::dynamics), {});
-  EXPECT_FALSE(r.heading.ok);
+  EXPECT_TRUE(r.heading.ok);
   EXPECT_EQ(r.heading.message,
-            "chatter: a small vibration grows to 1.153 of itself in each turn; the "
-            "motion does not come to repeat itself within 20 turns");
-  ASSERT_TRUE(r.steady);
-  EXPECT_EQ(r.steady->verdict, Verdict::chatter);
+            "After " + std::to_string(r.steady->motion.turns_done) +
+                " turns the cut chatters: the motion stays bounded and does not repeat "
+                "itself.");
+  ASSERT_EQ(codes(r.heading.warnings), std::vector<std::string>{"chatter"});
+  const std::string& said = r.heading.warnings[0].message;
+  EXPECT_EQ(
+      said.find("Chatter: a small vibration grows to 1.153 of itself in each turn; "
+                "it stays within "),
+      0U)
+      << said;
+  EXPECT_NE(said.find(" Hz"), std::string::npos) << said;
   EXPECT_TRUE(r.walls.empty());
+}
+
+TEST_F(Vibration, WhatIsIgnoredIsSaid) {
+  for (const std::string key : {"start_deg = 10", "angles_deg = [1, 2]"}) {
+    const auto r = run::dynamics(
+        read(benchmark + "[sampling]\n" + key + "\n", Command::dynamics), {});
+    ASSERT_EQ(codes(r.heading.warnings), std::vector<std::string>{"sampling_ignored"});
+    EXPECT_EQ(r.heading.warnings[0].message.find("[sampling] " + key.substr(0, 6)), 0U);
+  }
+}
+
+TEST_F(Vibration, ADiagramOfOnePointIsOne) {
+  const auto r =
+      stability(read(benchmark + "[stability]\nspindle_rpm = [5000, 5000, 1]\n"
+                                 "axial_depth_mm = [0.2, 0.2, 1]\n",
+                     Command::stability),
+                {});
+  ASSERT_EQ(r.stability.lobes.multiplier.size(), 1U);
+  EXPECT_NEAR(std::abs(r.stability.lobes.multiplier[0]), 0.8197427843, 1e-4);
+  EXPECT_TRUE(r.stability.limit_curve.empty());
 }
 
 TEST_F(Vibration, AFastModeIsRefusedBeforeTheWork) {
@@ -210,9 +236,20 @@ TEST(VibrationWarnings, OfStability) {
 
 TEST(VibrationWarnings, OfMotion) {
   dynamics::SteadyState steady;
-  EXPECT_TRUE(motion_warnings(steady).empty());
-  steady.verdict = Verdict::not_periodic;
-  EXPECT_EQ(codes(motion_warnings(steady)), std::vector<std::string>{"not_periodic"});
+  EXPECT_TRUE(motion_warnings({}, steady, 0.9).empty());
+  EXPECT_EQ(codes(motion_warnings({}, steady, 1.1)),
+            std::vector<std::string>{"linear_unstable"});
+  steady.verdict = dynamics::Bounded{.fades = true};
+  EXPECT_EQ(codes(motion_warnings({}, steady, {})),
+            std::vector<std::string>{"not_periodic"});
+  steady.verdict = dynamics::Periodic{.passes = 4, .passes_of_cut = 1};
+  steady.motion.flutes.resize(2);
+  const auto warnings = motion_warnings({}, steady, 1.2);
+  ASSERT_EQ(codes(warnings), std::vector<std::string>{"chatter"});
+  EXPECT_EQ(
+      warnings[0].message,
+      "Chatter: a small vibration grows to 1.2 of itself in each turn; the motion "
+      "repeats every 2 turns only, where the cut repeats with every tooth.");
 }
 
 TEST(VibrationWarnings, OfModes) {
@@ -243,17 +280,18 @@ TEST(VibrationWarnings, OfAnActuator) {
   EXPECT_TRUE(warnings.empty());
 }
 
-TEST(ChatterMessage, SaysWhatGrowsAndHowItEnds) {
-  dynamics::Motion m{.turns_done = 20};
-  EXPECT_EQ(chatter_message(m, std::nullopt),
-            "chatter: the vibration does not die out; the motion does not come to "
-            "repeat itself within 20 turns");
-  m.periodic = true;
-  EXPECT_NE(chatter_message(m, 1.2).find("the teeth are alike"), std::string::npos);
-  m.finite = false;
-  const std::string stable = chatter_message(m, 0.9);
+TEST(GrowthMessage, SaysWhatGrowsAndHowItEnds) {
+  dynamics::SteadyState steady{.motion = {.turns_done = 20},
+                               .verdict = dynamics::Growing{1.1}};
+  EXPECT_EQ(
+      growth_message(steady, std::nullopt),
+      "chatter: the vibration does not die out; after 20 turns the vibration still "
+      "grows, to 1.1 of itself in each turn");
+  steady.motion.finite = false;
+  const std::string stable = growth_message(steady, 0.9);
   EXPECT_NE(stable.find("the linearised cut is stable"), std::string::npos);
-  EXPECT_NE(stable.find("after 20 turns it had grown beyond all bounds"),
+  EXPECT_NE(stable.find("after 20 turns the tool is more than 100 mm from where it "
+                        "would rest"),
             std::string::npos);
 }
 

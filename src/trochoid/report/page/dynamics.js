@@ -1,18 +1,33 @@
 // The page of `dynamics`.
 
-const dynamicsKnown = ['verdict', 'periodic', 'change_N', 'growth_per_turn', 'linear_growth_per_turn',
+const dynamicsKnown = ['verdict', 'periodic', 'chatter', 'settles', 'period', 'vibration', 'change_N', 'growth_per_turn', 'linear_growth_per_turn',
   'turns', 'flutes', 'difference', 'peak_xy_N', 'engagement_deg', 'surface_location'];
 
-const verdictOfMotion = { periodic: 'steady state', not_periodic: 'has not settled', chatter: 'chatters' };
+function verdictOfMotion({ verdict, chatter, settles }) {
+  if (verdict === 'growing') return 'grows';
+  if (verdict === 'bounded') return settles ? 'has not settled' : 'chatters, within bounds';
+  return chatter ? 'chatters, and repeats' : 'steady state';
+}
+
+/** "with every turn", "every 2 teeth". */
+function periodText({ period, flutes }) {
+  if (!period) return '';
+  const all = flutes.length;
+  if (period.teeth === 1) return 'with every tooth';
+  if (period.teeth === all) return 'with every turn';
+  return period.teeth % all ? `every ${period.teeth} teeth` : `every ${period.teeth / all} turns`;
+}
 
 function dynamicsPage(report) {
   return [
     { lead: dynamicsLead(report.result) },
     { part: flutesOfMotion(report.result) },
+    movingSection(report),
     motionForces(report),
     fluteForces(report),
     motionSection(report),
     onceSection(report),
+    spectrumSection(report),
     { part: surfaceLocationSection(report.result) },
     { part: restSection(report.result, dynamicsKnown) },
   ];
@@ -22,13 +37,20 @@ function dynamicsLead(result) {
   const seen = result.growth_per_turn;
   const forces = (result.flutes || []).map((flute) => number(flute.peak_Fy_N, 3));
   return tiles([
-    { label: 'The motion', value: verdictOfMotion[result.verdict],
+    { label: 'The motion', value: verdictOfMotion(result),
       note: isNumber(result.change_N)
-        ? `${result.verdict === 'periodic' ? 'it repeats: ' : ''}the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
+        ? `${result.period ? `it repeats ${periodText(result)}: ` : ''}the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
         : `${result.turns} turns; amplitudes would be those of the moment, so none are given` },
     isNumber(result.linear_growth_per_turn) && { label: 'Floquet multiplier of a turn', value: `× ${number(result.linear_growth_per_turn, 4)}`,
       note: isNumber(seen) ? `linearised cut; × ${number(seen, 4)} seen in the motion`
         : 'linearised cut; below 1 a small vibration fades' },
+    result.vibration && { label: 'It stays within', value: [result.vibration.x_um, result.vibration.y_um]
+      .filter((v) => v > 0).map((v) => `± ${number(v, 3)}`).join(' · '), unit: 'µm',
+      note: `along ${[['x', result.vibration.x_um], ['y', result.vibration.y_um]].filter(([, v]) => v > 0)
+        .map(([axis]) => axis).join(' and ')}, about its middle, in the last ${result.vibration.turns} turns` },
+    isNumber(result.vibration?.chatter_frequency_Hz) && { label: 'Chatter frequency',
+      value: number(result.vibration.chatter_frequency_Hz, 5), unit: 'Hz',
+      note: 'the strongest line that is no harmonic of the spindle' },
     forces.length && { label: forces.length > 1 ? 'Peak |Fy| of each flute' : 'Peak |Fy|',
       value: forces.slice(0, 4).join(' · ') + (forces.length > 4 ? ' …' : ''), unit: 'N',
       note: forces.length > 1 && `they differ by ${number(100 * result.difference, 3)} % of the largest` },
@@ -37,7 +59,8 @@ function dynamicsLead(result) {
 }
 
 /** What each flute does in the last turn, with bars to compare. */
-function flutesOfMotion({ flutes }) {
+function flutesOfMotion(result) {
+  const { flutes } = result;
   if (!flutes?.length) return null;
   const most = (key) => Math.max(...flutes.map((flute) => flute[key])) || 1;
   const cell = (flute, key, text) => {
@@ -52,7 +75,7 @@ function flutesOfMotion({ flutes }) {
     cell(flute, 'chip_area_mm_rad', fixed(flute.chip_area_mm_rad, 4)),
     cell(flute, 'peak_chip_mm', fixed(1000 * flute.peak_chip_mm, 4))]);
   return section('flutes', 'What each flute does', 'Flutes',
-    prose('In the last turn. The chip area is the chip thickness summed over the angle: equal peaks ' +
+    prose(`${result.vibration ? `Peaks of the last ${result.vibration.turns} turns, and the mean of their chip areas` : 'In the last turn'}. The chip area is the chip thickness summed over the angle: equal peaks ` +
       'of the force need not mean equal chip loads.'),
     table(['', 'peak |Fx|, N', 'peak |Fy|, N', 'chip area, mm rad', 'thickest chip, µm'], rows,
       { class: 'fits' }));
@@ -161,9 +184,9 @@ function onceSection(report) {
     paint: (c, width, height) => paintScatter(c, width, height, x, y) });
   const part = section('once', 'Once per turn: the Poincaré section', 'Once per turn',
     prose('Tool minus work at the moment the tip of tooth 1 passes θ = 0. ' +
-      (report.result.verdict === 'chatter'
-        ? 'A motion in steady state would stand still here; this one does not.'
-        : 'A motion in steady state stands still here: first the transient of the start dies out.')),
+      (report.result.periodic
+        ? `A motion that repeats with every turn stands still here${report.result.period?.turns > 1 ? `; this one goes round ${number(report.result.period.turns, 3)} places` : ''}: first the transient of the start dies out.`
+        : 'A motion in steady state would stand still here; this one does not.')),
     chart.element, inPlane ? scatter.element : null);
   const panels = [{ label: 'x', unit: 'µm', height: 120, series: [dots('', x, '--s1')] },
     { label: 'y', unit: 'µm', height: 120, series: [dots('', y, '--s2')] }]
@@ -172,6 +195,28 @@ function onceSection(report) {
     chart.draw(panels);
     if (inPlane) scatter.resize();
   } } : null;
+}
+
+/** Amplitudes over the frequency, of a motion that does not repeat. */
+function spectrumSection(report) {
+  const t = tableNamed(report, 'spectrum.csv');
+  const f = columnNamed(t, 'frequency_Hz');
+  const { vibration } = report.result;
+  if (!f?.length || !vibration) return null;
+  const top = Math.max(...vibration.lines.map((line) => line.frequency_Hz)) * 2;
+  const n = f.findIndex((v) => v > top);
+  const cut = (values) => (n > 0 ? values.slice(0, n) : values);
+  const series = ['x', 'y'].map((axis, i) => ({ name: axis, values: cut(columnNamed(t, `${axis}_um`)),
+    color: ['--s1', '--s2'][i], width: 1.5 })).filter(({ values }) => values.some((v) => v > 0));
+  const chart = figure({ key: 'frequency', x: cut(f), label: 'frequency', unit: 'Hz',
+    caption: zoomHint + thinned(t) });
+  const rows = vibration.lines.map((line) => [number(line.frequency_Hz, 6), number(line.x_um, 4),
+    number(line.y_um, 4), isNumber(line.spindle_harmonic) ? `${line.spindle_harmonic} × spindle` : 'its own']);
+  const part = section('spectrum', 'With which frequencies it vibrates', 'Spectrum',
+    prose(`Amplitude of tool minus work over the last ${vibration.turns} turns. What the cut forces ` +
+      'has harmonics of the spindle; chatter has frequencies of its own.'), chart.element,
+    table(['frequency, Hz', 'x, µm', 'y, µm', 'what it is'], rows, { class: 'fits' }));
+  return { part, draw: () => chart.draw([{ label: 'amplitude', unit: 'µm', series }]) };
 }
 
 function paintScatter(c, width, height, x, y) {

@@ -30,7 +30,7 @@ void warn_limits(const correction::LimitReport& report, Warnings& warnings) {
 void warn_flutes(const correction::BeforeAfter& cuts, Warnings& warnings) {
   const dynamics::Motion& before = cuts.before.motion;
   const dynamics::Motion& after = cuts.after.motion;
-  if (!before.periodic || !after.periodic) {
+  if (!dynamics::repeats_every_turn(before) || !dynamics::repeats_every_turn(after)) {
     warnings.push_back(
         {"not_periodic",
          fmt::format("The force still changes by {:.3g} N from turn to turn: a "

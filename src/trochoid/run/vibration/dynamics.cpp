@@ -14,7 +14,6 @@ namespace {
 
 using dynamics::MotionProblem;
 using dynamics::SteadyState;
-using dynamics::Verdict;
 using results::MotionResult;
 
 MotionResult failed(MotionResult r, std::string why) {
@@ -72,16 +71,16 @@ MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
   r.linear_growth = dynamics::linear_growth(problem.setup, problem.law, problem.system,
                                             stability_options(given));
   r.steady = std::move(steady);
-  if (r.steady->verdict == Verdict::chatter) {
-    std::string why = chatter_message(r.steady->motion, r.linear_growth);
+  if (std::holds_alternative<dynamics::Growing>(r.steady->verdict)) {
+    std::string why = growth_message(*r.steady, r.linear_growth);
     return failed(std::move(r), std::move(why));
   }
-  base::add(r.heading.warnings, motion_warnings(*r.steady));
-  r.walls = dynamics::surface_location(problem, r.steady->motion,
-                                       dynamics::wall_heights(problem.setup));
-  r.heading.message = fmt::format(
-      "After {} turns the motion {}.", r.steady->motion.turns_done,
-      r.steady->verdict == Verdict::periodic ? "repeats itself" : "has not settled");
+  base::add(r.heading.warnings, motion_warnings(given, *r.steady, r.linear_growth));
+  if (dynamics::walls_repeat(*r.steady)) {
+    r.walls = dynamics::surface_location(problem, r.steady->motion,
+                                         dynamics::wall_heights(problem.setup));
+  }
+  r.heading.message = motion_message(*r.steady);
   return r;
 }
 

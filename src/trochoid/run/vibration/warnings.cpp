@@ -11,7 +11,10 @@ namespace trochoid::run {
 
 namespace {
 
+using dynamics::Bounded;
 using dynamics::Motion;
+using dynamics::Periodic;
+using dynamics::SteadyState;
 using Warnings = std::vector<base::Warning>;
 
 /// Lines between the half-power points of a mode that are few.
@@ -47,6 +50,47 @@ void warn_modes(const inputs::Case& given, Warnings& warnings) {
   }
 }
 
+std::string linear_text(const std::optional<double>& linear_growth) {
+  if (!linear_growth) {
+    return "the vibration does not die out";
+  }
+  if (*linear_growth > 1) {
+    return fmt::format("a small vibration grows to {:.4g} of itself in each turn",
+                       *linear_growth);
+  }
+  return fmt::format(
+      "the linearised cut is stable (a small vibration fades to {:.4g} of itself in "
+      "each turn), the motion is not",
+      *linear_growth);
+}
+
+std::string amplitude_text(const Bounded& bounded) {
+  std::string text = fmt::format(
+      "it stays within {:.4g} um of its middle along x and {:.4g} um along y over the "
+      "last {} turns",
+      bounded.amplitude[0] / unit::um, bounded.amplitude[1] / unit::um, bounded.turns);
+  if (const auto* line = dynamics::chatter_line(bounded)) {
+    text += fmt::format(
+        ", strongest at {:.5g} Hz ({:.3g} um along x, {:.3g} um along y)",
+        line->frequency, line->amplitude[0] / unit::um, line->amplitude[1] / unit::um);
+  }
+  return text;
+}
+
+std::string chatter_warning(const SteadyState& steady,
+                            const std::optional<double>& linear_growth) {
+  const std::string text = "Chatter: " + linear_text(linear_growth) + "; ";
+  if (const auto* periodic = std::get_if<Periodic>(&steady.verdict)) {
+    return text +
+           fmt::format(
+               "the motion repeats {} only, where the cut repeats {}.",
+               dynamics::period_text(*periodic, steady.motion.flutes.size()),
+               periodic->passes_of_cut == 1 ? "with every tooth" : "with every turn");
+  }
+  return text + amplitude_text(std::get<Bounded>(steady.verdict)) +
+         ". Peaks are the largest of these turns, chip areas their means.";
+}
+
 }  // namespace
 
 Warnings stability_warnings(const inputs::Case& given,
@@ -67,15 +111,41 @@ Warnings stability_warnings(const inputs::Case& given,
   return warnings;
 }
 
-Warnings motion_warnings(const dynamics::SteadyState& steady) {
-  if (steady.verdict != dynamics::Verdict::not_periodic) {
-    return {};
+Warnings motion_warnings(const inputs::Case& given, const SteadyState& steady,
+                         const std::optional<double>& linear_growth) {
+  Warnings warnings;
+  const bool chatter = dynamics::chatters(steady.verdict);
+  if (chatter) {
+    warnings.push_back({"chatter", chatter_warning(steady, linear_growth)});
+  } else if (std::holds_alternative<Bounded>(steady.verdict)) {
+    warnings.push_back(
+        {"not_periodic",
+         fmt::format(
+             "The force still changes by {:.3g} N from turn to turn, less and "
+             "less: ask for more revolutions. Peaks are those of the last turn.",
+             steady.motion.last_change)});
   }
-  return {
-      {"not_periodic",
-       fmt::format("The force still changes by {:.3g} N from turn to turn, less and "
-                   "less: ask for more revolutions. Peaks are those of the last turn.",
-                   steady.motion.last_change)}};
+  if (!chatter && linear_growth.value_or(0.0) > dynamics::chatter_growth) {
+    warnings.push_back(
+        {"linear_unstable",
+         fmt::format(
+             "The linearised cut is unstable (a small vibration grows to {:.4g} "
+             "of itself in each turn), the motion is not: the linear picture "
+             "fails where chips are thin, or the vibration is still too small "
+             "to be seen. The motion counts; ask for more revolutions.",
+             *linear_growth)});
+  }
+  const inputs::Sampling& sampling = given.sampling;
+  if (sampling.start != 0 || !sampling.angles.empty()) {
+    warnings.push_back(
+        {"sampling_ignored",
+         fmt::format(
+             "[sampling] {} has no meaning here and is ignored: a motion begins "
+             "with the tip of tooth 1 at theta = 0 and is told at "
+             "samples_per_rev equal steps.",
+             sampling.angles.empty() ? "start_deg" : "angles_deg")});
+  }
+  return warnings;
 }
 
 void add_modes_warnings(const structure::ModesFit& fit, Warnings& warnings) {
@@ -141,32 +211,35 @@ std::string too_many_steps(int steps_per_tooth) {
       steps_per_tooth, dynamics::most_steps);
 }
 
-std::string chatter_message(const Motion& motion,
-                            const std::optional<double>& linear_growth) {
-  std::string text = "chatter: ";
-  if (!linear_growth) {
-    text += "the vibration does not die out";
-  } else if (*linear_growth > 1) {
-    text += fmt::format("a small vibration grows to {:.4g} of itself in each turn",
-                        *linear_growth);
-  } else {
-    text += fmt::format(
-        "the linearised cut is stable (a small vibration fades to {:.4g} of itself in "
-        "each turn), the motion is not",
-        *linear_growth);
+std::string motion_message(const SteadyState& steady) {
+  const std::string after = fmt::format("After {} turns ", steady.motion.turns_done);
+  if (const auto* periodic = std::get_if<Periodic>(&steady.verdict)) {
+    return after +
+           (periodic->several_periods() ? "the cut chatters: the motion repeats "
+                                        : "the motion repeats itself ") +
+           dynamics::period_text(*periodic, steady.motion.flutes.size()) + '.';
   }
+  const auto& bounded = std::get<Bounded>(steady.verdict);
+  return after + (bounded.fades ? "the motion has not settled."
+                                : "the cut chatters: the motion stays bounded and does "
+                                  "not repeat itself.");
+}
+
+std::string growth_message(const SteadyState& steady,
+                           const std::optional<double>& linear_growth) {
+  const Motion& motion = steady.motion;
+  const std::string text = "chatter: " + linear_text(linear_growth);
   if (!motion.finite) {
-    return text + fmt::format("; after {} turns it had grown beyond all bounds",
-                              motion.turns_done);
+    return text + fmt::format(
+                      "; after {} turns the tool is more than {:.0f} mm from "
+                      "where it would rest: far out of the cut",
+                      motion.turns_done, dynamics::run_away / unit::mm);
   }
-  if (motion.periodic) {
-    return text +
-           "; the teeth are alike, yet they do not cut alike: the motion repeats only "
-           "after several teeth";
-  }
+  const auto& seen = std::get<dynamics::Growing>(steady.verdict).per_turn;
   return text +
-         fmt::format("; the motion does not come to repeat itself within {} turns",
-                     motion.turns_done);
+         fmt::format("; after {} turns the vibration still grows{}", motion.turns_done,
+                     seen ? fmt::format(", to {:.4g} of itself in each turn", *seen)
+                          : std::string());
 }
 
 }  // namespace trochoid::run

@@ -18,16 +18,21 @@ std::vector<base::Warning> stability_warnings(const inputs::Case& given,
                                               const dynamics::StabilityOptions& options,
                                               const dynamics::Stability& stability);
 
-std::vector<base::Warning> motion_warnings(const dynamics::SteadyState& steady);
+std::vector<base::Warning> motion_warnings(const inputs::Case& given,
+                                           const dynamics::SteadyState& steady,
+                                           const std::optional<double>& linear_growth);
 
 /// @brief Why a motion is not followed: more steps than dynamics::most_steps.
 std::string too_many_steps(int steps_per_tooth);
 
-/// @brief What chatters.
-/// @param motion         with the verdict chatter
+/// @brief What a motion that does not grow comes to.
+std::string motion_message(const dynamics::SteadyState& steady);
+
+/// @brief What grows, and how that ended.
+/// @param steady         with the verdict Growing
 /// @param linear_growth  of the linearised cut in a turn, where it is known
-std::string chatter_message(const dynamics::Motion& motion,
-                            const std::optional<double>& linear_growth);
+std::string growth_message(const dynamics::SteadyState& steady,
+                           const std::optional<double>& linear_growth);
 
 void add_modes_warnings(const structure::ModesFit& fit,
                         std::vector<base::Warning>& warnings);

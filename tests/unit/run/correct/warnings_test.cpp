@@ -27,7 +27,7 @@ correction::Correction sound() {
   correction::Correction c{.ok = true};
   c.setting.rho = c.setting.designed_for = {10e-6, -10e-6};
   for (correction::MovedCut* cut : {&c.cuts.before, &c.cuts.after}) {
-    cut->motion.periodic = true;
+    cut->motion.passes = 2;
     cut->motion.flutes = {{.peak_y = 50, .chip_area = 1e-4},
                           {.peak_y = 50, .chip_area = 0.95e-4}};
   }
@@ -73,7 +73,7 @@ TEST(CorrectionWarnings, NameEveryLimitThatIsBroken) {
 
 TEST(CorrectionWarnings, SayThatForcesStillChange) {
   correction::Correction c = sound();
-  c.cuts.after.motion.periodic = false;
+  c.cuts.after.motion.passes.reset();
   c.cuts.after.motion.last_change = 1.5;
   const auto warnings = of(c);
   ASSERT_EQ(codes(warnings), Codes{"not_periodic"});
