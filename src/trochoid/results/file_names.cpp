@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 31> names = {"case.toml",
+constexpr std::array<std::string_view, 33> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -30,6 +30,8 @@ constexpr std::array<std::string_view, 31> names = {"case.toml",
                                                     "motion.csv",
                                                     "lobes.csv",
                                                     "limit.csv",
+                                                    "zeroth_order.csv",
+                                                    "multi_frequency.csv",
                                                     "command.csv",
                                                     "bent.csv",
                                                     "modes.toml",

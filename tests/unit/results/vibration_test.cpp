@@ -80,7 +80,7 @@ TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
 /// Two teeth, two samples, a tool and a table mode.
 MotionResult motion_result(Verdict verdict) {
   MotionResult r;
-  r.system.modes = {{.x = 1.0, .y = 0.0}, {.x = -1.0, .y = 0.0}};
+  r.system.modes = {{.x = 1.0, .y = 0.0}, {.x = -1.0, .y = 0.0, .of_table = true}};
   r.steps_per_tooth = 1000;
   r.engagement = {0.0, unit::turn / 2};
   r.entry = {0.0, unit::turn / 2};

@@ -1,0 +1,357 @@
+#include <trochoid/dynamics/frequency_limit.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/numerics/complex_eigenvalues.h>
+#include <trochoid/numerics/parallel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+namespace trochoid::dynamics {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Steps of the scan while the longest delay turns once.
+constexpr double steps_per_wave = 48.0;
+/// A vibration belongs to the frequency among its harmonics at which the tool point is
+/// soft; one with less than this share of the softest is left to that one.
+constexpr double share_of_softest = 0.5;
+/// The mirror image counts where no more tooth passing frequencies lie between: what
+/// couples them falls with the square of that number.
+constexpr int most_mirrored = 40;
+/// Both neighbours of a crossing must be there: eigenvalues down to this fraction of the
+/// one looked for are kept.
+constexpr double kept_beside = 0.5;
+/// Of the root in omega.
+constexpr int refinements = 12;
+
+double largest(const ComplexMatrix2& G) {
+  double most = 0.0;
+  for (const Complex& g : G) {
+    most = std::max(most, std::abs(g));
+  }
+  return most;
+}
+
+/// The matrix of D-22 at one speed, for one frequency after another.
+class Loop {
+ public:
+  Loop(const ForceHarmonics& forces, const PointResponse& point, double Omega, int h)
+      : forces_(forces),
+        point_(point),
+        Omega_(Omega),
+        step_(unit::turn * Omega / forces.period),
+        h_(h) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const bool moves = std::any_of(
+          point.parts.begin(), point.parts.end(),
+          [&](const MeasuredReceptance& part) { return part.motion == axis; });
+      if (moves) {
+        axes_.push_back(axis);
+      }
+    }
+    for (const auto& of_delay : forces.coefficients) {
+      for (const ComplexMatrix2& coefficient : of_delay) {
+        force_size_ += 2 * largest(coefficient);
+      }
+    }
+  }
+
+  /// Eigenvalues at omega; empty where none can reach `least`.
+  [[nodiscard]] std::vector<Complex> eigenvalues(double omega, double least) const {
+    const std::vector<int> kept = sidebands(omega);
+    const std::size_t n = axes_.size() * kept.size();
+    std::vector<ComplexMatrix2> G;
+    double softest = 0.0;
+    for (const int k : kept) {
+      G.push_back(receptance(point_, omega + step_ * k));
+      softest = std::max(softest, largest(G.back()));
+    }
+    if (largest(receptance(point_, omega)) < share_of_softest * softest ||
+        2 * softest * force_size_ < least) {
+      return {};
+    }
+    std::vector<Complex> M(n * n);
+    for (std::size_t l = 0; l < kept.size(); ++l) {
+      add_column(omega, kept, l, G, M);
+    }
+    return bound(M, n) < least ? std::vector<Complex>{}
+                               : numerics::complex_eigenvalues(M, n);
+  }
+
+ private:
+  /// Which harmonics are kept, ascending.
+  [[nodiscard]] std::vector<int> sidebands(double omega) const {
+    std::vector<int> kept;
+    const int mirror = -static_cast<int>(std::lround(2 * omega / step_));
+    if (h_ > 0 && 2 * h_ - mirror <= forces_.most) {
+      for (int k = mirror - h_; k <= mirror + h_ && k < -h_; ++k) {
+        kept.push_back(k);
+      }
+    }
+    for (int k = -h_; k <= h_; ++k) {
+      kept.push_back(k);
+    }
+    return kept;
+  }
+
+  // six parameters: G and M belong to the same harmonics
+  void add_column(double omega, const std::vector<int>& kept, std::size_t l,
+                  const std::vector<ComplexMatrix2>& G, std::vector<Complex>& M) const {
+    const std::size_t n = axes_.size() * kept.size();
+    std::vector<Complex> turned;
+    for (const double delay : forces_.delays) {
+      turned.push_back(std::polar(1.0, -(omega + step_ * kept[l]) * delay / Omega_));
+    }
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const auto wave = static_cast<std::size_t>(forces_.most + kept[k] - kept[l]);
+      ComplexMatrix2 W = forces_.coefficients[0][wave];
+      for (std::size_t d = 0; d < forces_.delays.size(); ++d) {
+        for (std::size_t q = 0; q < W.size(); ++q) {
+          W[q] -= turned[d] * forces_.coefficients[d + 1][wave][q];
+        }
+      }
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        for (std::size_t j = 0; j < axes_.size(); ++j) {
+          const std::size_t row = 2 * axes_[i];
+          M[(l * axes_.size() + j) * n + k * axes_.size() + i] =
+              G[k][row] * W[axes_[j]] + G[k][row + 1] * W[2 + axes_[j]];  // D-22
+        }
+      }
+    }
+  }
+
+  /// No eigenvalue is larger than the largest sum of a row, or of a column.
+  static double bound(const std::vector<Complex>& M, std::size_t n) {
+    std::vector<double> rows(n);
+    double columns = 0.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double size = std::abs(M[j * n + i]);
+        sum += size;
+        rows[i] += size;
+      }
+      columns = std::max(columns, sum);
+    }
+    return std::min(columns, *std::max_element(rows.begin(), rows.end()));
+  }
+
+  const ForceHarmonics& forces_;
+  const PointResponse& point_;
+  double Omega_;
+  double step_;  ///< from a harmonic to the next [rad/s]
+  int h_;
+  std::vector<std::size_t> axes_;
+  double force_size_ = 0.0;  ///< no column of forces sums up to more [N/m]
+};
+
+Complex nearest(const std::vector<Complex>& values, Complex to) {
+  return *std::min_element(values.begin(), values.end(), [&](Complex a, Complex b) {
+    return std::abs(a - to) < std::abs(b - to);
+  });
+}
+
+/// An eigenvalue at a frequency.
+struct Point {
+  double omega = 0.0;
+  Complex lambda;
+};
+
+/// Where the eigenvalue is real between two frequencies: false position, halved where
+/// one end stays (Illinois).
+Point real_between(const Loop& loop, Point a, Point b) {
+  double weight_a = a.lambda.imag();
+  double weight_b = b.lambda.imag();
+  Point found = std::abs(weight_a) < std::abs(weight_b) ? a : b;
+  for (int i = 0; i < refinements; ++i) {
+    const double t = weight_a / (weight_a - weight_b);
+    const double omega = a.omega + t * (b.omega - a.omega);
+    const auto values = loop.eigenvalues(omega, 0.0);
+    if (values.empty()) {
+      return found;
+    }
+    found = {omega, nearest(values, a.lambda + t * (b.lambda - a.lambda))};
+    if (std::abs(found.lambda.imag()) < 1e-12 * std::abs(found.lambda)) {
+      return found;
+    }
+    if ((found.lambda.imag() > 0) == (a.lambda.imag() > 0)) {
+      a = found;
+      weight_a = found.lambda.imag();
+      weight_b *= 0.5;
+    } else {
+      b = found;
+      weight_b = found.lambda.imag();
+      weight_a *= 0.5;
+    }
+  }
+  return found;
+}
+
+/// The onset that an eigenvalue passes through from one frequency to the next.
+void take_crossings(const Loop& loop, double from, const std::vector<Complex>& before,
+                    const Point& after, Onset& best) {
+  const Complex start = nearest(before, after.lambda);
+  const bool crosses = (start.imag() > 0) != (after.lambda.imag() > 0);
+  const double larger = std::max(start.real(), after.lambda.real());
+  if (!crosses || larger * best.factor < 1) {
+    return;
+  }
+  const Point real = real_between(loop, {from, start}, after);
+  if (real.lambda.real() * best.factor > 1) {
+    best = {1 / real.lambda.real(), real.omega};  // D-23
+  }
+}
+
+/// How many teeth pass in a period of the cut.
+int teeth_in(const Directional& cut) {
+  const double pitch = cut.delays.empty() ? cut.period : cut.delays.front();
+  return static_cast<int>(std::max(1L, std::lround(cut.period / pitch)));
+}
+
+/// The onset of a cut of some depth, up to a factor.
+using OnsetAt = std::function<std::optional<Onset>(double depth, double most)>;
+
+/// A depth, and the logarithm of the factor to the onset: negative where unstable.
+struct Tried {
+  double depth = 0.0;
+  double g = 0.0;
+  double omega = 0.0;
+};
+
+/// No factor is looked for beyond this: as far as two neighbouring depths differ.
+constexpr double far_enough = 2.0;
+
+Tried tried(const OnsetAt& at, double depth, double most) {
+  const auto found = at(depth, most);
+  return found ? Tried{depth, std::log(found->factor), found->omega}
+               : Tried{depth, std::log(most), 0.0};
+}
+
+/// Between a stable depth and an unstable one: false position over the logarithm of the
+/// depth (Illinois).
+FrequencyLimit limit_between(const OnsetAt& at, double Omega, Tried stable,
+                             Tried unstable, double tolerance) {
+  double weight_stable = stable.g;
+  double weight_unstable = unstable.g;
+  while (unstable.depth - stable.depth > tolerance * unstable.depth &&
+         unstable.g < -0.1 * tolerance) {
+    const double t = weight_stable / (weight_stable - weight_unstable);
+    const double ratio = unstable.depth / stable.depth;
+    const Tried middle = tried(
+        at, stable.depth * std::pow(ratio, std::clamp(t, 0.02, 0.98)), far_enough);
+    if (middle.g > 0) {
+      stable = middle;
+      weight_stable = middle.g;
+      weight_unstable *= 0.5;
+    } else {
+      unstable = middle;
+      weight_unstable = middle.g;
+      weight_stable *= 0.5;
+    }
+  }
+  return {Omega, unstable.depth, unstable.omega / unit::turn};  // D-24
+}
+
+/// The limit of a cut whose force is not proportional to the depth: from a stable depth
+/// half of the way to where it would become unstable if it were, but on the depths given.
+std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
+                                       std::span<const double> depth,
+                                       double tolerance) {
+  Tried stable{1e-3 * depth.front(), std::log(1e3)};
+  std::size_t k = 0;
+  while (k < depth.size()) {
+    const Tried here = tried(at, depth[k], far_enough * depth.back() / depth[k]);
+    if (here.g <= 0) {
+      return limit_between(at, Omega, stable, here, tolerance);
+    }
+    stable = here;
+    const double towards = depth[k] * std::exp(0.5 * here.g);
+    const auto next = std::upper_bound(depth.begin(), depth.end(), towards);
+    k = std::max(k + 1, static_cast<std::size_t>(next - depth.begin()) - 1);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& point,
+                           double Omega, int h, double most) {
+  const Loop loop(forces, point, Omega, h);
+  const Band band = band_of(point);
+  const double longest = forces.delays.empty() ? forces.period : forces.delays.back();
+  const double step =
+      std::min(std::max(line_distance(point), narrowest_peak(point) / 5),
+               unit::turn * Omega / longest / steps_per_wave);
+  const auto steps = static_cast<std::size_t>(std::ceil((band.to - band.from) / step));
+  Onset best{.factor = most};
+  std::vector<Complex> before;
+  double last = band.from;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double omega = std::min(band.from + step * static_cast<double>(i), band.to);
+    std::vector<Complex> now = loop.eigenvalues(omega, kept_beside / best.factor);
+    if (!before.empty()) {
+      for (const Complex& lambda : now) {
+        take_crossings(loop, last, before, {omega, lambda}, best);
+      }
+    }
+    before = std::move(now);
+    last = omega;
+  }
+  return best.factor < most ? std::optional(best) : std::nullopt;
+}
+
+std::optional<FrequencyLimit> frequency_limit(const DirectionalModel& model,
+                                              const PointResponse& point, double Omega,
+                                              std::span<const double> depth,
+                                              const FrequencyOptions& options) {
+  if (depth.empty()) {
+    return std::nullopt;
+  }
+  const int teeth = teeth_in(model.at_depth(depth.back()));
+  const int h = teeth * options.harmonics;
+  const int waves = h == 0 ? 0 : teeth * most_mirrored + 4 * h;
+  const auto at = [&](double a_p, double most) {
+    return onset(force_harmonics(model.at_depth(a_p), waves), point, Omega, h, most);
+  };
+  if (model.proportional()) {
+    const auto found = at(1.0, depth.back());
+    return found ? std::optional(
+                       FrequencyLimit{Omega, found->factor, found->omega / unit::turn})
+                 : std::nullopt;
+  }
+  return searched(at, Omega, depth, options.tolerance);
+}
+
+// six parameters: both axes of the diagram, and who is told how far it is
+std::vector<FrequencyLimit> frequency_limits(const DirectionalModel& model,
+                                             const PointResponse& point,
+                                             std::span<const double> Omega,
+                                             std::span<const double> depth,
+                                             const FrequencyOptions& options,
+                                             const FrequencyProgress& progress) {
+  std::vector<std::optional<FrequencyLimit>> limits(Omega.size());
+  std::mutex one_at_a_time;
+  std::size_t done = 0;
+  numerics::for_each_index(Omega.size(), [&](std::size_t i) {
+    limits[i] = frequency_limit(model, point, Omega[i], depth, options);
+    const std::lock_guard lock(one_at_a_time);
+    ++done;
+    if (progress) {
+      progress(static_cast<double>(done) / static_cast<double>(Omega.size()));
+    }
+  });
+  std::vector<FrequencyLimit> curve;
+  for (const auto& limit : limits) {
+    if (limit) {
+      curve.push_back(*limit);
+    }
+  }
+  return curve;
+}
+
+}  // namespace trochoid::dynamics

@@ -1,0 +1,129 @@
+#include "../inputs/case_text.h"
+
+#include <trochoid/base/error.h>
+#include <trochoid/base/units.h>
+#include <trochoid/run/vibration/stability.h>
+#include <trochoid/run/vibration/tool_point.h>
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <random>
+
+namespace trochoid::run {
+namespace {
+
+using inputs::Command;
+using inputs::test::CaseFolder;
+
+const std::string slot = R"(
+[tool]
+teeth = 2
+diameter_mm = 10
+helix_deg = 0
+[cut]
+engagement = "slot"
+axial_depth_mm = 0.3
+feed_per_tooth_mm = 0.05
+spindle_rpm = 12000
+[chip]
+model = "none"
+[force]
+K_tc_MPa = 600
+K_rc_MPa = 200
+K_ac_MPa = 0
+K_te_N_per_mm = 0
+K_re_N_per_mm = 0
+K_ae_N_per_mm = 0
+[stability]
+spindle_rpm = [12000, 12500, 2]
+axial_depth_mm = [0.1, 4, 10]
+)";
+
+struct Tap {
+  double scale = 1.0;  ///< -1: the sensor points the wrong way
+  double noise = 0.0;  ///< of the receptance, of its peak
+  double from = 200;   ///< [Hz]
+  double to = 4000;
+  double step = 2;
+};
+
+/// A tap test of one mode of 922 Hz, in m/N.
+std::string tapped(const Tap& tap, double mass = 0.03993, double hertz = 922) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  std::string text = "freq_Hz,re_m/N,im_m/N\n";
+  const double k = mass * std::pow(hertz * unit::Hz, 2);
+  const double c = 2 * 0.011 * std::sqrt(k * mass);
+  const double peak = 1 / (0.022 * k);
+  for (double f = tap.from; f <= tap.to; f += tap.step) {
+    const double w = f * unit::Hz;
+    std::complex<double> H = tap.scale / std::complex<double>(k - mass * w * w, c * w);
+    H += tap.noise * peak * std::complex<double>(normal(random), normal(random));
+    text += fmt::format("{},{},{}\n", f, H.real(), H.imag());
+  }
+  return text;
+}
+
+const std::string along_x = "[[measured_frf]]\nfile = \"x.csv\"\naxis = \"x\"\n";
+
+results::StabilityResult answered(const std::string& csv,
+                                  const std::string& more = along_x) {
+  const CaseFolder folder;
+  folder.write("x.csv", csv);
+  return stability(
+      inputs::read_case(folder.write("case.toml", slot + more), Command::stability),
+      {});
+}
+
+bool warned(const results::StabilityResult& r, const char* code) {
+  return std::ranges::any_of(r.heading.warnings,
+                             [&](const base::Warning& w) { return w.code == code; });
+}
+
+TEST(ToolPoint, GivesTheLimitWithoutModesAndWithThoseFittedToIt) {  // [D-22]
+  const auto r = answered(tapped({}));
+  ASSERT_TRUE(r.measured && r.measured->multi_frequency.limit && r.stability.limit);
+  EXPECT_TRUE(r.measured->modes_fitted);
+  const double limit = r.stability.limit->limit.depth;
+  EXPECT_NEAR(limit, 2.1493e-3, 2e-6);
+  // lines 2 Hz apart under a peak 20 Hz wide
+  EXPECT_NEAR(r.measured->multi_frequency.limit->depth, limit, 3e-3 * limit);
+  EXPECT_NEAR(r.measured->zeroth_order.limit->depth, 1.4314e-3, 5e-6);
+  EXPECT_EQ(r.measured->multi_frequency.curve.size(), 2U);
+  EXPECT_TRUE(r.heading.warnings.empty()) << r.heading.warnings.front().message;
+}
+
+TEST(ToolPoint, RefusesASensorThatPointsAgainstTheForce) {
+  EXPECT_THROW(answered(tapped({.scale = -1})), base::InputError);
+}
+
+TEST(ToolPoint, RefusesABandWithoutLines) {
+  EXPECT_THROW(answered(tapped({}), along_x + "band_Hz = [4100, 5000]\n"),
+               base::InputError);
+}
+
+TEST(ToolPoint, SaysWhatAResponseCannotSay) {
+  EXPECT_TRUE(warned(answered(tapped({.noise = 0.01})), "noise"));
+  EXPECT_FALSE(warned(answered(tapped({.noise = 1e-4})), "noise"));
+  EXPECT_TRUE(warned(answered(tapped({.to = 1200})), "band_short_above"));
+  EXPECT_TRUE(warned(answered(tapped({.from = 800})), "band_short_below"));
+  EXPECT_TRUE(warned(answered(tapped({.step = 7})), "few_lines"));
+  const auto cut_off = answered(tapped({.to = 921}));
+  EXPECT_TRUE(warned(cut_off, "peak_at_the_edge"));
+}
+
+TEST(ToolPoint, WithoutModesTheResponseDecides) {
+  // Half of the peak: no mode can be fitted.
+  const auto r = answered(tapped({.to = 921}));
+  EXPECT_FALSE(r.no_modes.empty());
+  EXPECT_TRUE(warned(r, "no_modes"));
+  EXPECT_TRUE(r.heading.ok);
+  EXPECT_NE(r.heading.message.find("By the measured response"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trochoid::run
