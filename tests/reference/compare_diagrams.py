@@ -120,7 +120,7 @@ class Diagrams(unittest.TestCase):
                 result = measured(row, folder)
                 semi, mu = d.limit_depth(cut_of(row), row[7], depths_of(row))
                 limit = result["limit_depth_mm"] * 1e-3
-                # Semi-discretisation with 48 and 96 steps a tooth, extrapolated.
+                # Semi-discretisation with 40 and 80 steps a tooth, extrapolated.
                 self.assertLess(abs(limit / semi - 1), 1e-3)
                 self.assertEqual(result["limit"]["type"], d.kind(mu))
                 both = result["measured_frf"]["multi_frequency"]["limit_depth_mm"] * 1e-3

@@ -274,13 +274,15 @@ std::string modes_toml(const dynamics::System& system) {
       "it in\n# another case with\n#   include = \"<this file>\"\n";
   for (const dynamics::ChipMode& m : system.modes) {
     const double omega = std::sqrt(m.stiffness / m.mass);
+    const bool along_x = std::abs(m.x) >= std::abs(m.y);
+    const double tangent = along_x ? m.y / m.x : -m.x / m.y;
     text += fmt::format(
         "\n[[mode]]  # {:.6g} Hz, damping ratio {:.4g}\n"
-        "body = \"{}\"\naxis = \"{}\"\n"
+        "body = \"{}\"\naxis = \"{}\"\nangle_deg = {:.6g}\n"
         "mass_kg = {}\nstiffness_N_per_m = {}\ndamping_Ns_per_m = {}\n",
         omega / unit::turn, 0.5 * m.damping / (m.mass * omega),
-        m.of_table ? "table" : "tool", m.x != 0 ? "x" : "y", m.mass, m.stiffness,
-        m.damping);
+        m.of_table ? "table" : "tool", along_x ? "x" : "y",
+        std::atan(tangent) / unit::deg + 0.0, m.mass, m.stiffness, m.damping);
   }
   return text;
 }

@@ -97,6 +97,54 @@ TEST(ToolPoint, GivesTheLimitWithoutModesAndWithThoseFittedToIt) {  // [D-22]
   EXPECT_TRUE(r.heading.warnings.empty()) << r.heading.warnings.front().message;
 }
 
+/// Motion along one axis over force along another of two modes askew by 20 degrees.
+std::string askew(bool motion_y, bool force_y, double turned) {
+  const double angle = turned * unit::deg;
+  std::string text = "freq_Hz,re_m/N,im_m/N\n";
+  for (double f = 200; f <= 4000; f += 2) {
+    const double w = f * unit::Hz;
+    std::complex<double> H;
+    for (const bool second : {false, true}) {
+      const double a = second ? angle + 90 * unit::deg : angle;
+      const double hertz = second ? 1080 : 920;
+      const double mass = second ? 0.07 : 0.08;
+      const double k = mass * std::pow(hertz * unit::Hz, 2);
+      H += (motion_y ? std::sin(a) : std::cos(a)) *
+           (force_y ? std::sin(a) : std::cos(a)) /
+           std::complex<double>(k - mass * w * w, 0.06 * std::sqrt(k * mass) * w);
+    }
+    text += fmt::format("{},{},{}\n", f, H.real(), H.imag());
+  }
+  return text;
+}
+
+TEST(ToolPoint, ACrossResponseTellsHowModesLie) {  // [D-25]
+  for (const double turned : {20.0, -35.0}) {
+    const CaseFolder folder;
+    folder.write("x.csv", askew(false, false, turned));
+    folder.write("y.csv", askew(true, true, turned));
+    folder.write("xy.csv", askew(false, true, turned));
+    std::vector<base::Warning> warnings;
+    const ToolPoint point = tool_point(
+        inputs::read_case(
+            folder.write("case.toml",
+                         slot + along_x +
+                             "[[measured_frf]]\nfile = \"y.csv\"\naxis = \"y\"\n"
+                             "[[measured_frf]]\nfile = \"xy.csv\"\naxis = \"x\"\n"
+                             "force_axis = \"y\"\n"),
+            Command::stability),
+        warnings);
+    ASSERT_EQ(point.modes.modes.size(), 2U) << turned;
+    const dynamics::ChipMode& first = point.modes.modes[0];
+    const dynamics::ChipMode& second = point.modes.modes[1];
+    EXPECT_NEAR(first.mass, 0.08, 1e-4);
+    EXPECT_NEAR(second.mass, 0.07, 1e-4);
+    EXPECT_NEAR(first.y / first.x, std::tan(turned * unit::deg), 1e-3);
+    EXPECT_NEAR(-second.x / second.y, std::tan(turned * unit::deg), 1e-3);
+    EXPECT_EQ(point.response.parts.size(), 4U) << "y to a force along x as well";
+  }
+}
+
 TEST(ToolPoint, RefusesASensorThatPointsAgainstTheForce) {
   EXPECT_THROW(answered(tapped({.scale = -1})), base::InputError);
 }

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/frf_file.h>
+#include <trochoid/structure/coupled_modes.h>
 #include <trochoid/structure/identify_modes.h>
 
 #include <fmt/core.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 namespace trochoid::run {
 
@@ -33,7 +35,12 @@ std::string name_of_part(const MeasuredReceptance& part) {
                                                  axes[part.motion], axes[part.force]);
 }
 
-/// The lines of a file in the band, as receptance.
+/// A line at an end of the band belongs to it, whatever rounding did to it.
+bool in_band(const inputs::MeasuredFrf& frf, double f) {
+  return f >= frf.band[0] * (1 - 1e-12) && f <= frf.band[1] * (1 + 1e-12);
+}
+
+/// The lines of a response as receptance.
 MeasuredReceptance lines_of(const inputs::MeasuredFrf& frf,
                             const structure::FrequencyResponse& response) {
   MeasuredReceptance part{static_cast<std::size_t>(frf.axis),
@@ -42,10 +49,7 @@ MeasuredReceptance lines_of(const inputs::MeasuredFrf& frf,
                           {}};
   for (std::size_t i = 0; i < response.omega.size(); ++i) {
     const double omega = response.omega[i];
-    const double f = omega / unit::Hz;
-    const bool inside = frf.band.size() != 2 || (f >= frf.band[0] * (1 - 1e-12) &&
-                                                 f <= frf.band[1] * (1 + 1e-12));
-    if (inside && omega > 0) {
+    if (omega > 0) {
       part.omega.push_back(omega);
       part.H.push_back(response.H[i] / structure::factor(response.kind, omega));
     }
@@ -146,25 +150,77 @@ void add_transposed(ToolPoint& point) {
   }
 }
 
-/// Modes of one direct response, as the chip feels them.
-void add_modes(const inputs::MeasuredFrf& frf,
-               const structure::FrequencyResponse& response, ToolPoint& point) {
-  structure::ModesOptions options;
-  if (frf.band.size() == 2) {
-    options.from = frf.band[0] * unit::Hz * (1 - 1e-12);
-    options.to = frf.band[1] * unit::Hz * (1 + 1e-12);
+using structure::FittedMode;
+using structure::FrequencyResponse;
+
+/// A response in its band.
+FrequencyResponse in_band(const inputs::MeasuredFrf& frf, FrequencyResponse response) {
+  if (frf.band.size() != 2) {
+    return response;
   }
-  const structure::ModesFit fit = structure::identify_modes(response, options);
-  if (!fit.ok) {
-    point.no_modes = fmt::format("{}: {}", frf.file, fit.reason);
-    return;
+  FrequencyResponse out{.kind = response.kind, .omega = {}, .H = {}};
+  for (std::size_t i = 0; i < response.omega.size(); ++i) {
+    if (in_band(frf, response.omega[i] / unit::Hz)) {
+      out.omega.push_back(response.omega[i]);
+      out.H.push_back(response.H[i]);
+    }
   }
-  const bool of_table = frf.body == inputs::ModeBody::table;
+  return out;
+}
+
+/// One measured response of a body.
+struct Measured {
+  const inputs::MeasuredFrf& frf;
+  FrequencyResponse response;
+
+  [[nodiscard]] bool is(inputs::ModeBody body, inputs::Axis motion,
+                        inputs::Axis force) const {
+    return frf.body == body && frf.axis == motion &&
+           frf.force_axis.value_or(motion) == force;
+  }
+};
+
+/// Modes of one body along one axis; none where it was not measured.
+std::vector<FittedMode> along(inputs::ModeBody body, inputs::Axis axis,
+                              const std::vector<Measured>& all, ToolPoint& point) {
+  for (const Measured& one : all) {
+    if (!one.is(body, axis, axis)) {
+      continue;
+    }
+    structure::ModesFit fit = structure::identify_modes(one.response, {});
+    if (!fit.ok && point.no_modes.empty()) {
+      point.no_modes = fmt::format("{}: {}", one.frf.file, fit.reason);
+    }
+    return std::move(fit.modes);
+  }
+  return {};
+}
+
+/// Modes of one body, as the chip feels them; a cross response couples the axes.
+void add_modes(inputs::ModeBody body, const std::vector<Measured>& all,
+               ToolPoint& point) {
+  using inputs::Axis;
+  const auto x = along(body, Axis::x, all, point);
+  const auto y = along(body, Axis::y, all, point);
+  const bool of_table = body == inputs::ModeBody::table;
   const double sign = of_table ? -1.0 : 1.0;
-  for (const structure::FittedMode& m : fit.modes) {
-    point.modes.modes.push_back({m.mode.mass, m.mode.damping, m.mode.stiffness,
-                                 frf.axis == inputs::Axis::x ? sign : 0.0,
-                                 frf.axis == inputs::Axis::y ? sign : 0.0, of_table});
+  const auto add = [&](const structure::Mode& m, double to_x, double to_y) {
+    point.modes.modes.push_back(
+        {m.mass, m.damping, m.stiffness, sign * to_x, sign * to_y, of_table});
+  };
+  for (const Measured& one : all) {
+    if (one.is(body, Axis::x, Axis::y) || one.is(body, Axis::y, Axis::x)) {
+      for (const auto& m : structure::coupled_modes(x, y, one.response)) {
+        add(m.mode, m.x, m.y);
+      }
+      return;
+    }
+  }
+  for (const FittedMode& m : x) {
+    add(m.mode, 1.0, 0.0);
+  }
+  for (const FittedMode& m : y) {
+    add(m.mode, 0.0, 1.0);
   }
 }
 
@@ -172,32 +228,25 @@ void add_modes(const inputs::MeasuredFrf& frf,
 
 ToolPoint tool_point(const inputs::Case& given, Warnings& warnings) {
   ToolPoint point;
-  bool cross = false;
+  std::vector<Measured> all;
   for (const inputs::MeasuredFrf& frf : given.machine.measured_frfs) {
     inputs::FrfFile file = inputs::read_frf({.file = frf.file,
                                              .location = frf.location,
                                              .kind = frf.kind,
                                              .dataset = frf.dataset});
     warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
-    MeasuredReceptance part = lines_of(frf, file.response);
+    all.push_back({frf, in_band(frf, std::move(file.response))});
+    MeasuredReceptance part = lines_of(frf, all.back().response);
     check_sign(frf, part);
     warn_few_lines(part, warnings);
-    const bool direct = part.motion == part.force;
-    cross = cross || !direct;
     point.noise.push_back(scatter(part));
     point.response.parts.push_back(std::move(part));
-    if (direct && given.machine.modes.empty() && point.no_modes.empty()) {
-      add_modes(frf, file.response, point);
-    }
+  }
+  if (given.machine.modes.empty()) {
+    add_modes(inputs::ModeBody::tool, all, point);
+    add_modes(inputs::ModeBody::table, all, point);
   }
   add_transposed(point);
-  if (cross && given.machine.modes.empty() && point.no_modes.empty()) {
-    warnings.push_back(
-        {"cross_response",
-         "The modes for the Floquet multiplier are fitted to the direct responses; the "
-         "cross responses count in the frequency solutions only. A [[mode]] with "
-         "angle_deg couples x and y in both."});
-  }
   return point;
 }
 
