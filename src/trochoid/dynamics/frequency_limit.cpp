@@ -213,6 +213,19 @@ int teeth_in(const Directional& cut) {
   return static_cast<int>(std::max(1L, std::lround(cut.period / pitch)));
 }
 
+/// The strongest of the frequencies of a vibration: where the point is softest [Hz].
+double strongest_frequency(const PointResponse& point, double omega, double step,
+                           int h) {
+  double best = omega;
+  for (int k = -most_mirrored - h; h > 0 && k <= most_mirrored + h; ++k) {
+    const double other = std::abs(omega + step * k);
+    if (largest(receptance(point, other)) > largest(receptance(point, best))) {
+      best = other;
+    }
+  }
+  return best / unit::turn;
+}
+
 /// The onset of a cut of some depth, up to a factor.
 using OnsetAt = std::function<std::optional<Onset>(double depth, double most)>;
 
@@ -254,7 +267,7 @@ FrequencyLimit limit_between(const OnsetAt& at, double Omega, Tried stable,
       weight_stable *= 0.5;
     }
   }
-  return {Omega, unstable.depth, unstable.omega / unit::turn};  // D-24
+  return {Omega, unstable.depth, unstable.omega};  // D-24
 }
 
 /// The limit of a cut whose force is not proportional to the depth: from a stable depth
@@ -318,13 +331,20 @@ std::optional<FrequencyLimit> frequency_limit(const DirectionalModel& model,
   const auto at = [&](double a_p, double most) {
     return onset(force_harmonics(model.at_depth(a_p), waves), point, Omega, h, most);
   };
+  std::optional<FrequencyLimit> limit;
   if (model.proportional()) {
     const auto found = at(1.0, depth.back());
-    return found ? std::optional(
-                       FrequencyLimit{Omega, found->factor, found->omega / unit::turn})
-                 : std::nullopt;
+    limit = found ? std::optional(FrequencyLimit{Omega, found->factor, found->omega})
+                  : std::nullopt;
+  } else {
+    limit = searched(at, Omega, depth, options.tolerance);
   }
-  return searched(at, Omega, depth, options.tolerance);
+  if (limit) {  // so far it is that of the scan [rad/s]
+    const double step = unit::turn * Omega / model.at_depth(depth.back()).period;
+    limit->chatter_frequency =
+        strongest_frequency(point, limit->chatter_frequency, step, h);
+  }
+  return limit;
 }
 
 // six parameters: both axes of the diagram, and who is told how far it is
