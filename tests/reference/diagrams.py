@@ -117,7 +117,7 @@ class Semi:
         return values[np.argmax(np.abs(values))]
 
 
-def limit_depth(cut, rpm, depths, m=40):
+def limit_depth(cut, rpm, depths, m=48):
     """Least depth with |mu| = 1, extrapolated from m and 2 m steps; mu there (2 m)."""
     found = []
     for steps in (m, 2 * m):

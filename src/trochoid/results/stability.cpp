@@ -270,9 +270,11 @@ std::string multiplier_table(const StabilityResult& r) {
     return text + fmt::format("at {:g} rpm no axial depth up to {:g} mm is unstable\n",
                               speed, unit::in(s.greatest_depth, unit::mm));
   }
-  text +=
-      fmt::format("at {:g} rpm unstable from {:.5g} mm axial depth on; here {:g} mm\n",
-                  speed, s.limit->limit.depth / unit::mm, unit::in(cut.a_p, unit::mm));
+  const bool above = growth < 1 && cut.a_p > s.limit->limit.depth;
+  text += fmt::format(
+      "at {:g} rpm unstable from {:.5g} mm axial depth on; here {:g} mm{}\n", speed,
+      s.limit->limit.depth / unit::mm, unit::in(cut.a_p, unit::mm),
+      above ? ", where it is stable again" : "");
   if (const auto better = better_speed(r)) {
     text += fmt::format("near it, {:.5g} rpm allows {:.3g} mm\n",
                         better->Omega / unit::rpm, better->depth / unit::mm);

@@ -40,8 +40,10 @@ function depthWords(result) {
       bold(result.greatest_depth_mm, 'mm'), ' chatters.'];
   }
   const off = Math.abs(100 * (depth / limit - 1));
+  const where = depth <= limit ? `${number(off, 2)} % below that`
+    : result.stable ? 'where it is stable again: see the map' : `${number(off, 2)} % too deep`;
   const words = [`At ${rpm(result.spindle_rpm)} this cut chatters from `, bold(limit, 'mm'),
-    ` axial depth on; it is ${number(depth)} mm deep, ${number(off, 2)} % ${depth > limit ? 'too deep' : 'below that'}. `];
+    ` axial depth on; it is ${number(depth)} mm deep, ${where}. `];
   const better = result.better_speed;
   return better ? [...words, 'A better speed near it: ', el('b', {}, rpm(better.spindle_rpm)), ' allows ',
     bold(better.limit_depth_mm, 'mm'), ', also when the spindle is 2 % off.']
