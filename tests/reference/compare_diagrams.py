@@ -5,10 +5,12 @@ of the program (Floquet multiplier) is compared with semi-discretisation, its tw
 in the frequency domain with Hill's determinant and with each other, and all numbers with
 those printed on the page. `--write` prints the rows for the page.
 """
+import math
 import pathlib
 import re
 import sys
 import tempfile
+import tomllib
 import unittest
 
 import diagrams as d
@@ -142,6 +144,36 @@ class Diagrams(unittest.TestCase):
             depth, hertz = d.frequency_limit(cut_of(row), row[7], 0)
             self.assertAlmostEqual(got["limit_depth_mm"] / 1e3 / depth, 1, delta=1e-3)
             self.assertAlmostEqual(got["chatter_frequency_Hz"], hertz, delta=0.5)
+
+    def test_tap_tests_of_modes_askew(self):  # [D-24] [D-25]
+        """examples/measured_frf: the modes behind the responses are found again, and the
+        limit is that of Hill's determinant of these modes."""
+        folder = program.ROOT / "examples/measured_frf"
+        truth = tomllib.loads((folder / "truth.toml").read_text())["mode"]
+        text = f"include = {program.toml(str(folder / 'case.toml'))}\n[stability]\n" \
+            "spindle_rpm = [12000, 12100, 2]\naxial_depth_mm = [0.1, 3, 2]\nharmonics = 6\n" \
+            '[chip]\nmodel = "none"\n'  # tooth paths are circles in the transcription
+        with tempfile.TemporaryDirectory() as out:
+            answer = program.run("stability", text, out, "case")
+        result = answer.result
+        modes = []
+        for found, true in zip(result["modes"], truth, strict=True):
+            angle = math.radians(true["angle_deg"] + 90 * (true["axis"] == "y"))
+            direction = np.array([math.cos(angle), math.sin(angle)])
+            modes.append((true["mass_kg"], true["frequency_Hz"], true["damping_ratio"],
+                          *direction))
+            # Three responses with noise of 0.2 m/s^2/N under peaks of 150 and more.
+            self.assertAlmostEqual(found["frequency_Hz"], true["frequency_Hz"], delta=0.2)
+            self.assertAlmostEqual(found["mass_kg"] / true["mass_kg"], 1, delta=0.005)
+            self.assertAlmostEqual(abs(direction @ found["direction"]), 1, delta=1e-5)
+        cut = d.Cut(3, 800e6, 250e6, *d.engaged("down", 0.5), modes)
+        per_depth = 2 * math.tan(math.radians(30)) / 0.012
+        depth = 1e-3
+        for _ in range(4):  # the limit of a force that is turned as far as at the limit
+            depth, _ = d.frequency_limit(cut, 12000, 6, (200, 4000), 2.0, per_depth * depth)
+        both = result["measured_frf"]["multi_frequency"]["limit_depth_mm"] / 1e3
+        self.assertAlmostEqual(both / depth, 1, delta=0.01)
+        self.assertAlmostEqual(result["limit_depth_mm"] / 1e3 / both, 1, delta=0.01)
 
     def test_flip_islands(self):  # [D-11]
         """With a helix a flip is a closed island: stable again above it, in both."""

@@ -168,10 +168,12 @@ def coefficient(cut, n):
         cut.teeth / (2 * np.pi)
 
 
-def frequency_limit(cut, rpm, h, band=(100, 4000), step=0.25):
-    """Least depth with a real eigenvalue 1 of D-22, h harmonics on each side."""
+def frequency_limit(cut, rpm, h, band=(100, 4000), step=0.25, lag=0.0):
+    """Least depth with a real eigenvalue 1 of D-22, h harmonics on each side. With a helix
+    the wave n of the force is turned along the edge, by `lag` [rad] from tip to top."""
     passing = 2 * np.pi * rpm / 60 * cut.teeth
-    A = {n: coefficient(cut, n) for n in range(-2 * h, 2 * h + 1)}
+    A = {n: coefficient(cut, n) * np.exp(-0.5j * n * cut.teeth * lag) *
+         np.sinc(n * cut.teeth * lag / 2 / np.pi) for n in range(-2 * h, 2 * h + 1)}
     w = 2 * np.pi * np.arange(*band, step)
     k = np.arange(-h, h + 1)
     turned = 1 - np.exp(-1j * w * 2 * np.pi / passing)  # the same at every harmonic

@@ -1,7 +1,7 @@
 #include <trochoid/dynamics/frequency_limit.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/numerics/complex_eigenvalues.h>
+#include <trochoid/dynamics/regenerative_loop.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
@@ -17,9 +17,6 @@ using Complex = std::complex<double>;
 
 /// Steps of the scan while the longest delay turns once.
 constexpr double steps_per_wave = 48.0;
-/// A vibration belongs to the frequency among its harmonics at which the tool point is
-/// soft; one with less than this share of the softest is left to that one.
-constexpr double share_of_softest = 0.5;
 /// The mirror image counts where no more tooth passing frequencies lie between: what
 /// couples them falls with the square of that number.
 constexpr int most_mirrored = 40;
@@ -28,127 +25,6 @@ constexpr int most_mirrored = 40;
 constexpr double kept_beside = 0.5;
 /// Of the root in omega.
 constexpr int refinements = 12;
-
-double largest(const ComplexMatrix2& G) {
-  double most = 0.0;
-  for (const Complex& g : G) {
-    most = std::max(most, std::abs(g));
-  }
-  return most;
-}
-
-/// The matrix of D-22 at one speed, for one frequency after another.
-class Loop {
- public:
-  Loop(const ForceHarmonics& forces, const PointResponse& point, double Omega, int h)
-      : forces_(forces),
-        point_(point),
-        Omega_(Omega),
-        step_(unit::turn * Omega / forces.period),
-        h_(h) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const bool moves = std::any_of(
-          point.parts.begin(), point.parts.end(),
-          [&](const MeasuredReceptance& part) { return part.motion == axis; });
-      if (moves) {
-        axes_.push_back(axis);
-      }
-    }
-    for (const auto& of_delay : forces.coefficients) {
-      for (const ComplexMatrix2& coefficient : of_delay) {
-        force_size_ += 2 * largest(coefficient);
-      }
-    }
-  }
-
-  /// Eigenvalues at omega; empty where none can reach `least`.
-  [[nodiscard]] std::vector<Complex> eigenvalues(double omega, double least) const {
-    const std::vector<int> kept = sidebands(omega);
-    const std::size_t n = axes_.size() * kept.size();
-    std::vector<ComplexMatrix2> G;
-    double softest = 0.0;
-    for (const int k : kept) {
-      G.push_back(receptance(point_, omega + step_ * k));
-      softest = std::max(softest, largest(G.back()));
-    }
-    if (largest(receptance(point_, omega)) < share_of_softest * softest ||
-        2 * softest * force_size_ < least) {
-      return {};
-    }
-    std::vector<Complex> M(n * n);
-    for (std::size_t l = 0; l < kept.size(); ++l) {
-      add_column(omega, kept, l, G, M);
-    }
-    return bound(M, n) < least ? std::vector<Complex>{}
-                               : numerics::complex_eigenvalues(M, n);
-  }
-
- private:
-  /// Which harmonics are kept, ascending.
-  [[nodiscard]] std::vector<int> sidebands(double omega) const {
-    std::vector<int> kept;
-    const int mirror = -static_cast<int>(std::lround(2 * omega / step_));
-    if (h_ > 0 && 2 * h_ - mirror <= forces_.most) {
-      for (int k = mirror - h_; k <= mirror + h_ && k < -h_; ++k) {
-        kept.push_back(k);
-      }
-    }
-    for (int k = -h_; k <= h_; ++k) {
-      kept.push_back(k);
-    }
-    return kept;
-  }
-
-  // six parameters: G and M belong to the same harmonics
-  void add_column(double omega, const std::vector<int>& kept, std::size_t l,
-                  const std::vector<ComplexMatrix2>& G, std::vector<Complex>& M) const {
-    const std::size_t n = axes_.size() * kept.size();
-    std::vector<Complex> turned;
-    for (const double delay : forces_.delays) {
-      turned.push_back(std::polar(1.0, -(omega + step_ * kept[l]) * delay / Omega_));
-    }
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const auto wave = static_cast<std::size_t>(forces_.most + kept[k] - kept[l]);
-      ComplexMatrix2 W = forces_.coefficients[0][wave];
-      for (std::size_t d = 0; d < forces_.delays.size(); ++d) {
-        for (std::size_t q = 0; q < W.size(); ++q) {
-          W[q] -= turned[d] * forces_.coefficients[d + 1][wave][q];
-        }
-      }
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        for (std::size_t j = 0; j < axes_.size(); ++j) {
-          const std::size_t row = 2 * axes_[i];
-          M[(l * axes_.size() + j) * n + k * axes_.size() + i] =
-              G[k][row] * W[axes_[j]] + G[k][row + 1] * W[2 + axes_[j]];  // D-22
-        }
-      }
-    }
-  }
-
-  /// No eigenvalue is larger than the largest sum of a row, or of a column.
-  static double bound(const std::vector<Complex>& M, std::size_t n) {
-    std::vector<double> rows(n);
-    double columns = 0.0;
-    for (std::size_t j = 0; j < n; ++j) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double size = std::abs(M[j * n + i]);
-        sum += size;
-        rows[i] += size;
-      }
-      columns = std::max(columns, sum);
-    }
-    return std::min(columns, *std::max_element(rows.begin(), rows.end()));
-  }
-
-  const ForceHarmonics& forces_;
-  const PointResponse& point_;
-  double Omega_;
-  double step_;  ///< from a harmonic to the next [rad/s]
-  int h_;
-  std::vector<std::size_t> axes_;
-  double force_size_ = 0.0;  ///< no column of forces sums up to more [N/m]
-};
 
 Complex nearest(const std::vector<Complex>& values, Complex to) {
   return *std::min_element(values.begin(), values.end(), [&](Complex a, Complex b) {
@@ -164,7 +40,7 @@ struct Point {
 
 /// Where the eigenvalue is real between two frequencies: false position, halved where
 /// one end stays (Illinois).
-Point real_between(const Loop& loop, Point a, Point b) {
+Point real_between(const RegenerativeLoop& loop, Point a, Point b) {
   double weight_a = a.lambda.imag();
   double weight_b = b.lambda.imag();
   Point found = std::abs(weight_a) < std::abs(weight_b) ? a : b;
@@ -193,8 +69,9 @@ Point real_between(const Loop& loop, Point a, Point b) {
 }
 
 /// The onset that an eigenvalue passes through from one frequency to the next.
-void take_crossings(const Loop& loop, double from, const std::vector<Complex>& before,
-                    const Point& after, Onset& best) {
+void take_crossings(const RegenerativeLoop& loop, double from,
+                    const std::vector<Complex>& before, const Point& after,
+                    Onset& best) {
   const Complex start = nearest(before, after.lambda);
   const bool crosses = (start.imag() > 0) != (after.lambda.imag() > 0);
   const double larger = std::max(start.real(), after.lambda.real());
@@ -294,7 +171,7 @@ std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
 
 std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& point,
                            double Omega, int h, double most) {
-  const Loop loop(forces, point, Omega, h);
+  const RegenerativeLoop loop(forces, point, Omega, h);
   const Band band = band_of(point);
   const double longest = forces.delays.empty() ? forces.period : forces.delays.back();
   const double step =

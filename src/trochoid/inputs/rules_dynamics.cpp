@@ -30,7 +30,7 @@ void check_modes(const MachineTables& machine, Findings& findings) {
     report(
         findings, "actuator",
         "[actuator]: there is no [[mode]] with body = \"table\" and axis = \"x\" for "
-        "it to push (one with angle_deg is none)");
+        "it to push");
   }
   if (machine.command && !machine.actuator) {
     report(findings, "command",

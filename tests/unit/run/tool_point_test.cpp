@@ -2,6 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
+#include <trochoid/run/vibration/dynamics.h>
 #include <trochoid/run/vibration/stability.h>
 #include <trochoid/run/vibration/tool_point.h>
 
@@ -143,6 +144,32 @@ TEST(ToolPoint, ACrossResponseTellsHowModesLie) {  // [D-25]
     EXPECT_NEAR(-second.x / second.y, std::tan(turned * unit::deg), 1e-3);
     EXPECT_EQ(point.response.parts.size(), 4U) << "y to a force along x as well";
   }
+}
+
+TEST(ModesAskew, ChatterInTimeWhereTheMultiplierSaysSo) {  // [D-1] [D-2]
+  const std::string modes =
+      "[[mode]]\nbody = \"tool\"\naxis = \"x\"\nangle_deg = 35\nmass_kg = 0.04\n"
+      "frequency_Hz = 920\ndamping_ratio = 0.03\n"
+      "[[mode]]\nbody = \"tool\"\naxis = \"y\"\nangle_deg = 35\nmass_kg = 0.03\n"
+      "frequency_Hz = 1080\ndamping_ratio = 0.03\n";
+  const CaseFolder folder;
+  const auto limit = stability(
+      inputs::read_case(folder.write("case.toml", slot + modes), Command::stability),
+      {});
+  ASSERT_TRUE(limit.stability.limit);
+  const auto verdict_at = [&](double factor) {
+    std::string text = slot;
+    const std::string depth = "axial_depth_mm = 0.3";
+    text.replace(text.find(depth), depth.size(),
+                 fmt::format("axial_depth_mm = {}",
+                             factor * limit.stability.limit->limit.depth / unit::mm));
+    return dynamics(inputs::read_case(folder.write("case.toml", text + modes),
+                                      Command::dynamics),
+                    {})
+        .steady->verdict;
+  };
+  EXPECT_EQ(verdict_at(0.8), dynamics::Verdict::periodic);
+  EXPECT_EQ(verdict_at(1.3), dynamics::Verdict::chatter);
 }
 
 TEST(ToolPoint, RefusesASensorThatPointsAgainstTheForce) {
