@@ -19,7 +19,7 @@ using Complex = std::complex<double>;
 constexpr double steps_per_wave = 48.0;
 /// The mirror image counts where no more tooth passing frequencies lie between: what
 /// couples them falls with the square of that number.
-constexpr int most_mirrored = 40;
+constexpr int most_mirrored = 24;
 /// Both neighbours of a crossing must be there: eigenvalues down to this fraction of the
 /// one looked for are kept.
 constexpr double kept_beside = 0.5;
@@ -113,8 +113,11 @@ struct Tried {
   double omega = 0.0;
 };
 
-/// No factor is looked for beyond this: as far as two neighbouring depths differ.
-constexpr double far_enough = 2.0;
+/// No factor is looked for beyond this: it is searched from a depth nearer by.
+constexpr double far_enough = 4.0;
+/// Of the way to where a cut would become unstable if its force were proportional to the
+/// depth, in logarithms: the next depth looked at.
+constexpr double next_look = 0.75;
 
 Tried tried(const OnsetAt& at, double depth, double most) {
   const auto found = at(depth, most);
@@ -147,20 +150,19 @@ FrequencyLimit limit_between(const OnsetAt& at, double Omega, Tried stable,
   return {Omega, unstable.depth, unstable.omega};  // D-24
 }
 
-/// The limit of a cut whose force is not proportional to the depth: from a stable depth
-/// half of the way to where it would become unstable if it were, but on the depths given.
+/// The limit of a cut whose force is not proportional to the depth, on the depths given.
 std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
                                        std::span<const double> depth,
                                        double tolerance) {
   Tried stable{1e-3 * depth.front(), std::log(1e3)};
   std::size_t k = 0;
   while (k < depth.size()) {
-    const Tried here = tried(at, depth[k], far_enough * depth.back() / depth[k]);
+    const Tried here = tried(at, depth[k], far_enough);
     if (here.g <= 0) {
       return limit_between(at, Omega, stable, here, tolerance);
     }
     stable = here;
-    const double towards = depth[k] * std::exp(0.5 * here.g);
+    const double towards = depth[k] * std::exp(next_look * here.g);
     const auto next = std::upper_bound(depth.begin(), depth.end(), towards);
     k = std::max(k + 1, static_cast<std::size_t>(next - depth.begin()) - 1);
   }

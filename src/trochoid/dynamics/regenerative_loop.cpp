@@ -15,22 +15,6 @@ using Complex = std::complex<double>;
 /// A vibration belongs to the frequency among its harmonics at which the tool point is
 /// soft; one with less than this share of the softest is left to that one.
 constexpr double share_of_softest = 0.5;
-/// No eigenvalue is larger than the largest sum of a row, or of a column.
-double bound(const std::vector<Complex>& M, std::size_t n) {
-  std::vector<double> rows(n);
-  double columns = 0.0;
-  for (std::size_t j = 0; j < n; ++j) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double size = std::abs(M[j * n + i]);
-      sum += size;
-      rows[i] += size;
-    }
-    columns = std::max(columns, sum);
-  }
-  return std::min(columns, *std::max_element(rows.begin(), rows.end()));
-}
-
 }  // namespace
 
 double largest(const ComplexMatrix2& G) noexcept {
@@ -74,8 +58,9 @@ std::vector<Complex> RegenerativeLoop::eigenvalues(double omega, double least) c
   for (std::size_t l = 0; l < kept.k.size(); ++l) {
     add_column(omega, kept, l, M);
   }
-  return bound(M, n) < least ? std::vector<Complex>{}
-                             : numerics::complex_eigenvalues(M, n);
+  return least > 0 && numerics::eigenvalue_bound(M, n) < least
+             ? std::vector<Complex>{}
+             : numerics::complex_eigenvalues(M, n);
 }
 
 RegenerativeLoop::Kept RegenerativeLoop::kept_at(double omega) const {
