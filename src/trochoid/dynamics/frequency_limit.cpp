@@ -1,6 +1,7 @@
 #include <trochoid/dynamics/frequency_limit.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/dynamics/depth_harmonics.h>
 #include <trochoid/dynamics/regenerative_loop.h>
 #include <trochoid/numerics/parallel.h>
 
@@ -17,9 +18,6 @@ using Complex = std::complex<double>;
 
 /// Steps of the scan while the longest delay turns once.
 constexpr double steps_per_wave = 48.0;
-/// The mirror image counts where no more tooth passing frequencies lie between: what
-/// couples them falls with the square of that number.
-constexpr int most_mirrored = 24;
 /// Both neighbours of a crossing must be there: eigenvalues down to this fraction of the
 /// one looked for are kept.
 constexpr double kept_beside = 0.5;
@@ -82,12 +80,6 @@ void take_crossings(const RegenerativeLoop& loop, double from,
   if (real.lambda.real() * best.factor > 1) {
     best = {1 / real.lambda.real(), real.omega};  // D-23
   }
-}
-
-/// How many teeth pass in a period of the cut.
-int teeth_in(const Directional& cut) {
-  const double pitch = cut.delays.empty() ? cut.period : cut.delays.front();
-  return static_cast<int>(std::max(1L, std::lround(cut.period / pitch)));
 }
 
 /// The strongest of the frequencies of a vibration: where the point is softest [Hz].
@@ -169,6 +161,32 @@ std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
   return std::nullopt;
 }
 
+/// The limit of a cut at one speed.
+std::optional<FrequencyLimit> limit_at(const DepthHarmonics& forces,
+                                       const PointResponse& point, double Omega,
+                                       double tolerance) {
+  const int h = forces.kept();
+  std::optional<FrequencyLimit> limit;
+  if (forces.proportional()) {
+    const double deepest = forces.depths().back();
+    const auto found = onset(forces.at(deepest), point, Omega, h, 1.0);
+    if (found) {
+      limit = {Omega, deepest * found->factor, found->omega};
+    }
+  } else {
+    const auto at = [&](double a_p, double most) {
+      return onset(forces.at(a_p), point, Omega, h, most);
+    };
+    limit = searched(at, Omega, forces.depths(), tolerance);
+  }
+  if (limit) {  // so far it is that of the scan [rad/s]
+    const double step = unit::turn * Omega / forces.period();
+    limit->chatter_frequency =
+        strongest_frequency(point, limit->chatter_frequency, step, h);
+  }
+  return limit;
+}
+
 }  // namespace
 
 std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& point,
@@ -204,26 +222,8 @@ std::optional<FrequencyLimit> frequency_limit(const DirectionalModel& model,
   if (depth.empty()) {
     return std::nullopt;
   }
-  const int teeth = teeth_in(model.at_depth(depth.back()));
-  const int h = teeth * options.harmonics;
-  const int waves = h == 0 ? 0 : teeth * most_mirrored + 4 * h;
-  const auto at = [&](double a_p, double most) {
-    return onset(force_harmonics(model.at_depth(a_p), waves), point, Omega, h, most);
-  };
-  std::optional<FrequencyLimit> limit;
-  if (model.proportional()) {
-    const auto found = at(1.0, depth.back());
-    limit = found ? std::optional(FrequencyLimit{Omega, found->factor, found->omega})
-                  : std::nullopt;
-  } else {
-    limit = searched(at, Omega, depth, options.tolerance);
-  }
-  if (limit) {  // so far it is that of the scan [rad/s]
-    const double step = unit::turn * Omega / model.at_depth(depth.back()).period;
-    limit->chatter_frequency =
-        strongest_frequency(point, limit->chatter_frequency, step, h);
-  }
-  return limit;
+  const DepthHarmonics forces(model, depth, options.harmonics);
+  return limit_at(forces, point, Omega, options.tolerance);
 }
 
 // six parameters: both axes of the diagram, and who is told how far it is
@@ -233,11 +233,15 @@ std::vector<FrequencyLimit> frequency_limits(const DirectionalModel& model,
                                              std::span<const double> depth,
                                              const FrequencyOptions& options,
                                              const FrequencyProgress& progress) {
+  if (depth.empty()) {
+    return {};
+  }
+  const DepthHarmonics forces(model, depth, options.harmonics);
   std::vector<std::optional<FrequencyLimit>> limits(Omega.size());
   std::mutex one_at_a_time;
   std::size_t done = 0;
   numerics::for_each_index(Omega.size(), [&](std::size_t i) {
-    limits[i] = frequency_limit(model, point, Omega[i], depth, options);
+    limits[i] = limit_at(forces, point, Omega[i], options.tolerance);
     const std::lock_guard lock(one_at_a_time);
     ++done;
     if (progress) {
