@@ -37,13 +37,15 @@ results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
   inputs::FrfFile file = inputs::read_frf(frf_source(frf));
   results::ModesResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
+      .heading = {.title = given.title,
+                  .warnings = given.notes,
+                  .case_toml = given.as_understood},
       .kind = file.response.kind,
       .description = std::move(file.description),
       .body = frf.body,
       .axis = frf.axis,
       .fit = structure::identify_modes(file.response, options_of(frf))};
-  r.heading.warnings = std::move(file.notes);
+  base::add(r.heading.warnings, std::move(file.notes));
   r.heading.ok = r.fit.ok;
   if (!r.fit.ok) {
     r.heading.message = r.fit.reason;

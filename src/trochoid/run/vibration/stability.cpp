@@ -9,7 +9,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -89,9 +88,10 @@ std::string message_without_modes(const results::StabilityResult& r) {
 
 results::StabilityResult stability(const inputs::Case& given,
                                    const Progress& progress) {
-  results::StabilityResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
-      .problem = stability_problem(given)};
+  results::StabilityResult r{.heading = {.title = given.title,
+                                         .warnings = given.notes,
+                                         .case_toml = given.as_understood},
+                             .problem = stability_problem(given)};
   std::optional<ToolPoint> point;
   if (!given.machine.measured_frfs.empty()) {
     point = tool_point(given, r.heading.warnings);
@@ -106,8 +106,8 @@ results::StabilityResult stability(const inputs::Case& given,
         progress({what, done});
       }
     });
-    auto more = stability_warnings(given, r.problem.options, r.stability);
-    std::ranges::move(more, std::back_inserter(r.heading.warnings));
+    base::add(r.heading.warnings,
+              stability_warnings(given, r.problem.options, r.stability));
     r.heading.message =
         fmt::format("The cut is {}.", dynamics::name_of(r.stability.verdict));
   }
