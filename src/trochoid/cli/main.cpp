@@ -3,6 +3,7 @@
 #include <trochoid/base/names.h>
 #include <trochoid/cli/commands.h>
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/memory.h>
 #include <trochoid/inputs/findings.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/results/provenance.h>
@@ -24,6 +25,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -50,6 +52,15 @@ void report_full_disks() {
 #if defined(SIGXFSZ)
   std::signal(SIGXFSZ, SIG_IGN);
 #endif
+}
+
+/// Without asking for any.
+void say_no_memory(const char* command) noexcept {
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  std::fprintf(stderr,
+               "trochoid %s: there is no memory for it: %.3g MiB more were asked for; "
+               "nothing was written\n",
+               command, static_cast<double>(trochoid::cli::refused_bytes()) / mebibyte);
 }
 
 int answer(Command command, const Options& options) {
@@ -248,6 +259,9 @@ int main(int argc, char** argv) {
   } catch (const trochoid::base::InputError& error) {
     trochoid::cli::complain(error.what());
     return trochoid::cli::wrong_input;
+  } catch (const std::bad_alloc&) {
+    say_no_memory(argc > 1 ? argv[1] : "");
+    return trochoid::cli::our_bug;
   } catch (const std::exception& error) {
     trochoid::cli::complain(fmt::format("trochoid: {}\n", error.what()));
     const bool full = std::ferror(stdout) != 0;  // the place is wrong, not the program

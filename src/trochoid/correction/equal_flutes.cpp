@@ -347,7 +347,7 @@ Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
     out.motion = one.motion;
     out.factor = one.factor;
     out.reason = one.reason;
-    out.optimum->proven = false;
+    out.optimum->proven = out.optimum->optimality == Optimality::equal;
   }
   out.ok = out.reason.empty();
   out.peak_to_peak = range_of(out.motion).peak_to_peak();

@@ -111,7 +111,7 @@ class Correct(InFolder):
         spindle = summary["result"]["spindle_speed"]
         self.assertLess(spindle["part"], 1)
         self.assertLessEqual(spindle["torque_Nm"], 2)
-        self.assertGreater(spindle["torque_wanted_Nm"], 2)
+        self.assertIsNone(spindle["torque_wanted_Nm"])  # more than ten times the speed
         self.assertIn("torque", spindle["limit"])
         self.assertIn("spindle_sine", summary["result"]["max_rpm"])
         self.assertLessEqual(max(map(abs, self.columns("spindle.csv")["torque_Nm"])), 2)
