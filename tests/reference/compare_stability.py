@@ -13,14 +13,15 @@ import program
 import stability as st
 
 
-def mode(body, axis, mass, hertz, ratio):
+def mode(body, axis, mass, hertz, ratio, degrees=0.0):
     """As the file has it, and as the transcription wants it."""
     omega = 2 * np.pi * hertz
     sign = 1 if body == "tool" else -1
+    along = math.radians(degrees + 90 * (axis == "y"))
     return ({"body": body, "axis": axis, "mass_kg": mass, "frequency_Hz": hertz,
-             "damping_ratio": ratio},
+             "damping_ratio": ratio} | ({"angle_deg": degrees} if degrees else {}),
             (mass, 2 * ratio * omega * mass, mass * omega**2,
-             sign * (axis == "x"), sign * (axis == "y")))
+             sign * math.cos(along), sign * math.sin(along)))
 
 
 X = mode("tool", "x", 0.03993, 922, 0.011)
@@ -88,6 +89,15 @@ class Compared(unittest.TestCase):
     def test_tool_and_table(self):  # [D-1] [D-2]
         self.compare([X, TABLE], SLOT, 120)
         self.compare([X, Y, HIGH, TABLE], DOWN, 120)
+
+    def test_modes_askew(self):  # [D-1] [D-2]
+        """One that moves x and y at once couples them."""
+        askew = mode("tool", "x", 0.03993, 922, 0.011, 25.0)
+        across = mode("tool", "y", 0.04, 1010, 0.02, 25.0)
+        table = mode("table", "x", 0.194, 1490, 0.0213, -40.0)
+        self.compare([askew], SLOT, 120)
+        self.compare([askew, across], DOWN, 120)
+        self.compare([X, Y, table], UP, 120)
 
     def test_helix(self):  # [D-9]
         self.compare([X, Y], SLOT, 120, helix=math.radians(40), depth=1e-3)

@@ -125,7 +125,8 @@ dynamics::MotionProblem problem_of(const MovingCut& cut,
   dynamics::MotionProblem p{.setup = cut.setup, .law = cut.law, .grid = cut.grid};
   p.system.modes = cut.tool;
   const structure::Mode& table = cut.plant.table;
-  p.system.modes.push_back({table.mass, table.damping, table.stiffness, -1.0, 0.0});
+  p.system.modes.push_back(
+      {table.mass, table.damping, table.stiffness, -1.0, 0.0, true});
   p.drive = drive_of(cut.plant, cut.tool.size());
   const double omega = cut.setup.cut.Omega;
   p.command = [command, omega](double t) { return place_at(command, omega * t); };

@@ -16,6 +16,7 @@ struct ChipMode {
   double stiffness = 0.0;  ///< [N/m], positive
   double x = 1.0;          ///< unit direction; tool modes +, table modes -
   double y = 0.0;
+  bool of_table = false;  ///< the work moves, against its direction in q
 };
 
 /// @eq D-2 q = sum over modes of (x, y) eta: tool minus work

@@ -28,7 +28,9 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
 * Relative file names count from the file in which they stand.
 * `include = "other.toml"` above all tables takes over the tables of another case file.
   Tables merge key by key and the including file wins; a list of tables (`[[...]]`) is
-  replaced whole. An included file may include another.
+  replaced whole. An included file may include another. Of several, `include = ["x.toml",
+  "y.toml"]`, lists of tables are joined (the `[[mode]]` of both), of all else the later
+  file wins.
 * In the folder of results, `case.toml` is the case as it was understood, with every
   default filled in. It is a case file again.
 * A force record is a file of [one of these formats](record.md); a measured surface is
@@ -88,7 +90,7 @@ std::string describe_case_file() {
   CaseTables tables;
   head("Above all tables", "Before the first table");
   text +=
-      "| `include` | text | left out | a case file whose tables this one builds on |\n";
+      "| `include` | text, or a list of texts | left out | case files whose tables this one builds on |\n";
   describe(row, tables);
   for (const TableEntry& table : tables_of(tables)) {
     std::string meaning{table.meaning};

@@ -50,8 +50,10 @@ Node parse_file(const std::filesystem::path& file);
 
 /// @brief Parse a TOML file and merge what it includes; the including file wins.
 ///
-/// Tables merge key by key; anything else, lists of tables too, is replaced whole.
-/// @throws base::InputError also for a cycle or an `include` that is not text
+/// Tables merge key by key; anything else, lists of tables too, is replaced whole. Files
+/// included side by side join their lists of tables.
+/// @throws base::InputError also for a cycle or an `include` that is no text or list of
+///         texts
 Node load_document(const std::filesystem::path& file);
 
 /// @brief `over` upon `base`: keys of `over` win, those of `base` become inherited.

@@ -4,7 +4,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace trochoid::inputs {
 
@@ -28,19 +31,42 @@ void erase(Node& table, std::string_view key) {
   std::erase_if(members, [&](const Member& m) { return m.key == key; });
 }
 
-/// @param open  files being read, outermost first: one of them again is a cycle
-Node load(const fs::path& file, std::vector<fs::path>& open) {
-  Node root = parse_file(file);
-  const Node* include = find(root, "include");
-  if (include == nullptr) {
-    return root;
+bool is_list_of_tables(const Node& node) {
+  const auto* list = std::get_if<Array>(&node.value);
+  return list != nullptr &&
+         std::all_of(list->begin(), list->end(), [](const Node& one) {
+           return std::holds_alternative<Members>(one.value);
+         });
+}
+
+/// Two files included side by side: lists of tables are joined, so that each may bring
+/// its modes; of anything else the later file wins.
+Node joined(Node first, const Node& second) {
+  Node both = merged(first, second);  // a copy of the first stays for its lists
+  for (Member& member : std::get<Members>(both.value)) {
+    const Node* before = find(first, member.key);
+    if (before != nullptr && is_list_of_tables(*before) &&
+        is_list_of_tables(member.node)) {
+      auto& list = std::get<Array>(member.node.value);
+      const auto& earlier = std::get<Array>(before->value);
+      list.insert(list.begin(), earlier.begin(), earlier.end());
+    }
   }
-  const auto* name = std::get_if<std::string>(&include->value);
+  return both;
+}
+
+Node load(const fs::path& file, std::vector<fs::path>& open);
+
+/// @param include  one name, as the file that includes has it
+/// @param open     files being read, outermost first: one of them again is a cycle
+Node load_included(const Node& include, const fs::path& file,
+                   std::vector<fs::path>& open) {
+  const auto* name = std::get_if<std::string>(&include.value);
   if (name == nullptr || name->empty()) {
     throw base::InputError({fmt::format(
         "{}: include = {}: not a file name; must be text, the case file whose tables "
-        "this one builds on",
-        to_string(include->where), to_string(*include))});
+        "this one builds on, or a list of such files",
+        to_string(include.where), to_string(include))});
   }
   const fs::path included = (file.parent_path() / *name).lexically_normal();
   std::error_code error;
@@ -48,23 +74,43 @@ Node load(const fs::path& file, std::vector<fs::path>& open) {
     throw base::InputError({fmt::format(
         "{}: include = {}: there is no such file ({}); the name is relative "
         "to the file that includes",
-        to_string(include->where), to_string(*include), included.string())});
+        to_string(include.where), to_string(include), included.string())});
   }
   const fs::path canonical = fs::weakly_canonical(included, error);
   if (std::find(open.begin(), open.end(), canonical) != open.end()) {
     throw base::InputError(
         {fmt::format("{}: include = {}: a cycle; this file is being included already",
-                     to_string(include->where), to_string(*include))});
+                     to_string(include.where), to_string(include))});
   }
   if (open.size() > longest_chain) {
     throw base::InputError(
         {fmt::format("{}: include = {}: a chain of more than {} files; let one file "
                      "include what several share",
-                     to_string(include->where), to_string(*include), longest_chain)});
+                     to_string(include.where), to_string(include), longest_chain)});
   }
   open.push_back(canonical);
   Node base = load(included, open);
   open.pop_back();
+  return base;
+}
+
+/// @param open  files being read, outermost first
+Node load(const fs::path& file, std::vector<fs::path>& open) {
+  Node root = parse_file(file);
+  const Node* include = find(root, "include");
+  if (include == nullptr) {
+    return root;
+  }
+  const auto* several = std::get_if<Array>(&include->value);
+  Node base;
+  if (several == nullptr || several->empty()) {
+    base = load_included(*include, file, open);
+  } else {
+    base = load_included(several->front(), file, open);
+    for (std::size_t i = 1; i < several->size(); ++i) {
+      base = joined(std::move(base), load_included((*several)[i], file, open));
+    }
+  }
   erase(root, "include");
   return merged(std::move(base), root);
 }

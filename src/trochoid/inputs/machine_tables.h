@@ -120,6 +120,7 @@ using structure::ModeBody;
 struct Mode {
   ModeBody body = ModeBody::tool;
   Axis axis = Axis::x;
+  double angle = 0.0;               ///< of its direction from the axis, x to y [rad]
   std::optional<double> mass;       ///< [kg]
   std::optional<double> stiffness;  ///< [N/m]
   std::optional<double> damping;    ///< [N s/m]
@@ -169,6 +170,7 @@ using Controller = correction::LoopOptions;
 struct Stability {
   std::optional<base::Steps> spindle_speed;  ///< of the lobes [rad/s]
   std::optional<base::Steps> axial_depth;    ///< [m]
+  int harmonics = 4;                         ///< of the multi-frequency solution
   dynamics::StabilityOptions options;
 };
 
@@ -183,6 +185,18 @@ struct FrfTables {
   ResidualTerms residual_terms = ResidualTerms::choose;
   ModeBody body = ModeBody::tool;
   Axis axis = Axis::x;
+};
+
+/// One [[measured_frf]]: how tool point or work answers, for stability without modes.
+struct MeasuredFrf {
+  std::string file;      ///< absolute, or relative to where we run
+  std::string location;  ///< file:line:col of its `file` key
+  std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
+  int dataset = 0;           ///< of a universal file, from 1; 0: the only one
+  std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
+  ModeBody body = ModeBody::tool;
+  Axis axis = Axis::x;             ///< of the motion
+  std::optional<Axis> force_axis;  ///< of the force; absent: the same
 };
 
 /// [step]: a measured step of the actuator.
@@ -202,6 +216,7 @@ struct MachineTables {
   std::vector<Mode> modes;
   std::optional<Actuator> actuator;
   std::optional<FrfTables> frf;
+  std::vector<MeasuredFrf> measured_frfs;
   std::optional<StepTables> step;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;

@@ -254,6 +254,9 @@ void rename_machine_files(MachineTables& machine, const fs::path& folder) {
   if (machine.frf) {
     machine.frf->file = renamed(machine.frf->file, machine.frf->file, folder);
   }
+  for (MeasuredFrf& frf : machine.measured_frfs) {
+    frf.file = renamed(frf.file, frf.file, folder);
+  }
   if (machine.command && !machine.command->file.empty()) {
     machine.command->file =
         renamed(machine.command->file, machine.command->file, folder);

@@ -13,8 +13,9 @@ namespace {
 void check_modes(const MachineTables& machine, Findings& findings) {
   const auto along = [&](ModeBody body, Axis axis) {
     return std::any_of(
-        machine.modes.begin(), machine.modes.end(),
-        [&](const Mode& mode) { return mode.body == body && mode.axis == axis; });
+        machine.modes.begin(), machine.modes.end(), [&](const Mode& mode) {
+          return mode.body == body && mode.axis == axis && mode.angle == 0;
+        });
   };
   const auto only_z = [](const Mode& mode) { return mode.axis == Axis::z; };
   if (!machine.modes.empty() &&

@@ -125,6 +125,12 @@ void settle_machine_files(MachineTables& machine, Findings& findings) {
     settle_file("frf.file", "a frequency response (csv, text or uff)",
                 machine.frf->file, machine.frf->location, findings);
   }
+  for (std::size_t i = 0; i < machine.measured_frfs.size(); ++i) {
+    MeasuredFrf& frf = machine.measured_frfs[i];
+    settle_file(fmt::format("measured_frf[{}].file", i + 1),
+                "a frequency response (csv, text or uff)", frf.file, frf.location,
+                findings);
+  }
   if (machine.command && machine.command->shape == CommandShape::table) {
     settle_file("command.file", "a command over the angle (csv)", machine.command->file,
                 machine.command->location, findings);

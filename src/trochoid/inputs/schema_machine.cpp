@@ -188,6 +188,13 @@ void describe(const Visitor& v, Mode& t) {
   v({.name = "body", .meaning = "what vibrates", .need = Need::always}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction", .need = Need::always},
     choice(t.axis));
+  v({.name = "angle_deg",
+     .meaning = "by how much the direction is turned from the axis, from +x towards "
+                "+y: such a mode moves the tool in x and y at once, and couples them",
+     .range = inside(-90, 90),
+     .only = {"axis", {"x", "y"}},
+     .neutral = 0.0},
+    &t.angle);
   v({.name = "mass_kg", .meaning = "modal mass", .range = above(0)}, &t.mass);
   v({.name = "stiffness_N_per_m",
      .meaning = "modal stiffness; may stand in place of the mass or the frequency",
@@ -296,6 +303,36 @@ void describe(const Visitor& v, FrfTables& t) {
   v({.name = "axis", .meaning = "in which direction, for modes.toml"}, choice(t.axis));
 }
 
+void describe(const Visitor& v, MeasuredFrf& t) {
+  v({.name = "file",
+     .meaning = "the measured frequency response, relative to the file that names it",
+     .need = Need::always},
+    &t.file);
+  v({.name = "kind",
+     .meaning = "displacement, velocity or acceleration over force; needed where the "
+                "file does not say it by its unit"},
+    choice(t.kind, "detect"));
+  v({.name = "dataset",
+     .meaning = "which of the frequency responses of a universal file, from 1; 0: the "
+                "only one",
+     .range = between(0, 100000)},
+    &t.dataset);
+  v({.name = "band_Hz",
+     .meaning = "lowest and highest frequency of the response that is used",
+     .range = at_least(0),
+     .count = 2,
+     .standard = "the whole record",
+     .example = "[200, 4000]"},
+    &t.band);
+  v({.name = "body", .meaning = "what was hit and measured"}, choice(t.body));
+  v({.name = "axis", .meaning = "in which direction the motion was measured"},
+    choice(t.axis));
+  v({.name = "force_axis",
+     .meaning = "in which direction the force acted; another one than axis: a cross "
+                "response"},
+    choice(t.force_axis, "same"));
+}
+
 void describe(const Visitor& v, StepTables& t) {
   v({.name = "file",
      .meaning = "the record of the step, relative to the file that names it",
@@ -350,6 +387,12 @@ void describe(const Visitor& v, Stability& t) {
      .standard = "up to twice that of [cut]",
      .example = "[0.05, 5, 100]"},
     &t.axial_depth);
+  v({.name = "harmonics",
+     .meaning = "with [[measured_frf]]: harmonics of the tooth passing frequency that "
+                "the multi-frequency solution keeps on each side of the chatter "
+                "frequency",
+     .range = between(1, 40)},
+    &t.harmonics);
   v({.name = "tolerance",
      .meaning = "error allowed in the Floquet multiplier of the case",
      .range = between(1e-10, 1e-2)},

@@ -79,7 +79,11 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       several("surface_measurement", "a measured surface; several are fitted together",
               t.machine.surface_measurements, {Command::calibrate}),
       several("mode", "a mode of vibration", t.machine.modes,
-              {Command::stability, Command::dynamics, Command::correct}),
+              {Command::dynamics, Command::correct}),
+      several("measured_frf",
+              "how the tool point, or the work, answers to a force, as measured: for "
+              "stability, with modes or without",
+              t.machine.measured_frfs),
       perhaps("actuator", "the actuator that moves the table", t.machine.actuator,
               {Command::correct}),
       perhaps("frf", "a measured frequency response, from which modes are found",

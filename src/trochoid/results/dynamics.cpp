@@ -178,9 +178,9 @@ std::vector<double> place_of(bool table, Along axis, const dynamics::System& sys
   for (std::size_t r = 0; r < system.modes.size(); ++r) {
     const dynamics::ChipMode& mode = system.modes[r];
     const double along = axis == Along::x ? mode.x : mode.y;
-    if ((along < 0) == table) {
+    if (mode.of_table == table) {
       for (std::size_t i = 0; i < place.size(); ++i) {
-        place[i] += std::abs(along) * m.mode[r][i];
+        place[i] += (table ? -along : along) * m.mode[r][i];
       }
     }
   }

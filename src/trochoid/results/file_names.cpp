@@ -12,39 +12,20 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr auto names = std::to_array<std::string_view>({"case.toml",
-                                                        "summary.json",
-                                                        "report.html",
-                                                        "material.toml",
-                                                        "forces.csv",
-                                                        "chip.csv",
-                                                        "chip_curve.csv",
-                                                        "fitted.csv",
-                                                        "residual.csv",
-                                                        "sweep.csv",
-                                                        "folded.csv",
-                                                        "surface.csv",
-                                                        "deflection.csv",
-                                                        "influence.csv",
-                                                        "motion.csv",
-                                                        "lobes.csv",
-                                                        "limit.csv",
-                                                        "command.csv",
-                                                        "bent.csv",
-                                                        "modes.toml",
-                                                        "actuator.toml",
-                                                        "once_per_turn.csv",
-                                                        "surface_location.csv",
-                                                        "speeds.csv",
-                                                        "spindle.csv",
-                                                        "spectrum.csv",
-                                                        "command.h",
-                                                        "controller.csv",
-                                                        "plan.csv",
-                                                        "error_map.csv",
-                                                        "overview.csv",
-                                                        "passes.csv",
-                                                        "wall_loads.csv"});
+constexpr auto names = std::to_array<std::string_view>(
+    {"case.toml",           "summary.json",      "report.html",
+     "material.toml",       "forces.csv",        "chip.csv",
+     "chip_curve.csv",      "fitted.csv",        "residual.csv",
+     "sweep.csv",           "folded.csv",        "surface.csv",
+     "deflection.csv",      "influence.csv",     "motion.csv",
+     "lobes.csv",           "limit.csv",         "zeroth_order.csv",
+     "multi_frequency.csv", "stabilisation.csv", "response.csv",
+     "command.csv",         "bent.csv",          "modes.toml",
+     "actuator.toml",       "once_per_turn.csv", "surface_location.csv",
+     "speeds.csv",          "spindle.csv",       "spectrum.csv",
+     "command.h",           "controller.csv",    "plan.csv",
+     "error_map.csv",       "overview.csv",      "passes.csv",
+     "wall_loads.csv"});
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

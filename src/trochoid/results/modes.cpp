@@ -95,8 +95,9 @@ std::string modes_toml(const ModesResult& r) {
   std::string text =
       "# Found by trochoid modes. Use it in another case with\n"
       "#   include = \"<this file>\"\n"
-      "# A list of modes is replaced whole: put all "
-      "modes of a machine into one file.\n";
+      "# or, with others beside it, with\n"
+      "#   include = [\"<this file>\", \"<another one>\"]\n"
+      "# A list of modes in the case itself replaces those of all files.\n";
   for (const FittedMode& m : r.fit.modes) {
     text += fmt::format(
         "\n[[mode]]  # {:.6g} Hz, damping ratio {:.4g}\n"

@@ -1,9 +1,11 @@
+#include <trochoid/results/better_speed.h>
 #include <trochoid/results/stability.h>
 
 #include <trochoid/base/units.h>
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -44,6 +46,13 @@ Array shares(const std::vector<ChatterLine>& lines) {
   return list;
 }
 
+Value better_speed_value(const StabilityResult& r) {
+  const auto better = better_speed(r);
+  return better ? Value(Object{{"spindle_rpm", unit::in(better->Omega, unit::rpm)},
+                               {"limit_depth_mm", better->depth / unit::mm}})
+                : Value();
+}
+
 Object multiplier_value(const Stability& s, double Omega) {
   const std::complex<double> mu = s.multiplier.value;
   return {{"absolute", std::abs(mu)},
@@ -70,7 +79,77 @@ Array modes_value(const dynamics::System& system) {
   return modes;
 }
 
+Value depth_value(const std::optional<dynamics::FrequencyLimit>& limit) {
+  return limit ? Value(limit->depth / unit::mm) : Value();
+}
+
+/// By how much a limit differs from that of the multiplier, in percent of it.
+Value difference(const std::optional<dynamics::FrequencyLimit>& limit,
+                 const StabilityResult& r) {
+  if (!limit || !r.no_modes.empty() || !r.stability.limit) {
+    return {};
+  }
+  return 100 * (limit->depth / r.stability.limit->limit.depth - 1);
+}
+
+/// The median of that over the speeds of the diagram, without sign.
+Value median_difference(const std::vector<dynamics::FrequencyLimit>& curve,
+                        const StabilityResult& r) {
+  std::vector<double> sizes;
+  for (const dynamics::FrequencyLimit& one : curve) {
+    for (const dynamics::LimitPoint& other : r.stability.limit_curve) {
+      if (other.limit.Omega == one.Omega) {
+        sizes.push_back(100 * std::abs(one.depth / other.limit.depth - 1));
+      }
+    }
+  }
+  if (sizes.empty()) {
+    return {};
+  }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+Object by_frequency(const ByFrequency& found, const StabilityResult& r) {
+  const auto& limit = found.limit;
+  return {{"limit_depth_mm", depth_value(limit)},
+          {"chatter_frequency_Hz", limit ? Value(limit->chatter_frequency) : Value()},
+          {"difference_percent", difference(limit, r)},
+          {"median_difference_percent", median_difference(found.curve, r)}};
+}
+
+Object measured_value(const StabilityResult& r) {
+  const MeasuredStability& m = *r.measured;
+  Object multi = by_frequency(m.multi_frequency, r);
+  multi.push_back({"harmonics", m.harmonics});
+  return {{"band_Hz",
+           Array{unit::in(m.band.from, unit::Hz), unit::in(m.band.to, unit::Hz)}},
+          {"zeroth_order", by_frequency(m.zeroth_order, r)},
+          {"multi_frequency", std::move(multi)},
+          {"modes_fitted", m.modes_fitted}};
+}
+
+/// Without modes: what the measured response says alone.
+Object result_without_modes(const StabilityResult& r) {
+  const geometry::Cut& cut = r.problem.setup.cut;
+  const auto& limit = r.measured->multi_frequency.limit;
+  const bool stable = !limit || limit->depth > cut.a_p;
+  return {{"multiplier", nullptr},
+          {"stable", stable},
+          {"verdict", stable ? "stable" : "unstable"},
+          {"limit_depth_mm", depth_value(limit)},
+          {"greatest_depth_mm", unit::in(r.measured->greatest_depth, unit::mm)},
+          {"spindle_rpm", unit::in(cut.Omega, unit::rpm)},
+          {"axial_depth_mm", unit::in(cut.a_p, unit::mm)},
+          {"modes", nullptr},
+          {"measured_frf", measured_value(r)}};
+}
+
 Object result_of(const StabilityResult& r) {
+  if (!r.no_modes.empty()) {
+    return result_without_modes(r);
+  }
   const Stability& s = r.stability;
   const geometry::Cut& cut = r.problem.setup.cut;
   Object result{{"multiplier", multiplier_value(s, cut.Omega)},
@@ -92,14 +171,37 @@ Object result_of(const StabilityResult& r) {
                         {"argument_deg", degrees(mu)},
                         {"chatter_frequencies_Hz", frequencies(s.limit->lines)}});
   }
+  add("better_speed", better_speed_value(r));
   add("greatest_depth_mm", unit::in(s.greatest_depth, unit::mm));
   add("spindle_rpm", unit::in(cut.Omega, unit::rpm));
   add("axial_depth_mm", unit::in(cut.a_p, unit::mm));
   add("modes", modes_value(r.problem.system));
+  if (r.measured) {
+    add("measured_frf", measured_value(r));
+  }
   return result;
 }
 
-std::string short_table(const StabilityResult& r) {
+std::string limit_text(const ByFrequency& found) {
+  return found.limit
+             ? fmt::format("{:.5g} mm ({:.1f} Hz)", found.limit->depth / unit::mm,
+                           found.limit->chatter_frequency)
+             : "none";
+}
+
+std::string measured_table(const StabilityResult& r) {
+  const MeasuredStability& m = *r.measured;
+  return fmt::format(
+      "limit by the measured response: {} with the mean force (zeroth order), {} with "
+      "{} harmonics (multi-frequency)\n{}",
+      limit_text(m.zeroth_order), limit_text(m.multi_frequency), m.harmonics,
+      m.modes_fitted ? fmt::format("the multiplier is that of {} mode{} fitted to it\n",
+                                   r.problem.system.modes.size(),
+                                   r.problem.system.modes.size() == 1 ? "" : "s")
+                     : "");
+}
+
+std::string multiplier_table(const StabilityResult& r) {
   const Stability& s = r.stability;
   const geometry::Cut& cut = r.problem.setup.cut;
   const double growth = std::abs(s.multiplier.value);
@@ -117,11 +219,35 @@ std::string short_table(const StabilityResult& r) {
     return text + fmt::format("at {:g} rpm no axial depth up to {:g} mm is unstable\n",
                               speed, unit::in(s.greatest_depth, unit::mm));
   }
-  return text + fmt::format(
-                    "at {:g} rpm unstable from {:.5g} mm axial depth on; here {:g} "
-                    "mm\n",
-                    speed, s.limit->limit.depth / unit::mm,
-                    unit::in(cut.a_p, unit::mm));
+  const bool above = growth < 1 && cut.a_p > s.limit->limit.depth;
+  text += fmt::format(
+      "at {:g} rpm unstable from {:.5g} mm axial depth on; here {:g} mm{}\n", speed,
+      s.limit->limit.depth / unit::mm, unit::in(cut.a_p, unit::mm),
+      above ? ", where it is stable again" : "");
+  if (const auto better = better_speed(r)) {
+    text += fmt::format("near it, {:.5g} rpm allows {:.3g} mm\n",
+                        better->Omega / unit::rpm, better->depth / unit::mm);
+  }
+  return text;
+}
+
+std::string short_table(const StabilityResult& r) {
+  return (r.no_modes.empty() ? multiplier_table(r) : std::string()) +
+         (r.measured ? measured_table(r) : std::string());
+}
+
+/// zeroth_order.csv, multi_frequency.csv: the limit depth over the speed.
+base::Table frequency_table(const char* file,
+                            const std::vector<dynamics::FrequencyLimit>& curve) {
+  base::Table table{file, {}};
+  const std::size_t n = curve.size();
+  add_column(table, "spindle_rpm", n,
+             [&](std::size_t i) { return unit::in(curve[i].Omega, unit::rpm); });
+  add_column(table, "limit_depth_mm", n,
+             [&](std::size_t i) { return unit::in(curve[i].depth, unit::mm); });
+  add_column(table, "chatter_frequency_Hz", n,
+             [&](std::size_t i) { return curve[i].chatter_frequency; });
+  return table;
 }
 
 /// lobes.csv: |mu| over speed and depth.
@@ -155,15 +281,47 @@ base::Table limit_table(const std::vector<dynamics::LimitPoint>& curve) {
   return table;
 }
 
+/// The modes of the multiplier, for other commands: of all directions together.
+std::string modes_toml(const dynamics::System& system) {
+  std::string text =
+      "# Fitted by trochoid stability to the measured responses of the tool point. Use "
+      "it in\n# another case with\n#   include = \"<this file>\"\n";
+  for (const dynamics::ChipMode& m : system.modes) {
+    const double omega = std::sqrt(m.stiffness / m.mass);
+    const bool along_x = std::abs(m.x) >= std::abs(m.y);
+    const double tangent = along_x ? m.y / m.x : -m.x / m.y;
+    text += fmt::format(
+        "\n[[mode]]  # {:.6g} Hz, damping ratio {:.4g}\n"
+        "body = \"{}\"\naxis = \"{}\"\nangle_deg = {:.6g}\n"
+        "mass_kg = {}\nstiffness_N_per_m = {}\ndamping_Ns_per_m = {}\n",
+        omega / unit::turn, 0.5 * m.damping / (m.mass * omega),
+        m.of_table ? "table" : "tool", along_x ? "x" : "y",
+        std::atan(tangent) / unit::deg + 0.0, m.mass, m.stiffness, m.damping);
+  }
+  return text;
+}
+
 }  // namespace
 
 Answer answer_of(const StabilityResult& r) {
-  return {
-      .command = "stability",
-      .heading = r.heading,
-      .result = result_of(r),
-      .short_table = short_table(r),
-      .tables = {lobes_table(r.stability.lobes), limit_table(r.stability.limit_curve)}};
+  Answer answer{.command = "stability",
+                .heading = r.heading,
+                .result = result_of(r),
+                .short_table = short_table(r)};
+  if (r.no_modes.empty()) {
+    answer.tables = {lobes_table(r.stability.lobes),
+                     limit_table(r.stability.limit_curve)};
+  }
+  if (r.measured) {
+    answer.tables.push_back(
+        frequency_table("zeroth_order.csv", r.measured->zeroth_order.curve));
+    answer.tables.push_back(
+        frequency_table("multi_frequency.csv", r.measured->multi_frequency.curve));
+    if (r.measured->modes_fitted) {
+      answer.texts.push_back({"modes.toml", modes_toml(r.problem.system)});
+    }
+  }
+  return answer;
 }
 
 }  // namespace trochoid::results

@@ -31,7 +31,7 @@ async function check(name, options, plots) {
 }
 
 const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
-  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2,
+  surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2, tool_point: 4,
   modes: 4, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
   wall_plan: 6 };
 for (const [name, plots] of Object.entries(plotsOf)) {
@@ -374,6 +374,17 @@ test('the step is drawn with its fit, and no time constants where there are none
   }
   assert.ok(!/time constant, ms/.test(text), text);
   assert.ok(!/_per_|_se\b|10 90/.test(text), text);
+  await close();
+});
+
+test('a measured tool point is told in words, in numbers and in three curves', async () => {
+  const { page, close } = await open('tool_point');
+  const words = await page.locator('main').innerText();
+  assert.match(words, /At 12000 rpm this cut chatters from 1\.3\d* mm axial depth on; it is 1 mm deep, \d+ % below that/);
+  const rows = await page.locator('#measured table tr').allInnerTexts();
+  assert.equal(rows.length, 4);
+  assert.match(rows[3], /^multi-frequency/);
+  assert.match(await page.locator('#modes').innerText(), /20° from x to y/);
   await close();
 });
 

@@ -6,6 +6,7 @@
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/dynamics.h>
 #include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/stability.h>
 
 namespace sample {
 
@@ -47,6 +48,16 @@ Answer chatter() {
       trochoid::run::dynamics(inputs::read_case(examples / "stability_922Hz/case.toml",
                                                 inputs::Command::dynamics),
                               {}));
+}
+
+Answer tool_point() {
+  inputs::Case given = inputs::read_case(examples / "measured_frf/case.toml",
+                                         inputs::Command::stability);
+  inputs::Stability& diagram = *given.machine.stability;
+  diagram.spindle_speed->count = 9;
+  diagram.axial_depth->count = 8;
+  diagram.harmonics = 2;
+  return answer_of(trochoid::run::stability(given, {}));
 }
 
 Answer plan() {

@@ -19,6 +19,9 @@ trochoid::results::Answer correction();
 /// examples/stability_922Hz cut in time: it chatters within bounds.
 trochoid::results::Answer chatter();
 
+/// examples/measured_frf over a few speeds and depths: three limits side by side.
+trochoid::results::Answer tool_point();
+
 /// examples/plan_next_cut.
 trochoid::results::Answer plan();
 

@@ -324,6 +324,7 @@ int main(int argc, char** argv) {
           std::pair{"calibrate",
                     sample::calibration("envelope", false, cases / "calibrate")},
           std::pair{"stability", sample::lobes(cases / "stability")},
+          std::pair{"tool_point", sample::tool_point()},
           std::pair{"modes", sample::modes()},
           std::pair{"actuator", sample::actuator()},
           std::pair{"dynamics", sample::motion()},

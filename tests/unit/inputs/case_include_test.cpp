@@ -41,6 +41,33 @@ TEST(CaseInclude, MeasurementsOfAnIncludedFileAreFoundBesideIt) {
             (folder.path() / "data/runs.toml").string() + ":2:8");
 }
 
+TEST(CaseInclude, FilesSideBySideJoinTheirModes) {
+  const CaseFolder folder;
+  const auto modes = [](const char* axis, const char* mass) {
+    return std::string("title = \"") + axis +
+           "\"\n[[mode]]\nbody = \"tool\"\naxis = \"" + axis + "\"\nmass_kg = " + mass +
+           "\nfrequency_Hz = 900\ndamping_ratio = 0.02\n";
+  };
+  static_cast<void>(folder.write("x.toml", modes("x", "0.1")));
+  static_cast<void>(folder.write("y.toml", modes("y", "0.2")));
+  const std::string both = "include = [\"x.toml\", \"y.toml\"]\n";
+  const std::string rest = test::tool + test::cut + test::force;
+  const Case c = folder.read(both + rest, Command::stability);
+  ASSERT_EQ(c.machine.modes.size(), 2U);
+  EXPECT_EQ(c.machine.modes[0].mass, 0.1);
+  EXPECT_EQ(c.machine.modes[1].mass, 0.2);
+  EXPECT_EQ(c.title, "y") << "of what is no list the later file wins";
+  const Case own = folder.read(both + rest +
+                                   "[[mode]]\nbody = \"tool\"\naxis = \"x\"\n"
+                                   "mass_kg = 0.3\nfrequency_Hz = 900\n"
+                                   "damping_ratio = 0.02\n",
+                               Command::stability);
+  ASSERT_EQ(own.machine.modes.size(), 1U) << "the list of the case replaces both";
+  EXPECT_EQ(folder.problems("include = [\"x.toml\", 3]\n" + rest, Command::stability),
+            "case.toml:1:22: include = 3: not a file name; must be text, the case file "
+            "whose tables this one builds on, or a list of such files\n");
+}
+
 TEST(CaseInclude, OneFormReplacesTheOther) {
   const CaseFolder folder;
   static_cast<void>(folder.write("base.toml", R"(

@@ -70,6 +70,54 @@ TEST(StabilityAnswer, SaysTheVerdictAndWhatBelongsToIt) {
             "at 5000 rpm unstable from 0.3 mm axial depth on; here 0.5 mm\n");
 }
 
+TEST(StabilityAnswer, NamesABetterSpeedNearBy) {
+  StabilityResult r = stability_result();
+  EXPECT_EQ(json_at(answer_of(r), "better_speed"), "null") << "none is known";
+  const auto point = [](double rpm, double depth) {
+    return dynamics::LimitPoint{{.Omega = rpm * unit::rpm, .depth = depth}, 850.0};
+  };
+  // The peak at 5600 is too sharp for a spindle; 9000 is far off.
+  r.stability.limit_curve = {point(5000, 0.3e-3), point(5500, 0.7e-3),
+                             point(5560, 0.6e-3), point(5600, 1.5e-3),
+                             point(5640, 0.4e-3), point(9000, 5e-3)};
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_at(answer, "better_speed", "spindle_rpm"), "5500");
+  EXPECT_EQ(json_at(answer, "better_speed", "limit_depth_mm"), "0.6");
+  EXPECT_NE(answer.short_table.find("near it, 5500 rpm allows 0.6 mm"),
+            std::string::npos);
+  // A speed of the diagram at which every depth is stable is as good as its deepest.
+  r.stability.lobes.multiplier[3] = {0.5, 0.0};
+  EXPECT_EQ(json_at(answer_of(r), "better_speed", "limit_depth_mm"), "2");
+}
+
+TEST(StabilityAnswer, AMeasuredResponseStandsBesideTheMultiplier) {
+  StabilityResult r = stability_result();
+  MeasuredStability& m = r.measured.emplace();
+  m.band = {100 * unit::Hz, 4000 * unit::Hz};
+  m.harmonics = 4;
+  m.modes_fitted = true;
+  m.zeroth_order = {dynamics::FrequencyLimit{5000 * unit::rpm, 0.24e-3, 940.0},
+                    {{5000 * unit::rpm, 0.24e-3, 940.0}}};
+  m.multi_frequency.curve = {};
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_at(answer, "measured_frf", "modes_fitted"), "true");
+  const base::Table& zeroth = table_of(answer, "zeroth_order.csv");
+  EXPECT_EQ(columns_of(zeroth),
+            (Names{"spindle_rpm", "limit_depth_mm", "chatter_frequency_Hz"}));
+  EXPECT_EQ(column_of(zeroth, "limit_depth_mm"), std::vector<double>{0.24});
+  EXPECT_NE(answer.short_table.find("0.24 mm (940.0 Hz) with the mean force"),
+            std::string::npos);
+  EXPECT_NE(answer.short_table.find("none with 4 harmonics"), std::string::npos);
+  EXPECT_EQ(answer.texts.front().file, "modes.toml");
+  EXPECT_EQ(json_at(answer, "verdict"), "\"unstable\"") << "that of the multiplier";
+  // Without modes nothing of the multiplier is said.
+  r.no_modes = "no resonance";
+  const Answer alone = answer_of(r);
+  EXPECT_EQ(json_at(alone, "multiplier"), "null");
+  EXPECT_EQ(json_at(alone, "verdict"), "\"stable\"") << "no limit was found";
+  EXPECT_EQ(alone.tables.size(), 2U);
+}
+
 TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
   StabilityResult r = stability_result();
   r.stability.limit.reset();
@@ -83,7 +131,7 @@ TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
 /// Two teeth, two samples, a tool and a table mode.
 MotionResult motion_result(const Verdict& verdict) {
   MotionResult r;
-  r.system.modes = {{.x = 1.0, .y = 0.0}, {.x = -1.0, .y = 0.0}};
+  r.system.modes = {{.x = 1.0, .y = 0.0}, {.x = -1.0, .y = 0.0, .of_table = true}};
   r.steps_per_tooth = 1000;
   r.engagement = {0.0, unit::turn / 2};
   r.entry = {0.0, unit::turn / 2};

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 namespace trochoid::run {
 namespace {
@@ -31,6 +33,29 @@ TEST(ChipModes, AreWhatTheChipFeels) {
   const double omega = 2500 * 2 * std::numbers::pi;
   EXPECT_NEAR(system.modes[0].mass, 8e6 / (omega * omega), 1e-12);
   EXPECT_NEAR(system.modes[0].damping, 2 * 0.025 * 8e6 / omega, 1e-9);
+}
+
+TEST(ChipModes, OfADirectionAskewMoveXAndY) {  // [D-1]
+  const double angle = 30 * unit::deg;
+  const std::vector<inputs::Mode> modes = {
+      {.angle = angle, .mass = 1.0, .stiffness = 1e6, .damping = 10},
+      {.axis = Axis::y, .angle = angle, .mass = 1.0, .stiffness = 1e6, .damping = 10},
+      {.body = ModeBody::table,
+       .angle = angle,
+       .mass = 1.0,
+       .stiffness = 1e6,
+       .damping = 10}};
+  const dynamics::System system = chip_modes(modes);
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  EXPECT_DOUBLE_EQ(system.modes[0].x, c);
+  EXPECT_DOUBLE_EQ(system.modes[0].y, s);
+  EXPECT_DOUBLE_EQ(system.modes[1].x, -s) << "from x towards y turns y towards -x";
+  EXPECT_DOUBLE_EQ(system.modes[1].y, c);
+  EXPECT_DOUBLE_EQ(system.modes[2].x, -c);
+  EXPECT_DOUBLE_EQ(system.modes[2].y, -s);
+  EXPECT_FALSE(system.modes[1].of_table) << "though its x is negative";
+  EXPECT_TRUE(system.modes[2].of_table);
 }
 
 TEST(PlantOf, IsATableHeldByItsActuatorUnlessToldOtherwise) {

@@ -1,7 +1,7 @@
 // The page of `stability`.
 
 const stabilityKnown = ['multiplier', 'stable', 'verdict', 'limit_depth_mm', 'limit', 'chip_floor',
-  'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes'];
+  'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes', 'better_speed', 'measured_frf'];
 
 const bifurcations = {
   hopf: 'Hopf: a vibration with a frequency of its own',
@@ -14,6 +14,7 @@ function stabilityPage(report) {
     { lead: stabilityLead(report.result) },
     lobesSection(report),
     limitSection(report),
+    measuredSection(report),
     { part: modesSection(report.result.modes) },
     { part: restSection(report.result, stabilityKnown) },
   ];
@@ -28,22 +29,111 @@ function limitWords(limit) {
     .filter(Boolean).join(', ');
 }
 
+/** How deep at this speed, and which speed near it allows more: text and its bold numbers. */
+function depthWords(result) {
+  const bold = (value, unit) => el('b', {}, `${number(value)} ${unit}`);
+  const rpm = (value) => `${number(value, 5)} rpm`;
+  const depth = result.axial_depth_mm;
+  const limit = result.limit_depth_mm;
+  if (!isNumber(limit)) {
+    return [`At ${rpm(result.spindle_rpm)} no axial depth up to `,
+      bold(result.greatest_depth_mm, 'mm'), ' chatters.'];
+  }
+  const off = Math.abs(100 * (depth / limit - 1));
+  const where = depth <= limit ? `${number(off, 2)} % below that`
+    : result.stable ? 'where it is stable again: see the map' : `${number(off, 2)} % too deep`;
+  const words = [`At ${rpm(result.spindle_rpm)} this cut chatters from `, bold(limit, 'mm'),
+    ` axial depth on; it is ${number(depth)} mm deep, ${where}. `];
+  const better = result.better_speed;
+  return better ? [...words, 'A better speed near it: ', el('b', {}, rpm(better.spindle_rpm)), ' allows ',
+    bold(better.limit_depth_mm, 'mm'), ', also when the spindle is 2 % off.']
+    : isNumber(limit) && 'better_speed' in result
+      ? [...words, 'No speed of the diagram within 30 % allows much more.'] : words;
+}
+
+/** Values over x at other places of it; null outside, and where two neighbours are far apart. */
+function valuesAt(places, x, values) {
+  return places.map((p) => {
+    const i = x.findIndex((v) => v >= p);
+    if (i < 0 || (i === 0 && x[0] > p)) return null;
+    if (x[i] === p || i === 0) return values[i];
+    return values[i - 1] + (values[i] - values[i - 1]) * (p - x[i - 1]) / (x[i] - x[i - 1]);
+  });
+}
+
+/** The limit by the measured response beside that of the multiplier. */
+function measuredSection(report) {
+  const measured = report.result.measured_frf;
+  if (!measured) return null;
+  const curves = [
+    ['Floquet multiplier', 'limit.csv', '--s1', 1.8],
+    ['zeroth order', 'zeroth_order.csv', '--s2', 1.4],
+    [`multi-frequency, ${measured.multi_frequency.harmonics} harmonics`, 'multi_frequency.csv', '--s3', 1.8],
+  ].map(([name, file, color, width]) => {
+    const t = tableNamed(report, file);
+    return { name, color, width, x: columnNamed(t, 'spindle_rpm') || [],
+      depth: columnNamed(t, 'limit_depth_mm') || [], hertz: columnNamed(t, 'chatter_frequency_Hz') || [] };
+  }).filter((curve) => curve.x.length > 1);
+  const { result } = report;
+  const shown = (solution) => (isNumber(solution?.limit_depth_mm)
+    ? [`${number(solution.limit_depth_mm)} mm`, `${number(solution.chatter_frequency_Hz, 5)} Hz`]
+    : ['none', '']);
+  const signed = (v) => (isNumber(v) ? `${v > 0 ? '+' : ''}${number(v, 2)} %` : '');
+  const rows = [
+    result.multiplier && ['Floquet multiplier', isNumber(result.limit_depth_mm)
+      ? `${number(result.limit_depth_mm)} mm` : 'none',
+    isNumber(result.limit?.chatter_frequencies_Hz?.[0])
+      ? `${number(result.limit.chatter_frequencies_Hz[0], 5)} Hz` : '', '', ''],
+    ...[['zeroth order', measured.zeroth_order], ['multi-frequency', measured.multi_frequency]]
+      .map(([name, s]) => [name, ...shown(s), signed(s.difference_percent),
+        isNumber(s.median_difference_percent) ? `${number(s.median_difference_percent, 2)} %` : '']),
+  ].filter(Boolean);
+  const words = prose('The limit depth three times. The measured response by itself, with the mean force ' +
+    '(zeroth order) and with harmonics of it (multi-frequency), ' +
+    `${number(measured.band_Hz[0])} to ${number(measured.band_Hz[1])} Hz; and the Floquet multiplier of modes ` +
+    (measured.modes_fitted ? 'fitted to it. ' : 'given in the case. ') +
+    'Where multi-frequency and multiplier part, the modes are not the whole response; where zeroth order ' +
+    'parts from both, teeth cut too briefly for a mean force.');
+  const numbers = table(['solution', 'limit depth here', 'chatter frequency', 'difference', 'median over speeds'], rows);
+  const places = [...new Set(curves.flatMap((curve) => curve.x))].sort((a, b) => a - b);
+  if (places.length < 2) {
+    return { part: section('measured', 'Measured response', 'Measured', words, numbers) };
+  }
+  const chart = figure({ key: 'measured', x: places, label: 'spindle speed', unit: 'rpm', caption: zoomHint });
+  const markers = [{ x: result.spindle_rpm, text: 'the case' }];
+  const series = (what) => curves.map((curve) => ({ name: curve.name, color: curve.color, width: curve.width,
+    values: valuesAt(places, curve.x, curve[what]) }));
+  const panels = [
+    { label: 'limit depth', unit: 'mm', height: 220, markers, series: [...series('depth'),
+      { name: 'depth of the case', values: places.map(() => result.axial_depth_mm), color: '--s4', dash: [6, 3] }] },
+    { label: 'chatter frequency there', unit: 'Hz', height: 160, markers, series: series('hertz') },
+  ];
+  return { part: section('measured', 'Measured response', 'Measured', words, numbers, chart.element),
+    draw: () => chart.draw(panels) };
+}
+
 function stabilityLead(result) {
   const mu = result.multiplier || {};
   const [strongest] = mu.chatter_frequencies_Hz || [];
+  const measured = result.measured_frf?.multi_frequency;
   return [
     tiles([
       { label: 'The cut is', value: result.verdict,
         note: `${number(result.spindle_rpm, 6)} rpm, ${number(result.axial_depth_mm)} mm deep` },
-      { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
+      result.multiplier && { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
         note: 'below 1: a small vibration fades' },
+      !result.multiplier && { label: 'Floquet multiplier', value: 'none', note: 'no modes: by the measured response' },
       { label: 'Limit depth at this speed', value: isNumber(result.limit_depth_mm) ?
         number(result.limit_depth_mm) : 'none', unit: isNumber(result.limit_depth_mm) && 'mm',
       note: isNumber(result.limit_depth_mm) ? limitWords(result.limit)
         : `up to ${number(result.greatest_depth_mm)} mm` },
-      { label: 'Strongest chatter frequency', value: isNumber(strongest) ? number(strongest, 5) : null,
-        unit: 'Hz', note: bifurcations[mu.type] },
-    ]),
+      result.multiplier
+        ? { label: 'Strongest chatter frequency', value: isNumber(strongest) ? number(strongest, 5) : null,
+          unit: 'Hz', note: bifurcations[mu.type] }
+        : { label: 'Chatter frequency at the limit', value: isNumber(measured?.chatter_frequency_Hz)
+          ? number(measured.chatter_frequency_Hz, 5) : null, unit: 'Hz' },
+    ].filter(Boolean)),
+    prose(...depthWords(result)),
     result.chip_floor && prose('A power law has no slope where the chip begins. With a chip floor of ',
       number(0.5 * result.chip_floor.chip_floor_um), ' and ', number(2 * result.chip_floor.chip_floor_um),
       ' µm the Floquet multiplier is ', number(result.chip_floor.multiplier_at_half, 6), ' and ',
@@ -73,7 +163,7 @@ function lobesSection(report) {
   const limits = columnNamed(limit, 'limit_depth_mm') || [];
   const x = [rows[0].x[0], rows[0].x[rows[0].x.length - 1]];
   const heights = [rows[0].height, rows[rows.length - 1].height];
-  const view = { label: '|μ|, Floquet multiplier: blue is stable, red is not; line: limit depth',
+  const view = { label: '|μ|: blue is stable, red is not; line: limit depth',
     key: 'mu', colors: aroundZero, range: [0.5, 1.5], step: 0, smooth: true };
   let frame = null;
   const paint = (c, width, height) => {
@@ -148,11 +238,16 @@ function limitSection(report) {
   return { part, draw: () => chart.draw(panels) };
 }
 
+/** Along an axis, or by how much it is turned from x towards y. */
+function directionWords([x, y]) {
+  if (x && y) return `${number(Math.atan2(y, x) * 180 / Math.PI, 3)}° from x to y`;
+  return x ? (x < 0 ? '−x' : 'x') : (y < 0 ? '−y' : 'y');
+}
+
 function modesSection(modes) {
   if (!modes?.length) return null;
   const rows = modes.map((mode) => [
-    ['x', 'y'].map((axis, i) => (mode.direction[i] ? (mode.direction[i] < 0 ? '−' : '') + axis : ''))
-      .join(' '), number(mode.frequency_Hz, 6), number(100 * mode.damping_ratio, 4),
+    directionWords(mode.direction), number(mode.frequency_Hz, 6), number(100 * mode.damping_ratio, 4),
     number(mode.mass_kg, 5), number(1e-6 * mode.stiffness_N_per_m, 5)]);
   return section('modes', 'Modes: what vibrates', 'Modes',
     prose('Directions of the tool relative to the work: a mode of the table moves against it.'),

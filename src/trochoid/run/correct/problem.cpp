@@ -15,7 +15,7 @@ namespace {
 correction::MovingCut moving_cut(const inputs::Case& given) {
   correction::MovingCut cut{.setup = given.setup, .law = given.law};
   for (const dynamics::ChipMode& mode : chip_modes(given.machine.modes).modes) {
-    if (mode.x > 0 || mode.y > 0) {
+    if (!mode.of_table) {
       cut.tool.push_back(mode);
     }
   }

@@ -1,6 +1,7 @@
 #include <trochoid/run/shared/machine.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace trochoid::run {
@@ -29,8 +30,12 @@ dynamics::System chip_modes(std::span<const inputs::Mode> modes) {
     const structure::Mode whole = whole_mode(mode);
     dynamics::ChipMode m{whole.mass, whole.damping, whole.stiffness};
     const double sign = mode.body == inputs::ModeBody::table ? -1.0 : 1.0;
-    m.x = mode.axis == inputs::Axis::x ? sign : 0.0;
-    m.y = mode.axis == inputs::Axis::y ? sign : 0.0;
+    const double along = sign * std::cos(mode.angle);
+    const double across = sign * std::sin(mode.angle);
+    const bool is_x = mode.axis == inputs::Axis::x;
+    m.x = is_x ? along : -across;
+    m.y = is_x ? across : along;
+    m.of_table = sign < 0;
     system.modes.push_back(m);
   }
   return system;
@@ -39,7 +44,8 @@ dynamics::System chip_modes(std::span<const inputs::Mode> modes) {
 correction::Plant plant_of(const inputs::MachineTables& machine) {
   const auto table = std::find_if(
       machine.modes.begin(), machine.modes.end(), [](const inputs::Mode& mode) {
-        return mode.body == inputs::ModeBody::table && mode.axis == inputs::Axis::x;
+        return mode.body == inputs::ModeBody::table && mode.axis == inputs::Axis::x &&
+               mode.angle == 0;
       });
   if (!machine.actuator || table == machine.modes.end()) {
     throw std::invalid_argument("plant_of: no actuator, or no table along x");

@@ -14,9 +14,9 @@ constexpr int turns_kept = 2;
 
 dynamics::Drive drive_of(const inputs::MachineTables& machine,
                          const dynamics::System& system) {
-  const auto table =
-      std::find_if(system.modes.begin(), system.modes.end(),
-                   [](const dynamics::ChipMode& mode) { return mode.x < 0; });
+  const auto table = std::find_if(
+      system.modes.begin(), system.modes.end(),
+      [](const dynamics::ChipMode& mode) { return mode.of_table && mode.x == -1; });
   return correction::drive_of(plant_of(machine),
                               static_cast<std::size_t>(table - system.modes.begin()));
 }

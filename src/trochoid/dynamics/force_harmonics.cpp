@@ -1,0 +1,75 @@
+#include <trochoid/dynamics/force_harmonics.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/dynamics/nodes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace trochoid::dynamics {
+
+namespace {
+
+using Coefficients = std::vector<ComplexMatrix2>;
+
+/// Pieces of an element, of eight Gauss nodes each: for its polynomials, and one more
+/// for each cycle of the fastest wave.
+constexpr double pieces_of_element = 4.0;
+
+/// Adds the integral of one matrix over one element to every coefficient.
+void add_element(const DirectionalElement& element, const std::vector<Matrix2>& matrix,
+                 double period, Coefficients& out) {
+  const ElementNodes& nodes = element_nodes(directional_degree);
+  const ElementNodes& gauss = element_nodes(1);  // one interval of Gauss nodes
+  const double half = 0.5 * (element.to - element.from);
+  const auto most = static_cast<double>(out.size() / 2);
+  const double cycles = most * 2 * half / period;
+  const auto pieces = static_cast<std::size_t>(pieces_of_element + cycles);
+  const double width = 1 / static_cast<double>(pieces);
+  std::array<double, directional_degree + 1> row{};
+  for (std::size_t g = 0; g < pieces * gauss_count; ++g) {
+    const std::size_t i = g % gauss_count;
+    const auto piece = static_cast<double>(g / gauss_count);
+    const double t = -1 + width * (2 * piece + 1 + gauss.gauss_t[i]);
+    lagrange_row(nodes, t, row);
+    Matrix2 value{};
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      for (std::size_t q = 0; q < value.size(); ++q) {
+        value[q] += row[k] * matrix[k][q];
+      }
+    }
+    const double phi = element.from + half * (1 + t);
+    const double weight = half * width * gauss.gauss_w[i] / period;
+    const double angle = unit::turn * phi / period;
+    std::complex<double> wave = std::polar(weight, most * angle);
+    const std::complex<double> next = std::polar(1.0, -angle);
+    for (ComplexMatrix2& coefficient : out) {
+      for (std::size_t q = 0; q < value.size(); ++q) {
+        coefficient[q] += wave * value[q];  // D-21
+      }
+      wave *= next;
+    }
+  }
+}
+
+}  // namespace
+
+ForceHarmonics force_harmonics(const Directional& directional, int most) {
+  ForceHarmonics out{
+      .period = directional.period, .delays = directional.delays, .most = most};
+  const auto waves = static_cast<std::size_t>(2 * most + 1);
+  out.coefficients.assign(1 + directional.delays.size(), Coefficients(waves));
+  for (const DirectionalElement& element : directional.elements) {
+    for (std::size_t d = 0; d < element.matrices.size(); ++d) {
+      if (!element.matrices[d].empty()) {
+        add_element(element, element.matrices[d], directional.period,
+                    out.coefficients[d]);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace trochoid::dynamics

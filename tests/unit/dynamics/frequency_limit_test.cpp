@@ -1,0 +1,220 @@
+#include <trochoid/dynamics/frequency_limit.h>
+
+#include <trochoid/dynamics/lobes.h>
+
+#include "milling_cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+
+std::vector<double> steps(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(first + (last - first) * i / (count - 1));
+  }
+  return values;
+}
+
+/// What a hammer would read of a system, without noise.
+PointResponse tapped(const System& system, double from_Hz, double to_Hz, int lines) {
+  PointResponse point;
+  for (std::size_t motion = 0; motion < 2; ++motion) {
+    for (std::size_t force = 0; force < 2; ++force) {
+      MeasuredReceptance part{motion, force, {}, {}};
+      bool moves = false;
+      for (const double f : steps(from_Hz, to_Hz, lines)) {
+        const double omega = 2 * pi * f;
+        Complex H;
+        for (const ChipMode& m : system.modes) {
+          const double shape = (motion == 0 ? m.x : m.y) * (force == 0 ? m.x : m.y);
+          H += shape / Complex(m.stiffness - m.mass * omega * omega, m.damping * omega);
+          moves = moves || shape != 0;
+        }
+        part.omega.push_back(omega);
+        part.H.push_back(H);
+      }
+      if (moves) {
+        point.parts.push_back(part);
+      }
+    }
+  }
+  return point;
+}
+
+PointResponse benchmark_point() {
+  return tapped(benchmark_system(), 100, 4000, 3901);
+}
+
+TEST(PointResponse, IsThatOfTheModesBetweenTheLines) {  // [D-20]
+  const System system{{mode_of(0.03993, 922, 0.011, 0.8, 0.6)}};
+  const PointResponse point = tapped(system, 100, 4000, 3901);
+  const ChipMode& m = system.modes[0];
+  for (const double f : {100.0, 515.3, 921.7, 3999.6}) {
+    const double omega = 2 * pi * f;
+    const Complex H =
+        1.0 / Complex(m.stiffness - m.mass * omega * omega, m.damping * omega);
+    const ComplexMatrix2 G = receptance(point, omega);
+    // lines 1 Hz apart under a peak 20 Hz wide
+    EXPECT_LT(std::abs(G[0] - 0.64 * H), 1e-4 * std::abs(H));
+    EXPECT_LT(std::abs(G[1] - 0.48 * H), 1e-4 * std::abs(H));
+    EXPECT_LT(std::abs(G[3] - 0.36 * H), 1e-4 * std::abs(H));
+    EXPECT_EQ(receptance(point, -omega)[1], std::conj(G[1]));
+  }
+  EXPECT_EQ(receptance(point, 2 * pi * 4001)[0], Complex(0, 0));
+  EXPECT_EQ(receptance(point, 2 * pi * 20)[0].imag(), 0);
+  EXPECT_NEAR(receptance(point, 2 * pi * 20)[0].real(), 0.64 / m.stiffness,
+              0.02 / m.stiffness);
+}
+
+TEST(PointResponse, ToolAndWorkAddUp) {  // [D-20]
+  PointResponse both = benchmark_point();
+  const Complex alone = receptance(both, 5000)[0];
+  both.parts.push_back(both.parts.front());
+  EXPECT_EQ(receptance(both, 5000)[0], 2.0 * alone);
+}
+
+TEST(ForceHarmonics, AddUpToTheMatrices) {  // [D-21]
+  const DirectionalModel model(straight_cut(2, geometry::Slot{}), benchmark_law(), 1e-6,
+                               1e-11);
+  const ForceHarmonics f = force_harmonics(model.at_depth(1e-3), 200);
+  ASSERT_EQ(f.coefficients.size(), 2U);
+  // A slot of one tooth at a time: g is that of the tooth, at every angle.
+  const double phi = 1.1;
+  Complex sum;
+  for (int n = -f.most; n <= f.most; ++n) {
+    sum += f.coefficients[0][static_cast<std::size_t>(n + f.most)][0] *
+           std::polar(1.0, n * 2 * pi * phi / f.period);
+  }
+  const double expected =
+      1e-3 * (-std::cos(phi) * 600e6 - std::sin(phi) * 200e6) * std::sin(phi);
+  // What is cut off falls with the first power of the number of waves: g has kinks.
+  EXPECT_NEAR(sum.real(), expected, 5e-3 * std::abs(expected));
+  EXPECT_NEAR(sum.imag(), 0, 1e-9 * std::abs(expected));
+  // The mean: - (1/pi) integral of K_r sin^2 over a pitch, which is half of K_r.
+  const ComplexMatrix2& mean = f.coefficients[0][static_cast<std::size_t>(f.most)];
+  EXPECT_NEAR(mean[0].real(), -1e-3 * 0.5 * 200e6, 1e-6 * 200e6 * 1e-3);
+}
+
+/// The zeroth order solution along its lobes: for a frequency the depth is
+/// 1 / (2 A Re G), and the speed follows from the phase.
+double least_on_lobes(double mean, double Omega, double teeth) {
+  const ChipMode m = benchmark_system().modes[0];
+  double least = 1e9;
+  double before = 0.0;
+  double depth_before = 0.0;
+  const double tau = 2 * pi / (teeth * Omega);
+  for (double f = 300; f < 3000; f += 0.01) {
+    const double omega = 2 * pi * f;
+    const Complex G =
+        1.0 / Complex(m.stiffness - m.mass * omega * omega, m.damping * omega);
+    const Complex loop = mean * G * (1.0 - std::polar(1.0, -omega * tau));
+    const double depth = 1 / loop.real();
+    if (before != 0 && (loop.imag() > 0) != (before > 0) && depth > 0 &&
+        depth_before > 0) {
+      least = std::min(least, depth);
+    }
+    before = loop.imag();
+    depth_before = depth;
+  }
+  return least;
+}
+
+TEST(FrequencyLimit, OfTheMeanForceIsThatOfTheLobes) {  // [D-22] [D-23]
+  const DirectionalModel model(straight_cut(2, geometry::Slot{}), benchmark_law(), 1e-6,
+                               1e-11);
+  const auto depth = steps(0.1e-3, 20e-3, 40);
+  for (const double rpm : {5000.0, 9000.0, 20300.0}) {
+    const auto limit = frequency_limit(model, benchmark_point(), rpm * unit::rpm, depth,
+                                       FrequencyOptions{});
+    ASSERT_TRUE(limit.has_value());
+    const double expected = least_on_lobes(-0.5 * 200e6, rpm * unit::rpm, 2);
+    EXPECT_NEAR(limit->depth, expected, 2e-3 * expected) << rpm;
+    EXPECT_GT(limit->chatter_frequency, 922);
+    EXPECT_LT(limit->chatter_frequency, 1300);
+  }
+}
+
+double spectral(const DirectionalModel& model, const System& system, double Omega) {
+  const auto limit =
+      limit_depth(model, system, Omega, steps(0.05e-3, 10e-3, 200), 1e-6);
+  return limit ? limit->depth : 0.0;
+}
+
+TEST(FrequencyLimit, WithHarmonicsComesToThatOfTheMultiplier) {  // [D-22]
+  const DirectionalModel model(straight_cut(2, geometry::Slot{}), benchmark_law(), 1e-6,
+                               1e-11);
+  const auto depth = steps(0.05e-3, 10e-3, 200);
+  for (const double rpm : {5000.0, 12000.0, 20300.0}) {
+    const double exact = spectral(model, benchmark_system(), rpm * unit::rpm);
+    const auto error = [&](int harmonics) {
+      const auto limit = frequency_limit(model, benchmark_point(), rpm * unit::rpm,
+                                         depth, {.harmonics = harmonics});
+      return limit ? std::abs(limit->depth / exact - 1) : 1.0;
+    };
+    EXPECT_LT(error(8), 0.01) << rpm;
+    EXPECT_LT(error(8), error(0)) << rpm;
+  }
+}
+
+TEST(FrequencyLimit, SeesAFlipThatTheMeanForceDoesNot) {  // [D-22]
+  // A twentieth of the diameter: teeth touch briefly, and every second one hits alike.
+  const DirectionalModel model(straight_cut(2, geometry::DownMilling{0.5e-3}),
+                               benchmark_law(), 1e-6, 1e-11);
+  const double Omega = 18000 * unit::rpm;
+  const auto limit =
+      limit_depth(model, benchmark_system(), Omega, steps(0.05e-3, 30e-3, 300), 1e-6);
+  ASSERT_TRUE(limit.has_value());
+  const auto with = [&](int harmonics) {
+    const auto found =
+        frequency_limit(model, benchmark_point(), Omega, steps(0.05e-3, 30e-3, 300),
+                        {.harmonics = harmonics});
+    return found ? found->depth : 30e-3;
+  };
+  EXPECT_NEAR(with(8), limit->depth, 0.03 * limit->depth);
+  EXPECT_GT(with(0), 1.5 * limit->depth);
+}
+
+TEST(FrequencyLimit, OfAHelixIsFoundByADepthSearch) {  // [D-24]
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  setup.cutter.helix = 30 * unit::deg;
+  const DirectionalModel model(setup, benchmark_law(), 1e-6, 1e-11);
+  ASSERT_FALSE(model.proportional());
+  const double Omega = 12000 * unit::rpm;
+  const double exact = spectral(model, benchmark_system(), Omega);
+  const auto limit =
+      frequency_limit(model, benchmark_point(), Omega, steps(0.05e-3, 10e-3, 200),
+                      {.harmonics = 6, .tolerance = 1e-5});
+  ASSERT_TRUE(limit.has_value());
+  EXPECT_NEAR(limit->depth, exact, 0.01 * exact);
+}
+
+TEST(FrequencyLimit, WithRunoutHasTheTurnForAPeriod) {  // [D-22]
+  force::Setup setup = straight_cut(2, geometry::Slot{});
+  setup.chip = {chip::Model::radial, chip::Lookback::all};
+  setup.runout.radial_offsets = {25e-6, 0.0};
+  const DirectionalModel model(setup, benchmark_law(), 1e-6, 1e-11);
+  const double Omega = 12000 * unit::rpm;
+  const double exact = spectral(model, benchmark_system(), Omega);
+  const auto limit = frequency_limit(model, benchmark_point(), Omega,
+                                     steps(0.05e-3, 10e-3, 200), {.harmonics = 6});
+  ASSERT_TRUE(limit.has_value());
+  EXPECT_NEAR(limit->depth, exact, 0.02 * exact);
+}
+
+TEST(FrequencyLimit, IsAbsentWhereAllDepthsAreStable) {  // [D-23]
+  const DirectionalModel model(straight_cut(2, geometry::Slot{}), benchmark_law(), 1e-6,
+                               1e-11);
+  EXPECT_FALSE(frequency_limit(model, benchmark_point(), 5000 * unit::rpm,
+                               steps(0.01e-3, 0.1e-3, 5), {.harmonics = 2})
+                   .has_value());
+}
+
+}  // namespace
+}  // namespace trochoid::dynamics
