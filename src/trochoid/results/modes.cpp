@@ -5,7 +5,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <complex>
+#include <limits>
+#include <utility>
 
 namespace trochoid::results {
 
@@ -68,6 +71,31 @@ Value residual_terms_value(const ModesFit& fit) {
   return Object{{"above_m_per_N", fit.above}, {"below_per_kg", fit.below}};
 }
 
+/// The numbers of modes that were tried: the evidence for each, less being better.
+Array orders_value(const ModesFit& fit) {
+  Array orders;
+  double least = std::numeric_limits<double>::infinity();
+  for (const structure::ModesOrder& order : fit.orders) {
+    least = std::min(least, order.criterion);
+  }
+  for (const structure::ModesOrder& order : fit.orders) {
+    Array frequencies;
+    Array dampings;
+    for (const auto& [omega, zeta] : order.modes) {
+      frequencies.emplace_back(unit::in(omega, unit::Hz));
+      dampings.emplace_back(zeta);
+    }
+    orders.emplace_back(
+        Object{{"modes", order.modes.size()},
+               {"residual_terms", order.residual_terms},
+               {"criterion", order.criterion - least},
+               {"frequencies_Hz", std::move(frequencies)},
+               {"damping_ratios", std::move(dampings)},
+               {"fault", order.fault.empty() ? Value(nullptr) : Value(order.fault)}});
+  }
+  return orders;
+}
+
 Object result_of(const ModesResult& r) {
   const ModesFit& fit = r.fit;
   Object result{{"kind", name_of(r.kind)},
@@ -84,6 +112,10 @@ Object result_of(const ModesResult& r) {
     add("explained", fit.explained);
     add(fmt::format("rms_{}", unit_suffix(r.kind)), fit.rms);
     add("residual_terms", residual_terms_value(fit));
+    add("noise", Object{{fmt::format("floor_{}", unit_suffix(r.kind)), fit.noise.floor},
+                        {"magnitude_percent", 100 * fit.noise.magnitude},
+                        {"phase_deg", unit::in(fit.noise.phase, unit::deg)}});
+    add("orders", orders_value(fit));
   }
   if (!r.description.empty()) {
     add("description", r.description);

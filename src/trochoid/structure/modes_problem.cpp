@@ -31,34 +31,18 @@ std::vector<Complex> slopes(const ModesModel& model, double omega) {
   return out;
 }
 
-/// The linear parameters A, U, L for given frequencies and dampings.
-void fit_linear(const FrequencyResponse& lines, ModesModel& model) {
-  const std::size_t n = model.terms.size() + (model.residual_terms ? 2 : 0);
-  const std::size_t m = 2 * lines.omega.size();
-  std::vector<double> A(m * n);
-  std::vector<double> b(m);
-  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex f = factor(lines.kind, lines.omega[i]);
-    const auto row = slopes(model, lines.omega[i]);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t own =
-          k < model.terms.size() ? 3 * k + 2 : k + 2 * model.terms.size();
-      const Complex value = f * row[own];
-      A[2 * i * n + k] = value.real();
-      A[(2 * i + 1) * n + k] = value.imag();
-    }
-    b[2 * i] = lines.H[i].real();
-    b[2 * i + 1] = lines.H[i].imag();
-  }
-  const auto fit = numerics::least_squares(A, static_cast<int>(n), b, rank_tolerance);
-  for (std::size_t r = 0; r < model.terms.size(); ++r) {
-    model.terms[r].A = fit.x[r];
-  }
-  if (model.residual_terms) {
-    model.above = fit.x[n - 2];
-    model.below = fit.x[n - 1];
-  }
+/// A row of a line as its two weighted parts: real and imaginary.
+std::array<double, 2> parts(const LineWeights& weights, std::size_t line,
+                            Complex value) {
+  const Complex turned = value * weights.turn[line];
+  return {turned.real() * weights.along[line], turned.imag() * weights.across[line]};
 }
+
+/// What the solver asks for: residuals, and their derivatives by columns.
+struct Rows {
+  std::span<double> r;
+  std::span<double> jacobian;
+};
 
 /// Parameters near 0 or 1 for the solver.
 struct Scaling {
@@ -66,10 +50,11 @@ struct Scaling {
   double A = 1.0;
   double above = 1.0;
   double below = 1.0;
-  double H = 1.0;  ///< of the residuals
+  double H = 1.0;  ///< of the weighted residuals
 };
 
-Scaling scaling_of(const FrequencyResponse& lines, const ModesModel& start) {
+Scaling scaling_of(const FrequencyResponse& lines, const LineWeights& weights,
+                   const ModesModel& start) {
   Scaling s{.start = start};
   double A = 0.0;
   for (const ModeTerm& term : start.terms) {
@@ -79,7 +64,8 @@ Scaling scaling_of(const FrequencyResponse& lines, const ModesModel& start) {
   double sum = 0.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < lines.H.size(); ++i) {
-    sum += std::norm(lines.H[i]);
+    const auto [along, across] = parts(weights, i, lines.H[i]);
+    sum += along * along + across * across;
     largest =
         std::max(largest, std::abs(lines.H[i] / factor(lines.kind, lines.omega[i])));
   }
@@ -126,9 +112,8 @@ std::vector<double> chain(const Scaling& s, const ModesModel& model) {
   return out;
 }
 
-bool evaluate(const FrequencyResponse& lines, const Scaling& s,
-              std::span<const double> p, std::span<double> r,
-              std::span<double> jacobian) {
+bool evaluate(const FrequencyResponse& lines, const LineWeights& weights,
+              const Scaling& s, std::span<const double> p, Rows rows) {
   const ModesModel model = unscaled(s, p);
   for (const ModeTerm& term : model.terms) {
     if (!(term.omega > 0) || !(term.zeta > 1e-9) || term.zeta > 10) {
@@ -137,55 +122,38 @@ bool evaluate(const FrequencyResponse& lines, const Scaling& s,
   }
   const std::vector<double> scale = chain(s, model);
   for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex f = factor(lines.kind, lines.omega[i]) / s.H;
-    const Complex gap = f * receptance(model, lines.omega[i]) - lines.H[i] / s.H;
-    r[2 * i] = gap.real();
-    r[2 * i + 1] = gap.imag();
-    if (jacobian.empty()) {
+    const Complex f = factor(lines.kind, lines.omega[i]);
+    const auto gap =
+        parts(weights, i, (f * receptance(model, lines.omega[i]) - lines.H[i]) / s.H);
+    rows.r[2 * i] = gap[0];
+    rows.r[2 * i + 1] = gap[1];
+    if (rows.jacobian.empty()) {
       continue;
     }
     const auto row = slopes(model, lines.omega[i]);
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const Complex value = f * row[k] * scale[k];
-      jacobian[k * r.size() + 2 * i] = value.real();
-      jacobian[k * r.size() + 2 * i + 1] = value.imag();
+      const auto value = parts(weights, i, f * row[k] * (scale[k] / s.H));
+      rows.jacobian[k * rows.r.size() + 2 * i] = value[0];
+      rows.jacobian[k * rows.r.size() + 2 * i + 1] = value[1];
     }
   }
   return true;
 }
 
-/// s^2 (J^T J)^-1 in the natural parameters (M-7).
-void add_covariance(const FrequencyResponse& lines, const Scaling& s,
-                    ModesSolution& solution) {
-  const std::size_t n = solution.model.size();
-  const std::size_t m = 2 * lines.omega.size();
-  if (m <= n) {
-    return;
-  }
-  std::vector<double> J(m * n);
-  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex f = factor(lines.kind, lines.omega[i]) / s.H;
-    const auto row = slopes(solution.model, lines.omega[i]);
-    for (std::size_t k = 0; k < n; ++k) {
-      const Complex value = f * row[k];
-      J[2 * i * n + k] = value.real();
-      J[(2 * i + 1) * n + k] = value.imag();
+/// Leverage of each row of J, whose (J^T J)^-1 is given.
+std::vector<double> leverages(std::span<const double> J, std::size_t n,
+                              std::span<const double> inverse_gram) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < J.size() / n; ++i) {
+    double h = 0.0;
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t b = 0; b < n; ++b) {
+        h += J[i * n + a] * inverse_gram[a * n + b] * J[i * n + b];
+      }
     }
+    out.push_back(h);
   }
-  const std::vector<double> zero(m, 0.0);
-  const auto fit =
-      numerics::least_squares(J, static_cast<int>(n), zero, rank_tolerance);
-  if (fit.inverse_gram.empty()) {
-    return;
-  }
-  const double s2 = solution.rss / (s.H * s.H) / static_cast<double>(m - n);
-  solution.covariance = fit.inverse_gram;
-  for (double& value : solution.covariance) {
-    value *= s2;
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    solution.variance.push_back(solution.covariance[k * n + k]);
-  }
+  return out;
 }
 
 }  // namespace
@@ -201,30 +169,107 @@ std::complex<double> receptance(const ModesModel& model, double omega) {
   return H;
 }
 
-ModesSolution fit_modes(const FrequencyResponse& lines,
-                        const std::vector<ModeTerm>& starts, bool residual_terms) {
+LineWeights even_weights(std::size_t lines) {
+  return {.turn = std::vector<Complex>(lines, 1.0),
+          .along = std::vector<double>(lines, 1.0),
+          .across = std::vector<double>(lines, 1.0)};
+}
+
+std::vector<Complex> gaps(const FrequencyResponse& lines, const ModesModel& model) {
+  std::vector<Complex> out;
+  out.reserve(lines.omega.size());
+  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
+    out.push_back(lines.H[i] - factor(lines.kind, lines.omega[i]) *
+                                   receptance(model, lines.omega[i]));
+  }
+  return out;
+}
+
+void fit_linear(const FrequencyResponse& lines, const LineWeights& weights,
+                ModesModel& model) {
+  const std::size_t terms = model.terms.size();
+  const std::size_t n = terms + (model.residual_terms ? 2 : 0);
+  if (n == 0) {
+    return;
+  }
+  std::vector<double> A(2 * lines.omega.size() * n);
+  std::vector<double> b(2 * lines.omega.size());
+  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
+    const Complex f = factor(lines.kind, lines.omega[i]);
+    const auto row = slopes(model, lines.omega[i]);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t own = k < terms ? 3 * k + 2 : k + 2 * terms;
+      const auto value = parts(weights, i, f * row[own]);
+      A[2 * i * n + k] = value[0];
+      A[(2 * i + 1) * n + k] = value[1];
+    }
+    const auto value = parts(weights, i, lines.H[i]);
+    b[2 * i] = value[0];
+    b[2 * i + 1] = value[1];
+  }
+  const auto fit = numerics::least_squares(A, static_cast<int>(n), b, rank_tolerance);
+  for (std::size_t r = 0; r < terms; ++r) {
+    model.terms[r].A = fit.x[r];
+  }
+  if (model.residual_terms) {
+    model.above = fit.x[n - 2];
+    model.below = fit.x[n - 1];
+  }
+}
+
+ModesSolution fit_modes(const FrequencyResponse& lines, const LineWeights& weights,
+                        ModesModel start, int iterations) {
   ModesSolution out;
-  out.model.terms = starts;
-  out.model.residual_terms = residual_terms;
-  fit_linear(lines, out.model);
-  const Scaling scaling = scaling_of(lines, out.model);
+  const Scaling scaling = scaling_of(lines, weights, start);
   const auto count = static_cast<int>(2 * lines.omega.size());
   const numerics::Residuals residuals =
       [&](std::span<const double> p, std::span<double> r, std::span<double> jacobian) {
-        return evaluate(lines, scaling, p, r, jacobian);
+        return evaluate(lines, weights, scaling, p, {r, jacobian});
       };
   const auto fit = numerics::levenberg_marquardt(residuals, count, scaled(scaling),
-                                                 {.max_iterations = 100});
+                                                 {.max_iterations = iterations});
   out.converged = fit.converged;
   out.model = unscaled(scaling, fit.p);
-  std::vector<double> r(static_cast<std::size_t>(count));
-  evaluate(lines, scaling, fit.p, r, {});
-  for (const double value : r) {
-    out.rss += value * value;
+  const std::vector<Complex> left = gaps(lines, out.model);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const auto [along, across] = parts(weights, i, left[i]);
+    out.rss += std::norm(left[i]);
+    out.cost += along * along + across * across;
   }
-  out.rss *= scaling.H * scaling.H;
-  add_covariance(lines, scaling, out);
   return out;
+}
+
+void describe(const FrequencyResponse& lines, const LineWeights& weights,
+              ModesSolution& solution) {
+  solution.leverage.clear();
+  solution.covariance.clear();
+  solution.variance.clear();
+  const std::size_t n = solution.model.size();
+  const std::size_t m = 2 * lines.omega.size();
+  if (m <= n || n == 0) {
+    return;
+  }
+  std::vector<double> J(m * n);
+  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
+    const Complex f = factor(lines.kind, lines.omega[i]);
+    const auto row = slopes(solution.model, lines.omega[i]);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto value = parts(weights, i, f * row[k]);
+      J[2 * i * n + k] = value[0];
+      J[(2 * i + 1) * n + k] = value[1];
+    }
+  }
+  const std::vector<double> zero(m, 0.0);
+  const auto fit =
+      numerics::least_squares(J, static_cast<int>(n), zero, rank_tolerance);
+  if (fit.inverse_gram.empty()) {
+    return;
+  }
+  solution.leverage = leverages(J, n, fit.inverse_gram);
+  solution.covariance = fit.inverse_gram;
+  for (std::size_t k = 0; k < n; ++k) {
+    solution.variance.push_back(solution.covariance[k * n + k]);
+  }
 }
 
 FittedMode fitted_mode(const ModesSolution& solution, std::size_t r) {
