@@ -68,7 +68,7 @@ Value residual_terms_value(const ModesFit& fit) {
   if (!fit.residual_terms) {
     return nullptr;
   }
-  return Object{{"above_m_per_N", fit.above}, {"below_per_kg", fit.below}};
+  return Object{{"above_m_per_N", fit.residual[0]}, {"below_per_kg", fit.residual[1]}};
 }
 
 /// The numbers of modes that were tried: the evidence for each, less being better.
@@ -86,7 +86,7 @@ Array orders_value(const ModesFit& fit) {
       dampings.emplace_back(zeta);
     }
     orders.emplace_back(
-        Object{{"modes", order.modes.size()},
+        Object{{"modes", order.count},
                {"residual_terms", order.residual_terms},
                {"criterion", order.criterion - least},
                {"frequencies_Hz", std::move(frequencies)},
@@ -163,7 +163,9 @@ std::string short_table(const ModesResult& r) {
       "the fit explains {:.3f} % of the power and leaves {:.3g} {} (rms)\n",
       fit.omega.size(), name_of(r.kind), fit.omega.front() / unit::Hz,
       fit.omega.back() / unit::Hz,
-      fit.residual_terms ? ", with terms for modes outside of it" : "",
+      fit.residual_terms || !fit.outside.empty()
+          ? ", with terms for modes outside of it"
+          : "",
       100 * fit.explained, fit.rms, unit_of(r.kind));
   return text;
 }

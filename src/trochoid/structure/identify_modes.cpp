@@ -16,6 +16,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/// Modes outside of the band beside those that were asked for.
+constexpr int most_outside = 2;
 constexpr int most_modes = 12;           ///< that are chosen without being asked for
 constexpr double least_explained = 0.7;  ///< of the sum of |H|^2
 /// Orders without a better fit after which the search ends; more while none is sound.
@@ -25,6 +27,10 @@ constexpr int patience_at_first = 4;
 constexpr double exactly = 1e-6;
 /// Difference of the criterion above which evidence is very strong: odds of 150 to 1.
 constexpr double very_strong = 10.0;
+/// What one pole explains where there is one mode and no doubt.
+constexpr double certain = 0.9;
+/// Fraction of the power of a response below which nothing is left to explain.
+constexpr double rounding = 1e-20;
 
 FrequencyResponse in_band(const FrequencyResponse& response,
                           const ModesOptions& options) {
@@ -53,35 +59,44 @@ double power(const FrequencyResponse& lines) {
 /// A fit and what speaks against it.
 struct Candidate {
   ModesTrial trial;
-  std::vector<std::string> left_out;  ///< of each term why it is unresolved, or empty
-  std::string fault;                  ///< empty: it may be the answer
+  std::vector<TermVerdict> terms;
+  std::string fault;  ///< empty: it may be the answer
 };
 
-/// @param whole  all modes must be resolved
-Candidate judged(const FrequencyResponse& lines, ModesTrial trial, bool whole) {
+std::size_t count_of(const Candidate& candidate, TermRole role) {
+  return static_cast<std::size_t>(
+      std::count_if(candidate.terms.begin(), candidate.terms.end(),
+                    [&](const TermVerdict& term) { return term.role == role; }));
+}
+
+Candidate judged(const FrequencyResponse& lines, ModesTrial trial,
+                 const ModesOptions& options) {
   Candidate out{.trial = std::move(trial)};
-  std::size_t unresolved = 0;
-  const std::size_t count = out.trial.solution.model.terms.size();
-  for (std::size_t r = 0; r < count; ++r) {
-    ModeFault fault = fault_of(lines, out.trial.solution, r);
-    unresolved += fault.unresolved ? 1 : 0;
-    out.left_out.push_back(fault.unresolved ? fault.why : "");
+  for (std::size_t r = 0; r < out.trial.solution.model.terms.size(); ++r) {
+    out.terms.push_back(verdict_on(lines, out.trial.solution, r));
+  }
+  const bool none = count_of(out, TermRole::mode) == 0;
+  const bool whole = options.count > 0;
+  for (const TermVerdict& term : out.terms) {
     const bool fatal =
-        !fault.why.empty() && (whole || !fault.unresolved || unresolved == count);
-    if (fatal && out.fault.empty()) {
-      out.fault = fault.why;
+        term.role == TermRole::none || (term.role == TermRole::unresolved && whole) ||
+        (term.role == TermRole::outside && !options.residual_terms.value_or(true));
+    if (term.role != TermRole::mode && (fatal || none) && out.fault.empty()) {
+      out.fault = term.why;
     }
   }
   if (!out.trial.solution.converged && out.fault.empty()) {
     out.fault = "the fit did not converge";
   }
-  out.trial.criterion += very_strong * static_cast<double>(unresolved);
+  out.trial.criterion +=
+      very_strong * static_cast<double>(count_of(out, TermRole::unresolved));
   return out;
 }
 
 ModesOrder order_of(const Candidate& candidate) {
   const ModesModel& model = candidate.trial.solution.model;
-  ModesOrder out{.residual_terms = model.residual_terms,
+  ModesOrder out{.count = count_of(candidate, TermRole::mode),
+                 .residual_terms = model.residual_terms,
                  .criterion = candidate.trial.criterion,
                  .fault = candidate.fault};
   for (const ModeTerm& term : model.terms) {
@@ -104,45 +119,60 @@ bool enough_lines(const FrequencyResponse& lines, int count) {
 }
 
 /// Take a candidate into a search; true if it is the best so far.
-bool taken(Search& search, Candidate next, bool eligible) {
+/// @param wanted  number of modes; 0: any
+bool taken(Search& search, Candidate next, int wanted) {
   search.orders.push_back(order_of(next));
   const Candidate& chosen = search.chosen;
   const bool better = chosen.trial.solution.model.terms.empty() ||
                       next.trial.criterion < chosen.trial.criterion;
-  if (!eligible || !next.fault.empty() || !better) {
+  const bool right =
+      wanted == 0 || count_of(next, TermRole::mode) == static_cast<std::size_t>(wanted);
+  if (!right || !next.fault.empty() || !better) {
     return false;
   }
   search.chosen = std::move(next);
   return true;
 }
 
+/// Whether one mode more, after some that bettered nothing, is not worth a try.
+bool given_up(const FrequencyResponse& lines, const Search& search, int since,
+              int count) {
+  const ModesSolution& chosen = search.chosen.trial.solution;
+  const bool sound = !chosen.model.terms.empty();
+  if (sound && chosen.rss < rounding * power(lines)) {
+    return true;
+  }
+  if (since < patience) {
+    return false;
+  }
+  return sound || since >= patience_at_first ||
+         !fault_of_kind(lines, count - 1).empty();
+}
+
 /// One mode after the other, with residual terms and without (M-16, M-17).
 Search searched(const FrequencyResponse& lines, const ModesOptions& options) {
-  const int first = options.count > 0 ? options.count : 1;
-  const int last = options.count > 0 ? options.count : most_modes;
+  const int more = options.residual_terms.value_or(true) ? most_outside : 0;
+  const int last = options.count > 0 ? options.count + more : most_modes;
   Search search;
   std::array<ModesTrial, 2> before;
   int since = 0;
   for (int count = 1; count <= last && enough_lines(lines, count); ++count) {
-    const bool sound = !search.chosen.trial.solution.model.terms.empty();
-    const bool hopeless =
-        !sound && since >= patience &&
-        (since >= patience_at_first || !fault_of_kind(lines, count - 1).empty());
-    if (hopeless || (sound && since >= patience)) {
+    if (given_up(lines, search, since, count)) {
       break;
     }
-    since += count >= first ? 1 : 0;
+    since += count >= options.count ? 1 : 0;
     for (const bool terms : {false, true}) {
       if (options.residual_terms.value_or(terms) != terms) {
         continue;
       }
       ModesTrial& trial = before[terms ? 1 : 0];
       trial = with_one_more(lines, trial, terms);
-      Candidate next = judged(lines, trial, options.count > 0);
-      if (!next.fault.empty() && (search.first_fault.empty() || count <= first)) {
+      Candidate next = judged(lines, trial, options);
+      if (!next.fault.empty() &&
+          (search.first_fault.empty() || count <= std::max(options.count, 1))) {
         search.first_fault = next.fault;
       }
-      since = taken(search, std::move(next), count >= first) ? 0 : since;
+      since = taken(search, std::move(next), options.count) ? 0 : since;
     }
   }
   return search;
@@ -157,21 +187,24 @@ ModesFit refused(ModesFit fit, std::string reason) {
 
 /// Fill in a fit from what was chosen.
 void take(const FrequencyResponse& lines, const ModesTrial& trial,
-          const std::vector<std::string>& left_out, ModesFit& fit) {
+          const std::vector<TermVerdict>& terms, ModesFit& fit) {
   const ModesSolution& solution = trial.solution;
-  for (std::size_t r = 0; r < solution.model.terms.size(); ++r) {
-    auto& modes = left_out[r].empty() ? fit.modes : fit.unresolved;
-    modes.push_back(fitted_mode(solution, r));
-    modes.back().lines_in_peak = lines_in_peak(lines, solution.model.terms[r]);
-    if (!left_out[r].empty()) {
-      fit.left_out.push_back(left_out[r]);
+  for (std::size_t r = 0; r < terms.size(); ++r) {
+    FittedMode mode = fitted_mode(solution, r);
+    mode.lines_in_peak = lines_in_peak(lines, solution.model.terms[r]);
+    if (terms[r].role == TermRole::mode) {
+      fit.modes.push_back(mode);
+    } else if (terms[r].role == TermRole::outside) {
+      fit.outside.push_back(mode);
+    } else {
+      fit.unresolved.push_back(mode);
+      fit.left_out.push_back(terms[r].why);
     }
   }
   std::sort(fit.modes.begin(), fit.modes.end(),
             [](const FittedMode& a, const FittedMode& b) { return a.omega < b.omega; });
   fit.residual_terms = solution.model.residual_terms;
-  fit.above = solution.model.above;
-  fit.below = solution.model.below;
+  fit.residual = solution.model.residual;
   fit.noise = trial.noise;
   for (std::size_t i = 0; i < lines.omega.size(); ++i) {
     fit.fitted.push_back(factor(lines.kind, lines.omega[i]) *
@@ -184,12 +217,12 @@ void take(const FrequencyResponse& lines, const ModesTrial& trial,
 /// Another number of modes that is nearly as likely.
 void add_alternative(const Search& search, ModesFit& fit) {
   const double chosen = search.chosen.trial.criterion;
-  const std::size_t count = search.chosen.trial.solution.model.terms.size();
+  const std::size_t count = fit.modes.size();
   double least = chosen + very_strong;
   for (const ModesOrder& order : search.orders) {
-    if (order.fault.empty() && order.modes.size() != count && order.criterion < least) {
+    if (order.fault.empty() && order.count != count && order.criterion < least) {
       least = order.criterion;
-      fit.alternative = static_cast<int>(order.modes.size());
+      fit.alternative = static_cast<int>(order.count);
       fit.alternative_odds = std::exp(0.5 * (order.criterion - chosen));
     }
   }
@@ -213,6 +246,10 @@ ModesFit identify_modes(const FrequencyResponse& response,
   if (!(power(lines) > 0)) {
     return refused(std::move(fit), "the response is zero in the whole band");
   }
+  const std::string turned = fault_of_kind(lines, 1, certain);
+  if (!turned.empty()) {
+    return refused(std::move(fit), turned);
+  }
   Search search = searched(lines, options);
   const ModesTrial& rough = search.chosen.trial;
   const std::size_t count = rough.solution.model.terms.size();
@@ -227,8 +264,12 @@ ModesFit identify_modes(const FrequencyResponse& response,
   const ModesModel& model = rough.solution.model;
   const ModesTrial chosen =
       settle(lines, model, weights_of(lines, rough.noise, model), exactly);
-  take(lines, chosen, search.chosen.left_out, fit);
+  take(lines, chosen, search.chosen.terms, fit);
   if (fit.explained < least_explained) {
+    const std::string other = fault_of_kind(lines, 1);
+    if (!other.empty()) {
+      return refused(std::move(fit), other);
+    }
     return refused(std::move(fit),
                    fmt::format("no modes explain this response: the best fit leaves "
                                "{:.0f} % of its power, the sum of |H|^2, unexplained",
@@ -241,9 +282,8 @@ ModesFit identify_modes(const FrequencyResponse& response,
 }
 
 std::complex<double> modelled(const ModesFit& fit, double omega) {
-  ModesModel model{
-      .residual_terms = fit.residual_terms, .above = fit.above, .below = fit.below};
-  for (const auto& modes : {fit.modes, fit.unresolved}) {
+  ModesModel model{.residual_terms = fit.residual_terms, .residual = fit.residual};
+  for (const auto& modes : {fit.modes, fit.outside, fit.unresolved}) {
     for (const FittedMode& mode : modes) {
       model.terms.push_back({mode.omega, mode.zeta, 1 / mode.mode.mass});
     }

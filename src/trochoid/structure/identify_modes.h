@@ -3,6 +3,7 @@
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
 
+#include <array>
 #include <complex>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct ResponseNoise {
 /// One of the fits among which the number of modes was chosen.
 struct ModesOrder {
   std::vector<std::pair<double, double>> modes;  ///< omega [rad/s] and zeta, by omega
+  std::size_t count = 0;                         ///< of those that would be answers
   bool residual_terms = false;
   double criterion = 0.0;  ///< -2 ln L + p ln(2 n): less is better
   std::string fault;       ///< why it cannot be the answer; empty: it can
@@ -52,10 +54,10 @@ struct ModesFit {
   std::string reason;             ///< when not ok
   std::vector<FittedMode> modes;  ///< by frequency; empty when not ok
   bool residual_terms = false;
-  double below = 0.0;                   ///< L: stands for modes below the band [1/kg]
-  double above = 0.0;                   ///< U: stands for modes above the band [m/N]
-  std::vector<double> omega;            ///< of the lines fitted
-  std::vector<std::complex<double>> H;  ///< as measured
+  std::array<double, 2> residual{};  ///< U [m/N] and L [1/kg] for modes above and below
+  std::vector<FittedMode> outside;   ///< stand for modes above and below as well
+  std::vector<double> omega;         ///< of the lines fitted
+  std::vector<std::complex<double>> H;       ///< as measured
   std::vector<std::complex<double>> fitted;  ///< in the same kind
   double explained = 0.0;                    ///< 1 - sum |residual|^2 / sum |H|^2
   double rms = 0.0;  ///< sqrt(mean |residual|^2), in the unit of H

@@ -20,8 +20,6 @@ constexpr double worst_mass = 1.0 / 3;
 constexpr int least_lines_in_peak = 2;
 /// A residue turned by more than this belongs to another kind of response.
 constexpr double most_turned = 50 * std::numbers::pi / 180;
-/// How well free poles must fit for the angle of a residue to mean something.
-constexpr double well_explained = 0.8;
 
 std::string hertz(double omega) {
   return fmt::format("{:.5g} Hz", omega / unit::Hz);
@@ -56,8 +54,8 @@ int lines_in_peak(const FrequencyResponse& lines, const ModeTerm& t) {
       [&](double w) { return std::abs(w - t.omega) <= t.zeta * t.omega; }));
 }
 
-ModeFault fault_of(const FrequencyResponse& lines, const ModesSolution& solution,
-                   std::size_t r) {
+TermVerdict verdict_on(const FrequencyResponse& lines, const ModesSolution& solution,
+                       std::size_t r) {
   const ModeTerm& t = solution.model.terms[r];
   const double low = lines.omega.front();
   const double high = lines.omega.back();
@@ -65,34 +63,40 @@ ModeFault fault_of(const FrequencyResponse& lines, const ModesSolution& solution
       fmt::format("the band from {} to {}", hertz(low), hertz(high));
   if (t.omega < low || t.omega > high) {
     return {
+        TermRole::outside,
         fmt::format("no resonance lies in {}: the best fit has its resonance at {}, "
                     "where nothing was measured",
                     band, hertz(t.omega))};
   }
   if (t.zeta > most_damping) {
-    return {
-        fmt::format("no resonance lies in {}: the best fit has a damping ratio of "
-                    "{:.2g}, which makes no peak",
-                    band, t.zeta)};
+    return {TermRole::none,
+            fmt::format("no resonance lies in {}: the best fit has a damping ratio of "
+                        "{:.2g}, which makes no peak",
+                        band, t.zeta)};
   }
   if (t.A <= 0) {
-    return {fmt::format(
-        "the mode at {} has a negative mass: the response has the wrong sign. Is the "
-        "sensor against the force, or is it not a response at the point of the force?",
-        hertz(t.omega))};
-  }
-  if (solution.variance.empty() ||
-      std::sqrt(solution.variance[3 * r + 2]) > worst_mass * t.A) {
-    const std::string unknown = fmt::format(
-        "the mass of the mode at {} cannot be told from this record", hertz(t.omega));
-    const std::string why = unresolved(lines, t, band);
-    return {why.empty() ? unknown : why};
+    return {
+        TermRole::none,
+        fmt::format("the mode at {} has a negative mass: the response has the wrong "
+                    "sign. Is the sensor against the force, or is it not a response "
+                    "at the point of the force?",
+                    hertz(t.omega))};
   }
   const std::string why = unresolved(lines, t, band);
-  return {why, !why.empty()};
+  const bool known = !solution.variance.empty() &&
+                     std::sqrt(solution.variance[3 * r + 2]) <= worst_mass * t.A;
+  if (!known) {
+    return {
+        TermRole::none,
+        why.empty()
+            ? fmt::format("the mass of the mode at {} cannot be told from this record",
+                          hertz(t.omega))
+            : why};
+  }
+  return {why.empty() ? TermRole::mode : TermRole::unresolved, why};
 }
 
-std::string fault_of_kind(const FrequencyResponse& lines, int count) {
+std::string fault_of_kind(const FrequencyResponse& lines, int count, double explained) {
   const Poles poles = find_poles(lines, count, true);
   const Pole& pole = poles.pairs.front();
   const double omega = std::abs(pole.p);
@@ -100,8 +104,7 @@ std::string fault_of_kind(const FrequencyResponse& lines, int count) {
                          std::abs(pole.p.real()) < most_damping * omega;
   // A/(omega_r^2 - omega^2 + ...) has R = -i A/(2 omega_d)
   const double turned = std::arg(pole.R * Complex(0.0, 1.0));
-  if (!resonance || poles.explained < well_explained ||
-      std::abs(turned) < most_turned) {
+  if (!resonance || poles.explained < explained || std::abs(turned) < most_turned) {
     return {};
   }
   constexpr std::string_view names[] = {"receptance", "mobility", "accelerance"};

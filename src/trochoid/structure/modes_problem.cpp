@@ -13,21 +13,32 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double rank_tolerance = 1e-12;
 
+/// 1/D: the dynamic stiffness of a unit mass, without the checks of a complex division.
+Complex inverse(const ModeTerm& t, double omega) {
+  const double re = t.omega * t.omega - omega * omega;
+  const double im = 2 * t.zeta * t.omega * omega;
+  const double norm = re * re + im * im;
+  return {re / norm, -im / norm};
+}
+
+/// What the residual terms are multiplied with in M-6.
+std::array<double, 2> residual_slopes(double omega) {
+  return {1.0, -1.0 / (omega * omega)};
+}
+
 /// Derivatives of M-6 at one line, as a receptance, in the order of the parameters.
 std::vector<Complex> slopes(const ModesModel& model, double omega) {
   std::vector<Complex> out;
   out.reserve(model.size());
   for (const ModeTerm& t : model.terms) {
-    const Complex D(t.omega * t.omega - omega * omega, 2 * t.zeta * t.omega * omega);
-    const Complex G = 1.0 / D;
+    const Complex G = inverse(t, omega);
     out.push_back(-t.A * G * G * Complex(2 * t.omega, 2 * t.zeta * omega));
     out.push_back(-t.A * G * G * Complex(0, 2 * t.omega * omega));
     out.push_back(G);
   }
-  if (model.residual_terms) {
-    out.emplace_back(1.0);
-    out.emplace_back(-1.0 / (omega * omega));
-  }
+  const auto residual = residual_slopes(omega);
+  out.insert(out.end(), residual.begin(),
+             residual.begin() + static_cast<std::ptrdiff_t>(model.residual_size()));
   return out;
 }
 
@@ -48,8 +59,7 @@ struct Rows {
 struct Scaling {
   ModesModel start;
   double A = 1.0;
-  double above = 1.0;
-  double below = 1.0;
+  std::array<double, 2> residual{};
   double H = 1.0;  ///< of the weighted residuals
 };
 
@@ -70,8 +80,8 @@ Scaling scaling_of(const FrequencyResponse& lines, const LineWeights& weights,
         std::max(largest, std::abs(lines.H[i] / factor(lines.kind, lines.omega[i])));
   }
   s.H = sum > 0 ? std::sqrt(sum) : 1.0;
-  s.above = largest > 0 ? largest : 1.0;
-  s.below = s.above * lines.omega.front() * lines.omega.front();
+  const double size = largest > 0 ? largest : 1.0;
+  s.residual = {size, size * lines.omega.front() * lines.omega.front()};
   return s;
 }
 
@@ -82,9 +92,9 @@ ModesModel unscaled(const Scaling& s, std::span<const double> p) {
     model.terms[r].zeta = s.start.terms[r].zeta * std::exp(p[3 * r + 1]);
     model.terms[r].A = s.A * p[3 * r + 2];
   }
-  if (model.residual_terms) {
-    model.above = s.above * p[p.size() - 2];
-    model.below = s.below * p[p.size() - 1];
+  const std::size_t first = 3 * model.terms.size();
+  for (std::size_t k = 0; k < model.residual_size(); ++k) {
+    model.residual[k] = s.residual[k] * p[first + k];
   }
   return model;
 }
@@ -94,8 +104,8 @@ std::vector<double> scaled(const Scaling& s) {
   for (const ModeTerm& term : s.start.terms) {
     p.insert(p.end(), {1.0, 0.0, term.A / s.A});
   }
-  if (s.start.residual_terms) {
-    p.insert(p.end(), {s.start.above / s.above, s.start.below / s.below});
+  for (std::size_t k = 0; k < s.start.residual_size(); ++k) {
+    p.push_back(s.start.residual[k] / s.residual[k]);
   }
   return p;
 }
@@ -106,9 +116,8 @@ std::vector<double> chain(const Scaling& s, const ModesModel& model) {
   for (std::size_t r = 0; r < model.terms.size(); ++r) {
     out.insert(out.end(), {s.start.terms[r].omega, model.terms[r].zeta, s.A});
   }
-  if (model.residual_terms) {
-    out.insert(out.end(), {s.above, s.below});
-  }
+  out.insert(out.end(), s.residual.begin(),
+             s.residual.begin() + static_cast<std::ptrdiff_t>(model.residual_size()));
   return out;
 }
 
@@ -161,10 +170,11 @@ std::vector<double> leverages(std::span<const double> J, std::size_t n,
 std::complex<double> receptance(const ModesModel& model, double omega) {
   Complex H = 0.0;
   for (const ModeTerm& t : model.terms) {
-    H += t.A / Complex(t.omega * t.omega - omega * omega, 2 * t.zeta * t.omega * omega);
+    H += t.A * inverse(t, omega);
   }
-  if (model.residual_terms) {
-    H += model.above - model.below / (omega * omega);  // M-6
+  const auto residual = residual_slopes(omega);
+  for (std::size_t k = 0; k < model.residual_size(); ++k) {
+    H += model.residual[k] * residual[k];  // M-6
   }
   return H;
 }
@@ -188,7 +198,7 @@ std::vector<Complex> gaps(const FrequencyResponse& lines, const ModesModel& mode
 void fit_linear(const FrequencyResponse& lines, const LineWeights& weights,
                 ModesModel& model) {
   const std::size_t terms = model.terms.size();
-  const std::size_t n = terms + (model.residual_terms ? 2 : 0);
+  const std::size_t n = terms + model.residual_size();
   if (n == 0) {
     return;
   }
@@ -211,9 +221,8 @@ void fit_linear(const FrequencyResponse& lines, const LineWeights& weights,
   for (std::size_t r = 0; r < terms; ++r) {
     model.terms[r].A = fit.x[r];
   }
-  if (model.residual_terms) {
-    model.above = fit.x[n - 2];
-    model.below = fit.x[n - 1];
+  for (std::size_t k = 0; k < model.residual_size(); ++k) {
+    model.residual[k] = fit.x[terms + k];
   }
 }
 

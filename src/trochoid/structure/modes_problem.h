@@ -3,6 +3,7 @@
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/identify_modes.h>
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,11 +21,13 @@ struct ModeTerm {
 struct ModesModel {
   std::vector<ModeTerm> terms;
   bool residual_terms = false;
-  double above = 0.0;  ///< U [m/N]
-  double below = 0.0;  ///< L [1/kg]
+  std::array<double, 2> residual{};  ///< U [m/N], L [1/kg]
 
+  [[nodiscard]] std::size_t residual_size() const noexcept {
+    return residual_terms ? 2 : 0;
+  }
   [[nodiscard]] std::size_t size() const noexcept {
-    return 3 * terms.size() + (residual_terms ? 2 : 0);
+    return 3 * terms.size() + residual_size();
   }
 };
 

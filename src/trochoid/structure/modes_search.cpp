@@ -17,7 +17,9 @@ constexpr int scout_iterations = 12;
 constexpr int fit_iterations = 60;
 constexpr int most_rounds = 60;
 constexpr double roughly = 0.03;  ///< of a standard error, while modes are sought
-constexpr std::size_t most_places = 400;
+constexpr std::size_t places_of_power = 60;
+constexpr std::size_t places_everywhere = 60;
+constexpr std::size_t neighbours = 3;
 constexpr std::size_t places_tried = 2;
 constexpr std::array dampings = {0.003, 0.01, 0.03, 0.1};
 constexpr double most_damping = 0.5;
@@ -28,34 +30,78 @@ struct Place {
   double gain = 0.0;
 };
 
+/// A line as the search for places sees it.
+struct WeighedLine {
+  double omega = 0.0;
+  Complex f;                         ///< M-4, turned, its parts still to be weighted
+  double along = 0.0, across = 0.0;  ///< weights
+  double r_along = 0.0, r_across = 0.0;  ///< weighted residual
+};
+
+std::vector<WeighedLine> weighed(const FrequencyResponse& lines,
+                                 const LineWeights& weights,
+                                 const std::vector<Complex>& left) {
+  std::vector<WeighedLine> out;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const Complex r = left[i] * weights.turn[i];
+    out.push_back({.omega = lines.omega[i],
+                   .f = factor(lines.kind, lines.omega[i]) * weights.turn[i],
+                   .along = weights.along[i],
+                   .across = weights.across[i],
+                   .r_along = r.real() * weights.along[i],
+                   .r_across = r.imag() * weights.across[i]});
+  }
+  return out;
+}
+
 /// What a mode alone would take of the residual (M-17).
-Place place_at(const FrequencyResponse& lines, const LineWeights& weights,
-               const std::vector<Complex>& left, double omega, double zeta) {
+Place place_at(const std::vector<WeighedLine>& lines, double omega, double zeta) {
   double gr = 0.0;
   double gg = 0.0;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const double w = lines.omega[i];
-    const Complex g = factor(lines.kind, w) /
-                      Complex(omega * omega - w * w, 2 * zeta * omega * w) *
-                      weights.turn[i];
-    const Complex r = left[i] * weights.turn[i];
-    const double along = weights.along[i] * weights.along[i];
-    const double across = weights.across[i] * weights.across[i];
-    gr += along * g.real() * r.real() + across * g.imag() * r.imag();
-    gg += along * std::norm(g.real()) + across * std::norm(g.imag());
+  for (const WeighedLine& line : lines) {
+    const double re = omega * omega - line.omega * line.omega;
+    const double im = -2 * zeta * omega * line.omega;
+    const double norm = 1 / (re * re + im * im);
+    const double along = (re * line.f.real() - im * line.f.imag()) * norm * line.along;
+    const double across =
+        (re * line.f.imag() + im * line.f.real()) * norm * line.across;
+    gr += along * line.r_along + across * line.r_across;
+    gg += along * along + across * across;
   }
   const double A = gr / gg;
   return {.term = {omega, zeta, A}, .gain = A > 0 ? gr * A : 0.0};
 }
 
+/// Lines worth a look: those around which most is left, and some everywhere.
+std::vector<std::size_t> lines_to_try(const std::vector<WeighedLine>& lines) {
+  const std::size_t n = lines.size();
+  std::vector<double> sum(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i + 1] = sum[i] + lines[i].r_along * lines[i].r_along +
+                 lines[i].r_across * lines[i].r_across;
+  }
+  const auto around = [&](std::size_t i) {
+    return sum[std::min(i + neighbours + 1, n)] - sum[i - std::min(i, neighbours)];
+  };
+  std::vector<std::size_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return around(a) > around(b); });
+  order.resize(std::min(n, places_of_power));
+  const std::size_t step = 1 + (n - 1) / places_everywhere;
+  for (std::size_t i = 0; i < n; i += step) order.push_back(i);
+  return order;
+}
+
 /// Where one mode more would gain most, places apart from one another.
-std::vector<ModeTerm> places(const FrequencyResponse& lines, const LineWeights& weights,
+std::vector<ModeTerm> places(const FrequencyResponse& response,
+                             const LineWeights& weights,
                              const std::vector<Complex>& left) {
+  const std::vector<WeighedLine> lines = weighed(response, weights, left);
   std::vector<Place> all;
-  const std::size_t step = 1 + (lines.omega.size() - 1) / most_places;
-  for (std::size_t i = 0; i < lines.omega.size(); i += step) {
+  for (const std::size_t i : lines_to_try(lines)) {
     for (const double zeta : dampings) {
-      all.push_back(place_at(lines, weights, left, lines.omega[i], zeta));
+      all.push_back(place_at(lines, lines[i].omega, zeta));
     }
   }
   std::stable_sort(all.begin(), all.end(),
@@ -104,12 +150,16 @@ ModesModel split(ModesModel model, std::size_t r) {
   return model;
 }
 
-/// Whether all modes could be resonances of this record.
+/// Whether all modes inside the band could be resonances, and there is one.
 bool plausible(const FrequencyResponse& lines, const ModesModel& model) {
-  return std::all_of(model.terms.begin(), model.terms.end(), [&](const ModeTerm& t) {
-    return t.A > 0 && t.zeta < most_damping && t.omega > lines.omega.front() &&
-           t.omega < lines.omega.back();
-  });
+  bool any = false;
+  for (const ModeTerm& t : model.terms) {
+    if (t.omega > lines.omega.front() && t.omega < lines.omega.back()) {
+      any = true;
+      if (t.A <= 0 || t.zeta >= most_damping) return false;
+    }
+  }
+  return any;
 }
 
 /// The best of some starts after a few steps: plausible ones first.
@@ -192,6 +242,10 @@ ModesTrial with_one_more(const FrequencyResponse& lines, const ModesTrial& befor
   }
   for (std::size_t r = 0; r < known.terms.size(); ++r) {
     starts.push_back(split(known, r));
+  }
+  for (const double outside : {0.5 * lines.omega.front(), 1.5 * lines.omega.back()}) {
+    starts.push_back(known);
+    starts.back().terms.push_back({.omega = outside, .zeta = 0.03});
   }
   for (ModesModel& start : starts) {
     start.residual_terms = residual_terms;

@@ -29,7 +29,7 @@ ModesTrial settle(const FrequencyResponse& lines, const ModesModel& start,
 /// Starts are all modes anew by M-5, those found with one more where M-17 is largest,
 /// and those found with one split in two; each is fitted with the weights of the noise
 /// and with even ones, and the best of each are settled.
-/// @param before  with `count` - 1 modes; none: the response itself is the residual
+/// @param before  without modes: the response itself is the residual
 ModesTrial with_one_more(const FrequencyResponse& lines, const ModesTrial& before,
                          bool residual_terms);
 

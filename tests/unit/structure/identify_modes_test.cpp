@@ -107,8 +107,8 @@ TEST(IdentifyModes, ResidualTermsStandForModesOutsideOfTheBand) {  // [M-6]
   ASSERT_TRUE(with.ok) << with.reason;
   EXPECT_TRUE(with.residual_terms);
   expect_mode(with.modes[0], truth, 1e-7);
-  EXPECT_NEAR(with.above, 2e-8, 1e-14);
-  EXPECT_NEAR(with.below, 0.2, 1e-7);
+  EXPECT_NEAR(with.residual[0], 2e-8, 1e-14);
+  EXPECT_NEAR(with.residual[1], 0.2, 1e-7);
   const auto without = identify_modes(record, {.count = 1, .residual_terms = false});
   ASSERT_TRUE(without.ok) << without.reason;
   EXPECT_GT(without.rms, 1e3 * with.rms);
