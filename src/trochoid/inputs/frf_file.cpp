@@ -218,6 +218,18 @@ FrfFile from_table(const std::string& text, const std::string& name,
   return out;
 }
 
+/// What the function type of a set says.
+std::string function_name(int type) {
+  constexpr std::array names = {"of no type",         "time record",
+                                "auto spectrum",      "cross spectrum",
+                                "frequency response", "transmissibility",
+                                "coherence",          "auto correlation",
+                                "cross correlation",  "power spectral density"};
+  return type >= 0 && static_cast<std::size_t>(type) < names.size()
+             ? names[static_cast<std::size_t>(type)]
+             : fmt::format("function type {}", type);
+}
+
 std::string described(const Uff58& set) {
   const auto direction = [](int d) {
     constexpr std::array names = {"", "x", "y", "z"};
@@ -254,6 +266,31 @@ std::string unit_text(const Uff58& set) {
   }
 }
 
+/// What a file without a frequency response holds instead, and what would help.
+std::string without_response(const UffFile& file) {
+  if (file.sets.empty()) {
+    return fmt::format(
+        "no measured function is in this universal file{}: a frequency response is a "
+        "data set 58 (or 58b) with function type 4. Export the FRF, not the geometry",
+        file.others.empty()
+            ? std::string()
+            : fmt::format(", only {} data set{} of other kinds (the first is a {})",
+                          file.others.size(), file.others.size() == 1 ? "" : "s",
+                          file.others.front()));
+  }
+  std::string held;
+  for (const Uff58& set : file.sets) {
+    const std::string name = function_name(set.function_type);
+    if (held.find(name) == std::string::npos) {
+      held += (held.empty() ? "" : ", ") + name;
+    }
+  }
+  return fmt::format(
+      "the file holds {} measured function{} ({}), and no frequency response (data set 58 "
+      "with function type 4): export the FRF from the analyser",
+      file.sets.size(), file.sets.size() == 1 ? "" : "s", held);
+}
+
 /// The set that is meant.
 const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& problems) {
   std::vector<const Uff58*> responses;
@@ -267,11 +304,7 @@ const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& prob
     }
   }
   if (responses.empty()) {
-    problems.add(
-        1, 1,
-        fmt::format("the file holds {} data sets 58, but no frequency response "
-                    "(function type 4) among them",
-                    file.sets.size()));
+    problems.add(1, 1, without_response(file));
     return nullptr;
   }
   const auto wanted = static_cast<std::size_t>(std::max(source.dataset, 0));

@@ -13,7 +13,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 31> names = {"case.toml",
+constexpr std::array<std::string_view, 33> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -33,6 +33,8 @@ constexpr std::array<std::string_view, 31> names = {"case.toml",
                                                     "command.csv",
                                                     "bent.csv",
                                                     "modes.toml",
+                                                    "stabilisation.csv",
+                                                    "response.csv",
                                                     "actuator.toml",
                                                     "once_per_turn.csv",
                                                     "surface_location.csv",

@@ -36,6 +36,23 @@ base::Table fitted_table(const ModesResult& r) {
   if (fit.ok) {
     add("fitted_", fit.fitted);
   }
+  const std::vector<double> mif =
+      structure::mode_indicator({.kind = r.kind, .omega = fit.omega, .H = fit.H});
+  add_column(table, "mode_indicator", n, [&](std::size_t i) { return mif[i]; });
+  return table;
+}
+
+/// stabilisation.csv: poles of rising order, and how they stand.
+base::Table stabilisation_table(const ModesResult& r) {
+  base::Table table{"stabilisation.csv", {}};
+  const std::size_t n = r.poles.size();
+  add_column(table, "order", n,
+             [&](std::size_t i) { return static_cast<double>(r.poles[i].order); });
+  add_column(table, "frequency_Hz", n,
+             [&](std::size_t i) { return unit::in(r.poles[i].omega, unit::Hz); });
+  add_column(table, "damping_ratio", n, [&](std::size_t i) { return r.poles[i].zeta; });
+  add_column(table, "standing", n,
+             [&](std::size_t i) { return static_cast<double>(r.poles[i].standing); });
   return table;
 }
 
@@ -69,6 +86,17 @@ Value residual_terms_value(const ModesFit& fit) {
     return nullptr;
   }
   return Object{{"above_m_per_N", fit.residual[0]}, {"below_per_kg", fit.residual[1]}};
+}
+
+/// Resonances that the fit holds and that are no answer, with what is missing.
+Array unresolved_value(const ModesFit& fit) {
+  Array out;
+  for (std::size_t i = 0; i < fit.unresolved.size(); ++i) {
+    out.emplace_back(
+        Object{{"frequency_Hz", unit::in(fit.unresolved[i].omega, unit::Hz)},
+               {"why", fit.left_out[i]}});
+  }
+  return out;
 }
 
 /// The numbers of modes that were tried: the evidence for each, less being better.
@@ -112,9 +140,15 @@ Object result_of(const ModesResult& r) {
     add("explained", fit.explained);
     add(fmt::format("rms_{}", unit_suffix(r.kind)), fit.rms);
     add("residual_terms", residual_terms_value(fit));
+    Array outside;
+    for (const FittedMode& term : fit.outside) {
+      outside.emplace_back(unit::in(term.omega, unit::Hz));
+    }
+    add("terms_outside_Hz", std::move(outside));
     add("noise", Object{{fmt::format("floor_{}", unit_suffix(r.kind)), fit.noise.floor},
                         {"magnitude_percent", 100 * fit.noise.magnitude},
                         {"phase_deg", unit::in(fit.noise.phase, unit::deg)}});
+    add("unresolved", unresolved_value(fit));
     add("orders", orders_value(fit));
   }
   if (!r.description.empty()) {
@@ -167,7 +201,13 @@ std::string short_table(const ModesResult& r) {
           ? ", with terms for modes outside of it"
           : "",
       100 * fit.explained, fit.rms, unit_of(r.kind));
-  return text;
+  const structure::ResponseNoise& noise = fit.noise;
+  text += fmt::format("noise: a floor of {:.3g} {}", noise.floor, unit_of(r.kind));
+  if (noise.magnitude > 0 || noise.phase > 0) {
+    text += fmt::format(" and {:.2g} % of the magnitude, {:.2g} deg of phase",
+                        100 * noise.magnitude, unit::in(noise.phase, unit::deg));
+  }
+  return text + "\n";
 }
 
 }  // namespace
@@ -177,6 +217,9 @@ Answer answer_of(const ModesResult& r) {
                 .heading = r.heading,
                 .result = result_of(r),
                 .tables = {fitted_table(r)}};
+  if (!r.poles.empty()) {
+    answer.tables.push_back(stabilisation_table(r));
+  }
   if (r.fit.ok) {
     answer.short_table = short_table(r);
     answer.texts.push_back({"modes.toml", modes_toml(r)});

@@ -2,8 +2,10 @@
 
 #include <trochoid/results/answer.h>
 #include <trochoid/structure/identify_modes.h>
+#include <trochoid/structure/stabilisation.h>
 
 #include <string>
+#include <vector>
 
 namespace trochoid::results {
 
@@ -15,6 +17,7 @@ struct ModesResult {
   structure::ModeBody body = structure::ModeBody::tool;  ///< that was tapped
   structure::Axis axis = structure::Axis::x;             ///< in which direction
   structure::ModesFit fit;
+  std::vector<structure::TriedPole> poles;  ///< of the diagram of stabilisation
 };
 
 Answer answer_of(const ModesResult& result);

@@ -142,6 +142,11 @@ Variances scored(const Squares& s, Variances v, bool alike) {
       break;
     }
   }
+  // What half steps only come near to.
+  const Variances last = solved(normal_of(s, v, alike), alike);
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = last[alike ? std::min<std::size_t>(k, 1) : k] > 0 ? v[k] : 0.0;
+  }
   return v;
 }
 

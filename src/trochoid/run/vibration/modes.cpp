@@ -11,6 +11,9 @@ namespace trochoid::run {
 
 namespace {
 
+/// Orders that the diagram of stabilisation shows beyond the modes that were found.
+constexpr int orders_beyond = 6;
+
 structure::ModesOptions options_of(const inputs::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
   if (frf.residual_terms != inputs::ResidualTerms::choose) {
@@ -44,6 +47,11 @@ results::ModesResult modes(const inputs::Case& given) {
       .axis = frf.axis,
       .fit = structure::identify_modes(file.response, options_of(frf))};
   r.heading.warnings = std::move(file.notes);
+  if (r.fit.omega.size() > 1) {
+    const int highest = static_cast<int>(r.fit.modes.size()) + orders_beyond;
+    r.poles = structure::stabilisation(
+        {.kind = r.kind, .omega = r.fit.omega, .H = r.fit.H}, highest);
+  }
   r.heading.ok = r.fit.ok;
   if (!r.fit.ok) {
     r.heading.message = r.fit.reason;

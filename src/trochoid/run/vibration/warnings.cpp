@@ -47,6 +47,22 @@ void warn_modes(const inputs::Case& given, Warnings& warnings) {
   }
 }
 
+/// Two modes whose half-power widths overlap share what the response shows there.
+void warn_overlap(const structure::ModesFit& fit, Warnings& warnings) {
+  for (std::size_t r = 0; r + 1 < fit.modes.size(); ++r) {
+    const structure::FittedMode& a = fit.modes[r];
+    const structure::FittedMode& b = fit.modes[r + 1];
+    if (b.omega - a.omega < a.zeta * a.omega + b.zeta * b.omega) {
+      warnings.push_back(
+          {"modes_overlap",
+           fmt::format("The modes at {:.5g} and {:.5g} Hz lie inside each other's "
+                       "half-power widths: together they are known better than each by "
+                       "itself. Use both or none.",
+                       a.omega / unit::Hz, b.omega / unit::Hz)});
+    }
+  }
+}
+
 }  // namespace
 
 Warnings stability_warnings(const inputs::Case& given,
@@ -79,6 +95,21 @@ Warnings motion_warnings(const dynamics::SteadyState& steady) {
 }
 
 void add_modes_warnings(const structure::ModesFit& fit, Warnings& warnings) {
+  for (const std::string& why : fit.left_out) {
+    warnings.push_back(
+        {"mode_left_out",
+         fmt::format("A resonance is in the fit and not among the modes: {}.", why)});
+  }
+  if (fit.alternative > 0) {
+    warnings.push_back(
+        {"number_of_modes",
+         fmt::format(
+             "{} mode{} fit nearly as well: {} is {:.2g} times as likely. Look at "
+             "the stabilisation before trusting either.",
+             fit.alternative, fit.alternative == 1 ? "" : "s", fit.modes.size(),
+             fit.alternative_odds)});
+  }
+  warn_overlap(fit, warnings);
   for (const structure::FittedMode& m : fit.modes) {
     const std::string at = fmt::format("{:.5g} Hz", m.omega / unit::Hz);
     if (m.lines_in_peak < few_lines) {
