@@ -1,6 +1,6 @@
 """Modes and actuators, written once more: plain formulas and scipy's fits.
 
-Ids: M-1 to M-4, M-6 to M-8, M-11, M-13, M-15, M-16 of docs/theory/modes.md.
+Ids: M-1 to M-4, M-6 to M-8, M-11, M-13, M-15, M-16, M-20, M-21 of docs/theory/modes.md.
 """
 import numpy as np
 from scipy import optimize, signal
@@ -75,6 +75,26 @@ def fit_accelerance(f, H, start):
         across = 1 / np.hypot(sigma[0], sigma[2] * np.abs(model(p)))
     se = np.sqrt(np.diag(cov)).reshape(x0.shape) * x0
     return p.reshape(x0.shape) * x0, se, sigma
+
+
+def h1(force, response, starts, n, rate, window_end):
+    """H1 and coherence of blows whose pulses begin at given samples.  M-20, M-21
+
+    Blocks begin a hundredth before the pulse; what stands there is taken off. The pulse
+    ends below 3 % of the largest force; the force fades over the second length after it."""
+    lead = int(0.01 * n)
+    window = window_end ** (np.arange(n) / n)
+    ff = xx = xf = 0
+    for start in starts:
+        y = force[start - lead:start - lead + n] - force[start - lead:start].mean()
+        x = response[start - lead:start - lead + n] - response[start - lead:start].mean()
+        low = np.abs(force[start:]) < 0.03 * np.abs(force).max()
+        width = int(np.argmax(low)) + 1
+        fade = np.clip((np.arange(n) - lead - 2 * width) / width, 0, 1)
+        F = np.fft.rfft(y * window * (0.5 + 0.5 * np.cos(np.pi * fade)))
+        X = np.fft.rfft(x * window)
+        ff, xx, xf = ff + np.abs(F)**2, xx + np.abs(X)**2, xf + X * np.conj(F)
+    return np.fft.rfftfreq(n, 1 / rate), xf / ff, np.abs(xf)**2 / (ff * xx)
 
 
 def step(gain, S, P, t):

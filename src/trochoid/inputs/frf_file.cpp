@@ -3,6 +3,9 @@
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/frf_file.h>
 #include <trochoid/inputs/frf_table.h>
+#include <trochoid/inputs/mat.h>
+#include <trochoid/inputs/tap_columns.h>
+#include <trochoid/inputs/tdms.h>
 #include <trochoid/inputs/uff58.h>
 
 #include <fmt/core.h>
@@ -12,6 +15,7 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <sstream>
 
 namespace trochoid::inputs {
 
@@ -201,6 +205,11 @@ FrfFile from_table(const std::string& text, const std::string& name,
     if (!problems.lines.empty()) throw base::InputError(problems.lines);
   };
   stop();
+  if (is_tap(table.names)) {
+    FrfFile tap = tap_file(tap_columns(table), source, problems);
+    stop();
+    return tap;
+  }
   const Columns columns = find_columns(table, problems);
   stop();
   const double factor = settle_unit(columns.unit, table.names_line, columns.unit_column,
@@ -318,12 +327,24 @@ const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& prob
   return responses[wanted == 0 ? 0 : wanted - 1];
 }
 
+/// Whether there is a force in time, and no response that an analyser made of it.
+bool holds_tap(const UffFile& file) {
+  const bool response = std::any_of(
+      file.sets.begin(), file.sets.end(),
+      [](const Uff58& set) { return set.function_type == frequency_response; });
+  const std::vector<TapColumn> columns = tap_columns(file);
+  return !response && std::any_of(columns.begin(), columns.end(),
+                                  [](const auto& c) { return c.name == "force"; });
+}
+
 FrfFile from_uff(const std::string& text, const std::string& name,
                  const FrfSource& source) {
   Problems problems{name, {}};
   const UffFile file = read_uff(text, name);
   FrfFile out;
-  if (const Uff58* set = chosen(file, source, problems)) {
+  if (holds_tap(file)) {
+    out = tap_file(tap_columns(file), source, problems);
+  } else if (const Uff58* set = chosen(file, source, problems)) {
     out.description = described(*set);
     if (set->y.size() < set->promised) {
       problems.add(set->line, 1,
@@ -355,6 +376,28 @@ FrfFile from_uff(const std::string& text, const std::string& name,
   return out;
 }
 
+/// Blows in a binary file: its table must hold a force.
+FrfFile from_numbers(const NumericTable& table, const std::string& name,
+                     const FrfSource& source) {
+  Problems problems{name, {}};
+  FrfFile out = tap_file(tap_columns(table), source, problems);
+  if (!problems.lines.empty()) throw base::InputError(problems.lines);
+  out.notes.insert(out.notes.end(), table.notes.begin(), table.notes.end());
+  return out;
+}
+
+FrfFile from_tdms(const std::string& text, const std::string& name,
+                  const FrfSource& source) {
+  std::istringstream in(text);
+  return from_numbers(tdms_table(in, name), name, source);
+}
+
+FrfFile from_mat(const std::string& text, const std::string& name,
+                 const FrfSource& source) {
+  std::istringstream in(text);
+  return from_numbers(mat5_table(in, name), name, source);
+}
+
 /// A format that a response may have.
 struct Reader {
   bool (*recognises)(std::string_view);  ///< the beginning of a file
@@ -362,7 +405,8 @@ struct Reader {
 };
 
 /// All of them: the first that recognises a file reads it, and the last takes any text.
-constexpr std::array readers{Reader{is_uff, from_uff},
+constexpr std::array readers{Reader{is_uff, from_uff}, Reader{is_tdms, from_tdms},
+                             Reader{is_mat, from_mat},
                              Reader{[](std::string_view) { return true; }, from_table}};
 
 }  // namespace

@@ -124,6 +124,36 @@ Array orders_value(const ModesFit& fit) {
   return orders;
 }
 
+/// The blows of a record, and why some of them are left out.
+Array hits_value(const signal::TapResponse& tap) {
+  Array hits;
+  for (const signal::TapHit& hit : tap.hits) {
+    hits.emplace_back(
+        Object{{"time_s", hit.time},
+               {"peak_N", hit.peak},
+               {"left_out", hit.fault.empty() ? Value(nullptr) : Value(hit.fault)}});
+  }
+  return hits;
+}
+
+/// response.csv: what the blows gave, with its coherence.
+base::Table response_table(const ModesResult& r) {
+  base::Table table{"response.csv", {}};
+  const signal::TapResponse& tap = *r.tap;
+  const std::size_t n = tap.omega.size();
+  const std::string_view suffix = unit_suffix(r.kind);
+  add_column(table, "frequency_Hz", n,
+             [&](std::size_t i) { return unit::in(tap.omega[i], unit::Hz); });
+  add_column(table, fmt::format("re_{}", suffix), n,
+             [&](std::size_t i) { return tap.H[i].real(); });
+  add_column(table, fmt::format("im_{}", suffix), n,
+             [&](std::size_t i) { return tap.H[i].imag(); });
+  if (!tap.coherence.empty()) {
+    add_column(table, "coherence", n, [&](std::size_t i) { return tap.coherence[i]; });
+  }
+  return table;
+}
+
 Object result_of(const ModesResult& r) {
   const ModesFit& fit = r.fit;
   Object result{{"kind", name_of(r.kind)},
@@ -150,6 +180,12 @@ Object result_of(const ModesResult& r) {
                         {"phase_deg", unit::in(fit.noise.phase, unit::deg)}});
     add("unresolved", unresolved_value(fit));
     add("orders", orders_value(fit));
+  }
+  if (r.tap) {
+    add("hits", hits_value(*r.tap));
+    add("block_s", r.tap->block);
+    add("window_end", r.tap->window_end);
+    add("excited_to_Hz", unit::in(r.tap->excited, unit::Hz));
   }
   if (!r.description.empty()) {
     add("description", r.description);
@@ -217,6 +253,9 @@ Answer answer_of(const ModesResult& r) {
                 .heading = r.heading,
                 .result = result_of(r),
                 .tables = {fitted_table(r)}};
+  if (r.tap && !r.tap->omega.empty()) {
+    answer.tables.push_back(response_table(r));
+  }
   if (!r.poles.empty()) {
     answer.tables.push_back(stabilisation_table(r));
   }

@@ -158,6 +158,11 @@ TapResponse frequency_response(const TapRecord& record, const TapOptions& option
   out.window_end =
       options.window_end > 0 ? options.window_end : (left > died_out ? usual_end : 1.0);
   out.decay = -std::log(out.window_end) / out.block;
+  if (out.decay > 0) {
+    const double end = out.window_end;
+    out.noise_bandwidth =
+        0.5 * -std::log(end) * (1 - end * end) / ((1 - end) * (1 - end));  // M-23
+  }
   Sums sums;
   for (Block& block : blocks) {
     apply_force_window(block);

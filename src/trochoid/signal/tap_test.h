@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// From blows of an instrumented hammer in time to a frequency response.
@@ -18,6 +19,17 @@ enum class FrfEstimator {
   H1,  ///< noise of the response averages out
   H2,  ///< noise of the force does
 };
+
+/// Names of files.
+constexpr std::string_view name_of(FrfEstimator estimator) noexcept {
+  switch (estimator) {
+    case FrfEstimator::H1:
+      return "H1";
+    case FrfEstimator::H2:
+      return "H2";
+  }
+  return {};
+}
 
 struct TapOptions {
   FrfEstimator estimator = FrfEstimator::H1;
@@ -41,7 +53,8 @@ struct TapResponse {
   std::vector<double> coherence;        ///< empty after a single hit
   double block = 0.0;                   ///< [s]
   double window_end = 1.0;
-  double decay = 0.0;    ///< a of the exponential window e^{-a t} [1/s]
+  double noise_bandwidth = 1.0;  ///< lines over which the window spreads noise (M-23)
+  double decay = 0.0;            ///< a of the exponential window e^{-a t} [1/s]
   double excited = 0.0;  ///< up to where the force is within 20 dB of its most [rad/s]
 };
 
@@ -50,6 +63,8 @@ struct TapResponse {
 /// @eq  M-20  H1 = sum X F*/sum |F|^2,  H2 = sum |X|^2/sum F X*,  coherence = |sum X F*|^2
 ///            /(sum |F|^2 sum |X|^2) over the hits
 /// @eq  M-21  both channels times e^{-a t} from the hit on: H(i omega + a) is measured
+/// @eq  M-23  noise bandwidth of the window, in lines = (aT/2) (1 - e^{-2aT})/(1 -
+///            e^{-aT})^2: so many lines share their noise
 /// @src derived: least squares of either channel over the hits; the shift of the Laplace
 ///      transform
 ///

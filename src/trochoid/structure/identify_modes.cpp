@@ -34,7 +34,8 @@ constexpr double rounding = 1e-20;
 
 FrequencyResponse in_band(const FrequencyResponse& response,
                           const ModesOptions& options) {
-  FrequencyResponse lines{.kind = response.kind};
+  FrequencyResponse lines{.kind = response.kind,
+                          .noise_bandwidth = response.noise_bandwidth};
   const double to =
       options.to > 0 ? options.to : std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < response.omega.size(); ++i) {
@@ -187,10 +188,10 @@ ModesFit refused(ModesFit fit, std::string reason) {
 
 /// Fill in a fit from what was chosen.
 void take(const FrequencyResponse& lines, const ModesTrial& trial,
-          const std::vector<TermVerdict>& terms, ModesFit& fit) {
+          const std::vector<TermVerdict>& terms, double window_decay, ModesFit& fit) {
   const ModesSolution& solution = trial.solution;
   for (std::size_t r = 0; r < terms.size(); ++r) {
-    FittedMode mode = fitted_mode(solution, r);
+    FittedMode mode = fitted_mode(solution, r, window_decay);
     mode.lines_in_peak = lines_in_peak(lines, solution.model.terms[r]);
     if (terms[r].role == TermRole::mode) {
       fit.modes.push_back(mode);
@@ -264,7 +265,7 @@ ModesFit identify_modes(const FrequencyResponse& response,
   const ModesModel& model = rough.solution.model;
   const ModesTrial chosen =
       settle(lines, model, weights_of(lines, rough.noise, model), exactly);
-  take(lines, chosen, search.chosen.terms, fit);
+  take(lines, chosen, search.chosen.terms, options.window_decay, fit);
   if (fit.explained < least_explained) {
     const std::string other = fault_of_kind(lines, 1);
     if (!other.empty()) {

@@ -18,6 +18,9 @@ struct ModesOptions {
   std::optional<bool> residual_terms;
   double from = 0.0;  ///< lowest line [rad/s]
   double to = 0.0;    ///< highest line [rad/s]; 0: all
+  /// a of an exponential window e^{-a t} on force and response [1/s], H being that of
+  /// M-22; taken out of the modes.
+  double window_decay = 0.0;
 };
 
 /// The noise of a response (M-15), as standard deviations.
@@ -76,6 +79,9 @@ struct ModesFit {
 /// @eq  M-6  H(omega) = sum_r A_r/(omega_r^2 - omega^2 + 2 i zeta_r omega_r omega)
 ///           + U - L/omega^2,  m_r = 1/A_r, k_r = omega_r^2/A_r, c_r = 2 zeta_r
 ///           omega_r/A_r
+/// @eq  M-22  H_w = f(omega) H_receptance(i omega + a): the form of M-6 with the same
+///            A_r, zeta_r' omega_r' = zeta_r omega_r + a, omega_r'^2 = omega_r^2 + 2 a
+///            zeta_r omega_r + a^2
 /// @eq  M-7  min over omega_r, zeta_r, A_r, U, L of sum |f (H_model - H)|^2, each line
 ///           weighted by its noise (M-15, M-16)
 /// @src derived from M-3: real modes, residual terms optional; how many by the

@@ -276,38 +276,49 @@ void describe(const FrequencyResponse& lines, const LineWeights& weights,
   }
   solution.leverage = leverages(J, n, fit.inverse_gram);
   solution.covariance = fit.inverse_gram;
+  for (double& value : solution.covariance) {
+    value *= lines.noise_bandwidth;  // M-23
+  }
   for (std::size_t k = 0; k < n; ++k) {
     solution.variance.push_back(solution.covariance[k * n + k]);
   }
 }
 
-FittedMode fitted_mode(const ModesSolution& solution, std::size_t r) {
+FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
+                       double window_decay) {
   const ModeTerm& t = solution.model.terms[r];
-  FittedMode out{.mode = {.mass = 1 / t.A,
-                          .stiffness = t.omega * t.omega / t.A,
-                          .damping = 2 * t.zeta * t.omega / t.A},
-                 .omega = t.omega,
-                 .zeta = t.zeta};
+  const double a = window_decay;
+  const double sigma = t.zeta * t.omega - a;  // M-22
+  const double w =
+      std::sqrt(std::max(t.omega * t.omega - 2 * a * t.zeta * t.omega + a * a, 0.0));
+  FittedMode out{
+      .mode = {.mass = 1 / t.A, .stiffness = w * w / t.A, .damping = 2 * sigma / t.A},
+      .omega = w,
+      .zeta = sigma / w};
   if (solution.covariance.empty()) {
     return out;
   }
   const std::size_t n = solution.model.size();
-  const auto error = [&](double by_omega, double by_zeta, double by_A) {
-    const std::array<double, 3> g = {by_omega, by_zeta, by_A};
+  using Slopes = std::array<double, 3>;  // by omega, zeta and A of the term
+  const auto error = [&](const Slopes& g) {
     double sum = 0.0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < 3; ++b) {
-        sum += g[a] * g[b] * solution.covariance[(3 * r + a) * n + 3 * r + b];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        sum += g[i] * g[j] * solution.covariance[(3 * r + i) * n + 3 * r + j];
       }
     }
     return std::sqrt(std::max(sum, 0.0));
   };
-  const double w = t.omega;
-  out.omega_se = error(1, 0, 0);
-  out.zeta_se = error(0, 1, 0);
-  out.mass_se = error(0, 0, 1 / (t.A * t.A));
-  out.stiffness_se = error(2 * w / t.A, 0, -w * w / (t.A * t.A));
-  out.damping_se = error(2 * t.zeta / t.A, 2 * w / t.A, -2 * t.zeta * w / (t.A * t.A));
+  const Slopes by_sigma = {t.zeta, t.omega, 0};
+  const Slopes by_w = {(t.omega - a * t.zeta) / w, -a * t.omega / w, 0};
+  const double A2 = t.A * t.A;
+  out.omega_se = error(by_w);
+  out.zeta_se = error({(by_sigma[0] - out.zeta * by_w[0]) / w,
+                       (by_sigma[1] - out.zeta * by_w[1]) / w, 0});
+  out.mass_se = error({0, 0, 1 / A2});
+  out.stiffness_se = error({2 * w * by_w[0] / t.A, 2 * w * by_w[1] / t.A, -w * w / A2});
+  out.damping_se =
+      error({2 * by_sigma[0] / t.A, 2 * by_sigma[1] / t.A, -2 * sigma / A2});
   return out;
 }
 

@@ -78,7 +78,10 @@ ModesSolution fit_modes(const FrequencyResponse& lines, const LineWeights& weigh
 void describe(const FrequencyResponse& lines, const LineWeights& weights,
               ModesSolution& solution);
 
-/// @brief A fitted mode with its standard errors.
-FittedMode fitted_mode(const ModesSolution& solution, std::size_t r);
+/// @brief A fitted mode with its standard errors, an exponential window taken out (M-22).
+/// @param window_decay  [1/s]; may be more than the mode decays by: then its damping is
+///                      not positive
+FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
+                       double window_decay);
 
 }  // namespace trochoid::structure

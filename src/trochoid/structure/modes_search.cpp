@@ -217,9 +217,10 @@ ModesTrial settle(const FrequencyResponse& lines, const ModesModel& start,
     weights = weights_of(lines, noise.noise, model);
   }
   out.noise = noise.noise;
-  const auto n = static_cast<double>(2 * lines_of(lines));
+  // Lines that share their noise count for fewer (M-23).
+  const double n = static_cast<double>(2 * lines_of(lines)) / lines.noise_bandwidth;
   const auto p = static_cast<double>(model.size()) + noise.parameters;
-  out.criterion = noise.deviance + p * std::log(n);
+  out.criterion = noise.deviance / lines.noise_bandwidth + p * std::log(n);
   return out;
 }
 

@@ -1,7 +1,7 @@
 // The pages of `modes` and `actuator`: what was measured, with the fit through it.
 
 const modesKnown = ['kind', 'modes', 'lines', 'band_Hz', 'explained', 'description', 'orders',
-  'noise', 'unresolved'];
+  'noise', 'unresolved', 'hits'];
 const actuatorKnown = ['gain', 'frequency_Hz', 'damping_ratio', 'time_constants_s', 'se',
   'identifiable', 'sum_s', 'product_s2', 'start_s', 'step_um', 'half_power_frequency_Hz',
   'low_frequency_delay_s', 'rise_time_10_90_s', 'rms_um', 'explained'];
@@ -30,6 +30,7 @@ function modesPage(report) {
     ]) },
     { part: modesTable(result) },
     responseSection(report),
+    tapSection(report),
     { part: ordersSection(result) },
     stabilisationSection(report),
     { part: restSection(result, [...modesKnown, rms?.[0]]) },
@@ -70,12 +71,31 @@ function ordersSection(result) {
   const best = [...orders].sort((a, b) => a.criterion - b.criterion).slice(0, 8);
   const rows = best.map((order) => [`${order.modes}`, order.residual_terms ? 'yes' : 'no',
     number(order.criterion, 3), order.frequencies_Hz.map((f) => number(f, 4)).join(', '),
-    order.fault ? sentence(order.fault) : '']);
+    el('span', { style: 'white-space: normal' }, order.fault ? sentence(order.fault) : '')]);
   return section('orders', 'Number of modes', 'Number of modes',
     prose('The fits that were tried, likeliest first. The information criterion weighs how well the noise is ' +
       'left against the number of parameters; a difference of 10 is very strong evidence.'),
     table(['modes', 'residual terms', 'criterion above the best', 'frequencies of all terms, Hz',
       'why it is not the answer'], rows, { class: 'fits' }));
+}
+
+/** The blows of a record in time: which are used, and how well they agree. */
+function tapSection(report) {
+  const { hits } = report.result;
+  if (!Array.isArray(hits)) return null;
+  const rows = hits.map((hit, i) => [`${i + 1}`, number(hit.time_s, 5), number(hit.peak_N, 3),
+    hit.left_out ? sentence(hit.left_out) : 'used']);
+  const t = tableNamed(report, 'response.csv');
+  const coherence = t && columnNamed(t, 'coherence');
+  const x = coherence && columnNamed(t, 'frequency_Hz');
+  const chart = coherence ? figure({ key: 'coherence', x, label: 'frequency', unit: 'Hz',
+    caption: zoomHint + thinned(t) }) : null;
+  return { part: section('hits', 'Hammer blows', 'Blows',
+    table(['', 'time, s', 'peak force, N', ''], rows, { class: 'fits' }),
+    prose(coherence ? 'Coherence: the fraction of the response that the force explains, the same in all blows. It ' +
+      'falls where noise reigns, at antiresonances among others.' : 'One blow has no coherence.'),
+    chart?.element), draw: () => chart?.draw([{ label: 'coherence', unit: '', height: 150,
+    range: () => [0, 1.03], series: [{ name: '', values: coherence, color: '--s1' }] }]) };
 }
 
 /** Poles of rising order over frequency: modes stand in columns, noise does not. */

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <complex>
 #include <utility>
 
 namespace trochoid::run {
@@ -36,6 +37,29 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
           .dataset = frf.dataset};
 }
 
+namespace {
+
+/// The response that blows in time give, in the form of M-22.
+structure::FrequencyResponse response_of(const signal::TapResponse& tap,
+                                         structure::ResponseKind kind) {
+  structure::FrequencyResponse out{.kind = kind,
+                                   .omega = tap.omega,
+                                   .H = tap.H,
+                                   .noise_bandwidth = tap.noise_bandwidth};
+  for (std::size_t i = 0; i < tap.omega.size(); ++i) {
+    const double omega = tap.omega[i];
+    const std::complex<double> ratio =
+        std::complex<double>(0, omega) / std::complex<double>(tap.decay, omega);
+    const int times = static_cast<int>(kind);  // of the time derivative: 0, 1 or 2
+    for (int k = 0; k < times; ++k) {
+      out.H[i] *= ratio;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
   inputs::FrfFile file = inputs::read_frf(frf_source(frf));
@@ -44,9 +68,20 @@ results::ModesResult modes(const inputs::Case& given) {
       .kind = file.response.kind,
       .description = std::move(file.description),
       .body = frf.body,
-      .axis = frf.axis,
-      .fit = structure::identify_modes(file.response, options_of(frf))};
+      .axis = frf.axis};
   r.heading.warnings = std::move(file.notes);
+  structure::ModesOptions options = options_of(frf);
+  if (file.tap) {
+    r.tap = signal::frequency_response(*file.tap, frf.tap);
+    add_tap_warnings(*r.tap, r.heading.warnings);
+    options.window_decay = r.tap->decay;
+    file.response = response_of(*r.tap, r.kind);
+  }
+  if (r.tap && !r.tap->fault.empty()) {
+    r.fit.reason = r.tap->fault;
+  } else {
+    r.fit = structure::identify_modes(file.response, options);
+  }
   if (r.fit.omega.size() > 1) {
     const int highest = static_cast<int>(r.fit.modes.size()) + orders_beyond;
     r.poles = structure::stabilisation(

@@ -94,6 +94,38 @@ Warnings motion_warnings(const dynamics::SteadyState& steady) {
                    steady.motion.last_change)}};
 }
 
+void add_tap_warnings(const signal::TapResponse& tap, Warnings& warnings) {
+  for (const signal::TapHit& hit : tap.hits) {
+    if (!hit.fault.empty()) {
+      warnings.push_back(
+          {"hit_left_out",
+           fmt::format("The hit at {:.4g} s is left out: {}.", hit.time, hit.fault)});
+    }
+  }
+  if (!tap.fault.empty()) {
+    return;
+  }
+  warnings.push_back(
+      {"hammer_band",
+       fmt::format(
+           "Lines above {:.4g} Hz are left out: the force of the hammer is more "
+           "than 20 dB down there. A harder tip excites more.",
+           tap.excited / unit::Hz)});
+  if (tap.decay > 0) {
+    warnings.push_back(
+        {"exponential_window",
+         fmt::format(
+             "The response still rings at the end of its blocks of {:.3g} s: an "
+             "exponential window takes it to {:.3g} %. Its damping is taken out "
+             "of the modes.",
+             tap.block, 100 * tap.window_end)});
+  }
+  if (tap.coherence.empty()) {
+    warnings.push_back(
+        {"one_hit", "One hit has no coherence: strike three times and more."});
+  }
+}
+
 void add_modes_warnings(const structure::ModesFit& fit, Warnings& warnings) {
   for (const std::string& why : fit.left_out) {
     warnings.push_back(
