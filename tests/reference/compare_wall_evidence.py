@@ -18,7 +18,7 @@ import program
 HEIGHTS = np.linspace(0.25, 2.75, 11)
 PLACES = np.array([20.07, 25.13, 30.11, 34.97, 40.03])
 FORMS = ("none", "offset", "tilt", "curvature")
-OFFSET, FORM = 10.0, 3.0  # um, one standard deviation beforehand
+OFFSET, FORM = 10.0, 5.0  # um, one standard deviation beforehand
 
 
 def columns(x, h, form):

@@ -9,6 +9,7 @@ namespace trochoid::base {
 namespace {
 
 constexpr std::size_t problems_shown = 50;
+constexpr std::size_t longest_problem = 2000;
 /// Of problems that differ in their place only.
 constexpr std::size_t equals_shown = 5;
 
@@ -24,7 +25,8 @@ std::string joined(const std::vector<std::string>& problems) {
   std::map<std::string_view, std::size_t> alike;
   for (const std::string& problem : problems) {
     if (shown < problems_shown && alike[without_place(problem)]++ < equals_shown) {
-      text += problem + '\n';
+      text += problem.substr(0, longest_problem);
+      text += problem.size() > longest_problem ? "...\n" : "\n";
       ++shown;
     }
   }

@@ -1,6 +1,7 @@
 #include <trochoid/cli/deliver.h>
 
 #include <trochoid/base/error.h>
+#include <trochoid/base/printable.h>
 #include <trochoid/cli/progress_line.h>
 #include <trochoid/report/report.h>
 #include <trochoid/results/folder.h>
@@ -23,6 +24,14 @@ std::filesystem::path result_folder(const Options& options,
   return folder;
 }
 
+void complain(const std::string& text) noexcept {
+  try {
+    std::fputs(base::printable(text).c_str(), stderr);
+  } catch (...) {  // no memory for it: as it stands
+    std::fputs(text.c_str(), stderr);
+  }
+}
+
 int deliver(const results::Answer& answer, const Options& options) {
   const std::filesystem::path folder = result_folder(options, answer.command);
   const std::string summary = results::summary_json(answer);
@@ -38,11 +47,11 @@ int deliver(const results::Answer& answer, const Options& options) {
     fmt::print("{}\n", summary);
   } else if (!options.quiet) {
     if (!answer.heading.title.empty()) {
-      fmt::print("{}\n\n", answer.heading.title);
+      fmt::print("{}\n\n", base::printable(answer.heading.title));
     }
-    fmt::print("{}", answer.short_table);
+    fmt::print("{}", base::printable(answer.short_table));
     for (const base::Warning& warning : answer.heading.warnings) {
-      fmt::print("warning [{}]: {}\n", warning.code, warning.message);
+      fmt::print("warning [{}]: {}\n", warning.code, base::printable(warning.message));
     }
     fmt::print("\nresults: {}\n", folder.string());
     if (!options.no_report) {
@@ -50,7 +59,7 @@ int deliver(const results::Answer& answer, const Options& options) {
     }
   }
   if (!answer.heading.ok) {
-    fmt::print(stderr, "trochoid {}: {}\n", answer.command, answer.heading.message);
+    complain(fmt::format("trochoid {}: {}\n", answer.command, answer.heading.message));
   }
   return answer.heading.ok ? answered : no_answer;
 }

@@ -14,4 +14,8 @@ std::filesystem::path result_folder(const Options& options, const std::string& c
 /// @return exit code
 int deliver(const results::Answer& answer, const Options& options);
 
+/// @brief Put it on the standard error, without what a terminal would obey; where that
+/// cannot be written, nowhere.
+void complain(const std::string& text) noexcept;
+
 }  // namespace trochoid::cli

@@ -2,6 +2,8 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
 #include <trochoid/cli/commands.h>
+#include <trochoid/cli/deliver.h>
+#include <trochoid/inputs/findings.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/results/provenance.h>
 
@@ -14,7 +16,9 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -38,6 +42,13 @@ void keep_freed_memory() {
   constexpr int kept = 32 << 20;  // bytes; glibc takes no more for the first
   mallopt(M_MMAP_THRESHOLD, kept);
   mallopt(M_TRIM_THRESHOLD, kept);
+#endif
+}
+
+/// A file that may not grow is an error to be told, not a signal to die of.
+void report_full_disks() {
+#if defined(SIGXFSZ)
+  std::signal(SIGXFSZ, SIG_IGN);
 #endif
 }
 
@@ -148,6 +159,23 @@ std::unique_ptr<trochoid::numerics::ThreadLimit> thread_limit() {
   return std::make_unique<trochoid::numerics::ThreadLimit>(threads);
 }
 
+/// Named with the nearest one there is, before anything else is looked at.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first.starts_with('-')) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands({})) {
+    names.push_back(sub->get_name());
+  }
+  if (std::find(names.begin(), names.end(), first) == names.end()) {
+    throw trochoid::base::InputError(
+        {fmt::format("trochoid {}: there is no such command{}", first,
+                     trochoid::inputs::suggestion(first, names))});
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"What a milling cutter with runout really does.", "trochoid"};
   app.footer(
@@ -170,8 +198,11 @@ int run(int argc, char** argv) {
         [&, command] { chosen = [&, command] { return answer(command, options); }; });
   }
   CLI::App* check = app.add_subcommand(
-      "check", "Read a case file and its measurements and name every mistake in them");
+      "check",
+      "Read a case file and its measurements and name every mistake in them; "
+      "nothing is written");
   add_common(*check, options);
+  add_output(*check, options);
   check->callback([&] { chosen = [&] { return trochoid::cli::check(options); }; });
   std::string wanted;
   const std::vector<std::string> names(trochoid::base::names<Command>.begin(),
@@ -193,6 +224,7 @@ int run(int argc, char** argv) {
   report->add_option("FOLDER", options.file, "The result folder")->required();
   report->add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
   report->callback([&] { chosen = [&] { return trochoid::cli::report(options); }; });
+  refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -207,16 +239,17 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     keep_freed_memory();
+    report_full_disks();
     const int code = run(argc, argv);
     if (std::fflush(stdout) != 0) {
       throw std::runtime_error("what is printed cannot be written");
     }
     return code;
   } catch (const trochoid::base::InputError& error) {
-    fmt::print(stderr, "{}", error.what());
+    trochoid::cli::complain(error.what());
     return trochoid::cli::wrong_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "trochoid: {}\n", error.what());
+    trochoid::cli::complain(fmt::format("trochoid: {}\n", error.what()));
     const bool full = std::ferror(stdout) != 0;  // the place is wrong, not the program
     return full ? trochoid::cli::wrong_input : trochoid::cli::our_bug;
   }

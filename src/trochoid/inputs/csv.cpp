@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <trochoid/base/error.h>
 #include <trochoid/inputs/csv.h>
 
 #include <algorithm>
@@ -66,6 +67,9 @@ bool LineReader::fill() {
   end_ -= begin_;
   begin_ = 0;
   in_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
+  if (in_.bad()) {
+    throw base::InputError({"the disk does not give a file that is read to its end"});
+  }
   const auto got = static_cast<std::size_t>(in_.gcount());
   end_ += got;
   return got > 0;

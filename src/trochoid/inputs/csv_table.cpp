@@ -53,7 +53,9 @@ std::ifstream open_table(const std::filesystem::path& file, const std::string& l
   }
   std::ifstream in(file, std::ios::binary);
   if (!in) refuse("the file cannot be opened for reading");
-  if (in.peek() == std::ifstream::traits_type::eof()) {
+  const bool empty = in.peek() == std::ifstream::traits_type::eof();
+  if (in.bad()) refuse("the file cannot be read");
+  if (empty) {
     throw base::InputError({fmt::format(
         "{}:1:1: the file is empty: a row of names, for example {}, and rows of "
         "numbers are needed",

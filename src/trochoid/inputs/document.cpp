@@ -1,4 +1,7 @@
 #include <trochoid/base/error.h>
+#include <trochoid/base/nesting.h>
+#include <trochoid/base/printable.h>
+#include <trochoid/base/read_text.h>
 #include <trochoid/inputs/document.h>
 #include <trochoid/inputs/number_text.h>
 
@@ -6,8 +9,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace trochoid::inputs {
@@ -80,12 +81,11 @@ std::string content_of(const std::filesystem::path& file) {
   if (std::filesystem::file_size(file, error) > largest_case_file) {
     refuse(start, "larger than 16 MiB; this cannot be a case file");
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) {
+  auto text = base::read_text(file);
+  if (!text) {
     refuse(start, "the file cannot be read; look at its permissions");
   }
-  return text;
+  return *std::move(text);
 }
 
 constexpr std::size_t longest_value_shown = 60;
@@ -104,18 +104,6 @@ std::string shortened(std::string text, std::size_t longest = longest_value_show
     text += "...";
   }
   return text;
-}
-
-/// A message is one line, whatever character it complains of.
-std::string one_line(std::string_view text) {
-  std::string line;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    line += code >= 0x20 && code != 0x7F ? std::string(1, c)
-            : c == '\n'                  ? "\\n"
-                                         : fmt::format("\\x{:02X}", code);
-  }
-  return line;
 }
 
 struct Printer {
@@ -172,6 +160,10 @@ std::string to_string(const Node& node) {
 
 Node parse_file(const std::filesystem::path& file) {
   const std::string text = content_of(file);
+  if (const auto deep = base::too_deep(text)) {
+    refuse({file.string(), deep->line, deep->column},
+           std::string(deep->why) + "; no case file needs that");
+  }
   try {
     const toml::table table = toml::parse(text, file.string());
     Node root = converted_table(file.string(), table);
@@ -179,9 +171,9 @@ Node parse_file(const std::filesystem::path& file) {
     return root;
   } catch (const toml::parse_error& error) {
     const std::string_view why = error.description();
-    refuse(
-        location(file.string(), error.source()),
-        fmt::format("not valid TOML: {}{}", shortened(one_line(why), 200), hint(why)));
+    refuse(location(file.string(), error.source()),
+           fmt::format("not valid TOML: {}{}", shortened(base::one_line(why), 200),
+                       hint(why)));
   }
 }
 

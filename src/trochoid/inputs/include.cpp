@@ -12,6 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t longest_chain = 16;
+
 void mark_inherited(Node& node) {
   node.inherited = true;
   if (auto* members = std::get_if<Members>(&node.value)) {
@@ -53,6 +55,12 @@ Node load(const fs::path& file, std::vector<fs::path>& open) {
     throw base::InputError(
         {fmt::format("{}: include = {}: a cycle; this file is being included already",
                      to_string(include->where), to_string(*include))});
+  }
+  if (open.size() > longest_chain) {
+    throw base::InputError(
+        {fmt::format("{}: include = {}: a chain of more than {} files; let one file "
+                     "include what several share",
+                     to_string(include->where), to_string(*include), longest_chain)});
   }
   open.push_back(canonical);
   Node base = load(included, open);

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
+#include <trochoid/base/read_text.h>
 #include <trochoid/results/json.h>
 
 namespace trochoid::results {
@@ -78,9 +77,8 @@ bool is_our_summary(std::string_view text) {
 }
 
 bool holds_our_summary(const std::filesystem::path& folder) {
-  std::ifstream file(folder / "summary.json", std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return is_our_summary(text);
+  const auto text = base::read_text(folder / "summary.json");
+  return text && is_our_summary(*text);
 }
 
 }  // namespace trochoid::results

@@ -6,10 +6,12 @@
 #include <cerrno>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "file_names.h"
+#include "staged_folder.h"
 
 namespace trochoid::results {
 
@@ -17,29 +19,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw std::runtime_error("cannot write " + path.string() + ": " + reason);
-}
-
 [[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
-  fail(path, error.message());
+  cannot_write(path, error.message());
 }
 
-/// @param put  puts the content into the stream
+/// @param shown  where the file is going to be, for messages
+/// @param put    puts the content into the stream
 template <class Put>
-void write_with(const fs::path& path, const Put& put) {
+void write_with(const fs::path& path, const fs::path& shown, const Put& put) {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
   put(file);
   file.close();
   if (!file) {
-    fail(path, errno != 0 ? std::generic_category().message(errno)
-                          : "not everything could be written");
+    cannot_write(shown, errno != 0 ? std::generic_category().message(errno)
+                                   : "not everything could be written");
   }
+  flush_to_disk(path, shown);
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-  write_with(path, [&](std::ostream& file) {
+void write_file(const fs::path& path, const fs::path& shown, const std::string& text) {
+  write_with(path, shown, [&](std::ostream& file) {
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
   });
 }
@@ -56,54 +56,69 @@ void check_names(const Answer& answer) {
   }
 }
 
+/// A report that was never finished, of a program that was killed.
+constexpr std::string_view unfinished_report = ".report.html.new-";
+
+void remove_unfinished_reports(const fs::path& folder, const PlaceLock& lock) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (lock.held() &&
+        entry->path().filename().string().starts_with(unfinished_report)) {
+      std::error_code ignored;
+      fs::remove(entry->path(), ignored);
+    }
+  }
+}
+
 /// Nothing that somebody else put there may disappear with an old answer.
 void check_replaceable(const fs::path& folder) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(folder, error);
   if (status.type() == fs::file_type::not_found) return;
   if (error) fail(folder, error);
-  if (!fs::is_directory(status)) fail(folder, "it exists and is not a folder");
+  if (!fs::is_directory(status)) cannot_write(folder, "it exists and is not a folder");
   if (fs::is_empty(folder, error)) return;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (entry.symlink_status().type() != fs::file_type::regular || !is_ours(name)) {
-      fail(folder, "it holds '" + name +
+    if (entry.symlink_status().type() != fs::file_type::regular ||
+        !(is_ours(name) || name.starts_with(unfinished_report))) {
+      cannot_write(folder,
+                   "it holds '" + name +
                        "', which trochoid did not write; move that away, or name "
                        "another folder with -o");
     }
   }
   if (error) fail(folder, error);
   if (!holds_our_summary(folder)) {
-    fail(folder,
-         "it exists, but has no summary.json of trochoid; name another folder with -o");
+    cannot_write(
+        folder,
+        "it exists, but has no summary.json of trochoid; name another folder with -o");
   }
 }
 
-void write_files(const fs::path& folder, const Answer& answer,
+/// @param place  where the folder is going to be, for messages
+void write_files(const fs::path& folder, const fs::path& place, const Answer& answer,
                  const std::string& report_html) {
-  write_file(folder / "case.toml", answer.heading.case_toml);
+  const auto put = [&](const std::string& name, const std::string& text) {
+    write_file(folder / name, place / name, text);
+  };
+  put("case.toml", answer.heading.case_toml);
   for (const auto& table : answer.tables) {
-    write_with(folder / table.file,
+    write_with(folder / table.file, place / table.file,
                [&](std::ostream& file) { write_csv(file, table); });
   }
-  for (const auto& text : answer.texts) write_file(folder / text.file, text.text);
-  if (!report_html.empty()) write_file(folder / "report.html", report_html);
-  write_file(folder / "summary.json", summary_json(answer));
+  for (const auto& text : answer.texts) put(text.file, text.text);
+  if (!report_html.empty()) put("report.html", report_html);
+  put("summary.json", summary_json(answer));
 }
 
-/// Put `fresh` in the place of `folder`, or leave everything as it was.
-void put_in_place(const fs::path& fresh, const fs::path& folder, const fs::path& old) {
+/// Absolute, without a slash at the end.
+fs::path place_of(const fs::path& folder) {
   std::error_code error;
-  fs::rename(folder, old, error);
-  const bool replaces = !error;
-  if (error && error != std::errc::no_such_file_or_directory) fail(folder, error);
-  fs::rename(fresh, folder, error);
-  if (error) {
-    const std::error_code reason = error;
-    if (replaces) fs::rename(old, folder, error);
-    fail(folder, reason);
-  }
-  if (replaces) fs::remove_all(old, error);
+  fs::path place = fs::weakly_canonical(fs::absolute(folder), error);
+  if (error) fail(folder, error);
+  return place.has_filename() ? place : place.parent_path();
 }
 
 }  // namespace
@@ -111,43 +126,42 @@ void put_in_place(const fs::path& fresh, const fs::path& folder, const fs::path&
 void write_folder(const fs::path& folder, const Answer& answer,
                   const std::string& report_html) {
   check_names(answer);
-  std::error_code error;
-  fs::path place = fs::weakly_canonical(fs::absolute(folder), error);
-  if (error) fail(folder, error);
-  if (!place.has_filename()) place = place.parent_path();
+  const fs::path place = place_of(folder);
   check_replaceable(place);
+  std::error_code error;
+  fs::create_directories(place.parent_path(), error);
+  if (error) fail(place.parent_path(), error);
+  StagedFolder fresh(place);
+  write_files(fresh.path(), place, answer, report_html);
+  const PlaceLock lock(place);
+  check_replaceable(place);  // it may have changed meanwhile
+  fresh.put_in_place(lock);
+}
 
-  const fs::path parent = place.parent_path();
-  fs::create_directories(parent, error);
-  if (error) fail(parent, error);
-  const std::string sibling =
-      fmt::format(".{}.{}", place.filename().string(), ::getpid());
-  const fs::path fresh = parent / (sibling + ".new");
-  const fs::path old = parent / (sibling + ".old");
-  fs::remove_all(fresh, error);
-  if (!fs::create_directory(fresh, error)) fail(fresh, error);
-  try {
-    write_files(fresh, answer, report_html);
-    put_in_place(fresh, place, old);
-  } catch (...) {
-    fs::remove_all(fresh, error);
-    throw;
+void mend_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) {
+    const fs::path place = place_of(folder);
+    mend(place, PlaceLock(place));
   }
 }
 
 void write_report(const fs::path& folder, const std::string& report_html) {
   static_cast<void>(read_summary(folder));
+  const PlaceLock lock(place_of(folder));
+  remove_unfinished_reports(folder, lock);
   const fs::path report = folder / "report.html";
-  const fs::path fresh = folder / fmt::format(".report.{}.new", ::getpid());
+  const fs::path fresh = folder / fmt::format("{}{}", unfinished_report, ::getpid());
   std::error_code error;
   try {
-    write_file(fresh, report_html);
+    write_file(fresh, report, report_html);
     fs::rename(fresh, report, error);
     if (error) fail(report, error);
   } catch (...) {
     fs::remove(fresh, error);
     throw;
   }
+  flush_to_disk(folder, report);
 }
 
 }  // namespace trochoid::results

@@ -27,6 +27,9 @@ void write_csv(std::ostream& out, const base::Table& table);
 void write_folder(const std::filesystem::path& folder, const Answer& answer,
                   const std::string& report_html);
 
+/// @brief Put back the folder that a killed program had only set aside, if it is missing.
+void mend_folder(const std::filesystem::path& folder);
+
 /// @brief Put a new report.html into a folder of ours; everything else stays as it is.
 /// @throws base::InputError when it is not a folder of ours
 /// @throws std::runtime_error when it cannot be written

@@ -1,5 +1,6 @@
 #include <trochoid/results/json.h>
 
+#include <trochoid/base/nesting.h>
 #include <trochoid/base/overloaded.h>
 #include <trochoid/results/number.h>
 
@@ -114,6 +115,10 @@ std::string json_quoted(std::string_view text) {
 }
 
 Value json_value(std::string_view text) {
+  if (const auto deep = base::too_deep(text)) {
+    throw std::invalid_argument("line " + std::to_string(deep->line) + ": " +
+                                std::string(deep->why));
+  }
   try {
     return value_of(Json::parse(text));
   } catch (const Json::exception& error) {

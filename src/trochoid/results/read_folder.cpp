@@ -1,4 +1,6 @@
 #include <trochoid/base/error.h>
+#include <trochoid/base/nesting.h>
+#include <trochoid/base/read_text.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/results/json.h>
 
@@ -6,8 +8,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -26,12 +26,13 @@ namespace {
 
 std::string read_file(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) refuse(path, "no such file");
-  if (!fs::is_regular_file(path, error)) refuse(path, "not a regular file");
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.good() && !file.eof()) refuse(path, "cannot be read");
-  return text;
+  // Not through a link: what it points to is nothing that we wrote.
+  const auto type = fs::symlink_status(path, error).type();
+  if (type == fs::file_type::not_found) refuse(path, "no such file");
+  if (type != fs::file_type::regular) refuse(path, "not a regular file");
+  auto text = base::read_text(path);
+  if (!text) refuse(path, "cannot be read");
+  return *std::move(text);
 }
 
 std::string_view cut_at(std::string_view& text, char mark) {
@@ -41,6 +42,8 @@ std::string_view cut_at(std::string_view& text, char mark) {
   return head;
 }
 
+constexpr std::size_t longest_shown = 40;
+
 /// An empty cell is a number that does not exist.
 double read_number(std::string_view cell, const std::string& place) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -48,7 +51,8 @@ double read_number(std::string_view cell, const std::string& place) {
   const char* end = cell.data() + cell.size();
   const auto read = std::from_chars(cell.data(), end, value);
   if (read.ec != std::errc{} || read.ptr != end) {
-    throw base::InputError({place + "'" + std::string(cell) + "' is not a number"});
+    throw base::InputError({place + "'" + std::string(cell.substr(0, longest_shown)) +
+                            "' is not a number"});
   }
   return value;
 }
@@ -76,6 +80,7 @@ base::Table read_table(const fs::path& path) {
 }
 
 std::string title_of(const std::string& case_toml) {
+  if (base::too_deep(case_toml)) return {};
   try {
     return toml::parse(case_toml)["title"].value_or(std::string{});
   } catch (const toml::parse_error&) {
@@ -127,6 +132,7 @@ std::string read_summary(const fs::path& folder) {
 }
 
 Answer read_folder(const fs::path& folder) {
+  mend_folder(folder);
   Answer answer;
   take_summary(folder / "summary.json", answer);
   answer.heading.case_toml = read_file(folder / "case.toml");

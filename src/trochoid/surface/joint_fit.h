@@ -49,7 +49,7 @@ struct JointFit {
 /// @brief How far a form of the wall may reach that is no work of the cut: one standard
 /// deviation [m].
 inline constexpr double usual_offset = 10e-6;
-inline constexpr double usual_form = 3e-6;
+inline constexpr double usual_form = 5e-6;
 
 /// @brief What the readings say, whichever explanation is true.
 ///

@@ -1,0 +1,52 @@
+#include <trochoid/base/printable.h>
+
+#include <cstddef>
+
+namespace trochoid::base {
+
+namespace {
+
+void append_escaped(std::string& text, unsigned char code) {
+  static constexpr std::string_view digits = "0123456789ABCDEF";
+  text += "\\x";
+  text += digits[code >> 4U];
+  text += digits[code & 0xFU];
+}
+
+/// U+0080 to U+009F, in UTF-8: a lead byte and one of 80 to 9F.
+bool is_c1(std::string_view text, std::size_t at) noexcept {
+  return static_cast<unsigned char>(text[at]) == 0xC2U && at + 1 < text.size() &&
+         (static_cast<unsigned char>(text[at + 1]) & 0xE0U) == 0x80U;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto code = static_cast<unsigned char>(text[i]);
+    if (is_c1(text, i)) {
+      append_escaped(out, static_cast<unsigned char>(text[++i]));
+    } else if ((code < 0x20U && text[i] != '\n' && text[i] != '\t') || code == 0x7FU) {
+      append_escaped(out, code);
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+std::string one_line(std::string_view text) {
+  std::string out;
+  for (const char c : printable(text)) {
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace trochoid::base
