@@ -81,7 +81,7 @@ def h1(force, response, starts, n, rate, window_end):
     """H1 and coherence of blows whose pulses begin at given samples.  M-20, M-21
 
     Blocks begin a hundredth before the pulse; what stands there is taken off. The pulse
-    ends below 3 % of the largest force; the force fades over the second length after it."""
+    ends below 3 % of the largest force; the force is kept for four times its width and fades over four more."""
     lead = int(0.01 * n)
     window = window_end ** (np.arange(n) / n)
     ff = xx = xf = 0
@@ -90,7 +90,7 @@ def h1(force, response, starts, n, rate, window_end):
         x = response[start - lead:start - lead + n] - response[start - lead:start].mean()
         low = np.abs(force[start:]) < 0.03 * np.abs(force).max()
         width = int(np.argmax(low)) + 1
-        fade = np.clip((np.arange(n) - lead - 2 * width) / width, 0, 1)
+        fade = np.clip((np.arange(n) - lead - 5 * width) / (4 * width), 0, 1)
         F = np.fft.rfft(y * window * (0.5 + 0.5 * np.cos(np.pi * fade)))
         X = np.fft.rfft(x * window)
         ff, xx, xf = ff + np.abs(F)**2, xx + np.abs(X)**2, xf + X * np.conj(F)

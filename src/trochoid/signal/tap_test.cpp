@@ -21,6 +21,7 @@ constexpr double died_out = 0.01;
 /// Force below this part of its largest power does not excite: 20 dB.
 constexpr double least_power = 0.01;
 constexpr std::size_t least_lines = 8;
+constexpr std::size_t kept_widths = 4;  ///< of the pulse, by the force window
 
 double mean_of(std::span<const double> values) {
   double sum = 0.0;
@@ -54,9 +55,10 @@ Block block_of(const TapRecord& record, const Hit& hit, std::size_t length) {
           .pulse_end = hit.pulse.end - hit.start};
 }
 
-/// Zero after the pulse, with half a cosine over its length between.
+/// Zero after the pulse. Filters against aliases ring on for some widths of it: these are
+/// kept, and half a cosine of as many leads to zero.
 void apply_force_window(Block& block) {
-  const std::size_t width = block.pulse_end - block.pulse_begin;
+  const std::size_t width = kept_widths * (block.pulse_end - block.pulse_begin);
   const std::size_t from = block.pulse_end + width;
   for (std::size_t i = from; i < block.force.size(); ++i) {
     const double x = static_cast<double>(i - from) / static_cast<double>(width);

@@ -18,6 +18,7 @@ constexpr double most_damping = 0.5;  ///< more has no peak worth the name
 /// Relative standard error: at three of them a mass might as well be infinite.
 constexpr double worst_mass = 1.0 / 3;
 constexpr int least_lines_in_peak = 2;
+constexpr double least_part = 0.01;  ///< of the response, that a resonance makes
 /// A residue turned by more than this belongs to another kind of response.
 constexpr double most_turned = 50 * std::numbers::pi / 180;
 
@@ -26,8 +27,8 @@ std::string hertz(double omega) {
 }
 
 /// Why a resonance cannot be resolved; empty: it can.
-std::string unresolved(const FrequencyResponse& lines, const ModeTerm& t,
-                       const std::string& band) {
+std::string unresolved(const FrequencyResponse& lines, const ModesModel& model,
+                       const ModeTerm& t, const std::string& band) {
   const double from = t.omega * (1 - t.zeta);
   const double to = t.omega * (1 + t.zeta);
   if (from < lines.omega.front() || to > lines.omega.back()) {
@@ -42,6 +43,14 @@ std::string unresolved(const FrequencyResponse& lines, const ModeTerm& t,
         "the resonance at {} is {} wide, and {} of the measured lines "
         "lies in it: at least {} are needed, so measure longer",
         hertz(t.omega), hertz(2 * t.zeta * t.omega), count, least_lines_in_peak);
+  }
+  const double peak = t.A / (2 * t.zeta * t.omega * t.omega);
+  const double part = peak / std::abs(receptance(model, t.omega));
+  if (part < least_part) {
+    return fmt::format(
+        "the resonance at {} makes {:.2g} % of the response at its own peak: less than "
+        "filters, windows and mounting leave in any record",
+        hertz(t.omega), 100 * part);
   }
   return {};
 }
@@ -82,7 +91,7 @@ TermVerdict verdict_on(const FrequencyResponse& lines, const ModesSolution& solu
                     "at the point of the force?",
                     hertz(t.omega))};
   }
-  const std::string why = unresolved(lines, t, band);
+  const std::string why = unresolved(lines, solution.model, t, band);
   const bool known = !solution.variance.empty() &&
                      std::sqrt(solution.variance[3 * r + 2]) <= worst_mass * t.A;
   if (!known) {

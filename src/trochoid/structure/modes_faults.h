@@ -12,7 +12,7 @@ int lines_in_peak(const FrequencyResponse& lines, const ModeTerm& term);
 /// What a term is, if not an answer.
 enum class TermRole {
   mode,        ///< an answer
-  unresolved,  ///< a resonance, but too narrow for the lines or cut off by the band
+  unresolved,  ///< too narrow for the lines, too faint, or cut off by the band
   outside,     ///< it stands for what vibrates outside of the band
   none,        ///< nothing that a fit may hold
 };

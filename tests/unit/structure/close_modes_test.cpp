@@ -90,6 +90,21 @@ TEST(CloseModes, AModeWithTooFewLinesIsNotLeftOutInSilence) {
               1e-12 * std::abs(fit.fitted[100]));
 }
 
+TEST(CloseModes, ARippleOfAFewThousandthsIsNoMode) {
+  auto record = made::response({mode_of(900, 0.02, 0.5)}, ResponseKind::receptance,
+                               {300, 2000, 2}, {.fraction = 1e-4});
+  const auto ripple = mode_of(1500, 0.03, 2000.0);
+  for (std::size_t i = 0; i < record.omega.size(); ++i) {
+    record.H[i] += receptance(ripple, record.omega[i]);
+  }
+  const auto fit = identify_modes(record, {});
+  ASSERT_EQ(fit.modes.size(), 1U) << found(fit);
+  ASSERT_EQ(fit.unresolved.size(), 1U) << found(fit);
+  EXPECT_NEAR(fit.unresolved[0].omega / Hz, 1500, 10);
+  EXPECT_NE(fit.left_out[0].find("% of the response at its own peak"),
+            std::string::npos);
+}
+
 TEST(CloseModes, TheNoiseIsRecognised) {  // [M-15]
   const std::vector<Mode> truth = {mode_of(700, 0.03, 1.0)};
   const auto with = [&](made::Noise noise) {

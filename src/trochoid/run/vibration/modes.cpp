@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <complex>
 #include <utility>
 
@@ -14,6 +15,9 @@ namespace {
 
 /// Orders that the diagram of stabilisation shows beyond the modes that were found.
 constexpr int orders_beyond = 6;
+
+/// Lines below the first of this coherence are left out where no band is given.
+constexpr double least_coherence = 0.5;
 
 structure::ModesOptions options_of(const inputs::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
@@ -58,6 +62,16 @@ structure::FrequencyResponse response_of(const signal::TapResponse& tap,
   return out;
 }
 
+/// The lowest line that the hits agree on [rad/s]; 0: nobody knows.
+double first_coherent(const signal::TapResponse& tap) {
+  const auto at =
+      std::find_if(tap.coherence.begin(), tap.coherence.end(),
+                   [](double coherence) { return coherence >= least_coherence; });
+  return at == tap.coherence.end()
+             ? 0.0
+             : tap.omega[static_cast<std::size_t>(at - tap.coherence.begin())];
+}
+
 }  // namespace
 
 results::ModesResult modes(const inputs::Case& given) {
@@ -75,6 +89,9 @@ results::ModesResult modes(const inputs::Case& given) {
     r.tap = signal::frequency_response(*file.tap, frf.tap);
     add_tap_warnings(*r.tap, r.heading.warnings);
     options.window_decay = r.tap->decay;
+    if (frf.band.empty()) {
+      options.from = first_coherent(*r.tap) * (1 - 1e-12);
+    }
     file.response = response_of(*r.tap, r.kind);
   }
   if (r.tap && !r.tap->fault.empty()) {
