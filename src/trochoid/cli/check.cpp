@@ -40,6 +40,9 @@ int check(const Options& options) {
   const inputs::Case given = inputs::read_case(options.file, std::nullopt);
   std::vector<std::string> problems;
   std::string found;
+  for (const base::Warning& note : given.notes) {
+    found += fmt::format("warning [{}]: {}\n", note.code, note.message);
+  }
   for (const inputs::Measurement& measurement : given.measurements) {
     try {
       const signal::Record record = inputs::read_record(measurement);

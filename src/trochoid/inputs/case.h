@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/base/command.h>
+#include <trochoid/base/warning.h>
 #include <trochoid/force/law.h>
 #include <trochoid/force/setup.h>
 #include <trochoid/identification/identify.h>
@@ -157,8 +158,9 @@ struct Case {
   std::vector<Measurement> measurements;
   Identify identify;
   Plan plan;
-  MachineTables machine;      ///< of other commands
-  std::string as_understood;  ///< TOML with every default filled in
+  MachineTables machine;             ///< of other commands
+  std::vector<base::Warning> notes;  ///< values that are hardly meant
+  std::string as_understood;         ///< TOML with every default filled in
 };
 
 using base::Command;

@@ -1,5 +1,6 @@
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/tables.h>
+#include <trochoid/inputs/usual_values.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -59,6 +60,18 @@ std::string meaning_of(const Key& key) {
                      fmt::join(key.only.values, "\"`, `\""), key.meaning);
 }
 
+std::string usual_table() {
+  std::string text =
+      "\n## Ordinary values\n\nA value outside these is taken, with the warning "
+      "`unusual_value`: most are a slip of the unit. What lies outside the ranges of the "
+      "tables above is refused.\n\n| key | from | to |\n|---|---|---|\n";
+  for (const UsualValue& usual : usual_values()) {
+    text += fmt::format("| `{}` | {:g} | {:g} |\n", usual.key, usual.range.low,
+                        usual.range.high);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe_case_file() {
@@ -93,7 +106,7 @@ std::string describe_case_file() {
     }
     table.describe(0, row);
   }
-  return text;
+  return text + usual_table();
 }
 
 }  // namespace trochoid::inputs

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/warning.h>
 #include <trochoid/inputs/document.h>
 
 #include <map>
@@ -22,6 +23,7 @@ struct Findings {
   std::map<std::string, Location> places;
   std::set<std::string> wrong;  ///< paths with a problem of their own
   std::vector<Problem> problems;
+  std::vector<base::Warning> notes;  ///< accepted, but hardly meant
 };
 
 /// @brief Add a problem and remember that the key cannot be relied upon.

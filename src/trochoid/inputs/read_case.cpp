@@ -279,6 +279,7 @@ Case read_case(const fs::path& file, std::optional<Command> command,
     throw base::InputError(lines(findings));
   }
   c.file = file;
+  c.notes = std::move(findings.notes);
   for (std::size_t i = 0; i < c.measurements.size(); ++i) {
     auto& name = tables.measurements[i].file;
     name = renamed(name, c.measurements[i].file, result_folder);

@@ -1,4 +1,5 @@
 #include <trochoid/inputs/read_value.h>
+#include <trochoid/inputs/usual_values.h>
 
 #include <fmt/core.h>
 
@@ -50,9 +51,29 @@ struct Reader {
     } else if (!contains(key.range, *value)) {
       refuse(at, entry, "out of range");
     } else {
+      note_if_unusual(at, *value);
       return *value * unit.factor;
     }
     return std::nullopt;
+  }
+  /// Once for a key, whatever the length of its list.
+  void note_if_unusual(const Node& at, double value) const {
+    const Range* usual = usual_range(path);
+    if (usual == nullptr || contains(*usual, value)) {
+      return;
+    }
+    const std::string start = path + " = ";
+    const auto same = [&](const base::Warning& note) {
+      return note.message.find(": " + start) != std::string::npos;
+    };
+    if (std::none_of(findings.notes.begin(), findings.notes.end(), same)) {
+      findings.notes.push_back(
+          {"unusual_value",
+           fmt::format(
+               "{}: {}{}: ordinary are {:g} to {:g} {} ({}); is the unit right?",
+               to_string(at.where), start, shown_value(key.name, at), usual->low,
+               usual->high, unit.symbol, key.meaning)});
+    }
   }
   [[nodiscard]] bool is_word() const {
     const auto* text = std::get_if<std::string>(&node.value);

@@ -1,3 +1,4 @@
+#include <trochoid/base/units.h>
 #include <trochoid/structure/identify_modes.h>
 #include <trochoid/structure/modes_faults.h>
 #include <trochoid/structure/modes_search.h>
@@ -215,6 +216,19 @@ void take(const FrequencyResponse& lines, const ModesTrial& trial,
   fit.rms = std::sqrt(solution.rss / static_cast<double>(lines.omega.size()));
 }
 
+/// Which mode has less damping than the exponential window adds; empty: none.
+std::string without_damping(const ModesFit& fit) {
+  for (const FittedMode& mode : fit.modes) {
+    if (!(mode.mode.damping > 0)) {
+      return fmt::format(
+          "the damping of the mode at {:.5g} Hz cannot be told from that of the "
+          "exponential window: take longer blocks, or a weaker window",
+          mode.omega / unit::Hz);
+    }
+  }
+  return {};
+}
+
 /// Another number of modes that is nearly as likely.
 void add_alternative(const Search& search, ModesFit& fit) {
   const double chosen = search.chosen.trial.criterion;
@@ -266,6 +280,10 @@ ModesFit identify_modes(const FrequencyResponse& response,
   const ModesTrial chosen =
       settle(lines, model, weights_of(lines, rough.noise, model), exactly);
   take(lines, chosen, search.chosen.terms, options.window_decay, fit);
+  const std::string undamped = without_damping(fit);
+  if (!undamped.empty()) {
+    return refused(std::move(fit), undamped);
+  }
   if (fit.explained < least_explained) {
     const std::string other = fault_of_kind(lines, 1);
     if (!other.empty()) {

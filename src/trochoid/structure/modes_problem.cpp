@@ -294,8 +294,8 @@ FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
   FittedMode out{
       .mode = {.mass = 1 / t.A, .stiffness = w * w / t.A, .damping = 2 * sigma / t.A},
       .omega = w,
-      .zeta = sigma / w};
-  if (solution.covariance.empty()) {
+      .zeta = w > 0 ? sigma / w : 0.0};
+  if (solution.covariance.empty() || w == 0) {
     return out;
   }
   const std::size_t n = solution.model.size();

@@ -204,6 +204,12 @@ TEST(IdentifyModes, RefusesAPeakThatIsCutOff) {
                  "half-power points");
 }
 
+TEST(IdentifyModes, RefusesLessDampingThanTheWindowAdds) {  // [M-22]
+  const Mode truth = mode_of(900, 0.02, 0.5);               // decays by 113 1/s
+  expect_refused(made({truth}, ResponseKind::receptance, {300, 1500, 1}),
+                 {.window_decay = 200}, "exponential window");
+}
+
 TEST(IdentifyModes, RefusesAPeakBetweenTwoLines) {
   const Mode truth = mode_of(905, 0.001, 0.5);
   expect_refused(made({truth}, ResponseKind::receptance, {300, 1500, 10}), {},

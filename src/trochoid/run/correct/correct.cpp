@@ -22,8 +22,9 @@ std::string headline(const correction::BeforeAfter& cuts) {
 
 results::CorrectResult correct(const inputs::Case& given, bool controller,
                                const Progress& progress) {
-  results::CorrectResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood}};
+  results::CorrectResult r{.heading = {.title = given.title,
+                                       .warnings = given.notes,
+                                       .case_toml = given.as_understood}};
   r.heading.ok = false;
   const auto problem = correction_problem(given, controller, r.heading.warnings);
   r.options = problem.options;

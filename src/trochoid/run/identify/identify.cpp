@@ -248,6 +248,7 @@ struct Identification {
   IdentifyResult answer() {
     r.heading.title = given.title;
     r.heading.case_toml = given.as_understood;
+    r.heading.warnings = given.notes;
     r.edge_length = given.setup.edge_length;
     progress("reading the measurements");
     measured = measured_runs(given, r.heading.warnings);

@@ -321,6 +321,7 @@ struct Planning {
   PlanResult answer() {
     r.heading.title = given.title;
     r.heading.case_toml = given.as_understood;
+    r.heading.warnings = given.notes;
     r.turns = given.plan.turns;
     r.samples_per_rev = given.plan.samples_per_rev;
     r.diameter = given.setup.cutter.profile.D;

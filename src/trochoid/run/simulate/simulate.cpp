@@ -84,7 +84,9 @@ results::SimulateResult simulate(const inputs::Case& given) {
                             ? force::representative_height(setup)
                             : sampling.edge_heights.front();
   results::SimulateResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
+      .heading = {.title = given.title,
+                  .warnings = given.notes,
+                  .case_toml = given.as_understood},
       .phi = sampled_angles(sampling),
       .Omega = setup.cut.Omega,
       .closed_form_mean = force::closed_form_mean(setup, given.law),

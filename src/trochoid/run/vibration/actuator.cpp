@@ -17,12 +17,13 @@ inputs::StepSource step_source(const inputs::StepTables& step) {
 
 results::ActuatorResult actuator(const inputs::Case& given) {
   inputs::StepFile file = inputs::read_step(step_source(*given.machine.step));
-  results::ActuatorResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
-      .record = std::move(file.record),
-      .command = std::move(file.command)};
+  results::ActuatorResult r{.heading = {.title = given.title,
+                                        .warnings = given.notes,
+                                        .case_toml = given.as_understood},
+                            .record = std::move(file.record),
+                            .command = std::move(file.command)};
   r.fit = structure::identify_actuator(r.record);
-  r.heading.warnings = std::move(file.notes);
+  base::add(r.heading.warnings, std::move(file.notes));
   r.heading.ok = r.fit.ok;
   if (!r.fit.ok) {
     r.heading.message = r.fit.reason;

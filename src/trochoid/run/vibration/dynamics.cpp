@@ -25,7 +25,9 @@ MotionResult failed(MotionResult r, std::string why) {
 
 MotionResult result_of(const inputs::Case& given, const MotionProblem& problem) {
   const double D = problem.setup.cutter.profile.D;
-  MotionResult r{.heading = {.title = given.title, .case_toml = given.as_understood},
+  MotionResult r{.heading = {.title = given.title,
+                             .warnings = given.notes,
+                             .case_toml = given.as_understood},
                  .system = problem.system,
                  .steps_per_tooth = problem.grid.steps_per_tooth,
                  .engagement = chip::tooth_arc(problem.setup.cut.engagement, D, D / 2),
@@ -74,7 +76,7 @@ MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
     std::string why = chatter_message(r.steady->motion, r.linear_growth);
     return failed(std::move(r), std::move(why));
   }
-  r.heading.warnings = motion_warnings(*r.steady);
+  base::add(r.heading.warnings, motion_warnings(*r.steady));
   r.walls = dynamics::surface_location(problem, r.steady->motion,
                                        dynamics::wall_heights(problem.setup));
   r.heading.message = fmt::format(

@@ -77,13 +77,14 @@ double first_coherent(const signal::TapResponse& tap) {
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
   inputs::FrfFile file = inputs::read_frf(frf_source(frf));
-  results::ModesResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
-      .kind = file.response.kind,
-      .description = std::move(file.description),
-      .body = frf.body,
-      .axis = frf.axis};
-  r.heading.warnings = std::move(file.notes);
+  results::ModesResult r{.heading = {.title = given.title,
+                                     .warnings = given.notes,
+                                     .case_toml = given.as_understood},
+                         .kind = file.response.kind,
+                         .description = std::move(file.description),
+                         .body = frf.body,
+                         .axis = frf.axis};
+  base::add(r.heading.warnings, std::move(file.notes));
   structure::ModesOptions options = options_of(frf);
   if (file.tap) {
     r.tap = signal::frequency_response(*file.tap, frf.tap);

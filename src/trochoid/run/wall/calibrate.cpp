@@ -41,20 +41,21 @@ results::CalibrateResult calibrate(const inputs::Case& given,
   };
   MeasuredWall wall = measured_wall(given);
   tell("Fitting the coefficients");
-  results::CalibrateResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
-      .calibration =
-          surface::calibrate(wall_setting(given), wall.readings, wall.datum,
-                             wall_fit(given), [&] { tell("Looking for runout"); }),
-      .law = given.law,
-      .edge_length = given.setup.edge_length,
-      .order = given.setup.runout.order,
-      .teeth = given.setup.cutter.teeth()};
+  results::CalibrateResult r{.heading = {.title = given.title,
+                                         .warnings = given.notes,
+                                         .case_toml = given.as_understood},
+                             .calibration = surface::calibrate(
+                                 wall_setting(given), wall.readings, wall.datum,
+                                 wall_fit(given), [&] { tell("Looking for runout"); }),
+                             .law = given.law,
+                             .edge_length = given.setup.edge_length,
+                             .order = given.setup.runout.order,
+                             .teeth = given.setup.cutter.teeth()};
   r.readings = std::move(wall.readings);
   r.skipped = wall.counts.skipped;
   r.repeats = wall.counts.repeats;
   r.repeatability = wall.counts.repeatability();
-  r.heading.warnings = std::move(wall.notes);
+  base::add(r.heading.warnings, std::move(wall.notes));
   r.datum = r.calibration.datum;
   if (!r.calibration.ok) {
     r.heading.ok = false;

@@ -263,6 +263,7 @@ struct WallPlanning {
   PlanWallResult answer() {
     r.heading.title = given.title;
     r.heading.case_toml = given.as_understood;
+    r.heading.warnings = given.notes;
     trial.setting = wall_setting(given);
     trial.setting.bodies = bodies_of(given, given.setup.cut.a_p);
     trial.feedback = wall_feedback(given);

@@ -57,12 +57,13 @@ results::SurfaceResult surface(const inputs::Case& given, const Progress& progre
     }
   };
   tell("Solving the wall");
-  results::SurfaceResult r{
-      .heading = {.title = given.title, .case_toml = given.as_understood},
-      .diameter = given.setup.cutter.profile.D,
-      .a_p = given.setup.cut.a_p,
-      .cutter = wall_cutter(given.machine),
-      .wall = wall_plate(given.machine)};
+  results::SurfaceResult r{.heading = {.title = given.title,
+                                       .warnings = given.notes,
+                                       .case_toml = given.as_understood},
+                           .diameter = given.setup.cutter.profile.D,
+                           .a_p = given.setup.cut.a_p,
+                           .cutter = wall_cutter(given.machine),
+                           .wall = wall_plate(given.machine)};
   const surface::Setting setting = wall_setting(given);
   cut(
       given, setting, [&] { tell("Cutting"); }, r);

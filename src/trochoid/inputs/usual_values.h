@@ -1,0 +1,22 @@
+#pragma once
+
+#include <trochoid/inputs/schema.h>
+
+#include <span>
+#include <string_view>
+
+namespace trochoid::inputs {
+
+/// @brief What milling ordinarily has; beyond it a slip of the unit is likely.
+struct UsualValue {
+  std::string_view key;  ///< `table.key`
+  Range range;           ///< in the unit of the key
+};
+
+/// @brief The one list of them, in the order of the case file.
+std::span<const UsualValue> usual_values();
+
+/// @brief Of a path like `tool.teeth` or `measurement[1].cut.spindle_rpm`; null: none.
+const Range* usual_range(std::string_view path);
+
+}  // namespace trochoid::inputs
