@@ -125,6 +125,7 @@ static void set_config(TrochoidControllerConfig* config, const TrochoidHal* hal,
   config->speed_change = s->set_speed_change;
   config->index_turns = s->set_index_turns;
   config->position_tol_rev = s->set_position_tol_turns;
+  config->wrap_rev = s->set_wrap_turns;
   config->recovery =
       s->set_recover != 0.0 ? TROCHOID_RECOVER_BY_TURNS : TROCHOID_RECOVER_BY_ENABLE;
   config->good_turns = (int)s->set_good_turns;

@@ -16,7 +16,7 @@ typedef struct TrochoidHalSettings {
   double set_lower_um, set_upper_um, set_start_um, set_slew_um_per_s;
   double set_lead_s, set_phase_turns, set_period_s, set_fade_s, set_ramp_s;
   double set_min_rps, set_max_rps, set_speed_change;
-  double set_index_turns, set_position_tol_turns;
+  double set_index_turns, set_position_tol_turns, set_wrap_turns;
   double set_recover, set_good_turns;
   double set_feed_um, set_exponent, set_least_force;
 } TrochoidHalSettings;

@@ -46,6 +46,7 @@ param rw float min_rps = 1.0 "Slowest speed, turns per second";
 param rw float max_rps = 100.0 "Fastest speed, turns per second";
 param rw float speed_change = 0.1 "Part by which the speed may leave that of the start";
 param rw float index_turns = 1.5 "Turns without index pulse: lost";
+param rw float wrap_turns = 0.0 "Turns after which the position begins anew in the midst of a turn, as 4294967.296 of an int32 at 1000 counts; 0: never";
 param rw float position_tol_turns = 0.1 "By how much position may leave speed and index";
 param rw bit recover "Run again by itself after good_turns; otherwise enable must go off and on";
 param rw s32 good_turns = 1 "Turns in order before a run";
@@ -99,6 +100,7 @@ FUNCTION(_) {
   s.set_speed_change = speed_change;
   s.set_index_turns = index_turns;
   s.set_position_tol_turns = position_tol_turns;
+  s.set_wrap_turns = wrap_turns;
   s.set_recover = recover;
   s.set_good_turns = good_turns;
   s.set_feed_um = feed_um;

@@ -70,6 +70,7 @@ TrochoidControllerConfig any_config(Random& random) {
   c.speed_change = between(random, 0.01, 1.0);
   c.index_turns = between(random, 1.3, 5.0);
   c.position_tol_rev = between(random, 0.01, 0.25);
+  c.wrap_rev = one_in(random, 3) != 0 ? scaled(random, 2.0, 1e9) : 0.0;
   c.recovery = one_in(random, 2);
   c.good_turns = std::uniform_int_distribution<int>(1, 3)(random);
   return c;
@@ -98,6 +99,10 @@ struct Spindle {
     in.index = std::floor(turns) != std::floor(before) ? 1 : 0;
     in.speed_rps = speed;
     in.gain = 1.0;
+    for (int n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {  // together beyond the window
+      in.cosine_m[n] = 0.3 * (c.upper_m - c.lower_m) * std::cos(n + 0.1 * turns);
+      in.sine_m[n] = 0.3 * (c.upper_m - c.lower_m) * std::sin(3 * n + 0.2 * turns);
+    }
     in.dt_s = c.period_s;
     in.enable = 1;
     return in;
@@ -105,7 +110,7 @@ struct Spindle {
 };
 
 void spoil(TrochoidControllerInput& in, Random& random) {
-  switch (random() % 9) {
+  switch (random() % 10) {
     case 0:
       in.position_rev = nasty(random);
       break;
@@ -130,6 +135,9 @@ void spoil(TrochoidControllerInput& in, Random& random) {
       break;
     case 7:
       in.enable = 0;
+      break;
+    case 8:
+      in.cosine_m[random() % TROCHOID_WAVE_HARMONICS] = nasty(random);
       break;
     default:
       in.inhibit = one_in(random, 2);

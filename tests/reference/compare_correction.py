@@ -26,7 +26,23 @@ def cases():
         yield {"rho": rho, "engagement": way, "law": law, "shape": shape, "factor": factor,
                "marks": len(rho) if all_marks else 1, "R": R, "ae": AE, "ap": 1.0,
                "ft": 0.05, "Omega": 1200 * np.pi / 30, "width": WIDTH, "phi": PHI,
-               "act": ACT, "table": TABLE, "ks": 1.5e7, "cs": 60.0, "Ts": 5e-4}
+               "act": ACT, "table": TABLE, "ks": 1.5e7, "cs": 60.0, "Ts": 5e-4,
+               "more": law is LAWS[1] and all_marks}
+
+
+def learning():
+    """A model that is off, what is measured turn by turn, and the waves that are learnt."""
+    chance = np.random.default_rng(5)
+    centred = lambda a: a - a.mean(axis=0)
+    S = centred(chance.normal(0, 0.2, (4, 6)))
+    real = S + 0.2 * centred(chance.normal(0, 0.2, (4, 6)))
+    d = centred(np.array([0.3, -0.1, -0.25, 0.02]))
+    estimator = correction.Estimator(S.copy(), 0.3, 0.01, 0.85, 0.7)
+    v, waves = [d], []  # the first turn begins in its midst and is not learnt from
+    for _ in range(25):
+        v.append(d + real @ estimator.u + centred(chance.normal(0, 0.01, 4)))
+        waves.append(estimator.turn(v[-1]).copy())
+    return {"S": S.tolist(), "v": [each.tolist() for each in v]}, np.array(waves)
 
 
 def motion(case, arc):
@@ -44,8 +60,9 @@ class Compared(unittest.TestCase):
     def setUpClass(cls):
         cls.cases = list(cases())
         done = subprocess.run([os.environ["CORRECTION_NUMBERS"]], check=True, text=True,
-                              input=json.dumps(cls.cases), capture_output=True)
-        cls.found = json.loads(done.stdout)
+                              input=json.dumps(cls.cases + [learning()[0]]),
+                              capture_output=True)
+        *cls.found, cls.waves = json.loads(done.stdout)
 
     def each(self):
         self.assertEqual(len(self.found), len(self.cases))
@@ -87,6 +104,46 @@ class Compared(unittest.TestCase):
                           atol=2e-7)
             elif cut["shape"] == "square":
                 self.assertNotIn("in_time", found)
+
+    def few(self):
+        for cut, X, found in self.each():
+            if cut["more"]:
+                yield cut, X, found
+
+    def test_least_chip_differences(self):  # [R-7] [R-8] [R-30]
+        for cut, _, found in self.few():
+            for (rms, bound), axes in zip(np.reshape(found["axes"], (2, 2)), (False, True)):
+                ours = correction.least_chip_rms(cut["rho"], cut["arc"], 3, axes)
+                self.near([rms, bound], ours, cut, rtol=1e-6, atol=1e-11)
+
+    def test_own_forces(self):  # [R-26] of own_force
+        theta = np.linspace(0, correction.TURN, 20001)
+        for cut, X, found in self.few():
+            for j, own in enumerate(found["own"]):
+                alone = dict(cut, rho=cut["rho"])
+                h = correction.chip(theta, j, X, cut["ft"], cut["rho"], cut["arc"], cut["marks"])
+                law, at = cut["law"], theta - j * correction.TURN / len(cut["rho"])
+                t, r = (law["k" + s] * np.where(h > 0, h, 1) ** (1 - law["m" + s]) * (h > 0)
+                        * cut["ap"] for s in "tr")
+                self.near(own, np.max(np.abs(np.sin(at) * t - np.cos(at) * r)), alone, rtol=3e-4)
+
+    def test_spindle_speed(self):  # [R-32] [R-33]
+        seen = 0
+        for cut, X, found in self.few():
+            if found.get("part") == 1:
+                seen += 1
+                phi, speed, torque = np.array(found["spindle"]).T
+                f = cut["ft"] * len(cut["rho"])
+                self.near(speed, correction.spindle_speed(X, phi, f, cut["Omega"]), cut,
+                          rtol=1e-6)
+                self.near(torque, correction.inertia_torque(X, phi, f, cut["Omega"], 1e-3), cut,
+                          rtol=1e-4, atol=1e-5)
+        self.assertGreater(seen, 2)
+
+    def test_waves_that_are_learnt(self):  # [L-9] [L-10] [L-11]
+        _, ours = learning()
+        self.assertEqual(len(self.waves), len(ours))
+        np.testing.assert_allclose(self.waves, ours, rtol=1e-6, atol=1e-9)
 
     def test_ratio(self):  # [R-20]
         # for a law of one exponent the ratio undoes the law

@@ -5,7 +5,8 @@ instead of quadrature, the motion as a plain function of the spindle angle, the 
 solving its linear equations. Units: mm, N, s, rad; k0 in N/mm^(2-m). Forces on the tool,
 teeth numbered in order of passage.
 
-Ids: R-1, R-3 to R-6, R-11 to R-14, R-20 of docs/theory/correction.md.
+Ids: R-1, R-3 to R-8, R-11 to R-14, R-20, R-29, R-30, R-32, R-33 of docs/theory/correction.md, L-7 to L-12 of
+controller.md.
 """
 import numpy as np
 
@@ -140,3 +141,111 @@ def lead(act, Ts):
 def ratio(F1, F2, ft, m):
     r = (F1 / F2) ** (1 / (1 - m))
     return ft * (r - 1) / (r + 1)  # R-20
+
+
+def differences(X, cut, count=4001):
+    """v_j: the peak of each flute over their mean, less 1.  L-9"""
+    p = flutes(X, cut, count)[:, 0]
+    return p / p.mean() - 1
+
+
+def chip_equations(rho, arc, n_max, second_axis, count=181):
+    """A and e_0 of the chip differences, one row for each tooth and angle.  R-7 R-8"""
+    N = len(rho)
+    x = levels(rho)
+    theta = arc[0] + (arc[1] - arc[0]) * (np.arange(count) + 0.5) / count
+    rows, right = [], []
+    for j in range(N):
+        phi = j * TURN / N + theta
+        columns = []
+        for weight in ([np.sin(theta), np.cos(theta)] if second_axis else [np.sin(theta)]):
+            for n in range(1, n_max + 1):
+                if n % N:
+                    columns += [(wave(n * phi) - wave(n * (phi - TURN / N))) * weight
+                                for wave in (np.cos, np.sin)]
+        rows.append(np.column_stack(columns))
+        right.append(np.full(count, x[j] - x[(j - 1) % N]))
+    return np.vstack(rows), np.concatenate(right)
+
+
+def least_chip_rms(rho, arc, n_max, second_axis):
+    """Root mean square that is left at best, and a bound below it: the part of e_0 that is
+    orthogonal to every column, by the singular value decomposition.  R-30"""
+    A, e = chip_equations(rho, arc, n_max, second_axis)
+    x = np.linalg.lstsq(A, e, rcond=1e-9)[0]
+    U, s, _ = np.linalg.svd(A, full_matrices=False)
+    U = U[:, s > 1e-9 * s[0]]
+    normal = e - U @ (U.T @ e)
+    size = np.linalg.norm(normal)
+    return (np.linalg.norm(e - A @ x) / np.sqrt(len(e)),
+            normal @ e / size / np.sqrt(len(e)) if size > 1e-12 else 0.0)
+
+
+def broyden(J, s, change):
+    """R-29"""
+    return J + np.outer(change - J @ s, s) / (s @ s)
+
+
+def spindle_speed(X, phi, f, Omega, d=1e-5):
+    """Speed that stands in for a motion, from when the tool is where.  R-32
+
+    X: motion of the table [mm], f: feed a turn [mm]. The tool is at v t - (table's X = 0);
+    that the chips are those of X means v t = f phi/2 pi - X."""
+    v = f * Omega / TURN
+    time = lambda angle: (f * angle / TURN - X(angle)) / v
+    return 2 * d / (time(phi + d) - time(phi - d))
+
+
+def inertia_torque(X, phi, f, Omega, J, d=1e-4):
+    """J dOmega/dt = J Omega dOmega/dphi.  R-33 without the cut"""
+    speed = lambda angle: spindle_speed(X, angle, f, Omega)
+    return J * speed(phi) * (speed(phi + d) - speed(phi - d)) / (2 * d)
+
+
+class Estimator:
+    """Recursive least squares of how waves change the flutes.  L-10 L-11
+
+    In units of the wave's scale; written with matrices, one for each flute."""
+
+    def __init__(self, S, trust, noise, forgetting, rate):
+        N, m = S.shape
+        self.theta = np.hstack([np.zeros((N, 1)), S])
+        self.most = np.array([1.0] + [trust**2 * np.mean(S**2)] * m)
+        self.P = np.diag(self.most)
+        self.R, self.rate = noise**2, rate
+        slow = 1 - 0.05 * (1 - forgetting)
+        self.L = np.diag([forgetting**-0.5] + [slow**-0.5] * m)
+        self.u = np.zeros(m)
+
+    def turn(self, v):
+        x = np.concatenate([[1.0], self.u])
+        g = self.P @ x / (self.R + x @ self.P @ x)
+        self.theta += np.outer(v - self.theta @ x, g)
+        self.P = self.L @ (self.P - np.outer(g, x @ self.P)) @ self.L
+        shrink = np.sqrt(np.minimum(1, self.most / np.diag(self.P)))
+        self.P = self.P * np.outer(shrink, shrink)
+        S = self.theta[:, 1:]
+        G = S @ S.T
+        G = G + 1e-4 * np.trace(G) / len(G) * np.eye(len(G)) + 1e-12 * np.eye(len(G))
+        self.u = self.u - self.rate * S.T @ np.linalg.solve(G, self.theta @ x)
+        return self.u
+
+
+def changed_tooth(W, e):
+    """Which tooth explains a change best, how well, and by how much it changed.  L-12"""
+    product = W.T @ e
+    square = np.sum(W * W, axis=0)
+    explained = product**2 / (square * (e @ e))
+    i = int(np.argmax(explained))
+    return i, explained[i], product[i] / square[i]
+
+
+def wave(a, b, alpha):
+    """What is added to the table at an angle in turns.  L-7"""
+    n = np.arange(1, len(a) + 1)
+    return np.cos(TURN * np.outer(alpha, n)) @ a + np.sin(TURN * np.outer(alpha, n)) @ b
+
+
+def unwrapped(angle, change, W):
+    """L-8"""
+    return angle + (change - W * np.round(change / W))

@@ -1,9 +1,11 @@
 // What the library says of the cases that compare_correction.py sends, as JSON.
 #include <trochoid/base/units.h>
 #include <trochoid/correction/command.h>
+#include <trochoid/correction/estimator.h>
 #include <trochoid/correction/ratio.h>
 #include <trochoid/correction/rigid_cut.h>
 #include <trochoid/correction/shapes.h>
+#include <trochoid/correction/spindle_speed.h>
 
 #include <nlohmann/json.hpp>
 
@@ -67,7 +69,76 @@ Json complex_pair(const std::complex<double>& c) {
   return {c.real() / unit::mm, c.imag() / unit::mm};
 }
 
+/// What is compared of a few cases only.
+void add_more(const Json& in, const correction::RigidCut& cut,
+              const correction::PeriodicMotion& X, Json& out) {
+  const correction::AxisLimits axes = axis_limits(cut, 3);
+  for (const double value :
+       {axes.one_axis, axes.one_axis_bound, axes.two_axes, axes.two_axes_bound}) {
+    out["axes"].push_back(value / unit::mm);
+  }
+  for (const correction::Flute& f : cut.peaks(X)) {
+    out["own"].push_back(f.own_peak_y);
+  }
+  if (in["shape"] != "sine") {
+    return;
+  }
+  const double Omega = in["Omega"];
+  const auto with = speed_modulation(cut, X, {1e-3, 1e6}, Omega);
+  const auto without = speed_modulation(cut, X, {0.0, 1e6}, Omega);
+  out["part"] = with.part;
+  for (std::size_t i = 0; i < with.angle.size(); i += 12) {
+    out["spindle"].push_back(
+        {with.angle[i], with.speed[i], with.torque_at[i] - without.torque_at[i]});
+  }
+}
+
+/// Waves that an estimator learns from forces, turn by turn.
+Json waves_of(const Json& in) {
+  static TrochoidEstimator estimator;
+  TrochoidEstimatorConfig c;
+  trochoid_estimator_defaults(&c);
+  const auto S = in["S"].get<std::vector<std::vector<double>>>();
+  c.teeth = static_cast<int32_t>(S.size());
+  c.harmonics = static_cast<int32_t>(S[0].size() / 2);
+  c.wait_turns = 0;
+  c.deadband = 0.0;
+  c.event_change = 0.0;
+  c.most_m = 1.0;
+  c.step_m = 1.0;
+  for (std::size_t j = 0; j < S.size(); ++j) {
+    c.start_rev[j] = static_cast<double>(j) / static_cast<double>(S.size());
+    for (std::size_t k = 0; k < S[j].size(); ++k) {
+      c.wave_model[j][k] = S[j][k] / 1e-5;
+    }
+  }
+  Json out;
+  trochoid_estimator_init(&estimator, &c);
+  const auto turns = in["v"].get<std::vector<std::vector<double>>>();
+  for (std::size_t t = 0; t <= turns.size(); ++t) {
+    const auto& v = turns[std::min(t, turns.size() - 1)];
+    for (std::size_t i = 0; i < 20 * v.size(); ++i) {
+      const auto learnt = trochoid_estimator_sample(
+          &estimator,
+          (static_cast<double>(i) + 0.5) / (20.0 * static_cast<double>(v.size())),
+          100 * (1 + v[i / 20]), 1);
+      if (learnt.turn == TROCHOID_TURN_LEARNT) {
+        Json wave;
+        for (int n = 0; n < c.harmonics; ++n) {
+          wave.push_back(learnt.cosine_m[n] / 1e-5);
+          wave.push_back(learnt.sine_m[n] / 1e-5);
+        }
+        out.push_back(wave);
+      }
+    }
+  }
+  return out;
+}
+
 Json numbers_of(const Json& in) {
+  if (in.contains("S")) {
+    return waves_of(in);
+  }
   const force::Setup setup = setup_of(in);
   const correction::RigidCut cut(setup, law_of(in["law"]));
   const correction::PeriodicMotion X = motion_of(cut, in);
@@ -103,6 +174,9 @@ Json numbers_of(const Json& in) {
     for (const double phi : in["phi"].get<std::vector<double>>()) {
       out["in_time"].push_back(correction::place_at(in_time.wave, phi) / unit::mm);
     }
+  }
+  if (in["more"]) {
+    add_more(in, cut, X, out);
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <exception>
 
 namespace trochoid::cli {
 
@@ -29,7 +30,10 @@ ProgressLine::ProgressLine(bool quiet)
       step_started_(started_),
       step_("Reading") {
   if (!quiet) {
-    teller_ = std::thread([this] { tell_until_done(); });
+    try {
+      teller_ = std::thread([this] { tell_until_done(); });
+    } catch (const std::exception&) {  // no thread to be had: the work is done in silence
+    }
   }
 }
 
@@ -59,7 +63,10 @@ void ProgressLine::tell_until_done() {
   std::unique_lock lock(mutex_);
   std::chrono::seconds wait = first;
   while (!ended_.wait_for(lock, wait, [this] { return done_; })) {
-    tell();
+    try {
+      tell();
+    } catch (const std::exception&) {  // no memory for a line: not for that we end
+    }
     wait = terminal_ ? on_terminal : plain_lines;
   }
 }

@@ -1,7 +1,5 @@
 #include <trochoid/correction/amplitude.h>
 
-#include <trochoid/numerics/levenberg_marquardt.h>
-
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -9,8 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <span>
 
 namespace trochoid::correction {
 
@@ -20,12 +16,6 @@ namespace {
 constexpr std::array<double, 9> factors = {0.0, 0.5, 0.9, 1.1, 1.3, 1.6, 2.0, 3.0, 4.0};
 constexpr int bits = 30;          ///< of a root
 constexpr int minimum_bits = 12;  ///< of a minimum
-/// Levels are at most this many times the largest of the offsets.
-constexpr double most_level = 6.0;
-/// Step of the differences, over the largest offset; and what keeps levels that change
-/// nothing where they were.
-constexpr double difference = 1e-3;
-constexpr double tether = 1e-4;
 
 /// What is to be equal.
 struct Goal {
@@ -35,7 +25,7 @@ struct Goal {
 
 Goal goal_of(Target target, const RigidCut& cut, const FlutesOf& flutes) {
   const bool area = target == Target::chip_area;
-  Goal goal{area ? &Flute::chip_area : &Flute::peak_y, flutes};
+  Goal goal{value_of(target), flutes};
   if (!flutes) {
     goal.flutes = [&cut, area](const PeriodicMotion& X) {
       return area ? cut.flutes(X) : cut.peaks(X);
@@ -133,68 +123,6 @@ void finish(const RigidCut& cut, const FlutesOf& flutes, Amplitude& out) {
   out.peak_difference = peak_difference(out.flutes);
 }
 
-double largest_of(const std::vector<double>& levels) {
-  double largest = 0.0;
-  for (const double x : levels) {
-    largest = std::max(largest, std::abs(x));
-  }
-  return largest;
-}
-
-/// unknown are the levels of all teeth but the last, over `unit`.
-struct LevelProblem {
-  const RigidCut& cut;
-  Shape shape;
-  const ShapeOptions& options;
-  const Goal& goal;
-  double unit = 1.0;
-  std::vector<double> start;
-
-  [[nodiscard]] std::vector<double> levels_of(std::span<const double> y) const {
-    std::vector<double> levels(y.size() + 1, 0.0);
-    for (std::size_t j = 0; j < y.size(); ++j) {
-      levels[j] = y[j] * unit;
-      levels.back() -= levels[j];
-    }
-    return levels;
-  }
-
-  [[nodiscard]] PeriodicMotion motion(std::span<const double> y) const {
-    return table_motion(cut, shape, options, levels_of(y));
-  }
-
-  void residuals(std::span<const double> y, std::span<double> r) const {
-    const auto v = differences(goal, motion(y));
-    std::copy(v.begin(), v.end(), r.begin());
-    for (std::size_t j = 0; j < y.size(); ++j) {
-      r[v.size() + j] = tether * (y[j] - start[j]);
-    }
-  }
-
-  bool operator()(std::span<const double> y, std::span<double> r,
-                  std::span<double> jacobian) const {
-    if (std::any_of(y.begin(), y.end(),
-                    [](double v) { return !(std::abs(v) < most_level); })) {
-      return false;
-    }
-    residuals(y, r);
-    std::vector<double> moved(y.begin(), y.end());
-    std::vector<double> up(r.size());
-    std::vector<double> down(r.size());
-    for (std::size_t k = 0; k < y.size() && !jacobian.empty(); ++k) {
-      moved[k] = y[k] + difference;
-      residuals(moved, up);
-      moved[k] = y[k] - difference;
-      residuals(moved, down);
-      moved[k] = y[k];
-      for (std::size_t i = 0; i < r.size(); ++i) {
-        jacobian[k * r.size() + i] = (up[i] - down[i]) / (2 * difference);
-      }
-    }
-    return true;
-  }
-};
-
 }  // namespace
 
 Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion& X,
@@ -214,33 +142,6 @@ Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion
                                   : best_factor(goal, X, out.reason);
   }
   out.motion = scaled(X, out.factor);
-  finish(cut, flutes, out);
-  return out;
-}
-
-Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
-                       const ShapeOptions& options, const FlutesOf& flutes) {
-  Amplitude one = amplitude_for(target, cut, table_motion(cut, shape, options), flutes);
-  const std::vector<double> x = levels(cut.offsets());
-  const double unit = largest_of(x);
-  if (cut.teeth() <= 2 || target == Target::least_squares || unit == 0) {
-    return one;
-  }
-  const Goal goal = goal_of(target, cut, flutes);
-  LevelProblem problem{cut, shape, options, goal, unit, {}};
-  for (std::size_t j = 0; j + 1 < x.size(); ++j) {
-    problem.start.push_back((one.ok ? one.factor : 1.0) * x[j] / unit);
-  }
-  const auto found = numerics::levenberg_marquardt(
-      std::cref(problem), static_cast<int>(2 * x.size() - 1), problem.start,
-      {.max_iterations = 20, .parameter_tolerance = 1e-6});
-  Amplitude out;
-  out.motion = problem.motion(found.p);
-  out.factor = largest_of(problem.levels_of(found.p)) / unit;
-  if (size_of(differences(goal, out.motion)) >=
-      size_of(differences(goal, one.motion))) {
-    return one;
-  }
   finish(cut, flutes, out);
   return out;
 }

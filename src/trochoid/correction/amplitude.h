@@ -5,6 +5,7 @@
 #include <trochoid/correction/shapes.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@ namespace trochoid::correction {
 /// What is to be equal.
 enum class Target {
   peak_force,     ///< the peaks of |F_y| of the flutes
+  own_force,      ///< the peaks of |F_y| of each flute alone
   chip_area,      ///< what the flutes cut in a turn
   least_squares,  ///< the chips over the whole arc of cut, as nearly as possible
 };
@@ -23,6 +25,8 @@ constexpr std::string_view name_of(Target target) noexcept {
   switch (target) {
     case Target::peak_force:
       return "peak_force";
+    case Target::own_force:
+      return "own_force";
     case Target::chip_area:
       return "chip_area";
     case Target::least_squares:
@@ -31,15 +35,58 @@ constexpr std::string_view name_of(Target target) noexcept {
   return {};
 }
 
+/// What of a flute a target makes equal; least_squares: the peaks.
+constexpr double Flute::*value_of(Target target) noexcept {
+  switch (target) {
+    case Target::own_force:
+      return &Flute::own_peak_y;
+    case Target::chip_area:
+      return &Flute::chip_area;
+    case Target::peak_force:
+    case Target::least_squares:
+      break;
+  }
+  return &Flute::peak_y;
+}
+
+/// What is known of a motion that was looked for: whether a better one exists.
+enum class Optimality {
+  equal,              ///< no difference is left: nothing is below none
+  limit_of_one_axis,  ///< least squares, a convex problem; or all starts ended here
+  local_minimum,      ///< starts ended in different places: the best of them
+};
+
+/// Names of files.
+constexpr std::string_view name_of(Optimality optimality) noexcept {
+  switch (optimality) {
+    case Optimality::equal:
+      return "equal";
+    case Optimality::limit_of_one_axis:
+      return "limit_of_one_axis";
+    case Optimality::local_minimum:
+      return "local_minimum";
+  }
+  return {};
+}
+
+/// On what this rests.
+struct Optimum {
+  Optimality optimality = Optimality::local_minimum;
+  bool proven = false;  ///< no difference left, or a convex problem
+  int starts = 0;       ///< of a problem that is not convex
+  int agreeing = 0;     ///< starts that ended as well as the best one
+};
+
 /// A motion made as large as its target asks.
 struct Amplitude {
   bool ok = false;
   std::string reason;  ///< when not ok
   PeriodicMotion motion;
-  double factor = 1.0;           ///< times the motion given
-  double peak_to_peak = 0.0;     ///< [m]
-  double peak_difference = 0.0;  ///< of the flutes with it
-  std::vector<Flute> flutes;     ///< with it
+  double factor = 1.0;             ///< times the motion given
+  double peak_to_peak = 0.0;       ///< [m]
+  double peak_difference = 0.0;    ///< of the flutes with it
+  std::vector<Flute> flutes;       ///< with it
+  std::optional<Optimum> optimum;  ///< of more than two teeth
 };
 
 /// Flutes of a cut with a table motion: a rigid cut, or a simulated one.
@@ -47,7 +94,7 @@ using FlutesOf = std::function<std::vector<Flute>(const PeriodicMotion& X)>;
 
 /// @brief The factor of a motion that makes the flutes alike, as far as one number can.
 ///
-/// @eq R-9 two teeth: v_1 = v_2, v_j the peak of |F_y| or the chip area of flute j;
+/// @eq R-9 two teeth: v_1 = v_2, v_j the peak of |F_y|, of its own or the chip area;
 ///         more: min of the sum over j of (v_j/mean(v) - 1)^2
 /// @eq R-10 least squares: factor = sum of e_0 g / sum of g^2, g = e_0 - e_1 the
 ///          part of R-7 that the motion makes
@@ -55,14 +102,5 @@ using FlutesOf = std::function<std::vector<Flute>(const PeriodicMotion& X)>;
 /// @param flutes  for peak_force and chip_area; empty: those of the rigid cut
 Amplitude amplitude_for(Target target, const RigidCut& cut, const PeriodicMotion& X,
                         const FlutesOf& flutes = {});
-
-/// @brief The motion of a shape that makes the flutes alike, a level for each tooth.
-///
-/// @eq R-26 min over the levels y_j, sum 0, of the sum over j of (v_j/mean(v) - 1)^2
-/// @src derived: N - 1 levels for N - 1 differences
-/// @note Two teeth, and least squares: amplitude_for. `factor` is by how much the
-/// largest level grew. What is better of this and of one factor is returned.
-Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
-                       const ShapeOptions& options, const FlutesOf& flutes = {});
 
 }  // namespace trochoid::correction

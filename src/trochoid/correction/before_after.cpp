@@ -34,6 +34,25 @@ std::vector<MarkedWall> walls_of(const Setting& s, const Motion& m) {
   return walls;
 }
 
+/// The peaks of the whole force in the place of those of each flute alone.
+void take_whole_force(const Setting& s, MovedCut& cut) {
+  Motion& m = cut.motion;
+  cut.own = m.flutes;
+  if (!m.finite || !m.solved) {
+    return;
+  }
+  const RigidCut rigid(s.cut.setup, s.cut.law, 1);
+  for (dynamics::FluteMotion& flute : m.flutes) {
+    flute.peak_x = 0.0;
+    flute.peak_y = 0.0;
+  }
+  for (std::size_t i = 0; i < m.angle.size(); ++i) {
+    dynamics::FluteMotion& flute = m.flutes[rigid.turn_of(m.angle[i])];
+    flute.peak_x = std::max(flute.peak_x, std::abs(m.force[i][0]));
+    flute.peak_y = std::max(flute.peak_y, std::abs(m.force[i][1]));
+  }
+}
+
 }  // namespace
 
 MovedCut moved_cut(const Setting& setting, const PeriodicMotion& command) {
@@ -41,6 +60,7 @@ MovedCut moved_cut(const Setting& setting, const PeriodicMotion& command) {
   p.kept = 1;
   MovedCut cut{.motion = dynamics::motion(p)};
   cut.verdict = dynamics::verdict_so_far(cut.motion);
+  take_whole_force(setting, cut);
   if (cut.verdict != Verdict::chatter) {
     cut.walls = walls_of(setting, cut.motion);
   }
@@ -79,6 +99,14 @@ std::optional<double> reduction(const BeforeAfter& cuts) {
   const double before = dynamics::peak_difference(cuts.before.motion);
   const double after = dynamics::peak_difference(cuts.after.motion);
   return before > 0 ? std::optional(1 - after / before) : std::nullopt;
+}
+
+double own_difference(const MovedCut& cut) {
+  std::vector<double> peaks;
+  for (const dynamics::FluteMotion& flute : cut.own) {
+    peaks.push_back(flute.peak_y);
+  }
+  return dynamics::relative_difference(peaks);
 }
 
 }  // namespace trochoid::correction

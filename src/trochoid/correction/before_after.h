@@ -18,8 +18,14 @@ struct MarkedWall {
 };
 
 /// @brief The moving cut with a command, in its last turn.
+///
+/// The peaks in `motion` are those of the whole force while a tooth is the one nearest to
+/// the middle of the arc of cut: what a dynamometer shows and a plan makes equal.
 struct MovedCut {
   dynamics::Motion motion;
+  /// Of each flute's own force, which no dynamometer shows where several teeth cut at
+  /// once.
+  std::vector<dynamics::FluteMotion> own;
   dynamics::Verdict verdict = dynamics::Verdict::periodic;
   /// Those that the arc of cut reaches; of a rigid tool, none where it chatters.
   std::vector<MarkedWall> walls;
@@ -48,5 +54,8 @@ double table_deviation(const Setting& setting, const Plan& plan, const MovedCut&
 /// @brief 1 less the ratio of both differences of the peaks.
 /// @return none where there was no difference
 std::optional<double> reduction(const BeforeAfter& cuts);
+
+/// @brief dynamics::relative_difference of the peaks of |F_y| of the flutes' own forces.
+double own_difference(const MovedCut& cut);
 
 }  // namespace trochoid::correction

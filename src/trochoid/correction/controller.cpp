@@ -1,4 +1,5 @@
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/controller_memory.h>
 
 #include <math.h>
 
@@ -8,15 +9,12 @@
 
 namespace {
 
+using trochoid::correction::within;
+
 constexpr int32_t most_turns = 1000000;
 constexpr double absurd_position = 1e9;  // [rev]: the fraction would be lost
 constexpr double absurd_speed = 10.0;    // times max_speed_rps
 constexpr double absurd_gain = 1e6;
-
-/// False for NaN.
-bool within(double value, double low, double high) {
-  return value >= low && value <= high;
-}
 
 double clamped(double value, double low, double high) {
   return value > low ? (value < high ? value : high) : low;
@@ -33,6 +31,52 @@ double wrapped(double turns) {
   return turns - floor(turns + 0.5);
 }
 
+/// cos and sin of 2 pi times some turns.
+struct Phasor {
+  double cosine = 1.0;
+  double sine = 0.0;
+};
+
+/// By Taylor's series within an eighth of a turn of a quarter: below 1e-11 off.
+Phasor phasor(double turns) {
+  const double quarters = 4.0 * fraction(turns);
+  const double nearest = floor(quarters + 0.5);
+  const double x = (quarters - nearest) * 1.5707963267948966;
+  const double y = x * x;
+  const double s =
+      x * (1 + y * (-1.0 / 6 + y * (1.0 / 120 + y * (-1.0 / 5040 + y / 362880))));
+  const double c =
+      1 +
+      y * (-0.5 + y * (1.0 / 24 + y * (-1.0 / 720 + y * (1.0 / 40320 - y / 3628800))));
+  const auto quadrant = static_cast<int32_t>(nearest) & 3;
+  if (quadrant == 0) {
+    return {c, s};
+  }
+  if (quadrant == 1) {
+    return {-s, c};
+  }
+  return quadrant == 2 ? Phasor{-c, -s} : Phasor{s, -c};
+}
+
+/// What is added to the table (L-7).
+double wave_at(const TrochoidController& c, double turns) {
+  const Phasor one = phasor(turns);
+  Phasor all = one;
+  double sum = 0.0;
+  for (int32_t n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+    sum += c.cosine_m[n] * all.cosine + c.sine_m[n] * all.sine;
+    all = {all.cosine * one.cosine - all.sine * one.sine,
+           all.sine * one.cosine + all.cosine * one.sine};
+  }
+  return sum;
+}
+
+/// Signed, within half of what a counter wraps by (L-8).
+double unwrapped(const TrochoidControllerConfig& c, double turns) {
+  return c.wrap_rev > 0.0 ? turns - c.wrap_rev * floor(turns / c.wrap_rev + 0.5)
+                          : turns;
+}
+
 double from_table(const TrochoidControllerConfig& c, double turns) {
   const double place = fraction(turns) * c.points;
   int32_t i = static_cast<int32_t>(place);
@@ -46,6 +90,11 @@ double from_table(const TrochoidControllerConfig& c, double turns) {
 
 bool sane(const TrochoidControllerConfig& c, const TrochoidControllerInput& in) {
   const double speed = absurd_speed * c.max_speed_rps;
+  for (int32_t n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+    if (!within(in.cosine_m[n], -1.0, 1.0) || !within(in.sine_m[n], -1.0, 1.0)) {
+      return false;
+    }
+  }
   return within(in.position_rev, -absurd_position, absurd_position) &&
          within(in.speed_rps, -speed, speed) &&
          within(in.gain, -absurd_gain, absurd_gain) &&
@@ -82,15 +131,20 @@ int32_t follow_position(TrochoidController& c, const TrochoidControllerInput& in
     c.synchronised = 1;
     c.turns = 0;
     c.zero_rev = in.index_position_rev;
-    c.angle_rev = in.position_rev - c.zero_rev;
+    c.angle_rev = unwrapped(c.config, in.position_rev - c.zero_rev);
     c.expected_rev = c.angle_rev;
+    c.position_rev = in.position_rev;
     return TROCHOID_NO_PROBLEM;
   }
   const bool turned = pulse && c.expected_rev > 0.5;
   if (turned) {
     c.zero_rev = in.index_position_rev;
   }
-  c.angle_rev = in.position_rev - c.zero_rev;
+  c.angle_rev =
+      turned || !(c.config.wrap_rev > 0.0)
+          ? unwrapped(c.config, in.position_rev - c.zero_rev)
+          : c.angle_rev + unwrapped(c.config, in.position_rev - c.position_rev);
+  c.position_rev = in.position_rev;
   const double error = wrapped(c.angle_rev - c.expected_rev);
   if (c.synchronised != 0 && fabs(error) > c.config.position_tol_rev) {
     return lose_position(c, TROCHOID_BAD_POSITION);
@@ -214,7 +268,22 @@ double target(TrochoidController& c, double gain, double dt, int32_t& limited) {
   c.gain = clamped(wanted, c.gain - change, c.gain + change);
   const double ahead = c.speed_rps * (c.config.lead_s + 0.5 * c.config.period_s);
   const double angle = fraction(c.angle_rev) + ahead + c.config.phase_rev;
-  return c.middle_m + c.fade * (c.gain * from_table(c.config, angle));
+  return c.middle_m +
+         c.fade * (c.gain * from_table(c.config, angle) + wave_at(c, angle));
+}
+
+/// The waves of the input, at the rate at which the gain changes.
+void follow_waves(TrochoidController& c, const TrochoidControllerInput& in, double dt) {
+  const double half = c.middle_m - c.config.lower_m;
+  const double most = half * (dt / c.config.gain_time_s);
+  for (int32_t n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+    double* const own[] = {&c.cosine_m[n], &c.sine_m[n]};
+    const double wanted[] = {in.cosine_m[n], in.sine_m[n]};
+    for (int32_t k = 0; k < 2; ++k) {
+      *own[k] =
+          clamped(clamped(wanted[k], -half, half), *own[k] - most, *own[k] + most);
+    }
+  }
 }
 
 /// L-3, exactly: the last bit of the sum is given up
@@ -237,18 +306,29 @@ TrochoidControllerResult trochoid_controller_step(
     return result;
   }
   TrochoidController& c = *controller;
-  const int32_t problem = examine(c, input);
+  const bool whole = trochoid::correction::repair_memory(c);
+  if (c.ready != TROCHOID_READY) {
+    result.state = TROCHOID_NOT_READY;
+    result.problem = TROCHOID_BAD_MEMORY;
+    return result;
+  }
+  int32_t problem = examine(c, input);
   // Time that went backwards did not pass; too much of it is not used up at once.
   const double dt = input != nullptr && input->dt_s > 0.0
                         ? fmin(input->dt_s, c.config.max_step_s)
                         : 0.0;
   change_state(c, problem, input, dt);
   double wanted = c.middle_m;
-  double slope = c.ramp_m_per_s;
   if (running(c)) {
+    follow_waves(c, *input, dt);
     wanted = target(c, input->gain, dt, result.limited);
-    slope = c.config.slew_m_per_s;
   }
+  if (!whole || !(fabs(wanted) < 10.0)) {  // NaN in the table
+    problem = TROCHOID_BAD_MEMORY;
+    wanted = c.middle_m;
+    fail(c, problem, input != nullptr && input->enable != 0);
+  }
+  const double slope = running(c) ? c.config.slew_m_per_s : c.ramp_m_per_s;
   wanted = clamped(wanted, c.config.lower_m, c.config.upper_m);
   c.output_m = limited_move(c.output_m, wanted, slope * dt);
   if (running(c) && c.output_m != wanted) {

@@ -11,6 +11,9 @@ extern "C" {
 /// Most points of a command over one revolution.
 enum { TROCHOID_TABLE_POINTS = 720 };
 
+/// Harmonics of the spindle that may be added to the table.
+enum { TROCHOID_WAVE_HARMONICS = 8 };
+
 /// A number that chance does not write: what init leaves in a controller that may run.
 enum { TROCHOID_READY = 0x7c0de5 };
 
@@ -28,14 +31,15 @@ enum TrochoidState {
 /// What is wrong with an input, and what stopped a run.
 enum TrochoidProblem {
   TROCHOID_NO_PROBLEM = 0,
-  TROCHOID_BAD_TIME = 1,      ///< dt not finite, not above 0, or above max_step_s
-  TROCHOID_BAD_INPUT = 2,     ///< not finite, or absurd: 1e9 turns, 10 max_speed_rps
-  TROCHOID_INHIBITED = 3,     ///< the inhibit input, e.g. the amplifier's fault line
-  TROCHOID_OVERSPEED = 4,     ///< above max_speed_rps
-  TROCHOID_UNDERSPEED = 5,    ///< below min_speed_rps, or backwards
-  TROCHOID_INDEX_LOST = 6,    ///< no index pulse within index_turns
-  TROCHOID_BAD_POSITION = 7,  ///< position, speed and index contradict one another
-  TROCHOID_SPEED_CHANGED = 8  ///< by more than speed_change since the run began
+  TROCHOID_BAD_TIME = 1,       ///< dt not finite, not above 0, or above max_step_s
+  TROCHOID_BAD_INPUT = 2,      ///< not finite, or absurd: 1e9 turns, 10 max_speed_rps
+  TROCHOID_INHIBITED = 3,      ///< the inhibit input, e.g. the amplifier's fault line
+  TROCHOID_OVERSPEED = 4,      ///< above max_speed_rps
+  TROCHOID_UNDERSPEED = 5,     ///< below min_speed_rps, or backwards
+  TROCHOID_INDEX_LOST = 6,     ///< no index pulse within index_turns
+  TROCHOID_BAD_POSITION = 7,   ///< position, speed and index contradict one another
+  TROCHOID_SPEED_CHANGED = 8,  ///< by more than speed_change since the run began
+  TROCHOID_BAD_MEMORY = 9      ///< the controller's own memory was overwritten
 };
 
 /// How a run may begin again after a fault.
@@ -60,7 +64,8 @@ enum TrochoidRefusal {
   TROCHOID_REFUSED_SLEW = 8,
   TROCHOID_REFUSED_SPEEDS = 9,
   TROCHOID_REFUSED_INDEX = 10,
-  TROCHOID_REFUSED_RECOVERY = 11
+  TROCHOID_REFUSED_RECOVERY = 11,
+  TROCHOID_REFUSED_WRAP = 12
 };
 
 /// @brief What is fixed while the controller runs;
@@ -87,6 +92,8 @@ typedef struct TrochoidControllerConfig {
   double speed_change;      ///< part of the speed at the start of a run, 0 to 1
   double index_turns;       ///< turns without an index pulse: lost; above 1
   double position_tol_rev;  ///< by how much position may leave speed and index, to 0.25
+  double wrap_rev;  ///< turns after which the position begins anew, as 2^32/1000 of an
+                    ///< int32 at 1000 counts a turn; 0: never, or by whole turns
 } TrochoidControllerConfig;
 
 /// @brief What is measured at one step.
@@ -100,6 +107,9 @@ typedef struct TrochoidControllerInput {
   int32_t index;              ///< not 0: the index pulse came since the step before
   int32_t enable;             ///< not 0: run
   int32_t inhibit;            ///< not 0: ramp to mid-stroke at once
+  double
+      cosine_m[TROCHOID_WAVE_HARMONICS];   ///< added to the table: of cos(n angle) and
+  double sine_m[TROCHOID_WAVE_HARMONICS];  ///< of sin(n angle), n = 1, 2, ...
 } TrochoidControllerInput;
 
 typedef struct TrochoidControllerResult {
@@ -129,7 +139,10 @@ typedef struct TrochoidController {
   double zero_rev;       // position at the last index pulse
   double angle_rev;      // position since then
   double expected_rev;   // the same from the speed
-  int32_t ready;         // TROCHOID_READY, or else nothing is commanded
+  double position_rev;   // at the step before
+  double cosine_m[TROCHOID_WAVE_HARMONICS];  // in force
+  double sine_m[TROCHOID_WAVE_HARMONICS];
+  int32_t ready;  // TROCHOID_READY, or else nothing is commanded
   int32_t state;
   int32_t fault;
   int32_t turns;
@@ -150,14 +163,19 @@ int32_t trochoid_controller_init(TrochoidController* controller,
 /// @brief One step: what to command now.
 ///
 /// @eq L-1 x_com = x_mid + fade gain table(frac(angle + speed (lead + T_s/2) + phase))
+/// @eq L-7 x_com += fade sum over n of a_n cos(2 pi n alpha) + b_n sin(2 pi n alpha),
+///         alpha the angle of the look-up
 /// @eq L-2 speed += (measured - speed) d/(d + d_f),  d = max(|measured|, |speed|) dt
 /// @eq L-3 |x_com(now) - x_com(before)| <= slew dt,  x_lower <= x_com <= x_upper
 /// @eq L-4 expected += measured dt;  |wrap(angle - expected)| <= tolerance
+/// @eq L-8 angle += d - W round(d/W), d the change of the position, W wrap_rev
 /// @src [diez2010] for look-up by an index pulse; the rest derived
 ///
 /// Whatever the input, the command stays in the window and its slope within the slew
 /// limit, exactly; time that does not pass leaves it where it is. Bounded time, no
-/// allocation, the same bits for the same inputs.
+/// allocation, the same bits for the same inputs. Memory that was overwritten ends in a
+/// fault, never in the command: only where the command itself is lost it jumps, to
+/// mid-stroke.
 TrochoidControllerResult trochoid_controller_step(TrochoidController* controller,
                                                   const TrochoidControllerInput* input);
 

@@ -1,13 +1,13 @@
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/controller_memory.h>
 
 #include <math.h>
 
 namespace {
 
-/// False for NaN.
-bool within(double value, double low, double high) {
-  return value >= low && value <= high;
-}
+using trochoid::correction::within;
+
+constexpr double most_gain = 1e6;  // larger ones are absurd as an input
 
 double largest(const TrochoidControllerConfig& c) {
   double most = 0.0;
@@ -43,18 +43,13 @@ bool sound_speeds(const TrochoidControllerConfig& c) {
          within(c.filter_rev, 0.25, 100.0);
 }
 
-int32_t refusal(const TrochoidControllerConfig& c) {
+/// But for what is in the table.
+int32_t refused_settings(const TrochoidControllerConfig& c) {
   if (c.points < 2 || c.points > TROCHOID_TABLE_POINTS) {
     return TROCHOID_REFUSED_POINTS;
   }
-  if (!finite_table(c)) {
-    return TROCHOID_REFUSED_TABLE;
-  }
   if (!sound_window(c)) {
     return TROCHOID_REFUSED_WINDOW;
-  }
-  if (largest(c) > 0.5 * (c.upper_m - c.lower_m)) {
-    return TROCHOID_REFUSED_STROKE;
   }
   if (!sound_times(c)) {
     return TROCHOID_REFUSED_TIMES;
@@ -72,13 +67,96 @@ int32_t refusal(const TrochoidControllerConfig& c) {
       !within(c.index_turns, 1.0 + c.position_tol_rev, 1000.0)) {
     return TROCHOID_REFUSED_INDEX;
   }
+  if (c.wrap_rev != 0.0 && !within(c.wrap_rev, 0.01, 1e10)) {
+    return TROCHOID_REFUSED_WRAP;
+  }
   const bool known = c.recovery == TROCHOID_RECOVER_BY_ENABLE ||
                      c.recovery == TROCHOID_RECOVER_BY_TURNS;
   return known && c.good_turns >= 1 && c.good_turns <= 1000 ? TROCHOID_ACCEPTED
                                                             : TROCHOID_REFUSED_RECOVERY;
 }
 
+int32_t refusal(const TrochoidControllerConfig& c) {
+  if (c.points >= 2 && c.points <= TROCHOID_TABLE_POINTS && !finite_table(c)) {
+    return TROCHOID_REFUSED_TABLE;
+  }
+  const int32_t refused = refused_settings(c);
+  if (refused != TROCHOID_ACCEPTED && refused <= TROCHOID_REFUSED_WINDOW) {
+    return refused;
+  }
+  return largest(c) > 0.5 * (c.upper_m - c.lower_m)
+             ? static_cast<int32_t>(TROCHOID_REFUSED_STROKE)
+             : refused;
+}
+
+/// Everything but the table, without which it could not even come to rest.
+void rest_at_middle(TrochoidController& c) {
+  c.fade = 0.0;
+  c.gain = 1.0;
+  c.speed_rps = 0.0;
+  c.reference_rps = 0.0;
+  c.zero_rev = 0.0;
+  c.angle_rev = 0.0;
+  c.expected_rev = 0.0;
+  c.position_rev = 0.0;
+  for (int32_t n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+    c.cosine_m[n] = 0.0;
+    c.sine_m[n] = 0.0;
+  }
+  c.turns = 0;
+  c.synchronised = 0;
+  c.speed_known = 0;
+}
+
+bool finite_waves(const TrochoidController& c) {
+  for (int32_t n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+    if (!within(c.cosine_m[n], -1.0, 1.0) || !within(c.sine_m[n], -1.0, 1.0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool finite_state(const TrochoidController& c) {
+  constexpr double far = 1e12;
+  const double turns[] = {c.speed_rps, c.reference_rps, c.zero_rev,
+                          c.angle_rev, c.expected_rev,  c.position_rev};
+  for (const double value : turns) {
+    if (!within(value, -far, far)) {
+      return false;
+    }
+  }
+  return within(c.fade, 0.0, 1.0) && within(c.gain, -far, far) && finite_waves(c) &&
+         within(c.output_m, c.config.lower_m, c.config.upper_m);
+}
+
 }  // namespace
+
+namespace trochoid::correction {
+
+bool repair_memory(TrochoidController& c) {
+  if (refused_settings(c.config) != TROCHOID_ACCEPTED) {
+    c.ready = 0;
+    return false;
+  }
+  const double half = 0.5 * (c.config.upper_m - c.config.lower_m);
+  const double slope = fmin(c.config.slew_m_per_s, half / c.config.ramp_s);
+  const bool derived = c.middle_m == c.config.lower_m + half &&
+                       c.ramp_m_per_s == slope && within(c.gain_limit, 1.0, most_gain);
+  if (derived && finite_state(c)) {
+    return true;
+  }
+  c.middle_m = c.config.lower_m + half;
+  c.ramp_m_per_s = slope;
+  c.gain_limit = 1.0;
+  rest_at_middle(c);
+  if (!within(c.output_m, c.config.lower_m, c.config.upper_m)) {
+    c.output_m = c.middle_m;
+  }
+  return false;
+}
+
+}  // namespace trochoid::correction
 
 void trochoid_controller_defaults(TrochoidControllerConfig* config) {
   if (config == nullptr) {
@@ -125,7 +203,7 @@ int32_t trochoid_controller_init(TrochoidController* controller,
   const double most = largest(*config);
   c.middle_m = config->lower_m + half;
   c.ramp_m_per_s = fmin(config->slew_m_per_s, half / config->ramp_s);
-  c.gain_limit = most > 0.0 ? half / most : 1.0;
+  c.gain_limit = most > 0.0 ? fmin(half / most, most_gain) : 1.0;
   c.output_m = config->start_m;
   c.gain = 1.0;
   c.state = TROCHOID_DISABLED;
@@ -172,6 +250,8 @@ const char* trochoid_problem_name(int32_t problem) {
       return "position, speed and index contradict";
     case TROCHOID_SPEED_CHANGED:
       return "the speed has changed";
+    case TROCHOID_BAD_MEMORY:
+      return "the controller's memory was overwritten";
     default:
       return "unknown";
   }
@@ -205,6 +285,8 @@ const char* trochoid_refusal_reason(int32_t refusal) {
       return "position_tol_rev 1e-6 to 0.25, index_turns 1 + that to 1000";
     case TROCHOID_REFUSED_RECOVERY:
       return "recovery 0 or 1, good_turns 1 to 1000";
+    case TROCHOID_REFUSED_WRAP:
+      return "wrap_rev 0, or 0.01 to 1e10";
     default:
       return "unknown";
   }

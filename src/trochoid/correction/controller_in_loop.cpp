@@ -1,6 +1,7 @@
 #include <trochoid/correction/controller_in_loop.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/correction/estimator_model.h>
 #include <trochoid/correction/online.h>
 #include <trochoid/dynamics/steady_state.h>
 
@@ -67,6 +68,9 @@ class Loop {
     if (refused_ != TROCHOID_ACCEPTED) {
       return trochoid_refusal_reason(refused_);
     }
+    if (refused_estimator_ != TROCHOID_ESTIMATOR_ACCEPTED) {
+      return trochoid_estimator_refusal_reason(refused_estimator_);
+    }
     return refused_online_ != TROCHOID_ONLINE_ACCEPTED
                ? trochoid_online_refusal_reason(refused_online_)
                : std::string();
@@ -95,10 +99,11 @@ class Loop {
     double& peak = now.peaks[rigid_.turn_of(phi)];
     peak = std::max(peak, std::abs(F[1]));
     now.gain = result_.gain;
+    now.wave = largest_wave();
     now.state = result_.state;
     if (options_.adapt && t >= next_force_) {
       next_force_ += 1 / force_rate;
-      learn(phi, F[1]);
+      learn(phi, F[1], now);
     }
   }
 
@@ -137,6 +142,10 @@ class Loop {
     in.dt_s = time - time_;
     in.speed_rps = in.dt_s > 0 ? (position - position_) / in.dt_s : 0.0;
     in.gain = gain_;
+    if (options_.adapt) {
+      std::ranges::copy(estimator_.result.cosine_m, in.cosine_m);
+      std::ranges::copy(estimator_.result.sine_m, in.sine_m);
+    }
     in.index = pulse && !lost ? 1 : 0;
     in.enable = phi >= unit::turn * enabling_turn ? 1 : 0;
     result_ = trochoid_controller_step(&controller_, &in);
@@ -167,6 +176,20 @@ class Loop {
     if (!options_.adapt) {
       return;
     }
+    if (rigid_.teeth() > 2) {  // from nothing: the waves take the place of the table
+      TrochoidEstimatorConfig config;
+      trochoid_estimator_defaults(&config);
+      if (rigid_.teeth() > TROCHOID_ESTIMATOR_TEETH) {
+        refused_estimator_ = TROCHOID_ESTIMATOR_REFUSED_TEETH;
+        return;
+      }
+      set_estimator_model(s, plan.motion, config);
+      config.wait_turns =
+          1 + static_cast<int32_t>(settling_time(s.cut.plant) * omega_ / unit::turn);
+      refused_estimator_ = trochoid_estimator_init(&estimator_, &config);
+      gain_ = 0.0;
+      return;
+    }
     TrochoidOnlineConfig config;
     trochoid_online_defaults(&config);
     const double at = rigid_.psi()[0] + (rigid_.arc().from + rigid_.arc().to) / 2;
@@ -181,8 +204,22 @@ class Loop {
     refused_online_ = trochoid_online_init(&online_, &config);
   }
 
-  void learn(double phi, double force) {
+  [[nodiscard]] double largest_wave() const {
+    double most = 0.0;
+    for (int n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+      most = std::max(most, std::hypot(controller_.cosine_m[n], controller_.sine_m[n]));
+    }
+    return most;
+  }
+
+  void learn(double phi, double force, LoopTurn& now) {
     const bool active = result_.state == TROCHOID_RUNNING;
+    if (rigid_.teeth() > 2) {
+      const TrochoidEstimatorResult learnt = trochoid_estimator_sample(
+          &estimator_, phi / unit::turn, force, active ? 1 : 0);
+      now.event = learnt.turn != TROCHOID_TURN_OPEN ? learnt.event : now.event;
+      return;
+    }
     gain_ =
         trochoid_online_sample(&online_, phi / unit::turn, force, active ? 1 : 0).gain;
   }
@@ -197,6 +234,8 @@ class Loop {
   TrochoidController controller_{};
   TrochoidControllerResult result_{};
   TrochoidOnline online_{};
+  TrochoidEstimator estimator_{};
+  int32_t refused_estimator_ = TROCHOID_ESTIMATOR_ACCEPTED;
   int32_t refused_ = TROCHOID_ACCEPTED;
   int32_t refused_online_ = TROCHOID_ONLINE_ACCEPTED;
   double gain_ = 1.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/estimator.h>
 #include <trochoid/correction/plan.h>
 
 #include <optional>
@@ -20,7 +21,8 @@ struct LoopOptions {
   double ramp = 0.05;         ///< to mid-stroke after a fault [s]
   int turns = 40;             ///< that are simulated, more than enabling_turn
   int index_lost_at = 0;      ///< turn from which no index pulse comes; 0: never
-  bool adapt = false;         ///< the amplitude learns from the forces while it runs
+  bool adapt = false;  ///< it learns from the forces while it runs: the amplitude of
+                       ///< two flutes, the waves of the command of more
 };
 
 /// The turn in which the controller is enabled; before, it only looks.
@@ -40,6 +42,8 @@ struct LoopTurn {
   std::vector<double> peaks;  ///< of |F_y| of each flute [N]
   double difference = 0.0;    ///< of them, over the largest
   double gain = 1.0;          ///< at its end
+  double wave = 0.0;          ///< largest amplitude of the waves learnt, at its end [m]
+  int event = TROCHOID_TOOL_UNCHANGED;  ///< of the tool, that it recognised
   int state = TROCHOID_DISABLED;
 };
 

@@ -69,6 +69,7 @@ std::vector<Flute> flutes_of(const MovingCut& cut, const ForceRecord& record,
   for (std::size_t j = 0; j < flutes.size(); ++j) {
     flutes[j].chip_area = motion.flutes[j].chip_area;
     flutes[j].peak_chip = motion.flutes[j].peak_chip;
+    flutes[j].own_peak_y = motion.flutes[j].peak_y;
   }
   return flutes;
 }

@@ -1,12 +1,17 @@
 #include <trochoid/correction/plan.h>
 
+#include <trochoid/correction/equal_flutes.h>
 #include <trochoid/correction/shapes.h>
+#include <trochoid/correction/transition.h>
 
 #include <algorithm>
 
 namespace trochoid::correction {
 
 namespace {
+
+/// Harmonics to which the quick model follows the table.
+constexpr int quick_harmonics = 20;
 
 /// A command, and the fraction of the motion wanted that it can make.
 struct Made {
@@ -23,7 +28,32 @@ struct Design {
 };
 
 ShapeOptions shape_options(const CorrectionOptions& options) {
-  return {.transition = options.transition, .harmonics = options.harmonics};
+  ShapeOptions shape{.harmonics = options.harmonics};
+  shape.transition = options.transition.value_or(shape.transition);
+  return shape;
+}
+
+/// Width and harmonics by the speed, where none is given.
+void choose_transition(const Design& design, CorrectionOptions& options) {
+  const bool by_harmonics =
+      options.strategy == Method::inverse || options.strategy == Method::learning;
+  if (options.transition ||
+      (options.shape != Shape::trapezoid && options.shape != Shape::quintic)) {
+    return;
+  }
+  const Setting& s = design.setting;
+  const auto candidates = transition_candidates(
+      design.rigid,
+      {options.shape, options.strategy, options.target, options.harmonics});
+  const TransitionCandidate& best =
+      chosen_transition(design.rigid, candidates, options.strategy,
+                        {.model = s.cut.plant,
+                         .real = s.cut.plant,
+                         .limits = s.limits,
+                         .command = command_options(options)},
+                        design.Omega);
+  options.transition = best.width;
+  options.harmonics = by_harmonics ? best.harmonics : options.harmonics;
 }
 
 /// The motion of a shape through the levels of the teeth, of its own size.
@@ -67,22 +97,31 @@ Made make(const Design& design, const CorrectionOptions& options,
 /// A motion through the levels, as large as the target asks; none with the reason.
 std::optional<PeriodicMotion> sized(const Design& design,
                                     const CorrectionOptions& options,
-                                    const PeriodicMotion& through,
-                                    std::string& reason) {
+                                    const PeriodicMotion& through, Plan& plan) {
   if (options.peak_to_peak) {
     return scaled(through, *options.peak_to_peak / range_of(through).peak_to_peak());
   }
-  FlutesOf flutes;
+  FluteModels models;
+  CorrectionOptions straight = options;  // what learning would learn, the inverse has
+  straight.strategy =
+      options.strategy == Method::learning ? Method::inverse : options.strategy;
+  const Setting& s = design.setting;
   if (options.estimate == RunoutEstimate::known) {
-    flutes = [&](const PeriodicMotion& motion) {
-      return moving_flutes(design.setting.cut,
-                           make(design, options, motion).command.wave)
-          .flutes;
+    models.exact = [&](const PeriodicMotion& motion) {
+      return moving_flutes(s.cut, make(design, options, motion).command.wave).flutes;
+    };
+    models.quick = [&](const PeriodicMotion& motion) {
+      const Harmonics X =
+          table_response(s.cut.plant, make(design, straight, motion).command.wave,
+                         design.Omega, quick_harmonics);
+      return options.target == Target::chip_area ? design.rigid.flutes(X)
+                                                 : design.rigid.peaks(X);
     };
   }
   const Amplitude found = equal_flutes(options.target, design.rigid, options.shape,
-                                       shape_options(options), flutes);
-  reason = found.reason;
+                                       shape_options(options), models);
+  plan.reason = found.reason;
+  plan.optimum = found.optimum;
   return found.ok ? std::optional(found.motion) : std::nullopt;
 }
 
@@ -117,12 +156,16 @@ Plan plan_correction(const Setting& setting, const CorrectionOptions& options) {
     plan.reason = "the teeth stand out alike: there is nothing to correct";
     return plan;
   }
+  choose_transition(design, fewer);
+  if (fewer.shape == Shape::trapezoid || fewer.shape == Shape::quintic) {
+    plan.transition = shape_options(fewer).transition;
+  }
   // The best motion of few harmonics is not the beginning of the best one of many.
   while (fewer.shape == Shape::harmonics && fewer.harmonics > 1 &&
          !whole(design, through(), fewer.harmonics)) {
     --fewer.harmonics;
   }
-  const auto motion = sized(design, fewer, through(), plan.reason);
+  const auto motion = sized(design, fewer, through(), plan);
   if (!motion) {
     return plan;
   }

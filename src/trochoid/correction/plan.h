@@ -5,12 +5,28 @@
 #include <trochoid/correction/learning.h>
 #include <trochoid/correction/limits.h>
 #include <trochoid/correction/setting.h>
+#include <trochoid/correction/spindle_speed.h>
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::correction {
+
+/// On what cut the speed map looks.
+enum class MapCut { rigid, moving };
+
+/// Names of files.
+constexpr std::string_view name_of(MapCut cut) noexcept {
+  switch (cut) {
+    case MapCut::rigid:
+      return "rigid";
+    case MapCut::moving:
+      return "moving";
+  }
+  return {};
+}
 
 /// What a correction is to be like.
 struct CorrectionOptions {
@@ -18,21 +34,26 @@ struct CorrectionOptions {
   Method strategy = Method::inverse;
   Shape shape = Shape::sine;
   RunoutEstimate estimate = RunoutEstimate::known;
-  double transition = 80 * unit::deg;  ///< of trapezoid and quintic [rad]
+  std::optional<double> transition;    ///< of trapezoid and quintic [rad]; absent: R-27
   int harmonics = 9;                   ///< highest of the command
   std::optional<double> peak_to_peak;  ///< of the motion wanted [m]; absent: by target
   double sample_rate = 0.0;            ///< of a held command [Hz]; 0: continuous
   double learning_gain = 0.7;
   double allowed_difference = 0.05;    ///< of the peaks, for the highest speed
   std::vector<double> spindle_speeds;  ///< of the speed map [rad/s], ascending
+  MapCut map_cut = MapCut::rigid;
+  std::optional<SpindleDrive>
+      spindle;  ///< whose speed may change in place of the table
 };
 
 /// @brief What the table is to do, and what the actuator is told.
 struct Plan {
   bool ok = false;
-  std::string reason;     ///< when not ok
-  PeriodicMotion motion;  ///< wanted
-  Command command;        ///< feedforward
+  std::optional<double> transition;  ///< of trapezoid and quintic [rad]
+  std::string reason;                ///< when not ok
+  std::optional<Optimum> optimum;    ///< of the motion, where it was looked for
+  PeriodicMotion motion;             ///< wanted
+  Command command;                   ///< feedforward
   std::optional<Learned> learned;
   LimitReport limits;
 };

@@ -127,7 +127,11 @@ MapPoint residual_at(const MovingCut& cut, const Strategy& strategy,
   }
   Sent out = sent(command, setting.limits);
   const MovingFlutes flutes = moving_flutes(moving, out.wave);
-  out.point.peak_difference = peak_difference(flutes.flutes);
+  if (flutes.record.angle.empty()) {  // it grew beyond all bounds: no peaks to compare
+    out.point.peak_difference = impossible().peak_difference;
+  } else {
+    out.point.peak_difference = peak_difference(flutes.flutes);
+  }
   out.point.periodic = flutes.periodic;
   return out.point;
 }
@@ -149,12 +153,19 @@ std::vector<MapPoint> residual_map(const MovingCut& cut,
 double residual_speed(const RigidCut& cut, const Strategy& strategy,
                       const MapSetting& setting, double residual,
                       std::span<const double> range) {
+  return residual_speed(
+      [&](double Omega) {
+        return residual_at(cut, strategy, setting, Omega).peak_difference;
+      },
+      residual, range);
+}
+
+double residual_speed(const std::function<double(double)>& difference, double residual,
+                      std::span<const double> range) {
   const double lowest = range.front();
   const double highest = range.back();
   constexpr int steps = 60;
-  const auto over = [&](double Omega) {
-    return residual_at(cut, strategy, setting, Omega).peak_difference > residual;
-  };
+  const auto over = [&](double Omega) { return difference(Omega) > residual; };
   double low = lowest;
   if (over(low)) {
     return 0.0;

@@ -5,6 +5,7 @@
 #include <trochoid/correction/rigid_cut.h>
 #include <trochoid/correction/shapes.h>
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,11 @@ std::vector<MapPoint> residual_map(const MovingCut& cut,
 /// @return 0 if it is exceeded at once, `highest` if nowhere
 double residual_speed(const RigidCut& cut, const Strategy& strategy,
                       const MapSetting& setting, double residual,
+                      std::span<const double> range);
+
+/// @brief The same of any difference over the spindle speed [rad/s].
+/// @param difference  of the peaks at a spindle speed
+double residual_speed(const std::function<double(double)>& difference, double residual,
                       std::span<const double> range);
 
 }  // namespace trochoid::correction

@@ -20,6 +20,7 @@ struct Flute {
   double peak_x = 0.0;        ///< largest |F_x| [N]
   double peak_y = 0.0;        ///< largest |F_y| [N]
   double peak_y_angle = 0.0;  ///< theta of the tooth there [rad]
+  double own_peak_y = 0.0;    ///< largest |F_y| of this tooth alone [N]
   double chip_area = 0.0;     ///< integral of h over the angle, at the tip [m rad]
   double peak_chip = 0.0;     ///< thickest chip at the tip [m]
 };

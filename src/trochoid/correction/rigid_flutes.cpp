@@ -77,7 +77,8 @@ struct RigidCut::Nodes {
   std::vector<double> angle;
   std::vector<bool> inner;  ///< has neighbours at equal distance
   std::vector<std::array<double, 3>> force;
-  std::vector<double> chip;  ///< shape (nodes, teeth)
+  std::vector<double> chip;   ///< shape (nodes, teeth)
+  std::vector<double> own_y;  ///< |F_y| of each tooth, shape (nodes, teeth) [N]
 };
 
 /// Ends of the stretches in which no tip enters or leaves, no motion breaks, and one
@@ -116,13 +117,18 @@ RigidCut::Nodes RigidCut::nodes(const PeriodicMotion& X) const {
     for (int i = 0; i <= steps; ++i) {
       const double phi = from + length * i / steps;
       std::array<double, 3> F{};
-      for (const Disk& disk : disks_) {
-        for (std::size_t j = 0; j < psi_.size(); ++j) {
+      for (std::size_t j = 0; j < psi_.size(); ++j) {
+        std::array<double, 3> own{};
+        for (const Disk& disk : disks_) {
           const Contact c = contact(X, disk, j, phi);
-          add_force(disk, c, F);
+          add_force(disk, c, own);
           if (&disk == &disks_.front()) {
             nodes.chip.push_back(c.h);
           }
+        }
+        nodes.own_y.push_back(std::abs(own[1]));
+        for (std::size_t q = 0; q < 3; ++q) {
+          F[q] += own[q];
         }
       }
       nodes.angle.push_back(phi);
@@ -156,6 +162,8 @@ std::vector<Flute> RigidCut::peaks(const PeriodicMotion& X) const {
     for (std::size_t k = 0; k < count; ++k) {
       const auto h = [&](std::size_t n) { return all.chip[n * count + k]; };
       flutes[k].peak_chip = std::max(flutes[k].peak_chip, top(i, h).value);
+      const auto own = [&](std::size_t n) { return all.own_y[n * count + k]; };
+      flutes[k].own_peak_y = std::max(flutes[k].own_peak_y, top(i, own).value);
     }
   }
   return flutes;

@@ -12,6 +12,8 @@ namespace trochoid::correction {
 namespace {
 
 constexpr double rank_tolerance = 1e-9;
+/// Of a harmonic, for a bound that holds for all smaller ones [m].
+constexpr double largest_amplitude = 1e-3;
 /// Angles of an arc of cut at which chips are compared.
 constexpr int angles_of_arc = 181;
 /// Levels that a sine meets with one phase only: two teeth.
@@ -137,7 +139,29 @@ std::vector<int> visible(const RigidCut& cut, int n_max) {
 struct HarmonicFit {
   Harmonics x;
   double rms = 0.0;
+  double bound = 0.0;  ///< below which no other fit comes
 };
+
+///
+/// @param A  row-major, shape (size of e, columns)
+double bound_below(std::span<const double> A, std::span<const double> e,
+                   std::span<const double> residual) {
+  const std::size_t columns = A.size() / e.size();
+  std::vector<double> gradient(columns, 0.0);
+  double product = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    for (std::size_t k = 0; k < columns; ++k) {
+      gradient[k] += A[i * columns + k] * residual[i];
+    }
+    product += residual[i] * e[i];
+    square += residual[i] * residual[i];
+  }
+  for (const double g : gradient) {
+    product -= std::abs(g) * largest_amplitude;
+  }
+  return square > 0 ? std::max(product / std::sqrt(square), 0.0) : 0.0;
+}
 
 /// Least squares of R-7 or, with the second axis, R-8.
 HarmonicFit fit_harmonics(const RigidCut& cut, const std::vector<double>& rho,
@@ -169,12 +193,15 @@ HarmonicFit fit_harmonics(const RigidCut& cut, const std::vector<double>& rho,
     const numerics::LeastSquares solved =
         numerics::least_squares(A, static_cast<int>(columns), e, rank_tolerance);
     rss = solved.rss;
+    fit.bound = bound_below(A, e, solved.residual);
     for (std::size_t i = 0; i < n.size(); ++i) {
       const std::size_t at = i * (second_axis ? 4 : 2);
       fit.x.c[static_cast<std::size_t>(n[i]) - 1] = {solved.x[at], -solved.x[at + 1]};
     }
   }
-  fit.rms = std::sqrt(rss / static_cast<double>(all.size()));
+  const auto count = static_cast<double>(all.size());
+  fit.rms = std::sqrt(rss / count);
+  fit.bound = columns == 0 ? fit.rms : fit.bound / std::sqrt(count);
   return fit;
 }
 
@@ -244,8 +271,12 @@ double chip_rms(const RigidCut& cut, const PeriodicMotion& X) {
 AxisLimits axis_limits(const RigidCut& cut, int n_max) {
   AxisLimits limits;
   limits.uncorrected = chip_rms(cut, Harmonics{});
-  limits.one_axis = fit_harmonics(cut, cut.offsets(), n_max, false).rms;
-  limits.two_axes = fit_harmonics(cut, cut.offsets(), n_max, true).rms;
+  const HarmonicFit one = fit_harmonics(cut, cut.offsets(), n_max, false);
+  const HarmonicFit two = fit_harmonics(cut, cut.offsets(), n_max, true);
+  limits.one_axis = one.rms;
+  limits.one_axis_bound = one.bound;
+  limits.two_axes = two.rms;
+  limits.two_axes_bound = two.bound;
   for (const double start : cut.psi()) {
     int together = 0;
     for (const double other : cut.psi()) {

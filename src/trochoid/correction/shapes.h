@@ -83,12 +83,16 @@ double chip_rms(const RigidCut& cut, const PeriodicMotion& X);
 /// One axis cannot serve two teeth in cut at once; two can do more.
 ///
 /// @eq R-8 with a second axis: e_j - (Y(phi) - Y(phi - pitch_(j-1))) cos(theta_j)
-/// @src derived
+/// @eq R-30 |e_0 - A x| >= (r e_0 - |A^T r|_1 x_max)/|r| for every |x_n| <= x_max, r the
+///          residual of the answer, x_max = 1 mm: a bound below, by duality
+/// @src derived; [boyd2004] for the dual of a least norm
 struct AxisLimits {
   double uncorrected = 0.0;
-  double one_axis = 0.0;  ///< table along the feed
-  double two_axes = 0.0;  ///< table along and across the feed
-  int most_teeth = 0;     ///< in cut at once
+  double one_axis = 0.0;        ///< table along the feed
+  double two_axes = 0.0;        ///< table along and across the feed
+  int most_teeth = 0;           ///< in cut at once
+  double one_axis_bound = 0.0;  ///< no motion of these harmonics leaves less [m]
+  double two_axes_bound = 0.0;
 };
 /// @param n_max  highest harmonic of the spindle that the table follows
 AxisLimits axis_limits(const RigidCut& cut, int n_max);

@@ -160,6 +160,9 @@ struct Correction {
   std::optional<base::Steps> spindle_speed;  ///< of the map [rad/s]
 };
 
+/// [spindle]: what turns the tool.
+using Spindle = correction::SpindleDrive;
+
 /// [controller]: the real-time controller when it is simulated.
 using Controller = correction::LoopOptions;
 
@@ -204,6 +207,7 @@ struct MachineTables {
   std::optional<StepTables> step;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
+  std::optional<Spindle> spindle;
   std::optional<Controller> controller;
   std::optional<Stability> stability;
 };

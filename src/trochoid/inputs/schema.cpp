@@ -30,6 +30,8 @@ constexpr Ending endings[] = {
     {"_rpm", {unit::rpm, "rpm"}},
     {"_mm", {unit::mm, "mm"}},
     {"_um", {unit::um, "um"}},
+    {"_kg_m2", {unit::one, "kg m^2"}},
+    {"_Nm", {unit::one, "N m"}},
     {"_kg", {unit::one, "kg"}},
     {"_Hz", {unit::one, "Hz"}},
     {"_N", {unit::one, "N"}},

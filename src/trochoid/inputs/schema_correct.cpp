@@ -3,10 +3,35 @@
 
 namespace trochoid::inputs {
 
+namespace {
+
+void describe_map(const Visitor& v, Correction& t) {
+  v({.name = "allowed_difference",
+     .meaning = "of the peaks of force, for the highest speed that keeps it",
+     .range = inside(0, 1)},
+    &t.options.allowed_difference);
+  v({.name = "spindle_rpm",
+     .meaning = "first, last and number of the spindle speeds of the map",
+     .range = above_up_to(0, 1e6),
+     .standard = "up to 10000",
+     .example = "[200, 10000, 99]"},
+    &t.spindle_speed);
+  v({.name = "map_cut",
+     .meaning = "what the map looks at: rigid, a cut that gives nowhere; moving: the "
+                "simulation in time with tool, table and actuator, which takes longer"},
+    choice(t.options.map_cut));
+}
+
+}  // namespace
+
 void describe(const Visitor& v, Correction& t) {
   v({.name = "target",
-     .meaning = "what is made equal from tooth to tooth; least_squares: the chips over "
-                "the whole cut, as nearly as possible"},
+     .meaning =
+         "what is made equal from tooth to tooth. peak_force: the peaks of the "
+         "whole force, which a dynamometer shows; own_force: those of each tooth "
+         "alone, another thing where several cut at once; chip_area: what they "
+         "remove; least_squares: the chips over the whole cut, as nearly as "
+         "possible"},
     choice(t.options.target));
   v({.name = "strategy",
      .meaning = "how the motion becomes a command. plain: they are the same; lead: "
@@ -25,8 +50,10 @@ void describe(const Visitor& v, Correction& t) {
   v({.name = "transition_deg",
      .meaning =
          "spindle angle in which trapezoid and quintic change from one level to the "
-         "next",
-     .range = above_up_to(0, 360)},
+         "next; auto: this and the harmonics by what they leave at the speed of the "
+         "case",
+     .range = above_up_to(0, 360),
+     .word = "auto"},
     &t.options.transition);
   v({.name = "harmonics",
      .meaning = "highest harmonic of the spindle in the command",
@@ -48,16 +75,22 @@ void describe(const Visitor& v, Correction& t) {
      .meaning = "part of the error that each iteration takes away",
      .range = inside(0, 2)},
     &t.options.learning_gain);
-  v({.name = "allowed_difference",
-     .meaning = "of the peaks of force, for the highest speed that keeps it",
-     .range = inside(0, 1)},
-    &t.options.allowed_difference);
-  v({.name = "spindle_rpm",
-     .meaning = "first, last and number of the spindle speeds of the map",
-     .range = above_up_to(0, 1e6),
-     .standard = "up to 10000",
-     .example = "[200, 10000, 99]"},
-    &t.spindle_speed);
+  describe_map(v, t);
+}
+
+void describe(const Visitor& v, Spindle& t) {
+  v({.name = "inertia_kg_m2",
+     .meaning = "moment of inertia of everything that turns with the tool",
+     .range = above(0),
+     .need = Need::always,
+     .example = "0.0005"},
+    &t.inertia);
+  v({.name = "torque_Nm",
+     .meaning = "torque of the motor at the speed of the case, either way",
+     .range = above(0),
+     .need = Need::always,
+     .example = "5"},
+    &t.torque);
 }
 
 void describe(const Visitor& v, Controller& t) {

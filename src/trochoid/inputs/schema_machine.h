@@ -16,6 +16,7 @@ void describe(const Visitor& v, FrfTables& t);
 void describe(const Visitor& v, StepTables& t);
 void describe(const Visitor& v, ImposedCommand& t);
 void describe(const Visitor& v, Correction& t);
+void describe(const Visitor& v, Spindle& t);
 void describe(const Visitor& v, Controller& t);
 void describe(const Visitor& v, Stability& t);
 

@@ -88,6 +88,11 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
               t.machine.step, {Command::actuator}),
       perhaps("command", "an imposed command of the actuator", t.machine.command),
       perhaps("correct", "how runout is to be cancelled", t.machine.correct),
+      perhaps(
+          "spindle",
+          "what turns the tool: with it a spindle speed that changes within the turn "
+          "is compared with the table that moves",
+          t.machine.spindle),
       perhaps("controller", "the real-time controller, when it is simulated",
               t.machine.controller),
       perhaps("stability", "where stability is looked at, and how exactly",

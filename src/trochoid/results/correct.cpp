@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/results/correct_tables.h>
 
+#include <cmath>
 #include <utility>
 
 namespace trochoid::results {
@@ -67,14 +68,17 @@ Object cut_value(const MovedCut& cut) {
   Array flutes;
   for (std::size_t j = 0; j < m.flutes.size(); ++j) {
     const dynamics::FluteMotion& f = m.flutes[j];
-    flutes.push_back(Object{{"tooth", j + 1},
-                            {"peak_Fx_N", f.peak_x},
-                            {"peak_Fy_N", f.peak_y},
-                            {"chip_area_mm_rad", f.chip_area / unit::mm},
-                            {"peak_chip_mm", f.peak_chip / unit::mm}});
+    flutes.push_back(Object{
+        {"tooth", j + 1},
+        {"peak_Fx_N", f.peak_x},
+        {"peak_Fy_N", f.peak_y},
+        {"own_peak_Fy_N", j < cut.own.size() ? Value(cut.own[j].peak_y) : Value()},
+        {"chip_area_mm_rad", f.chip_area / unit::mm},
+        {"peak_chip_mm", f.peak_chip / unit::mm}});
   }
   return {{"flutes", std::move(flutes)},
           {"difference", dynamics::peak_difference(m)},
+          {"own_difference", correction::own_difference(cut)},
           {"area_difference", dynamics::area_difference(m)},
           {"periodic", cut.verdict == dynamics::Verdict::periodic},
           {"change_N", m.last_change},
@@ -97,6 +101,13 @@ Array limits_value(const correction::LimitReport& report) {
   return list;
 }
 
+Object optimum_value(const correction::Optimum& optimum) {
+  return {{"kind", name_of(optimum.optimality)},
+          {"proven", optimum.proven},
+          {"starts", optimum.starts},
+          {"agreeing", optimum.agreeing}};
+}
+
 Object command_value(const Correction& c) {
   const Plan& plan = c.plan;
   Object command{
@@ -108,6 +119,9 @@ Object command_value(const Correction& c) {
       {"table_deviation_um", c.cuts.table_deviation / unit::um},
       {"lead_s", plan.command.lead},
       {"harmonics", plan.command.n_max == 0 ? Value() : Value(plan.command.n_max)},
+      {"transition_deg",
+       plan.transition ? Value(unit::in(*plan.transition, unit::deg)) : Value()},
+      {"optimum", plan.optimum ? Value(optimum_value(*plan.optimum)) : Value()},
       {"within_limits", plan.limits.ok},
       {"limits", limits_value(plan.limits)}};
   for (const correction::Limit& l : plan.limits.limits) {
@@ -127,10 +141,21 @@ Object command_value(const Correction& c) {
 
 Object speeds_value(const correction::SpeedMap& map) {
   Object highest;
-  for (std::size_t s = 0; s < map.strategies.size(); ++s) {
-    highest.push_back({map.strategies[s].name, unit::in(map.highest[s], unit::rpm)});
+  for (const correction::Curve& curve : map.curves) {
+    highest.push_back({curve.name, unit::in(curve.highest, unit::rpm)});
   }
   return highest;
+}
+
+Object spindle_value(const correction::SpeedModulation& m, double allowed) {
+  return {{"difference", m.peak_difference},
+          {"part", m.part},
+          {"limit", m.limit.empty() ? Value() : Value(m.limit)},
+          {"speed_change", m.speed_change},
+          {"torque_Nm", m.torque},
+          {"torque_wanted_Nm",
+           std::isfinite(m.torque_wanted) ? Value(m.torque_wanted) : Value()},
+          {"torque_limit_Nm", allowed}};
 }
 
 Array turns_value(const ControllerInLoop& run) {
@@ -141,6 +166,8 @@ Array turns_value(const ControllerInLoop& run) {
                            {"peaks_Fy_N", t.peaks},
                            {"difference", t.difference},
                            {"gain", t.gain},
+                           {"wave_um", t.wave / unit::um},
+                           {"tool", trochoid_tool_event_name(t.event)},
                            {"state", trochoid_state_name(t.state)}});
   }
   return turns;
@@ -175,10 +202,17 @@ Object result_of(const CorrectResult& r) {
                 {"command", command_value(c)},
                 {"allowed_difference", r.options.allowed_difference},
                 {"max_rpm", speeds_value(c.speeds)},
+                {"max_rpm_cut", name_of(c.speeds.cut)},
                 {"axes", Object{{"uncorrected_um", axes.uncorrected / unit::um},
                                 {"one_axis_um", axes.one_axis / unit::um},
                                 {"two_axes_um", axes.two_axes / unit::um},
+                                {"one_axis_bound_um", axes.one_axis_bound / unit::um},
+                                {"two_axes_bound_um", axes.two_axes_bound / unit::um},
                                 {"most_teeth_in_cut", axes.most_teeth}}}};
+  if (c.speeds.spindle) {
+    result.push_back(
+        {"spindle_speed", spindle_value(*c.speeds.spindle, r.options.spindle->torque)});
+  }
   if (c.controller && c.controller->ok) {
     result.push_back({"controller", controller_value(*c.controller)});
   }
@@ -196,6 +230,9 @@ Answer answer_of(const CorrectResult& r) {
   answer.short_table = correct_text(r);
   answer.tables = {command_table(c.plan), before_after_table(c),
                    speeds_table(c.speeds)};
+  if (c.speeds.spindle) {
+    answer.tables.push_back(spindle_table(*c.speeds.spindle));
+  }
   if (c.controller && c.controller->ok) {
     answer.tables.push_back(controller_table(*c.controller));
   }

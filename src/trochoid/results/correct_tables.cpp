@@ -73,14 +73,30 @@ base::Table speeds_table(const correction::SpeedMap& map) {
   const std::size_t n = map.Omega.size();
   add_column(table, "spindle_rpm", n,
              [&](std::size_t i) { return unit::in(map.Omega[i], unit::rpm); });
-  for (std::size_t s = 0; s < map.strategies.size(); ++s) {
-    const std::string& name = map.strategies[s].name;
+  for (const correction::Curve& curve : map.curves) {
+    const std::string& name = curve.name;
     add_column(table, name + "_difference", n,
-               [&](std::size_t i) { return map.points[s * n + i].peak_difference; });
-    add_column(table, name + "_command_um", n, [&](std::size_t i) {
-      return map.points[s * n + i].command_range / unit::um;
-    });
+               [&](std::size_t i) { return curve.points[i].peak_difference; });
+    add_column(table, name + "_command_um", n,
+               [&](std::size_t i) { return curve.points[i].command_range / unit::um; });
+    if (!curve.chosen.empty()) {
+      add_column(table, name + "_transition_deg", n,
+                 [&](std::size_t i) { return curve.chosen[i].width / unit::deg; });
+      add_column(table, name + "_harmonics", n,
+                 [&](std::size_t i) { return curve.chosen[i].harmonics; });
+    }
   }
+  return table;
+}
+
+base::Table spindle_table(const correction::SpeedModulation& m) {
+  base::Table table{"spindle.csv", {}};
+  const std::size_t n = m.angle.size();
+  add_column(table, "angle_deg", n,
+             [&](std::size_t i) { return unit::in(m.angle[i], unit::deg); });
+  add_column(table, "spindle_rpm", n,
+             [&](std::size_t i) { return unit::in(m.speed[i], unit::rpm); });
+  add_column(table, "torque_Nm", n, [&](std::size_t i) { return m.torque_at[i]; });
   return table;
 }
 

@@ -17,6 +17,9 @@ base::Table before_after_table(const correction::Correction& c);
 /// speeds.csv: difference of the peaks and range of the command over the spindle speed.
 base::Table speeds_table(const correction::SpeedMap& map);
 
+/// spindle.csv: speed and torque of the spindle over a turn, in place of the table.
+base::Table spindle_table(const correction::SpeedModulation& m);
+
 /// controller.csv: the controller at each of its steps.
 base::Table controller_table(const correction::ControllerInLoop& run);
 

@@ -49,6 +49,25 @@ std::string flute_lines(const correction::BeforeAfter& cuts) {
                     100 * dynamics::peak_difference(cuts.after.motion));
 }
 
+std::string in_words(const correction::Optimum& optimum) {
+  switch (optimum.optimality) {
+    case correction::Optimality::equal:
+      return "the flutes are made equal: no motion does better";
+    case correction::Optimality::limit_of_one_axis:
+      return optimum.proven
+                 ? "limit of one axis: a convex problem, no motion of these harmonics "
+                   "does better"
+                 : fmt::format(
+                       "limit of one axis in this shape: {} of {} starts ended "
+                       "here, which is not a proof",
+                       optimum.agreeing, optimum.starts);
+    case correction::Optimality::local_minimum:
+      break;
+  }
+  return "local minimum of a problem that is not convex: another shape or strategy may "
+         "do better";
+}
+
 std::string command_lines(const correction::Correction& c) {
   const correction::Plan& plan = c.plan;
   const correction::Range range = correction::range_of(plan.command.wave);
@@ -59,6 +78,9 @@ std::string command_lines(const correction::Correction& c) {
       correction::range_of(plan.motion).peak_to_peak() / unit::um);
   text += fmt::format("the table stays within {:.2f} um of it while it is cut upon\n",
                       c.cuts.table_deviation / unit::um);
+  if (plan.optimum) {
+    text += "  " + in_words(*plan.optimum) + "\n";
+  }
   for (const correction::Limit& l : plan.limits.limits) {
     text += fmt::format("  {}{}\n", l.known && !l.ok ? "BEYOND: " : "", l.reason);
   }
@@ -66,14 +88,17 @@ std::string command_lines(const correction::Correction& c) {
 }
 
 std::string speed_line(const correction::SpeedMap& map, double allowed) {
-  std::string text =
-      fmt::format("highest speed for {:.0f} % (rigid cut):", 100 * allowed);
-  for (std::size_t s = 0; s < map.strategies.size(); ++s) {
-    const bool beyond = map.highest[s] >= map.Omega.back();
-    text += fmt::format(" {} {}{:.0f} rpm{}", map.strategies[s].name,
-                        beyond ? "above " : "", map.highest[s] / unit::rpm,
-                        s + 1 < map.strategies.size() ? "," : "\n");
+  if (map.curves.empty()) {
+    return {};
   }
+  std::string text = fmt::format("highest speed for {:.0f} % ({} cut):", 100 * allowed,
+                                 name_of(map.cut));
+  for (const correction::Curve& curve : map.curves) {
+    const bool beyond = curve.highest >= map.Omega.back();
+    text += fmt::format(" {} {}{:.0f} rpm,", curve.name, beyond ? "above " : "",
+                        curve.highest / unit::rpm);
+  }
+  text.back() = '\n';
   return text;
 }
 
@@ -104,6 +129,16 @@ std::string correct_text(const CorrectResult& r) {
   const correction::Correction& c = r.correction;
   std::string text = runout_line(c.setting) + flute_lines(c.cuts) + command_lines(c) +
                      speed_line(c.speeds, r.options.allowed_difference);
+  if (c.speeds.spindle) {
+    const correction::SpeedModulation& m = *c.speeds.spindle;
+    text += fmt::format(
+        "a spindle speed that changes within the turn by up to {:.1f} % instead of the "
+        "table: {:.2f} % (rigid cut), {:.3g} N m{}\n",
+        100 * m.speed_change, 100 * m.peak_difference, m.torque,
+        m.limit.empty() ? std::string()
+                        : fmt::format("; {:.0f} % of the motion, the limit is {}",
+                                      100 * m.part, m.limit));
+  }
   if (c.controller && c.controller->ok) {
     text += controller_line(*c.controller);
   }

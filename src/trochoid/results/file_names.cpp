@@ -12,7 +12,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr std::array<std::string_view, 33> names = {"case.toml",
+constexpr std::array<std::string_view, 34> names = {"case.toml",
                                                     "summary.json",
                                                     "report.html",
                                                     "material.toml",
@@ -38,6 +38,7 @@ constexpr std::array<std::string_view, 33> names = {"case.toml",
                                                     "once_per_turn.csv",
                                                     "surface_location.csv",
                                                     "speeds.csv",
+                                                    "spindle.csv",
                                                     "command.h",
                                                     "controller.csv",
                                                     "plan.csv",

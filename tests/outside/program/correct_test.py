@@ -86,6 +86,37 @@ class Correct(InFolder):
         self.run_program("correct", "cut.correct/case.toml", "-o", "again")
         self.assertEqual(self.summary("again")["result"], summary["result"])
 
+    def test_four_flutes_become_equal_in_the_loop(self):
+        done, summary = self.correct(
+            "--simulate-controller", "--no-report",
+            teeth=("teeth = 2", "teeth = 4"), depth=("axial_depth_mm = 1", "axial_depth_mm = 0.3"),
+            runout=("radial_offsets_mm = [0.0139, -0.0139]",
+                    "radial_offsets_mm = [0.022, 0.003, -0.020, -0.005]"),
+            shape=('shape = "sine"', 'shape = "harmonics"\nharmonics = 3\n'
+                   "spindle_rpm = [1200, 1300, 2]"),
+            strategy=('strategy = "lead"', 'strategy = "inverse"'))
+        result = summary["result"]
+        controller = result["controller"]
+        self.assertGreater(controller["difference_before"], 0.30)
+        self.assertLess(controller["difference_running"], 0.03)
+        self.assertIsNotNone(controller["turns_to_3_percent"])
+        self.assertLess(result["after"]["difference"], 0.01)
+        self.assertEqual(result["command"]["optimum"]["kind"], "equal")
+        self.assertGreater(controller["turns"][-1]["wave_um"], 1)
+        self.assertIn("no motion does better", done.stdout)
+
+    def test_a_spindle_speed_is_compared_within_its_torque(self):
+        done, summary = self.correct(
+            "--no-report", title=("[correct]", "[spindle]\ninertia_kg_m2 = 5e-4\ntorque_Nm = 2\n\n[correct]"))
+        spindle = summary["result"]["spindle_speed"]
+        self.assertLess(spindle["part"], 1)
+        self.assertLessEqual(spindle["torque_Nm"], 2)
+        self.assertGreater(spindle["torque_wanted_Nm"], 2)
+        self.assertIn("torque", spindle["limit"])
+        self.assertIn("spindle_sine", summary["result"]["max_rpm"])
+        self.assertLessEqual(max(map(abs, self.columns("spindle.csv")["torque_Nm"])), 2)
+        self.assertIn("instead of the table", done.stdout)
+
     def test_json(self):
         self.write("cut.toml", EXAMPLE)
         done = self.run_program("correct", "cut.toml", "--json")

@@ -1,6 +1,7 @@
 #include "paper_case.h"
 
 #include <trochoid/correction/amplitude.h>
+#include <trochoid/correction/equal_flutes.h>
 #include <trochoid/correction/shapes.h>
 #include <trochoid/correction/wall_marks.h>
 #include <trochoid/force/forces.h>

@@ -55,11 +55,13 @@ CorrectResult result() {
                            .known = false,
                            .reason = "not known"}};
   c.cuts = {.before = moved(25), .after = moved(50), .table_deviation = 2 * unit::um};
-  c.speeds = {.strategies = {{.name = "this_case"}},
-              .Omega = {1000 * unit::rpm, 2000 * unit::rpm},
-              .points = {{.peak_difference = 0.1, .command_range = 30 * unit::um},
-                         {.peak_difference = 0.2, .command_range = 31 * unit::um}},
-              .highest = {1500 * unit::rpm}};
+  c.speeds = {
+      .Omega = {1000 * unit::rpm, 2000 * unit::rpm},
+      .curves = {{.name = "this_case",
+                  .points = {{.peak_difference = 0.1, .command_range = 30 * unit::um},
+                             {.peak_difference = 0.2, .command_range = 31 * unit::um}},
+                  .chosen = {{40 * unit::deg, 7}, {60 * unit::deg, 3}},
+                  .highest = 1500 * unit::rpm}}};
   c.axes = {12 * unit::um, 3 * unit::um, 1 * unit::um, 2};
   return r;
 }
@@ -96,7 +98,10 @@ TEST(CorrectAnswer, TablesCarryNamesAndUnits) {
   EXPECT_DOUBLE_EQ(column_of(forces, "table_after_um")[1], 2.0);
   const base::Table& speeds = table_of(answer, "speeds.csv");
   EXPECT_EQ(columns_of(speeds),
-            (Names{"spindle_rpm", "this_case_difference", "this_case_command_um"}));
+            (Names{"spindle_rpm", "this_case_difference", "this_case_command_um",
+                   "this_case_transition_deg", "this_case_harmonics"}));
+  EXPECT_DOUBLE_EQ(column_of(speeds, "this_case_transition_deg")[1], 60.0);
+  EXPECT_DOUBLE_EQ(column_of(speeds, "this_case_harmonics")[0], 7.0);
   EXPECT_DOUBLE_EQ(column_of(speeds, "this_case_command_um")[1], 31.0);
   EXPECT_EQ(answer.tables.size(), 3U) << "no controller, no table of it";
 }

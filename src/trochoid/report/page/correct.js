@@ -1,10 +1,12 @@
 // The page of `correct`: the flutes before and after, the command, its limits.
 
 const correctKnown = ['runout', 'before', 'after', 'reduction', 'command', 'allowed_difference',
-  'max_rpm', 'axes', 'controller'];
+  'max_rpm', 'max_rpm_cut', 'spindle_speed', 'axes', 'controller'];
 
 const strategyNames = { sine_plain: 'sine, plain', sine_lead: 'sine, phase lead',
-  sine_inverse: 'sine, plant inversion', square_lead: 'square, phase lead', this_case: 'this case' };
+  sine_inverse: 'sine, plant inversion', square_lead: 'square, phase lead',
+  quintic_chosen: 'quintic, width and harmonics chosen', spindle_sine: 'spindle speed, a sine',
+  this_case: 'this case' };
 
 function correctPage(report) {
   return [
@@ -14,6 +16,7 @@ function correctPage(report) {
     commandSection(report),
     controllerSection(report),
     speedsSection(report),
+    spindleSection(report),
     { part: limitsSection(report.result.command) },
     { part: wallsSection(report.result) },
     { part: correctRunoutSection(report.result) },
@@ -47,40 +50,68 @@ function flutesSection({ before, after }) {
   const kinds = [
     { name: 'peak of |Fy|, N', of: (f) => f.peak_Fy_N },
     { name: 'chip area, mm rad', of: (f) => f.chip_area_mm_rad },
-    { name: 'thickest chip, µm', of: (f) => 1000 * f.peak_chip_mm },
+    before.flutes.length > 2 && isNumber(before.flutes[0].own_peak_Fy_N)
+      ? { name: 'its own |Fy|, N', of: (f) => f.own_peak_Fy_N, alone: true }
+      : { name: 'thickest chip, µm', of: (f) => 1000 * f.peak_chip_mm },
   ];
+  const inRow = (width) => (width < 520 ? 1 : kinds.length);
   const rows = before.flutes.map((f, i) => [`${f.tooth}`,
     ...kinds.flatMap(({ of }) => [number(of(f), 4), number(of(after.flutes[i]), 4)])]);
-  const paint = (c, width, height) => {
-    const each = width / kinds.length;
-    kinds.forEach((kind, k) => {
+  const paint = (c, width) => {
+    const columns = inRow(width);
+    const each = width / columns;
+    kinds.forEach((kind, index) => {
+      const k = index % columns;
+      const top = 220 * Math.floor(index / columns);
       const most = Math.max(...before.flutes.map(kind.of), ...after.flutes.map(kind.of)) || 1;
-      write(c, kind.name, k * each + 4, 10, { color: '--ink' });
+      write(c, kind.name, k * each + 4, top + 10, { color: '--ink' });
       const n = before.flutes.length;
       const slot = (each - 24) / n;
-      const floor = height - 22;
+      const floor = top + 198;
       for (let j = 0; j < n; ++j) {
         const x = k * each + 8 + j * slot;
         [[before, '--s2', 0.08], [after, '--s1', 0.5]].forEach(([side, color, shift]) => {
-          const high = (floor - 26) * kind.of(side.flutes[j]) / most;
+          const high = 172 * kind.of(side.flutes[j]) / most;
           const x0 = x + shift * slot;
           filled(c, [[x0, floor], [x0, floor - high], [x0 + 0.38 * slot, floor - high],
             [x0 + 0.38 * slot, floor]], css(color));
         });
-        write(c, `flute ${before.flutes[j].tooth}`, x + 0.48 * slot, height - 10,
+        write(c, `flute ${before.flutes[j].tooth}`, x + 0.48 * slot, top + 210,
           { align: 'center' });
       }
     });
   };
   const chart = drawing({ label: 'Bars of every flute before and after', paint,
-    height: () => 220 });
+    height: (width) => 220 * Math.ceil(kinds.length / inRow(width)) });
   const part = section('flutes', 'Flutes before and after', 'Flutes',
     prose('Left bar: without the command. Right bar: with it. The peaks are those of the whole ' +
       'force on the tool while a flute cuts; the chip area is what the flute takes at its tip. ' +
-      'Equal peaks are not equal chip loads.'), chart.element,
-    table(['flute', '|Fy| before, N', 'after', 'area before, mm rad', 'after',
-      'thickest chip before, µm', 'after'], rows));
+      'Equal peaks are not equal chip loads.' + (kinds.some(({ alone }) => alone) ? ' Its own |Fy| is that of ' +
+      'this flute alone, which no dynamometer shows while several cut at once.' : '')),
+    chart.element,
+    table(['flute', ...kinds.flatMap(({ name }, k) => [k === 0 ? '|Fy| before, N' :
+      name.replace(/,(?=[^,]*$)/, ' before,'), 'after'])], rows), ownForces(after, before));
   return { part, draw: () => chart.resize() };
+}
+
+/** Whether anything better could be found, and how this is known. */
+function optimumOf(optimum) {
+  if (!optimum) return null;
+  const { kind, proven, starts, agreeing } = optimum;
+  if (kind === 'equal') return 'The flutes are made equal: no motion does better.';
+  if (kind === 'limit_of_one_axis') {
+    return proven ? 'Limit of one axis: a convex problem, no motion of these harmonics does better.'
+      : `Limit of one axis in this shape: ${agreeing} of ${starts} starts of the search ended ` +
+        'here, which is not a proof.';
+  }
+  return 'Local minimum of a problem that is not convex: another shape or strategy may do better.';
+}
+
+/** What a dynamometer does not show. */
+function ownForces(after, before) {
+  return isNumber(after.own_difference) && after.flutes.length > 2 ? prose(
+    `The peaks of the flutes' own |Fy| differ by ${inPercent(before.own_difference)} % before and ` +
+    `${inPercent(after.own_difference)} % after.`) : null;
 }
 
 function correctForcesSection(report) {
@@ -140,7 +171,7 @@ function controllerSection(report) {
   const part = section('controller', 'The controller in the loop', 'Controller',
     prose('The real-time core, step by step, on the model of the cut: peaks of |Fy| of each flute ' +
       'in every turn, the gain of the command, and the command within the stroke.'),
-    turns.element, samples ? samples.element : null);
+    turns.element, samples ? samples.element : null, toolEvents(controller));
   return { part, draw: () => {
     turns.draw([{ label: 'peak of |Fy|', unit: 'N', height: 190, markers, series: peaks },
       { label: 'difference', unit: '%', height: 130, markers, series: [{ name: '',
@@ -149,6 +180,13 @@ function controllerSection(report) {
     samples?.draw([{ label: 'command', unit: 'µm', height: 170, series: [
       { name: '', values: columnNamed(t, 'command_um'), color: '--s1', width: 1.6 }] }]);
   } };
+}
+
+/** What the estimator recognised of the tool. */
+function toolEvents({ turns }) {
+  const told = turns.filter((turn) => turn.tool && turn.tool !== 'unchanged');
+  return told.length ? prose(told.map((turn) => `Turn ${turn.turn}: ${turn.tool}.`).join(' '))
+    : null;
 }
 
 function speedsSection(report) {
@@ -165,7 +203,9 @@ function speedsSection(report) {
   const limit = { name: 'allowed', values: x.map(() => 100 * allowed), color: '--soft',
     dash: [2, 4] };
   const part = section('speeds', 'Other speeds and other ways', 'Speeds',
-    prose('What is left of the difference at other spindle speeds, for a rigid tool: each motion is ' +
+    prose('What is left of the difference at other spindle speeds, ' +
+      (report.result.max_rpm_cut === 'moving' ? 'simulated with tool, table and actuator'
+        : 'for a rigid tool') + ': each motion is ' +
       'sized to make the peaks equal when the table follows it exactly. Where the command would ' +
       'leave the stroke it is cut off.'), chart.element,
     table(['strategy', `highest speed for ${number(100 * allowed, 3)} %, rpm`],
@@ -177,12 +217,34 @@ function speedsSection(report) {
     { label: 'command, peak to peak', unit: 'µm', height: 150, series: curves('command_um', 1) }]) };
 }
 
+/** The alternative without a table: a spindle speed that changes within the turn. */
+function spindleSection(report) {
+  const { spindle_speed: s } = report.result;
+  const t = tableNamed(report, 'spindle.csv');
+  const x = columnNamed(t, 'angle_deg');
+  if (!s || !x || x.length < 3) return null;
+  const chart = figure({ key: 'phi', x, label: 'φ, spindle angle', unit: '°',
+    caption: zoomHint + thinned(t) });
+  const part = section('spindle', 'A spindle speed that changes within the turn instead',
+    'Spindle', prose(`A sine of the speed does what a sine of the table would, on a rigid cut. ` +
+      `It changes the speed by up to ${inPercent(s.speed_change)} % and asks for ` +
+      `${number(s.torque_Nm, 3)} of ${number(s.torque_limit_Nm, 3)} N m. ` + (s.limit ?
+        `Only ${inPercent(s.part)} % of the motion is possible; the limit is ${s.limit}. ` : '') +
+      `The peaks then differ by ${inPercent(s.difference)} %.`), chart.element);
+  return { part, draw: () => chart.draw([
+    { label: 'speed', unit: 'rpm', height: 150, series: [{ name: '',
+      values: columnNamed(t, 'spindle_rpm'), color: '--s1', width: 1.8 }] },
+    { label: 'torque', unit: 'N m', height: 130, series: [{ name: '',
+      values: columnNamed(t, 'torque_Nm'), color: '--s2', width: 1.8 }] }]) };
+}
+
 function limitsSection(command) {
   if (!command?.limits?.length) return null;
   const rows = command.limits.map((l) => [el('span', {}, l.reason),
     l.ok === null ? 'not known' : l.ok ? 'within' : el('b', {}, 'beyond')]);
   return section('limits', 'Limits of the actuator', 'Limits',
     table(['what', 'limit'], rows),
+    command.optimum ? prose(optimumOf(command.optimum)) : null,
     command.learning ? prose(`Iterative learning control: ${command.learning.iterations} iterations, ` +
       `${command.learning.converged ? 'converged' : 'not converged'}.`) : null);
 }

@@ -48,6 +48,7 @@ correction::CorrectionProblem correction_problem(const inputs::Case& given,
                                         .limits = limits_of(*given.machine.actuator),
                                         .options = given.machine.correct->options};
   problem.options.spindle_speeds = base::values(*given.machine.correct->spindle_speed);
+  problem.options.spindle = given.machine.spindle;
   if (!given.measurements.empty()) {
     problem.cut.setup.cut = given.measurements.front().cut;
     problem.record = record_of(given, warnings);

@@ -37,6 +37,15 @@ void warn_flutes(const correction::BeforeAfter& cuts, Warnings& warnings) {
                      "difference between flutes means little then.",
                      std::max(before.last_change, after.last_change))});
   }
+  const double own = correction::own_difference(cuts.after);
+  if (own > unequal_area && dynamics::peak_difference(after) < own / 2) {
+    warnings.push_back(
+        {"unequal_forces",
+         fmt::format("Several teeth cut at once: the peaks of the whole force, which a "
+                     "dynamometer shows, are made equal; those of the flutes' own "
+                     "forces still differ by {:.0f} % ({:.0f} % before).",
+                     100 * own, 100 * correction::own_difference(cuts.before))});
+  }
   if (dynamics::area_difference(after) > unequal_area) {
     warnings.push_back(
         {"unequal_chips",

@@ -135,16 +135,5 @@ TEST(CorrectController, GoesToMidStrokeWithoutIndexPulses) {
   EXPECT_GT(c.turns.back().difference, 0.3) << "no correction, no equal peaks";
 }
 
-TEST(CorrectController, RefusesWhatItCannotLearn) {
-  const auto r = corrected({{"teeth = 2", "teeth = 3"},
-                            {"axial_depth_mm = 1", "axial_depth_mm = 0.2"},
-                            {"[0.0139, -0.0139]", "[0.01, 0, -0.01]"}},
-                           true);
-  EXPECT_FALSE(r.heading.ok);
-  EXPECT_NE(r.heading.message.find("controller refuses"), std::string::npos)
-      << r.heading.message;
-  EXPECT_TRUE(r.correction.ok) << "what was planned is told all the same";
-}
-
 }  // namespace
 }  // namespace trochoid::run
