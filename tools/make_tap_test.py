@@ -1,4 +1,4 @@
-"""Make the simulated tap test and step of examples/tap_test.
+"""Make the simulated tap test, hammer record and step of examples/tap_test.
 
 The response is that of two modes with noise, as a hammer and an accelerometer would give it;
 the step that of a second-order actuator with the noise of a capacitive sensor.
@@ -8,6 +8,7 @@ import pathlib
 import tomllib
 
 import numpy as np
+from scipy import linalg, signal
 
 EXAMPLE = pathlib.Path(__file__).resolve().parent.parent / "examples/tap_test"
 
@@ -29,6 +30,36 @@ def step(truth, t):
     return truth["step"]["step_um"] * a["gain"] * y
 
 
+def hammer(truth, rate=16000, finer=16):
+    """Force and acceleration of four blows, the third of them a double hit."""
+    n = int(0.68 * rate) * finer
+    dt = 1 / (rate * finer)
+    t = np.arange(n) * dt
+    force = np.zeros(n)
+    for start, peak in ((0.02, 310), (0.18, 260), (0.34, 290), (0.362, 70), (0.50, 330)):
+        x = (t - start) / 2.2e-4
+        force += np.where((x > 0) & (x < 1), peak * np.sin(np.pi * np.clip(x, 0, 1)), 0)
+    a = np.zeros(n)
+    for mode in truth["mode"]:
+        m, c, k = mode["mass_kg"], mode["damping_Ns_per_m"], mode["stiffness_N_per_m"]
+        # the force is a straight line between samples: exact in that
+        A, B = np.array([[0, 1], [-k / m, -c / m]]), np.array([0, 1 / m])
+        M = np.zeros((4, 4))
+        M[:2, :2], M[:2, 2], M[2, 3] = A * dt, B * dt, 1
+        E = linalg.expm(M)
+        state = np.zeros(2)
+        for i in range(n):
+            a[i] += (force[i] - c * state[1] - k * state[0]) / m
+            if i + 1 < n:
+                state = (E[:2, :2] @ state + E[:2, 2] * force[i]
+                         + E[:2, 3] * (force[i + 1] - force[i]))
+    b = signal.firwin(16 * finer + 1, 0.8 / finer)  # what keeps aliases out
+    delay = 8 * finer
+    both = [signal.lfilter(b, 1, np.append(y, np.zeros(delay)))[delay:][::finer]
+            for y in (force, a)]
+    return t[::finer], *both
+
+
 def main():
     truth = tomllib.loads((EXAMPLE / "truth.toml").read_text())
     random = np.random.default_rng(20)
@@ -47,6 +78,13 @@ def main():
     (EXAMPLE / "step.csv").write_text("\n".join(
         ["# simulated: two poles and noise (tools/make_tap_test.py)",
          "time_s,command_um,position_um", *rows]) + "\n")
+    t, force, a = hammer(truth)
+    force = force + 0.05 * random.standard_normal(t.size)
+    a = a + 1.0 * random.standard_normal(t.size)
+    rows = [f"{x:.7g},{f:.2f},{y:.2f}" for x, f, y in zip(t, force, a)]
+    (EXAMPLE / "hammer.csv").write_text("\n".join(
+        ["# simulated: four blows, the third a double hit (tools/make_tap_test.py)",
+         "time_s,force_N,acceleration_m/s2", *rows]) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Modes and actuators, written once more: plain formulas and scipy's fits.
 
-Ids: M-1 to M-4, M-6 to M-8, M-11, M-13 of docs/theory/modes.md.
+Ids: M-1 to M-4, M-6 to M-8, M-11, M-13, M-15, M-16, M-20, M-21 of docs/theory/modes.md.
 """
 import numpy as np
 from scipy import optimize, signal
@@ -16,21 +16,85 @@ def accelerance(modes, f):
     return -(2 * np.pi * np.asarray(f))**2 * receptance(modes, f)  # M-4
 
 
+def noise(r, H, leverage):
+    """Floor, fraction of magnitude and of phase: r complex, turned along H.  M-15
+
+    The residuals are those of maximum likelihood but for their leverage."""
+    scale = np.abs(H).max()
+    power = np.tile(np.abs(H / scale)**2, 2)
+    raw = np.concatenate([r.real, r.imag])**2 / scale**2
+    y = raw / (1 - leverage)
+    across = np.arange(power.size) >= len(r)
+
+    def deviance(v, of):
+        s2 = v[0] + np.where(across, v[2], v[1]) * power
+        return np.sum(np.log(s2) + of / s2)
+
+    found = []
+    for spread in (lambda q: (q[0], 0, 0), lambda q: (q[0], q[1], q[1]), lambda q: q):
+        q = len(found) + 1
+        start = np.log([y.mean(), *([y.mean() / power.mean()] * 2)][:q])
+        fit = optimize.minimize(lambda x: deviance(spread(np.exp(x)), y), start,
+                                method="Nelder-Mead",
+                                options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 10000,
+                                         "maxfev": 10000})
+        v = np.array(spread(np.exp(fit.x)))
+        found.append((deviance(v, raw) + q * np.log(2 * len(r)), tuple(np.sqrt(v))))
+    floor, magnitude, phase = min(found)[1]
+    return floor * scale, magnitude, phase
+
+
 def fit_accelerance(f, H, start):
-    """Least squares over (m, k, c) of every mode, from a start near by.  M-7
+    """Least squares over (m, k, c) of every mode, weighted by the noise.  M-7, M-16
 
-    Returns the modes and their standard errors, both shape (modes, 3)."""
+    Returns the modes, their standard errors, both shape (modes, 3), and the noise."""
     x0 = np.asarray(start, float)
+    p = np.ones(x0.size)
+    along = across = np.full(len(f), 1 / np.abs(H).max())
+    turn = np.ones(len(f))
+    before = np.zeros(x0.size)
 
-    def residual(p):
-        d = (accelerance(np.reshape(p, x0.shape) * x0, f) - H) / np.abs(H).max()
-        return np.concatenate([d.real, d.imag])
+    def model(p):
+        return accelerance(np.reshape(p, x0.shape) * x0, f)
 
-    fit = optimize.least_squares(residual, np.ones(x0.size), method="lm", xtol=1e-14,
-                                 ftol=1e-14, gtol=1e-14)
-    s2 = 2 * fit.cost / (2 * len(f) - x0.size)
-    se = np.sqrt(s2 * np.diag(np.linalg.inv(fit.jac.T @ fit.jac)))
-    return fit.x.reshape(x0.shape) * x0, se.reshape(x0.shape) * x0
+    while np.max(np.abs(p - before)) > 1e-10:
+        before = p
+
+        def residual(p):
+            d = (H - model(p)) * turn
+            return np.concatenate([d.real * along, d.imag * across])
+
+        fit = optimize.least_squares(residual, p, method="lm", xtol=1e-14, ftol=1e-14,
+                                     gtol=1e-14)
+        p = fit.x
+        cov = np.linalg.inv(fit.jac.T @ fit.jac)
+        turn = np.conj(model(p)) / np.abs(model(p))
+        sigma = noise((H - model(p)) * turn, model(p),
+                      np.einsum("ia,ab,ib->i", fit.jac, cov, fit.jac))
+        along = 1 / np.hypot(sigma[0], sigma[1] * np.abs(model(p)))
+        across = 1 / np.hypot(sigma[0], sigma[2] * np.abs(model(p)))
+    se = np.sqrt(np.diag(cov)).reshape(x0.shape) * x0
+    return p.reshape(x0.shape) * x0, se, sigma
+
+
+def h1(force, response, starts, n, rate, window_end):
+    """H1 and coherence of blows whose pulses begin at given samples.  M-20, M-21
+
+    Blocks begin a hundredth before the pulse; what stands there is taken off. The pulse
+    ends below 3 % of the largest force; the force is kept for four times its width and fades over four more."""
+    lead = int(0.01 * n)
+    window = window_end ** (np.arange(n) / n)
+    ff = xx = xf = 0
+    for start in starts:
+        y = force[start - lead:start - lead + n] - force[start - lead:start].mean()
+        x = response[start - lead:start - lead + n] - response[start - lead:start].mean()
+        low = np.abs(force[start:]) < 0.03 * np.abs(force).max()
+        width = int(np.argmax(low)) + 1
+        fade = np.clip((np.arange(n) - lead - 5 * width) / (4 * width), 0, 1)
+        F = np.fft.rfft(y * window * (0.5 + 0.5 * np.cos(np.pi * fade)))
+        X = np.fft.rfft(x * window)
+        ff, xx, xf = ff + np.abs(F)**2, xx + np.abs(X)**2, xf + X * np.conj(F)
+    return np.fft.rfftfreq(n, 1 / rate), xf / ff, np.abs(xf)**2 / (ff * xx)
 
 
 def step(gain, S, P, t):

@@ -3,6 +3,9 @@
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/inputs/frf_file.h>
 #include <trochoid/inputs/frf_table.h>
+#include <trochoid/inputs/mat.h>
+#include <trochoid/inputs/tap_columns.h>
+#include <trochoid/inputs/tdms.h>
 #include <trochoid/inputs/uff58.h>
 
 #include <fmt/core.h>
@@ -12,6 +15,7 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <sstream>
 
 namespace trochoid::inputs {
 
@@ -201,6 +205,11 @@ FrfFile from_table(const std::string& text, const std::string& name,
     if (!problems.lines.empty()) throw base::InputError(problems.lines);
   };
   stop();
+  if (is_tap(table.names)) {
+    FrfFile tap = tap_file(tap_columns(table), source, problems);
+    stop();
+    return tap;
+  }
   const Columns columns = find_columns(table, problems);
   stop();
   const double factor = settle_unit(columns.unit, table.names_line, columns.unit_column,
@@ -216,6 +225,18 @@ FrfFile from_table(const std::string& text, const std::string& name,
   check_order(out.response.omega, table.lines, 1, problems);
   stop();
   return out;
+}
+
+/// What the function type of a set says.
+std::string function_name(int type) {
+  constexpr std::array names = {"of no type",         "time record",
+                                "auto spectrum",      "cross spectrum",
+                                "frequency response", "transmissibility",
+                                "coherence",          "auto correlation",
+                                "cross correlation",  "power spectral density"};
+  return type >= 0 && static_cast<std::size_t>(type) < names.size()
+             ? names[static_cast<std::size_t>(type)]
+             : fmt::format("function type {}", type);
 }
 
 std::string described(const Uff58& set) {
@@ -254,6 +275,31 @@ std::string unit_text(const Uff58& set) {
   }
 }
 
+/// What a file without a frequency response holds instead, and what would help.
+std::string without_response(const UffFile& file) {
+  if (file.sets.empty()) {
+    return fmt::format(
+        "no measured function is in this universal file{}: a frequency response is a "
+        "data set 58 (or 58b) with function type 4. Export the FRF, not the geometry",
+        file.others.empty()
+            ? std::string()
+            : fmt::format(", only {} data set{} of other kinds (the first is a {})",
+                          file.others.size(), file.others.size() == 1 ? "" : "s",
+                          file.others.front()));
+  }
+  std::string held;
+  for (const Uff58& set : file.sets) {
+    const std::string name = function_name(set.function_type);
+    if (held.find(name) == std::string::npos) {
+      held += (held.empty() ? "" : ", ") + name;
+    }
+  }
+  return fmt::format(
+      "the file holds {} measured function{} ({}), and no frequency response (data set 58 "
+      "with function type 4): export the FRF from the analyser",
+      file.sets.size(), file.sets.size() == 1 ? "" : "s", held);
+}
+
 /// The set that is meant.
 const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& problems) {
   std::vector<const Uff58*> responses;
@@ -267,11 +313,7 @@ const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& prob
     }
   }
   if (responses.empty()) {
-    problems.add(
-        1, 1,
-        fmt::format("the file holds {} data sets 58, but no frequency response "
-                    "(function type 4) among them",
-                    file.sets.size()));
+    problems.add(1, 1, without_response(file));
     return nullptr;
   }
   const auto wanted = static_cast<std::size_t>(std::max(source.dataset, 0));
@@ -285,12 +327,24 @@ const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& prob
   return responses[wanted == 0 ? 0 : wanted - 1];
 }
 
+/// Whether there is a force in time, and no response that an analyser made of it.
+bool holds_tap(const UffFile& file) {
+  const bool response = std::any_of(
+      file.sets.begin(), file.sets.end(),
+      [](const Uff58& set) { return set.function_type == frequency_response; });
+  const std::vector<TapColumn> columns = tap_columns(file);
+  return !response && std::any_of(columns.begin(), columns.end(),
+                                  [](const auto& c) { return c.name == "force"; });
+}
+
 FrfFile from_uff(const std::string& text, const std::string& name,
                  const FrfSource& source) {
   Problems problems{name, {}};
   const UffFile file = read_uff(text, name);
   FrfFile out;
-  if (const Uff58* set = chosen(file, source, problems)) {
+  if (holds_tap(file)) {
+    out = tap_file(tap_columns(file), source, problems);
+  } else if (const Uff58* set = chosen(file, source, problems)) {
     out.description = described(*set);
     if (set->y.size() < set->promised) {
       problems.add(set->line, 1,
@@ -322,6 +376,28 @@ FrfFile from_uff(const std::string& text, const std::string& name,
   return out;
 }
 
+/// Blows in a binary file: its table must hold a force.
+FrfFile from_numbers(const NumericTable& table, const std::string& name,
+                     const FrfSource& source) {
+  Problems problems{name, {}};
+  FrfFile out = tap_file(tap_columns(table), source, problems);
+  if (!problems.lines.empty()) throw base::InputError(problems.lines);
+  out.notes.insert(out.notes.end(), table.notes.begin(), table.notes.end());
+  return out;
+}
+
+FrfFile from_tdms(const std::string& text, const std::string& name,
+                  const FrfSource& source) {
+  std::istringstream in(text);
+  return from_numbers(tdms_table(in, name), name, source);
+}
+
+FrfFile from_mat(const std::string& text, const std::string& name,
+                 const FrfSource& source) {
+  std::istringstream in(text);
+  return from_numbers(mat5_table(in, name), name, source);
+}
+
 /// A format that a response may have.
 struct Reader {
   bool (*recognises)(std::string_view);  ///< the beginning of a file
@@ -329,7 +405,8 @@ struct Reader {
 };
 
 /// All of them: the first that recognises a file reads it, and the last takes any text.
-constexpr std::array readers{Reader{is_uff, from_uff},
+constexpr std::array readers{Reader{is_uff, from_uff}, Reader{is_tdms, from_tdms},
+                             Reader{is_mat, from_mat},
                              Reader{[](std::string_view) { return true; }, from_table}};
 
 }  // namespace

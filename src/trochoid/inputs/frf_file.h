@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
+#include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
 
 #include <filesystem>
@@ -22,14 +23,17 @@ struct FrfSource {
 };
 
 struct FrfFile {
-  structure::FrequencyResponse response;  ///< in SI
+  structure::FrequencyResponse response;  ///< in SI; only its kind where it is a tap
+  std::optional<signal::TapRecord> tap;   ///< hammer blows in time, in SI
   std::string description;  ///< what it is, in words, where the file says it
   std::vector<base::Warning> notes;
 };
 
 /// @brief Read a measured frequency response.
 ///
-/// Three forms, told apart by their content: a universal file with sets 58 or 58b; a
+/// Hammer blows in time are read as such: a table with columns for time, force and a
+/// response, a universal file with time records of both, a TDMS or MATLAB 5 file.
+/// A response itself has three forms, told apart by their content: a universal file with sets 58 or 58b; a
 /// table with a row of names (`freq_Hz`, and `re` and `im` or `mag` and `phase_deg`,
 /// the unit in the name); rows of three numbers, frequency in Hz, real and imaginary
 /// part, in SI.

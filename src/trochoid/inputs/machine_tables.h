@@ -7,6 +7,7 @@
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/surface_frame.h>
+#include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
 #include <trochoid/structure/plate.h>
@@ -183,6 +184,7 @@ struct FrfTables {
   int modes = 0;             ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ResidualTerms residual_terms = ResidualTerms::choose;
+  signal::TapOptions tap;  ///< for hammer blows in time
   ModeBody body = ModeBody::tool;
   Axis axis = Axis::x;
 };

@@ -299,6 +299,21 @@ void describe(const Visitor& v, FrfTables& t) {
   v({.name = "residual_terms",
      .meaning = "residual terms: they stand for the modes below and above the band"},
     choice(t.residual_terms));
+  v({.name = "estimator",
+     .meaning = "of hammer blows in time: H1 lets the noise of the sensor average out, "
+                "H2 that of the force"},
+    choice(t.tap.estimator));
+  v({.name = "block_s",
+     .meaning = "how much of the record is taken after each blow; 0: until the next, a "
+                "second at most",
+     .range = between(0, 1000)},
+    &t.tap.block);
+  v({.name = "window_end",
+     .meaning =
+         "what the exponential window leaves at the end of a block; 1: no window; "
+         "0: 0.01 where it still rings there, else 1",
+     .range = between(0, 1)},
+    &t.tap.window_end);
   v({.name = "body", .meaning = "what vibrates, for modes.toml"}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction, for modes.toml"}, choice(t.axis));
 }

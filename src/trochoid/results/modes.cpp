@@ -5,7 +5,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <complex>
+#include <limits>
+#include <utility>
 
 namespace trochoid::results {
 
@@ -33,6 +36,23 @@ base::Table fitted_table(const ModesResult& r) {
   if (fit.ok) {
     add("fitted_", fit.fitted);
   }
+  const std::vector<double> mif =
+      structure::mode_indicator({.kind = r.kind, .omega = fit.omega, .H = fit.H});
+  add_column(table, "mode_indicator", n, [&](std::size_t i) { return mif[i]; });
+  return table;
+}
+
+/// stabilisation.csv: poles of rising order, and how they stand.
+base::Table stabilisation_table(const ModesResult& r) {
+  base::Table table{"stabilisation.csv", {}};
+  const std::size_t n = r.poles.size();
+  add_column(table, "order", n,
+             [&](std::size_t i) { return static_cast<double>(r.poles[i].order); });
+  add_column(table, "frequency_Hz", n,
+             [&](std::size_t i) { return unit::in(r.poles[i].omega, unit::Hz); });
+  add_column(table, "damping_ratio", n, [&](std::size_t i) { return r.poles[i].zeta; });
+  add_column(table, "standing", n,
+             [&](std::size_t i) { return static_cast<double>(r.poles[i].standing); });
   return table;
 }
 
@@ -65,7 +85,73 @@ Value residual_terms_value(const ModesFit& fit) {
   if (!fit.residual_terms) {
     return nullptr;
   }
-  return Object{{"above_m_per_N", fit.above}, {"below_per_kg", fit.below}};
+  return Object{{"above_m_per_N", fit.residual[0]}, {"below_per_kg", fit.residual[1]}};
+}
+
+/// Resonances that the fit holds and that are no answer, with what is missing.
+Array unresolved_value(const ModesFit& fit) {
+  Array out;
+  for (std::size_t i = 0; i < fit.unresolved.size(); ++i) {
+    out.emplace_back(
+        Object{{"frequency_Hz", unit::in(fit.unresolved[i].omega, unit::Hz)},
+               {"why", fit.left_out[i]}});
+  }
+  return out;
+}
+
+/// The numbers of modes that were tried: the evidence for each, less being better.
+Array orders_value(const ModesFit& fit) {
+  Array orders;
+  double least = std::numeric_limits<double>::infinity();
+  for (const structure::ModesOrder& order : fit.orders) {
+    least = std::min(least, order.criterion);
+  }
+  for (const structure::ModesOrder& order : fit.orders) {
+    Array frequencies;
+    Array dampings;
+    for (const auto& [omega, zeta] : order.modes) {
+      frequencies.emplace_back(unit::in(omega, unit::Hz));
+      dampings.emplace_back(zeta);
+    }
+    orders.emplace_back(
+        Object{{"modes", order.count},
+               {"residual_terms", order.residual_terms},
+               {"criterion", order.criterion - least},
+               {"frequencies_Hz", std::move(frequencies)},
+               {"damping_ratios", std::move(dampings)},
+               {"fault", order.fault.empty() ? Value(nullptr) : Value(order.fault)}});
+  }
+  return orders;
+}
+
+/// The blows of a record, and why some of them are left out.
+Array hits_value(const signal::TapResponse& tap) {
+  Array hits;
+  for (const signal::TapHit& hit : tap.hits) {
+    hits.emplace_back(
+        Object{{"time_s", hit.time},
+               {"peak_N", hit.peak},
+               {"left_out", hit.fault.empty() ? Value(nullptr) : Value(hit.fault)}});
+  }
+  return hits;
+}
+
+/// response.csv: what the blows gave, with its coherence.
+base::Table response_table(const ModesResult& r) {
+  base::Table table{"response.csv", {}};
+  const signal::TapResponse& tap = *r.tap;
+  const std::size_t n = tap.omega.size();
+  const std::string_view suffix = unit_suffix(r.kind);
+  add_column(table, "frequency_Hz", n,
+             [&](std::size_t i) { return unit::in(tap.omega[i], unit::Hz); });
+  add_column(table, fmt::format("re_{}", suffix), n,
+             [&](std::size_t i) { return tap.H[i].real(); });
+  add_column(table, fmt::format("im_{}", suffix), n,
+             [&](std::size_t i) { return tap.H[i].imag(); });
+  if (!tap.coherence.empty()) {
+    add_column(table, "coherence", n, [&](std::size_t i) { return tap.coherence[i]; });
+  }
+  return table;
 }
 
 Object result_of(const ModesResult& r) {
@@ -84,6 +170,22 @@ Object result_of(const ModesResult& r) {
     add("explained", fit.explained);
     add(fmt::format("rms_{}", unit_suffix(r.kind)), fit.rms);
     add("residual_terms", residual_terms_value(fit));
+    Array outside;
+    for (const FittedMode& term : fit.outside) {
+      outside.emplace_back(unit::in(term.omega, unit::Hz));
+    }
+    add("terms_outside_Hz", std::move(outside));
+    add("noise", Object{{fmt::format("floor_{}", unit_suffix(r.kind)), fit.noise.floor},
+                        {"magnitude_percent", 100 * fit.noise.magnitude},
+                        {"phase_deg", unit::in(fit.noise.phase, unit::deg)}});
+    add("unresolved", unresolved_value(fit));
+    add("orders", orders_value(fit));
+  }
+  if (r.tap) {
+    add("hits", hits_value(*r.tap));
+    add("block_s", r.tap->block);
+    add("window_end", r.tap->window_end);
+    add("excited_to_Hz", unit::in(r.tap->excited, unit::Hz));
   }
   if (!r.description.empty()) {
     add("description", r.description);
@@ -132,9 +234,17 @@ std::string short_table(const ModesResult& r) {
       "the fit explains {:.3f} % of the power and leaves {:.3g} {} (rms)\n",
       fit.omega.size(), name_of(r.kind), fit.omega.front() / unit::Hz,
       fit.omega.back() / unit::Hz,
-      fit.residual_terms ? ", with terms for modes outside of it" : "",
+      fit.residual_terms || !fit.outside.empty()
+          ? ", with terms for modes outside of it"
+          : "",
       100 * fit.explained, fit.rms, unit_of(r.kind));
-  return text;
+  const structure::ResponseNoise& noise = fit.noise;
+  text += fmt::format("noise: a floor of {:.3g} {}", noise.floor, unit_of(r.kind));
+  if (noise.magnitude > 0 || noise.phase > 0) {
+    text += fmt::format(" and {:.2g} % of the magnitude, {:.2g} deg of phase",
+                        100 * noise.magnitude, unit::in(noise.phase, unit::deg));
+  }
+  return text + "\n";
 }
 
 }  // namespace
@@ -144,6 +254,12 @@ Answer answer_of(const ModesResult& r) {
                 .heading = r.heading,
                 .result = result_of(r),
                 .tables = {fitted_table(r)}};
+  if (r.tap && !r.tap->omega.empty()) {
+    answer.tables.push_back(response_table(r));
+  }
+  if (!r.poles.empty()) {
+    answer.tables.push_back(stabilisation_table(r));
+  }
   if (r.fit.ok) {
     answer.short_table = short_table(r);
     answer.texts.push_back({"modes.toml", modes_toml(r)});

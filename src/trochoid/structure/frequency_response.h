@@ -57,6 +57,8 @@ struct FrequencyResponse {
   ResponseKind kind = ResponseKind::receptance;
   std::vector<double> omega;            ///< [rad/s], increasing, at least 0, shape (n)
   std::vector<std::complex<double>> H;  ///< in SI, shape (n)
+  /// Over how many lines a window spreads the noise of one; 1: each has its own.
+  double noise_bandwidth = 1.0;
 };
 
 /// @brief What a receptance is multiplied with.

@@ -1,14 +1,14 @@
 #include <trochoid/base/units.h>
 #include <trochoid/structure/identify_modes.h>
-#include <trochoid/structure/modes_problem.h>
-#include <trochoid/structure/pole_search.h>
+#include <trochoid/structure/modes_faults.h>
+#include <trochoid/structure/modes_search.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace trochoid::structure {
@@ -17,23 +17,26 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int most_modes = 6;            ///< that are chosen without being asked for
-constexpr double most_damping = 0.5;     ///< more has no peak worth the name
-constexpr double worst_mass = 0.2;       ///< relative standard error
+/// Modes outside of the band beside those that were asked for.
+constexpr int most_outside = 2;
+constexpr int most_modes = 12;           ///< that are chosen without being asked for
 constexpr double least_explained = 0.7;  ///< of the sum of |H|^2
-constexpr int least_lines_in_peak = 2;
-/// A residue turned by more than this belongs to another kind of response.
-constexpr double most_turned = 50 * std::numbers::pi / 180;
-/// How well free poles must fit for the angle of a residue to mean something.
-constexpr double well_explained = 0.8;
-
-std::string hertz(double omega) {
-  return fmt::format("{:.5g} Hz", omega / unit::Hz);
-}
+/// Orders without a better fit after which the search ends; more while none is sound.
+constexpr int patience = 2;
+constexpr int patience_at_first = 4;
+/// Change of a parameter that ends the last fit, in standard errors.
+constexpr double exactly = 1e-6;
+/// Difference of the criterion above which evidence is very strong: odds of 150 to 1.
+constexpr double very_strong = 10.0;
+/// What one pole explains where there is one mode and no doubt.
+constexpr double certain = 0.9;
+/// Fraction of the power of a response below which nothing is left to explain.
+constexpr double rounding = 1e-20;
 
 FrequencyResponse in_band(const FrequencyResponse& response,
                           const ModesOptions& options) {
-  FrequencyResponse lines{.kind = response.kind};
+  FrequencyResponse lines{.kind = response.kind,
+                          .noise_bandwidth = response.noise_bandwidth};
   const double to =
       options.to > 0 ? options.to : std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < response.omega.size(); ++i) {
@@ -55,153 +58,126 @@ double power(const FrequencyResponse& lines) {
   return sum;
 }
 
-int lines_in_peak(const FrequencyResponse& lines, const ModeTerm& t) {
-  return static_cast<int>(std::count_if(
-      lines.omega.begin(), lines.omega.end(),
-      [&](double w) { return std::abs(w - t.omega) <= t.zeta * t.omega; }));
-}
-
-/// Why a term is no resonance of this record; empty: it is one.
-std::string fault_of(const FrequencyResponse& lines, const ModesSolution& solution,
-                     std::size_t r) {
-  const ModeTerm& t = solution.model.terms[r];
-  const double low = lines.omega.front();
-  const double high = lines.omega.back();
-  const std::string band =
-      fmt::format("the band from {} to {}", hertz(low), hertz(high));
-  if (t.omega < low || t.omega > high) {
-    return fmt::format(
-        "no resonance lies in {}: the best fit has its resonance at {}, "
-        "where nothing was measured",
-        band, hertz(t.omega));
-  }
-  if (t.zeta > most_damping) {
-    return fmt::format(
-        "no resonance lies in {}: the best fit has a damping ratio of "
-        "{:.2g}, which makes no peak",
-        band, t.zeta);
-  }
-  if (t.A <= 0) {
-    return fmt::format(
-        "the mode at {} has a negative mass: the response has the wrong sign. Is the "
-        "sensor against the force, or is it not a response at the point of the force?",
-        hertz(t.omega));
-  }
-  if (t.omega * (1 - t.zeta) < low || t.omega * (1 + t.zeta) > high) {
-    return fmt::format(
-        "the half-power points of the resonance at {} ({} and {}) are "
-        "not both inside {}: a wider record is needed",
-        hertz(t.omega), hertz(t.omega * (1 - t.zeta)), hertz(t.omega * (1 + t.zeta)),
-        band);
-  }
-  if (lines_in_peak(lines, t) < least_lines_in_peak) {
-    return fmt::format(
-        "the resonance at {} is {} wide, and {} of the measured lines "
-        "lies in it: at least {} are needed, so measure longer",
-        hertz(t.omega), hertz(2 * t.zeta * t.omega), lines_in_peak(lines, t),
-        least_lines_in_peak);
-  }
-  if (solution.variance.empty() ||
-      std::sqrt(solution.variance[3 * r + 2]) > worst_mass * t.A) {
-    return fmt::format("the mass of the mode at {} cannot be told from this record",
-                       hertz(t.omega));
-  }
-  return {};
-}
-
 /// A fit and what speaks against it.
 struct Candidate {
-  ModesSolution solution;
-  std::string fault;  ///< empty: all its modes are resonances
-  double criterion = std::numeric_limits<double>::infinity();
+  ModesTrial trial;
+  std::vector<TermVerdict> terms;
+  std::string fault;  ///< empty: it may be the answer
 };
 
-Candidate candidate(const FrequencyResponse& lines, int count, bool residual_terms) {
-  Candidate out;
-  const Poles poles = find_poles(lines, count, residual_terms);
-  std::vector<ModeTerm> starts;
-  for (const Pole& pole : poles.pairs) {
-    const double omega = std::abs(pole.p);
-    starts.push_back({.omega = omega,
-                      .zeta = std::clamp(std::abs(pole.p.real()) / omega, 1e-5, 0.9)});
+std::size_t count_of(const Candidate& candidate, TermRole role) {
+  return static_cast<std::size_t>(
+      std::count_if(candidate.terms.begin(), candidate.terms.end(),
+                    [&](const TermVerdict& term) { return term.role == role; }));
+}
+
+Candidate judged(const FrequencyResponse& lines, ModesTrial trial,
+                 const ModesOptions& options) {
+  Candidate out{.trial = std::move(trial)};
+  for (std::size_t r = 0; r < out.trial.solution.model.terms.size(); ++r) {
+    out.terms.push_back(verdict_on(lines, out.trial.solution, r));
   }
-  out.solution = fit_modes(lines, starts, residual_terms);
-  for (std::size_t r = 0; r < starts.size() && out.fault.empty(); ++r) {
-    out.fault = fault_of(lines, out.solution, r);
+  const bool none = count_of(out, TermRole::mode) == 0;
+  const bool whole = options.count > 0;
+  for (const TermVerdict& term : out.terms) {
+    const bool fatal =
+        term.role == TermRole::none || (term.role == TermRole::unresolved && whole) ||
+        (term.role == TermRole::outside && !options.residual_terms.value_or(true));
+    if (term.role != TermRole::mode && (fatal || none) && out.fault.empty()) {
+      out.fault = term.why;
+    }
   }
-  if (!out.solution.converged && out.fault.empty()) {
+  if (!out.trial.solution.converged && out.fault.empty()) {
     out.fault = "the fit did not converge";
   }
-  const double n = 2.0 * static_cast<double>(lines.omega.size());
-  // Below rounding nothing is left to be explained.
-  const double rss = std::max(out.solution.rss, 1e-24 * power(lines));
-  out.criterion =
-      n * std::log(rss) + static_cast<double>(out.solution.model.size()) * std::log(n);
+  out.trial.criterion +=
+      very_strong * static_cast<double>(count_of(out, TermRole::unresolved));
   return out;
 }
 
-/// Whether the highest peak turns like a response of this kind; if not, what it may be.
-std::string fault_of_kind(const FrequencyResponse& lines, int count) {
-  const Poles poles = find_poles(lines, count, true);
-  const Pole& pole = poles.pairs.front();
-  const double omega = std::abs(pole.p);
-  const bool resonance = omega > lines.omega.front() && omega < lines.omega.back() &&
-                         std::abs(pole.p.real()) < most_damping * omega;
-  // A/(omega_r^2 - omega^2 + ...) has R = -i A/(2 omega_d)
-  const double turned = std::arg(pole.R * Complex(0.0, 1.0));
-  if (!resonance || poles.explained < well_explained ||
-      std::abs(turned) < most_turned) {
-    return {};
+ModesOrder order_of(const Candidate& candidate) {
+  const ModesModel& model = candidate.trial.solution.model;
+  ModesOrder out{.count = count_of(candidate, TermRole::mode),
+                 .residual_terms = model.residual_terms,
+                 .criterion = candidate.trial.criterion,
+                 .fault = candidate.fault};
+  for (const ModeTerm& term : model.terms) {
+    out.modes.push_back({term.omega, term.zeta});
   }
-  constexpr std::string_view names[] = {"receptance", "mobility", "accelerance"};
-  const int given = static_cast<int>(lines.kind);
-  const int steps = static_cast<int>(std::lround(turned / (std::numbers::pi / 2)));
-  std::string may;
-  for (const int meant : {given + steps, given + steps - 4, given + steps + 4}) {
-    if (meant >= 0 && meant <= 2 && meant != given) {
-      may = fmt::format(" It turns like {} {}.", meant == 2 ? "an" : "a",
-                        names[static_cast<std::size_t>(meant)]);
-    }
-  }
-  if (std::abs(steps) == 2) {
-    may += " Or the sensor points against the force: then the sign must be changed.";
-  }
-  return fmt::format(
-      "at the resonance at {} the response is turned by {:.0f} deg from "
-      "what {} {} of a mode with a mass above 0 has there.{}",
-      hertz(omega), turned * 180 / std::numbers::pi, given == 2 ? "an" : "a",
-      names[static_cast<std::size_t>(given)], may);
+  std::sort(out.modes.begin(), out.modes.end());
+  return out;
 }
 
-Candidate best(const FrequencyResponse& lines, const ModesOptions& options) {
-  const int first = options.count > 0 ? options.count : 1;
-  const int last = options.count > 0 ? options.count : most_modes;
-  Candidate chosen;
-  std::string fault;
+/// What the search for the number of modes has found.
+struct Search {
+  Candidate chosen;         ///< without terms: none is sound
+  std::string first_fault;  ///< of the simplest fit
+  std::vector<ModesOrder> orders;
+};
+
+/// Whether there are numbers enough: three a mode and two residual terms.
+bool enough_lines(const FrequencyResponse& lines, int count) {
+  return lines.omega.size() >= static_cast<std::size_t>(4 * count + 4);
+}
+
+/// Take a candidate into a search; true if it is the best so far.
+/// @param wanted  number of modes; 0: any
+bool taken(Search& search, Candidate next, int wanted) {
+  search.orders.push_back(order_of(next));
+  const Candidate& chosen = search.chosen;
+  const bool better = chosen.trial.solution.model.terms.empty() ||
+                      next.trial.criterion < chosen.trial.criterion;
+  const bool right =
+      wanted == 0 || count_of(next, TermRole::mode) == static_cast<std::size_t>(wanted);
+  if (!right || !next.fault.empty() || !better) {
+    return false;
+  }
+  search.chosen = std::move(next);
+  return true;
+}
+
+/// Whether one mode more, after some that bettered nothing, is not worth a try.
+bool given_up(const FrequencyResponse& lines, const Search& search, int since,
+              int count) {
+  const ModesSolution& chosen = search.chosen.trial.solution;
+  const bool sound = !chosen.model.terms.empty();
+  if (sound && chosen.rss < rounding * power(lines)) {
+    return true;
+  }
+  if (since < patience) {
+    return false;
+  }
+  return sound || since >= patience_at_first ||
+         !fault_of_kind(lines, count - 1).empty();
+}
+
+/// One mode after the other, with residual terms and without (M-16, M-17).
+Search searched(const FrequencyResponse& lines, const ModesOptions& options) {
+  const int more = options.residual_terms.value_or(true) ? most_outside : 0;
+  const int last = options.count > 0 ? options.count + more : most_modes;
+  Search search;
+  std::array<ModesTrial, 2> before;
   int since = 0;
-  for (int count = first; count <= last && since < 2; ++count) {
-    // Three numbers a mode and two residual terms from two numbers a line.
-    if (lines.omega.size() < static_cast<std::size_t>(4 * count + 4)) {
+  for (int count = 1; count <= last && enough_lines(lines, count); ++count) {
+    if (given_up(lines, search, since, count)) {
       break;
     }
-    ++since;
+    since += count >= options.count ? 1 : 0;
     for (const bool terms : {false, true}) {
       if (options.residual_terms.value_or(terms) != terms) {
         continue;
       }
-      Candidate next = candidate(lines, count, terms);
-      if (!next.fault.empty()) {
-        fault = fault.empty() || count == first ? next.fault : fault;
-      } else if (next.criterion < chosen.criterion) {
-        chosen = std::move(next);
-        since = 0;
+      ModesTrial& trial = before[terms ? 1 : 0];
+      trial = with_one_more(lines, trial, terms);
+      Candidate next = judged(lines, trial, options);
+      if (!next.fault.empty() &&
+          (search.first_fault.empty() || count <= std::max(options.count, 1))) {
+        search.first_fault = next.fault;
       }
+      since = taken(search, std::move(next), options.count) ? 0 : since;
     }
   }
-  if (chosen.solution.model.terms.empty()) {
-    chosen.fault = fault;
-  }
-  return chosen;
+  return search;
 }
 
 ModesFit refused(ModesFit fit, std::string reason) {
@@ -211,24 +187,60 @@ ModesFit refused(ModesFit fit, std::string reason) {
   return fit;
 }
 
-/// Fill in a fit from its solution.
-void take(const FrequencyResponse& lines, const ModesSolution& solution,
-          ModesFit& fit) {
-  for (std::size_t r = 0; r < solution.model.terms.size(); ++r) {
-    fit.modes.push_back(fitted_mode(solution, r));
-    fit.modes.back().lines_in_peak = lines_in_peak(lines, solution.model.terms[r]);
+/// Fill in a fit from what was chosen.
+void take(const FrequencyResponse& lines, const ModesTrial& trial,
+          const std::vector<TermVerdict>& terms, double window_decay, ModesFit& fit) {
+  const ModesSolution& solution = trial.solution;
+  for (std::size_t r = 0; r < terms.size(); ++r) {
+    FittedMode mode = fitted_mode(solution, r, window_decay);
+    mode.lines_in_peak = lines_in_peak(lines, solution.model.terms[r]);
+    if (terms[r].role == TermRole::mode) {
+      fit.modes.push_back(mode);
+    } else if (terms[r].role == TermRole::outside) {
+      fit.outside.push_back(mode);
+    } else {
+      fit.unresolved.push_back(mode);
+      fit.left_out.push_back(terms[r].why);
+    }
   }
   std::sort(fit.modes.begin(), fit.modes.end(),
             [](const FittedMode& a, const FittedMode& b) { return a.omega < b.omega; });
   fit.residual_terms = solution.model.residual_terms;
-  fit.above = solution.model.above;
-  fit.below = solution.model.below;
+  fit.residual = solution.model.residual;
+  fit.noise = trial.noise;
   for (std::size_t i = 0; i < lines.omega.size(); ++i) {
     fit.fitted.push_back(factor(lines.kind, lines.omega[i]) *
                          receptance(solution.model, lines.omega[i]));
   }
   fit.explained = 1 - solution.rss / power(lines);
   fit.rms = std::sqrt(solution.rss / static_cast<double>(lines.omega.size()));
+}
+
+/// Which mode has less damping than the exponential window adds; empty: none.
+std::string without_damping(const ModesFit& fit) {
+  for (const FittedMode& mode : fit.modes) {
+    if (!(mode.mode.damping > 0)) {
+      return fmt::format(
+          "the damping of the mode at {:.5g} Hz cannot be told from that of the "
+          "exponential window: take longer blocks, or a weaker window",
+          mode.omega / unit::Hz);
+    }
+  }
+  return {};
+}
+
+/// Another number of modes that is nearly as likely.
+void add_alternative(const Search& search, ModesFit& fit) {
+  const double chosen = search.chosen.trial.criterion;
+  const std::size_t count = fit.modes.size();
+  double least = chosen + very_strong;
+  for (const ModesOrder& order : search.orders) {
+    if (order.fault.empty() && order.count != count && order.criterion < least) {
+      least = order.criterion;
+      fit.alternative = static_cast<int>(order.count);
+      fit.alternative_odds = std::exp(0.5 * (order.criterion - chosen));
+    }
+  }
 }
 
 }  // namespace
@@ -249,31 +261,51 @@ ModesFit identify_modes(const FrequencyResponse& response,
   if (!(power(lines) > 0)) {
     return refused(std::move(fit), "the response is zero in the whole band");
   }
-  const Candidate chosen = best(lines, options);
-  const int poles = std::max(1, static_cast<int>(chosen.solution.model.terms.size()));
-  const std::string kind = fault_of_kind(lines, poles);
+  const std::string turned = fault_of_kind(lines, 1, certain);
+  if (!turned.empty()) {
+    return refused(std::move(fit), turned);
+  }
+  Search search = searched(lines, options);
+  const ModesTrial& rough = search.chosen.trial;
+  const std::size_t count = rough.solution.model.terms.size();
+  const std::string kind =
+      fault_of_kind(lines, static_cast<int>(std::max<std::size_t>(count, 1)));
   if (!kind.empty()) {
     return refused(std::move(fit), kind);
   }
-  if (chosen.solution.model.terms.empty()) {
-    return refused(std::move(fit), chosen.fault);
+  if (count == 0) {
+    return refused(std::move(fit), search.first_fault);
   }
-  take(lines, chosen.solution, fit);
+  const ModesModel& model = rough.solution.model;
+  const ModesTrial chosen =
+      settle(lines, model, weights_of(lines, rough.noise, model), exactly);
+  take(lines, chosen, search.chosen.terms, options.window_decay, fit);
+  const std::string undamped = without_damping(fit);
+  if (!undamped.empty()) {
+    return refused(std::move(fit), undamped);
+  }
   if (fit.explained < least_explained) {
+    const std::string other = fault_of_kind(lines, 1);
+    if (!other.empty()) {
+      return refused(std::move(fit), other);
+    }
     return refused(std::move(fit),
                    fmt::format("no modes explain this response: the best fit leaves "
                                "{:.0f} % of its power, the sum of |H|^2, unexplained",
                                100 * (1 - fit.explained)));
   }
+  add_alternative(search, fit);
+  fit.orders = std::move(search.orders);
   fit.ok = true;
   return fit;
 }
 
 std::complex<double> modelled(const ModesFit& fit, double omega) {
-  ModesModel model{
-      .residual_terms = fit.residual_terms, .above = fit.above, .below = fit.below};
-  for (const FittedMode& mode : fit.modes) {
-    model.terms.push_back({mode.omega, mode.zeta, 1 / mode.mode.mass});
+  ModesModel model{.residual_terms = fit.residual_terms, .residual = fit.residual};
+  for (const auto& modes : {fit.modes, fit.outside, fit.unresolved}) {
+    for (const FittedMode& mode : modes) {
+      model.terms.push_back({mode.omega, mode.zeta, 1 / mode.mode.mass});
+    }
   }
   return receptance(model, omega);
 }

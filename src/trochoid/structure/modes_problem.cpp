@@ -13,63 +13,58 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double rank_tolerance = 1e-12;
 
+/// 1/D: the dynamic stiffness of a unit mass, without the checks of a complex division.
+Complex inverse(const ModeTerm& t, double omega) {
+  const double re = t.omega * t.omega - omega * omega;
+  const double im = 2 * t.zeta * t.omega * omega;
+  const double norm = re * re + im * im;
+  return {re / norm, -im / norm};
+}
+
+/// What the residual terms are multiplied with in M-6.
+std::array<double, 2> residual_slopes(double omega) {
+  return {1.0, -1.0 / (omega * omega)};
+}
+
 /// Derivatives of M-6 at one line, as a receptance, in the order of the parameters.
 std::vector<Complex> slopes(const ModesModel& model, double omega) {
   std::vector<Complex> out;
   out.reserve(model.size());
   for (const ModeTerm& t : model.terms) {
-    const Complex D(t.omega * t.omega - omega * omega, 2 * t.zeta * t.omega * omega);
-    const Complex G = 1.0 / D;
+    const Complex G = inverse(t, omega);
     out.push_back(-t.A * G * G * Complex(2 * t.omega, 2 * t.zeta * omega));
     out.push_back(-t.A * G * G * Complex(0, 2 * t.omega * omega));
     out.push_back(G);
   }
-  if (model.residual_terms) {
-    out.emplace_back(1.0);
-    out.emplace_back(-1.0 / (omega * omega));
-  }
+  const auto residual = residual_slopes(omega);
+  out.insert(out.end(), residual.begin(),
+             residual.begin() + static_cast<std::ptrdiff_t>(model.residual_size()));
   return out;
 }
 
-/// The linear parameters A, U, L for given frequencies and dampings.
-void fit_linear(const FrequencyResponse& lines, ModesModel& model) {
-  const std::size_t n = model.terms.size() + (model.residual_terms ? 2 : 0);
-  const std::size_t m = 2 * lines.omega.size();
-  std::vector<double> A(m * n);
-  std::vector<double> b(m);
-  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex f = factor(lines.kind, lines.omega[i]);
-    const auto row = slopes(model, lines.omega[i]);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t own =
-          k < model.terms.size() ? 3 * k + 2 : k + 2 * model.terms.size();
-      const Complex value = f * row[own];
-      A[2 * i * n + k] = value.real();
-      A[(2 * i + 1) * n + k] = value.imag();
-    }
-    b[2 * i] = lines.H[i].real();
-    b[2 * i + 1] = lines.H[i].imag();
-  }
-  const auto fit = numerics::least_squares(A, static_cast<int>(n), b, rank_tolerance);
-  for (std::size_t r = 0; r < model.terms.size(); ++r) {
-    model.terms[r].A = fit.x[r];
-  }
-  if (model.residual_terms) {
-    model.above = fit.x[n - 2];
-    model.below = fit.x[n - 1];
-  }
+/// A row of a line as its two weighted parts: real and imaginary.
+std::array<double, 2> parts(const LineWeights& weights, std::size_t line,
+                            Complex value) {
+  const Complex turned = value * weights.turn[line];
+  return {turned.real() * weights.along[line], turned.imag() * weights.across[line]};
 }
+
+/// What the solver asks for: residuals, and their derivatives by columns.
+struct Rows {
+  std::span<double> r;
+  std::span<double> jacobian;
+};
 
 /// Parameters near 0 or 1 for the solver.
 struct Scaling {
   ModesModel start;
   double A = 1.0;
-  double above = 1.0;
-  double below = 1.0;
-  double H = 1.0;  ///< of the residuals
+  std::array<double, 2> residual{};
+  double H = 1.0;  ///< of the weighted residuals
 };
 
-Scaling scaling_of(const FrequencyResponse& lines, const ModesModel& start) {
+Scaling scaling_of(const FrequencyResponse& lines, const LineWeights& weights,
+                   const ModesModel& start) {
   Scaling s{.start = start};
   double A = 0.0;
   for (const ModeTerm& term : start.terms) {
@@ -79,13 +74,14 @@ Scaling scaling_of(const FrequencyResponse& lines, const ModesModel& start) {
   double sum = 0.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < lines.H.size(); ++i) {
-    sum += std::norm(lines.H[i]);
+    const auto [along, across] = parts(weights, i, lines.H[i]);
+    sum += along * along + across * across;
     largest =
         std::max(largest, std::abs(lines.H[i] / factor(lines.kind, lines.omega[i])));
   }
   s.H = sum > 0 ? std::sqrt(sum) : 1.0;
-  s.above = largest > 0 ? largest : 1.0;
-  s.below = s.above * lines.omega.front() * lines.omega.front();
+  const double size = largest > 0 ? largest : 1.0;
+  s.residual = {size, size * lines.omega.front() * lines.omega.front()};
   return s;
 }
 
@@ -96,9 +92,9 @@ ModesModel unscaled(const Scaling& s, std::span<const double> p) {
     model.terms[r].zeta = s.start.terms[r].zeta * std::exp(p[3 * r + 1]);
     model.terms[r].A = s.A * p[3 * r + 2];
   }
-  if (model.residual_terms) {
-    model.above = s.above * p[p.size() - 2];
-    model.below = s.below * p[p.size() - 1];
+  const std::size_t first = 3 * model.terms.size();
+  for (std::size_t k = 0; k < model.residual_size(); ++k) {
+    model.residual[k] = s.residual[k] * p[first + k];
   }
   return model;
 }
@@ -108,8 +104,8 @@ std::vector<double> scaled(const Scaling& s) {
   for (const ModeTerm& term : s.start.terms) {
     p.insert(p.end(), {1.0, 0.0, term.A / s.A});
   }
-  if (s.start.residual_terms) {
-    p.insert(p.end(), {s.start.above / s.above, s.start.below / s.below});
+  for (std::size_t k = 0; k < s.start.residual_size(); ++k) {
+    p.push_back(s.start.residual[k] / s.residual[k]);
   }
   return p;
 }
@@ -120,15 +116,13 @@ std::vector<double> chain(const Scaling& s, const ModesModel& model) {
   for (std::size_t r = 0; r < model.terms.size(); ++r) {
     out.insert(out.end(), {s.start.terms[r].omega, model.terms[r].zeta, s.A});
   }
-  if (model.residual_terms) {
-    out.insert(out.end(), {s.above, s.below});
-  }
+  out.insert(out.end(), s.residual.begin(),
+             s.residual.begin() + static_cast<std::ptrdiff_t>(model.residual_size()));
   return out;
 }
 
-bool evaluate(const FrequencyResponse& lines, const Scaling& s,
-              std::span<const double> p, std::span<double> r,
-              std::span<double> jacobian) {
+bool evaluate(const FrequencyResponse& lines, const LineWeights& weights,
+              const Scaling& s, std::span<const double> p, Rows rows) {
   const ModesModel model = unscaled(s, p);
   for (const ModeTerm& term : model.terms) {
     if (!(term.omega > 0) || !(term.zeta > 1e-9) || term.zeta > 10) {
@@ -137,39 +131,141 @@ bool evaluate(const FrequencyResponse& lines, const Scaling& s,
   }
   const std::vector<double> scale = chain(s, model);
   for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex f = factor(lines.kind, lines.omega[i]) / s.H;
-    const Complex gap = f * receptance(model, lines.omega[i]) - lines.H[i] / s.H;
-    r[2 * i] = gap.real();
-    r[2 * i + 1] = gap.imag();
-    if (jacobian.empty()) {
+    const Complex f = factor(lines.kind, lines.omega[i]);
+    const auto gap =
+        parts(weights, i, (f * receptance(model, lines.omega[i]) - lines.H[i]) / s.H);
+    rows.r[2 * i] = gap[0];
+    rows.r[2 * i + 1] = gap[1];
+    if (rows.jacobian.empty()) {
       continue;
     }
     const auto row = slopes(model, lines.omega[i]);
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const Complex value = f * row[k] * scale[k];
-      jacobian[k * r.size() + 2 * i] = value.real();
-      jacobian[k * r.size() + 2 * i + 1] = value.imag();
+      const auto value = parts(weights, i, f * row[k] * (scale[k] / s.H));
+      rows.jacobian[k * rows.r.size() + 2 * i] = value[0];
+      rows.jacobian[k * rows.r.size() + 2 * i + 1] = value[1];
     }
   }
   return true;
 }
 
-/// s^2 (J^T J)^-1 in the natural parameters (M-7).
-void add_covariance(const FrequencyResponse& lines, const Scaling& s,
-                    ModesSolution& solution) {
+/// Leverage of each row of J, whose (J^T J)^-1 is given.
+std::vector<double> leverages(std::span<const double> J, std::size_t n,
+                              std::span<const double> inverse_gram) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < J.size() / n; ++i) {
+    double h = 0.0;
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t b = 0; b < n; ++b) {
+        h += J[i * n + a] * inverse_gram[a * n + b] * J[i * n + b];
+      }
+    }
+    out.push_back(h);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::complex<double> receptance(const ModesModel& model, double omega) {
+  Complex H = 0.0;
+  for (const ModeTerm& t : model.terms) {
+    H += t.A * inverse(t, omega);
+  }
+  const auto residual = residual_slopes(omega);
+  for (std::size_t k = 0; k < model.residual_size(); ++k) {
+    H += model.residual[k] * residual[k];  // M-6
+  }
+  return H;
+}
+
+LineWeights even_weights(std::size_t lines) {
+  return {.turn = std::vector<Complex>(lines, 1.0),
+          .along = std::vector<double>(lines, 1.0),
+          .across = std::vector<double>(lines, 1.0)};
+}
+
+std::vector<Complex> gaps(const FrequencyResponse& lines, const ModesModel& model) {
+  std::vector<Complex> out;
+  out.reserve(lines.omega.size());
+  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
+    out.push_back(lines.H[i] - factor(lines.kind, lines.omega[i]) *
+                                   receptance(model, lines.omega[i]));
+  }
+  return out;
+}
+
+void fit_linear(const FrequencyResponse& lines, const LineWeights& weights,
+                ModesModel& model) {
+  const std::size_t terms = model.terms.size();
+  const std::size_t n = terms + model.residual_size();
+  if (n == 0) {
+    return;
+  }
+  std::vector<double> A(2 * lines.omega.size() * n);
+  std::vector<double> b(2 * lines.omega.size());
+  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
+    const Complex f = factor(lines.kind, lines.omega[i]);
+    const auto row = slopes(model, lines.omega[i]);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t own = k < terms ? 3 * k + 2 : k + 2 * terms;
+      const auto value = parts(weights, i, f * row[own]);
+      A[2 * i * n + k] = value[0];
+      A[(2 * i + 1) * n + k] = value[1];
+    }
+    const auto value = parts(weights, i, lines.H[i]);
+    b[2 * i] = value[0];
+    b[2 * i + 1] = value[1];
+  }
+  const auto fit = numerics::least_squares(A, static_cast<int>(n), b, rank_tolerance);
+  for (std::size_t r = 0; r < terms; ++r) {
+    model.terms[r].A = fit.x[r];
+  }
+  for (std::size_t k = 0; k < model.residual_size(); ++k) {
+    model.residual[k] = fit.x[terms + k];
+  }
+}
+
+ModesSolution fit_modes(const FrequencyResponse& lines, const LineWeights& weights,
+                        ModesModel start, int iterations) {
+  ModesSolution out;
+  const Scaling scaling = scaling_of(lines, weights, start);
+  const auto count = static_cast<int>(2 * lines.omega.size());
+  const numerics::Residuals residuals =
+      [&](std::span<const double> p, std::span<double> r, std::span<double> jacobian) {
+        return evaluate(lines, weights, scaling, p, {r, jacobian});
+      };
+  const auto fit = numerics::levenberg_marquardt(residuals, count, scaled(scaling),
+                                                 {.max_iterations = iterations});
+  out.converged = fit.converged;
+  out.model = unscaled(scaling, fit.p);
+  const std::vector<Complex> left = gaps(lines, out.model);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const auto [along, across] = parts(weights, i, left[i]);
+    out.rss += std::norm(left[i]);
+    out.cost += along * along + across * across;
+  }
+  return out;
+}
+
+void describe(const FrequencyResponse& lines, const LineWeights& weights,
+              ModesSolution& solution) {
+  solution.leverage.clear();
+  solution.covariance.clear();
+  solution.variance.clear();
   const std::size_t n = solution.model.size();
   const std::size_t m = 2 * lines.omega.size();
-  if (m <= n) {
+  if (m <= n || n == 0) {
     return;
   }
   std::vector<double> J(m * n);
   for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex f = factor(lines.kind, lines.omega[i]) / s.H;
+    const Complex f = factor(lines.kind, lines.omega[i]);
     const auto row = slopes(solution.model, lines.omega[i]);
     for (std::size_t k = 0; k < n; ++k) {
-      const Complex value = f * row[k];
-      J[2 * i * n + k] = value.real();
-      J[(2 * i + 1) * n + k] = value.imag();
+      const auto value = parts(weights, i, f * row[k]);
+      J[2 * i * n + k] = value[0];
+      J[(2 * i + 1) * n + k] = value[1];
     }
   }
   const std::vector<double> zero(m, 0.0);
@@ -178,82 +274,51 @@ void add_covariance(const FrequencyResponse& lines, const Scaling& s,
   if (fit.inverse_gram.empty()) {
     return;
   }
-  const double s2 = solution.rss / (s.H * s.H) / static_cast<double>(m - n);
+  solution.leverage = leverages(J, n, fit.inverse_gram);
   solution.covariance = fit.inverse_gram;
   for (double& value : solution.covariance) {
-    value *= s2;
+    value *= lines.noise_bandwidth;  // M-23
   }
   for (std::size_t k = 0; k < n; ++k) {
     solution.variance.push_back(solution.covariance[k * n + k]);
   }
 }
 
-}  // namespace
-
-std::complex<double> receptance(const ModesModel& model, double omega) {
-  Complex H = 0.0;
-  for (const ModeTerm& t : model.terms) {
-    H += t.A / Complex(t.omega * t.omega - omega * omega, 2 * t.zeta * t.omega * omega);
-  }
-  if (model.residual_terms) {
-    H += model.above - model.below / (omega * omega);  // M-6
-  }
-  return H;
-}
-
-ModesSolution fit_modes(const FrequencyResponse& lines,
-                        const std::vector<ModeTerm>& starts, bool residual_terms) {
-  ModesSolution out;
-  out.model.terms = starts;
-  out.model.residual_terms = residual_terms;
-  fit_linear(lines, out.model);
-  const Scaling scaling = scaling_of(lines, out.model);
-  const auto count = static_cast<int>(2 * lines.omega.size());
-  const numerics::Residuals residuals =
-      [&](std::span<const double> p, std::span<double> r, std::span<double> jacobian) {
-        return evaluate(lines, scaling, p, r, jacobian);
-      };
-  const auto fit = numerics::levenberg_marquardt(residuals, count, scaled(scaling),
-                                                 {.max_iterations = 100});
-  out.converged = fit.converged;
-  out.model = unscaled(scaling, fit.p);
-  std::vector<double> r(static_cast<std::size_t>(count));
-  evaluate(lines, scaling, fit.p, r, {});
-  for (const double value : r) {
-    out.rss += value * value;
-  }
-  out.rss *= scaling.H * scaling.H;
-  add_covariance(lines, scaling, out);
-  return out;
-}
-
-FittedMode fitted_mode(const ModesSolution& solution, std::size_t r) {
+FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
+                       double window_decay) {
   const ModeTerm& t = solution.model.terms[r];
-  FittedMode out{.mode = {.mass = 1 / t.A,
-                          .stiffness = t.omega * t.omega / t.A,
-                          .damping = 2 * t.zeta * t.omega / t.A},
-                 .omega = t.omega,
-                 .zeta = t.zeta};
-  if (solution.covariance.empty()) {
+  const double a = window_decay;
+  const double sigma = t.zeta * t.omega - a;  // M-22
+  const double w =
+      std::sqrt(std::max(t.omega * t.omega - 2 * a * t.zeta * t.omega + a * a, 0.0));
+  FittedMode out{
+      .mode = {.mass = 1 / t.A, .stiffness = w * w / t.A, .damping = 2 * sigma / t.A},
+      .omega = w,
+      .zeta = w > 0 ? sigma / w : 0.0};
+  if (solution.covariance.empty() || w == 0) {
     return out;
   }
   const std::size_t n = solution.model.size();
-  const auto error = [&](double by_omega, double by_zeta, double by_A) {
-    const std::array<double, 3> g = {by_omega, by_zeta, by_A};
+  using Slopes = std::array<double, 3>;  // by omega, zeta and A of the term
+  const auto error = [&](const Slopes& g) {
     double sum = 0.0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < 3; ++b) {
-        sum += g[a] * g[b] * solution.covariance[(3 * r + a) * n + 3 * r + b];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        sum += g[i] * g[j] * solution.covariance[(3 * r + i) * n + 3 * r + j];
       }
     }
     return std::sqrt(std::max(sum, 0.0));
   };
-  const double w = t.omega;
-  out.omega_se = error(1, 0, 0);
-  out.zeta_se = error(0, 1, 0);
-  out.mass_se = error(0, 0, 1 / (t.A * t.A));
-  out.stiffness_se = error(2 * w / t.A, 0, -w * w / (t.A * t.A));
-  out.damping_se = error(2 * t.zeta / t.A, 2 * w / t.A, -2 * t.zeta * w / (t.A * t.A));
+  const Slopes by_sigma = {t.zeta, t.omega, 0};
+  const Slopes by_w = {(t.omega - a * t.zeta) / w, -a * t.omega / w, 0};
+  const double A2 = t.A * t.A;
+  out.omega_se = error(by_w);
+  out.zeta_se = error({(by_sigma[0] - out.zeta * by_w[0]) / w,
+                       (by_sigma[1] - out.zeta * by_w[1]) / w, 0});
+  out.mass_se = error({0, 0, 1 / A2});
+  out.stiffness_se = error({2 * w * by_w[0] / t.A, 2 * w * by_w[1] / t.A, -w * w / A2});
+  out.damping_se =
+      error({2 * by_sigma[0] / t.A, 2 * by_sigma[1] / t.A, -2 * sigma / A2});
   return out;
 }
 

@@ -32,7 +32,7 @@ async function check(name, options, plots) {
 
 const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2, tool_point: 4,
-  modes: 4, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
+  modes: 6, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
   wall_plan: 6 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
@@ -352,12 +352,15 @@ test('paper is light, and shows the inputs', async () => {
 });
 
 test('the modes stand beside their frequency response, with the fit through it', async () => {
-  const { page, canvases, close } = await check('modes', {}, 4);
+  const { page, canvases, close } = await check('modes', {}, 6);
   const [measured, fit] = await Promise.all(['--measured', '--s1'].map((c) => colorOf(page, c)));
   assert.ok(has(canvases[0], measured) && has(canvases[0], fit), 'magnitude');
-  for (const canvas of canvases.slice(1)) assert.ok(has(canvas, fit));
+  for (const canvas of canvases.slice(1, 4)) assert.ok(has(canvas, fit));
+  assert.ok(has(canvases[4], measured), 'mode indicator');
+  assert.ok(has(canvases[5], fit), 'stable poles');
   const text = await page.locator('main').innerText();
-  for (const part of ['895.7', '2516', 'N/µm', '19.34', 'phase', 'real part', 'm/s²/N',
+  for (const part of ['895.7', '2516', 'N/µm', '19.07', 'Stabilisation', 'mode indicator', 'of the magnitude',
+    'criterion above the best', 'phase', 'real part', 'm/s²/N',
     'half of a 95 % confidence interval', 'Frequency response function', 'modal stiffness']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }

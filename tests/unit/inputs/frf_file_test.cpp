@@ -123,6 +123,10 @@ TEST(FrfFile, WhatIsWrongWithAUniversalFile) {
   MadeSet time = set;
   time.function = 1;
   expect_problem(as_text(time), "made.txt:1:1", "no frequency response");
+  expect_problem(as_text(time), "made.txt:1:1", "1 measured function (time record)");
+  expect_problem(
+      "    -1\n    15\n         1         0         0        11  0. 0. 0.\n    -1\n",
+      "made.txt:1:1", "only 1 data set of other kinds (the first is a 15)");
 }
 
 }  // namespace

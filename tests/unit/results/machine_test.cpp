@@ -36,8 +36,9 @@ ModesResult modes_result() {
 TEST(ModesAnswer, NamesTheUnitOfItsKind) {
   const Answer answer = answer_of(modes_result());
   const base::Table& table = table_of(answer, "fitted.csv");
-  EXPECT_EQ(columns_of(table), (Names{"frequency_Hz", "re_m_per_s2_N", "im_m_per_s2_N",
-                                      "fitted_re_m_per_s2_N", "fitted_im_m_per_s2_N"}));
+  EXPECT_EQ(columns_of(table),
+            (Names{"frequency_Hz", "re_m_per_s2_N", "im_m_per_s2_N",
+                   "fitted_re_m_per_s2_N", "fitted_im_m_per_s2_N", "mode_indicator"}));
   EXPECT_EQ(column_of(table, "fitted_im_m_per_s2_N"), (std::vector<double>{6, 8}));
   EXPECT_EQ(json_at(answer, "kind"), "\"accelerance\"");
   EXPECT_EQ(json_at(answer, "rms_m_per_s2_N"), "0.5");
@@ -65,7 +66,7 @@ TEST(ModesAnswer, WithoutAFitHasNoModes) {
   const Answer answer = answer_of(r);
   EXPECT_EQ(json_at(answer, "modes"), "null");
   EXPECT_EQ(json_at(answer, "explained"), "");
-  EXPECT_EQ(columns_of(table_of(answer, "fitted.csv")).size(), 3U);
+  EXPECT_EQ(columns_of(table_of(answer, "fitted.csv")).size(), 4U);
   EXPECT_TRUE(answer.texts.empty());
   EXPECT_EQ(answer.short_table, "");
 }

@@ -107,8 +107,8 @@ TEST(IdentifyModes, ResidualTermsStandForModesOutsideOfTheBand) {  // [M-6]
   ASSERT_TRUE(with.ok) << with.reason;
   EXPECT_TRUE(with.residual_terms);
   expect_mode(with.modes[0], truth, 1e-7);
-  EXPECT_NEAR(with.above, 2e-8, 1e-14);
-  EXPECT_NEAR(with.below, 0.2, 1e-7);
+  EXPECT_NEAR(with.residual[0], 2e-8, 1e-14);
+  EXPECT_NEAR(with.residual[1], 0.2, 1e-7);
   const auto without = identify_modes(record, {.count = 1, .residual_terms = false});
   ASSERT_TRUE(without.ok) << without.reason;
   EXPECT_GT(without.rms, 1e3 * with.rms);
@@ -142,6 +142,30 @@ TEST(IdentifyModes, StandardErrorsAreTheScatterOfManyFits) {  // [M-7]
   EXPECT_NEAR(last.mass_se / std::sqrt(mass), 1.0, 0.15);
   EXPECT_NEAR(last.damping_se / std::sqrt(damping), 1.0, 0.15);
   EXPECT_NEAR(last.omega_se / std::sqrt(frequency), 1.0, 0.15);
+}
+
+TEST(IdentifyModes, AnExponentialWindowIsTakenOut) {  // [M-22]
+  const Mode low = mode_of(420, 0.004, 1.1);
+  const Mode high = mode_of(900, 0.02, 0.6);
+  const double a = 29.0;  // 1/s: more than the low mode decays by itself
+  FrequencyResponse record{.kind = ResponseKind::accelerance};
+  for (double f = 100; f <= 1500; f += 2) {
+    const std::complex<double> s(a, f * Hz);
+    std::complex<double> H;
+    for (const Mode& m : {low, high}) {
+      H += 1.0 / (m.mass * s * s + m.damping * s + m.stiffness);
+    }
+    record.omega.push_back(f * Hz);
+    record.H.push_back(H * factor(record.kind, f * Hz));
+  }
+  const auto fit = identify_modes(record, {.window_decay = a});
+  ASSERT_EQ(fit.modes.size(), 2U) << fit.reason;
+  expect_mode(fit.modes[0], low, 1e-6);
+  expect_mode(fit.modes[1], high, 1e-6);
+  EXPECT_NEAR(fit.modes[0].omega, natural_frequency(low), 1e-3);
+  EXPECT_NEAR(fit.modes[0].zeta, 0.004, 1e-8);
+  const auto bare = identify_modes(record, {});
+  EXPECT_GT(bare.modes.at(0).zeta, 0.012) << "the window is a damping";
 }
 
 void expect_refused(const FrequencyResponse& record, const ModesOptions& options,
@@ -178,6 +202,12 @@ TEST(IdentifyModes, RefusesAPeakThatIsCutOff) {
   const Mode truth = mode_of(900, 0.02, 0.5);
   expect_refused(made({truth}, ResponseKind::receptance, {300, 905, 1}), {},
                  "half-power points");
+}
+
+TEST(IdentifyModes, RefusesLessDampingThanTheWindowAdds) {  // [M-22]
+  const Mode truth = mode_of(900, 0.02, 0.5);               // decays by 113 1/s
+  expect_refused(made({truth}, ResponseKind::receptance, {300, 1500, 1}),
+                 {.window_decay = 200}, "exponential window");
 }
 
 TEST(IdentifyModes, RefusesAPeakBetweenTwoLines) {

@@ -1,10 +1,12 @@
 // The pages of `modes` and `actuator`: what was measured, with the fit through it.
 
-const modesKnown = ['kind', 'modes', 'lines', 'band_Hz', 'explained', 'description'];
+const modesKnown = ['kind', 'modes', 'lines', 'band_Hz', 'explained', 'description', 'orders',
+  'noise', 'unresolved', 'hits'];
 const actuatorKnown = ['gain', 'frequency_Hz', 'damping_ratio', 'time_constants_s', 'se',
   'identifiable', 'sum_s', 'product_s2', 'start_s', 'step_um', 'half_power_frequency_Hz',
   'low_frequency_delay_s', 'rise_time_10_90_s', 'rms_um', 'explained'];
 const unitOfKind = { receptance: 'm/N', mobility: 'm/s/N', accelerance: 'm/s²/N' };
+const unitOfFloor = { floor_m_per_N: 'm/N', floor_m_per_s_N: 'm/s/N', floor_m_per_s2_N: 'm/s²/N' };
 const kindLabels = { receptance: 'receptance, displacement over force',
   mobility: 'mobility, velocity over force', accelerance: 'accelerance, acceleration over force' };
 
@@ -26,13 +28,17 @@ function modesPage(report) {
         value: `${number(100 * result.explained, 4)}`, unit: '%',
         note: rms && `it leaves ${number(rms[1], 3)} ${unitOfKind[result.kind]} (rms)` },
     ]) },
-    { part: modesTable(modes) },
+    { part: modesTable(result) },
     responseSection(report),
+    tapSection(report),
+    { part: ordersSection(result) },
+    stabilisationSection(report),
     { part: restSection(result, [...modesKnown, rms?.[0]]) },
   ];
 }
 
-function modesTable(modes) {
+function modesTable({ modes: found, noise, unresolved }) {
+  const modes = Array.isArray(found) ? found : [];
   if (!modes.length) return null;
   const keys = ['frequency_Hz', 'damping_ratio', 'mass_kg', 'stiffness_N_per_m',
     'damping_Ns_per_m'];
@@ -42,8 +48,80 @@ function modesTable(modes) {
   return section('modes', 'The modes', 'Modes',
     table(['', 'natural frequency, Hz', 'damping ratio', 'modal mass, kg', 'modal stiffness, N/µm',
       'modal damping, N s/m'], rows, { class: 'fits' }),
-    prose('± half of a 95 % confidence interval, if the residuals are white noise. What a wrong calibration ' +
-      'of hammer or sensor does is not in it.'));
+    prose('± half of a 95 % confidence interval, under the noise that the response shows' + noiseWords(noise) +
+      '. What a wrong calibration of hammer or sensor does is not in it.'),
+    unresolved?.length ? prose('In the fit, and not among the modes: ',
+      unresolved.map(({ why }) => why).join('; '), '.') : null);
+}
+
+/** The noise of a response (M-15), in brackets. */
+function noiseWords(noise) {
+  if (!noise) return '';
+  const [floor] = Object.entries(noise).find(([key]) => key.startsWith('floor_')) || [];
+  const parts = [noise[floor] > 0 && `a floor of ${number(noise[floor], 2)} ${unitOfFloor[floor] || ''}`,
+    noise.magnitude_percent > 0 && `${number(noise.magnitude_percent, 2)} % of the magnitude`,
+    noise.phase_deg > 0 && `${number(noise.phase_deg, 2)}° of phase`].filter(Boolean);
+  return parts.length ? ` (${parts.join(', ')})` : '';
+}
+
+/** The numbers of modes that were tried: the evidence of each, as odds against the best. */
+function ordersSection(result) {
+  const orders = Array.isArray(result.orders) ? result.orders : [];
+  if (orders.length < 2) return null;
+  const best = [...orders].sort((a, b) => a.criterion - b.criterion).slice(0, 8);
+  const rows = best.map((order) => [`${order.modes}`, order.residual_terms ? 'yes' : 'no',
+    number(order.criterion, 3), order.frequencies_Hz.map((f) => number(f, 4)).join(', '),
+    el('span', { style: 'white-space: normal' }, order.fault ? sentence(order.fault) : '')]);
+  return section('orders', 'Number of modes', 'Number of modes',
+    prose('The fits that were tried, likeliest first. The information criterion weighs how well the noise is ' +
+      'left against the number of parameters; a difference of 10 is very strong evidence.'),
+    table(['modes', 'residual terms', 'criterion above the best', 'frequencies of all terms, Hz',
+      'why it is not the answer'], rows, { class: 'fits' }));
+}
+
+/** The blows of a record in time: which are used, and how well they agree. */
+function tapSection(report) {
+  const { hits } = report.result;
+  if (!Array.isArray(hits)) return null;
+  const rows = hits.map((hit, i) => [`${i + 1}`, number(hit.time_s, 5), number(hit.peak_N, 3),
+    hit.left_out ? sentence(hit.left_out) : 'used']);
+  const t = tableNamed(report, 'response.csv');
+  const coherence = t && columnNamed(t, 'coherence');
+  const x = coherence && columnNamed(t, 'frequency_Hz');
+  const chart = coherence ? figure({ key: 'coherence', x, label: 'frequency', unit: 'Hz',
+    caption: zoomHint + thinned(t) }) : null;
+  return { part: section('hits', 'Hammer blows', 'Blows',
+    table(['', 'time, s', 'peak force, N', ''], rows, { class: 'fits' }),
+    prose(coherence ? 'Coherence: the fraction of the response that the force explains, the same in all blows. It ' +
+      'falls where noise reigns, at antiresonances among others.' : 'One blow has no coherence.'),
+    chart?.element), draw: () => chart?.draw([{ label: 'coherence', unit: '', height: 150,
+    range: () => [0, 1.03], series: [{ name: '', values: coherence, color: '--s1' }] }]) };
+}
+
+/** Poles of rising order over frequency: modes stand in columns, noise does not. */
+function stabilisationSection(report) {
+  const t = tableNamed(report, 'stabilisation.csv');
+  const f = columnNamed(t, 'frequency_Hz');
+  const order = columnNamed(t, 'order');
+  const standing = columnNamed(t, 'standing');
+  if (!f?.length || !order || !standing) return null;
+  const at = f.map((_, i) => i).sort((a, b) => f[a] - f[b]);
+  const x = at.map((i) => f[i]);
+  const dots = (which, name, color, size) => ({ name, color, line: false, points: size,
+    values: at.map((i) => (standing[i] === which ? order[i] : null)) });
+  const marks = (report.result.modes || []).map((mode, i) => ({ x: mode.frequency_Hz,
+    text: `${i + 1}`, color: '--soft' }));
+  const chart = figure({ key: 'stabilisation', x, points: true, label: 'frequency', unit: 'Hz',
+    caption: zoomHint });
+  const panels = [{ label: 'pairs of poles', unit: '', height: 190, markers: marks,
+    range: () => [0, Math.max(...order) + 0.6], series: [
+      dots(2, 'frequency and damping stable', '--s1', 7),
+      dots(1, 'frequency stable', '--s2', 6),
+      dots(0, 'new', '--soft', 4)] }];
+  return { part: section('stabilisation', 'Stabilisation', 'Stabilisation',
+    prose('Poles of a rational fit with one pair, two pairs and so on. Stable: within 1 % of a frequency and ' +
+      '5 % of a damping ratio of the fit before. Vertical lines are the modes that were found.'),
+    chart.element), draw: () => chart.draw(panels) };
 }
 
 /** Where the phase is cut open: half a turn from the middle of the phases of a mode. */
@@ -68,6 +146,7 @@ function responseSection(report) {
   const im = part('im_');
   const fittedRe = part('fitted_re_');
   const fittedIm = part('fitted_im_');
+  const mif = columnNamed(t, 'mode_indicator');
   const unit = unitOfKind[report.result.kind] || '';
   const middle = middleOfPhase[report.result.kind] || 0;
   const of = polar(re, im, middle);
@@ -86,7 +165,9 @@ function responseSection(report) {
     { label: 'phase', unit: '°', height: 120, series: both(of.phase, fit?.phase) },
     { label: 'real part', unit, height: 130, series: both(re, fittedRe) },
     { label: 'imaginary part', unit, height: 130, series: both(im, fittedIm) },
-  ];
+    mif && { label: 'mode indicator', unit: '', height: 90,
+      series: [{ name: '', values: mif, color: '--measured', width: 1.2 }] },
+  ].filter(Boolean);
   return { part: section('response', 'Frequency response function', 'Response',
     prose(sentence(kindLabels[report.result.kind] || 'the response'),
       report.result.description ? `: ${report.result.description}. ` : '. ',

@@ -5,11 +5,19 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <complex>
 #include <utility>
 
 namespace trochoid::run {
 
 namespace {
+
+/// Orders that the diagram of stabilisation shows beyond the modes that were found.
+constexpr int orders_beyond = 6;
+
+/// Lines below the first of this coherence are left out where no band is given.
+constexpr double least_coherence = 0.5;
 
 structure::ModesOptions options_of(const inputs::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
@@ -33,19 +41,70 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
           .dataset = frf.dataset};
 }
 
+namespace {
+
+/// The response that blows in time give, in the form of M-22.
+structure::FrequencyResponse response_of(const signal::TapResponse& tap,
+                                         structure::ResponseKind kind) {
+  structure::FrequencyResponse out{.kind = kind,
+                                   .omega = tap.omega,
+                                   .H = tap.H,
+                                   .noise_bandwidth = tap.noise_bandwidth};
+  for (std::size_t i = 0; i < tap.omega.size(); ++i) {
+    const double omega = tap.omega[i];
+    const std::complex<double> ratio =
+        std::complex<double>(0, omega) / std::complex<double>(tap.decay, omega);
+    const int times = static_cast<int>(kind);  // of the time derivative: 0, 1 or 2
+    for (int k = 0; k < times; ++k) {
+      out.H[i] *= ratio;
+    }
+  }
+  return out;
+}
+
+/// The lowest line that the hits agree on [rad/s]; 0: nobody knows.
+double first_coherent(const signal::TapResponse& tap) {
+  const auto at =
+      std::find_if(tap.coherence.begin(), tap.coherence.end(),
+                   [](double coherence) { return coherence >= least_coherence; });
+  return at == tap.coherence.end()
+             ? 0.0
+             : tap.omega[static_cast<std::size_t>(at - tap.coherence.begin())];
+}
+
+}  // namespace
+
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
   inputs::FrfFile file = inputs::read_frf(frf_source(frf));
-  results::ModesResult r{
-      .heading = {.title = given.title,
-                  .warnings = given.notes,
-                  .case_toml = given.as_understood},
-      .kind = file.response.kind,
-      .description = std::move(file.description),
-      .body = frf.body,
-      .axis = frf.axis,
-      .fit = structure::identify_modes(file.response, options_of(frf))};
+  results::ModesResult r{.heading = {.title = given.title,
+                                     .warnings = given.notes,
+                                     .case_toml = given.as_understood},
+                         .kind = file.response.kind,
+                         .description = std::move(file.description),
+                         .body = frf.body,
+                         .axis = frf.axis};
   base::add(r.heading.warnings, std::move(file.notes));
+  structure::ModesOptions options = options_of(frf);
+  if (file.tap) {
+    r.tap = signal::frequency_response(*file.tap, frf.tap);
+    add_tap_warnings(*r.tap, r.heading.warnings);
+    options.window_decay = r.tap->decay;
+    if (frf.band.empty()) {
+      options.from = first_coherent(*r.tap) * (1 - 1e-12);
+    }
+    file.response = response_of(*r.tap, r.kind);
+  }
+  if (r.tap && !r.tap->fault.empty()) {
+    r.fit.reason = r.tap->fault;
+  } else {
+    r.fit = structure::identify_modes(file.response, options);
+  }
+  if (r.fit.omega.size() > 1) {
+    const int highest = static_cast<int>(r.fit.modes.size()) + orders_beyond;
+    r.poles = structure::stabilisation(
+        {.kind = r.kind, .omega = r.fit.omega, .H = r.fit.H}, highest);
+  }
   r.heading.ok = r.fit.ok;
   if (!r.fit.ok) {
     r.heading.message = r.fit.reason;

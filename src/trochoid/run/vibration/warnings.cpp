@@ -91,6 +91,22 @@ std::string chatter_warning(const SteadyState& steady,
          ". Peaks are the largest of these turns, chip areas their means.";
 }
 
+/// Two modes whose half-power widths overlap share what the response shows there.
+void warn_overlap(const structure::ModesFit& fit, Warnings& warnings) {
+  for (std::size_t r = 0; r + 1 < fit.modes.size(); ++r) {
+    const structure::FittedMode& a = fit.modes[r];
+    const structure::FittedMode& b = fit.modes[r + 1];
+    if (b.omega - a.omega < a.zeta * a.omega + b.zeta * b.omega) {
+      warnings.push_back(
+          {"modes_overlap",
+           fmt::format("The modes at {:.5g} and {:.5g} Hz lie inside each other's "
+                       "half-power widths: together they are known better than each by "
+                       "itself. Use both or none.",
+                       a.omega / unit::Hz, b.omega / unit::Hz)});
+    }
+  }
+}
+
 }  // namespace
 
 Warnings stability_warnings(const inputs::Case& given,
@@ -148,7 +164,54 @@ Warnings motion_warnings(const inputs::Case& given, const SteadyState& steady,
   return warnings;
 }
 
+void add_tap_warnings(const signal::TapResponse& tap, Warnings& warnings) {
+  for (const signal::TapHit& hit : tap.hits) {
+    if (!hit.fault.empty()) {
+      warnings.push_back(
+          {"hit_left_out",
+           fmt::format("The hit at {:.4g} s is left out: {}.", hit.time, hit.fault)});
+    }
+  }
+  if (!tap.fault.empty()) {
+    return;
+  }
+  warnings.push_back(
+      {"hammer_band",
+       fmt::format(
+           "Lines above {:.4g} Hz are left out: the force of the hammer is more "
+           "than 20 dB down there. A harder tip excites more.",
+           tap.excited / unit::Hz)});
+  if (tap.decay > 0) {
+    warnings.push_back(
+        {"exponential_window",
+         fmt::format(
+             "The response still rings at the end of its blocks of {:.3g} s: an "
+             "exponential window takes it to {:.3g} %. Its damping is taken out "
+             "of the modes.",
+             tap.block, 100 * tap.window_end)});
+  }
+  if (tap.coherence.empty()) {
+    warnings.push_back(
+        {"one_hit", "One hit has no coherence: strike three times and more."});
+  }
+}
+
 void add_modes_warnings(const structure::ModesFit& fit, Warnings& warnings) {
+  for (const std::string& why : fit.left_out) {
+    warnings.push_back(
+        {"mode_left_out",
+         fmt::format("A resonance is in the fit and not among the modes: {}.", why)});
+  }
+  if (fit.alternative > 0) {
+    warnings.push_back(
+        {"number_of_modes",
+         fmt::format(
+             "{} mode{} fit nearly as well: {} is {:.2g} times as likely. Look at "
+             "the stabilisation before trusting either.",
+             fit.alternative, fit.alternative == 1 ? "" : "s", fit.modes.size(),
+             fit.alternative_odds)});
+  }
+  warn_overlap(fit, warnings);
   for (const structure::FittedMode& m : fit.modes) {
     const std::string at = fmt::format("{:.5g} Hz", m.omega / unit::Hz);
     if (m.lines_in_peak < few_lines) {

@@ -4,6 +4,7 @@
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/dynamics/steady_state.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/identify_actuator.h>
 #include <trochoid/structure/identify_modes.h>
 
@@ -33,6 +34,9 @@ std::string motion_message(const dynamics::SteadyState& steady);
 /// @param linear_growth  of the linearised cut in a turn, where it is known
 std::string growth_message(const dynamics::SteadyState& steady,
                            const std::optional<double>& linear_growth);
+
+void add_tap_warnings(const signal::TapResponse& tap,
+                      std::vector<base::Warning>& warnings);
 
 void add_modes_warnings(const structure::ModesFit& fit,
                         std::vector<base::Warning>& warnings);

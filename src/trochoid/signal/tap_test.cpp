@@ -1,0 +1,183 @@
+#include <trochoid/numerics/spectrum.h>
+#include <trochoid/signal/tap_hits.h>
+#include <trochoid/signal/tap_test.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+
+namespace trochoid::signal {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// What the exponential window leaves where it is needed and not given.
+constexpr double usual_end = 0.01;
+/// A response that has fallen to less than this of its most needs no window.
+constexpr double died_out = 0.01;
+/// Force below this part of its largest power does not excite: 20 dB.
+constexpr double least_power = 0.01;
+constexpr std::size_t least_lines = 8;
+constexpr std::size_t kept_widths = 4;  ///< of the pulse, by the force window
+
+double mean_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+double rms_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// Force and response of a block, from which what stood there before is taken.
+struct Block {
+  std::vector<double> force, response;
+  std::size_t pulse_begin = 0, pulse_end = 0;
+};
+
+Block block_of(const TapRecord& record, const Hit& hit, std::size_t length) {
+  const auto cut = [&](const std::vector<double>& values) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(hit.start);
+    std::vector<double> out(from, from + static_cast<std::ptrdiff_t>(length));
+    const double level = mean_of({out.data(), hit.pulse.begin - hit.start});
+    for (double& v : out) v -= level;
+    return out;
+  };
+  return {.force = cut(record.force),
+          .response = cut(record.response),
+          .pulse_begin = hit.pulse.begin - hit.start,
+          .pulse_end = hit.pulse.end - hit.start};
+}
+
+/// Zero after the pulse. Filters against aliases ring on for some widths of it: these are
+/// kept, and half a cosine of as many leads to zero.
+void apply_force_window(Block& block) {
+  const std::size_t width = kept_widths * (block.pulse_end - block.pulse_begin);
+  const std::size_t from = block.pulse_end + width;
+  for (std::size_t i = from; i < block.force.size(); ++i) {
+    const double x = static_cast<double>(i - from) / static_cast<double>(width);
+    block.force[i] *= x < 1 ? 0.5 * (1 + std::cos(std::numbers::pi * x)) : 0.0;
+  }
+}
+
+/// M-21; before the hit the window is 1, which the noise there does not feel.
+void apply_exponential(Block& block, double decay, double rate) {
+  if (decay == 0) {
+    return;
+  }
+  for (std::size_t i = 0; i < block.force.size(); ++i) {
+    const double w = std::exp(-decay * static_cast<double>(i) / rate);
+    block.force[i] *= w;
+    block.response[i] *= w;
+  }
+}
+
+/// How much of its most a response still has in the last tenth of its block.
+double left_at_end(const Block& block) {
+  const std::size_t tenth = std::max<std::size_t>(block.response.size() / 10, 1);
+  const std::span<const double> all = block.response;
+  double most = 0.0;
+  for (std::size_t i = 0; i + tenth <= all.size(); i += tenth) {
+    most = std::max(most, rms_of(all.subspan(i, tenth)));
+  }
+  return most > 0 ? rms_of(all.last(tenth)) / most : 0.0;
+}
+
+/// Sums over the hits, line by line.
+struct Sums {
+  std::vector<double> ff, xx;
+  std::vector<Complex> xf;
+};
+
+void add(Sums& sums, const Block& block) {
+  const auto F = numerics::real_spectrum(block.force);
+  const auto X = numerics::real_spectrum(block.response);
+  sums.ff.resize(F.size());
+  sums.xx.resize(F.size());
+  sums.xf.resize(F.size());
+  for (std::size_t k = 0; k < F.size(); ++k) {
+    sums.ff[k] += std::norm(F[k]);
+    sums.xx[k] += std::norm(X[k]);
+    sums.xf[k] += X[k] * std::conj(F[k]);
+  }
+}
+
+/// Fill in the lines up to where the hammer excites (M-20).
+void take(const Sums& sums, int used, FrfEstimator estimator, TapResponse& out) {
+  const double step = 2 * std::numbers::pi / out.block;
+  const double most = *std::max_element(sums.ff.begin(), sums.ff.end());
+  for (std::size_t k = 1; k + 1 < sums.ff.size(); ++k) {
+    if (sums.ff[k] < least_power * most) {
+      break;
+    }
+    out.excited = step * static_cast<double>(k);
+    out.omega.push_back(out.excited);
+    const double cross = std::norm(sums.xf[k]);
+    if (estimator == FrfEstimator::H1) {
+      out.H.push_back(sums.xf[k] / sums.ff[k]);
+    } else {
+      out.H.push_back(cross > 0 ? sums.xx[k] / std::conj(sums.xf[k]) : Complex(0.0));
+    }
+    if (used > 1) {
+      const double both = sums.ff[k] * sums.xx[k];
+      out.coherence.push_back(both > 0 ? cross / both : 0.0);
+    }
+  }
+}
+
+}  // namespace
+
+TapResponse frequency_response(const TapRecord& record, const TapOptions& options) {
+  if (record.force.size() != record.response.size() || !(record.sample_rate > 0)) {
+    throw std::invalid_argument(
+        "frequency_response: channels of one length and a rate");
+  }
+  TapResponse out;
+  const Hits hits = find_hits(record, options.block);
+  out.block = static_cast<double>(hits.length) / record.sample_rate;
+  std::vector<Block> blocks;
+  for (const Hit& hit : hits.hits) {
+    out.hits.push_back(hit.told);
+    if (hit.told.fault.empty()) {
+      blocks.push_back(block_of(record, hit, hits.length));
+    }
+  }
+  if (blocks.empty()) {
+    out.fault = hits.hits.empty() ? "the force is zero: there is no hit"
+                                  : "no hit can be used: " + out.hits.front().fault;
+    return out;
+  }
+  double left = 0.0;
+  for (const Block& block : blocks) {
+    left = std::max(left, left_at_end(block));
+  }
+  out.window_end =
+      options.window_end > 0 ? options.window_end : (left > died_out ? usual_end : 1.0);
+  out.decay = -std::log(out.window_end) / out.block;
+  if (out.decay > 0) {
+    const double end = out.window_end;
+    out.noise_bandwidth =
+        0.5 * -std::log(end) * (1 - end * end) / ((1 - end) * (1 - end));  // M-23
+  }
+  Sums sums;
+  for (Block& block : blocks) {
+    apply_force_window(block);
+    apply_exponential(block, out.decay, record.sample_rate);
+    add(sums, block);
+  }
+  take(sums, static_cast<int>(blocks.size()), options.estimator, out);
+  if (out.omega.size() < least_lines) {
+    out.fault =
+        "the hammer excites fewer than 8 lines: its pulse is too long for "
+        "blocks of this length, or the force channel is not the hammer's";
+  }
+  return out;
+}
+
+}  // namespace trochoid::signal

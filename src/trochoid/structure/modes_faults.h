@@ -1,0 +1,37 @@
+#pragma once
+
+#include <trochoid/structure/modes_problem.h>
+
+#include <string>
+
+namespace trochoid::structure {
+
+/// @brief Lines between the half-power points of a term.
+int lines_in_peak(const FrequencyResponse& lines, const ModeTerm& term);
+
+/// What a term is, if not an answer.
+enum class TermRole {
+  mode,        ///< an answer
+  unresolved,  ///< too narrow for the lines, too faint, or cut off by the band
+  outside,     ///< it stands for what vibrates outside of the band
+  none,        ///< nothing that a fit may hold
+};
+
+struct TermVerdict {
+  TermRole role = TermRole::mode;
+  std::string why;  ///< it is no answer
+};
+
+/// @brief What a term of a fit is.
+/// @param solution  with its covariance, if all of it can be told
+TermVerdict verdict_on(const FrequencyResponse& lines, const ModesSolution& solution,
+                       std::size_t r);
+
+/// @brief Whether the highest peak turns like a response of this kind.
+/// @param count      pairs of poles to look for
+/// @param explained  how well these must fit for the angle of a residue to mean something
+/// @return if not, what it may be instead; else empty
+std::string fault_of_kind(const FrequencyResponse& lines, int count,
+                          double explained = 0.8);
+
+}  // namespace trochoid::structure
