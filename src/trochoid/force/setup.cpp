@@ -2,7 +2,7 @@
 
 namespace trochoid::force {
 
-bool teeth_alike(const Setup& setup) noexcept {
+bool teeth_alike(const Setup& setup) {
   return geometry::runs_true(runout_of(setup)) &&
          geometry::equally_pitched(setup.cutter.pitch);
 }

@@ -23,7 +23,7 @@ inline geometry::Runout runout_of(const Setup& setup) {
 }
 
 /// @brief Whether what one tooth does all do: equal pitch, and no runout that counts.
-bool teeth_alike(const Setup& setup) noexcept;
+bool teeth_alike(const Setup& setup);
 
 /// @brief Whether the teeth keep radius and angle along the edge: a cylinder of constant
 /// lead whose runout is the same at every height.

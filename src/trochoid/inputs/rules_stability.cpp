@@ -20,6 +20,37 @@ bool is_one_value(const std::optional<base::Steps>& steps) {
   return steps && steps->count == 1 && steps->first == steps->last;
 }
 
+/// [Hz]; 0: it is not said, or wrongly.
+double frequency_of(const Mode& mode) {
+  if (mode.frequency) {
+    return *mode.frequency;
+  }
+  return mode.mass && mode.stiffness && *mode.mass > 0
+             ? std::sqrt(*mode.stiffness / *mode.mass) / unit::turn
+             : 0.0;
+}
+
+/// So many vibrations between two teeth, or in a turn where they differ, take all memory
+/// there is; the lobes have long become one line.
+void check_slowest(const CaseTables& t, double Omega, const std::string& key,
+                   Findings& findings) {
+  constexpr double most_vibrations = 4000;
+  double fastest = 0.0;
+  for (const Mode& mode : t.machine.modes) {
+    fastest = std::max(fastest, frequency_of(mode));
+  }
+  const double vibrations = fastest * unit::turn / (Omega * std::max(1, t.tool.teeth));
+  if (sound(findings, {key, "mode", "tool.teeth"}) && vibrations > most_vibrations) {
+    report(
+        findings, key,
+        fmt::format("{}: {} rpm: {:.3g} vibrations of the mode at {:.4g} Hz pass from "
+                    "one tooth to the next; at most {:g} can be computed, from "
+                    "{:.3g} rpm up",
+                    key, number_text(Omega, unit::rpm), vibrations, fastest,
+                    most_vibrations, Omega / unit::rpm * vibrations / most_vibrations));
+  }
+}
+
 Axis force_axis(const MeasuredFrf& frf) {
   return frf.force_axis.value_or(frf.axis);
 }
@@ -135,6 +166,12 @@ void check_stability(CaseTables& t, Findings& findings) {
     const double speed = t.cut.spindle_speed;
     s.spindle_speed = base::Steps{as_written(0.5 * speed, unit::rpm),
                                   as_written(1.5 * speed, unit::rpm), 101};
+  }
+  if (t.cut.spindle_speed > 0) {
+    check_slowest(t, t.cut.spindle_speed, "cut.spindle_rpm", findings);
+    if (s.spindle_speed->first > 0 && s.spindle_speed->first < t.cut.spindle_speed) {
+      check_slowest(t, s.spindle_speed->first, "stability.spindle_rpm", findings);
+    }
   }
   if (!s.axial_depth) {
     const double depth = t.cut.axial_depth;

@@ -5,6 +5,8 @@ namespace trochoid::inputs {
 
 namespace {
 
+constexpr double fastest_Hz = 1e6;
+
 constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);
 constexpr Range modulus = above_up_to(0, 10000);
@@ -195,40 +197,45 @@ void describe(const Visitor& v, Mode& t) {
      .only = {"axis", {"x", "y"}},
      .neutral = 0.0},
     &t.angle);
-  v({.name = "mass_kg", .meaning = "modal mass", .range = above(0)}, &t.mass);
+  v({.name = "mass_kg", .meaning = "modal mass", .range = above_up_to(0, 1e9)},
+    &t.mass);
   v({.name = "stiffness_N_per_m",
      .meaning = "modal stiffness; may stand in place of the mass or the frequency",
-     .range = above(0),
+     .range = above_up_to(0, 1e15),
      .example = "1340000"},
     &t.stiffness);
   v({.name = "damping_Ns_per_m",
      .meaning = "modal damping; may stand in place of damping_ratio",
-     .range = at_least(0),
+     .range = between(0, 1e12),
      .rival = "damping_ratio",
      .example = "5.1"},
     &t.damping);
-  v({.name = "frequency_Hz", .meaning = "natural frequency", .range = above(0)},
+  v({.name = "frequency_Hz",
+     .meaning = "natural frequency",
+     .range = above_up_to(0, fastest_Hz)},
     &t.frequency);
   v({.name = "damping_ratio",
      .meaning = "damping over critical damping (zeta)",
-     .range = at_least(0),
+     .range = between(0, 100),
      .rival = "damping_Ns_per_m"},
     &t.damping_ratio);
 }
 
 void describe(const Visitor& v, Actuator& t) {
-  v({.name = "gain", .meaning = "motion for a command of 1", .range = above(0)},
+  v({.name = "gain",
+     .meaning = "motion for a command of 1",
+     .range = above_up_to(0, 1e6)},
     &t.gain);
   v({.name = "time_constants_s",
      .meaning = "time constants of two first-order lags in series",
-     .range = above(0),
+     .range = above_up_to(0, 1e4),
      .count = 2,
      .rival = "frequency_Hz",
      .example = "[0.0011, 0.0012]"},
     &t.time_constants);
   v({.name = "frequency_Hz",
      .meaning = "natural frequency",
-     .range = above(0),
+     .range = above_up_to(0, fastest_Hz),
      .rival = "time_constants_s"},
     &t.frequency);
   v({.name = "damping_ratio",

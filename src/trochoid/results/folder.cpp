@@ -56,17 +56,16 @@ void check_names(const Answer& answer) {
   }
 }
 
+using Names = std::vector<std::string>;
+
 /// A report that was never finished, of a program that was killed.
 constexpr std::string_view unfinished_report = ".report.html.new-";
 
 void remove_unfinished_reports(const fs::path& folder, const PlaceLock& lock) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (lock.held() &&
-        entry->path().filename().string().starts_with(unfinished_report)) {
+  for (const std::string& name : names_in(folder).value_or(Names{})) {
+    if (lock.held() && name.starts_with(unfinished_report)) {
       std::error_code ignored;
-      fs::remove(entry->path(), ignored);
+      fs::remove(folder / name, ignored);
     }
   }
 }
@@ -78,10 +77,12 @@ void check_replaceable(const fs::path& folder) {
   if (status.type() == fs::file_type::not_found) return;
   if (error) fail(folder, error);
   if (!fs::is_directory(status)) cannot_write(folder, "it exists and is not a folder");
-  if (fs::is_empty(folder, error)) return;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (entry.symlink_status().type() != fs::file_type::regular ||
+  const auto names = names_in(folder);
+  if (!names) cannot_write(folder, "it cannot be looked into");
+  if (names->empty()) return;
+  for (const std::string& name : *names) {
+    const fs::file_type type = fs::symlink_status(folder / name, error).type();
+    if (type != fs::file_type::regular ||
         !(is_ours(name) || name.starts_with(unfinished_report))) {
       cannot_write(folder,
                    "it holds '" + name +
@@ -89,7 +90,6 @@ void check_replaceable(const fs::path& folder) {
                        "another folder with -o");
     }
   }
-  if (error) fail(folder, error);
   if (!holds_our_summary(folder)) {
     cannot_write(
         folder,

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "file_names.h"
+#include "staged_folder.h"
 
 namespace trochoid::results {
 
@@ -138,8 +139,9 @@ Answer read_folder(const fs::path& folder) {
   answer.heading.case_toml = read_file(folder / "case.toml");
   answer.heading.title = title_of(answer.heading.case_toml);
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (is_ours(entry.path().filename().string())) paths.push_back(entry.path());
+  for (const std::string& name :
+       names_in(folder).value_or(std::vector<std::string>{})) {
+    if (is_ours(name)) paths.push_back(folder / name);
   }
   std::sort(paths.begin(), paths.end());
   for (const auto& path : paths) {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -69,16 +71,16 @@ bool is_left_over(const fs::path& entry, const fs::path& place, std::string_view
   return name.size() == start.size() + letters && name.starts_with(start);
 }
 
-bool holds_only_ours(const fs::path& folder) {
+bool is_of_type(const fs::path& path, fs::file_type type) {
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->symlink_status(error).type() != fs::file_type::regular ||
-        !is_ours(entry->path().filename().string())) {
-      return false;
-    }
-  }
-  return !error;
+  return fs::symlink_status(path, error).type() == type;
+}
+
+bool holds_only_ours(const fs::path& folder) {
+  const auto names = names_in(folder);
+  return names && std::all_of(names->begin(), names->end(), [&](const auto& name) {
+           return is_ours(name) && is_of_type(folder / name, fs::file_type::regular);
+         });
 }
 
 /// Its writer is no more: nobody holds the lock on it.
@@ -130,6 +132,23 @@ void put_in_two_steps(const fs::path& fresh, const fs::path& place) {
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> names_in(const fs::path& folder) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
+  if (!open) {
+    return std::nullopt;
+  }
+  std::vector<std::string> names;
+  errno = 0;
+  while (const dirent* entry = ::readdir(open.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") {
+      names.emplace_back(name);
+    }
+    errno = 0;
+  }
+  return errno == 0 ? std::optional(std::move(names)) : std::nullopt;
+}
 
 void cannot_write(const fs::path& path, const std::string& reason) {
   throw std::runtime_error("cannot write " + path.string() + ": " + reason);
@@ -205,19 +224,19 @@ void mend(const fs::path& place, const PlaceLock& lock) {
   std::vector<fs::path> unfinished;
   std::vector<fs::path> aside;
   std::error_code error;
-  for (fs::directory_iterator entry(place.parent_path(), error), end;
-       !error && entry != end; entry.increment(error)) {
+  for (const std::string& name :
+       names_in(place.parent_path()).value_or(std::vector<std::string>{})) {
+    const fs::path folder = place.parent_path() / name;
     for (const auto& [kind, list] :
          {std::pair{being_filled, &unfinished}, std::pair{set_aside, &aside}}) {
-      if (is_left_over(entry->path(), place, kind) &&
-          entry->symlink_status(error).type() == fs::file_type::directory &&
-          is_abandoned(entry->path()) && holds_only_ours(entry->path())) {
-        list->push_back(entry->path());
+      if (is_left_over(folder, place, kind) &&
+          is_of_type(folder, fs::file_type::directory) && is_abandoned(folder) &&
+          holds_only_ours(folder)) {
+        list->push_back(folder);
       }
     }
   }
-  const bool missing =
-      fs::symlink_status(place, error).type() == fs::file_type::not_found;
+  const bool missing = is_of_type(place, fs::file_type::not_found);
   const auto whole = std::find_if(aside.begin(), aside.end(), holds_our_summary);
   if (missing && whole != aside.end()) {
     fs::rename(*whole, place, error);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace trochoid::results {
 
@@ -48,6 +50,11 @@ class StagedFolder {
   std::filesystem::path path_;
   int descriptor_ = -1;
 };
+
+/// @brief The names in a folder, in no order; none where it cannot be looked into.
+///
+/// Not by std::filesystem, which ends the program where there is no memory for it.
+std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder);
 
 /// @brief Put back or remove what a killed program left beside `place`.
 ///

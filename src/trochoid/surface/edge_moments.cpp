@@ -162,7 +162,7 @@ std::vector<double> EdgeMoments::kinks(bool bent) const {
   return angles;
 }
 
-bool EdgeMoments::equal_teeth() const noexcept {
+bool EdgeMoments::equal_teeth() const {
   return force::teeth_alike(edges_.setup);
 }
 

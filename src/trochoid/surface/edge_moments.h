@@ -63,7 +63,7 @@ class EdgeMoments {
   [[nodiscard]] std::vector<double> kinks(bool bent) const;
 
   /// Do all teeth cut alike, so that everything repeats with every tooth?
-  [[nodiscard]] bool equal_teeth() const noexcept;
+  [[nodiscard]] bool equal_teeth() const;
 
   /// Angle from a tooth to the m-th tooth before it [rad], shape (teeth, teeth).
   [[nodiscard]] std::span<const double> back() const noexcept {

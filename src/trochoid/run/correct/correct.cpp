@@ -1,4 +1,5 @@
 #include <trochoid/run/correct/correct.h>
+#include <trochoid/run/shared/heading.h>
 
 #include <trochoid/run/correct/problem.h>
 #include <trochoid/run/correct/warnings.h>
@@ -22,9 +23,7 @@ std::string headline(const correction::BeforeAfter& cuts) {
 
 results::CorrectResult correct(const inputs::Case& given, bool controller,
                                const Progress& progress) {
-  results::CorrectResult r{.heading = {.title = given.title,
-                                       .warnings = given.notes,
-                                       .case_toml = given.as_understood}};
+  results::CorrectResult r{.heading = heading_of(given)};
   r.heading.ok = false;
   const auto problem = correction_problem(given, controller, r.heading.warnings);
   r.options = problem.options;

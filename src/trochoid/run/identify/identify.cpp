@@ -1,4 +1,5 @@
 #include <trochoid/run/identify/identify.h>
+#include <trochoid/run/shared/heading.h>
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
@@ -246,9 +247,7 @@ struct Identification {
   }
 
   IdentifyResult answer() {
-    r.heading.title = given.title;
-    r.heading.case_toml = given.as_understood;
-    r.heading.warnings = given.notes;
+    r.heading = heading_of(given);
     r.edge_length = given.setup.edge_length;
     progress("reading the measurements");
     measured = measured_runs(given, r.heading.warnings);

@@ -1,4 +1,5 @@
 #include <trochoid/run/identify/plan.h>
+#include <trochoid/run/shared/heading.h>
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/groups.h>
@@ -319,9 +320,7 @@ struct Planning {
   }
 
   PlanResult answer() {
-    r.heading.title = given.title;
-    r.heading.case_toml = given.as_understood;
-    r.heading.warnings = given.notes;
+    r.heading = heading_of(given);
     r.turns = given.plan.turns;
     r.samples_per_rev = given.plan.samples_per_rev;
     r.diameter = given.setup.cutter.profile.D;

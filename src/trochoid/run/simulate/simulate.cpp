@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/simulate/simulate.h>
 
 #include <trochoid/base/units.h>
@@ -84,9 +85,7 @@ results::SimulateResult simulate(const inputs::Case& given) {
                             ? force::representative_height(setup)
                             : sampling.edge_heights.front();
   results::SimulateResult r{
-      .heading = {.title = given.title,
-                  .warnings = given.notes,
-                  .case_toml = given.as_understood},
+      .heading = heading_of(given),
       .phi = sampled_angles(sampling),
       .Omega = setup.cut.Omega,
       .closed_form_mean = force::closed_form_mean(setup, given.law),

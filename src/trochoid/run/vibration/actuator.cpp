@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/vibration/actuator.h>
 
 #include <trochoid/run/vibration/warnings.h>
@@ -17,9 +18,7 @@ inputs::StepSource step_source(const inputs::StepTables& step) {
 
 results::ActuatorResult actuator(const inputs::Case& given) {
   inputs::StepFile file = inputs::read_step(step_source(*given.machine.step));
-  results::ActuatorResult r{.heading = {.title = given.title,
-                                        .warnings = given.notes,
-                                        .case_toml = given.as_understood},
+  results::ActuatorResult r{.heading = heading_of(given),
                             .record = std::move(file.record),
                             .command = std::move(file.command)};
   r.fit = structure::identify_actuator(r.record);

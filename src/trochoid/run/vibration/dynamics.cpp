@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/vibration/dynamics.h>
 
 #include <trochoid/dynamics/stability.h>
@@ -24,9 +25,7 @@ MotionResult failed(MotionResult r, std::string why) {
 
 MotionResult result_of(const inputs::Case& given, const MotionProblem& problem) {
   const double D = problem.setup.cutter.profile.D;
-  MotionResult r{.heading = {.title = given.title,
-                             .warnings = given.notes,
-                             .case_toml = given.as_understood},
+  MotionResult r{.heading = heading_of(given),
                  .system = problem.system,
                  .steps_per_tooth = problem.grid.steps_per_tooth,
                  .engagement = chip::tooth_arc(problem.setup.cut.engagement, D, D / 2),

@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/vibration/modes.h>
 
 #include <trochoid/base/units.h>
@@ -77,9 +78,7 @@ double first_coherent(const signal::TapResponse& tap) {
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
   inputs::FrfFile file = inputs::read_frf(frf_source(frf));
-  results::ModesResult r{.heading = {.title = given.title,
-                                     .warnings = given.notes,
-                                     .case_toml = given.as_understood},
+  results::ModesResult r{.heading = heading_of(given),
                          .kind = file.response.kind,
                          .description = std::move(file.description),
                          .body = frf.body,

@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/vibration/stability.h>
 
 #include <trochoid/base/units.h>
@@ -88,9 +89,7 @@ std::string message_without_modes(const results::StabilityResult& r) {
 
 results::StabilityResult stability(const inputs::Case& given,
                                    const Progress& progress) {
-  results::StabilityResult r{.heading = {.title = given.title,
-                                         .warnings = given.notes,
-                                         .case_toml = given.as_understood},
+  results::StabilityResult r{.heading = heading_of(given),
                              .problem = stability_problem(given)};
   std::optional<ToolPoint> point;
   if (!given.machine.measured_frfs.empty()) {

@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/wall/calibrate.h>
 
 #include <trochoid/base/units.h>
@@ -41,9 +42,7 @@ results::CalibrateResult calibrate(const inputs::Case& given,
   };
   MeasuredWall wall = measured_wall(given);
   tell("Fitting the coefficients");
-  results::CalibrateResult r{.heading = {.title = given.title,
-                                         .warnings = given.notes,
-                                         .case_toml = given.as_understood},
+  results::CalibrateResult r{.heading = heading_of(given),
                              .calibration = surface::calibrate(
                                  wall_setting(given), wall.readings, wall.datum,
                                  wall_fit(given), [&] { tell("Looking for runout"); }),

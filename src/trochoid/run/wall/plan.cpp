@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/wall/plan.h>
 
 #include <trochoid/base/units.h>
@@ -261,9 +262,7 @@ struct WallPlanning {
   }
 
   PlanWallResult answer() {
-    r.heading.title = given.title;
-    r.heading.case_toml = given.as_understood;
-    r.heading.warnings = given.notes;
+    r.heading = heading_of(given);
     trial.setting = wall_setting(given);
     trial.setting.bodies = bodies_of(given, given.setup.cut.a_p);
     trial.feedback = wall_feedback(given);

@@ -1,3 +1,4 @@
+#include <trochoid/run/shared/heading.h>
 #include <trochoid/run/wall/surface.h>
 
 #include <trochoid/base/units.h>
@@ -57,9 +58,7 @@ results::SurfaceResult surface(const inputs::Case& given, const Progress& progre
     }
   };
   tell("Solving the wall");
-  results::SurfaceResult r{.heading = {.title = given.title,
-                                       .warnings = given.notes,
-                                       .case_toml = given.as_understood},
+  results::SurfaceResult r{.heading = heading_of(given),
                            .diameter = given.setup.cutter.profile.D,
                            .a_p = given.setup.cut.a_p,
                            .cutter = wall_cutter(given.machine),
