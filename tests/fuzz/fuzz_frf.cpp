@@ -16,7 +16,12 @@ void demand(bool condition) {
 
 /// What every frequency response that is accepted must be.
 void use(const FrfFile& file) {
-  const auto& [kind, omega, H] = file.response;
+  if (file.tap) {
+    demand(file.tap->force.size() == file.tap->response.size());
+    return;
+  }
+  const auto& omega = file.response.omega;
+  const auto& H = file.response.H;
   demand(!omega.empty() && omega.size() == H.size());
   for (std::size_t i = 0; i < omega.size(); ++i) {
     demand(std::isfinite(omega[i]) && omega[i] >= 0);
