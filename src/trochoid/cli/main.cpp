@@ -54,15 +54,6 @@ void report_full_disks() {
 #endif
 }
 
-/// Without asking for any.
-void say_no_memory(const char* command) noexcept {
-  constexpr double mebibyte = 1024.0 * 1024.0;
-  std::fprintf(stderr,
-               "trochoid %s: there is no memory for it: %.3g MiB more were asked for; "
-               "nothing was written\n",
-               command, static_cast<double>(trochoid::cli::refused_bytes()) / mebibyte);
-}
-
 int answer(Command command, const Options& options) {
   using namespace trochoid::cli;
   switch (command) {
@@ -251,6 +242,7 @@ int main(int argc, char** argv) {
   try {
     keep_freed_memory();
     report_full_disks();
+    trochoid::cli::say_no_memory_at_the_end_of(argc > 1 ? argv[1] : "");
     const int code = run(argc, argv);
     if (std::fflush(stdout) != 0) {
       throw std::runtime_error("what is printed cannot be written");
@@ -260,7 +252,7 @@ int main(int argc, char** argv) {
     trochoid::cli::complain(error.what());
     return trochoid::cli::wrong_input;
   } catch (const std::bad_alloc&) {
-    say_no_memory(argc > 1 ? argv[1] : "");
+    trochoid::cli::say_no_memory(argc > 1 ? argv[1] : "");
     return trochoid::cli::our_bug;
   } catch (const std::exception& error) {
     trochoid::cli::complain(fmt::format("trochoid: {}\n", error.what()));

@@ -1,7 +1,10 @@
+#include <trochoid/cli/commands.h>
 #include <trochoid/cli/memory.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace trochoid::cli {
@@ -13,7 +16,34 @@ std::atomic<std::size_t>& refused() noexcept {
   return bytes;
 }
 
+const char*& command_running() noexcept {
+  static const char* command = "";
+  return command;
+}
+
+/// Libraries promise `noexcept` and ask for memory all the same.
+[[noreturn]] void end() noexcept {
+  if (refused() == 0) {
+    std::abort();
+  }
+  say_no_memory(command_running());
+  std::_Exit(our_bug);
+}
+
 }  // namespace
+
+void say_no_memory(const char* command) noexcept {
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  std::fprintf(stderr,
+               "trochoid %s: there is no memory for it: %.3g MiB more were asked for; "
+               "nothing was written\n",
+               command, static_cast<double>(refused_bytes()) / mebibyte);
+}
+
+void say_no_memory_at_the_end_of(const char* command) noexcept {
+  command_running() = command;
+  std::set_terminate(end);
+}
 
 std::size_t refused_bytes() noexcept {
   return refused();

@@ -9,4 +9,11 @@ namespace trochoid::cli {
 /// The program's own `operator new` keeps it: std::bad_alloc says nothing.
 std::size_t refused_bytes() noexcept;
 
+/// @brief Say, without asking for any, that there is no memory for a command.
+void say_no_memory(const char* command) noexcept;
+
+/// @brief Say it also where a library of others lets nothing out, and end there.
+/// @param command  kept, not copied
+void say_no_memory_at_the_end_of(const char* command) noexcept;
+
 }  // namespace trochoid::cli

@@ -5,7 +5,7 @@ namespace trochoid::inputs {
 
 namespace {
 
-constexpr double fastest_Hz = 1e6;
+constexpr double fastest_Hz = 1e7;
 
 constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);

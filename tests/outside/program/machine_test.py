@@ -49,7 +49,7 @@ class Modes(InFolder):
         self.write("other.toml", 'include = "tip.modes/modes.toml"\n[frf]\nfile = "tip.csv"\n')
         self.run_program("modes", "other.toml")
         echo = (self.folder / "other.modes/case.toml").read_text()
-        self.assertIn("[[mode]]\nbody = \"table\"\naxis = \"y\"\nmass_kg = 0.19", echo)
+        self.assertIn("[[mode]]\nbody = \"table\"\naxis = \"y\"\nangle_deg = 0\nmass_kg = 0.19", echo)
 
     def test_options_say_what_a_bare_table_does_not(self):
         rows = table(range(500, 3000, 2), head="").replace(",", " ")

@@ -38,7 +38,7 @@ struct Machine {
 
   [[nodiscard]] std::vector<double> peaks(const TrochoidEstimatorResult& r) {
     const std::size_t N = rho.size();
-    std::normal_distribution<double> some(0.0, noise);
+    std::normal_distribution<double> normal(0.0, 1.0);
     std::vector<double> p;
     for (std::size_t j = 0; j < N; ++j) {
       const double step = turn / static_cast<double>(N);
@@ -46,7 +46,7 @@ struct Machine {
       const double chip = feed + rho[j] - rho[(j + N - 1) % N] -
                           (table(r, angle) - table(r, angle - step));
       p.push_back(chip > 0 ? 1e5 * std::pow(chip, exponent) *
-                                 (1 + (noise > 0 ? some(random) : 0.0))
+                                 (1 + (noise > 0 ? noise * normal(random) : 0.0))
                            : 0.0);
     }
     return p;

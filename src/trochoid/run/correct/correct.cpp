@@ -1,5 +1,6 @@
 #include <trochoid/run/correct/correct.h>
 #include <trochoid/run/shared/heading.h>
+#include <trochoid/run/shared/machine.h>
 
 #include <trochoid/run/correct/problem.h>
 #include <trochoid/run/correct/warnings.h>
@@ -27,6 +28,11 @@ results::CorrectResult correct(const inputs::Case& given, bool controller,
   r.heading.ok = false;
   const auto problem = correction_problem(given, controller, r.heading.warnings);
   r.options = problem.options;
+  const int steps = dynamics::steps_needed(correction::problem_of(problem.cut, {}));
+  if (steps > dynamics::most_steps) {
+    r.heading.message = too_many_steps(steps);
+    return r;
+  }
   r.correction = correction::correct(problem, progress);
   const correction::Correction& c = r.correction;
   add_setting_warnings(c.setting, r.heading.warnings);

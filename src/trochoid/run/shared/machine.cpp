@@ -1,5 +1,9 @@
 #include <trochoid/run/shared/machine.h>
 
+#include <trochoid/dynamics/motion.h>
+
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -72,6 +76,13 @@ correction::ActuatorLimits limits_of(const inputs::Actuator& actuator) {
     limits.stroke_high = actuator.stroke[1];
   }
   return limits;
+}
+
+std::string too_many_steps(int steps_per_tooth) {
+  return fmt::format(
+      "the fastest mode would need {} steps a tooth, more than the {} that are "
+      "computed: leave out modes far above the tooth frequency",
+      steps_per_tooth, dynamics::most_steps);
 }
 
 }  // namespace trochoid::run

@@ -6,6 +6,7 @@
 #include <trochoid/inputs/machine_tables.h>
 
 #include <span>
+#include <string>
 
 namespace trochoid::run {
 
@@ -22,5 +23,8 @@ correction::Plant plant_of(const inputs::MachineTables& machine);
 
 /// @brief What [actuator] says that it can do.
 correction::ActuatorLimits limits_of(const inputs::Actuator& actuator);
+
+/// @brief Why a motion is not followed: more steps than dynamics::most_steps.
+std::string too_many_steps(int steps_per_tooth);
 
 }  // namespace trochoid::run

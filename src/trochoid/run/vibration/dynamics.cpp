@@ -1,4 +1,5 @@
 #include <trochoid/run/shared/heading.h>
+#include <trochoid/run/shared/machine.h>
 #include <trochoid/run/vibration/dynamics.h>
 
 #include <trochoid/dynamics/stability.h>

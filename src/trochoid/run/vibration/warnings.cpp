@@ -267,13 +267,6 @@ void add_actuator_warnings(const structure::StepRecord& record,
   }
 }
 
-std::string too_many_steps(int steps_per_tooth) {
-  return fmt::format(
-      "the fastest mode would need {} steps a tooth, more than the {} that are "
-      "computed: leave out modes far above the tooth frequency",
-      steps_per_tooth, dynamics::most_steps);
-}
-
 std::string motion_message(const SteadyState& steady) {
   const std::string after = fmt::format("After {} turns ", steady.motion.turns_done);
   if (const auto* periodic = std::get_if<Periodic>(&steady.verdict)) {

@@ -23,9 +23,6 @@ std::vector<base::Warning> motion_warnings(const inputs::Case& given,
                                            const dynamics::SteadyState& steady,
                                            const std::optional<double>& linear_growth);
 
-/// @brief Why a motion is not followed: more steps than dynamics::most_steps.
-std::string too_many_steps(int steps_per_tooth);
-
 /// @brief What a motion that does not grow comes to.
 std::string motion_message(const dynamics::SteadyState& steady);
 
