@@ -107,7 +107,7 @@ std::string shortened(std::string text, std::size_t longest = longest_value_show
 }
 
 struct Printer {
-  std::string operator()(std::monostate) const { return "(a date or a time)"; }
+  std::string operator()(const DateOrTime&) const { return "(a date or a time)"; }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return number_text(value); }

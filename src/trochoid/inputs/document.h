@@ -24,9 +24,17 @@ struct Node;
 using Array = std::vector<Node>;
 using Members = std::vector<Member>;  ///< of a table, in the order of the file
 
-/// A value of a TOML file; std::monostate stands for a date or a time.
+/// A date or a time, which no key takes.
+///
+/// Its copy may fail, and so the variant may be valueless: one that never is, g++ 12
+/// destroys wrongly where there is no memory for its copy.
+struct DateOrTime {
+  std::string text;
+};
+
+/// A value of a TOML file.
 struct Node {
-  std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Members>
+  std::variant<DateOrTime, bool, std::int64_t, double, std::string, Array, Members>
       value;
   Location where;
   bool inherited = false;  ///< from an included file, or from the table it overrides

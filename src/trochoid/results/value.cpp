@@ -3,7 +3,10 @@
 namespace trochoid::results {
 
 Value::Value() noexcept = default;
-Value::Value(const Value& other) = default;
+// By assignment: a variant whose own copy fails for want of memory g++ 12 destroys wrongly.
+Value::Value(const Value& other) {
+  data = other.data;
+}
 Value::Value(Value&& other) noexcept = default;
 Value& Value::operator=(const Value& other) = default;
 Value& Value::operator=(Value&& other) noexcept = default;
