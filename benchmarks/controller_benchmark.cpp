@@ -1,4 +1,5 @@
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/estimator.h>
 #include <trochoid/correction/online.h>
 
 #include <benchmark/benchmark.h>
@@ -81,9 +82,52 @@ void online_revolution(benchmark::State& state) {
   state.counters["learnt"] = online.result.learnt;
 }
 
+/// The estimator of eight flutes and harmonics, linear in both.
+TrochoidEstimatorConfig estimator_config() {
+  TrochoidEstimatorConfig config;
+  trochoid_estimator_defaults(&config);
+  constexpr int teeth = TROCHOID_ESTIMATOR_TEETH;
+  config.teeth = teeth;
+  config.harmonics = TROCHOID_WAVE_HARMONICS;
+  config.wait_turns = 0;
+  config.deadband = 0.0;
+  const double step = 2.0 * std::numbers::pi / teeth;
+  constexpr double slope = 1e4;
+  for (int j = 0; j < teeth; ++j) {
+    config.start_rev[j] = static_cast<double>(j) / teeth;
+    for (int n = 1; n <= config.harmonics; ++n) {
+      const double to = n * step * (j + 0.5);
+      const double from = to - n * step;
+      config.wave_model[j][2 * n - 2] = -slope * (std::cos(to) - std::cos(from));
+      config.wave_model[j][2 * n - 1] = -slope * (std::sin(to) - std::sin(from));
+    }
+    config.runout_model[j][j] = slope;
+    config.runout_model[j][(j + teeth - 1) % teeth] = -slope;
+  }
+  return config;
+}
+
+/// One revolution of 500 samples; the waves of eight flutes are learnt at its end.
+void estimator_revolution(benchmark::State& state) {
+  const auto config = estimator_config();
+  TrochoidEstimator estimator;
+  trochoid_estimator_init(&estimator, &config);
+  constexpr int samples = 500;
+  for (auto _ : state) {
+    for (int i = 0; i < samples; ++i) {
+      const double angle = static_cast<double>(i) / samples;
+      const double force = 50.0 + 5.0 * std::sin(2.0 * std::numbers::pi * angle);
+      benchmark::DoNotOptimize(
+          trochoid_estimator_sample(&estimator, angle, force, 1).difference);
+    }
+  }
+  state.counters["learnt"] = estimator.result.learnt;
+}
+
 }  // namespace
 
 BENCHMARK(controller_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(online_revolution)->Unit(benchmark::kMicrosecond);
+BENCHMARK(estimator_revolution)->Unit(benchmark::kMicrosecond);
 
 }  // namespace trochoid::benchmarks

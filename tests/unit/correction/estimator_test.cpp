@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -97,21 +96,16 @@ struct Turns {
       const double within = std::fmod(angle * N, 1.0);
       const double force = -peaks[static_cast<std::size_t>(i / 40)] *
                            std::sin(std::numbers::pi * within);
-      const auto begin = std::chrono::steady_clock::now();
       last = trochoid_estimator_sample(&estimator, angle, force, 1);
-      const std::chrono::duration<double> took =
-          std::chrono::steady_clock::now() - begin;
       if (last.turn != TROCHOID_TURN_OPEN) {
         became = last.turn;
         event = last.event;
-        shortest = std::min(shortest, took.count());
       }
     }
     last.turn = became;
     last.event = event;
     return last;
   }
-  double shortest = 1.0;  ///< of a sample that ends a turn [s]
 };
 
 double difference_of(const std::vector<double>& p) {
@@ -267,20 +261,6 @@ TEST(Estimator, TurnsThatTellNothingChangeNothing) {
   }
   EXPECT_EQ(turns.last.turn, TROCHOID_TURN_NO_CUT);
   EXPECT_EQ(turns.estimator.result.learnt, 0);
-}
-
-TEST(Estimator, ATurnTakesLessThanTwentyMicroseconds) {
-  std::vector<double> rho(8, 0.0);
-  rho[2] = 5 * um;
-  Machine machine{.rho = rho, .noise = 0.02};
-  Turns turns(config_for(machine, 8));
-  for (int k = 0; k < 200; ++k) {
-    turns.turn_of(machine);
-  }
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
-  EXPECT_LT(turns.shortest, 20e-6);  // the shortest: others share the machine
-#endif
-  RecordProperty("nanoseconds", static_cast<int>(turns.shortest * 1e9));
 }
 
 TEST(Estimator, WrongConfigurationsAreRefused) {

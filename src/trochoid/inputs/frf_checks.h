@@ -1,0 +1,29 @@
+#pragma once
+
+#include <trochoid/inputs/csv.h>
+#include <trochoid/inputs/frf_file.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace trochoid::inputs {
+
+/// @brief Kind and factor to SI from what the file and the user say.
+///
+/// The kind goes to `out`, and a note where the unit had to be assumed; what is wrong
+/// goes to the problems.
+/// @param text      the unit as the file has it; may be empty
+/// @param line, at  where it stands
+double settle_unit(const std::string& text, std::size_t line, std::size_t at,
+                   const FrfSource& source, FrfFile& out, Problems& problems);
+
+/// @brief Frequencies must increase from 0 or above.
+/// @param omega  [rad/s]
+/// @param lines  of the file on which they stand; one: all on it
+/// @param at     column of the file
+void check_order(const std::vector<double>& omega,
+                 const std::vector<std::size_t>& lines, std::size_t at,
+                 Problems& problems);
+
+}  // namespace trochoid::inputs
