@@ -20,9 +20,7 @@ LINES, PARAMETERS = 60, 5
 SIX = re.compile(r"six parameters: \S")
 
 # What may be longer: file, or file:function, and why.
-MAY = {
-    "src/trochoid/inputs/frf_file.cpp:settle_unit": "waits for the new inputs room",
-}
+MAY = {}
 
 
 def code_files(top, folders, suffixes):

@@ -18,25 +18,27 @@ constexpr std::string_view say_kind =
 
 }  // namespace
 
-double settle_unit(const std::string& text, std::size_t line, std::size_t at,
-                   const FrfSource& source, FrfFile& out, Problems& problems) {
+double settle_unit(const UnitText& said, const FrfSource& source, FrfFile& out,
+                   Problems& problems) {
+  const std::string& text = said.text;
   const auto unit = response_unit(text);
   const bool silent = text.find_first_not_of(" ()[]/_") == std::string::npos;
   if (!unit && !silent) {
-    problems.add(line, at,
+    problems.add(said.line, said.column,
                  fmt::format("the unit {} is no unit of a response: m/N, mm/N, um/N, "
                              "m/s/N, (m/s^2)/N and g/N are",
                              excerpt(text)));
     return 1.0;
   }
   if (unit && source.kind && *source.kind != unit->kind) {
-    problems.add(line, at,
+    problems.add(said.line, said.column,
                  fmt::format("the unit {} is not that of the kind that was said: leave "
                              "out the kind, or correct one of the two",
                              excerpt(text)));
   }
   if (!unit && !source.kind) {
-    problems.add(line, at, fmt::format("the file says no unit: {}", say_kind));
+    problems.add(said.line, said.column,
+                 fmt::format("the file says no unit: {}", say_kind));
   }
   if (!unit) {
     out.notes.push_back({"unit_assumed",

@@ -9,14 +9,19 @@
 
 namespace trochoid::inputs {
 
+/// A unit as a file has it, perhaps empty, and where.
+struct UnitText {
+  std::string text;
+  std::size_t line = 1;
+  std::size_t column = 1;
+};
+
 /// @brief Kind and factor to SI from what the file and the user say.
 ///
 /// The kind goes to `out`, and a note where the unit had to be assumed; what is wrong
 /// goes to the problems.
-/// @param text      the unit as the file has it; may be empty
-/// @param line, at  where it stands
-double settle_unit(const std::string& text, std::size_t line, std::size_t at,
-                   const FrfSource& source, FrfFile& out, Problems& problems);
+double settle_unit(const UnitText& unit, const FrfSource& source, FrfFile& out,
+                   Problems& problems);
 
 /// @brief Frequencies must increase from 0 or above.
 /// @param omega  [rad/s]

@@ -158,8 +158,8 @@ FrfFile from_table(const std::string& text, const std::string& name,
   }
   const Columns columns = find_columns(table, problems);
   stop();
-  const double factor = settle_unit(columns.unit, table.names_line, columns.unit_column,
-                                    source, out, problems);
+  const double factor = settle_unit(
+      {columns.unit, table.names_line, columns.unit_column}, source, out, problems);
   for (const auto& row : table.rows) {
     out.response.omega.push_back(row[columns.frequency] * unit::Hz);
     const double a = row[columns.first];

@@ -151,7 +151,7 @@ FrfFile frf_from_uff(const std::string& text, const std::string& name,
                    "with it the damping");
     }
     const double factor =
-        settle_unit(unit_text(*set), set->line, 1, source, out, problems);
+        settle_unit({unit_text(*set), set->line, 1}, source, out, problems);
     for (std::size_t i = 0; i < set->y.size(); ++i) {
       out.response.omega.push_back(set->x[i] * unit::Hz);
       out.response.H.push_back(factor * set->y[i]);
