@@ -14,6 +14,10 @@ namespace {
 
 using Values = std::vector<double>;
 
+/// With fewer readings to spare standard errors mean nothing: three readings fit any
+/// three unknowns.
+constexpr int spare_readings = 3;
+
 double weight_of(const Nominal& nominal) {
   return std::sqrt(static_cast<double>(nominal.readings.size()));
 }
@@ -200,6 +204,24 @@ bool step_back(std::array<double, 2>& step, std::array<double, columns>& K) {
   return std::hypot(step[0], step[1]) > no_step * std::hypot(K[0], K[1]);
 }
 
+/// Too few means of readings, or readings, for the unknowns: the sentence that says so,
+/// else empty.
+std::string too_few(const NominalProblem& problem, int unknowns) {
+  const std::size_t means = problem.nominal.size();
+  if (means < static_cast<std::size_t>(unknowns)) {
+    return fmt::format("{} means of readings for {} unknowns", means, unknowns);
+  }
+  std::size_t readings = 0;
+  for (const Nominal& mean : problem.nominal) {
+    readings += mean.readings.size();
+  }
+  const auto needed = static_cast<std::size_t>(unknowns + spare_readings);
+  return readings < needed
+             ? fmt::format("{} readings for {} unknowns: at least {} are needed",
+                           readings, unknowns, needed)
+             : "";
+}
+
 /// No step in the direction of an approximate derivative makes it better.
 void stay_there(const numerics::LeastSquares& stay, numerics::LeastSquares& solved) {
   solved.x = stay.x;
@@ -232,9 +254,8 @@ CoefficientFit fit_nominal(const NominalProblem& problem,
   std::array<double, columns> K = problem.K;
   const int n = 2 + static_cast<int>(datum_of(problem).count);
   fit.residual.assign(problem.nominal.size(), 0.0);
-  if (problem.nominal.size() < static_cast<std::size_t>(n)) {
-    fit.message =
-        fmt::format("{} means of readings for {} unknowns", problem.nominal.size(), n);
+  fit.message = too_few(problem, n);
+  if (!fit.message.empty()) {
     return fit;
   }
   std::array<double, 2> step{};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 /// What the data cannot tell apart is refused, never inverted.
 namespace trochoid::surface {
 namespace {
@@ -38,6 +40,24 @@ TEST(Degenerate, OnePlaceIsOneEquation) {  // [E-15]
   ASSERT_EQ(c.fits.size(), 1U);
   EXPECT_FALSE(c.fits[0].ok);
   EXPECT_FALSE(c.fits[0].message.empty());
+}
+
+/// Three readings at three heights: any two coefficients and an offset fit them exactly.
+TEST(Degenerate, FewerThanThreeReadingsToSpareAreRefused) {  // [E-15]
+  const Setting s = made_setting(Model::imprint);
+  for (const int count : {3, 5}) {
+    auto readings = imprints(s, K, {.heights = made_heights(count)});
+    std::erase_if(readings, [last = -1.0](const Reading& r) mutable {
+      return r.height == std::exchange(last, r.height);
+    });
+    ASSERT_EQ(static_cast<int>(readings.size()), count);
+    EXPECT_EQ(chosen_fit(fitted(s, readings)).ok, count >= 2 + 3) << count;
+    const auto with_offset = chosen_fit(fitted(s, readings, {.offset = true}));
+    EXPECT_FALSE(with_offset.ok) << count;
+    EXPECT_NE(with_offset.message.find("for 3 unknowns: at least 6 are needed"),
+              std::string::npos)
+        << with_offset.message;
+  }
 }
 
 TEST(Degenerate, OneMomentAtManyHeightsUnderAConcentratedLoad) {  // [E-15]
