@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
-#include <trochoid/inputs/case.h>
 #include <trochoid/run/wall/calibrate.h>
 
 #include <functional>
@@ -8,8 +8,7 @@
 namespace trochoid::cli {
 
 int calibrate(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::calibrate,
-                                               result_folder(options, "calibrate"));
+  const inputs::Case given = given_case(options, base::Command::calibrate);
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
     return results::answer_of(run::calibrate(given, std::ref(progress)));

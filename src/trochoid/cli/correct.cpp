@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
-#include <trochoid/inputs/case.h>
 #include <trochoid/run/correct/correct.h>
 
 #include <functional>
@@ -8,8 +8,7 @@
 namespace trochoid::cli {
 
 int correct(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::correct,
-                                               result_folder(options, "correct"));
+  const inputs::Case given = given_case(options, base::Command::correct);
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
     return results::answer_of(

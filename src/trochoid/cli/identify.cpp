@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
-#include <trochoid/inputs/case.h>
 #include <trochoid/run/identify/identify.h>
 
 #include <functional>
@@ -8,8 +8,7 @@
 namespace trochoid::cli {
 
 int identify(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::identify,
-                                               result_folder(options, "identify"));
+  const inputs::Case given = given_case(options, base::Command::identify);
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
     results::IdentifyResult result = run::identify(given, std::ref(progress));

@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
 #include <trochoid/cli/deliver.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/modes.h>
 
@@ -26,14 +26,13 @@ void refuse_for_case(const Options& options, bool given, const char* names,
 }  // namespace
 
 int modes(const Options& options) {
-  const auto folder = result_folder(options, "modes");
   const bool any = !options.kind.empty() || options.modes > 0 || options.dataset > 0 ||
                    !options.band.empty();
   if (is_case(options.file)) {
     refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
-    return deliver(results::answer_of(run::modes(inputs::read_case(
-                       options.file, inputs::Command::modes, folder))),
-                   options);
+    return deliver(
+        results::answer_of(run::modes(given_case(options, base::Command::modes))),
+        options);
   }
   inputs::MachineTables machine;
   machine.frf =
@@ -42,19 +41,18 @@ int modes(const Options& options) {
                         .dataset = options.dataset,
                         .modes = options.modes,
                         .band = options.band};
-  return deliver(results::answer_of(run::modes(
-                     inputs::bare_case(machine, inputs::Command::modes, folder))),
-                 options);
+  return deliver(
+      results::answer_of(run::modes(bare_case(options, machine, base::Command::modes))),
+      options);
 }
 
 int actuator(const Options& options) {
-  const auto folder = result_folder(options, "actuator");
   if (is_case(options.file)) {
     refuse_for_case(options, options.step_um || options.start_s,
                     "--step-um and --start-s", "[step]");
-    return deliver(results::answer_of(run::actuator(inputs::read_case(
-                       options.file, inputs::Command::actuator, folder))),
-                   options);
+    return deliver(
+        results::answer_of(run::actuator(given_case(options, base::Command::actuator))),
+        options);
   }
   inputs::MachineTables machine;
   machine.step =
@@ -63,7 +61,7 @@ int actuator(const Options& options) {
     machine.step->step = *options.step_um * 1e-6;
   }
   return deliver(results::answer_of(run::actuator(
-                     inputs::bare_case(machine, inputs::Command::actuator, folder))),
+                     bare_case(options, machine, base::Command::actuator))),
                  options);
 }
 

@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
-#include <trochoid/inputs/case.h>
 #include <trochoid/run/identify/plan.h>
 #include <trochoid/run/wall/plan.h>
 
@@ -9,8 +9,7 @@
 namespace trochoid::cli {
 
 int plan(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::plan,
-                                               result_folder(options, "plan"));
+  const inputs::Case given = given_case(options, base::Command::plan);
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
     return given.plan.of == inputs::PlanOf::wall

@@ -1,13 +1,12 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
-#include <trochoid/inputs/case.h>
 #include <trochoid/run/simulate/simulate.h>
 
 namespace trochoid::cli {
 
 int simulate(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::simulate,
-                                               result_folder(options, "simulate"));
+  const inputs::Case given = given_case(options, base::Command::simulate);
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
     progress("Forces over the turns");

@@ -1,6 +1,6 @@
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
-#include <trochoid/inputs/case.h>
 #include <trochoid/run/vibration/stability.h>
 
 #include <functional>
@@ -8,8 +8,7 @@
 namespace trochoid::cli {
 
 int stability(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, inputs::Command::stability,
-                                               result_folder(options, "stability"));
+  const inputs::Case given = given_case(options, base::Command::stability);
   const auto answer = [&] {
     ProgressLine progress(options.quiet);
     return results::answer_of(run::stability(given, std::ref(progress)));

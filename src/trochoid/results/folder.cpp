@@ -121,7 +121,35 @@ fs::path place_of(const fs::path& folder) {
   return place.has_filename() ? place : place.parent_path();
 }
 
+/// The highest folder that is still to be made for a place, which may be itself.
+fs::path first_missing(const fs::path& place) {
+  std::error_code error;
+  fs::path missing = place;
+  while (missing.parent_path().has_relative_path() &&
+         fs::status(missing.parent_path(), error).type() == fs::file_type::not_found) {
+    missing = missing.parent_path();
+  }
+  return missing;
+}
+
 }  // namespace
+
+void check_place(const fs::path& folder) {
+  const fs::path place = place_of(folder);
+  check_replaceable(place);
+  const fs::path missing = first_missing(place);
+  std::error_code error;
+  if (!fs::is_directory(missing.parent_path(), error)) {
+    cannot_write(place, "'" + missing.parent_path().string() + "' is not a folder");
+  }
+  if (missing == place) {
+    const StagedFolder tried(place);
+  } else if (fs::create_directory(missing, error)) {
+    fs::remove(missing, error);
+  } else if (error) {
+    fail(place, error);
+  }
+}
 
 void write_folder(const fs::path& folder, const Answer& answer,
                   const std::string& report_html) {

@@ -27,6 +27,13 @@ void write_csv(std::ostream& out, const base::Table& table);
 void write_folder(const std::filesystem::path& folder, const Answer& answer,
                   const std::string& report_html);
 
+/// @brief Can write_folder write there? To be asked before the work.
+///
+/// By making a folder and removing it again: beside the place, or the first one missing
+/// above it. Nothing else is touched but what a killed program left.
+/// @throws std::runtime_error as write_folder does
+void check_place(const std::filesystem::path& folder);
+
 /// @brief Put back the folder that a killed program had only set aside, if it is missing.
 void mend_folder(const std::filesystem::path& folder);
 

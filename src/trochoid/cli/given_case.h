@@ -1,0 +1,17 @@
+#pragma once
+
+#include <trochoid/cli/commands.h>
+#include <trochoid/inputs/case.h>
+
+namespace trochoid::cli {
+
+/// @brief The case of a command, once nothing stands against its work: what is wrong
+/// with the case and with the place of its results is told before, and not after.
+/// @throws base::InputError with every problem of both
+inputs::Case given_case(const Options& options, base::Command command);
+
+/// @brief The same for a bare data file, which has no tables but these.
+inputs::Case bare_case(const Options& options, const inputs::MachineTables& machine,
+                       base::Command command);
+
+}  // namespace trochoid::cli
