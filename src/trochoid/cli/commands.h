@@ -16,6 +16,7 @@ struct Options {
   bool json = false;
   bool quiet = false;
   bool no_report = false;
+  bool anyway = false;  ///< more work than usual is meant
 
   bool simulate_controller = false;  ///< of correct
   bool curves = false;               ///< of identify: of every sample

@@ -2,6 +2,11 @@
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
 #include <trochoid/results/folder.h>
+#include <trochoid/run/correct/work.h>
+#include <trochoid/run/identify/work.h>
+#include <trochoid/run/simulate/work.h>
+#include <trochoid/run/vibration/work.h>
+#include <trochoid/run/wall/work.h>
 
 #include <filesystem>
 #include <optional>
@@ -26,13 +31,52 @@ Problems problems_of_place(const std::filesystem::path& folder) {
   return {};
 }
 
+/// What the command is going to take.
+std::vector<run::Work> work_of(const inputs::Case& given, base::Command command) {
+  using base::Command;
+  switch (command) {
+    case Command::simulate:
+      return run::simulate_work(given);
+    case Command::identify:
+      return run::identify_work(given);
+    case Command::surface:
+      return run::surface_work(given);
+    case Command::calibrate:
+      return run::calibrate_work(given);
+    case Command::stability:
+      return run::stability_work(given);
+    case Command::modes:
+    case Command::actuator:
+      return run::measured_work(given.machine);
+    case Command::dynamics:
+      return run::dynamics_work(given);
+    case Command::correct:
+      return run::correct_work(given);
+    case Command::plan:
+      return given.plan.of == inputs::PlanOf::wall ? run::calibrate_work(given)
+                                                   : run::plan_work(given);
+  }
+  return {};
+}
+
+/// The case is sound: is it too much?
+void add_work(const Options& options, base::Command command, const inputs::Case& given,
+              Problems& problems) {
+  const std::string why = options.anyway ? "" : run::too_much(work_of(given, command));
+  if (!why.empty()) {
+    problems.push_back(options.file.string() + ": " + why);
+  }
+}
+
 /// @param read  the case, or InputError
 template <class Read>
-inputs::Case checked(const std::filesystem::path& folder, const Read& read) {
+inputs::Case checked(const Options& options, base::Command command, const Read& read) {
+  const auto folder = result_folder(options, std::string(name_of(command)));
   std::optional<inputs::Case> given;
   Problems problems;
   try {
-    given = read();
+    given = read(folder);
+    add_work(options, command, *given, problems);
   } catch (const base::InputError& error) {
     problems = error.problems();
   }
@@ -48,15 +92,16 @@ inputs::Case checked(const std::filesystem::path& folder, const Read& read) {
 }  // namespace
 
 inputs::Case given_case(const Options& options, base::Command command) {
-  const auto folder = result_folder(options, std::string(name_of(command)));
-  return checked(folder,
-                 [&] { return inputs::read_case(options.file, command, folder); });
+  return checked(options, command, [&](const std::filesystem::path& folder) {
+    return inputs::read_case(options.file, command, folder);
+  });
 }
 
 inputs::Case bare_case(const Options& options, const inputs::MachineTables& machine,
                        base::Command command) {
-  const auto folder = result_folder(options, std::string(name_of(command)));
-  return checked(folder, [&] { return inputs::bare_case(machine, command, folder); });
+  return checked(options, command, [&](const std::filesystem::path& folder) {
+    return inputs::bare_case(machine, command, folder);
+  });
 }
 
 }  // namespace trochoid::cli

@@ -6,8 +6,9 @@
 namespace trochoid::cli {
 
 /// @brief The case of a command, once nothing stands against its work: what is wrong
-/// with the case and with the place of its results is told before, and not after.
-/// @throws base::InputError with every problem of both
+/// with the case, with the place of its results or with the amount of work is told
+/// before, and not after.
+/// @throws base::InputError with every problem of them
 inputs::Case given_case(const Options& options, base::Command command);
 
 /// @brief The same for a bare data file, which has no tables but these.

@@ -102,6 +102,8 @@ void add_output(CLI::App& app, Options& options) {
                  "Folder for the results (default: CASE.COMMAND beside the case)");
   app.add_flag("--json", options.json, "Print summary.json instead of the table");
   app.add_flag("--no-report", options.no_report, "Do not write report.html");
+  app.add_flag("--anyway", options.anyway,
+               "Compute even what will take more than 1e9 evaluations or 1 GB");
 }
 
 /// What a bare data file does not say by itself.

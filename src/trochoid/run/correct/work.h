@@ -1,0 +1,12 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/run/shared/work.h>
+
+#include <vector>
+
+namespace trochoid::run {
+
+/// @brief What `correct` is going to take.
+std::vector<Work> correct_work(const inputs::Case& given);
+}  // namespace trochoid::run
