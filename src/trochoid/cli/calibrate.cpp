@@ -1,20 +1,15 @@
-#include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
-#include <trochoid/cli/progress_line.h>
+#include <trochoid/cli/work_on.h>
 #include <trochoid/run/wall/calibrate.h>
-
-#include <functional>
 
 namespace trochoid::cli {
 
 int calibrate(const Options& options) {
   const inputs::Case given = given_case(options, base::Command::calibrate);
-  const auto answer = [&] {
-    ProgressLine progress(options.quiet);
-    return results::answer_of(run::calibrate(given, std::ref(progress)));
-  };
-  // What the run knows is let go of before it is written.
-  return deliver(answer(), options);
+  return work_on(given, options, base::Command::calibrate,
+                 [&](const run::Progress& progress, base::Stop /*stop*/) {
+                   return results::answer_of(run::calibrate(given, progress));
+                 });
 }
 
 }  // namespace trochoid::cli

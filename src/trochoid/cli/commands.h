@@ -16,7 +16,8 @@ struct Options {
   bool json = false;
   bool quiet = false;
   bool no_report = false;
-  bool anyway = false;  ///< more work than usual is meant
+  bool anyway = false;               ///< more work than usual is meant
+  std::optional<double> time_limit;  ///< of the work [s]
 
   bool simulate_controller = false;  ///< of correct
   bool curves = false;               ///< of identify: of every sample

@@ -104,6 +104,9 @@ void add_output(CLI::App& app, Options& options) {
   app.add_flag("--no-report", options.no_report, "Do not write report.html");
   app.add_flag("--anyway", options.anyway,
                "Compute even what will take more than 1e9 evaluations or 1 GB");
+  app.add_option("--time-limit", options.time_limit,
+                 "End after so many seconds of work, with what was found till then")
+      ->check(CLI::Range(0.001, 1e9));
 }
 
 /// What a bare data file does not say by itself.

@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
-#include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
+#include <trochoid/cli/work_on.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/modes.h>
 
@@ -16,11 +16,18 @@ bool is_case(const std::filesystem::path& file) {
 
 void refuse_for_case(const Options& options, bool given, const char* names,
                      const char* table) {
-  if (given) {
+  if (given && is_case(options.file)) {
     throw base::InputError({options.file.string() + ":1:1: the options " + names +
                             " go with a bare data file; in a case they are keys of " +
                             table});
   }
+}
+
+/// The case that is named, or that of a bare data file.
+inputs::Case case_of(const Options& options, const inputs::MachineTables& machine,
+                     base::Command command) {
+  return is_case(options.file) ? given_case(options, command)
+                               : bare_case(options, machine, command);
 }
 
 }  // namespace
@@ -28,12 +35,7 @@ void refuse_for_case(const Options& options, bool given, const char* names,
 int modes(const Options& options) {
   const bool any = !options.kind.empty() || options.modes > 0 || options.dataset > 0 ||
                    !options.band.empty();
-  if (is_case(options.file)) {
-    refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
-    return deliver(
-        results::answer_of(run::modes(given_case(options, base::Command::modes))),
-        options);
-  }
+  refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
   inputs::MachineTables machine;
   machine.frf =
       inputs::FrfTables{.file = options.file.string(),
@@ -41,28 +43,29 @@ int modes(const Options& options) {
                         .dataset = options.dataset,
                         .modes = options.modes,
                         .band = options.band};
-  return deliver(
-      results::answer_of(run::modes(bare_case(options, machine, base::Command::modes))),
-      options);
+  const inputs::Case given = case_of(options, machine, base::Command::modes);
+  return work_on(given, options, base::Command::modes,
+                 [&](const run::Progress& progress, base::Stop /*stop*/) {
+                   progress("Fitting the modes");
+                   return results::answer_of(run::modes(given));
+                 });
 }
 
 int actuator(const Options& options) {
-  if (is_case(options.file)) {
-    refuse_for_case(options, options.step_um || options.start_s,
-                    "--step-um and --start-s", "[step]");
-    return deliver(
-        results::answer_of(run::actuator(given_case(options, base::Command::actuator))),
-        options);
-  }
+  refuse_for_case(options, options.step_um || options.start_s,
+                  "--step-um and --start-s", "[step]");
   inputs::MachineTables machine;
   machine.step =
       inputs::StepTables{.file = options.file.string(), .start = options.start_s};
   if (options.step_um) {
     machine.step->step = *options.step_um * 1e-6;
   }
-  return deliver(results::answer_of(run::actuator(
-                     bare_case(options, machine, base::Command::actuator))),
-                 options);
+  const inputs::Case given = case_of(options, machine, base::Command::actuator);
+  return work_on(given, options, base::Command::actuator,
+                 [&](const run::Progress& progress, base::Stop /*stop*/) {
+                   progress("Fitting the step");
+                   return results::answer_of(run::actuator(given));
+                 });
 }
 
 }  // namespace trochoid::cli

@@ -60,6 +60,12 @@ void ProgressLine::operator()(const run::Step& step) {
   step_ = step;
 }
 
+std::string ProgressLine::doing() {
+  const std::lock_guard lock(mutex_);
+  const double now = seconds();
+  return run::progress_text(step_, now - started_, now - step_started_);
+}
+
 void ProgressLine::tell_until_done() {
   std::unique_lock lock(mutex_);
   std::chrono::seconds wait = first;

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace trochoid::cli {
@@ -22,6 +23,8 @@ class ProgressLine {
 
   /// From any thread.
   void operator()(const run::Step& step);
+  /// What was told last, in a few words.
+  [[nodiscard]] std::string doing();
 
  private:
   void tell_until_done();

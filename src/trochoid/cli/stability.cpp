@@ -1,20 +1,15 @@
-#include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
-#include <trochoid/cli/progress_line.h>
+#include <trochoid/cli/work_on.h>
 #include <trochoid/run/vibration/stability.h>
-
-#include <functional>
 
 namespace trochoid::cli {
 
 int stability(const Options& options) {
   const inputs::Case given = given_case(options, base::Command::stability);
-  const auto answer = [&] {
-    ProgressLine progress(options.quiet);
-    return results::answer_of(run::stability(given, std::ref(progress)));
-  };
-  // What the run knows is let go of before it is written.
-  return deliver(answer(), options);
+  return work_on(given, options, base::Command::stability,
+                 [&](const run::Progress& progress, base::Stop stop) {
+                   return results::answer_of(run::stability(given, progress, stop));
+                 });
 }
 
 }  // namespace trochoid::cli

@@ -241,6 +241,9 @@ std::vector<FrequencyLimit> frequency_limits(const DirectionalModel& model,
   std::mutex one_at_a_time;
   std::size_t done = 0;
   numerics::for_each_index(Omega.size(), [&](std::size_t i) {
+    if (options.stop.wanted()) {
+      return;
+    }
     limits[i] = limit_at(forces, point, Omega[i], options.tolerance);
     const std::lock_guard lock(one_at_a_time);
     ++done;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/stop.h>
 #include <trochoid/dynamics/directional.h>
 #include <trochoid/dynamics/force_harmonics.h>
 #include <trochoid/dynamics/point_response.h>
@@ -26,6 +27,7 @@ struct FrequencyOptions {
   /// solution.
   int harmonics = 0;
   double tolerance = 1e-4;  ///< of the depth, relative; positive
+  base::Stop stop;          ///< speeds that have not begun by then are left out
 };
 
 /// A vibration on the edge of growth.

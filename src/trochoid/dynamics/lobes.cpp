@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -26,19 +27,49 @@ constexpr double doubtful = 5e-3;
 /// Of the nodes a limit is searched with first.
 constexpr double first_factor = 0.8;
 
-/// Work of which somebody is told.
-void tell(std::size_t n, double from, double to, const LobeProgress& progress,
-          const std::function<void(std::size_t)>& f) {
+/// Indices below n, those far apart first: every 16th, those between them, ...
+std::vector<std::size_t> far_apart_first(std::size_t n) {
+  constexpr std::size_t widest = 16;
+  std::vector<std::size_t> order;
+  for (std::size_t step = widest; step > 0; step /= 2) {
+    const bool first = step == widest;
+    for (std::size_t i = first ? 0 : step; i < n; i += first ? step : 2 * step) {
+      order.push_back(i);
+    }
+  }
+  return order;
+}
+
+/// From one part of the work to the next.
+struct Share {
+  double from = 0.0;
+  double to = 1.0;
+};
+
+/// Work that is watched, and ends when it is asked to.
+/// @return what was done, shape (n)
+std::vector<char> watched(std::size_t n, const Share& share, const LobeWatch& watch,
+                          const std::function<void(std::size_t)>& f) {
+  const std::vector<std::size_t> order = far_apart_first(n);
+  std::vector<char> done(n, 0);
   std::mutex one_at_a_time;
-  std::size_t done = 0;
-  numerics::for_each_index(n, [&](std::size_t i) {
+  std::size_t count = 0;
+  std::atomic<std::size_t> next = 0;
+  numerics::for_each_index(n, [&](std::size_t) {
+    if (watch.stop.wanted()) {
+      return;
+    }
+    const std::size_t i = order[next++];
     f(i);
     const std::lock_guard lock(one_at_a_time);
-    ++done;
-    if (progress) {
-      progress(from + (to - from) * static_cast<double>(done) / static_cast<double>(n));
+    done[i] = 1;
+    ++count;
+    if (watch.progress) {
+      watch.progress(share.from + (share.to - share.from) * static_cast<double>(count) /
+                                      static_cast<double>(n));
     }
   });
+  return done;
 }
 
 /// Multipliers at one speed.
@@ -233,19 +264,26 @@ std::optional<Limit> limit_of(const Cuts& cuts, const System& system,
 
 }  // namespace
 
-// six parameters: both axes of the diagram, and who is told how far it is
+// six parameters: both axes of the diagram, and who looks at the work
 LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
                    std::span<const double> Omega, std::span<const double> depth,
-                   const LobeAccuracy& accuracy, const LobeProgress& progress) {
-  LobeGrid grid{{Omega.begin(), Omega.end()}, {depth.begin(), depth.end()}, {}};
-  grid.multiplier.resize(Omega.size() * depth.size());
+                   const LobeAccuracy& accuracy, const LobeWatch& watch) {
+  std::vector<std::vector<std::complex<double>>> columns(Omega.size());
   const Cuts cuts = cuts_at(model, depth);
-  tell(Omega.size(), 0.0, 1.0, progress, [&](std::size_t i) {
-    Speed speed(cuts, system, grid.Omega[i], accuracy);
-    for (std::size_t k = 0; k < depth.size(); ++k) {
-      grid.multiplier[i * depth.size() + k] = speed.at(grid.depth[k], near_limit);
+  const auto done = watched(Omega.size(), {}, watch, [&](std::size_t i) {
+    Speed speed(cuts, system, Omega[i], accuracy);
+    for (const double d : depth) {
+      columns[i].push_back(speed.at(d, near_limit));
     }
   });
+  LobeGrid grid{{}, {depth.begin(), depth.end()}, {}};
+  for (std::size_t i = 0; i < Omega.size(); ++i) {
+    if (done[i] != 0) {
+      grid.Omega.push_back(Omega[i]);
+      grid.multiplier.insert(grid.multiplier.end(), columns[i].begin(),
+                             columns[i].end());
+    }
+  }
   return grid;
 }
 
@@ -271,12 +309,17 @@ std::optional<Limit> limit_depth(const DirectionalModel& model, const System& sy
 
 std::vector<Limit> limit_curve(const DirectionalModel& model, const System& system,
                                const LobeGrid& grid, double tolerance,
-                               const LobeProgress& progress) {
+                               const LobeWatch& watch) {
   const std::size_t speeds = grid.Omega.size();
+  if (speeds == 0) {
+    return {};
+  }
   const Cuts cuts = cuts_at(model, grid.depth);
   std::vector<std::optional<Limit>> limits(speeds);
-  tell(speeds, 0.0, 0.5, progress,
-       [&](std::size_t i) { limits[i] = limit_of(cuts, system, grid, i, tolerance); });
+  constexpr double half = 0.5;
+  watched(speeds, {0.0, half}, watch, [&](std::size_t i) {
+    limits[i] = limit_of(cuts, system, grid, i, tolerance);
+  });
   const LimitAt limit_at = [&](double Omega, const Limit& a,
                                const Limit& b) -> std::optional<Limit> {
     DepthSweep sweep(cuts, system, Omega);
@@ -289,7 +332,7 @@ std::vector<Limit> limit_curve(const DirectionalModel& model, const System& syst
     return limit_between(sweep, *bracket, factor, tolerance);
   };
   std::vector<Limits> further(speeds);
-  tell(speeds - 1, 0.5, 1.0, progress, [&](std::size_t i) {
+  watched(speeds - 1, {half, 1.0}, watch, [&](std::size_t i) {
     if (limits[i] && limits[i + 1]) {
       add_between(limit_at, *limits[i], *limits[i + 1], halvings, further[i]);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/stop.h>
 #include <trochoid/dynamics/directional.h>
 #include <trochoid/dynamics/multiplier.h>
 #include <trochoid/dynamics/system.h>
@@ -15,6 +16,12 @@ namespace trochoid::dynamics {
 /// Told how much of a diagram is done, from 0 to 1;
 /// by one thread at a time; may be empty.
 using LobeProgress = std::function<void(double share)>;
+
+/// Who looks at the work on a diagram.
+struct LobeWatch {
+  LobeProgress progress;
+  base::Stop stop;  ///< speeds that have not begun by then are left out
+};
 
 /// How well the multipliers of a diagram are known: of |mu|, relative where it is
 /// above 1.
@@ -32,10 +39,11 @@ struct LobeGrid {
 
 /// @brief Multipliers on a grid, at each speed with as many nodes as the shallowest cut
 /// needs for `far` and the deepest for ten times that; near the limit with those that
-/// the first cut near it needs.
+/// the first cut near it needs. Speeds far apart come first: what is left out in haste
+/// lies between others.
 LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
                    std::span<const double> Omega, std::span<const double> depth,
-                   const LobeAccuracy& accuracy, const LobeProgress& progress);
+                   const LobeAccuracy& accuracy, const LobeWatch& watch);
 
 /// Least axial depth at which a cut becomes unstable.
 struct Limit {
@@ -63,6 +71,6 @@ std::optional<Limit> limit_depth(const DirectionalModel& model, const System& sy
 /// @return ascending in Omega; speeds without a limit are left out
 std::vector<Limit> limit_curve(const DirectionalModel& model, const System& system,
                                const LobeGrid& grid, double tolerance,
-                               const LobeProgress& progress);
+                               const LobeWatch& watch);
 
 }  // namespace trochoid::dynamics

@@ -102,17 +102,19 @@ std::vector<LimitPoint> with_frequencies(const Point& point,
 }
 
 void add_lobes(const Point& point, const StabilityProgress& progress, Stability& out) {
-  const auto told = [&progress](const char* what) {
-    return progress ? LobeProgress(
-                          [&progress, what](double share) { progress(what, share); })
-                    : LobeProgress();
-  };
   const StabilityProblem& p = point.problem;
+  const auto watch = [&](const char* what) {
+    const auto tell = [&progress, what](double share) { progress(what, share); };
+    return LobeWatch{progress ? LobeProgress(tell) : LobeProgress(), p.stop};
+  };
   out.lobes = lobe_grid(point.model, p.system, p.spindle_speeds, p.depths,
-                        LobeAccuracy{.near = map_tolerance}, told("lobes"));
-  out.limit_curve = with_frequencies(
-      point,
-      limit_curve(point.model, p.system, out.lobes, map_tolerance, told("limit")));
+                        LobeAccuracy{.near = map_tolerance}, watch("lobes"));
+  const auto limits =
+      limit_curve(point.model, p.system, out.lobes, map_tolerance, watch("limit"));
+  out.whole = !p.stop.wanted();
+  if (out.whole) {  // a curve with gaps would say that there is no limit in them
+    out.limit_curve = with_frequencies(point, limits);
+  }
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct StabilityProblem {
   /// Of the stability lobe diagram; without one of the two there is none.
   std::vector<double> spindle_speeds;  ///< [rad/s], ascending
   std::vector<double> depths;          ///< axial [m], ascending, positive
+  base::Stop stop;                     ///< the diagram ends with what it has by then
 };
 
 enum class StabilityVerdict { stable, unstable, marginal };
@@ -76,6 +77,8 @@ struct Stability {
   std::optional<DepthLimit> limit;      ///< none: all of them are stable
   LobeGrid lobes;
   std::vector<LimitPoint> limit_curve;  ///< ascending in speed
+  /// False: there was no time for all speeds of the lobes, or for the limit curve.
+  bool whole = true;
 };
 
 /// Told what is computed and how much of it is done, from 0 to 1; may be empty.

@@ -23,7 +23,7 @@ constexpr double worth_it = 1.2;
 
 std::optional<BetterSpeed> better_speed(const StabilityResult& r) {
   const Stability& s = r.stability;
-  if (!s.limit) {
+  if (!s.limit || !s.whole) {
     return std::nullopt;
   }
   std::vector<BetterSpeed> curve;

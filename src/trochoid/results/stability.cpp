@@ -171,7 +171,9 @@ Object result_of(const StabilityResult& r) {
                         {"argument_deg", degrees(mu)},
                         {"chatter_frequencies_Hz", frequencies(s.limit->lines)}});
   }
-  add("better_speed", better_speed_value(r));
+  if (s.whole) {
+    add("better_speed", better_speed_value(r));
+  }
   add("greatest_depth_mm", unit::in(s.greatest_depth, unit::mm));
   add("spindle_rpm", unit::in(cut.Omega, unit::rpm));
   add("axial_depth_mm", unit::in(cut.a_p, unit::mm));

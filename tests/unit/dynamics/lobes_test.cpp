@@ -48,7 +48,8 @@ TEST(Lobes, TheGridHoldsTheMultipliersWhateverTheThreads) {  // [D-13]
   const auto depth = steps(0.5e-3, 4e-3, 8);
   double told = 0.0;
   const LobeGrid grid = lobe_grid(model, benchmark_system(), Omega, depth, {1e-7, 1e-7},
-                                  [&told](double share) { told = share; });
+                                  {[&told](double share) { told = share; }});
+  EXPECT_EQ(grid.Omega, Omega);
   EXPECT_NEAR(told, 1.0, 1e-12);
   for (const std::size_t i : {0U, 5U, 11U}) {
     for (const std::size_t k : {0U, 4U, 7U}) {
@@ -66,6 +67,34 @@ TEST(Lobes, TheGridHoldsTheMultipliersWhateverTheThreads) {  // [D-13]
   for (const Limit& limit : curve) {
     EXPECT_NEAR(std::abs(limit.multiplier), 1.0, 1e-5);
   }
+}
+
+/// Speeds up to eight are one thread's, one after the other.
+TEST(Lobes, EndWithWhatTheyHaveSpreadOverTheSpeeds) {  // [D-13]
+  const force::Setup setup = straight_cut(2, geometry::DownMilling{0.5e-3});
+  const DirectionalModel model(setup, benchmark_law(), 1e-6, 1e-11);
+  const auto Omega = steps(10000 * unit::rpm, 20000 * unit::rpm, 8);
+  const auto depth = steps(0.5e-3, 4e-3, 3);
+  LobeWatch watch;
+  int told = 0;
+  watch.progress = [&](double) {
+    if (++told == 2) watch.stop.at = base::Stop::Clock::now();
+  };
+  const LobeGrid part =
+      lobe_grid(model, benchmark_system(), Omega, depth, {1e-5, 1e-5}, watch);
+  EXPECT_EQ(part.Omega, (std::vector<double>{Omega[0], Omega[4]}));
+  const LobeGrid all =
+      lobe_grid(model, benchmark_system(), Omega, depth, {1e-5, 1e-5}, {});
+  ASSERT_EQ(part.multiplier.size(), 2 * depth.size());
+  for (std::size_t k = 0; k < depth.size(); ++k) {
+    EXPECT_EQ(part.multiplier[k], all.multiplier[k]);
+    EXPECT_EQ(part.multiplier[depth.size() + k], all.multiplier[4 * depth.size() + k]);
+  }
+  EXPECT_TRUE(limit_curve(model, benchmark_system(), all, 1e-6, watch).empty());
+  const LobeGrid none =
+      lobe_grid(model, benchmark_system(), Omega, depth, {1e-5, 1e-5}, watch);
+  EXPECT_TRUE(none.Omega.empty());
+  EXPECT_TRUE(limit_curve(model, benchmark_system(), none, 1e-6, {}).empty());
 }
 
 TEST(Lobes, AreKnownBestNearTheLimit) {  // [D-13]

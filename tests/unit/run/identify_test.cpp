@@ -48,6 +48,32 @@ TEST(Identify, FindsWhatTheRecordWasMadeWith) {
   ASSERT_TRUE(r.curve.has_value());
 }
 
+TEST(Identify, WithoutTimeFitsTheModelThatDecidesAlone) {
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));
+  const auto given = folder.read(
+      inputs::test::slot + measurement + "[identify]\nsweep_um = [-10, 10, 3]\n",
+      Command::identify);
+  const IdentifyResult r = identify(
+      given, [](const std::string&) {}, base::Stop{base::Stop::Clock::now()});
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  ASSERT_EQ(r.fits.size(), 3U);
+  ASSERT_EQ(r.chosen, 2U);  // trochoidal
+  EXPECT_NEAR(r.fits[2].coefficients.at(0)->value, 2620e6,
+              4 * r.fits[2].coefficients.at(0)->se);
+  EXPECT_EQ(r.fits[0].message, "not fitted: the time was up");
+  EXPECT_FALSE(r.fits[0].coefficients.at(0).has_value());
+  EXPECT_FALSE(r.sweep.has_value());
+  EXPECT_FALSE(r.runout_form.has_value());
+  const auto said = std::ranges::find(r.heading.warnings, "time_limit",
+                                      [](const base::Warning& w) { return w.code; });
+  ASSERT_NE(said, r.heading.warnings.end());
+  EXPECT_TRUE(said->message.starts_with(
+      "The time was up, left out: the search for another form of the runout; chip model "
+      "none; chip model feed; sweep_um"))
+      << said->message;
+}
+
 /// The same eccentricity before and after half a turn in the holder: all of it is the
 /// tool's.
 TEST(Identify, TellsToolAndHolderApart) {

@@ -125,6 +125,24 @@ TEST_F(Vibration, StabilityTellsOfItsCase) {
   EXPECT_EQ(r.stability.lobes.multiplier.size(), 4U);
 }
 
+TEST_F(Vibration, WithoutTimeStabilityAnswersTheCaseAlone) {
+  const base::Stop at_once{base::Stop::Clock::now()};
+  const auto given = read(benchmark +
+                              "[stability]\nspindle_rpm = [4900, 5000, 2]\n"
+                              "axial_depth_mm = [0.2, 1, 2]\n",
+                          Command::stability);
+  const auto r = stability(given, {}, at_once);
+  EXPECT_TRUE(r.heading.ok);
+  EXPECT_EQ(r.heading.message, "The cut is stable.");
+  EXPECT_EQ(codes(r.heading.warnings), std::vector<std::string>{"time_limit"});
+  EXPECT_FALSE(r.stability.whole);
+  EXPECT_TRUE(r.stability.lobes.Omega.empty());
+  EXPECT_EQ(results::find(results::answer_of(r).result, "better_speed"), nullptr);
+  const auto whole = stability(given, {});
+  EXPECT_TRUE(whole.stability.whole);
+  EXPECT_NE(results::find(results::answer_of(whole).result, "better_speed"), nullptr);
+}
+
 TEST_F(Vibration, AStableCutReachesASteadyState) {
   const auto r = run::dynamics(read(benchmark, Command::dynamics), {});
   EXPECT_TRUE(r.heading.ok);

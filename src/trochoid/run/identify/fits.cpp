@@ -3,7 +3,10 @@
 #include <trochoid/identification/runout_form.h>
 #include <trochoid/run/identify/fit_options.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace trochoid::run {
 
@@ -61,10 +64,26 @@ Fit decided(const inputs::Case& given, std::span<const identification::Run> runs
   return asked ? fit : std::move(choice.fit);
 }
 
+/// There was no time for this one.
+Fit not_fitted(const Fit& other, chip::Model model) {
+  Fit fit;
+  fit.options = other.options;
+  fit.options.chip_model = model;
+  fit.chip = {model, other.chip.lookback};
+  fit.law = other.law;
+  fit.coefficients.resize(other.coefficients.size());
+  fit.measured = other.measured;
+  fit.message = "not fitted: the time was up";
+  for (const force::Quantity& coefficient : force::coefficient_quantities(fit.law)) {
+    fit.unidentifiable.emplace_back(coefficient.key, fit.message);
+  }
+  return fit;
+}
+
 }  // namespace
 
 Fits all_fits(const inputs::Case& given, std::span<const identification::Run> runs,
-              const Known& known, const Progress& progress) {
+              const Known& known, const Progress& progress, base::Stop stop) {
   const std::vector<chip::Model>& models = given.identify.chip_models;
   Fits out;
   out.fits.resize(models.size());
@@ -73,11 +92,21 @@ Fits all_fits(const inputs::Case& given, std::span<const identification::Run> ru
   options.start = known.start;
   options.response = known.response;
   progress({"fitting, one chip model after the other", 0.0});
-  out.fits[first] = decided(given, runs, first_fit(given, runs, options, out), out);
+  out.fits[first] = first_fit(given, runs, options, out);
+  if (stop.wanted()) {
+    out.left_out.emplace_back("the search for another form of the runout");
+  } else {
+    out.fits[first] = decided(given, runs, std::move(out.fits[first]), out);
+  }
   const Options found = out.fits[first].options;
   double done = 1.0;
   for (std::size_t i = 0; i < models.size(); ++i) {
     if (i == first) continue;
+    if (stop.wanted()) {
+      out.fits[i] = not_fitted(out.fits[first], models[i]);
+      out.left_out.push_back(fmt::format("chip model {}", chip::name_of(models[i])));
+      continue;
+    }
     progress({"fitting, one chip model after the other",
               done / static_cast<double>(models.size())});
     options = found;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <trochoid/base/stop.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/results/identify.h>
 #include <trochoid/run/shared/progress.h>
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace trochoid::run {
@@ -16,6 +18,7 @@ struct Fits {
   std::vector<identification::Fit> fits;  ///< in the order of the case
   std::vector<identification::View> views;
   std::optional<results::RunoutForm> runout_form;
+  std::vector<std::string> left_out;  ///< what there was no time for
 };
 
 /// What is known before anything is fitted.
@@ -28,8 +31,9 @@ struct Known {
 /// most exact one, and holds for the others.
 /// @param known  where to search first, and the response of the dynamometer, as far as
 ///               known
+/// @param stop   then nothing is begun any more but the first fit of the most exact model
 Fits all_fits(const inputs::Case& given, std::span<const identification::Run> runs,
-              const Known& known, const Progress& progress);
+              const Known& known, const Progress& progress, base::Stop stop);
 
 /// The fit that counts: the exact model where it was asked for, else the one that fits
 /// best; none where none stands.

@@ -11,6 +11,7 @@
 #include <trochoid/run/shared/records.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +126,9 @@ void warn_axes(const AxesChoice& axes, std::vector<base::Warning>& warnings) {
 struct Identification {
   const inputs::Case& given;
   const Progress& progress;
+  base::Stop stop;
   std::vector<MeasuredRun> measured = {};
+  std::vector<std::string> left_out = {};  ///< what there was no time for
   IdentifyResult r = {};
 
   /// What the reader of the records noted is less urgent than what the fit says.
@@ -147,6 +150,10 @@ struct Identification {
   }
 
   void add_causes() {
+    if (stop.wanted()) {
+      left_out.emplace_back("the search for likely causes");
+      return;
+    }
     const auto causes = likely_causes(given, measured, r.channels, progress);
     auto& warnings = r.heading.warnings;
     const bool after_verdict =
@@ -190,6 +197,8 @@ struct Identification {
       r.heading.message = verdict + " " + r.heading.message;
       r.heading.warnings.insert(r.heading.warnings.begin(), {"do_not_use", verdict});
       add_causes();
+    } else if (chosen.unexplained.in_band > too_good_to_doubt && stop.wanted()) {
+      left_out.emplace_back("a look at other readings of the channels");
     } else if (chosen.unexplained.in_band > too_good_to_doubt) {
       const auto found = look_at_channels(given, measured, r.channels, progress);
       auto& warnings = r.heading.warnings;
@@ -203,6 +212,18 @@ struct Identification {
       r.reasons_for_care = reasons_for_care(r.heading.warnings);
     }
     put_notes_last();
+    add_left_out();
+  }
+
+  /// What there was no time for is said after the verdict.
+  void add_left_out() {
+    if (left_out.empty()) return;
+    auto& warnings = r.heading.warnings;
+    const bool after_verdict =
+        !warnings.empty() && warnings.front().code == "do_not_use";
+    warnings.insert(warnings.begin() + (after_verdict ? 1 : 0),
+                    {"time_limit", fmt::format("The time was up, left out: {}.",
+                                               fmt::join(left_out, "; "))});
   }
 
   void add_curves() {
@@ -213,7 +234,11 @@ struct Identification {
     for (const identification::Run& run : r.runs) {
       r.folded.push_back(folded(run));
     }
-    r.sweep = offset_sweep(given, r.runs, r.fits, progress);
+    if (given.identify.sweep && stop.wanted()) {
+      left_out.emplace_back("sweep_um");
+    } else {
+      r.sweep = offset_sweep(given, r.runs, r.fits, progress);
+    }
   }
 
   /// What the eccentricity of the chosen fit means at the machine.
@@ -260,10 +285,11 @@ struct Identification {
     Known known{std::nullopt,
                 measured_responses(given, r.runs, r.channels, r.heading.warnings)};
     if (r.axes) known.start = r.axes->start;
-    Fits found = all_fits(given, r.runs, known, progress);
+    Fits found = all_fits(given, r.runs, known, progress, stop);
     r.fits = std::move(found.fits);
     r.views = std::move(found.views);
     r.runout_form = std::move(found.runout_form);
+    left_out = std::move(found.left_out);
     r.chosen = chosen_fit(r.fits);
     if (!r.chosen) {
       if (r.fits.back().rms > 0) {  // equations that could be solved, to no avail
@@ -280,8 +306,9 @@ struct Identification {
 
 }  // namespace
 
-IdentifyResult identify(const inputs::Case& given, const Progress& progress) {
-  return Identification{given, progress}.answer();
+IdentifyResult identify(const inputs::Case& given, const Progress& progress,
+                        base::Stop stop) {
+  return Identification{given, progress, stop}.answer();
 }
 
 }  // namespace trochoid::run

@@ -36,17 +36,22 @@ ByFrequency by_frequency(const dynamics::StabilityProblem& problem,
   for (int i = 1; i <= depths_looked_at; ++i) {
     depths.push_back(greatest * i / depths_looked_at);
   }
-  const dynamics::FrequencyOptions options{.harmonics = harmonics};
+  const dynamics::FrequencyOptions options{.harmonics = harmonics,
+                                           .stop = problem.stop};
   const std::string what = harmonics == 0 ? "zeroth order" : "multi-frequency";
   const auto tell = [&](double share) {
     if (progress) {
       progress({what, share});
     }
   };
-  return {dynamics::frequency_limit(model, response, problem.setup.cut.Omega, depths,
-                                    options),
-          dynamics::frequency_limits(model, response, problem.spindle_speeds, depths,
-                                     options, tell)};
+  ByFrequency out{dynamics::frequency_limit(model, response, problem.setup.cut.Omega,
+                                            depths, options),
+                  dynamics::frequency_limits(model, response, problem.spindle_speeds,
+                                             depths, options, tell)};
+  if (problem.stop.wanted()) {  // a gap would say that there is no limit in it
+    out.curve.clear();
+  }
+  return out;
 }
 
 MeasuredStability measured_stability(const inputs::Case& given,
@@ -77,6 +82,23 @@ void warn_of(const results::StabilityResult& r, const ToolPoint& point,
   }
 }
 
+/// What there was no time for.
+void warn_of_time(const results::StabilityResult& r,
+                  std::vector<base::Warning>& warnings) {
+  const std::size_t asked = r.problem.spindle_speeds.size();
+  const std::size_t done = r.no_modes.empty() ? r.stability.lobes.Omega.size() : 0;
+  warnings.insert(
+      warnings.begin(),
+      {"time_limit",
+       done == 0
+           ? "The time was up before the lobes: only the cut of the case was "
+             "looked at, and no limit over the speed."
+           : fmt::format("The time was up: lobes.csv has {} of the {} speeds, and "
+                         "limits over the speed that were not finished are left "
+                         "out. Lobes between the speeds are not seen.",
+                         done, asked)});
+}
+
 /// Without modes the measured response decides.
 std::string message_without_modes(const results::StabilityResult& r) {
   const auto& limit = r.measured->multi_frequency.limit;
@@ -87,10 +109,11 @@ std::string message_without_modes(const results::StabilityResult& r) {
 
 }  // namespace
 
-results::StabilityResult stability(const inputs::Case& given,
-                                   const Progress& progress) {
+results::StabilityResult stability(const inputs::Case& given, const Progress& progress,
+                                   base::Stop stop) {
   results::StabilityResult r{.heading = heading_of(given),
                              .problem = stability_problem(given)};
+  r.problem.stop = stop;
   std::optional<ToolPoint> point;
   if (!given.machine.measured_frfs.empty()) {
     point = tool_point(given, r.heading.warnings);
@@ -120,6 +143,9 @@ results::StabilityResult stability(const inputs::Case& given,
                                  "the measured response. {}",
                                  r.no_modes)});
     r.heading.message = message_without_modes(r);
+  }
+  if (!r.stability.whole || (r.measured && stop.wanted())) {
+    warn_of_time(r, r.heading.warnings);
   }
   return r;
 }
