@@ -107,9 +107,7 @@ void add_flutes_alike(const force::Setup& setup, const force::Law& law,
   const correction::Setting setting{.ok = true,
                                     .cut = {.setup = setup, .law = law, .plant = plant},
                                     .rho = setup.runout.radial_offsets};
-  TrochoidEstimatorConfig config;
-  trochoid_estimator_defaults(&config);
-  set_estimator_model(setting, correction::Harmonics{}, config);
+  const auto config = estimator_for(setting, correction::Harmonics{}).value();
   for (int j = 0; j < config.teeth; ++j) {
     Json waves;
     for (int k = 0; k < 2 * config.harmonics; ++k) {
