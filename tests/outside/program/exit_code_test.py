@@ -59,6 +59,32 @@ class ExitCode(InFolder):
         for fit in self.summary("cut.identify")["result"]["fits"]:
             self.assertEqual(numbers(fit), [])
 
+    def test_without_equations_to_spare_is_1(self):
+        """Three more than unknowns are needed in every command that fits."""
+        fixed = {"phase_deg": 0.0, "runout": "none", "chip_models": ["feed"]}
+        rows = self.record().read_text().splitlines()
+        for samples, phase in ((3, "free"), (2, 0.0)):
+            self.write("record.csv", "\n".join([rows[0], *rows[10:61:25][:samples]]) + "\n")
+            self.write("cut.toml", identification(identify={**fixed, "phase_deg": phase}))
+            self.run_program("identify", "cut.toml", "--no-report", code=1)
+        self.assertIn("6 equations for 6 unknowns: at least 9 are needed",
+                      self.summary("cut.identify")["message"])
+        wall = (ROOT / "examples/thin_wall_calibrate/case.toml").read_text()
+        self.write("wall.toml", wall)
+        self.write("profile.csv", "x_mm,height_mm,error_mm\n"
+                   "30,0.3,0.085\n30,1.2,0.071\n30,1.8,0.062\n30,2.4,0.055\n30,2.7,0.05\n")
+        self.run_program("calibrate", "wall.toml", "--no-report", code=1)
+        self.assertIn("5 readings for 3 unknowns: at least 6 are needed",
+                      self.summary("wall.calibrate")["message"])
+        self.write("step.csv", "time_s,command_um,position_um\n" + "".join(
+            f"{i / 1000},{6 * (i > 1)},{6 * (i > 3)}\n" for i in range(9)))
+        self.run_program("actuator", "step.csv", "--no-report", code=1)
+        self.assertIn("at least 10 are needed", self.summary("step.actuator")["message"])
+        self.write("frf.csv", "freq_Hz,re_m/N,im_m/N\n" + "".join(
+            f"{900 + i},{1e-7 * i},{-1e-7}\n" for i in range(7)))
+        self.run_program("modes", "frf.csv", "--no-report", code=1)
+        self.assertIn("need at least 8", self.summary("frf.modes")["message"])
+
     def test_a_failed_answer_is_said_even_when_quiet(self):
         self.record()
         self.write("cut.toml", identification(cut={"feed_per_tooth_mm": 0.0}))
