@@ -1,9 +1,8 @@
 // The pages of write_samples.cpp in headless Chromium, as a reader opens them from a file.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { pathToFileURL } from 'node:url';
 import { closeBrowser, colorOf, drawn, has, open, openBrowser, painted, pictures, samples,
   shown } from './pages.mjs';
 
@@ -60,27 +59,6 @@ for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, 
     });
   }
 }
-
-test('a script that is not the page\'s own does not run, and nothing is fetched', async () => {
-  const { page: sound, url, close: closeSound } = await open('simulate');
-  assert.equal(await sound.evaluate(() => window.intruder), undefined);
-  await closeSound();
-  const folder = path.join(samples, 'intruded');
-  mkdirSync(folder, { recursive: true });
-  const text = readFileSync(fileURLToPath(url), 'utf8');
-  const intruders = '<script>window.intruder = 1</script><base href="https://example.org/">' +
-    '<img src="x" onerror="window.intruder = 2"><iframe src="https://example.org/"></iframe>' +
-    '<link rel="stylesheet" href="https://example.org/a.css"><img src="https://example.org/a.png">';
-  writeFileSync(path.join(folder, 'report.html'), text.replace('<main>', `${intruders}<main>`));
-  const { page, seen, url: intruded, close } = await open('intruded');
-  assert.equal(await page.evaluate(() => window.intruder), undefined);
-  assert.equal(await page.evaluate(() => fetch('https://example.org/').then(() => 'fetched', () => 'refused')),
-    'refused');
-  assert.equal(await page.evaluate(() => document.baseURI), intruded);
-  assert.ok(seen.complaints.some((text) => text.includes('Content Security Policy')));
-  assert.equal(await page.locator('.uplot').count(), plotsOf.simulate);
-  await close();
-});
 
 test('groups stand side by side, and a change that intervals allow is no change', async () => {
   const { page, close } = await open('worn');
