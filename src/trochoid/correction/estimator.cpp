@@ -145,13 +145,14 @@ bool full(const TrochoidEstimator& e) {
   return e.gaps == 0;
 }
 
-/// Nothing is commanded any more until it is begun anew.
+/// Nothing is commanded any more until it is begun anew, nor by who reads its memory.
 TrochoidEstimatorResult not_ready(TrochoidEstimator* e) {
-  if (e != nullptr) {
-    e->ready = 0;
-  }
   TrochoidEstimatorResult nothing = {};
   nothing.turn = TROCHOID_TURN_NOT_READY;
+  if (e != nullptr) {
+    e->ready = 0;
+    e->result = nothing;
+  }
   return nothing;
 }
 

@@ -194,6 +194,7 @@ TrochoidOnlineResult trochoid_online_sample(TrochoidOnline* online, double angle
   TrochoidOnline& o = *online;
   if (refusal(o.config) != TROCHOID_ONLINE_ACCEPTED || !sound_state(o)) {
     o.ready = 0;
+    o.result = nothing;
     return nothing;
   }
   o.result.turn = TROCHOID_TURN_OPEN;

@@ -104,6 +104,7 @@ TEST(LearningMemory, NumbersOfTeethBeyondTheArraysLeaveItNotReady) {
       const auto result = trochoid_estimator_sample(&spoilt, 0.5, 100.0, 1);
       EXPECT_EQ(result.turn, TROCHOID_TURN_NOT_READY);
       EXPECT_EQ(result.cosine_m[0], 0.0);
+      EXPECT_EQ(spoilt.result.cosine_m[0], 0.0) << "for who reads the memory";
       EXPECT_EQ(trochoid_estimator_sample(&spoilt, 0.52, 100.0, 1).turn,
                 TROCHOID_TURN_NOT_READY);
     }
