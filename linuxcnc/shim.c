@@ -6,12 +6,16 @@ static const double um = 1e-6;
 
 static void set_config(TrochoidControllerConfig* config, const TrochoidHal* hal,
                        const TrochoidHalSettings* s) {
+  /* Anything may have been written into the shared memory, and set as a parameter. */
+  const int known = hal->hal_points > 0 && hal->hal_points <= TROCHOID_TABLE_POINTS;
+  const int points = known ? hal->hal_points : 0;
+  const int whole = s->set_good_turns >= 0.0 && s->set_good_turns <= 1e6;
   int i;
   trochoid_controller_defaults(config);
-  if (hal->hal_points > 0) { /* without a file: nothing is commanded but mid-stroke */
-    config->points = hal->hal_points;
+  if (points > 0) { /* without a file: nothing is commanded but mid-stroke */
+    config->points = points;
   }
-  for (i = 0; i < hal->hal_points; ++i) {
+  for (i = 0; i < points; ++i) {
     config->table_m[i] = um * hal->hal_table_um[i];
   }
   config->lower_m = um * s->set_lower_um;
@@ -32,7 +36,7 @@ static void set_config(TrochoidControllerConfig* config, const TrochoidHal* hal,
   config->wrap_rev = s->set_wrap_turns;
   config->recovery =
       s->set_recover != 0.0 ? TROCHOID_RECOVER_BY_TURNS : TROCHOID_RECOVER_BY_ENABLE;
-  config->good_turns = (int)s->set_good_turns;
+  config->good_turns = whole ? (int)s->set_good_turns : -1; /* which is refused */
 }
 
 /* Takes new settings while nothing moves. Refused ones leave the old ones in force. */
@@ -56,7 +60,7 @@ static void configure(TrochoidHal* hal, const TrochoidHalSettings* settings) {
 static double table_difference(const TrochoidControllerConfig* config) {
   double low = config->table_m[0], high = low;
   int i;
-  for (i = 1; i < config->points; ++i) {
+  for (i = 1; i < config->points && i < TROCHOID_TABLE_POINTS; ++i) {
     low = config->table_m[i] < low ? config->table_m[i] : low;
     high = config->table_m[i] > high ? config->table_m[i] : high;
   }

@@ -17,7 +17,7 @@ if(TROCHOID_SANITIZED_TESTS)
   get_target_property(controller trochoid_controller SOURCES)
   list(APPEND sources ${controller})
   get_target_property(libraries trochoid LINK_LIBRARIES)
-  list(REMOVE_ITEM libraries trochoid_controller)
+  list(REMOVE_ITEM libraries trochoid_controller "$<BUILD_INTERFACE:trochoid_hardening>")
   add_library(trochoid_sanitized STATIC EXCLUDE_FROM_ALL ${sources})
   add_dependencies(trochoid_sanitized trochoid)  # it makes the generated sources
   target_precompile_headers(trochoid_sanitized PRIVATE ${TROCHOID_PRECOMPILED})

@@ -4,44 +4,59 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "bytes.h"
+
 namespace {
 
+using trochoid::fuzz::demand;
 using trochoid::inputs::Command;
 
 /// A folder of this process, so that relative names in a case lead nowhere.
-std::filesystem::path folder() {
-  return std::filesystem::temp_directory_path() /
-         ("trochoid_fuzz_" + std::to_string(getpid()));
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() /
+                               ("trochoid_fuzz_" + std::to_string(getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+void write(const std::filesystem::path& file, std::string_view text) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
-void read(const std::filesystem::path& file, std::optional<Command> command) {
-  try {
-    const auto read = trochoid::inputs::read_case(file, command);
-    if (read.as_understood.empty()) std::abort();
-  } catch (const trochoid::base::InputError& error) {
-    if (error.problems().empty()) std::abort();
-  }
+/// The commands in their order, and none: that which the tables show.
+std::optional<Command> command_of(std::uint8_t byte) {
+  constexpr int commands = static_cast<int>(Command::plan) + 1;
+  const int which = byte % (commands + 1);
+  return which == commands ? std::nullopt : std::optional(static_cast<Command>(which));
 }
 
 }  // namespace
 
+/// The first byte says the command. A case as it was understood is understood again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto file = folder() / "case.toml";
-  std::filesystem::create_directories(folder());
-  {
-    std::ofstream out(file, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  static const Folder folder;
+  if (size == 0) return 0;
+  const auto command = command_of(data[0]);
+  const auto file = folder.path / "case.toml";
+  write(file, {reinterpret_cast<const char*>(data) + 1, size - 1});
+  std::string understood;
+  try {
+    understood = trochoid::inputs::read_case(file, command, folder.path).as_understood;
+  } catch (const trochoid::base::InputError& error) {
+    demand(!error.problems().empty());
+    return 0;
   }
-  read(file, std::nullopt);
-  for (const auto command : {Command::simulate, Command::identify, Command::surface,
-                             Command::calibrate, Command::stability}) {
-    read(file, command);
-  }
-  std::filesystem::remove_all(folder());
+  demand(!understood.empty());
+  write(file, understood);
+  demand(trochoid::inputs::read_case(file, command, folder.path).as_understood ==
+         understood);
   return 0;
 }

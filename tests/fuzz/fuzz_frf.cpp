@@ -3,21 +3,35 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
+
+#include "bytes.h"
 
 namespace {
 
 using trochoid::inputs::FrfFile;
 
-void demand(bool condition) {
-  if (!condition) std::abort();
+using trochoid::fuzz::demand;
+
+/// What a record of hammer blows must be, and must bear.
+void use(const trochoid::signal::TapRecord& tap) {
+  demand(tap.force.size() == tap.response.size());
+  demand(std::isfinite(tap.sample_rate) && tap.sample_rate > 0.0);
+  const auto response = trochoid::signal::frequency_response(tap, {});
+  demand(response.fault.empty() ? !response.omega.empty() : response.omega.empty());
+  demand(response.omega.size() == response.H.size());
+  for (const auto& h : response.H) {
+    demand(std::isfinite(h.real()) && std::isfinite(h.imag()));
+  }
+  for (const double coherence : response.coherence) {
+    demand(coherence >= 0.0 && coherence <= 1.0 + 1e-9);
+  }
 }
 
 /// What every frequency response that is accepted must be.
 void use(const FrfFile& file) {
   if (file.tap) {
-    demand(file.tap->force.size() == file.tap->response.size());
+    use(*file.tap);
     return;
   }
   const auto& omega = file.response.omega;

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
+#include "bytes.h"
+
 namespace {
 
+using trochoid::fuzz::demand;
 using trochoid::inputs::Measurement;
 
 /// The first byte chooses what the case file says about the record.
@@ -30,10 +32,6 @@ Measurement said_by(std::uint8_t byte) {
 bool finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),
                      [](double x) { return std::isfinite(x); });
-}
-
-void demand(bool condition) {
-  if (!condition) std::abort();
 }
 
 /// What every record that is accepted must be, and must bear.

@@ -3,18 +3,16 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
+#include "bytes.h"
+
 namespace {
 
+using trochoid::fuzz::demand;
 using trochoid::inputs::SurfaceFile;
 using trochoid::inputs::SurfaceReading;
-
-void demand(bool condition) {
-  if (!condition) std::abort();
-}
 
 bool finite(const std::optional<double>& value) {
   return !value || std::isfinite(*value);

@@ -22,6 +22,7 @@ EXAMPLES = ROOT / "examples"
 PROGRAM = os.environ.get("TROCHOID", str(ROOT / "build/release/src/trochoid/cli/trochoid"))
 SECONDS = 20.0  # of the processor, on one thread
 MEMORY = 1 << 30
+SLOWEST = 5  # of all runs, named at the end
 RUNS = (("simulate", "ball/case.toml"), ("simulate", "st52_predict/case.toml"),
         ("simulate", "up_milling_runout/case.toml"), ("identify", "st52_slot/case.toml"),
         ("identify", "ringing_dynamometer/case.toml"), ("surface", "thin_wall_2mm_4mm/case.toml"),
@@ -122,7 +123,7 @@ def complaints(answer, folder):
 
 
 def one(seed, bases):
-    """the run of this seed, its exit code, what is wrong with it and the folder it ran in"""
+    """the run of this seed, its answer, what is wrong with it and the folder it ran in"""
     random_ = random.Random(seed)
     command, name = random_.choice(RUNS)
     folder = pathlib.Path(tempfile.mkdtemp(prefix="mutated_"))
@@ -135,7 +136,7 @@ def one(seed, bases):
     if command != "report":
         arguments += ["-o", "out"]
     answer = run(arguments, folder)
-    return f"{command} {name}", answer[0], list(complaints(answer, folder)), folder
+    return f"{command} {name}", answer, list(complaints(answer, folder)), folder
 
 
 def main():
@@ -147,9 +148,11 @@ def main():
     subprocess.run([PROGRAM, "identify", bases / "st52_slot/case.toml", "-q"], check=True)
     bad = 0
     codes = collections.Counter()
+    slow = []
     for seed in range(first, first + count):
-        what, code, wrong, folder = one(seed, bases)
+        what, (code, _, seconds, memory), wrong, folder = one(seed, bases)
         codes[code] += 1
+        slow = sorted([*slow, (seconds, memory >> 20, seed, what)], reverse=True)[:SLOWEST]
         if wrong:
             bad += 1
             print(f"seed {seed}: {what}: {'; '.join(wrong)}; kept in {folder}", flush=True)
@@ -158,6 +161,8 @@ def main():
     shutil.rmtree(bases)
     print(f"{count} runs, {bad} of them wrong; exit codes:",
           ", ".join(f"{code}: {codes[code]}" for code in sorted(codes)))
+    for seconds, memory, seed, what in slow:
+        print(f"  {seconds:.1f} s, {memory} MiB: seed {seed}: {what}")
     sys.exit(bad > 0)
 
 

@@ -68,6 +68,53 @@ int32_t refusal(const TrochoidEstimatorConfig& c) {
              : TROCHOID_ESTIMATOR_REFUSED_LEARNING;
 }
 
+/// What a sample needs: numbers of teeth and waves within the arrays, and waves that the
+/// controller may have. Looked at at every sample, as it is short.
+bool sound_command(const TrochoidEstimator& e) {
+  const TrochoidEstimatorConfig& c = e.config;
+  if (c.teeth < 2 || c.teeth > TROCHOID_ESTIMATOR_TEETH || c.harmonics < 1 ||
+      c.harmonics > TROCHOID_WAVE_HARMONICS || !within(e.angle_rev, 0.0, 1.0)) {
+    return false;
+  }
+  for (int32_t n = 0; n < TROCHOID_WAVE_HARMONICS; ++n) {
+    if (!within(e.result.cosine_m[n], -2.0, 2.0) ||
+        !within(e.result.sine_m[n], -2.0, 2.0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Finite, so that a turn may be learnt from.
+bool sound_state(const TrochoidEstimator& e) {
+  constexpr double far = 1e30;
+  const int32_t terms = 2 * e.config.harmonics + 1;
+  for (int32_t a = 0; a < terms; ++a) {
+    for (int32_t b = 0; b < terms; ++b) {
+      if (!within(e.P[a][b], -far, far)) {
+        return false;
+      }
+    }
+    if (!within(e.most_P[a], 0.0, far) || !(e.P[a][a] >= 0.0) ||
+        (a > 0 && !within(e.wave[a - 1], -far, far))) {
+      return false;
+    }
+  }
+  for (int32_t j = 0; j < e.config.teeth; ++j) {
+    for (int32_t a = 0; a < terms; ++a) {
+      if (!within(e.theta[j][a], -far, far)) {
+        return false;
+      }
+    }
+    if (!within(e.reference[j], -far, far) ||
+        !within(e.largest_N[j], 0.0, most_force)) {
+      return false;
+    }
+  }
+  return within(e.result.difference, 0.0, 1.0) && e.odd >= 0 && e.odd < 2 &&
+         refusal(e.config) == TROCHOID_ESTIMATOR_ACCEPTED;
+}
+
 void begin_turn(TrochoidEstimator& e) {
   for (int32_t j = 0; j < e.config.teeth; ++j) {
     e.largest_N[j] = 0.0;
@@ -96,6 +143,17 @@ bool full(const TrochoidEstimator& e) {
     }
   }
   return e.gaps == 0;
+}
+
+/// Nothing is commanded any more until it is begun anew, nor by who reads its memory.
+TrochoidEstimatorResult not_ready(TrochoidEstimator* e) {
+  TrochoidEstimatorResult nothing = {};
+  nothing.turn = TROCHOID_TURN_NOT_READY;
+  if (e != nullptr) {
+    e->ready = 0;
+    e->result = nothing;
+  }
+  return nothing;
 }
 
 /// Judges the turn that is complete.
@@ -174,10 +232,9 @@ int32_t trochoid_estimator_init(TrochoidEstimator* estimator,
 TrochoidEstimatorResult trochoid_estimator_sample(TrochoidEstimator* estimator,
                                                   double angle_rev, double force_N,
                                                   int32_t active) {
-  if (estimator == nullptr || estimator->ready != TROCHOID_READY) {
-    TrochoidEstimatorResult nothing = {};
-    nothing.turn = TROCHOID_TURN_NOT_READY;
-    return nothing;
+  if (estimator == nullptr || estimator->ready != TROCHOID_READY ||
+      !sound_command(*estimator)) {
+    return not_ready(estimator);
   }
   TrochoidEstimator& e = *estimator;
   e.result.turn = TROCHOID_TURN_OPEN;
@@ -193,6 +250,9 @@ TrochoidEstimatorResult trochoid_estimator_sample(TrochoidEstimator* estimator,
     e.gaps = 1;
   }
   if (moved >= 0.0 && angle < e.angle_rev) {
+    if (!sound_state(e)) {
+      return not_ready(estimator);
+    }
     if (e.begun != 0) {
       end_turn(e);
     }

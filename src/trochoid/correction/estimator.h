@@ -114,6 +114,9 @@ int32_t trochoid_estimator_init(TrochoidEstimator* estimator,
 /// @param angle_rev  of the spindle since the index pulse, any whole turns
 /// @param force_N    the same component always, Fy or Fx
 /// @param active     not 0: the command is wholly in force
+///
+/// Memory that was overwritten with what cannot be leaves it not ready, with waves of 0,
+/// until it is begun anew; waves that are no numbers are never given.
 TrochoidEstimatorResult trochoid_estimator_sample(TrochoidEstimator* estimator,
                                                   double angle_rev, double force_N,
                                                   int32_t active);

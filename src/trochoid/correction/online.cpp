@@ -49,6 +49,22 @@ int32_t refusal(const TrochoidOnlineConfig& c) {
              : TROCHOID_ONLINE_REFUSED_LEARNING;
 }
 
+/// What else may stand in the memory: finite, and within its limits.
+bool sound_state(const TrochoidOnline& o) {
+  constexpr double most_sum = most_force * most_counted;
+  for (int flute = 0; flute < 2; ++flute) {
+    if (!within(o.largest_N[flute], 0.0, most_force) ||
+        !within(o.sum_N[flute], 0.0, most_sum) ||
+        !within(o.result.force_N[flute], 0.0, most_force) || o.samples[flute] < 0) {
+      return false;
+    }
+  }
+  return within(o.result.gain, o.config.gain_low, o.config.gain_high) &&
+         within(o.result.difference, 0.0, 1.0) &&
+         within(fabs(o.result.residual_m), 0.0, o.config.feed_per_tooth_m) &&
+         within(o.angle_rev, 0.0, 1.0);
+}
+
 void begin_turn(TrochoidOnline& o) {
   for (int flute = 0; flute < 2; ++flute) {
     o.largest_N[flute] = 0.0;
@@ -120,8 +136,10 @@ void add(TrochoidOnline& o, double angle, double force) {
   }
   const double magnitude = fabs(force);
   o.largest_N[flute] = fmax(o.largest_N[flute], magnitude);
-  o.sum_N[flute] += magnitude;
-  o.samples[flute] += o.samples[flute] < most_counted ? 1 : 0;
+  if (o.samples[flute] < most_counted) {  // the mean is of those that are counted
+    o.sum_N[flute] += magnitude;
+    ++o.samples[flute];
+  }
 }
 
 }  // namespace
@@ -168,12 +186,17 @@ int32_t trochoid_online_init(TrochoidOnline* online,
 
 TrochoidOnlineResult trochoid_online_sample(TrochoidOnline* online, double angle_rev,
                                             double force_N, int32_t active) {
+  TrochoidOnlineResult nothing = {};
+  nothing.turn = TROCHOID_TURN_NOT_READY;
   if (online == nullptr || online->ready != TROCHOID_READY) {
-    TrochoidOnlineResult nothing = {};
-    nothing.turn = TROCHOID_TURN_NOT_READY;
     return nothing;
   }
   TrochoidOnline& o = *online;
+  if (refusal(o.config) != TROCHOID_ONLINE_ACCEPTED || !sound_state(o)) {
+    o.ready = 0;
+    o.result = nothing;
+    return nothing;
+  }
   o.result.turn = TROCHOID_TURN_OPEN;
   if (!within(angle_rev, -most_turns, most_turns) ||
       !within(force_N, -most_force, most_force)) {

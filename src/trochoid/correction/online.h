@@ -96,6 +96,9 @@ int32_t trochoid_online_init(TrochoidOnline* online,
 /// @param angle_rev  of the spindle since the index pulse, any whole turns
 /// @param force_N    the same component always, Fy or Fx
 /// @param active     not 0: the command is wholly in force
+///
+/// Memory that was overwritten with what cannot be leaves it not ready, with a gain of 0,
+/// until it is begun anew; a gain beyond its limits is never given.
 TrochoidOnlineResult trochoid_online_sample(TrochoidOnline* online, double angle_rev,
                                             double force_N, int32_t active);
 

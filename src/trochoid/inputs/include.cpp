@@ -16,6 +16,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_chain = 16;
+/// Files that one case may read: two files that each include two, and so on, are as many
+/// as a chain of all of them has ways.
+constexpr std::size_t most_files = 256;
+
+/// What has been read so far.
+struct Reading {
+  std::vector<fs::path> open;  ///< outermost first: one of them again is a cycle
+  std::size_t files = 0;       ///< included, in all
+};
 
 void mark_inherited(Node& node) {
   node.inherited = true;
@@ -55,12 +64,11 @@ Node joined(Node first, const Node& second) {
   return both;
 }
 
-Node load(const fs::path& file, std::vector<fs::path>& open);
+Node load(const fs::path& file, Reading& reading);
 
 /// @param include  one name, as the file that includes has it
-/// @param open     files being read, outermost first: one of them again is a cycle
-Node load_included(const Node& include, const fs::path& file,
-                   std::vector<fs::path>& open) {
+Node load_included(const Node& include, const fs::path& file, Reading& reading) {
+  auto& open = reading.open;
   const auto* name = std::get_if<std::string>(&include.value);
   if (name == nullptr || name->empty()) {
     throw base::InputError({fmt::format(
@@ -88,14 +96,19 @@ Node load_included(const Node& include, const fs::path& file,
                      "include what several share",
                      to_string(include.where), to_string(include), longest_chain)});
   }
+  if (++reading.files > most_files) {
+    throw base::InputError({fmt::format(
+        "{}: include = {}: more than {} files are included, those that are "
+        "named twice counted twice; name each where it is needed first",
+        to_string(include.where), to_string(include), most_files)});
+  }
   open.push_back(canonical);
-  Node base = load(included, open);
+  Node base = load(included, reading);
   open.pop_back();
   return base;
 }
 
-/// @param open  files being read, outermost first
-Node load(const fs::path& file, std::vector<fs::path>& open) {
+Node load(const fs::path& file, Reading& reading) {
   Node root = parse_file(file);
   const Node* include = find(root, "include");
   if (include == nullptr) {
@@ -104,11 +117,11 @@ Node load(const fs::path& file, std::vector<fs::path>& open) {
   const auto* several = std::get_if<Array>(&include->value);
   Node base;
   if (several == nullptr || several->empty()) {
-    base = load_included(*include, file, open);
+    base = load_included(*include, file, reading);
   } else {
-    base = load_included(several->front(), file, open);
+    base = load_included(several->front(), file, reading);
     for (std::size_t i = 1; i < several->size(); ++i) {
-      base = joined(std::move(base), load_included((*several)[i], file, open));
+      base = joined(std::move(base), load_included((*several)[i], file, reading));
     }
   }
   erase(root, "include");
@@ -140,8 +153,8 @@ Node merged(Node base, const Node& over) {
 
 Node load_document(const fs::path& file) {
   std::error_code error;
-  std::vector<fs::path> open = {fs::weakly_canonical(file, error)};
-  return load(file, open);
+  Reading reading{.open = {fs::weakly_canonical(file, error)}};
+  return load(file, reading);
 }
 
 }  // namespace trochoid::inputs

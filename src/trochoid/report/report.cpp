@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include <trochoid/report/digest.h>
 #include <trochoid/report/drawn.h>
 #include <trochoid/report/page.h>
 
@@ -93,7 +94,16 @@ std::string page_scripts() {
         plan_wall_js(), any_js()}) {
     text += part;
   }
-  return text + pages_js() + std::string(main_js());
+  return "\n(() => {\n'use strict';\n" + text + pages_js() + std::string(main_js()) +
+         "\n})();\n";
+}
+
+/// No other script runs, whatever text of a file would ever stand in the page as one.
+std::string scripts_allowed() {
+  static const std::string allowed =
+      fmt::format("'sha256-{}' 'sha256-{}'", sha256_base64(uplot_js()),
+                  sha256_base64(page_scripts()));
+  return allowed;
 }
 
 std::string data_json(const results::Answer& answer, const std::string& summary) {
@@ -141,6 +151,7 @@ std::string value_of(std::string_view name, const results::Answer& answer,
   if (name == "data") return data_json(answer, summary);
   if (name == "uplot") return std::string(uplot_js());
   if (name == "script") return page_scripts();
+  if (name == "scripts_allowed") return scripts_allowed();
   return {};
 }
 

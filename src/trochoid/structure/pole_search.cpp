@@ -108,6 +108,10 @@ std::vector<Complex> zeros(const std::vector<Complex>& poles, const double* c) {
       found.emplace_back(-renewed_damping * at, at);
     }
   }
+  // Where a response holds next to nothing the zeros may be no numbers: those poles stay.
+  while (found.size() < poles.size()) {
+    found.push_back(poles[found.size()]);
+  }
   return found;
 }
 

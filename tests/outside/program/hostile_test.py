@@ -30,13 +30,22 @@ class Hostile(InFolder):
         self.refused("simulate", "c0.toml", says="c16.toml:1:11: include")
         self.run_program("simulate", "c1990.toml", "-q", "--no-report")
 
+    def test_files_that_include_the_next_one_three_times(self):
+        """3^15 ways lead to the last of 16 files"""
+        for i in range(15):
+            self.write(f"c{i}.toml", f"include = {json.dumps([f'c{i + 1}.toml'] * 3)}\n")
+        self.write("c15.toml", simulation())
+        self.refused("simulate", "c0.toml", says="more than 256 files are included")
+        self.refused("simulate", "c9.toml", says="more than 256 files are included")
+        self.run_program("simulate", "c11.toml", "-q", "--no-report")  # 3 + 9 + 27 + 81
+
     def test_a_folder_whose_files_nest(self):
         self.write("cut.toml", simulation())
-        for name in ("summary.json", "case.toml"):
+        for name, text in (("summary.json", '{"trochoid":' + "[" * 200000),
+                           ("case.toml", "a = " + "[" * 200000),
+                           ("case.toml", ".".join(["a"] * 200000) + " = 1\n")):
             self.run_program("simulate", "cut.toml", "-q")
-            deep = "[" * 200000
-            self.write(f"cut.simulate/{name}", '{"trochoid":' + deep if "json" in name
-                       else "a = " + deep)
+            self.write(f"cut.simulate/{name}", text)
             if "json" in name:
                 self.refused("report", "cut.simulate", says="summary.json:1:1: ")
                 subprocess.run(["rm", "-r", self.folder / "cut.simulate"], check=True)
@@ -78,9 +87,9 @@ class Hostile(InFolder):
         self.refused("check", "id.toml", says="the file cannot be read")
 
     def test_a_title_that_steers_the_terminal(self):
-        self.write("cut.toml", simulation().replace('"a slot"', '"\\u001b[2J\\u009bm slot"'))
+        self.write("cut.toml", simulation().replace('"a slot"', '"\\u001b[2J\\u009bm\\u007f slot"'))
         done = self.run_program("simulate", "cut.toml")
-        self.assertIn("\\x1B[2J\\x9Bm slot", done.stdout)
+        self.assertIn("\\x1B[2J\\x9Bm\\x7F slot", done.stdout)
         self.assertNotIn("\x1b", done.stdout)
         wrong = self.write("\x1b[31mred.toml", "a = 1\n")
         self.assertNotIn("\x1b", self.run_program("check", wrong.name, code=2).stderr)
@@ -94,6 +103,24 @@ class Hostile(InFolder):
         table.symlink_to(self.folder / "secret")
         said = self.refused("report", "cut.simulate", says="forces.csv:1:1: not a regular file")
         self.assertNotIn("do not print", said)
+
+    def test_a_summary_of_another_program_is_refused_and_its_folder_left_alone(self):
+        self.write("cut.toml", simulation())
+        self.run_program("simulate", "cut.toml", "-q", "--no-report")
+        file = self.folder / "cut.simulate/summary.json"
+        summary = json.loads(file.read_text())
+        del summary["trochoid"]
+        file.write_text(json.dumps(summary))
+        before = self.everything()
+        self.refused("report", "cut.simulate", says="not a summary.json of trochoid")
+        self.assertEqual(self.everything(), before)
+
+    def test_a_table_that_is_not_ours_is_not_read(self):
+        self.write("cut.toml", simulation())
+        self.run_program("simulate", "cut.toml", "-q")
+        self.write("cut.simulate/mine.csv", "what,I\nwrote\n")
+        self.run_program("report", "cut.simulate", "-q")
+        self.assertNotIn("mine.csv", (self.folder / "cut.simulate/report.html").read_text())
 
     def test_a_command_that_does_not_exist_is_named_with_the_nearest(self):
         self.refused("simulat", "x", says="trochoid simulat: there is no such command; "

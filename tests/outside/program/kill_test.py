@@ -27,9 +27,11 @@ class Killed(InFolder):
     def hidden(self):
         return {p.name for p in self.folder.rglob(".*")}
 
-    def fault(self, how, at, *arguments, exchange=True):
+    def fault(self, how, at, *arguments, exchange=True, call=None):
         """exit code, what was said"""
         environment = dict(os.environ, LD_PRELOAD=SHIM, FAULT=how, FAULT_AT=str(at))
+        if call:
+            environment["FAULT_CALL"] = call
         if not exchange:
             environment["NO_EXCHANGE"] = "1"
         done = subprocess.run([program.PROGRAM, *arguments], cwd=self.folder, env=environment,
@@ -91,6 +93,45 @@ class Killed(InFolder):
                 self.assertEqual(self.contents("out")["summary.json"], old["summary.json"])
             self.run_program("simulate", "new.toml", "-q", "-o", "out")
         self.assertGreater(seen, 0)
+
+    def test_everything_is_flushed_to_the_disk_and_a_disk_that_says_no_is_heard(self):
+        """every file, the folder and the one that it stands in: a full disk may say so only now"""
+        files = len(self.contents("new.out"))
+        for arguments, flushed in (
+                (("simulate", "new.toml", "-q", "-o", "out"), files + 2),
+                (("report", "new.out", "-q"), 2)):
+            heard = 0
+            while heard < 100:
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                code, said = self.fault("error", heard + 1, *arguments, call="fsync")
+                if "fault" not in said:
+                    break
+                heard += 1
+                self.assertEqual(code, 2, said)
+                self.assertRegex(said, r"cannot write (\S*/)?(new\.)?out")
+                self.assertEqual(self.hidden(), set())
+            self.assertEqual(heard, flushed, arguments)
+
+    def test_a_folder_that_cannot_be_read_to_its_end_is_not_taken_for_an_empty_one(self):
+        """what somebody else put there would be gone"""
+        for at in range(1, 100):
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+            self.write("out/mine.txt", "mine\n")
+            code, said = self.fault("errors", at, "simulate", "new.toml", "-q", "-o", "out",
+                                    call="readdir")
+            self.assertEqual(code, 2, said)
+            self.assertEqual(self.contents("out").keys(), {"mine.txt"})
+            if "fault" not in said:
+                break
+        self.assertGreater(at, 2)
+
+    def test_where_there_are_no_locks_nothing_of_others_is_removed(self):
+        self.run_program("simulate", "new.toml", "-q", "-o", "out")
+        self.write("out/.report.html.new-99999", "<html>")
+        (self.folder / ".out.new-abcdef").mkdir()
+        for arguments in (("report", "out", "-q"), ("simulate", "old.toml", "-q", "-o", "other")):
+            self.run_program(*arguments, LD_PRELOAD=SHIM, NO_LOCKS="1")
+        self.assertEqual(self.hidden(), {".report.html.new-99999", ".out.new-abcdef"})
 
     def test_two_writers_at_once_leave_one_whole_answer(self):
         both = (self.contents("old.out"), self.contents("new.out"))

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <trochoid/report/digest.h>
 #include <trochoid/report/page.h>
 #include <trochoid/report/report.h>
 #include <trochoid/results/json.h>
@@ -65,6 +66,22 @@ TEST(Page, RequestsNothingFromANetwork) {
   }
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos)
       << "the browser itself must be told to refuse requests";
+}
+
+/// The text between the last tag of that kind and its end.
+std::string last_script(const std::string& page) {
+  const std::size_t from = page.rfind("<script>") + 8;
+  return page.substr(from, page.find("</script>", from) - from);
+}
+
+TEST(Page, AllowsItsOwnScriptsAndNoOther) {
+  const std::string page = html(sample(), summary_of(sample()));
+  const std::size_t from = page.find("script-src ");
+  ASSERT_NE(from, std::string::npos);
+  const std::string allowed = page.substr(from, page.find(';', from) - from);
+  EXPECT_EQ(count(allowed, "'sha256-"), 2U);
+  EXPECT_NE(allowed.find(sha256_base64(last_script(page))), std::string::npos);
+  EXPECT_EQ(allowed.find("unsafe"), std::string::npos);
 }
 
 TEST(Page, HoldsNoTextThatBecomesMarkup) {

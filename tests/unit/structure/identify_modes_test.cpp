@@ -216,6 +216,19 @@ TEST(IdentifyModes, RefusesAPeakBetweenTwoLines) {
                  "measure longer");
 }
 
+/// Beside it the rest is below rounding, and the poles of a search were no numbers.
+TEST(IdentifyModes, RefusesOneLineThatIsOutOfAllProportion) {
+  const Mode truth = mode_of(900, 0.02, 0.5);
+  const auto sound = made({truth}, ResponseKind::accelerance, {300, 1500, 5}, 1e-2);
+  for (const double height : {1e10, 1e13, 1e16, 1e18, 1e22, 1e30}) {
+    for (const std::size_t at : {3U, 100U, 150U, 237U}) {
+      auto spoilt = sound;
+      spoilt.H[at].imag(height);
+      EXPECT_FALSE(identify_modes(spoilt, {}).ok) << height << " at " << at;
+    }
+  }
+}
+
 TEST(IdentifyModes, SaysWhichKindAResponseLooksLike) {
   const Mode truth = mode_of(900, 0.02, 0.5);
   auto record = made({truth}, ResponseKind::mobility, {300, 1500, 1}, 1e-3);
