@@ -68,16 +68,21 @@ def _surface(answer: Answer, axes: Axes) -> None:
 
 def _map(axes: Axes, table: Any, x: str, y: str, value: str) -> None:
     known = np.isfinite(table[value])
-    shown = axes.scatter(table[x][known], table[y][known], c=table[value][known], s=9)
+    few = known.sum() < 1000
+    shown = axes.scatter(
+        table[x][known], table[y][known], c=table[value][known], s=90 if few else 9, marker="s"
+    )
     axes.figure.colorbar(shown, ax=axes, label=value)
     axes.set(xlabel=x, ylabel=y)
 
 
 def _calibrate(answer: Answer, axes: Axes) -> None:
     table = answer.tables["residual"]
-    axes.plot(table["height_mm"], table["measured_mm"], ".", label="measured")
-    axes.plot(table["height_mm"], table["fitted_mm"], "+", label="fitted")
-    axes.set(xlabel="height_mm", ylabel="error [mm], positive: material left")
+    fitted, measured = table["fitted_mm"], table["measured_mm"]
+    ends = [np.nanmin(fitted), np.nanmax(fitted)]
+    axes.plot(fitted, measured, ".", ms=4, label="readings")
+    axes.plot(ends, ends, color="grey", lw=1, label="equal")
+    axes.set(xlabel="fitted_mm", ylabel="measured_mm, positive: material left")
 
 
 def _stability(answer: Answer, axes: Axes) -> None:
