@@ -11,7 +11,6 @@
 
 #include <array>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,8 +43,7 @@ struct Dynamometer {
 /// Of a force record; its values stand in record_format.h.
 enum class RecordFormat : int;
 
-struct Node;          // document.h
-struct NumericTable;  // numeric_table.h
+struct NumericTable;
 
 /// One [[measurement]].
 struct Measurement {
@@ -179,25 +177,6 @@ using base::Command;
 /// @throws base::InputError with every problem of the file
 Case read_case(const std::filesystem::path& file, std::optional<Command> command,
                const std::filesystem::path& result_folder = {});
-
-/// Records in memory, by the names that [[measurement]] has in `file`.
-using RecordsInMemory = std::map<std::string, std::shared_ptr<const NumericTable>>;
-
-/// @brief What a case file would say, from wherever it comes.
-struct CaseSource {
-  const Node& root;            ///< with what it includes
-  std::filesystem::path file;  ///< its folder is what names of files count from
-  RecordsInMemory records;
-};
-
-/// @brief The same of tables that are read already.
-Case read_case(const CaseSource& source, std::optional<Command> command,
-               const std::filesystem::path& result_folder = {});
-
-/// @brief Check the keys that are there, whatever they are meant for; what a command
-/// needs may still be missing.
-/// @throws base::InputError with every problem
-void check_keys(const CaseSource& source);
 
 /// @brief The case of a bare data file: [frf] or [step] and nothing else.
 /// @param machine  with `frf` for modes, or `step` for actuator; its `file` is relative

@@ -1,6 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/case.h>
-#include <trochoid/inputs/document.h>
+#include <trochoid/inputs/case_source.h>
 #include <trochoid/inputs/read_table.h>
 #include <trochoid/inputs/rules.h>
 #include <trochoid/inputs/tables.h>

@@ -42,6 +42,14 @@ std::string type_name(const py::handle& value) {
   return py::str(py::type::of(value).attr("__name__"));
 }
 
+/// @throws UnicodeEncodeError for what is no text of any file: half of a surrogate pair
+std::string text_of(const py::handle& value) {
+  py::ssize_t size = 0;
+  const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (text == nullptr) throw py::error_already_set();
+  return {text, static_cast<std::size_t>(size)};
+}
+
 inputs::Members members_of(const py::handle& mapping, const Place& place) {
   inputs::Members members;
   for (const py::handle entry : mapping.attr("items")()) {
@@ -52,7 +60,7 @@ inputs::Members members_of(const py::handle& mapping, const Place& place) {
       refuse(place, fmt::format("keys must be text, not {}", type_name(key)));
     }
     if (value.is_none()) continue;
-    const std::string name = py::cast<std::string>(key);
+    const std::string name = text_of(key);
     members.push_back({name, place.where, converted(value, place.of(name))});
   }
   return members;
@@ -83,9 +91,9 @@ inputs::Node converted(const py::handle& from, const Place& place) {
   } else if (py::isinstance<py::float_>(from)) {
     node.value = py::cast<double>(from);
   } else if (py::isinstance<py::str>(from)) {
-    node.value = py::cast<std::string>(from);
+    node.value = text_of(from);
   } else if (py::hasattr(from, "__fspath__")) {
-    node.value = py::cast<std::string>(py::str(from.attr("__fspath__")()));
+    node.value = text_of(py::str(from.attr("__fspath__")()));
   } else if (py::hasattr(from, "items") && py::hasattr(from, "keys")) {
     node.value = members_of(from, place);
   } else if (py::isinstance<py::list>(from) || py::isinstance<py::tuple>(from)) {

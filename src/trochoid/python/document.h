@@ -1,7 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
-#include <trochoid/inputs/document.h>
+#include <trochoid/inputs/case_source.h>
 
 #include <filesystem>
 

@@ -1,7 +1,5 @@
 #include <trochoid/base/names.h>
 #include <trochoid/base/units.h>
-#include <trochoid/inputs/case.h>
-#include <trochoid/inputs/numeric_table.h>
 #include <trochoid/python/bindings.h>
 #include <trochoid/python/document.h>
 
@@ -73,7 +71,9 @@ void bind_document(py::module_& m) {
            [](const Document& self, const py::dict& tables) {
              Document changed = self;
              const inputs::Location root = self.root.where;
-             changed.root = inputs::merged(self.root, node_of(tables, self.file));
+             changed.root = inputs::merged(
+                 self.root,
+                 inputs::with_includes(node_of(tables, self.file), self.file));
              changed.root.where = root;
              return changed;
            })

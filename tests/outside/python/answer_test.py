@@ -79,8 +79,19 @@ class SameAsProgram(unittest.TestCase):
         for key in result:
             self.assertFalse(hasattr(type(answer), key), key)
             self.assertEqual(getattr(answer, key), answer.result[key])
+        self.check_members(answer.result)
         with self.assertRaises(AttributeError):
             answer.message = "better"
+
+    def check_members(self, values):
+        """Nor behind what every mapping has."""
+        if isinstance(values, tuple):
+            for value in values:
+                self.check_members(value)
+        if isinstance(values, trochoid.Values):
+            for key, value in values.items():
+                self.assertFalse(hasattr(trochoid.Values, key), key)
+                self.check_members(value)
 
     def check_table(self, table, file):
         with open(file, newline="") as stream:

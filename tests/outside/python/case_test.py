@@ -4,6 +4,7 @@ import os
 import pathlib
 import pickle
 import subprocess
+import sys
 import tempfile
 import tomllib
 import unittest
@@ -90,6 +91,8 @@ class FromDict(unittest.TestCase):
         for value, why in ((object(), "object"), ({1, 2}, "set"), (2**70, "digits")):
             with self.assertRaisesRegex(TypeError, "tool.teeth: .*" + why):
                 trochoid.Case({"tool": {"teeth": value}})
+        with self.assertRaises(UnicodeEncodeError):
+            trochoid.Case({"title": "\ud800"})
         endless = {}
         endless["tool"] = endless
         with self.assertRaisesRegex(TypeError, "nested too deep"):
@@ -108,6 +111,19 @@ class FromDict(unittest.TestCase):
         case = trochoid.Case({"include": str(BALL), "cut": {"spindle_rpm": 123}})
         self.assertEqual(case.to_dict()["cut"]["spindle_rpm"], 123)
         self.assertEqual(case.to_dict()["tool"]["teeth"], 2)
+
+
+class Environment(unittest.TestCase):
+    def test_threads_are_limited_as_in_the_program(self):
+        for threads, good in (("1", True), ("many", False)):
+            run = subprocess.run(
+                [sys.executable, "-c", "import trochoid"],
+                env={**os.environ, "TROCHOID_THREADS": threads},
+                capture_output=True,
+                text=True,
+            )
+            self.assertEqual(run.returncode == 0, good, run.stderr)
+        self.assertIn('TROCHOID_THREADS = "many"', run.stderr)
 
 
 class With(unittest.TestCase):
@@ -133,6 +149,14 @@ class With(unittest.TestCase):
         for wrong in ({"cut..x": 1}, {3: 1}, {"cut.a": 1, "cut.a.b": 2}):
             with self.assertRaises(TypeError):
                 self.case.with_(wrong)
+
+    def test_an_included_file_is_changed_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "other.toml")
+            file.write_text("[cut]\nspindle_rpm = 777\naxial_depth_mm = 3\n")
+            case = self.case.with_({"include": str(file), "cut.axial_depth_mm": 1})
+        cut = case.to_dict()["cut"]
+        self.assertEqual((cut["spindle_rpm"], cut["axial_depth_mm"]), (777, 1))
 
     def test_there_are_commands_only(self):
         with self.assertRaisesRegex(ValueError, "simulate, identify"):

@@ -1,7 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/case.h>
-#include <trochoid/inputs/document.h>
-#include <trochoid/inputs/numeric_table.h>
+#include <trochoid/inputs/case_source.h>
 #include <trochoid/inputs/record_file.h>
 
 #include <gtest/gtest.h>

@@ -134,10 +134,7 @@ class Case:
         return f"<trochoid.Case {title!r}: {names}>"
 
 
-COMMANDS = (
-    "simulate", "identify", "surface", "calibrate", "stability", "modes", "actuator",
-    "dynamics", "correct", "plan",
-)  # fmt: skip
+COMMANDS: tuple[str, ...] = _core.commands
 
 
 def _command(name: Optional[str]) -> Optional[str]:

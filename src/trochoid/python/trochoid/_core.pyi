@@ -12,6 +12,7 @@ _Floats = npt.NDArray[np.float64]
 _Columns = list[tuple[str, str, np.ndarray]]
 
 version: str
+commands: tuple[str, ...]
 
 class Document:
     @staticmethod
