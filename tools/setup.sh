@@ -25,9 +25,11 @@ libraries=(
 # Programs as command=package, so that one from another source is kept.
 programs=(g++=g++ cmake=cmake ninja=ninja-build git=git pkg-config=pkg-config)
 report_programs=(node=nodejs npm=npm)
-test_libraries=(libgtest-dev libbenchmark-dev libmatio-dev python3-numpy python3-scipy)
+python_libraries=(pybind11-dev libpython3-dev python3-numpy)
+test_libraries=(libgtest-dev libbenchmark-dev libmatio-dev python3-scipy "${python_libraries[@]}")
 # What the tests can do without: where it is missing, theirs are skipped.
-optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind)
+optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
+  mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv)
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
 
 # One argument, one line.
@@ -102,17 +104,17 @@ install_optional() {
     say "That did not work; the tests that need it are skipped."
 }
 
-# What node_modules must hold for "$1" (run or test): the lock file's packages.
+# What node_modules must hold for "$1" (run, python or test): the lock file's packages.
 have_node_modules() {
   local stamp=$root/node_modules/.complete
   [ ! -f "$root/package-lock.json" ] && return
-  [ "$stamp" -nt "$root/package-lock.json" ] && { [ "$1" = run ] || [ "$(<"$stamp")" = test ]; }
+  [ "$stamp" -nt "$root/package-lock.json" ] && { [ "$1" != test ] || [ "$(<"$stamp")" = test ]; }
 }
 
 install_node_modules() {
   have_node_modules "$1" && return
   local options=(--no-audit --no-fund --no-progress --ignore-scripts)
-  [ "$1" = run ] && options+=(--omit=dev)
+  [ "$1" = test ] || options+=(--omit=dev)
   say "Fetching the plot libraries of the report (npm)"
   if ! (cd "$root" && rm -rf node_modules && npm ci "${options[@]}") </dev/null >>"$log" 2>&1; then
     tail -n 15 "$log" >&2
@@ -122,7 +124,7 @@ install_node_modules() {
   printf '%s' "$1" >"$root/node_modules/.complete"
 }
 
-# setup run|test: install what it needs, unless its stamp says that this was done.
+# setup run|python|test: install what it needs, unless its stamp says that this was done.
 setup() {
   local stamp=$root/build/.setup-$1
   if [ "$stamp" -nt "$root/tools/setup.sh" ] && have_node_modules "$1"; then
@@ -130,6 +132,7 @@ setup() {
   fi
   local needs=("${libraries[@]}" "${programs[@]}")
   [ -f "$root/package-lock.json" ] && needs+=("${report_programs[@]}")
+  [ "$1" = python ] && needs+=("${python_libraries[@]}")
   [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
   if ! command -v dpkg-query >/dev/null; then
     stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \
@@ -178,6 +181,21 @@ compile() {
   local status=${PIPESTATUS[0]}
   [ -t 2 ] && printf '\r\033[K' >&2
   [ "$status" = 0 ] || stop "The build did not succeed; the reason is above."
+}
+
+# The Python that the module is built for: Debian's, unless -DTROCHOID_PYTHON chose another.
+chosen_python() {
+  sed -n 's/^TROCHOID_PYTHON:[A-Z]*=//p' "$build/CMakeCache.txt"
+}
+
+# The build may be older than the packages that the module needs: then it looks once more.
+compile_python() {
+  if ! ninja -C "$build" -t query trochoid_python >/dev/null 2>&1; then
+    cmake -DTROCHOID_BUILD_PYTHON=ON "$build" </dev/null >>"$log" 2>&1
+    ninja -C "$build" -t query trochoid_python >/dev/null 2>&1 ||
+      stop "CMake does not find what the Python module needs; see $log."
+  fi
+  compile trochoid_python
 }
 
 # One at a time in one clone; the lock goes when the program ends, however it ends.

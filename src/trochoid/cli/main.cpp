@@ -5,7 +5,7 @@
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/memory.h>
 #include <trochoid/inputs/findings.h>
-#include <trochoid/numerics/parallel.h>
+#include <trochoid/numerics/thread_count.h>
 #include <trochoid/results/provenance.h>
 
 #include <CLI/CLI.hpp>
@@ -18,18 +18,14 @@
 #endif
 
 #include <algorithm>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <functional>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace {
@@ -148,24 +144,6 @@ void add_data_options(CLI::App& app, Command command, Options& options) {
   }
 }
 
-/// TROCHOID_THREADS limits the threads; anything but a positive number is an error.
-std::unique_ptr<trochoid::numerics::ThreadLimit> thread_limit() {
-  const char* text = std::getenv("TROCHOID_THREADS");
-  if (text == nullptr) {
-    return nullptr;
-  }
-  const std::string_view wanted(text);
-  int threads = 0;
-  const auto read =
-      std::from_chars(wanted.data(), wanted.data() + wanted.size(), threads);
-  if (read.ec != std::errc{} || read.ptr != wanted.data() + wanted.size() ||
-      threads < 1 || threads > 4096) {
-    throw trochoid::base::InputError({"TROCHOID_THREADS = \"" + std::string(wanted) +
-                                      "\": not a number of threads, from 1 to 4096"});
-  }
-  return std::make_unique<trochoid::numerics::ThreadLimit>(threads);
-}
-
 /// Named with the nearest one there is, before anything else is looked at.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "-";
@@ -237,7 +215,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? trochoid::cli::answered : trochoid::cli::wrong_input;
   }
-  const auto limit = thread_limit();
+  const auto limit = trochoid::numerics::thread_limit_of_environment();
   return chosen();
 }
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +43,8 @@ struct Dynamometer {
 /// Of a force record; its values stand in record_format.h.
 enum class RecordFormat : int;
 
+struct NumericTable;
+
 /// One [[measurement]].
 struct Measurement {
   std::filesystem::path file;          ///< absolute, or relative to where we run
@@ -58,6 +61,8 @@ struct Measurement {
   std::string group;                  ///< those of one name share coefficients
   geometry::Cut cut;                  ///< [cut] with this run's overrides
   std::string location;               ///< file:line:col of its `file` key
+  /// Of a record that is in no file but in memory; `file` is its name then.
+  std::shared_ptr<const NumericTable> in_memory;
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.

@@ -64,7 +64,7 @@ Node joined(Node first, const Node& second) {
   return both;
 }
 
-Node load(const fs::path& file, Reading& reading);
+Node complete(Node root, const fs::path& file, Reading& reading);
 
 /// @param include  one name, as the file that includes has it
 Node load_included(const Node& include, const fs::path& file, Reading& reading) {
@@ -103,13 +103,12 @@ Node load_included(const Node& include, const fs::path& file, Reading& reading) 
         to_string(include.where), to_string(include), most_files)});
   }
   open.push_back(canonical);
-  Node base = load(included, reading);
+  Node base = complete(parse_file(included), included, reading);
   open.pop_back();
   return base;
 }
 
-Node load(const fs::path& file, Reading& reading) {
-  Node root = parse_file(file);
+Node complete(Node root, const fs::path& file, Reading& reading) {
   const Node* include = find(root, "include");
   if (include == nullptr) {
     return root;
@@ -152,9 +151,13 @@ Node merged(Node base, const Node& over) {
 }
 
 Node load_document(const fs::path& file) {
+  return with_includes(parse_file(file), file);
+}
+
+Node with_includes(Node root, const fs::path& file) {
   std::error_code error;
   Reading reading{.open = {fs::weakly_canonical(file, error)}};
-  return load(file, reading);
+  return complete(std::move(root), file, reading);
 }
 
 }  // namespace trochoid::inputs

@@ -158,6 +158,21 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   return result;
 }
 
+namespace {
+
+/// In a file that is there, or in memory.
+void settle_record(const MeasurementTable& table, const std::string& key,
+                   Measurement& measurement, Findings& findings) {
+  if (table.in_memory) {
+    measurement.file = table.file;
+    measurement.in_memory = table.in_memory;
+  } else if (sound(findings, {key})) {
+    check_file(measurement.file, key, table.file, "a force record", findings);
+  }
+}
+
+}  // namespace
+
 Measurement measurement_of(MeasurementTable& table, std::size_t number,
                            const geometry::Cutter& cutter, Findings& findings) {
   const std::string path = fmt::format("measurement[{}]", number);
@@ -175,9 +190,7 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .group = table.group,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
-  if (sound(findings, {path + ".file"})) {
-    check_file(m.file, path + ".file", table.file, "a force record", findings);
-  }
+  settle_record(table, path + ".file", m, findings);
   if (std::any_of(table.group.begin(), table.group.end(),
                   [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
     report(findings, path + ".group",

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/document.h>
+#include <trochoid/inputs/numeric_table.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+/// Cases that are in no file, or not as a whole.
+namespace trochoid::inputs {
+
+/// Records in memory, by the names that [[measurement]] has in `file`.
+using RecordsInMemory = std::map<std::string, std::shared_ptr<const NumericTable>>;
+
+/// @brief What a case file would say, from wherever it comes.
+struct CaseSource {
+  const Node& root;            ///< with what it includes
+  std::filesystem::path file;  ///< its folder is what names of files count from
+  RecordsInMemory records;
+};
+
+/// @brief As read_case of a file.
+Case read_case(const CaseSource& source, std::optional<Command> command,
+               const std::filesystem::path& result_folder = {});
+
+/// @brief Check the keys that are there, whatever they are meant for; what a command
+/// needs may still be missing.
+/// @throws base::InputError with every problem
+void check_keys(const CaseSource& source);
+
+}  // namespace trochoid::inputs

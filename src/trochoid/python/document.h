@@ -1,0 +1,31 @@
+#pragma once
+
+#include <trochoid/inputs/case_source.h>
+
+#include <filesystem>
+
+namespace pybind11 {
+class dict;
+class object;
+}  // namespace pybind11
+
+namespace trochoid::python {
+
+/// @brief A case as it was given, unchecked: tables of a file or of a program, and
+/// records that are in memory.
+struct Document {
+  inputs::Node root;
+  std::filesystem::path file;  ///< its folder is what names of files count from
+  inputs::RecordsInMemory records;
+
+  [[nodiscard]] inputs::CaseSource source() const { return {root, file, records}; }
+};
+
+/// @brief What a Python mapping says; keys whose value is None are left out.
+/// @throws TypeError for what no case file could hold, with the key
+inputs::Node node_of(const pybind11::dict& tables, const std::filesystem::path& file);
+
+/// @brief The same again as dict, list, str, int, float and bool.
+pybind11::object object_of(const inputs::Node& node);
+
+}  // namespace trochoid::python

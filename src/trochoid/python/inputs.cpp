@@ -1,0 +1,167 @@
+#include <trochoid/base/names.h>
+#include <trochoid/base/units.h>
+#include <trochoid/python/bindings.h>
+#include <trochoid/python/document.h>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace trochoid::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Numbers = py::array_t<double, py::array::c_style>;
+
+/// A column of a record in memory: its name, unit and samples.
+using GivenColumn = std::tuple<std::string, std::string, Numbers>;
+
+void remove(inputs::Node& table, const std::vector<std::string>& path,
+            std::size_t depth) {
+  auto* members = std::get_if<inputs::Members>(&table.value);
+  if (members == nullptr) return;
+  if (depth + 1 == path.size()) {
+    std::erase_if(*members, [&](const auto& m) { return m.key == path[depth]; });
+    return;
+  }
+  for (inputs::Member& member : *members) {
+    if (member.key == path[depth]) remove(member.node, path, depth + 1);
+  }
+}
+
+/// The samples are copied: what a case holds does not change.
+std::shared_ptr<const inputs::NumericTable> record_in_memory(
+    const std::vector<GivenColumn>& columns) {
+  auto table = std::make_shared<inputs::NumericTable>();
+  std::vector<std::vector<double>> values;
+  for (const auto& [name, unit, samples] : columns) {
+    const double* begin = samples.data();
+    values.emplace_back(begin, begin + samples.size());
+    table->columns.push_back(
+        {.name = name, .path = name, .unit = unit, .count = values.back().size()});
+  }
+  table->values = [values = std::move(values)](std::size_t i) { return values[i]; };
+  return table;
+}
+
+void bind_document(py::module_& m) {
+  py::class_<Document>(m, "Document")
+      .def_static("from_file",
+                  [](const fs::path& file) {
+                    return Document{inputs::load_document(file), file, {}};
+                  })
+      .def_static("from_dict",
+                  [](const py::dict& tables, const fs::path& folder) {
+                    const fs::path file = folder / "case";
+                    return Document{
+                        inputs::with_includes(node_of(tables, file), file), file, {}};
+                  })
+      .def("with_tables",
+           [](const Document& self, const py::dict& tables) {
+             Document changed = self;
+             const inputs::Location root = self.root.where;
+             changed.root = inputs::merged(
+                 self.root,
+                 inputs::with_includes(node_of(tables, self.file), self.file));
+             changed.root.where = root;
+             return changed;
+           })
+      .def("without",
+           [](const Document& self, const std::vector<std::string>& path) {
+             Document changed = self;
+             remove(changed.root, path, 0);
+             return changed;
+           })
+      .def("with_record",
+           [](const Document& self, const std::string& name,
+              const std::vector<GivenColumn>& columns) {
+             Document changed = self;
+             changed.records[name] = record_in_memory(columns);
+             return changed;
+           })
+      .def("check_keys",
+           [](const Document& self) { inputs::check_keys(self.source()); })
+      .def("to_dict", [](const Document& self) { return object_of(self.root); });
+}
+
+/// [frf] or [step] of a bare data file, in the units of the program's options.
+struct BareOptions {
+  std::string kind;
+  int modes = 0;
+  int dataset = 0;
+  std::vector<double> band;
+  std::optional<double> step_um;
+  std::optional<double> start_s;
+};
+
+inputs::Case bare_case(const std::string& file, base::Command command,
+                       const BareOptions& options, const fs::path& folder) {
+  inputs::MachineTables machine;
+  if (command == base::Command::modes) {
+    machine.frf =
+        inputs::FrfTables{.file = file,
+                          .kind = base::named<structure::ResponseKind>(options.kind),
+                          .dataset = options.dataset,
+                          .modes = options.modes,
+                          .band = options.band};
+  } else {
+    machine.step = inputs::StepTables{.file = file, .start = options.start_s};
+    if (options.step_um) machine.step->step = *options.step_um * unit::um;
+  }
+  return inputs::bare_case(machine, command, folder);
+}
+
+}  // namespace
+
+void bind_inputs(py::module_& m) {
+  bind_document(m);
+  py::class_<inputs::Case, std::shared_ptr<inputs::Case>>(m, "CheckedCase")
+      .def_readonly("as_understood", &inputs::Case::as_understood)
+      .def_property_readonly("notes",
+                             [](const inputs::Case& self) {
+                               py::list notes;
+                               for (const base::Warning& note : self.notes) {
+                                 notes.append(py::make_tuple(note.code, note.message));
+                               }
+                               return notes;
+                             })
+      .def_property_readonly("teeth", [](const inputs::Case& self) {
+        return self.setup.cutter.pitch.size();
+      });
+  m.def("read_case", [](const Document& document,
+                        const std::optional<std::string>& command,
+                        const fs::path& folder) {
+    const auto wanted = command ? base::named<base::Command>(*command) : std::nullopt;
+    return inputs::read_case(document.source(), wanted, folder);
+  });
+  py::class_<BareOptions>(m, "BareOptions")
+      .def(py::init())
+      .def_readwrite("kind", &BareOptions::kind)
+      .def_readwrite("modes", &BareOptions::modes)
+      .def_readwrite("dataset", &BareOptions::dataset)
+      .def_readwrite("band", &BareOptions::band)
+      .def_readwrite("step_um", &BareOptions::step_um)
+      .def_readwrite("start_s", &BareOptions::start_s);
+  m.def("bare_case", [](const std::string& file, const std::string& command,
+                        const BareOptions& options, const fs::path& folder) {
+    return bare_case(file, *base::named<base::Command>(command), options, folder);
+  });
+  m.def("new_case", [](const std::string& command) {
+    const auto wanted = base::named<base::Command>(command);
+    if (!wanted) throw py::value_error("there is no such command: " + command);
+    return inputs::new_case(*wanted);
+  });
+}
+
+}  // namespace trochoid::python
