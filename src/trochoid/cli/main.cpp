@@ -199,6 +199,18 @@ int run(int argc, char** argv) {
     sub->callback(
         [&, command] { chosen = [&, command] { return answer(command, options); }; });
   }
+  CLI::App* sweep = app.add_subcommand(
+      "sweep",
+      "One case over many values of its keys ([sweep]): a table, a row a case; goes on "
+      "where it was stopped");
+  add_common(*sweep, options);
+  add_output(*sweep, options);
+  sweep->add_option("--command", options.command,
+                    "What answers each row (default: `command` of [sweep])");
+  sweep->add_option("--take", options.take,
+                    "What is taken from each answer, such as result.peak_xy_N; several "
+                    "times (default: `take` of [sweep])");
+  sweep->callback([&] { chosen = [&] { return trochoid::cli::sweep(options); }; });
   CLI::App* check = app.add_subcommand(
       "check",
       "Read a case file and its measurements and name every mistake in them; "

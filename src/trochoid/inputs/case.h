@@ -11,6 +11,8 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +44,9 @@ struct Dynamometer {
 /// Of a force record; its values stand in record_format.h.
 enum class RecordFormat : int;
 
+struct Node;          // document.h
+struct NumericTable;  // numeric_table.h
+
 /// One [[measurement]].
 struct Measurement {
   std::filesystem::path file;          ///< absolute, or relative to where we run
@@ -58,6 +63,8 @@ struct Measurement {
   std::string group;                  ///< those of one name share coefficients
   geometry::Cut cut;                  ///< [cut] with this run's overrides
   std::string location;               ///< file:line:col of its `file` key
+  /// Of a record that is in no file but in memory; `file` is its name then.
+  std::shared_ptr<const NumericTable> in_memory;
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.
@@ -172,6 +179,25 @@ using base::Command;
 /// @throws base::InputError with every problem of the file
 Case read_case(const std::filesystem::path& file, std::optional<Command> command,
                const std::filesystem::path& result_folder = {});
+
+/// Records in memory, by the names that [[measurement]] has in `file`.
+using RecordsInMemory = std::map<std::string, std::shared_ptr<const NumericTable>>;
+
+/// @brief What a case file would say, from wherever it comes.
+struct CaseSource {
+  const Node& root;            ///< with what it includes
+  std::filesystem::path file;  ///< its folder is what names of files count from
+  RecordsInMemory records;
+};
+
+/// @brief The same of tables that are read already.
+Case read_case(const CaseSource& source, std::optional<Command> command,
+               const std::filesystem::path& result_folder = {});
+
+/// @brief Check the keys that are there, whatever they are meant for; what a command
+/// needs may still be missing.
+/// @throws base::InputError with every problem
+void check_keys(const CaseSource& source);
 
 /// @brief The case of a bare data file: [frf] or [step] and nothing else.
 /// @param machine  with `frf` for modes, or `step` for actuator; its `file` is relative

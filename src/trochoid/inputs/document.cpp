@@ -141,7 +141,9 @@ std::string_view hint(std::string_view why) {
 }  // namespace
 
 std::string to_string(const Location& where) {
-  return fmt::format("{}:{}:{}", where.file, where.line, where.column);
+  return where.line == 0
+             ? std::string("case")
+             : fmt::format("{}:{}:{}", where.file, where.line, where.column);
 }
 
 const Node* find(const Node& table, std::string_view key) {

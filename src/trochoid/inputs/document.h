@@ -10,13 +10,16 @@
 namespace trochoid::inputs {
 
 /// Where something stands in a file; line and column count from 1.
+///
+/// Line 0: it stands in none, a program gave it. The folder of `file` is still the one
+/// that names of files count from.
 struct Location {
   std::string file;
   int line = 1;
   int column = 1;
 };
 
-/// `file:line:col`
+/// `file:line:col`, or `case` for what stands in no file.
 std::string to_string(const Location& where);
 
 struct Member;
@@ -63,6 +66,11 @@ Node parse_file(const std::filesystem::path& file);
 /// @throws base::InputError also for a cycle or an `include` that is no text or list of
 ///         texts
 Node load_document(const std::filesystem::path& file);
+
+/// @brief The same of a table that is read already; without `include` it is the answer.
+/// @param file  where it stands: names of files in `include` count from its folder
+/// @throws base::InputError as load_document
+Node with_includes(Node root, const std::filesystem::path& file);
 
 /// @brief `over` upon `base`: keys of `over` win, those of `base` become inherited.
 Node merged(Node base, const Node& over);

@@ -74,7 +74,7 @@ Location place_of(const Findings& findings, const std::string& path) {
       return found->second;
     }
   }
-  return {findings.file};
+  return {findings.file, findings.first_line};
 }
 
 std::vector<std::string> lines(const Findings& findings) {

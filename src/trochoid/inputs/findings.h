@@ -19,7 +19,8 @@ struct Findings {
     Location where;
     std::string text;
   };
-  std::string file;  ///< the case file itself
+  std::string file;    ///< the case file itself
+  int first_line = 1;  ///< 0: no file, as in Location
   std::map<std::string, Location> places;
   std::set<std::string> wrong;  ///< paths with a problem of their own
   std::vector<Problem> problems;

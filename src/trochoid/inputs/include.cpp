@@ -55,7 +55,7 @@ Node joined(Node first, const Node& second) {
   return both;
 }
 
-Node load(const fs::path& file, std::vector<fs::path>& open);
+Node complete(Node root, const fs::path& file, std::vector<fs::path>& open);
 
 /// @param include  one name, as the file that includes has it
 /// @param open     files being read, outermost first: one of them again is a cycle
@@ -89,14 +89,13 @@ Node load_included(const Node& include, const fs::path& file,
                      to_string(include.where), to_string(include), longest_chain)});
   }
   open.push_back(canonical);
-  Node base = load(included, open);
+  Node base = complete(parse_file(included), included, open);
   open.pop_back();
   return base;
 }
 
 /// @param open  files being read, outermost first
-Node load(const fs::path& file, std::vector<fs::path>& open) {
-  Node root = parse_file(file);
+Node complete(Node root, const fs::path& file, std::vector<fs::path>& open) {
   const Node* include = find(root, "include");
   if (include == nullptr) {
     return root;
@@ -139,9 +138,13 @@ Node merged(Node base, const Node& over) {
 }
 
 Node load_document(const fs::path& file) {
+  return with_includes(parse_file(file), file);
+}
+
+Node with_includes(Node root, const fs::path& file) {
   std::error_code error;
   std::vector<fs::path> open = {fs::weakly_canonical(file, error)};
-  return load(file, open);
+  return complete(std::move(root), file, open);
 }
 
 }  // namespace trochoid::inputs

@@ -96,6 +96,7 @@ std::vector<std::string> report_unknown(const Node& root,
   std::vector<std::string> meant;
   for (const Member& member : std::get<Members>(root.value)) {
     const bool known = member.key == "title" || member.key == "include" ||
+                       member.key == "sweep" ||
                        std::find(names.begin(), names.end(), member.key) != names.end();
     if (known) {
       continue;
@@ -119,18 +120,25 @@ std::vector<std::string> report_unknown(const Node& root,
   return meant;
 }
 
-CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
+/// What a command needs of a case.
+Reading reading_for(Command purpose, const Node& root) {
+  const bool fitted = find(root, "measurement") != nullptr;
+  return {.coefficients_needed =
+              purpose == Command::simulate || purpose == Command::surface ||
+              purpose == Command::stability || purpose == Command::dynamics ||
+              (purpose == Command::correct && !fitted) ||
+              (purpose == Command::plan && !fitted &&
+               find(root, "surface_measurement") == nullptr)};
+}
+
+/// @param purpose  none: nothing is missing
+CaseTables read_tables(const Node& root, std::optional<Command> purpose,
+                       Findings& findings) {
   CaseTables tables;
   const Node* cut = find(root, "cut");
-  const Reading reading{
-      .coefficients_needed =
-          purpose == Command::simulate || purpose == Command::surface ||
-          purpose == Command::stability || purpose == Command::dynamics ||
-          (purpose == Command::correct && find(root, "measurement") == nullptr) ||
-          (purpose == Command::plan && find(root, "measurement") == nullptr &&
-           find(root, "surface_measurement") == nullptr),
-      .cut = cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut
-                                                                           : nullptr};
+  Reading reading = purpose ? reading_for(*purpose, root) : Reading{};
+  reading.cut =
+      cut != nullptr && std::holds_alternative<Members>(cut->value) ? cut : nullptr;
   read_table(
       root, "", [&](const Visitor& v) { describe(v, tables); }, reading, findings);
   const auto entries = tables_of(tables);
@@ -138,15 +146,15 @@ CaseTables read_tables(const Node& root, Command purpose, Findings& findings) {
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
-    } else if (std::count(entry.needed_by.begin(), entry.needed_by.end(), purpose) >
-               0) {
+    } else if (purpose && std::count(entry.needed_by.begin(), entry.needed_by.end(),
+                                     *purpose) > 0) {
       findings.wrong.insert(std::string(entry.name));
       if (std::count(meant.begin(), meant.end(), entry.name) > 0) {
         continue;
       }
       report(findings, std::string(entry.name),
              fmt::format("{} is missing ({}); {} needs it", heading(entry),
-                         entry.meaning, name_of(purpose)));
+                         entry.meaning, name_of(*purpose)));
     }
   }
   for (std::size_t i = 0; i < tables.measurements.size(); ++i) {
@@ -250,6 +258,20 @@ std::string renamed(const std::string& name, const fs::path& file,
                    .string();
 }
 
+Findings findings_of(const CaseSource& source) {
+  return {.file = source.file.string(),
+          .first_line = std::min(1, source.root.where.line)};
+}
+
+void take_from_memory(const RecordsInMemory& records, CaseTables& tables) {
+  for (MeasurementTable& measurement : tables.measurements) {
+    const auto found = records.find(measurement.file);
+    if (found != records.end()) {
+      measurement.in_memory = found->second;
+    }
+  }
+}
+
 void rename_machine_files(MachineTables& machine, const fs::path& folder) {
   if (machine.frf) {
     machine.frf->file = renamed(machine.frf->file, machine.frf->file, folder);
@@ -271,9 +293,24 @@ void rename_machine_files(MachineTables& machine, const fs::path& folder) {
 Case read_case(const fs::path& file, std::optional<Command> command,
                const fs::path& result_folder) {
   const Node root = load_document(file);
-  Findings findings{.file = file.string()};
+  return read_case(CaseSource{root, file, {}}, command, result_folder);
+}
+
+void check_keys(const CaseSource& source) {
+  Findings findings = findings_of(source);
+  static_cast<void>(read_tables(source.root, std::nullopt, findings));
+  if (!findings.problems.empty()) {
+    throw base::InputError(lines(findings));
+  }
+}
+
+Case read_case(const CaseSource& source, std::optional<Command> command,
+               const fs::path& result_folder) {
+  const Node& root = source.root;
+  Findings findings = findings_of(source);
   const Command purpose = purpose_of(command, root);
   CaseTables tables = read_tables(root, purpose, findings);
+  take_from_memory(source.records, tables);
   const bool no_cut = (purpose == Command::modes || purpose == Command::actuator) &&
                       find(root, "tool") == nullptr && find(root, "cut") == nullptr;
   Case c =
@@ -281,9 +318,10 @@ Case read_case(const fs::path& file, std::optional<Command> command,
   if (!findings.problems.empty()) {
     throw base::InputError(lines(findings));
   }
-  c.file = file;
+  c.file = source.file;
   c.notes = std::move(findings.notes);
   for (std::size_t i = 0; i < c.measurements.size(); ++i) {
+    if (c.measurements[i].in_memory) continue;
     auto& name = tables.measurements[i].file;
     name = renamed(name, c.measurements[i].file, result_folder);
   }

@@ -7,6 +7,7 @@
 #include <trochoid/inputs/lvm.h>
 #include <trochoid/inputs/mat.h>
 #include <trochoid/inputs/npy.h>
+#include <trochoid/inputs/numeric_table.h>
 #include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
 #include <trochoid/inputs/tdms.h>
@@ -105,6 +106,9 @@ signal::Record read_record(std::istream& in, const std::string& name,
 }
 
 signal::Record read_record(const Measurement& measurement) {
+  if (measurement.in_memory) {
+    return record_of(*measurement.in_memory, measurement.file.string(), measurement);
+  }
   auto in = open_table(measurement.file, measurement.location, record_kind);
   return read_record(in, measurement.file.string(), measurement);
 }

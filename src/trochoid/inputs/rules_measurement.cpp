@@ -175,7 +175,10 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .group = table.group,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings),
                 .location = to_string(named_at)};
-  if (sound(findings, {path + ".file"})) {
+  if (table.in_memory) {
+    m.file = table.file;
+    m.in_memory = table.in_memory;
+  } else if (sound(findings, {path + ".file"})) {
     check_file(m.file, path + ".file", table.file, "a force record", findings);
   }
   if (std::any_of(table.group.begin(), table.group.end(),

@@ -115,6 +115,7 @@ struct MeasurementTable {
   std::optional<double> to;
   std::string group;
   CutTable cut;  ///< complete: [cut] with the overrides of this run
+  std::shared_ptr<const NumericTable> in_memory;  ///< its record; none: in a file
 };
 
 struct IdentifyTable {

@@ -1,0 +1,49 @@
+#include <trochoid/sweep/answer.h>
+
+#include <trochoid/run/correct/correct.h>
+#include <trochoid/run/identify/identify.h>
+#include <trochoid/run/identify/plan.h>
+#include <trochoid/run/simulate/simulate.h>
+#include <trochoid/run/vibration/actuator.h>
+#include <trochoid/run/vibration/dynamics.h>
+#include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/stability.h>
+#include <trochoid/run/wall/calibrate.h>
+#include <trochoid/run/wall/plan.h>
+#include <trochoid/run/wall/surface.h>
+
+#include <stdexcept>
+
+namespace trochoid::sweep {
+
+results::Answer answer(base::Command command, const inputs::Case& given) {
+  using base::Command;
+  using results::answer_of;
+  switch (command) {
+    case Command::simulate:
+      return answer_of(run::simulate(given));
+    case Command::identify:
+      return answer_of(run::identify(given, {}));
+    case Command::surface:
+      return answer_of(run::surface(given, {}));
+    case Command::calibrate:
+      return answer_of(run::calibrate(given, {}));
+    case Command::stability:
+      return answer_of(run::stability(given, {}));
+    case Command::modes:
+      return answer_of(run::modes(given));
+    case Command::actuator:
+      return answer_of(run::actuator(given));
+    case Command::dynamics:
+      return answer_of(run::dynamics(given, {}));
+    case Command::correct:
+      return answer_of(run::correct(given, false, {}));
+    case Command::plan:
+      return given.plan.of == inputs::PlanOf::wall
+                 ? answer_of(run::plan_wall(given, {}))
+                 : answer_of(run::plan(given, {}));
+  }
+  throw std::logic_error("a command without an answer");
+}
+
+}  // namespace trochoid::sweep
