@@ -3,13 +3,20 @@
 const sweepKnown = ['command', 'method', 'rows', 'failed', 'keys', 'quantities'];
 const shortPath = (path) => path.replace(/^result\./, '');
 
+/** Name and unit of a path; the entry of a list is part of the name: `mean_N[2]`. */
+function taken(path) {
+  const [, whole, entry] = /^(.*?)((?:\[\d+\])?)$/.exec(shortPath(path).split('.').pop());
+  const { name, unit } = nameAndUnit(whole);
+  return { name: words(name) + entry.replace(/[[\]]/g, ' ').trimEnd(), unit };
+}
+
 function sweepPage(report) {
   const { result } = report;
   const t = tableNamed(report, 'sweep.csv');
   const quantities = Array.isArray(result.quantities) ? result.quantities : [];
   return [
     { lead: sweepTiles(quantities) },
-    ...(result.keys || []).map((key, i) => sweptSection(t, key, i, quantities)),
+    ...(result.keys || []).map((_, i) => sweptSection(t, result.keys, i, quantities)),
     { part: quantities.length > 0 && (result.keys || []).length > 1 ?
       tornadoSection(t, result.keys, quantities) : null },
     { part: t ? section('rows', 'The table', 'Table', firstRows(t)) : null },
@@ -19,9 +26,9 @@ function sweepPage(report) {
 
 function sweepTiles(quantities) {
   return tiles(quantities.slice(0, 4).filter((q) => isNumber(q.median)).map((q) => {
-    const { name, unit } = nameAndUnit(shortPath(q.take));
+    const { name, unit } = taken(q.take);
     const chance = isNumber(q.low);
-    return { label: sentence(words(name)), value: fixed(q.median, 4), unit,
+    return { label: sentence(name), value: fixed(q.median, 4), unit,
       note: `${chance ? '95 % of the cases' : 'all cases'}: ${
         fixed(chance ? q.low : q.min, 4)} to ${fixed(chance ? q.high : q.max, 4)}` };
   }));
@@ -30,7 +37,8 @@ function sweepTiles(quantities) {
 const numeric = (values) => values?.some(isNumber);
 
 /** Every quantity over one key, a point a case. */
-function sweptSection(t, key, i, quantities) {
+function sweptSection(t, keys, i, quantities) {
+  const key = keys[i];
   const x = columnNamed(t, key);
   if (!numeric(x) || new Set(x).size < 2) return null;
   const order = x.map((_, row) => row).filter((row) => isNumber(x[row]))
@@ -39,11 +47,11 @@ function sweptSection(t, key, i, quantities) {
     .filter(([, values]) => numeric(values));
   if (!shown.length) return null;
   const { name, unit } = nameAndUnit(key.split('.').pop());
-  const alone = new Set(x).size === order.length;
+  const alone = keys.length === 1 && new Set(x).size === order.length;
   const chart = figure({ key: `sweep${i}`, x: order.map((row) => x[row]), points: true,
     label: words(name), unit, caption: zoomHint + thinned(t) });
-  const panels = shown.map(([path, values], n) => ({ label: words(nameAndUnit(path).name),
-    unit: nameAndUnit(path).unit, height: 170, series: [{ name: path, line: alone,
+  const panels = shown.map(([path, values], n) => ({ label: taken(path).name,
+    unit: taken(path).unit, height: 170, series: [{ name: path, line: alone,
       points: 5, color: seriesColor(n), values: order.map((row) =>
         (isNumber(values[row]) ? values[row] : null)) }] }));
   return { part: section(`over${i + 1}`, `Over ${key}`, key, chart.element),
@@ -77,7 +85,7 @@ function tornadoSection(t, keys, quantities) {
   const rows = quantities.filter((q) => numeric(columnNamed(t, shortPath(q.take)))).map((q) => [
     shortPath(q.take), ...swept.map((key) => {
       const value = rankCorrelation(columnNamed(t, key), columnNamed(t, shortPath(q.take)));
-      return isNumber(value) ? fixed(value, 2) : missing;
+      return isNumber(value) ? value.toFixed(2) : missing;
     })]);
   if (!rows.length || !swept.length) return null;
   return section('matters', 'What matters', 'What matters',
