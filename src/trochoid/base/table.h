@@ -7,15 +7,21 @@
 
 namespace trochoid::base {
 
-/// One CSV file of an answer. The unit is part of every column name.
+/// One CSV file of an answer, numbers but for few columns. The unit is part of every column name.
 struct Table {
   struct Column {
     std::string name;            ///< for example `Fx_N`
     std::vector<double> values;  ///< in the unit of the name; all columns equally long
+    std::vector<std::string> texts = {};  ///< of a column of texts, in place of numbers
   };
   std::string file;  ///< for example `forces.csv`
   std::vector<Column> columns;
 };
+
+/// How many rows a column has.
+inline std::size_t rows_of(const Table::Column& column) noexcept {
+  return column.texts.empty() ? column.values.size() : column.texts.size();
+}
 
 /// @brief Append a column.
 /// @param value  of each row, called with 0, 1 ... rows - 1

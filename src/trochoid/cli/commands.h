@@ -22,6 +22,9 @@ struct Options {
   bool simulate_controller = false;  ///< of correct
   bool curves = false;               ///< of identify: of every sample
 
+  std::string command;            ///< of sweep: what answers each row
+  std::vector<std::string> take;  ///< of sweep: paths in the answers
+
   // Of a bare data file, which has no case to say them.
   std::string kind;               ///< of a frequency response; empty: the file says it
   int modes = 0;                  ///< 0: chosen
@@ -47,6 +50,7 @@ int actuator(const Options& options);
 int dynamics(const Options& options);
 int correct(const Options& options);
 int plan(const Options& options);
+int sweep(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
 /// @param file     where to write it; empty: to the standard output

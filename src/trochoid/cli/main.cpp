@@ -144,6 +144,21 @@ void add_data_options(CLI::App& app, Command command, Options& options) {
   }
 }
 
+CLI::App* add_sweep(CLI::App& app, Options& options) {
+  CLI::App* sweep = app.add_subcommand(
+      "sweep",
+      "One case over many values of its keys ([sweep]): a table, a row a case; goes on "
+      "where it was stopped");
+  add_common(*sweep, options);
+  add_output(*sweep, options);
+  sweep->add_option("--command", options.command,
+                    "What answers each row (default: `command` of [sweep])");
+  sweep->add_option("--take", options.take,
+                    "What is taken from each answer, such as result.peak_xy_N; several "
+                    "times (default: `take` of [sweep])");
+  return sweep;
+}
+
 /// Named with the nearest one there is, before anything else is looked at.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "-";
@@ -182,6 +197,8 @@ int run(int argc, char** argv) {
     sub->callback(
         [&, command] { chosen = [&, command] { return answer(command, options); }; });
   }
+  CLI::App* sweep = add_sweep(app, options);
+  sweep->callback([&] { chosen = [&] { return trochoid::cli::sweep(options); }; });
   CLI::App* check = app.add_subcommand(
       "check",
       "Read a case file and its measurements and name every mistake in them; "

@@ -35,6 +35,7 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
   default filled in. It is a case file again.
 * A force record is a file of [one of these formats](record.md); a measured surface is
   [text or a map](surface.md).
+* `[sweep]` sets keys to many values, one after another: see [the guide](../guide/sweep.md).
 * The letters and signs are those of [the notation](../notation.md).
 )";
 

@@ -95,6 +95,7 @@ std::vector<std::string> report_unknown(const Node& root,
   std::vector<std::string> meant;
   for (const Member& member : std::get<Members>(root.value)) {
     const bool known = member.key == "title" || member.key == "include" ||
+                       member.key == "sweep" ||
                        std::find(names.begin(), names.end(), member.key) != names.end();
     if (known) {
       continue;

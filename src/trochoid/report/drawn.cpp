@@ -92,8 +92,7 @@ std::vector<std::size_t> ordered(std::vector<std::size_t> rows) {
 }
 
 void append_table(std::string& text, const base::Table& table) {
-  const std::size_t count =
-      table.columns.empty() ? 0 : table.columns.front().values.size();
+  const std::size_t count = table.columns.empty() ? 0 : rows_of(table.columns.front());
   const auto rows = drawn_rows(table, drawn_cells);
   text += "{\"file\":" + results::json_quoted(table.file) +
           ",\"rows\":" + std::to_string(count) +
@@ -104,7 +103,11 @@ void append_table(std::string& text, const base::Table& table) {
     text += ",\"values\":[";
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (i > 0) text += ',';
-      append_float(text, column.values[rows[i]]);
+      if (column.texts.empty()) {
+        append_float(text, column.values[rows[i]]);
+      } else {
+        text += results::json_quoted(column.texts[rows[i]]);
+      }
     }
     text += "]}";
   }
@@ -116,7 +119,7 @@ void append_table(std::string& text, const base::Table& table) {
 std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells) {
   const std::size_t columns = table.columns.size();
   if (columns == 0) return {};
-  const std::size_t count = table.columns.front().values.size();
+  const std::size_t count = rows_of(table.columns.front());
   std::vector<std::size_t> rows;
   if (count * columns <= cells) {
     rows.resize(count);
@@ -142,7 +145,7 @@ std::vector<std::size_t> drawn_rows(const base::Table& table, std::size_t cells)
     const std::size_t to = count * (s + 1) / stretches;
     if (from == to) continue;
     for (const auto& column : table.columns) {
-      append_extremes(column.values, from, to, rows);
+      if (column.texts.empty()) append_extremes(column.values, from, to, rows);
     }
   }
   return ordered(std::move(rows));

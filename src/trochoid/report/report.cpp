@@ -81,7 +81,7 @@ std::string pages_js() {
   for (const std::string_view name : base::names<base::Command>) {
     text += fmt::format("{0}: {0}Page, ", name);
   }
-  return text + "};\n";
+  return text + "sweep: sweepPage};\n";
 }
 
 std::string page_scripts() {
@@ -91,7 +91,7 @@ std::string page_scripts() {
         groups_js(),    identify_js(), drawing_js(), map_js(),       bent_js(),
         surface_js(),   wall_map_js(), ellipse_js(), calibrate_js(), stability_js(),
         modes_js(),     dynamics_js(), moving_js(),  correct_js(),   plan_js(),
-        plan_wall_js(), any_js()}) {
+        plan_wall_js(), sweep_js(),    any_js()}) {
     text += part;
   }
   return "\n(() => {\n'use strict';\n" + text + pages_js() + std::string(main_js()) +

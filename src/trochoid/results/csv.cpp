@@ -4,6 +4,7 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace trochoid::results {
 
@@ -13,16 +14,25 @@ namespace {
 constexpr std::size_t block = std::size_t{1} << 18;
 
 std::size_t rows_of(const base::Table& table) {
-  const std::size_t rows =
-      table.columns.empty() ? 0 : table.columns.front().values.size();
+  const std::size_t rows = table.columns.empty() ? 0 : rows_of(table.columns.front());
   for (const auto& column : table.columns) {
-    if (column.values.size() != rows) {
+    if (rows_of(column) != rows) {
       throw std::invalid_argument(table.file + ": column " + column.name + " has " +
-                                  std::to_string(column.values.size()) +
+                                  std::to_string(rows_of(column)) +
                                   " values, the first column " + std::to_string(rows));
     }
   }
   return rows;
+}
+
+/// In quotes, on one line: what is in quotes is no number.
+void append_quoted(std::string& line, std::string_view text) {
+  line += '"';
+  for (const char c : text) {
+    line += c == '\n' || c == '\r' ? ' ' : c;
+    if (c == '"') line += '"';
+  }
+  line += '"';
 }
 
 }  // namespace
@@ -42,7 +52,12 @@ void write_csv(std::ostream& out, const base::Table& table) {
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       if (i > 0) text += ',';
-      append_number(text, table.columns[i].values[row]);
+      const auto& column = table.columns[i];
+      if (column.texts.empty()) {
+        append_number(text, column.values[row]);
+      } else {
+        append_quoted(text, column.texts[row]);
+      }
     }
     text += '\n';
     if (text.size() >= block) hand_on();

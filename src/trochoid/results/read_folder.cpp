@@ -58,6 +58,51 @@ double read_number(std::string_view cell, const std::string& place) {
   return value;
 }
 
+/// The cell up to the next comma that stands in no quotes.
+std::string_view cut_cell(std::string_view& row) {
+  if (!row.starts_with('"')) return cut_at(row, ',');
+  bool quoted = false;
+  for (std::size_t i = 0; i <= row.size(); ++i) {
+    if (i < row.size() && row[i] == '"') quoted = !quoted;
+    if (i == row.size() || (row[i] == ',' && !quoted)) {
+      const std::string_view cell = row.substr(0, i);
+      row = row.substr(std::min(i + 1, row.size()));
+      return cell;
+    }
+  }
+  return {};
+}
+
+std::string unquoted(std::string_view cell) {
+  std::string text;
+  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
+    text += cell[i];
+    if (cell[i] == '"') ++i;
+  }
+  return text;
+}
+
+/// The cells of a row, a text where it stands in quotes.
+void add_row(std::string_view row, const std::string& place, base::Table& table) {
+  std::size_t cells = 0;
+  for (bool more = true; more; ++cells) {
+    const char* end = row.data() + row.size();
+    const std::string_view cell = cut_cell(row);
+    more = cell.data() + cell.size() != end;
+    if (cells >= table.columns.size()) continue;
+    auto& column = table.columns[cells];
+    if (cell.starts_with('"')) {
+      column.texts.push_back(unquoted(cell));
+    } else {
+      column.values.push_back(read_number(cell, place));
+    }
+  }
+  if (cells != table.columns.size()) {
+    throw base::InputError({place + std::to_string(cells) + " values, but " +
+                            std::to_string(table.columns.size()) + " columns"});
+  }
+}
+
 base::Table read_table(const fs::path& path) {
   const std::string text = read_file(path);
   std::string_view rest = text;
@@ -66,15 +111,12 @@ base::Table read_table(const fs::path& path) {
     table.columns.push_back({std::string(cut_at(head, ',')), {}});
   }
   for (std::size_t line = 2; !rest.empty(); ++line) {
-    std::string_view row = cut_at(rest, '\n');
-    const auto cells = std::count(row.begin(), row.end(), ',') + 1;
-    const std::string place = path.string() + ":" + std::to_string(line) + ":1: ";
-    if (cells != std::ssize(table.columns)) {
-      throw base::InputError({place + std::to_string(cells) + " values, but " +
-                              std::to_string(table.columns.size()) + " columns"});
-    }
-    for (auto& column : table.columns) {
-      column.values.push_back(read_number(cut_at(row, ','), place));
+    add_row(cut_at(rest, '\n'),
+            path.string() + ":" + std::to_string(line) + ":1: ", table);
+  }
+  for (const auto& column : table.columns) {
+    if (!column.texts.empty() && !column.values.empty()) {
+      refuse(path, "column " + column.name + " has numbers and texts");
     }
   }
   return table;

@@ -41,7 +41,8 @@ function anyTable(t, i) {
 function firstRows(t) {
   const count = Math.min(rowsShown, t.drawn);
   const rows = Array.from({ length: count }, (_, i) =>
-    t.columns.map((column) => number(column.values[i], 6)));
+    t.columns.map((column) => (typeof column.values[i] === 'string' ? column.values[i] :
+      number(column.values[i], 6))));
   return [table(t.columns.map((column) => column.name), rows, { class: 'rows' }),
     t.rows > count ? el('p', { class: 'small' },
       `The first ${count} of ${t.rows} rows; all are in ${t.file}.`) : null];

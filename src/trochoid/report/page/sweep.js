@@ -1,0 +1,94 @@
+// The page of `sweep`: what was taken from every case, over what was swept.
+
+const sweepKnown = ['command', 'method', 'rows', 'failed', 'keys', 'quantities'];
+const shortPath = (path) => path.replace(/^result\./, '');
+
+/** Name and unit of a path; the entry of a list is part of the name: `mean_N[2]`. */
+function taken(path) {
+  const [, whole, entry] = /^(.*?)((?:\[\d+\])?)$/.exec(shortPath(path).split('.').pop());
+  const { name, unit } = nameAndUnit(whole);
+  return { name: words(name) + entry.replace(/[[\]]/g, ' ').trimEnd(), unit };
+}
+
+function sweepPage(report) {
+  const { result } = report;
+  const t = tableNamed(report, 'sweep.csv');
+  const quantities = Array.isArray(result.quantities) ? result.quantities : [];
+  return [
+    { lead: sweepTiles(quantities) },
+    ...(result.keys || []).map((_, i) => sweptSection(t, result.keys, i, quantities)),
+    { part: quantities.length > 0 && (result.keys || []).length > 1 ?
+      tornadoSection(t, result.keys, quantities) : null },
+    { part: t ? section('rows', 'The table', 'Table', firstRows(t)) : null },
+    { part: restSection(result, sweepKnown) },
+  ];
+}
+
+function sweepTiles(quantities) {
+  return tiles(quantities.slice(0, 4).filter((q) => isNumber(q.median)).map((q) => {
+    const { name, unit } = taken(q.take);
+    const chance = isNumber(q.low);
+    return { label: sentence(name), value: fixed(q.median, 4), unit,
+      note: `${chance ? '95 % of the cases' : 'all cases'}: ${
+        fixed(chance ? q.low : q.min, 4)} to ${fixed(chance ? q.high : q.max, 4)}` };
+  }));
+}
+
+const numeric = (values) => values?.some(isNumber);
+
+/** Every quantity over one key, a point a case. */
+function sweptSection(t, keys, i, quantities) {
+  const key = keys[i];
+  const x = columnNamed(t, key);
+  if (!numeric(x) || new Set(x).size < 2) return null;
+  const order = x.map((_, row) => row).filter((row) => isNumber(x[row]))
+    .sort((a, b) => x[a] - x[b]);
+  const shown = quantities.map((q) => [shortPath(q.take), columnNamed(t, shortPath(q.take))])
+    .filter(([, values]) => numeric(values));
+  if (!shown.length) return null;
+  const { name, unit } = nameAndUnit(key.split('.').pop());
+  const alone = keys.length === 1 && new Set(x).size === order.length;
+  const chart = figure({ key: `sweep${i}`, x: order.map((row) => x[row]), points: true,
+    label: words(name), unit, caption: zoomHint + thinned(t) });
+  const panels = shown.map(([path, values], n) => ({ label: taken(path).name,
+    unit: taken(path).unit, height: 170, series: [{ name: path, line: alone,
+      points: 5, color: seriesColor(n), values: order.map((row) =>
+        (isNumber(values[row]) ? values[row] : null)) }] }));
+  return { part: section(`over${i + 1}`, `Over ${key}`, key, chart.element),
+    draw: () => chart.draw(panels) };
+}
+
+/** By how much a quantity and a key go together: the correlation of their ranks. */
+function rankCorrelation(a, b) {
+  const both = a.map((_, i) => i).filter((i) => isNumber(a[i]) && isNumber(b[i]));
+  const ranks = (values) => {
+    const order = [...both].sort((i, j) => values[i] - values[j]);
+    const rank = new Map();
+    for (let from = 0; from < order.length;) {
+      let to = from;
+      while (to + 1 < order.length && values[order[to + 1]] === values[order[from]]) to += 1;
+      for (let k = from; k <= to; k += 1) rank.set(order[k], (from + to) / 2);
+      from = to + 1;
+    }
+    return both.map((i) => rank.get(i));
+  };
+  const [u, v] = [ranks(a), ranks(b)];
+  const mean = (both.length - 1) / 2;
+  const sum = (f) => u.reduce((total, _, k) => total + f(k), 0);
+  const size = Math.sqrt(sum((k) => (u[k] - mean) ** 2) * sum((k) => (v[k] - mean) ** 2));
+  return size > 0 ? sum((k) => (u[k] - mean) * (v[k] - mean)) / size : NaN;
+}
+
+/** Which key matters most for which quantity. */
+function tornadoSection(t, keys, quantities) {
+  const swept = keys.filter((key) => numeric(columnNamed(t, key)));
+  const rows = quantities.filter((q) => numeric(columnNamed(t, shortPath(q.take)))).map((q) => [
+    shortPath(q.take), ...swept.map((key) => {
+      const value = rankCorrelation(columnNamed(t, key), columnNamed(t, shortPath(q.take)));
+      return isNumber(value) ? value.toFixed(2) : missing;
+    })]);
+  if (!rows.length || !swept.length) return null;
+  return section('matters', 'What matters', 'What matters',
+    prose('Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0 is no matter.'),
+    table(['', ...swept], rows));
+}

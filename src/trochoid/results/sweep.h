@@ -1,0 +1,35 @@
+#pragma once
+
+#include <trochoid/results/answer.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace trochoid::results {
+
+/// A number or a text; a number that is none where there is no value.
+using Cell = std::variant<double, std::string>;
+
+/// One row of a sweep.
+struct SweepRow {
+  std::vector<Cell> cells;  ///< values of the swept keys, then what was taken
+  std::string status;       ///< `ok`, `failed`, `wrong_input`
+  std::string message;      ///< why, where it is not ok
+};
+
+/// @brief What `sweep` answers: a table, one row a case.
+struct SweepResult {
+  Heading heading;
+  std::string command;            ///< that answered every row
+  std::string method;             ///< how rows were laid out
+  bool complete = true;           ///< false: the time was up before the last row
+  bool by_chance = false;         ///< then the spread of the rows is an interval
+  std::vector<std::string> keys;  ///< that were swept
+  std::vector<std::string> take;  ///< paths in the answers
+  std::vector<SweepRow> rows;
+};
+
+Answer answer_of(const SweepResult& result);
+
+}  // namespace trochoid::results

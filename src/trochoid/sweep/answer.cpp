@@ -1,0 +1,59 @@
+#include <trochoid/sweep/answer.h>
+
+#include <trochoid/run/correct/correct.h>
+#include <trochoid/run/identify/identify.h>
+#include <trochoid/run/identify/plan.h>
+#include <trochoid/run/simulate/simulate.h>
+#include <trochoid/run/vibration/actuator.h>
+#include <trochoid/run/vibration/dynamics.h>
+#include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/stability.h>
+#include <trochoid/run/wall/calibrate.h>
+#include <trochoid/run/wall/plan.h>
+#include <trochoid/run/wall/surface.h>
+
+#include <stdexcept>
+
+namespace trochoid::sweep {
+
+namespace {
+
+void silent(const run::Step&) {}
+
+}  // namespace
+
+results::Answer answer(base::Command command, const inputs::Case& given,
+                       const AnswerOptions& options) {
+  using base::Command;
+  using results::answer_of;
+  switch (command) {
+    case Command::simulate:
+      return answer_of(run::simulate(given));
+    case Command::identify: {
+      results::IdentifyResult result = run::identify(given, silent);
+      result.whole_curves = options.curves;
+      return answer_of(result);
+    }
+    case Command::surface:
+      return answer_of(run::surface(given, silent));
+    case Command::calibrate:
+      return answer_of(run::calibrate(given, silent));
+    case Command::stability:
+      return answer_of(run::stability(given, silent));
+    case Command::modes:
+      return answer_of(run::modes(given));
+    case Command::actuator:
+      return answer_of(run::actuator(given));
+    case Command::dynamics:
+      return answer_of(run::dynamics(given, silent));
+    case Command::correct:
+      return answer_of(run::correct(given, options.simulate_controller, silent));
+    case Command::plan:
+      return given.plan.of == inputs::PlanOf::wall
+                 ? answer_of(run::plan_wall(given, silent))
+                 : answer_of(run::plan(given, silent));
+  }
+  throw std::logic_error("a command without an answer");
+}
+
+}  // namespace trochoid::sweep

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <trochoid/base/command.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/results/answer.h>
+
+namespace trochoid::sweep {
+
+/// What a command is told besides its case.
+struct AnswerOptions {
+  bool curves = false;               ///< of identify: every sample
+  bool simulate_controller = false;  ///< of correct
+};
+
+/// @brief The answer of any command, without files and without progress.
+/// @throws base::InputError when a measurement cannot be read
+results::Answer answer(base::Command command, const inputs::Case& given,
+                       const AnswerOptions& options = {});
+
+}  // namespace trochoid::sweep

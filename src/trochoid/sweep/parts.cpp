@@ -1,0 +1,188 @@
+#include <trochoid/sweep/parts.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/results/number.h>
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+namespace trochoid::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+using results::Cell;
+using results::SweepRow;
+
+/// FNV-1a, 64 bits: against torn files, not against forgers.
+std::uint64_t checksum(std::string_view text) {
+  std::uint64_t sum = 0xcbf29ce484222325U;
+  for (const char c : text) {
+    sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  return sum;
+}
+
+/// A text in quotes, on one line.
+void append_text(std::string& line, std::string_view text) {
+  line += '"';
+  for (const char c : text) {
+    line += c == '\n' || c == '\r' ? ' ' : c;
+    if (c == '"') {
+      line += '"';
+    }
+  }
+  line += '"';
+}
+
+std::string line_of(const SweepRow& row) {
+  std::string line;
+  for (const Cell& cell : row.cells) {
+    if (const auto* value = std::get_if<double>(&cell)) {
+      results::append_number(line, *value);
+    } else {
+      append_text(line, std::get<std::string>(cell));
+    }
+    line += ',';
+  }
+  append_text(line, row.status);
+  line += ',';
+  append_text(line, row.message);
+  return line + '\n';
+}
+
+std::string take_text(std::string_view& rest) {
+  std::string text;
+  rest.remove_prefix(1);
+  while (!rest.empty()) {
+    const char c = rest.front();
+    rest.remove_prefix(1);
+    if (c != '"') {
+      text += c;
+    } else if (!rest.empty() && rest.front() == '"') {
+      text += c;
+      rest.remove_prefix(1);
+    } else {
+      break;
+    }
+  }
+  return text;
+}
+
+Cell take_cell(std::string_view& rest) {
+  Cell cell = std::numeric_limits<double>::quiet_NaN();
+  if (rest.starts_with('"')) {
+    cell = take_text(rest);
+  } else {
+    double value = 0.0;
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    const auto read = std::from_chars(rest.data(), rest.data() + end, value);
+    if (read.ec == std::errc{}) {
+      cell = value;
+    }
+    rest.remove_prefix(end);
+  }
+  if (rest.starts_with(',')) {
+    rest.remove_prefix(1);
+  }
+  return cell;
+}
+
+SweepRow row_of(std::string_view line, std::size_t cells) {
+  SweepRow row;
+  for (std::size_t i = 0; i < cells; ++i) {
+    row.cells.push_back(take_cell(line));
+  }
+  const auto text = [&] {
+    const Cell cell = take_cell(line);
+    const auto* found = std::get_if<std::string>(&cell);
+    return found != nullptr ? *found : std::string();
+  };
+  row.status = text();
+  row.message = text();
+  return row;
+}
+
+std::string head_of(std::string_view meaning, std::size_t cells) {
+  return fmt::format("trochoid sweep {:016x} {}\n", checksum(meaning), cells);
+}
+
+/// The next part, if it is whole and follows on `rows`.
+std::optional<std::string> whole_part(std::istream& in, std::size_t rows) {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  std::string wanted;
+  std::string line;
+  if (!std::getline(in, line)) {
+    return std::nullopt;
+  }
+  std::istringstream head(line);
+  if (!(head >> first >> count >> wanted) || first != rows || count == 0) {
+    return std::nullopt;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < count && std::getline(in, line); ++i) {
+    text += line + '\n';
+  }
+  return fmt::format("{:016x}", checksum(text)) == wanted ? std::optional(text)
+                                                          : std::nullopt;
+}
+
+[[noreturn]] void cannot_write(const fs::path& file) {
+  throw base::InputError(
+      {file.string() + ": cannot be written; what is done so far would be lost"});
+}
+
+}  // namespace
+
+Parts::Parts(fs::path file, std::string_view meaning, std::size_t cells)
+    : file_(std::move(file)) {
+  const std::string head = head_of(meaning, cells);
+  std::size_t whole = 0;
+  std::error_code absent;
+  if (fs::is_regular_file(fs::symlink_status(file_, absent))) {
+    std::ifstream in(file_, std::ios::binary);
+    std::string line;
+    if (std::getline(in, line) && line + '\n' == head) {
+      whole = head.size();
+      while (const auto part = whole_part(in, done_.size())) {
+        std::istringstream rows(*part);
+        while (std::getline(rows, line)) {
+          done_.push_back(row_of(line, cells));
+        }
+        whole = static_cast<std::size_t>(in.tellg());
+      }
+    }
+  }
+  std::error_code error;
+  if (whole > 0) {
+    fs::resize_file(file_, whole, error);
+    out_.open(file_, std::ios::binary | std::ios::app);
+  } else {
+    out_.open(file_, std::ios::binary | std::ios::trunc);
+    out_ << head << std::flush;
+  }
+  if (error || !out_) {
+    cannot_write(file_);
+  }
+}
+
+void Parts::add(std::size_t first, std::span<const SweepRow> rows) {
+  std::string text;
+  for (const SweepRow& row : rows) {
+    text += line_of(row);
+  }
+  out_ << fmt::format("{} {} {:016x}\n", first, rows.size(), checksum(text)) << text
+       << std::flush;
+  if (!out_) {
+    cannot_write(file_);
+  }
+}
+
+}  // namespace trochoid::sweep

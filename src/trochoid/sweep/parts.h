@@ -1,0 +1,40 @@
+#pragma once
+
+#include <trochoid/results/sweep.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trochoid::sweep {
+
+/// @brief Rows that are done, in a file that only grows: after a kill the same sweep goes
+/// on behind the last part that is whole.
+///
+/// A line says what the sweep is, then each part its first row, its rows and their
+/// checksum. A part that a kill or a full disk cut short is not believed.
+class Parts {
+ public:
+  /// @param file     hidden, beside the result folder
+  /// @param meaning  text of all that the rows depend on
+  /// @param cells    of a row
+  /// @throws base::InputError when it cannot be written
+  Parts(std::filesystem::path file, std::string_view meaning, std::size_t cells);
+
+  /// Rows of an earlier run of the same sweep, from the first on.
+  [[nodiscard]] std::vector<results::SweepRow> take_done() { return std::move(done_); }
+
+  /// @throws base::InputError when it cannot be written
+  void add(std::size_t first, std::span<const results::SweepRow> rows);
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream out_;
+  std::vector<results::SweepRow> done_;
+};
+
+}  // namespace trochoid::sweep

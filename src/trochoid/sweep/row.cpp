@@ -1,0 +1,147 @@
+#include <trochoid/sweep/row.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/case_source.h>
+#include <trochoid/sweep/answer.h>
+
+#include <charconv>
+#include <limits>
+#include <optional>
+
+namespace trochoid::sweep {
+
+namespace {
+
+using results::Answer;
+using results::Array;
+using results::Cell;
+using results::Object;
+using results::Value;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Cell> cell_of(const Value& value) {
+  if (const auto* real = std::get_if<double>(&value.data)) {
+    return *real;
+  }
+  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+    return static_cast<double>(*whole);
+  }
+  if (const auto* truth = std::get_if<bool>(&value.data)) {
+    return *truth ? 1.0 : 0.0;
+  }
+  if (const auto* text = std::get_if<std::string>(&value.data)) {
+    return *text;
+  }
+  return std::holds_alternative<std::nullptr_t>(value.data) ? std::optional<Cell>(none)
+                                                            : std::nullopt;
+}
+
+Cell cell_of(const inputs::Node& node) {
+  if (const auto* real = std::get_if<double>(&node.value)) {
+    return *real;
+  }
+  if (const auto* whole = std::get_if<std::int64_t>(&node.value)) {
+    return static_cast<double>(*whole);
+  }
+  if (const auto* truth = std::get_if<bool>(&node.value)) {
+    return *truth ? 1.0 : 0.0;
+  }
+  return std::get<std::string>(node.value);
+}
+
+const Value* entry_of(const Value& list, std::string_view number) {
+  const auto* array = std::get_if<Array>(&list.data);
+  std::size_t i = 0;
+  const char* end = number.data() + number.size();
+  const auto read = std::from_chars(number.data(), end, i);
+  return array != nullptr && read.ec == std::errc{} && read.ptr == end && i > 0 &&
+                 i <= array->size()
+             ? &(*array)[i - 1]
+             : nullptr;
+}
+
+/// `a.b[2][1]` -> a, b, 2], 1]: names, and entries with their closing bracket.
+std::vector<std::string> steps_of(std::string_view path) {
+  std::vector<std::string> steps(1);
+  for (const char c : path) {
+    if (c == '.' || c == '[') {
+      steps.emplace_back();
+    } else {
+      steps.back() += c;
+    }
+  }
+  return steps;
+}
+
+void add_paths(const Value& value, const std::string& path,
+               std::vector<std::string>& paths) {
+  if (const auto* object = std::get_if<Object>(&value.data)) {
+    for (const results::Member& member : *object) {
+      add_paths(member.value, path + "." + member.key, paths);
+    }
+  } else if (const auto* list = std::get_if<Array>(&value.data)) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      add_paths((*list)[i], path + "[" + std::to_string(i + 1) + "]", paths);
+    }
+  } else {
+    paths.push_back(path);
+  }
+}
+
+}  // namespace
+
+std::optional<Cell> taken(const Answer& answer, std::string_view path) {
+  constexpr std::string_view top = "result.";
+  if (!path.starts_with(top)) {
+    return std::nullopt;
+  }
+  path.remove_prefix(top.size());
+  const Value* at = &answer.result;
+  for (const std::string& step : steps_of(path)) {
+    if (at == nullptr) {
+      break;
+    }
+    at = step.ends_with(']')
+             ? entry_of(*at, std::string_view(step).substr(0, step.size() - 1))
+             : find(*at, step);
+  }
+  return at == nullptr ? std::nullopt : cell_of(*at);
+}
+
+std::vector<std::string> paths_of(const Answer& answer) {
+  std::vector<std::string> paths;
+  add_paths(answer.result, "result", paths);
+  return paths;
+}
+
+results::SweepRow row_of(const Study& study, std::span<const inputs::Node> values) {
+  results::SweepRow row{.cells = {}, .status = "ok", .message = {}};
+  for (const inputs::Node& value : values) {
+    row.cells.push_back(cell_of(value));
+  }
+  row.cells.resize(values.size() + study.take.size(), none);
+  try {
+    inputs::Node root = study.root;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      set_key(root, study.over[k], values[k]);
+    }
+    const Answer found = answer(
+        study.command,
+        inputs::read_case(inputs::CaseSource{root, study.file, {}}, study.command));
+    if (!found.heading.ok) {
+      row.status = "failed";
+      row.message = found.heading.message;
+      return row;
+    }
+    for (std::size_t i = 0; i < study.take.size(); ++i) {
+      row.cells[values.size() + i] = taken(found, study.take[i]).value_or(Cell{none});
+    }
+  } catch (const base::InputError& error) {
+    row.status = "wrong_input";
+    row.message = error.problems().empty() ? error.what() : error.problems().front();
+  }
+  return row;
+}
+
+}  // namespace trochoid::sweep

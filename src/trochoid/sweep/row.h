@@ -1,0 +1,38 @@
+#pragma once
+
+#include <trochoid/base/command.h>
+#include <trochoid/inputs/sweep.h>
+#include <trochoid/results/sweep.h>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trochoid::sweep {
+
+/// What all rows have in common.
+struct Study {
+  base::Command command = base::Command::simulate;
+  inputs::Node root;           ///< the case without its [sweep]
+  std::filesystem::path file;  ///< of the case
+  std::vector<inputs::SweptKey> over;
+  std::vector<std::string> take;
+};
+
+/// @brief The value at a path of an answer: `result.mean_N[1]`, entries from 1.
+/// @return none where the answer has no such value
+std::optional<results::Cell> taken(const results::Answer& answer,
+                                   std::string_view path);
+
+/// @brief The paths of an answer that hold a number or a text.
+std::vector<std::string> paths_of(const results::Answer& answer);
+
+/// @brief One row: the case with these values, answered.
+///
+/// Wrong input and no answer are a status of the row.
+/// @param values  one for each swept key
+results::SweepRow row_of(const Study& study, std::span<const inputs::Node> values);
+
+}  // namespace trochoid::sweep

@@ -1,0 +1,133 @@
+#include <trochoid/sweep/samples.h>
+
+#include <boost/math/special_functions/erf.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+namespace trochoid::sweep {
+
+namespace {
+
+using inputs::EvenValues;
+using inputs::ListedValues;
+using inputs::NormalValues;
+using inputs::SweepMethod;
+using inputs::SweptKey;
+
+/// From 0 to 1, neither of them; std::uniform_real_distribution is not the same
+/// everywhere.
+double uniform(std::mt19937_64& random) {
+  return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
+}
+
+/// Below `most`; std::uniform_int_distribution is not the same everywhere.
+std::size_t below(std::mt19937_64& random, std::size_t most) {
+  return std::min(static_cast<std::size_t>(uniform(random) * static_cast<double>(most)),
+                  most - 1);
+}
+
+/// One number for each row, each in a stretch of its own of 1/rows.
+void add_stratified(std::mt19937_64& random, std::size_t rows,
+                    std::vector<double>& chance) {
+  std::vector<std::size_t> place(rows);
+  std::iota(place.begin(), place.end(), std::size_t{0});
+  for (std::size_t i = rows; i > 1; --i) {
+    std::swap(place[i - 1], place[below(random, i)]);
+  }
+  for (const std::size_t p : place) {
+    chance.push_back((static_cast<double>(p) + uniform(random)) /
+                     static_cast<double>(rows));
+  }
+}
+
+inputs::Node number(const SweptKey& key, double value) {
+  return {.value = value, .where = key.where};
+}
+
+double between(const EvenValues& even, double share) {
+  return even.from + share * (even.to - even.from);
+}
+
+/// The i-th value of a key that has values of its own.
+inputs::Node value_at(const SweptKey& key, std::size_t i) {
+  if (const auto* list = std::get_if<ListedValues>(&key.values)) {
+    return list->values[i];
+  }
+  const auto& even = std::get<EvenValues>(key.values);
+  const int count = even.count.value_or(1);
+  if (count == 1 || i == 0) {
+    return number(key, even.from);
+  }
+  if (i + 1 == static_cast<std::size_t>(count)) {
+    return number(key, even.to);
+  }
+  return number(key, between(even, static_cast<double>(i) / (count - 1)));
+}
+
+/// Where a share `p` of the distribution of a key lies below.
+inputs::Node value_of_chance(const SweptKey& key, double p) {
+  if (const auto* list = std::get_if<ListedValues>(&key.values)) {
+    const auto n = list->values.size();
+    return list
+        ->values[std::min(static_cast<std::size_t>(p * static_cast<double>(n)), n - 1)];
+  }
+  if (const auto* normal = std::get_if<NormalValues>(&key.values)) {
+    const double z = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p);
+    return number(key, normal->mean + normal->sd * z);
+  }
+  return number(key, between(std::get<EvenValues>(key.values), p));
+}
+
+std::size_t count_of(const SweptKey& key) {
+  const auto* list = std::get_if<ListedValues>(&key.values);
+  return list != nullptr ? list->values.size()
+                         : static_cast<std::size_t>(
+                               std::get<EvenValues>(key.values).count.value_or(1));
+}
+
+}  // namespace
+
+Samples::Samples(const inputs::Sweep& sweep) : sweep_(sweep) {
+  std::mt19937_64 random(sweep.seed);
+  if (sweep.method == SweepMethod::random) {
+    chance_.resize(sweep.rows * sweep.over.size());
+    std::ranges::generate(chance_, [&] { return uniform(random); });
+  } else if (sweep.method == SweepMethod::latin_hypercube) {
+    for (std::size_t k = 0; k < sweep.over.size(); ++k) {
+      add_stratified(random, sweep.rows, chance_);
+    }
+  }
+}
+
+std::vector<std::size_t> Samples::places_in_grid(std::size_t row) const {
+  std::vector<std::size_t> place(sweep_.over.size(), row);
+  if (sweep_.method == SweepMethod::grid) {
+    for (std::size_t k = place.size(); k-- > 0;) {
+      const std::size_t count = count_of(sweep_.over[k]);
+      place[k] = row % count;
+      row /= count;
+    }
+  }
+  return place;
+}
+
+std::vector<inputs::Node> Samples::row(std::size_t row) const {
+  std::vector<inputs::Node> values;
+  const std::size_t keys = sweep_.over.size();
+  if (chance_.empty()) {
+    const auto place = places_in_grid(row);
+    for (std::size_t k = 0; k < keys; ++k) {
+      values.push_back(value_at(sweep_.over[k], place[k]));
+    }
+    return values;
+  }
+  for (std::size_t k = 0; k < keys; ++k) {
+    values.push_back(value_of_chance(sweep_.over[k], chance_[k * rows() + row]));
+  }
+  return values;
+}
+
+}  // namespace trochoid::sweep
