@@ -2,6 +2,7 @@
 #include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/past.h>
+#include <trochoid/dynamics/stepper.h>
 
 #include "milling_cut.h"
 
@@ -122,6 +123,52 @@ TEST(DampedForce, MakesOfItselfWhatTheSlopesSay) {  // [T-17]
   const ForceBalance found = balanced_force(response_of, compliance, {}, 1e-15);
   EXPECT_NEAR(found.F[0], x, 1e-5 * std::abs(x));
   EXPECT_NEAR(found.F[1], y, 1e-5 * std::abs(x));
+}
+
+/// A tooth that leaves the cut takes the force of its flank with it.
+TEST(DampedForce, GoesWithItsTooth) {  // [T-5] [T-16]
+  const MotionProblem p = worn_tool();
+  const EngagedGrid grid = engaged_grid(p.setup, p.grid, 500);
+  const std::size_t node = node_near(grid, 1.0);
+  const Past still(grid);
+  CutForce cut(p.law, grid, flank_terms(p.setup));
+  cut.prepare(node, grid.after[node], still.last());
+  const std::array<double, 2> v = {-0.02, -0.05};
+  const auto in_cut = cut.response({0, 0}, v).F;
+  const auto at_rest = cut.response({0, 0}, {0, 0}).F;
+  cut.watch(0, 0);
+  EXPECT_TRUE(cut.crossings({1e-6, 1e-6}, v).empty());
+  const auto& gone = cut.crossings({-1e-3, -1e-3}, v);
+  ASSERT_EQ(gone.size(), 1U);
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double flank = in_cut[a] - at_rest[a];
+    EXPECT_NEAR(gone[0].jump[a], -flank, 1e-9 * std::abs(flank)) << a;
+  }
+  // No force of a flank is larger than what the search allows for
+  const double most = cut.largest_jump(std::hypot(v[0], v[1]));
+  EXPECT_GE(most, std::hypot(gone[0].jump[0], gone[0].jump[1]));
+  EXPECT_LT(cut.largest_jump(0.0), 1e-6 * most);
+}
+
+TEST(Stepper, SpeedAtTheEndFollowsTheForceThere) {  // [T-17] [T-3]
+  MotionProblem p = worn_tool();
+  p.system.modes.push_back(mode_of(0.194, 1490, 0.0213, -1, 0));
+  p.system.modes.push_back(mode_of(0.3, 700, 0.03, 0.6, 0.8));
+  p.drive = Drive{.mode = 2, .a_0 = 1, .a_1 = 2e-3, .a_2 = 1e-6, .k_s = 1e7};
+  Stepper stepper(p, std::vector<double>(10, 1e-4));
+  stepper.begin(0, {3, -2, 0}, 1e-6);
+  const auto still = stepper.end_speed({0, 0, 0});
+  const auto x = stepper.end_speed({1, 0, 0});
+  const auto y = stepper.end_speed({0, 1, 0});
+  const auto& V = stepper.speed_per_force();
+  EXPECT_NEAR(x[0] - still[0], V[0], 1e-12 * V[0]);
+  EXPECT_NEAR(x[1] - still[1], V[1], 1e-12 * V[0]);
+  EXPECT_NEAR(y[0] - still[0], V[1], 1e-12 * V[0]);
+  EXPECT_NEAR(y[1] - still[1], V[2], 1e-12 * V[0]);
+  stepper.accept({1, 0, 0});
+  EXPECT_EQ(stepper.speed(), x);
+  // A force that comes up linearly over a short step gives a mass half of its impulse
+  EXPECT_NEAR(V[2], 0.5e-4 * (1 / 0.2 + 0.64 / 0.3), 0.1 * V[2]);
 }
 
 /// By what a tooth makes a disturbance grow, read from the motion.

@@ -1,3 +1,4 @@
+#include <trochoid/dynamics/depth_harmonics.h>
 #include <trochoid/dynamics/frequency_limit.h>
 #include <trochoid/dynamics/lobes.h>
 #include <trochoid/dynamics/nodes.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trochoid::dynamics {
 namespace {
@@ -208,18 +210,47 @@ PointResponse tapped(const System& system) {
 }
 
 TEST(ProcessDamping, MultiFrequencyAgreesWithTheMultiplier) {  // [D-33]
-  const force::Setup setup = worn_cut(geometry::UpMilling{6e-3});
-  const DirectionalModel model = model_of(setup);
   const PointResponse point = tapped(stiff_system());
   std::vector<double> depth;
-  for (int i = 1; i <= 40; ++i) depth.push_back(i * 0.25e-3);
-  for (const double rpm : {4000.0, 9000.0}) {
+  for (int i = 1; i <= 20; ++i) depth.push_back(i * 0.5e-3);
+  for (const auto& [rpm, helix] : {std::pair{4000.0, 0.0}, std::pair{9000.0, 0.5}}) {
+    force::Setup setup = worn_cut(geometry::UpMilling{6e-3});
+    setup.cutter.helix = helix;  // depths between those given
+    const DirectionalModel model = model_of(setup);
     const double Omega = rpm * unit::rpm;
     const auto limit = limit_depth(model, stiff_system(), Omega, depth, 1e-6);
     const auto found = frequency_limit(model, point, Omega, depth, {.harmonics = 6});
     ASSERT_TRUE(limit && found);
-    // Modes above the band and harmonics beyond the sixth are left out
-    EXPECT_NEAR(found->depth / limit->depth, 1, 2e-3) << rpm;
+    // Harmonics beyond the sixth are left out, and so is the curve between two depths
+    EXPECT_NEAR(found->depth / limit->depth, 1, 3e-3) << rpm;
+  }
+}
+
+TEST(ProcessDamping, HarmonicsFollowTheDepth) {  // [D-33] [D-21]
+  for (const double helix : {0.0, 0.3}) {
+    force::Setup setup = worn_cut(geometry::UpMilling{6e-3});
+    setup.cutter.helix = helix;
+    const DirectionalModel model = model_of(setup);
+    const std::vector<double> depth = {1e-3, 1.02e-3};
+    const DepthHarmonics forces(model, depth, 2);
+    const auto between = forces.at(1.01e-3).damping;
+    const auto direct = force_harmonics(model.at_depth(1.01e-3), 120).damping;
+    ASSERT_FALSE(between.empty());
+    const std::size_t middle = between.size() / 2;
+    for (std::size_t n = 0; n < 5; ++n) {
+      for (std::size_t q = 0; q < 4; ++q) {
+        EXPECT_NEAR(std::abs(between[middle + n][q] - direct[120 + n][q]), 0,
+                    1e-4 * std::abs(direct[120][0]));
+      }
+    }
+    // The mean force of D over a pitch: over the arc, c sin^2 + mu c sin cos
+    if (helix == 0) {
+      const double to = std::acos(1 - 2 * 6e-3 / 10e-3);
+      const double ss = to / 2 - std::sin(2 * to) / 4;
+      const double sc = std::sin(to) * std::sin(to) / 2;
+      EXPECT_NEAR(direct[120][0].real(),
+                  -c_worn * 1.01e-3 / 5e-3 * (ss + 0.3 * sc) / pi, 1e-6 * c_worn);
+    }
   }
 }
 
