@@ -49,11 +49,13 @@ struct Balance {
 
   /// The step of T-6; the difference itself where that has no finite one.
   [[nodiscard]] Plane newton(const Trial& at) const {
-    const std::array<double, 4> own = feedback(at.there, compliance);
-    const double a = 1 - own[0];
-    const double b = -own[1];
-    const double c = -own[2];
-    const double d = 1 - own[3];
+    const auto& J = at.there.per_q;
+    const auto& P = compliance.P;
+    const std::array<double, 4> damped = speed_feedback(at.there, compliance.V);
+    const double a = 1 - J[0] * P[0] - J[1] * P[1] - damped[0];
+    const double b = -J[0] * P[1] - J[1] * P[2] - damped[1];
+    const double c = -J[2] * P[0] - J[3] * P[1] - damped[2];
+    const double d = 1 - J[2] * P[1] - J[3] * P[2] - damped[3];
     const double det = a * d - b * c;
     const Plane step = {(d * at.off[0] - b * at.off[1]) / det,
                         (a * at.off[1] - c * at.off[0]) / det};

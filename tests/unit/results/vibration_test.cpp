@@ -131,7 +131,7 @@ TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
 TEST(StabilityAnswer, SaysWhatDamps) {
   StabilityResult r = stability_result();
   EXPECT_EQ(json_at(answer_of(r), "process_damping"), "");
-  r.problem.setup.process_damping = {80e-6, 3e13, 0.25};
+  r.problem.setup.process_damping = {80 * unit::um, 30000 * unit::N_per_mm3, 0.25};
   r.stability.sharp_limit = dynamics::Limit{.depth = 0.2e-3};
   const Answer answer = answer_of(r);
   EXPECT_EQ(json_at(answer, "process_damping", "wear_land_um"), "80");
@@ -172,7 +172,7 @@ MotionResult motion_result(const Verdict& verdict) {
 TEST(MotionAnswer, SaysWhatDamps) {
   MotionResult r = motion_result(Periodic{2, 2});
   EXPECT_EQ(json_at(answer_of(r), "process_damping"), "");
-  r.damping = {80e-6, 3e13, 0.25};
+  r.damping = {80 * unit::um, 30000 * unit::N_per_mm3, 0.25};
   const Answer answer = answer_of(r);
   EXPECT_EQ(json_at(answer, "process_damping", "wear_land_um"), "80");
   EXPECT_NE(answer.short_table.find("with process damping of a wear land of 80 um\n"),
