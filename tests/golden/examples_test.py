@@ -190,6 +190,34 @@ class Stability(Example):
         self.assertTrue(922 < chatter < 1.1 * 922, chatter)
 
 
+class ProcessDamping(Example):
+    """A worn edge decides at a slow speed; the motion in time says so as well."""
+
+    def test_worn_is_stable_and_sharp_is_not(self):
+        worn = self.answer("stability", "process_damping")
+        self.assertEqual(worn.code, 0, worn.stderr)
+        self.assertEqual(worn.result["verdict"], "stable")
+        without = worn.result["process_damping"]["limit_depth_without_mm"]
+        text = (EXAMPLES / "process_damping/case.toml").read_text()
+        sharp = program.run("stability", re.sub("(?m)^(wear|indent|flank).*\n", "", text),
+                            self.folder, "sharp")
+        self.assertEqual(sharp.result["verdict"], "unstable")
+        self.assertAlmostEqual(sharp.result["limit_depth_mm"], without, delta=1e-6)
+        self.assertGreater(worn.result["limit_depth_mm"], 2 * without)
+
+    def test_the_motion_agrees_at_the_limit(self):
+        limit = self.answer("stability", "process_damping").result["limit_depth_mm"]
+        text = (EXAMPLES / "process_damping/case.toml").read_text()
+        for factor, chatter in ((0.98, False), (1.02, True)):
+            case = text.replace("axial_depth_mm = 1.5", f"axial_depth_mm = {factor * limit}")
+            moved = program.run("dynamics", case, self.folder, f"at_{factor}")
+            self.assertEqual(moved.code, 0, moved.stderr)
+            self.assertEqual(moved.result["chatter"], chatter)
+            codes = [w["code"] for w in moved.summary["warnings"]]
+            self.assertEqual("process_damping_of_chatter" in codes, chatter)
+            self.assertEqual(moved.result["linear_growth_per_turn"] > 1, chatter)
+
+
 class RunoutOnATable(Example):
     """Peaks of Fy made by an adaptive method of steps, in G26 and G27 of the worked cases."""
 

@@ -58,6 +58,10 @@ def tables(cut, engagement, turns):
             out["force"] |= {f"K_{q}1_MPa": K / 1e6, f"m_{q}": m}
             if edge:
                 out["force"] |= {f"K_{q}e_N_per_mm": K_e / 1e3}
+    if cut.flank:
+        out["force"] |= {"wear_land_um": 1e6 * cut.flank[0],
+                         "indentation_N_per_mm3": cut.flank[1] / 1e9,
+                         "flank_friction": cut.flank[2]}
     if cut.actuator:
         out["actuator"] = {"gain": GAIN, "time_constants_s": [T_1, T_2]}
         out["command"] = {"shape": "sine", "peak_to_peak_um": 20, "lead_s": 0.001}
@@ -150,6 +154,12 @@ class Compared(unittest.TestCase):
     def test_helix(self):
         self.compare([X, Y], SLOT, linear=LINEAR, offsets=[5e-6, -5e-6], helix=0.5,
                      slices=100)
+
+
+    def test_process_damping(self):  # [F-16] [T-16] [T-17]
+        flank = (60e-6, 3e13, 0.3)
+        self.compare([X, Y, LOW, TABLE], UP, linear=EDGES, flank=flank, rpm=1500)
+        self.compare([X, Y], SLOT, linear=LINEAR, flank=flank, helix=0.5, slices=100)
 
 
 class Verdicts(unittest.TestCase):

@@ -53,6 +53,10 @@ def tables(mill, engagement, law):
         if law == "power_edge":  # a constant force feels no vibration
             out["force"] |= {"K_te_N_per_mm": 9, "K_re_N_per_mm": 7, "K_ae_N_per_mm": 2}
         out["stability"]["chip_floor_um"] = 1e6 * floor
+    if mill.flank:
+        land, per_volume, friction = mill.flank
+        out["force"] |= {"wear_land_um": 1e6 * land, "indentation_N_per_mm3": per_volume / 1e9,
+                         "flank_friction": friction}
     return out
 
 
@@ -125,6 +129,16 @@ class Compared(unittest.TestCase):
         self.compare([X], SLOT, 120, power=power, K_t=200e6, K_r=60e6)
         self.compare([X, Y], UP, 120, power=power, K_t=200e6, K_r=60e6)
         self.compare([X, Y], UP, 120, "power_edge", power=power, K_t=200e6, K_r=60e6)
+
+    def test_process_damping(self):  # [F-16] [D-30] [D-31] [D-32]
+        flank = (25e-6, 3e13, 0.3)
+        self.compare([X], SLOT, 120, flank=flank, rpm=5000)
+        self.compare([X, Y], UP, 120, flank=flank, rpm=9000, depth=1e-3)
+        self.compare([X, Y, TABLE], DOWN, 120, flank=(60e-6, 2e13, 0.5), depth=1e-3)
+        self.compare([X, Y], SLOT, 120, flank=flank, helix=math.radians(40), depth=1e-3)
+        self.compare([X, Y], SLOT, 120, flank=flank, offsets=(25e-6, 0.0))
+        self.compare([X, Y], UP, 120, "power", flank=flank, power=(0.3, 0.4, 25e-6),
+                     K_t=200e6, K_r=60e6)
 
     def test_the_transcription_itself(self):
         """Its order is two: the change falls by four when the steps double."""

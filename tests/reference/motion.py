@@ -34,6 +34,7 @@ class Cut:
     helix: float = 0.0
     diameter: float = 8e-3
     slices: int = 1
+    flank: tuple = ()      # worn: land, force per volume, friction
     actuator: tuple = ()   # mode, gain, T_1, T_2, k_s, c_s
     command: object = None  # of time
 
@@ -118,6 +119,13 @@ class Motion:
             u = np.where(cutting, h, 1e-3) / 1e-3
             f = [np.where(cutting, (K * 1e-3 * u ** (1 - m) + K_e * self.edge_per_width)
                           * self.width, 0.0) for K, m, K_e in self.cut.power]
+        if self.cut.flank:  # F-16
+            land, per_volume, friction = self.cut.flank
+            r = len(self.M)
+            into = np.array([s, c]).T @ self.q(state[r:2 * r])
+            slope = into / (self.omega * self.cut.diameter / 2)
+            pressed = np.where(cutting, 0.5 * land**2 * slope, 0.0) * self.width * per_volume
+            f[0], f[1] = f[0] + friction * pressed, f[1] + pressed
         return np.array([(-f[0] * c - f[1] * s).sum(), (f[0] * s - f[1] * c).sum(),
                          -f[2].sum()])
 

@@ -7,7 +7,8 @@ motion is the mean of two neighbouring samples, and the steps multiply up to the
 period. Its error falls with the square of the step, so two step numbers give the limit
 (Richardson). Units: N, m, s, rad.
 
-Source: [insperger2011], first order; the marks of earlier teeth as in C-4.
+Source: [insperger2011], first order; the marks of earlier teeth as in C-4. A worn flank
+(F-16) is a damper of the modes while a tooth is in cut, a mean over each step.
 """
 import dataclasses
 
@@ -30,6 +31,7 @@ class Mill:
     offsets: tuple = ()   # empty: no runout
     feed: float = 5e-5    # per tooth
     power: tuple = ()     # (m_t, m_r, floor); K_t and K_r then at 1 mm
+    flank: tuple = ()     # worn: (land, force per volume, friction)
 
     def pitches(self):
         return np.array(self.pitch or [2 * np.pi / self.teeth] * self.teeth)
@@ -80,6 +82,31 @@ def matrices(mill, steps):
     return out
 
 
+def flank_matrices(mill, steps):
+    """Mean of dF/d(dq/dt) over each step, all teeth: the force against the speed."""
+    out = np.zeros((steps, 2, 2))
+    if not mill.flank:
+        return out
+    land, per_volume, friction = mill.flank
+    # A triangle of the length of the land and the height land * (speed in / speed along).
+    speed = mill.rpm * 2 * np.pi / 60 * mill.diameter / 2
+    per_height = per_volume * land * land / 2 / speed
+    fine, slices = 40, 60 if mill.helix else 1
+    phi = (np.arange(steps * fine) + 0.5) * 2 * np.pi / (steps * fine)
+    psi = np.concatenate([[0], np.cumsum(mill.pitches())[:-1]])
+    for z in (np.arange(slices) + 0.5) / slices * mill.depth:
+        for j in range(mill.teeth):
+            theta = np.mod(phi - psi[j] - 2 * z * np.tan(mill.helix) / mill.diameter, 2 * np.pi)
+            h = marks(mill, theta)[0][j]
+            cuts = (theta > mill.entry) & (theta < mill.leave) & (h > 0)
+            inward = np.array([-np.sin(theta), -np.cos(theta)])
+            back = np.array([-np.cos(theta), np.sin(theta)])  # against the cutting speed
+            push = (inward + friction * back) * per_height * mill.depth / slices
+            part = np.where(cuts, push[:, None] * -inward[None], 0.0)
+            out += part.reshape(2, 2, steps, fine).mean(-1).transpose(2, 0, 1)
+    return out
+
+
 def state_space(mill):
     """A, B (force in), C (q out) of the modes."""
     k = len(mill.modes)
@@ -112,6 +139,9 @@ def multiplier(mill, steps):
     A, B, C = state_space(mill)
     size = len(A)
     D = matrices(mill, steps)
+    flank = flank_matrices(mill, steps)
+    k = size // 2
+    speeds = np.hstack([np.zeros((2, k)), C[:, :k]])  # dq/dt of the state
     pitch = mill.pitches()
     # delays in steps, for tooth j and mark m: whole numbers by the choice of steps
     delay = np.array([[sum(pitch[(j - i) % n] for i in range(1, m + 1))
@@ -125,7 +155,7 @@ def multiplier(mill, steps):
     U = np.eye(rows)
     for i in range(steps):
         own = D[i].sum(axis=(0, 1))
-        L = A + B @ own @ C
+        L = A + B @ own @ C + B @ flank[i] @ speeds
         # x' = L x + B f, f = -sum D q_delayed(t), q_delayed linear over the step
         big = np.zeros((size + 4, size + 4))
         big[:size, :size] = L

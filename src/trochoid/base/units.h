@@ -19,6 +19,7 @@ inline constexpr double kPa = 1e3;                       ///< [N/m^2]
 inline constexpr double MPa = 1e6;                       ///< [N/m^2]
 inline constexpr double GPa = 1e9;                       ///< [N/m^2]
 inline constexpr double N_per_mm = 1e3;                  ///< [N/m]
+inline constexpr double N_per_mm3 = 1e9;                 ///< [N/m^3]
 inline constexpr double mm_per_min = 1e-3 / 60.0;        ///< [m/s]
 inline constexpr double Nmm = 1e-3;                      ///< [N m]
 

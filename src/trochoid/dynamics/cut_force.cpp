@@ -54,8 +54,18 @@ double NearPower::renew(Anchor& anchor, double h) const noexcept {
   return anchor.value;
 }
 
-CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
-    : grid_(grid), law_(force::terms(law)) {
+force::Terms flank_terms(const force::Setup& setup) noexcept {
+  force::Terms flank = force::damping_terms(setup.process_damping);
+  const double v = setup.cutter.profile.D / 2 * setup.cut.Omega;
+  for (double& K : flank.K) {
+    K /= v;
+  }
+  return flank;
+}
+
+CutForce::CutForce(const force::Law& law, const EngagedGrid& grid,
+                   const force::Terms& flank)
+    : grid_(grid), law_(force::terms(law)), flank_(flank) {
   std::size_t most = 1;
   double most_edge = 0.0;
   double most_width = 0.0;
@@ -82,7 +92,9 @@ CutForce::CutForce(const force::Law& law, const EngagedGrid& grid)
   watched_.assign(grid.teeth, none);
   crossings_.reserve(grid.teeth);
   const auto& [form, K, K_e] = law_;
-  watches_ = grid.one_point && (K_e[0] != 0 || K_e[1] != 0);
+  damps_ = flank.K[0] != 0 || flank.K[1] != 0;
+  watches_ = grid.one_point && (K_e[0] != 0 || K_e[1] != 0 || damps_);
+  jump_per_speed_ = 2 * std::hypot(flank.K[0], flank.K[1]) * most_width;
   largest_jump_ =
       2 * (std::hypot(K_e[0], K_e[1]) * most_edge + least_force(law_) * most_width);
   if (!form.power) {
@@ -130,6 +142,29 @@ Response CutForce::edge_response(double q_x, double q_y) const noexcept {
   return out;
 }
 
+void CutForce::add_damping(const std::array<double, 2>& q,
+                           const std::array<double, 2>& v,
+                           Response& out) const noexcept {
+  auto& B = out.per_speed;  // T-16
+  if (grid_.one_point) {
+    for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
+      if (chip(k - contacts_.first, k, q[0], q[1]) > chip::h_threshold) {
+        Response point;
+        const double w = grid_.width[k];
+        add(grid_.sine[k], grid_.cosine[k], {}, {flank_.K[0] * w, flank_.K[1] * w, 0.0},
+            point);
+        for (std::size_t a = 0; a < B.size(); ++a) B[a] += point.per_q[a];
+      }
+    }
+  } else {  // what a chip of that law would make is what its speed makes
+    const ForceSums sums =
+        force_of_points(points_, constant_.data(), {q[0], q[1]}, flank_);
+    std::copy_n(sums.begin() + out.F.size(), B.size(), B.begin());
+  }
+  out.F[0] += B[0] * v[0] + B[1] * v[1];
+  out.F[1] += B[2] * v[0] + B[3] * v[1];
+}
+
 std::vector<std::pair<std::size_t, double>> CutForce::chips(double q_x,
                                                             double q_y) const {
   std::vector<std::pair<std::size_t, double>> chips;
@@ -149,11 +184,12 @@ void CutForce::remember_chips(double q_x, double q_y) noexcept {
   }
 }
 
-void CutForce::find_crossings(double q_x, double q_y) noexcept {
+void CutForce::find_crossings(const std::array<double, 2>& q,
+                              const std::array<double, 2>& v) noexcept {
   crossings_.clear();
   for (std::size_t k = contacts_.first; k < contacts_.last; ++k) {
     const double from = watched_[grid_.stretches[k].tooth];
-    const double to = chip(k - contacts_.first, k, q_x, q_y);
+    const double to = chip(k - contacts_.first, k, q[0], q[1]);
     const bool crosses = from > 0 ? to <= 0 : (from <= 0 && to > 0);  // NaN: neither
     if (!crosses) {
       continue;
@@ -161,9 +197,12 @@ void CutForce::find_crossings(double q_x, double q_y) noexcept {
     const double s = grid_.sine[k];
     const double c = grid_.cosine[k];
     const double e = (to > 0 ? 1 : -1) * grid_.edge[k];
-    crossings_.push_back({from / (from - to),
-                          {-e * (law_.K_e[0] * c + law_.K_e[1] * s),
-                           e * (law_.K_e[0] * s - law_.K_e[1] * c), -e * law_.K_e[2]}});
+    const double pressed = grid_.width[k] / grid_.edge[k] * (v[0] * s + v[1] * c);
+    const double K_t = law_.K_e[0] + flank_.K[0] * pressed;
+    const double K_r = law_.K_e[1] + flank_.K[1] * pressed;
+    crossings_.push_back(
+        {from / (from - to),
+         {-e * (K_t * c + K_r * s), e * (K_t * s - K_r * c), -e * law_.K_e[2]}});
   }
 }
 

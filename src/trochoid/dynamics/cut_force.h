@@ -3,10 +3,11 @@
 #include <trochoid/chip/chip.h>
 #include <trochoid/dynamics/edge_force.h>
 #include <trochoid/dynamics/engaged_grid.h>
+#include <trochoid/dynamics/near_power.h>
 #include <trochoid/force/law.h>
+#include <trochoid/force/setup.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -28,6 +29,8 @@ struct History {
 struct Response {
   Force F{};
   std::array<double, 6> per_q{};  ///< dF/dq, rows x, y, z; columns x, y [N/m]
+  /// dF/d(dq/dt) of process damping, rows x, y; columns x, y [N s/m].
+  std::array<double, 4> per_speed{};
 };
 
 /// A place where the force jumps while a tooth leaves the cut or comes back.
@@ -36,53 +39,24 @@ struct Crossing {
   Force jump{};       ///< after minus before [N]
 };
 
-/// (h/h_0)^-m of a tooth without helix, from a chip not long ago.
+/// @brief Process damping as a law over the speed into the work.
 ///
-/// The chip changes little from step to step: a series about the last power taken is
-/// faster than a power.
-class NearPower {
- public:
-  explicit NearPower(double m = 0.0, std::size_t teeth = 0);
-
-  /// @param h  positive [m]
-  double operator()(std::size_t tooth, double h) noexcept {
-    Anchor& anchor = anchors_[tooth];
-    const double x = h * anchor.per_h - 1;
-    if (!(std::abs(x) < near)) {
-      return renew(anchor, h);
-    }
-    const auto& c = series_;
-    const double x_2 = x * x;
-    const double x_4 = x_2 * x_2;
-    const double x_8 = x_4 * x_4;
-    const double low = ((1 + c[1] * x) + x_2 * (c[2] + c[3] * x)) +
-                       x_4 * ((c[4] + c[5] * x) + x_2 * (c[6] + c[7] * x));
-    const double high = ((c[8] + c[9] * x) + x_2 * (c[10] + c[11] * x)) +
-                        x_4 * ((c[12] + c[13] * x) + x_2 * (c[14] + c[15] * x));
-    return anchor.value * (low + x_8 * high);
-  }
-
- private:
-  struct Anchor {
-    double per_h = 0.0;
-    double value = 0.0;
-  };
-  double renew(Anchor& anchor, double h) const noexcept;
-
-  /// Sixteen terms leave 4e-13 then.
-  static constexpr double near = 1.0 / 6;
-  double m_;
-  std::array<double, 16> series_{};
-  std::vector<Anchor> anchors_;  ///< of each tooth
-};
+/// @eq T-16 B = sum over the points in cut of [B]_xy (mu, 1, 0)^T n^T c w / (R Omega),
+///          c = K_sp L_w^2 / 2
+/// @src derived: F-16 at the speed of the cut
+/// @param setup  a cylinder that turns
+/// @return its K of t, r, a [N s/m^2]
+force::Terms flank_terms(const force::Setup& setup) noexcept;
 
 /// @brief Force of the contacts of a node, whatever q is at that moment.
 ///
 /// The marks of earlier teeth are met once a step: h = constant + q . n for each point.
 class CutForce {
  public:
-  /// @param grid  outlives this
-  CutForce(const force::Law& law, const EngagedGrid& grid);
+  /// @param grid   outlives this
+  /// @param flank  force on the flank [N s/m^2], of flank_terms; none: nothing damps
+  CutForce(const force::Law& law, const EngagedGrid& grid,
+           const force::Terms& flank = {});
 
   /// @brief Meet the marks: the chips of these contacts are then known but for q.
   /// @param node  whose delays these are
@@ -104,6 +78,18 @@ class CutForce {
     return edge_response(q_x, q_y);
   }
 
+  /// @brief The same with process damping, at the speed v = dq/dt [m/s].
+  [[nodiscard]] Response response(const std::array<double, 2>& q,
+                                  const std::array<double, 2>& v) noexcept {
+    Response out = response(q[0], q[1]);
+    if (damps_) {
+      add_damping(q, v, out);
+    }
+    return out;
+  }
+  /// Is there process damping?
+  [[nodiscard]] bool damps() const noexcept { return damps_; }
+
   /// @return tooth and chip [m] of the lowest point
   /// of each tooth; negative: off the work
   [[nodiscard]] std::vector<std::pair<std::size_t, double>> chips(double q_x,
@@ -115,15 +101,19 @@ class CutForce {
       remember_chips(q_x, q_y);
     }
   }
-  /// @brief Edge forces that came or went since.
-  const std::vector<Crossing>& crossings(double q_x, double q_y) noexcept {
+  /// @brief Forces of edges and flanks that came or went since.
+  const std::vector<Crossing>& crossings(const std::array<double, 2>& q,
+                                         const std::array<double, 2>& v) noexcept {
     if (watches_) {
-      find_crossings(q_x, q_y);
+      find_crossings(q, v);
     }
     return crossings_;
   }
   /// By how much forces may jump where chips begin, all teeth together [N].
-  [[nodiscard]] double largest_jump() const noexcept { return largest_jump_; }
+  /// @param speed  of the motion [m/s]
+  [[nodiscard]] double largest_jump(double speed) const noexcept {
+    return largest_jump_ + jump_per_speed_ * speed;
+  }
 
  private:
   /// One of the three directions of a power law.
@@ -143,7 +133,10 @@ class CutForce {
   [[nodiscard]] PointsInCut points_at(std::size_t first,
                                       std::size_t count) const noexcept;
   void remember_chips(double q_x, double q_y) noexcept;
-  void find_crossings(double q_x, double q_y) noexcept;
+  void find_crossings(const std::array<double, 2>& q,
+                      const std::array<double, 2>& v) noexcept;
+  void add_damping(const std::array<double, 2>& q, const std::array<double, 2>& v,
+                   Response& out) const noexcept;
   [[nodiscard]] double chip(std::size_t at, std::size_t point, double q_x,
                             double q_y) const noexcept {
     return constant_[at] + q_x * grid_.sine[point] + q_y * grid_.cosine[point];
@@ -154,8 +147,11 @@ class CutForce {
   const EngagedGrid& grid_;
   bool axial_ = true;     ///< is there a force along the axis?
   bool watches_ = false;  ///< single points whose force jumps at h = 0
+  bool damps_ = false;    ///< do flanks damp?
   double largest_jump_ = 0.0;
+  double jump_per_speed_ = 0.0;
   force::Terms law_;
+  force::Terms flank_;
   std::array<Direction, 3> directions_;  ///< t, r, a
   Contacts contacts_;
   std::vector<double> constant_;

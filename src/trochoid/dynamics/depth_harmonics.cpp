@@ -15,18 +15,27 @@ int teeth_in(const Directional& cut) {
   return static_cast<int>(std::max(1L, std::lround(cut.period / pitch)));
 }
 
+using Coefficients = std::vector<ComplexMatrix2>;
+
 /// a times one, plus b times the other.
+Coefficients sum_of(double a, const Coefficients& one, double b,
+                    const Coefficients& other) {
+  Coefficients out = one;
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    for (std::size_t q = 0; q < out[n].size(); ++q) {
+      out[n][q] = a * one[n][q] + b * other[n][q];
+    }
+  }
+  return out;
+}
+
 ForceHarmonics sum_of(double a, const ForceHarmonics& one, double b,
                       const ForceHarmonics& other) {
   ForceHarmonics out = one;
   for (std::size_t d = 0; d < out.coefficients.size(); ++d) {
-    for (std::size_t n = 0; n < out.coefficients[d].size(); ++n) {
-      for (std::size_t q = 0; q < out.coefficients[d][n].size(); ++q) {
-        out.coefficients[d][n][q] =
-            a * one.coefficients[d][n][q] + b * other.coefficients[d][n][q];
-      }
-    }
+    out.coefficients[d] = sum_of(a, one.coefficients[d], b, other.coefficients[d]);
   }
+  out.damping = sum_of(a, one.damping, b, other.damping);
   return out;
 }
 

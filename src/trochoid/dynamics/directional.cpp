@@ -42,13 +42,15 @@ std::vector<double> ordered_breaks(std::vector<double> breaks, double period) {
 
 class Sampler {
  public:
-  Sampler(Directional& out, const Evaluate& evaluate, double allowed)
+  /// @param allowed  errors, of the matrices on q and on dq/dphi
+  Sampler(Directional& out, const Evaluate& evaluate, const Largest& allowed)
       : out_(out), evaluate_(evaluate), allowed_(allowed) {}
 
   void add(double from, double to, int depth) {
     const ElementNodes& nodes = element_nodes(directional_degree);
-    const std::size_t channels = out_.delays.size() + 1;
-    DirectionalElement element{from, to, {}};
+    const std::size_t damped = allowed_.damping > 0 ? 1 : 0;
+    const std::size_t channels = out_.delays.size() + 1 + damped;
+    DirectionalElement element{from, to, {}, {}};
     element.matrices.assign(channels, std::vector<Matrix2>(nodes.t.size()));
     Sample sample;
     const double middle = 0.5 * (from + to);
@@ -64,13 +66,18 @@ class Sampler {
       add(middle, to, depth + 1);
       return;
     }
-    for (auto& channel : element.matrices) {
+    for (std::size_t d = 0; d < channels; ++d) {
+      auto& channel = element.matrices[d];
       const bool zero = std::all_of(
           channel.begin(), channel.end(),
-          [&](const Matrix2& m) { return largest_entry(m) <= 1e-3 * allowed_; });
+          [&](const Matrix2& m) { return largest_entry(m) <= 1e-3 * allowed(d); });
       if (zero) {
         channel.clear();
       }
+    }
+    if (damped > 0) {
+      element.damping = std::move(element.matrices.back());
+      element.matrices.pop_back();
     }
     out_.elements.push_back(std::move(element));
   }
@@ -78,13 +85,14 @@ class Sampler {
  private:
   [[nodiscard]] bool resolved(const DirectionalElement& element) const {
     std::vector<double> values;
-    for (const auto& channel : element.matrices) {
+    for (std::size_t d = 0; d < element.matrices.size(); ++d) {
+      const auto& channel = element.matrices[d];
       for (std::size_t q = 0; q < 4; ++q) {
         values.clear();
         for (const Matrix2& m : channel) {
           values.push_back(m[q]);
         }
-        if (chebyshev_tail(values) > allowed_) {
+        if (chebyshev_tail(values) > allowed(d)) {
           return false;
         }
       }
@@ -92,9 +100,13 @@ class Sampler {
     return true;
   }
 
+  [[nodiscard]] double allowed(std::size_t channel) const noexcept {
+    return channel > out_.delays.size() ? allowed_.damping : allowed_.cutting;
+  }
+
   Directional& out_;
   const Evaluate& evaluate_;
-  double allowed_;
+  Largest allowed_;
 };
 
 /// Cylinder of constant lead: theta and height are one variable.
@@ -155,12 +167,14 @@ Directional DirectionalModel::at_depth(double a_p) const {
     return parts_->sampled(a_p);
   }
   Directional out = parts_->unit;
-  for (DirectionalElement& element : out.elements) {
-    for (std::vector<Matrix2>& channel : element.matrices) {
-      for (Matrix2& matrix : channel) {
-        for (double& value : matrix) value *= a_p;
-      }
+  const auto scale = [a_p](std::vector<Matrix2>& channel) {
+    for (Matrix2& matrix : channel) {
+      for (double& value : matrix) value *= a_p;
     }
+  };
+  for (DirectionalElement& element : out.elements) {
+    std::for_each(element.matrices.begin(), element.matrices.end(), scale);
+    scale(element.damping);
   }
   return out;
 }
@@ -169,7 +183,7 @@ Directional DirectionalModel::Parts::sampled(double a_p) const {
   Directional out;
   std::vector<double> breaks;
   Evaluate evaluate;
-  double largest = 0.0;
+  Largest largest;
   AxialArcs axial;
   if (keeps_radius) {
     const CylinderArcs& arcs = cylinder;
@@ -178,7 +192,7 @@ Directional DirectionalModel::Parts::sampled(double a_p) const {
     out.period = arcs.passes.period;
     out.delays = arcs.passes.delays;
     breaks = arcs.breaks(lag);
-    largest = arcs.largest * a_p;
+    largest = {arcs.largest.cutting * a_p, arcs.largest.damping * a_p};
     evaluate = [&arcs, lag, a_p](double phi, double middle, Sample& sample) {
       evaluate_cylinder(arcs, lag, phi, middle, sample);
       for (Matrix2& m : sample) {
@@ -196,7 +210,9 @@ Directional DirectionalModel::Parts::sampled(double a_p) const {
     evaluate = [&axial](double phi, double, Sample& sample) { axial.add(phi, sample); };
   }
   const std::vector<double> ends = ordered_breaks(std::move(breaks), out.period);
-  Sampler sampler(out, evaluate, std::max(tolerance * largest, 1e-300));
+  const Largest allowed{std::max(tolerance * largest.cutting, 1e-300),
+                        tolerance * largest.damping};
+  Sampler sampler(out, evaluate, allowed);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     sampler.add(ends[i], ends[i + 1], 0);
   }

@@ -19,12 +19,16 @@ struct DirectionalElement {
   /// At the nodes of directional_degree, shape (1 + delays, nodes) [N/m]: first what
   /// acts on q(phi), then what acts on q(phi - delay). Empty: zero.
   std::vector<std::vector<Matrix2>> matrices;
+  /// What acts on dq/dphi, shape (nodes) [N]. Empty: no process damping here.
+  std::vector<Matrix2> damping;
 };
 
 /// @brief The linearised cutting force, periodic in the spindle angle.
 ///
 /// @eq D-8 dF(phi) = A_0(phi) q(phi) - sum over delays d of A_d(phi) q(phi - d)
 /// @src [diez2010] eq. 14 for every tooth, height and mark
+/// @eq D-30 and with process damping + D(phi) dq/dphi
+/// @src derived: F-16 with dq/dt / v = (dq/dphi) / R
 struct Directional {
   double period = 0.0;         ///< pitch of equal teeth, else a turn [rad]
   std::vector<double> delays;  ///< [rad], ascending, at most the period
@@ -36,6 +40,10 @@ struct Directional {
 /// @eq D-9 A_d(phi) = sum over teeth and pieces with that delay of the integral
 ///         of g along the edge
 /// @src derived; on constant-lead cylinders as F-5
+/// @eq D-31 D(phi) = sum over teeth of the integral of g_d / R along the edge in cut,
+///          g_d the g of the linear law K_t = mu c, K_r = c, K_a = 0
+/// @src derived: F-16 in the directions of D-7; R not below a feed per tooth, where no
+///      chip forms either
 /// @note The normal of a mark is taken along the ray: good to f/R.
 class DirectionalModel {
  public:

@@ -1,5 +1,6 @@
 #include <trochoid/dynamics/element_response.h>
 
+#include <trochoid/dynamics/nodes.h>
 #include <trochoid/dynamics/oscillator.h>
 
 #include <array>
@@ -88,6 +89,23 @@ ElementResponse response_along_normals(const ElementResponse& response,
   return out;
 }
 
+namespace {
+
+/// Of work.system the first columns are complete: the right sides follow.
+void eliminate(const numerics::PaddedMatrix& given, Elimination& work,
+               numerics::PaddedMatrix& motion) {
+  numerics::PaddedMatrix& system = work.system;
+  system.values.insert(system.values.end(), given.values.begin(), given.values.end());
+  work.room.resize(2 * system.columns);
+  numerics::eliminate(system, work.room);  // D-11
+  const std::span<const double> solved = system.from(given.rows);
+  motion.rows = given.rows;
+  motion.columns = given.columns;
+  motion.values.assign(solved.begin(), solved.end());
+}
+
+}  // namespace
+
 void answer_cut(const numerics::PaddedMatrix& given, std::span<const double> matrices,
                 double force, Elimination& work, numerics::PaddedMatrix& motion) {
   const std::size_t values = given.rows;
@@ -107,13 +125,51 @@ void answer_cut(const numerics::PaddedMatrix& given, std::span<const double> mat
     }
     column[j] += 1.0;
   }
-  system.values.insert(system.values.end(), given.values.begin(), given.values.end());
-  work.room.resize(2 * system.columns);
-  numerics::eliminate(system, work.room);  // D-11
-  const std::span<const double> solved = system.from(values);
-  motion.rows = values;
-  motion.columns = given.columns;
-  motion.values.assign(solved.begin(), solved.end());
+  eliminate(given, work, motion);
+}
+
+void answer_damped_cut(const numerics::PaddedMatrix& given,
+                       const numerics::PaddedMatrix& whole, double force,
+                       Elimination& work, numerics::PaddedMatrix& motion) {
+  const std::size_t values = given.rows;
+  const std::size_t room = numerics::padded(values);
+  numerics::PaddedMatrix& system = work.system;
+  system.rows = values;
+  system.columns = values + given.columns;
+  system.values.assign(values * room, 0.0);
+  const std::span<const double> G = std::span(given.values).first(values * room);
+  for (std::size_t j = 0; j < values; ++j) {
+    const std::span<double> column(system.column(j), room);
+    numerics::padded_product(G, {whole.column(j), values}, column);
+    for (double& value : column) value *= -force;
+    column[j] += 1.0;
+  }
+  eliminate(given, work, motion);
+}
+
+numerics::PaddedMatrix force_on_nodes(const PeriodElement& e) {
+  const std::vector<double>& D = e.damping.matrices;
+  if (D.empty()) {
+    return {};
+  }
+  const std::size_t n = e.nodes();
+  const std::size_t count = D.size() / n > 1 ? 2 : 1;
+  const std::vector<double> E = slopes_at_nodes(element_nodes(e.degree));
+  const double per_angle = 2 / (e.to - e.from);
+  numerics::PaddedMatrix whole = numerics::padded_zeros(count * n, count * n);
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b < count; ++b) {
+      const std::size_t first = (a * count + b) * n;
+      for (std::size_t j = 0; j < n; ++j) {
+        double* const column = whole.column(b * n + j) + a * n;
+        for (std::size_t i = 0; i < n; ++i) {
+          column[i] = D[first + i] * per_angle * E[i * n + j];
+        }
+        column[j] += e.own.matrices.empty() ? 0.0 : e.own.matrices[first + j];
+      }
+    }
+  }
+  return whole;
 }
 
 }  // namespace trochoid::dynamics

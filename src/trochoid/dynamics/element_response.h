@@ -53,4 +53,17 @@ struct Elimination {
 void answer_cut(const numerics::PaddedMatrix& given, std::span<const double> matrices,
                 double force, Elimination& work, numerics::PaddedMatrix& motion);
 
+/// @brief The same with process damping: A_0 + D d/dphi in place of A_0.
+///
+/// @param[in] whole  of force_on_nodes
+void answer_damped_cut(const numerics::PaddedMatrix& given,
+                       const numerics::PaddedMatrix& whole, double force,
+                       Elimination& work, numerics::PaddedMatrix& motion);
+
+/// @brief The forces at the nodes of an element from q there: A_0 + D d/dphi.
+///
+/// @eq D-32 the slope of q at the nodes
+/// @return shape (components nodes, components nodes) [N/m]; empty without damping
+numerics::PaddedMatrix force_on_nodes(const PeriodElement& element);
+
 }  // namespace trochoid::dynamics

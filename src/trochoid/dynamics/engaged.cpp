@@ -58,6 +58,7 @@ AxialArcs axial_arcs(const force::Setup& given, const force::Terms& law, double 
   AxialArcs axial{.passes = passes_of(setup),
                   .edges = std::make_shared<const force::Edges>(setup),
                   .law = law,
+                  .flank = force::damping_terms(setup.process_damping),
                   .h_floor = h_floor,
                   .tolerance = tolerance};
   const force::Edges& edges = *axial.edges;
@@ -83,7 +84,12 @@ AxialArcs axial_arcs(const force::Setup& given, const force::Terms& law, double 
     }
   }
   const Matrix2 g = directional_gradient(law, h_floor, unit::turn / 8, 1.0, 0.0);
-  axial.largest = largest_entry(g) * edges.ends.back();
+  axial.largest.cutting = largest_entry(g) * edges.ends.back();
+  if (setup.process_damping.acts()) {  // dz rather than ds, which cannot grow with 1/R
+    const Matrix2 d =
+        directional_gradient(axial.flank, h_floor, unit::turn / 8, 1.0, 0.0);
+    axial.largest.damping = largest_entry(d) * 2 * a_p / setup.cutter.profile.D;
+  }
   return axial;
 }
 
@@ -93,7 +99,19 @@ void AxialArcs::add(double phi, std::vector<Matrix2>& out) const {
   numerics::PieceFinder<force::EdgeCurve> finder(curve, relative_resolution * length);
   std::vector<numerics::Piece<force::EdgeState>> pieces;
   Matrix2 allowed{};
-  allowed.fill(0.02 * tolerance * largest);
+  allowed.fill(0.02 * tolerance * largest.cutting);
+  Matrix2 damping_allowed{};
+  damping_allowed.fill(0.02 * tolerance * largest.damping);
+  const double least_R = edges->setup.cut.f_z;
+  const auto damping = [&](double s, double weight, Matrix2& sum) {
+    const force::EdgePoint point = edges->point(s);
+    const Matrix2 g =
+        directional_gradient(flank, h_floor, curve.state(point).theta,
+                             point.meridian.sin_kappa, point.meridian.cos_kappa);
+    for (std::size_t q = 0; q < g.size(); ++q) {
+      sum[q] += weight * g[q] / std::max(least_R, point.meridian.r);  // D-31
+    }
+  };
   const auto gradient = [&](double s, double weight, Matrix2& sum) {
     const force::EdgePoint point = edges->point(s);
     const force::EdgeState state = curve.state(point);
@@ -108,20 +126,26 @@ void AxialArcs::add(double phi, std::vector<Matrix2>& out) const {
     curve.stand_at(phi, j);
     finder.find(edges->grid, pieces);
     for (const auto& piece : pieces) {
+      const chip::Chip& chip = piece.state.chip;
+      const bool own = chip::ends_at_edge(chip);
+      const bool damps = own && largest.damping > 0;
       Matrix2 sum{};
       double from = piece.from;
       for (const double end : edges->ends) {
         const double to = std::min(end, piece.to);
         if (to > from) {
           numerics::add_integral(from, to, gradient, allowed, 1e-9 * length, sum);
+          if (damps) {
+            numerics::add_integral(from, to, damping, damping_allowed, 1e-9 * length,
+                                   out.back());
+          }
           from = to;
         }
       }
-      const chip::Chip& chip = piece.state.chip;
       const std::size_t channel =
           passes.channel(edges->passage, j, chip::mark_of(chip));
       for (std::size_t q = 0; q < sum.size(); ++q) {
-        out[0][q] += chip::ends_at_edge(chip) ? sum[q] : 0.0;
+        out[0][q] += own ? sum[q] : 0.0;
         if (channel > 0) {
           out[channel][q] += sum[q];
         }

@@ -29,6 +29,12 @@ Passes passes_of(const force::Setup& setup);
 
 double largest_entry(const Matrix2& m) noexcept;
 
+/// Largest entries, of what acts on q and of what acts on dq/dphi.
+struct Largest {
+  double cutting = 0.0;
+  double damping = 0.0;  ///< 0: there is no process damping
+};
+
 /// An arc of theta in which one pass left the surface.
 struct PassArc {
   double from = 0.0;        ///< [rad]
@@ -42,19 +48,22 @@ struct CylinderArcs {
   Passes passes;
   chip::Passage passage;
   force::Terms law;
+  force::Terms flank;           ///< process damping as a law, K [N/m]
   double h_floor = 0.0;         ///< [m]
   double r = 0.0;               ///< [m]
   double lag_per_height = 0.0;  ///< [rad/m]
-  double largest = 0.0;         ///< entry of g, over all teeth [N/m^2]
+  Largest largest;              ///< entries of g, over all teeth [N/m^2], and [N/m]
   std::vector<geometry::EdgePosition> teeth;
   /// Of each tooth, or of one if all are equal.
   std::vector<std::vector<PassArc>> arcs;
-  /// Antiderivative of g over theta for each of those teeth and each channel; empty
-  /// without helix.
+  /// Antiderivative of g over theta for each of those teeth and each channel, last of
+  /// D-31 where flanks damp; empty without helix.
   std::vector<std::vector<std::optional<numerics::PiecewiseIntegral<4>>>> tables;
 
   [[nodiscard]] std::vector<double> breaks(double lag) const;
   [[nodiscard]] Matrix2 gradient(std::size_t tooth, double theta) const noexcept;
+  /// g_d / R of D-31 [N/m]
+  [[nodiscard]] Matrix2 damping(std::size_t tooth, double theta) const noexcept;
   /// Add the integral over an edge whose tip is at theta [N/m^2 rad].
   void add_edge(std::size_t tooth, double theta, double lag,
                 std::vector<Matrix2>& out) const noexcept;
@@ -72,11 +81,12 @@ struct AxialArcs {
   std::vector<double> breaks;  ///< spindle angles [rad]
   std::shared_ptr<const force::Edges> edges;
   force::Terms law;
+  force::Terms flank;    ///< process damping as a law, K [N/m]
   double h_floor = 0.0;  ///< [m]
-  double largest = 0.0;  ///< entry of the matrices [N/m]
+  Largest largest;       ///< entries of the matrices [N/m], and [N]
   double tolerance = 0.0;
 
-  /// Add the matrices at phi [N/m].
+  /// Add the matrices at phi [N/m], last D where flanks damp [N].
   void add(double phi, std::vector<Matrix2>& out) const;
 };
 

@@ -72,13 +72,17 @@ using Table = numerics::PiecewiseIntegral<4>;
 
 std::vector<std::optional<Table>> tables_of(const CylinderArcs& c, std::size_t tooth,
                                             double tolerance) {
-  std::vector<std::optional<Table>> tables(c.passes.delays.size() + 1);
-  const auto f = [&](double theta) { return c.gradient(tooth, theta); };
-  Matrix2 allowed{};
-  allowed.fill(0.05 * tolerance * c.largest);
+  const std::size_t marks = c.passes.delays.size();
+  std::vector<std::optional<Table>> tables(marks + (c.largest.damping > 0 ? 2 : 1));
   for (std::size_t channel = 0; channel < tables.size(); ++channel) {
+    const bool damps = channel > marks;
+    const auto f = [&](double theta) {
+      return damps ? c.damping(tooth, theta) : c.gradient(tooth, theta);
+    };
+    Matrix2 allowed{};
+    allowed.fill(0.05 * tolerance * (damps ? c.largest.damping : c.largest.cutting));
     for (const PassArc& arc : c.arcs[tooth]) {
-      if (channel == 0 ? arc.own : arc.channel == channel) {
+      if (channel == 0 || damps ? arc.own : arc.channel == channel) {
         if (!tables[channel]) {
           tables[channel].emplace(start, unit::turn);
         }
@@ -104,6 +108,7 @@ CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Terms& law,
       .passes = passes_of(setup),
       .passage = chip::passage(setup.cutter, setup.cut, setup.chip),
       .law = law,
+      .flank = force::damping_terms(setup.process_damping),
       .h_floor = h_floor,
       .r = setup.cutter.profile.D / 2,
       .lag_per_height = 2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter};
@@ -114,8 +119,11 @@ CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Terms& law,
     c.arcs.push_back(arcs_of(c, j));
     for (const PassArc& arc : c.arcs.back()) {
       for (const double part : {0.001, 0.5, 0.999}) {
-        c.largest = std::max(c.largest, largest_entry(c.gradient(
-                                            j, arc.from + part * (arc.to - arc.from))));
+        const double theta = arc.from + part * (arc.to - arc.from);
+        c.largest.cutting =
+            std::max(c.largest.cutting, largest_entry(c.gradient(j, theta)));
+        c.largest.damping =
+            std::max(c.largest.damping, largest_entry(c.damping(j, theta)));
       }
     }
   }
@@ -150,6 +158,12 @@ Matrix2 CylinderArcs::gradient(std::size_t tooth, double theta) const noexcept {
   return directional_gradient(law, h, theta + teeth[tooth].epsilon, 1.0, 0.0);
 }
 
+Matrix2 CylinderArcs::damping(std::size_t tooth, double theta) const noexcept {
+  Matrix2 g = directional_gradient(flank, 0.0, theta + teeth[tooth].epsilon, 1.0, 0.0);
+  for (double& value : g) value /= r;  // D-31
+  return g;
+}
+
 void CylinderArcs::add_edge(std::size_t tooth, double theta, double lag,
                             std::vector<Matrix2>& out) const noexcept {
   const auto& of_tooth = tables[passes.equal ? 0 : tooth];
@@ -170,8 +184,13 @@ void CylinderArcs::add_point(std::size_t tooth, double theta, double middle,
       continue;
     }
     const Matrix2 g = gradient(source, theta - turns);
+    const bool damps = arc.own && largest.damping > 0;
+    const Matrix2 d = damps ? damping(source, theta - turns) : Matrix2{};
     for (std::size_t q = 0; q < g.size(); ++q) {
       out[0][q] += arc.own ? g[q] : 0.0;
+      if (damps) {
+        out.back()[q] += d[q];
+      }
       if (arc.channel > 0) {
         out[arc.channel][q] += g[q];
       }

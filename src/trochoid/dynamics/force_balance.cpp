@@ -31,12 +31,13 @@ struct Trial {
 
 struct Balance {
   const ResponseOf& response_of;
-  std::array<double, 3> P{};
+  StepCompliance compliance;
   double share = 1.0;  ///< of the compliance
 
   [[nodiscard]] Trial trial(const Force& guess) const {
     Trial at{.guess = guess,
              .there = response_of({share * guess[0], share * guess[1], 0.0})};
+    const auto& P = compliance.P;
     at.off = {at.there.F[0] - guess[0], at.there.F[1] - guess[1]};
     at.r = {P[0] * at.off[0] + P[1] * at.off[1], P[1] * at.off[0] + P[2] * at.off[1]};
     return at;
@@ -49,10 +50,12 @@ struct Balance {
   /// The step of T-6; the difference itself where that has no finite one.
   [[nodiscard]] Plane newton(const Trial& at) const {
     const auto& J = at.there.per_q;
-    const double a = 1 - J[0] * P[0] - J[1] * P[1];
-    const double b = -J[0] * P[1] - J[1] * P[2];
-    const double c = -J[2] * P[0] - J[3] * P[1];
-    const double d = 1 - J[2] * P[1] - J[3] * P[2];
+    const auto& P = compliance.P;
+    const std::array<double, 4> damped = speed_feedback(at.there, compliance.V);
+    const double a = 1 - J[0] * P[0] - J[1] * P[1] - damped[0];
+    const double b = -J[0] * P[1] - J[1] * P[2] - damped[1];
+    const double c = -J[2] * P[0] - J[3] * P[1] - damped[2];
+    const double d = 1 - J[2] * P[1] - J[3] * P[2] - damped[3];
     const double det = a * d - b * c;
     const Plane step = {(d * at.off[0] - b * at.off[1]) / det,
                         (a * at.off[1] - c * at.off[0]) / det};
@@ -103,8 +106,8 @@ Trial yielding_by_degrees(const Balance& whole, double tolerance) {
   for (double step = 0.25; reached < 1 && step > least_degree;) {
     Balance part = whole;
     part.share = std::min(1.0, reached + step);
-    for (double& p : part.P) {
-      p *= part.share;
+    for (auto* values : {&part.compliance.P, &part.compliance.V}) {
+      for (double& value : *values) value *= part.share;
     }
     at = nearest_balance(part, F, tolerance);
     const bool found = size_of(at.r) <= tolerance;
@@ -118,9 +121,9 @@ Trial yielding_by_degrees(const Balance& whole, double tolerance) {
 }  // namespace
 
 ForceBalance balanced_force(const ResponseOf& response_of,
-                            const std::array<double, 3>& P, const Force& F_g,
+                            const StepCompliance& compliance, const Force& F_g,
                             double tolerance) {
-  const Balance balance{response_of, P};
+  const Balance balance{response_of, compliance};
   Trial best = nearest_balance(balance, F_g, tolerance);
   if (size_of(best.r) > tolerance) {
     const Trial other = yielding_by_degrees(balance, tolerance);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/newton_step.h>
 
 #include <array>
 #include <functional>
@@ -20,12 +21,12 @@ struct ForceBalance {
 ///          r(t) . r(0) changes its sign, until |r| is nothing beside the chips
 /// @src derived: along d the displacement is off by a number that has one sign before
 ///      the force that agrees and the other behind it, whatever the slope between
-/// @param response_of  force and slope where the force at the end is F_g
-/// @param P            dq/dF: xx, xy, yy [m/N]
+/// @param response_of  force and slopes where the force at the end is F_g
+/// @param compliance   P, and V where the force depends on the speed as well
 /// @param F_g          guess [N]
 /// @param tolerance    displacements that are nothing [m]
 ForceBalance balanced_force(
     const std::function<Response(const Force& F_g)>& response_of,
-    const std::array<double, 3>& P, const Force& F_g, double tolerance);
+    const StepCompliance& compliance, const Force& F_g, double tolerance);
 
 }  // namespace trochoid::dynamics

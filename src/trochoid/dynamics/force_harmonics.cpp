@@ -68,6 +68,10 @@ ForceHarmonics force_harmonics(const Directional& directional, int most) {
                     out.coefficients[d]);
       }
     }
+    if (!element.damping.empty()) {
+      out.damping.resize(waves);
+      add_element(element, element.damping, directional.period, out.damping);
+    }
   }
   return out;
 }

@@ -18,6 +18,8 @@ struct ForceHarmonics {
   int most = 0;                ///< n from -most to most
   /// Shape (1 + delays, 2 most + 1) [N/m]: first what acts on q(phi).
   std::vector<std::vector<ComplexMatrix2>> coefficients;
+  /// The same of what acts on dq/dphi, shape (2 most + 1) [N]; empty: nothing.
+  std::vector<ComplexMatrix2> damping;
 };
 
 /// @param most  largest n, at least 0

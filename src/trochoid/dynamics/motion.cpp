@@ -56,7 +56,7 @@ class Run {
   explicit Run(const MotionProblem& problem)
       : problem_(problem),
         grid_(engaged_grid(problem.setup, problem.grid, steps_of(problem))),
-        cut_(problem.law, grid_),
+        cut_(problem.law, grid_, flank_terms(problem.setup)),
         omega_(problem.setup.cut.Omega),
         dt_(times_of(grid_, omega_)),
         stepper_(problem, dt_),
@@ -83,7 +83,7 @@ class Run {
     const auto q = past_.q();
     cut_.prepare(0, grid_.after[0], past_.last());
     cut_.watch(q[0], q[1]);
-    Force F = cut_.response(q[0], q[1]).F;
+    Force F = cut_.response(q, stepper_.speed()).F;
     before_ = F;
     for (int n = 0; n < problem_.revolutions && going(); ++n) {
       motion_.once.push_back(past_.q());
@@ -159,7 +159,7 @@ class Run {
     cut_.prepare(next, grid_.before[next], past_.next());
     const Force end = force_at_end(i, F);
     auto q = stepper_.end(end);
-    const bool jumped = add_crossings(q);
+    const bool jumped = add_crossings(q, end);
     if (jumped) {
       q = stepper_.end(end);
     }
@@ -179,7 +179,7 @@ class Run {
     }
     cut_.prepare(next, grid_.after[next], past_.last());
     cut_.watch(q[0], q[1]);
-    before_ = cut_.response(q[0], q[1]).F;
+    before_ = cut_.response(q, stepper_.speed()).F;
     return before_;
   }
 
@@ -205,9 +205,8 @@ class Run {
     std::array<double, 2> guess = {F[0] + ratio * (F[0] - before_[0]),
                                    F[1] + ratio * (F[1] - before_[1])};
     for (int round = 0; round < most_rounds; ++round) {
-      const auto q = stepper_.end({guess[0], guess[1], 0.0});
-      const Response r = cut_.response(q[0], q[1]);
-      const NewtonStep fresh(r, P);
+      const Response r = response_to({guess[0], guess[1], 0.0});
+      const NewtonStep fresh = newton_step(r);
       const NewtonStep& use = round == 0 ? newton_ : fresh;
       const std::array<double, 2> off = {r.F[0] - guess[0], r.F[1] - guess[1]};
       const std::array<double, 2> change = {use.xx * off[0] + use.xy * off[1],
@@ -229,27 +228,41 @@ class Run {
     return bracketed_force({guess[0], guess[1], 0.0});
   }
 
+  /// The force of the cut at the end of the step if the force there is F.
+  Response response_to(const Force& F) noexcept {
+    const auto q = stepper_.end(F);
+    return cut_.damps() ? cut_.response(q, stepper_.end_speed(F))
+                        : cut_.response(q[0], q[1]);
+  }
+
+  [[nodiscard]] NewtonStep newton_step(const Response& r) const noexcept {
+    const auto& P = stepper_.per_force();
+    return cut_.damps() ? NewtonStep(feedback(r, {P, stepper_.speed_per_force()}))
+                        : NewtonStep(r, P);
+  }
+
   /// The same where the force has a corner, a jump or an infinite slope in between.
   Force bracketed_force(const Force& guess) {
     const double f_z = problem_.setup.cut.f_z;
-    const auto response_of = [this](const Force& F) {
-      const auto q = stepper_.end(F);
-      return cut_.response(q[0], q[1]);
-    };
+    const auto response_of = [this](const Force& F) { return response_to(F); };
+    const StepCompliance compliance{stepper_.per_force(), stepper_.speed_per_force()};
     const ForceBalance found =
-        balanced_force(response_of, stepper_.per_force(), guess, no_motion * f_z);
+        balanced_force(response_of, compliance, guess, no_motion * f_z);
     // A tooth that touches with an edge force, but not without it, has no force that
     // agrees: one of both is as good as the other.
-    const auto& P = stepper_.per_force();
-    const double of_jump = std::hypot(P[0], P[1], P[2]) * cut_.largest_jump();
+    const auto& P = compliance.P;
+    const auto v = stepper_.end_speed(found.F);
+    const double of_jump =
+        std::hypot(P[0], P[1], P[2]) * cut_.largest_jump(std::hypot(v[0], v[1]));
     motion_.solved = found.motion_error <= std::max(too_much * f_z, of_jump);
     return found.F;
   }
 
   /// An edge force that came or went in the step acted over a part of it, not as the
   /// straight line between its ends has it.
-  bool add_crossings(const std::array<double, 2>& q) {
-    const auto& crossings = cut_.crossings(q[0], q[1]);
+  bool add_crossings(const std::array<double, 2>& q, const Force& end) {
+    const auto v = cut_.damps() ? stepper_.end_speed(end) : std::array<double, 2>{};
+    const auto& crossings = cut_.crossings(q, v);
     for (const Crossing& crossing : crossings) {
       Force mean;
       for (std::size_t a = 0; a < 3; ++a) {

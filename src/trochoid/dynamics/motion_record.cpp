@@ -51,7 +51,7 @@ MotionSamples::MotionSamples(const MotionProblem& problem, const EngagedGrid& gr
     : problem_(problem),
       samples_(between_nodes(problem.setup, problem.grid, grid,
                              sample_angles(problem.samples_per_rev))),
-      cut_(problem.law, samples_.grid) {}
+      cut_(problem.law, samples_.grid, flank_terms(problem.setup)) {}
 
 void MotionSamples::add(const TakenStep& step, Motion& motion) {
   const Snapshot& from = step.from;
@@ -62,15 +62,18 @@ void MotionSamples::add(const TakenStep& step, Motion& motion) {
     motion.angle.push_back(unit::turn * step.turn + samples_.grid.angle[next_]);
     motion.time.push_back(motion.angle.back() / problem_.setup.cut.Omega);
     std::array<double, 2> q{};
+    std::array<double, 2> v{};
     for (std::size_t r = 0; r < motion.mode.size(); ++r) {
       const auto [place, speed] = between(from[r], to[r], step.dt, t);
       motion.mode[r].push_back(place);
       motion.speed[r].push_back(speed);
       q[0] += problem_.system.modes[r].x * place;
       q[1] += problem_.system.modes[r].y * place;
+      v[0] += problem_.system.modes[r].x * speed;
+      v[1] += problem_.system.modes[r].y * speed;
     }
     cut_.prepare(next_, samples_.grid.after[next_], step.past);
-    motion.force.push_back(cut_.response(q[0], q[1]).F);
+    motion.force.push_back(cut_.response(q, v).F);
     motion.actuator.push_back(
         problem_.drive ? between(from.back(), to.back(), step.dt, t)[0] : 0.0);
   }

@@ -74,6 +74,27 @@ void lagrange_row(const ElementNodes& nodes, double t, std::span<double> row) no
   }
 }
 
+std::vector<double> slopes_at_nodes(const ElementNodes& nodes) {
+  const std::size_t count = nodes.t.size();
+  const double step = pi / static_cast<double>(2 * (count - 1));
+  std::vector<double> E(count * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < count; ++j) {
+      if (j != i) {
+        // t_i - t_j as a product: a difference loses digits where nodes are dense.
+        const auto both = static_cast<double>(i + j);
+        const double apart = static_cast<double>(i) - static_cast<double>(j);
+        const double away = 2 * std::sin(both * step) * std::sin(apart * step);
+        E[i * count + j] = nodes.weights[j] / (nodes.weights[i] * away);
+        sum += E[i * count + j];
+      }
+    }
+    E[i * count + i] = -sum;  // D-32
+  }
+  return E;
+}
+
 double chebyshev_tail(std::span<const double> values) noexcept {
   // The barycentric weights are the last Chebyshev polynomial at the nodes, halved at
   // the ends; times t they are the one before it.

@@ -29,6 +29,14 @@ const ElementNodes& element_nodes(int n);
 /// @param[out] row  shape (n + 1)
 void lagrange_row(const ElementNodes& nodes, double t, std::span<double> row) noexcept;
 
+/// @brief What makes the slopes at the nodes of the values there.
+///
+/// @eq  D-32 q'_i = (2 / (b - a)) sum over j of E_ij q_j on an element from a to b,
+///           E_ij = (w_j / w_i) / (t_i - t_j), each row of the sum 0; w barycentric
+/// @src standard: the derivative of the barycentric interpolant
+/// @return E, row-major, shape (n + 1, n + 1)
+std::vector<double> slopes_at_nodes(const ElementNodes& nodes);
+
 /// @brief Size of the last two Chebyshev coefficients of values at the nodes.
 double chebyshev_tail(std::span<const double> values) noexcept;
 

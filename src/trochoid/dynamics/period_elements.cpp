@@ -157,6 +157,7 @@ PeriodElements period_elements(const Directional& directional,
   PeriodElements out;
   const double cycle = Omega / fastest;  // [rad]
   const PeriodParts parts = period_parts(directional, cycle);
+  bool damped = false;
   out.pitches = parts.pitches;
   out.components = components.count;
   const std::size_t a_pitch =
@@ -175,13 +176,16 @@ PeriodElements period_elements(const Directional& directional,
       return given.empty() ? Channel{} : Channel{sampled(given, rows, components), {}};
     };
     e.own = channel_of(whole.matrices[0]);
+    e.damping = channel_of(whole.damping);
+    damped = damped || !whole.damping.empty();
     for (std::size_t d = 1; d < whole.matrices.size(); ++d) {
       e.delayed.push_back(channel_of(whole.matrices[d]));
     }
     out.all.push_back(std::move(e));
   }
   add_sources(out, directional);
-  if (!resolution.whole_period) {
+  // The flank feels how its normal turns: there is no one normal with process damping.
+  if (!resolution.whole_period && !damped) {
     follow_normals(out);
   }
   for (PeriodElement& e : out.all) {

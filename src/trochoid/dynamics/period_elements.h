@@ -52,6 +52,7 @@ struct PeriodElement {
   std::size_t first = 0;  ///< place of its q in a disturbance
   std::size_t place = 0;  ///< place of its q among those of the period
   Channel own;
+  Channel damping;  ///< of D-30: on dq/dphi [N]
   std::vector<Channel> delayed;
   std::vector<std::array<double, 2>> normal;  ///< n of D-15 at the nodes; or empty
   std::vector<std::array<double, 2>> push;    ///< u of D-15

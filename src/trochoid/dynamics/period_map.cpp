@@ -18,6 +18,8 @@ struct Solved {
   std::size_t response = 0;
   /// (I - G A_0)^-1 times the motion of the response; empty where A_0 = 0.
   numerics::PaddedMatrix motion;
+  /// A_0 + D d/dphi; empty without process damping.
+  numerics::PaddedMatrix whole;
 };
 
 /// Sum of products, in four chains: one would wait for itself.
@@ -38,6 +40,7 @@ struct Work {
   std::vector<double> input;   ///< forces of an element, then the state
   std::vector<double> output;  ///< padded
   std::vector<double> q;       ///< of the period
+  std::vector<double> force;   ///< of an element with process damping, padded
   Elimination elimination;
 };
 
@@ -115,8 +118,11 @@ std::size_t PeriodMap::Parts::response_at(std::size_t k) {
 
 void PeriodMap::Parts::solve(std::size_t k) {
   const Channel& own = elements.all[k].own;
-  if (!own.matrices.empty()) {
-    const ElementResponse& response = responses[solved[k].response];
+  const ElementResponse& response = responses[solved[k].response];
+  if (solved[k].whole.rows > 0) {
+    answer_damped_cut(response.motion, solved[k].whole, force, work.elimination,
+                      solved[k].motion);
+  } else if (!own.matrices.empty()) {
     answer_cut(response.motion, own.matrices, force, work.elimination,
                solved[k].motion);
   }
@@ -167,14 +173,19 @@ void PeriodMap::Parts::step(std::size_t k) {
   const std::span<const double> input =
       std::span(work.input).subspan(first, values + work.state.size() - first);
   if (e.wanted) {
-    const bool cuts = !e.own.matrices.empty();
+    const numerics::PaddedMatrix& whole = solved[k].whole;
+    const bool cuts = !e.own.matrices.empty() || whole.rows > 0;
     const numerics::PaddedMatrix& motion = cuts ? solved[k].motion : response.motion;
     const std::span<double> here =
         std::span(work.output).first(numerics::padded(values));
     numerics::padded_product(motion.from(first), input, here);
     std::copy_n(here.begin(), values,
                 work.q.begin() + static_cast<std::ptrdiff_t>(e.place));
-    if (cuts) {
+    if (whole.rows > 0) {
+      std::span<double> F = std::span(work.force).first(numerics::padded(values));
+      numerics::padded_product(whole.from(0), here.first(values), F);
+      for (std::size_t i = 0; i < values; ++i) work.input[i] += force * F[i];
+    } else if (cuts) {
       add_force(e.own, force, here.first(values), std::span(work.input).first(values),
                 e.nodes());
     }
@@ -197,7 +208,8 @@ PeriodMap::PeriodMap(const Directional& directional, const System& system, doubl
       period_elements(directional, parts->components, Omega, fastest, resolution);
   parts->smooth = parts->elements.pitches > 0;
   for (std::size_t k = 0; k < parts->elements.all.size(); ++k) {
-    parts->solved.push_back({parts->response_at(k), {}});
+    parts->solved.push_back(
+        {parts->response_at(k), {}, force_on_nodes(parts->elements.all[k])});
     parts->solve(k);
   }
   parts_ = std::move(parts);
@@ -237,6 +249,7 @@ void PeriodMap::Parts::start(std::span<const double> in) {
   }
   work.input.resize(most + work.state.size());
   work.output.resize(numerics::padded(most));
+  work.force.resize(numerics::padded(most));
 }
 
 void PeriodMap::Parts::advance(std::size_t k, std::span<const double> in) {

@@ -45,12 +45,19 @@ RegenerativeLoop::RegenerativeLoop(const ForceHarmonics& forces,
       force_size_ += 2 * largest(coefficient);
     }
   }
+  for (const ComplexMatrix2& coefficient : forces.damping) {
+    damping_size_ += 2 * largest(coefficient);
+  }
 }
 
 std::vector<Complex> RegenerativeLoop::eigenvalues(double omega, double least) const {
   const Kept kept = kept_at(omega);
+  const auto fastest =
+      static_cast<double>(std::max(std::abs(kept.k.front()), std::abs(kept.k.back())));
+  const double force_size =
+      force_size_ + damping_size_ * (omega + step_ * fastest) / Omega_;
   if (largest(receptance(point_, omega)) < share_of_softest * kept.softest ||
-      2 * kept.softest * force_size_ < least) {
+      2 * kept.softest * force_size < least) {
     return {};
   }
   const std::size_t n = axes_.size() * kept.k.size();
@@ -84,6 +91,7 @@ RegenerativeLoop::Kept RegenerativeLoop::kept_at(double omega) const {
 void RegenerativeLoop::add_column(double omega, const Kept& kept, std::size_t l,
                                   std::vector<Complex>& M) const {
   const std::size_t n = axes_.size() * kept.k.size();
+  const Complex slope(0.0, (omega + step_ * kept.k[l]) / Omega_);
   std::vector<Complex> turned;
   for (const double delay : forces_.delays) {
     turned.push_back(std::polar(1.0, -(omega + step_ * kept.k[l]) * delay / Omega_));
@@ -91,6 +99,9 @@ void RegenerativeLoop::add_column(double omega, const Kept& kept, std::size_t l,
   for (std::size_t k = 0; k < kept.k.size(); ++k) {
     const auto wave = static_cast<std::size_t>(forces_.most + kept.k[k] - kept.k[l]);
     ComplexMatrix2 W = forces_.coefficients[0][wave];
+    for (std::size_t q = 0; q < W.size() && !forces_.damping.empty(); ++q) {
+      W[q] += slope * forces_.damping[wave][q];  // D-33
+    }
     for (std::size_t d = 0; d < forces_.delays.size(); ++d) {
       for (std::size_t q = 0; q < W.size(); ++q) {
         W[q] -= turned[d] * forces_.coefficients[d + 1][wave][q];

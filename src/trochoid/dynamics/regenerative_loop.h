@@ -14,6 +14,9 @@ double largest(const ComplexMatrix2& G) noexcept;
 
 /// @brief What a vibration becomes by the forces that it makes: the matrix of D-22 at
 /// one speed, for one frequency after another.
+///
+/// @eq  D-33 with process damping A_0^(k-l) + i (omega_l / Omega) D^(k-l) in D-22
+/// @src derived: D-30 of a vibration, whose dq/dphi is i omega_l / Omega times q_l
 class RegenerativeLoop {
  public:
   /// @param h  harmonics kept on each side; 0: the mean force
@@ -45,6 +48,7 @@ class RegenerativeLoop {
   int h_;
   std::vector<std::size_t> axes_;  ///< that move
   double force_size_ = 0.0;        ///< no column of forces sums up to more [N/m]
+  double damping_size_ = 0.0;      ///< the same of what acts on dq/dphi [N]
 };
 
 }  // namespace trochoid::dynamics

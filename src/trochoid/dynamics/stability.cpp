@@ -73,12 +73,17 @@ std::optional<ChipFloorCheck> floor_check(const Point& point,
   return check;
 }
 
+std::vector<double> depths_up_to(double greatest) {
+  std::vector<double> depths;
+  for (int i = 1; i <= depths_looked_at; ++i) {
+    depths.push_back(greatest * i / depths_looked_at);
+  }
+  return depths;
+}
+
 std::optional<DepthLimit> depth_limit(const Point& point, double factor,
                                       double greatest) {
-  std::vector<double> looked_at;
-  for (int i = 1; i <= depths_looked_at; ++i) {
-    looked_at.push_back(greatest * i / depths_looked_at);
-  }
+  const std::vector<double> looked_at = depths_up_to(greatest);
   const StabilityProblem& p = point.problem;
   const auto limit =
       limit_depth(point.model, p.system, point.Omega, looked_at, p.options.tolerance);
@@ -87,6 +92,15 @@ std::optional<DepthLimit> depth_limit(const Point& point, double factor,
   }
   return DepthLimit{*limit, chatter_lines(point.model.at_depth(limit->depth), p.system,
                                           point.Omega, factor, least_line)};
+}
+
+/// The limit of the same cut with sharp edges.
+std::optional<Limit> sharp_limit(const StabilityProblem& problem, double greatest) {
+  StabilityProblem sharp = problem;
+  sharp.setup.process_damping = {};
+  return limit_depth(directional_model(sharp, problem.options.chip_floor),
+                     problem.system, problem.setup.cut.Omega, depths_up_to(greatest),
+                     problem.options.tolerance);
 }
 
 std::vector<LimitPoint> with_frequencies(const Point& point,
@@ -138,6 +152,9 @@ Stability stability(const StabilityProblem& problem,
   out.greatest_depth =
       problem.depths.empty() ? point.a_p : std::max(problem.depths.back(), point.a_p);
   out.limit = depth_limit(point, mu.factor, out.greatest_depth);
+  if (problem.setup.process_damping.acts()) {
+    out.sharp_limit = sharp_limit(problem, out.greatest_depth);
+  }
   if (!problem.spindle_speeds.empty() && !problem.depths.empty()) {
     add_lobes(point, progress, out);
   }

@@ -75,6 +75,7 @@ struct Stability {
   std::optional<ChipFloorCheck> floor;  ///< of a power law
   double greatest_depth = 0.0;          ///< of those looked at for the limit [m]
   std::optional<DepthLimit> limit;      ///< none: all of them are stable
+  std::optional<Limit> sharp_limit;     ///< where flanks damp: without that
   LobeGrid lobes;
   std::vector<LimitPoint> limit_curve;  ///< ascending in speed
   /// False: there was no time for all speeds of the lobes, or for the limit curve.

@@ -47,10 +47,12 @@ void solve_repeat(const std::vector<double>& Phi, std::array<double, n>& z) {
 
 Stepper::Length Stepper::length_of(double dt) const {
   Length length{.dt = dt};
-  const auto add = [&](double x, double y, double g) {
-    length.per_F[0] += x * x * g;
-    length.per_F[1] += x * y * g;
-    length.per_F[2] += y * y * g;
+  const auto add = [&](double x, double y, double place, double speed) {
+    const std::array<double, 3> along = {x * x, x * y, y * y};
+    for (std::size_t a = 0; a < along.size(); ++a) {
+      length.per_F[a] += along[a] * place;
+      length.speed_per_F[a] += along[a] * speed;
+    }
   };
   for (const std::size_t r : mode_of_) {
     const ChipMode& m = system_.modes[r];
@@ -61,7 +63,7 @@ Stepper::Length Stepper::length_of(double dt) const {
     std::copy(p.G_0.begin(), p.G_0.end(), step.G_0.begin());
     std::copy(p.G_1.begin(), p.G_1.end(), step.G_1.begin());
     length.oscillators.push_back(step);
-    add(m.x, m.y, step.G_1[0]);
+    add(m.x, m.y, step.G_1[0], step.G_1[1]);
   }
   if (drive_) {
     const ChipMode& m = system_.modes[drive_->mode];
@@ -74,7 +76,7 @@ Stepper::Length Stepper::length_of(double dt) const {
       length.table.G_1[i] = p.G_1[2 * i];
       length.table.command[i] = p.G_0[2 * i + 1] + p.G_1[2 * i + 1];
     }
-    add(m.x, m.y, length.table.G_1[0]);
+    add(m.x, m.y, length.table.G_1[0], length.table.G_1[1]);
   }
   return length;
 }
@@ -179,28 +181,29 @@ void Stepper::add_jump(const Force& F) noexcept {
   }
 }
 
-std::array<double, 2> Stepper::z(std::size_t oscillator) const noexcept {
+std::array<double, 2> Stepper::z(std::size_t oscillator,
+                                 const Force& F) const noexcept {
   const Oscillator& o = oscillators_[oscillator];
   const auto& G = now_->oscillators[oscillator].G_1;
-  const double f = o.x * end_[0] + o.y * end_[1];
+  const double f = o.x * F[0] + o.y * F[1];
   return {o.base[0] + G[0] * f, o.base[1] + G[1] * f};
 }
 
-std::array<double, 4> Stepper::table_z() const noexcept {
+std::array<double, 4> Stepper::table_z(const Force& F) const noexcept {
   const auto& G = now_->table.G_1;
-  const double f = table_x_ * end_[0] + table_y_ * end_[1];
+  const double f = table_x_ * F[0] + table_y_ * F[1];
   return {table_[0] + G[0] * f, table_[1] + G[1] * f, table_[2] + G[2] * f,
           table_[3] + G[3] * f};
 }
 
-std::array<double, 2> Stepper::sum(std::size_t state) const noexcept {
+std::array<double, 2> Stepper::sum(std::size_t state, const Force& F) const noexcept {
   std::array<double, 2> q{};
   if (drive_) {
-    const double table = table_z()[state];
+    const double table = table_z(F)[state];
     q = {table_x_ * table, table_y_ * table};
   }
   for (std::size_t i = 0; i < oscillators_.size(); ++i) {
-    const double own = z(i)[state];
+    const double own = z(i, F)[state];
     q[0] += oscillators_[i].x * own;
     q[1] += oscillators_[i].y * own;
   }
@@ -209,12 +212,12 @@ std::array<double, 2> Stepper::sum(std::size_t state) const noexcept {
 
 void Stepper::repeat(double time) {
   for (std::size_t i = 0; i < oscillators_.size(); ++i) {
-    oscillators_[i].base = z(i);
+    oscillators_[i].base = z(i, end_);
     solve_repeat<2>(of_mode(system_.modes[mode_of_[i]], time).Phi,
                     oscillators_[i].base);
   }
   if (drive_) {
-    table_ = table_z();
+    table_ = table_z(end_);
     solve_repeat<4>(of_table(system_.modes[drive_->mode], *drive_, time).Phi, table_);
   }
   end_ = {};
@@ -223,10 +226,10 @@ void Stepper::repeat(double time) {
 Snapshot Stepper::snapshot() const {
   Snapshot all(oscillators_.size() + (drive_ ? 2 : 0));
   for (std::size_t i = 0; i < oscillators_.size(); ++i) {
-    all[mode_of_[i]] = z(i);
+    all[mode_of_[i]] = z(i, end_);
   }
   if (drive_) {
-    const auto table = table_z();
+    const auto table = table_z(end_);
     all[drive_->mode] = {table[0], table[1]};
     all.back() = {table[2], table[3]};
   }

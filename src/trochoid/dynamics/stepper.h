@@ -43,17 +43,26 @@ class Stepper {
             base_q_[1] + per_F_[1] * F[0] + per_F_[2] * F[1]};
   }
 
+  /// @brief dq/dt at the end of the step if the force there is F [m/s].
+  [[nodiscard]] std::array<double, 2> end_speed(const Force& F) const noexcept {
+    return sum(1, F);
+  }
+
   /// dq/dF at the end of the step begun: xx, xy, yy [m/N].
   [[nodiscard]] const std::array<double, 3>& per_force() const noexcept {
     return per_F_;
+  }
+  /// The same of dq/dt [m/(N s)].
+  [[nodiscard]] const std::array<double, 3>& speed_per_force() const noexcept {
+    return now_->speed_per_F;
   }
 
   /// @brief Take the step with the force F at its end.
   void accept(const Force& F) noexcept { end_ = F; }
 
   /// q now [m], and dq/dt [m/s].
-  [[nodiscard]] std::array<double, 2> place() const noexcept { return sum(0); }
-  [[nodiscard]] std::array<double, 2> speed() const noexcept { return sum(1); }
+  [[nodiscard]] std::array<double, 2> place() const noexcept { return sum(0, end_); }
+  [[nodiscard]] std::array<double, 2> speed() const noexcept { return sum(1, end_); }
 
   /// @brief After a turn that began at rest: the state from which the same forces and
   /// commands would lead back to it.
@@ -66,7 +75,9 @@ class Stepper {
   [[nodiscard]] Snapshot snapshot() const;
 
   /// Place of the driven mode [m]; 0 where none is driven.
-  [[nodiscard]] double table() const noexcept { return drive_ ? table_z()[0] : 0.0; }
+  [[nodiscard]] double table() const noexcept {
+    return drive_ ? table_z(end_)[0] : 0.0;
+  }
 
  private:
   struct Oscillator {
@@ -96,15 +107,18 @@ class Stepper {
     double before = 0.0;
     std::vector<OscillatorStep> oscillators;
     TableStep table;
-    std::array<double, 3> per_F{};  ///< dq/dF at the end: xx, xy, yy
+    std::array<double, 3> per_F{};        ///< dq/dF at the end: xx, xy, yy
+    std::array<double, 3> speed_per_F{};  ///< of dq/dt
   };
 
   [[nodiscard]] Length length_of(double dt) const;
-  [[nodiscard]] std::array<double, 2> sum(std::size_t state) const noexcept;
+  [[nodiscard]] std::array<double, 2> sum(std::size_t state,
+                                          const Force& F) const noexcept;
   void add_jump(const Force& F) noexcept;
   void carry(const Length& before, Length& length) const;
-  [[nodiscard]] std::array<double, 2> z(std::size_t oscillator) const noexcept;
-  [[nodiscard]] std::array<double, 4> table_z() const noexcept;
+  [[nodiscard]] std::array<double, 2> z(std::size_t oscillator,
+                                        const Force& F) const noexcept;
+  [[nodiscard]] std::array<double, 4> table_z(const Force& F) const noexcept;
 
   System system_;
   std::vector<Oscillator> oscillators_;

@@ -2,6 +2,7 @@
 
 #include <trochoid/chip/model.h>
 #include <trochoid/force/law.h>
+#include <trochoid/force/process_damping.h>
 #include <trochoid/geometry/cut.h>
 #include <trochoid/geometry/cutter.h>
 #include <trochoid/geometry/runout.h>
@@ -15,6 +16,7 @@ struct Setup {
   geometry::Cut cut;
   chip::ChipModel chip;
   EdgeLength edge_length = EdgeLength::true_length;
+  ProcessDamping process_damping;  ///< felt by what vibrates
 };
 
 /// @brief The runout that counts: with a chip model that feels none, there is none.

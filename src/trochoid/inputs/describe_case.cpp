@@ -21,7 +21,7 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
 `trochoid check CASE.toml` only looks for mistakes.
 
 * The unit is the end of the name of every key: `_mm`, `_um`, `_deg`, `_rpm`, `_MPa`,
-  `_GPa`, `_N_per_mm`, `_Hz`, `_s`. A key without such an ending is a plain number, a text
+  `_GPa`, `_N_per_mm`, `_N_per_mm3`, `_Hz`, `_s`. A key without such an ending is a plain number, a text
   or a choice.
 * A mistake is told as `file:line:column: key = value: why; what is right (what it means)`,
   all mistakes at once. Unknown keys are mistakes.

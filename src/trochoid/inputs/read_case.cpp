@@ -185,6 +185,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   check_chip(t.chip, findings);
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
+  c.setup.process_damping = damping_of(t.force, purpose, findings);
   c.gauge_length = t.tool.gauge_length;
   const bool in_time = purpose == Command::dynamics || purpose == Command::correct;
   if (in_time && findings.places.count("sampling.revolutions") == 0) {

@@ -17,6 +17,10 @@ geometry::Cut cut_of(CutTable& cut, const std::string& path,
                      const geometry::Cutter& cutter, Findings& findings);
 
 void check_chip(const chip::ChipModel& chip, Findings& findings);
+/// @brief Process damping; fills in its friction.
+/// @param purpose  by others than stability, dynamics and correct it is not felt: a note
+force::ProcessDamping damping_of(ForceTable& force, Command purpose,
+                                 Findings& findings);
 force::Law law_of(ForceTable& force, bool exponents_default);
 void check_sampling(Sampling& sampling, Findings& findings);
 

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trochoid::inputs {
@@ -156,6 +157,37 @@ force::Law law_of(ForceTable& force, bool exponents_default) {
     law = force::with_number(law, quantity.key, given.value_or(0.0));
   }
   return law;
+}
+
+force::ProcessDamping damping_of(ForceTable& force, Command purpose,
+                                 Findings& findings) {
+  constexpr double usual_friction = 0.3;
+  constexpr std::array vibrating = {Command::stability, Command::dynamics,
+                                    Command::correct};
+  const double land = force.wear_land.value_or(0.0);
+  if (!(land > 0)) {
+    return {};
+  }
+  const std::string key = "force.wear_land_um";
+  const std::string given = fmt::format("{} = {} um", key, number_text(land, unit::um));
+  if (!force.indentation && sound(findings, {key, "force.indentation_N_per_mm3"})) {
+    report(findings, key,
+           given +
+               ": [force] has no indentation_N_per_mm3; must be there with it "
+               "(force on the flank per volume that it presses), or leave out "
+               "wear_land_um");
+  }
+  if (std::find(vibrating.begin(), vibrating.end(), purpose) == vibrating.end()) {
+    findings.notes.push_back(
+        {"process_damping_ignored",
+         fmt::format("{} has no meaning for {} and is ignored: a flank presses the "
+                     "work where a cut vibrates, in stability, dynamics and correct.",
+                     given, name_of(purpose))});
+  }
+  force.flank_friction = force.flank_friction.value_or(usual_friction);
+  return {.wear_land = land,
+          .indentation = force.indentation.value_or(0.0),
+          .friction = *force.flank_friction};
 }
 
 void check_sampling(Sampling& sampling, Findings& findings) {

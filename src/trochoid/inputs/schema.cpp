@@ -21,6 +21,7 @@ constexpr Ending endings[] = {
     {"_mm_per_min", {unit::mm_per_min, "mm/min"}},
     {"_um_per_s", {unit::um, "um/s"}},
     {"_Ns_per_m", {unit::one, "N s/m"}},
+    {"_N_per_mm3", {unit::N_per_mm3, "N/mm^3"}},
     {"_N_per_mm", {unit::N_per_mm, "N/mm"}},
     {"_N_per_m", {unit::one, "N/m"}},
     {"_MPa", {unit::MPa, "MPa"}},

@@ -201,6 +201,28 @@ void describe_number(const Visitor& v, const force::Quantity& quantity, ForceTab
     &t.numbers[quantity.key]);
 }
 
+void describe_damping(const Visitor& v, ForceTable& t) {
+  v({.name = "wear_land_um",
+     .meaning = "width L_w of the worn land on the flank; it damps vibrations in "
+                "stability, dynamics and correct",
+     .range = between(0, 5000),
+     .standard = "0: no process damping",
+     .example = "80"},
+    &t.wear_land);
+  v({.name = "indentation_N_per_mm3",
+     .meaning = "force on the flank per volume that it presses, K_sp; must be there "
+                "with a wear land",
+     .range = above_up_to(0, 1e8),
+     .example = "30000"},
+    &t.indentation);
+  v({.name = "flank_friction",
+     .meaning = "tangential force on the flank as a part of the one normal to it",
+     .range = between(0, 10),
+     .standard = "0.3",
+     .example = "0.3"},
+    &t.flank_friction);
+}
+
 }  // namespace
 
 void describe(const Visitor& v, ForceTable& t) {
@@ -219,6 +241,7 @@ void describe(const Visitor& v, ForceTable& t) {
   v({.name = "edge_length",
      .meaning = "edge coefficients act per mm of true edge length or of axial depth"},
     choice(t.edge_length));
+  describe_damping(v, t);
 }
 
 }  // namespace trochoid::inputs

@@ -79,6 +79,9 @@ struct ForceTable {
   /// By key: every number of every law; absent: not given.
   std::map<std::string_view, std::optional<double>> numbers = {};
   force::EdgeLength edge_length = force::EdgeLength::true_length;
+  std::optional<double> wear_land;       ///< [m]
+  std::optional<double> indentation;     ///< [N/m^3]
+  std::optional<double> flank_friction;  ///< absent: as usual, where a flank rubs
 };
 
 /// What is done about a dynamometer that rings.

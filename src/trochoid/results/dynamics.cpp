@@ -1,4 +1,5 @@
 #include <trochoid/results/dynamics.h>
+#include <trochoid/results/process_damping.h>
 
 #include <trochoid/base/units.h>
 
@@ -117,6 +118,9 @@ Object result_of(const MotionResult& r) {
         {"surface_location", walls_value(r.walls)}};
     result.insert(result.end(), followed.begin(), followed.end());
   }
+  if (r.damping.acts()) {
+    result.push_back({"process_damping", process_damping_value(r.damping)});
+  }
   return result;
 }
 
@@ -158,6 +162,9 @@ std::string short_table(const MotionResult& r) {
   if (const auto* bounded = std::get_if<Bounded>(&r.steady->verdict);
       bounded != nullptr && !bounded->fades) {
     text += vibration_text(*bounded);
+  }
+  if (r.damping.acts()) {
+    text += "with " + process_damping_text(r.damping) + '\n';
   }
   for (const WallLocation& wall : r.walls) {
     if (at_the_tip(wall)) {

@@ -15,6 +15,7 @@ namespace trochoid::results {
 struct MotionResult {
   Heading heading;
   dynamics::System system;  ///< what vibrates
+  force::ProcessDamping damping;
   int steps_per_tooth = 0;  ///< how finely the motion was followed
   /// Where the tip of a nominal tooth enters and leaves the stock.
   chip::Arc engagement;

@@ -1,4 +1,5 @@
 #include <trochoid/results/better_speed.h>
+#include <trochoid/results/process_damping.h>
 #include <trochoid/results/stability.h>
 
 #include <trochoid/base/units.h>
@@ -51,6 +52,17 @@ Value better_speed_value(const StabilityResult& r) {
   return better ? Value(Object{{"spindle_rpm", unit::in(better->Omega, unit::rpm)},
                                {"limit_depth_mm", better->depth / unit::mm}})
                 : Value();
+}
+
+/// What damps, and the limit without it.
+Value damping_value(const StabilityResult& r) {
+  Object value = process_damping_value(r.problem.setup.process_damping);
+  if (r.no_modes.empty()) {
+    const auto& sharp = r.stability.sharp_limit;
+    value.push_back(
+        {"limit_depth_without_mm", sharp ? Value(sharp->depth / unit::mm) : Value()});
+  }
+  return value;
 }
 
 Object multiplier_value(const Stability& s, double Omega) {
@@ -135,15 +147,19 @@ Object result_without_modes(const StabilityResult& r) {
   const geometry::Cut& cut = r.problem.setup.cut;
   const auto& limit = r.measured->multi_frequency.limit;
   const bool stable = !limit || limit->depth > cut.a_p;
-  return {{"multiplier", nullptr},
-          {"stable", stable},
-          {"verdict", stable ? "stable" : "unstable"},
-          {"limit_depth_mm", depth_value(limit)},
-          {"greatest_depth_mm", unit::in(r.measured->greatest_depth, unit::mm)},
-          {"spindle_rpm", unit::in(cut.Omega, unit::rpm)},
-          {"axial_depth_mm", unit::in(cut.a_p, unit::mm)},
-          {"modes", nullptr},
-          {"measured_frf", measured_value(r)}};
+  Object result{{"multiplier", nullptr},
+                {"stable", stable},
+                {"verdict", stable ? "stable" : "unstable"},
+                {"limit_depth_mm", depth_value(limit)},
+                {"greatest_depth_mm", unit::in(r.measured->greatest_depth, unit::mm)},
+                {"spindle_rpm", unit::in(cut.Omega, unit::rpm)},
+                {"axial_depth_mm", unit::in(cut.a_p, unit::mm)},
+                {"modes", nullptr},
+                {"measured_frf", measured_value(r)}};
+  if (r.problem.setup.process_damping.acts()) {
+    result.push_back({"process_damping", damping_value(r)});
+  }
+  return result;
 }
 
 Object result_of(const StabilityResult& r) {
@@ -178,6 +194,9 @@ Object result_of(const StabilityResult& r) {
   add("spindle_rpm", unit::in(cut.Omega, unit::rpm));
   add("axial_depth_mm", unit::in(cut.a_p, unit::mm));
   add("modes", modes_value(r.problem.system));
+  if (r.problem.setup.process_damping.acts()) {
+    add("process_damping", damping_value(r));
+  }
   if (r.measured) {
     add("measured_frf", measured_value(r));
   }
@@ -233,8 +252,23 @@ std::string multiplier_table(const StabilityResult& r) {
   return text;
 }
 
+std::string damping_table(const StabilityResult& r) {
+  const force::ProcessDamping& damping = r.problem.setup.process_damping;
+  if (!damping.acts()) {
+    return {};
+  }
+  const std::string with = "with " + process_damping_text(damping);
+  if (!r.no_modes.empty()) {
+    return with + '\n';
+  }
+  const auto& sharp = r.stability.sharp_limit;
+  return with + (sharp ? fmt::format("; without it unstable from {:.5g} mm on\n",
+                                     sharp->depth / unit::mm)
+                       : "; without it stable as deep\n");
+}
+
 std::string short_table(const StabilityResult& r) {
-  return (r.no_modes.empty() ? multiplier_table(r) : std::string()) +
+  return (r.no_modes.empty() ? multiplier_table(r) : std::string()) + damping_table(r) +
          (r.measured ? measured_table(r) : std::string());
 }
 

@@ -60,7 +60,7 @@ TEST(BalancedForce, IsFoundWhateverTheCompliance) {  // [T-12]
     const auto response_of = [&](const Force& F) {
       return response(teeth, {q_0[0] + P[0] * F[0], q_0[1] + P[2] * F[1]});
     };
-    const ForceBalance found = balanced_force(response_of, P, {}, 1e-14);
+    const ForceBalance found = balanced_force(response_of, {P, {}}, {}, 1e-14);
     EXPECT_LE(found.motion_error, 1e-12) << n;
     touching += std::hypot(found.F[0], found.F[1]) > 0 ? 1 : 0;
   }
@@ -74,7 +74,7 @@ TEST(BalancedForce, OfAJumpIsOneOfBoth) {  // [T-12]
     r.F[0] = P[0] * F[0] > -1e-9 ? -10.0 : 0.0;
     return r;
   };
-  const ForceBalance found = balanced_force(pushed_out, P, {}, 1e-14);
+  const ForceBalance found = balanced_force(pushed_out, {P, {}}, {}, 1e-14);
   EXPECT_LE(found.force_error, 10.0);
   EXPECT_NEAR(P[0] * found.F[0], -1e-9, 10e-9);
 }

@@ -40,6 +40,9 @@ void expect_equal(const force::Setup& a, const force::Setup& b) {
   EXPECT_EQ(a.chip.model, b.chip.model);
   EXPECT_EQ(a.chip.lookback, b.chip.lookback);
   EXPECT_EQ(a.edge_length, b.edge_length);
+  EXPECT_EQ(a.process_damping.wear_land, b.process_damping.wear_land);
+  EXPECT_EQ(a.process_damping.indentation, b.process_damping.indentation);
+  EXPECT_EQ(a.process_damping.friction, b.process_damping.friction);
 }
 
 std::vector<double> numbers(const force::Law& law) {
@@ -169,6 +172,9 @@ spindle_rpm = 1234.5
 
 TEST(CaseRoundTrip, SimulateWithCrookedNumbers) {
   expect_round_trip(crooked + test::force + R"(
+wear_land_um = 80.7
+indentation_N_per_mm3 = 30000.3
+flank_friction = 0.17
 [sampling]
 samples_per_rev = 100
 revolutions = 1.5

@@ -85,6 +85,32 @@ tolerance = 1e-9
   EXPECT_EQ(c.setup.edge_length, force::EdgeLength::axial);
 }
 
+TEST(CaseUnits, ProcessDamping) {
+  const std::string worn =
+      test::slot + "wear_land_um = 80\nindentation_N_per_mm3 = 30000\n";
+  const CaseFolder folder;
+  const Case c = folder.read(worn, Command::simulate);
+  const force::ProcessDamping& damping = c.setup.process_damping;
+  EXPECT_DOUBLE_EQ(damping.wear_land, 80e-6);
+  EXPECT_DOUBLE_EQ(damping.indentation, 3e13);
+  EXPECT_EQ(damping.friction, 0.3);  // the usual one
+  EXPECT_NE(c.as_understood.find("flank_friction = 0.3"), std::string::npos);
+  // What vibrates feels it; nothing else does, and says so.
+  ASSERT_EQ(c.notes.size(), 1U);
+  EXPECT_EQ(c.notes[0].code, "process_damping_ignored");
+  const Case moving =
+      folder.read(worn +
+                      "[[mode]]\nbody = \"tool\"\naxis = \"x\"\nmass_kg = 0.04\n"
+                      "frequency_Hz = 922\ndamping_ratio = 0.011\n",
+                  Command::stability);
+  EXPECT_TRUE(moving.notes.empty());
+  // The material may be given without the land: a sharp edge.
+  const Case sharp = folder.read(test::slot + "indentation_N_per_mm3 = 30000\n");
+  EXPECT_FALSE(sharp.setup.process_damping.acts());
+  EXPECT_TRUE(sharp.notes.empty());
+  EXPECT_EQ(sharp.as_understood.find("flank_friction"), std::string::npos);
+}
+
 TEST(CaseUnits, Coefficients) {
   const Case linear = CaseFolder().read(test::slot);
   const auto& e = std::get<force::LinearEdge>(linear.law);

@@ -128,6 +128,23 @@ TEST(StabilityAnswer, ALimitThatIsNotKnownIsNull) {
             std::string::npos);
 }
 
+TEST(StabilityAnswer, SaysWhatDamps) {
+  StabilityResult r = stability_result();
+  EXPECT_EQ(json_at(answer_of(r), "process_damping"), "");
+  r.problem.setup.process_damping = {80 * unit::um, 30000 * unit::N_per_mm3, 0.25};
+  r.stability.sharp_limit = dynamics::Limit{.depth = 0.2e-3};
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_at(answer, "process_damping", "wear_land_um"), "80");
+  EXPECT_EQ(json_at(answer, "process_damping", "indentation_N_per_mm3"), "30000");
+  EXPECT_EQ(json_at(answer, "process_damping", "flank_friction"), "0.25");
+  EXPECT_EQ(json_at(answer, "process_damping", "limit_depth_without_mm"), "0.2");
+  EXPECT_NE(answer.short_table.find("with process damping of a wear land of 80 um; "
+                                    "without it unstable from 0.2 mm on\n"),
+            std::string::npos);
+  r.stability.sharp_limit.reset();
+  EXPECT_EQ(json_at(answer_of(r), "process_damping", "limit_depth_without_mm"), "null");
+}
+
 /// Two teeth, two samples, a tool and a table mode.
 MotionResult motion_result(const Verdict& verdict) {
   MotionResult r;
@@ -150,6 +167,16 @@ MotionResult motion_result(const Verdict& verdict) {
   r.walls = {{.sigma = -1, .height = 0.0, .teeth = {3e-6, -4e-6}, .remains = -4e-6},
              {.sigma = -1, .height = 1e-3, .teeth = {3e-6, -4e-6}, .remains = -4e-6}};
   return r;
+}
+
+TEST(MotionAnswer, SaysWhatDamps) {
+  MotionResult r = motion_result(Periodic{2, 2});
+  EXPECT_EQ(json_at(answer_of(r), "process_damping"), "");
+  r.damping = {80 * unit::um, 30000 * unit::N_per_mm3, 0.25};
+  const Answer answer = answer_of(r);
+  EXPECT_EQ(json_at(answer, "process_damping", "wear_land_um"), "80");
+  EXPECT_NE(answer.short_table.find("with process damping of a wear land of 80 um\n"),
+            std::string::npos);
 }
 
 TEST(MotionAnswer, OfASteadyStateHasItsTables) {

@@ -1,7 +1,8 @@
 // The page of `dynamics`.
 
 const dynamicsKnown = ['verdict', 'periodic', 'chatter', 'settles', 'period', 'vibration', 'change_N', 'growth_per_turn', 'linear_growth_per_turn',
-  'turns', 'flutes', 'difference', 'peak_xy_N', 'engagement_deg', 'surface_location'];
+  'turns', 'flutes', 'difference', 'peak_xy_N', 'engagement_deg', 'surface_location',
+  'process_damping'];
 
 function verdictOfMotion({ verdict, chatter, settles }) {
   if (verdict === 'growing') return 'grows';
@@ -55,6 +56,8 @@ function dynamicsLead(result) {
       value: forces.slice(0, 4).join(' · ') + (forces.length > 4 ? ' …' : ''), unit: 'N',
       note: forces.length > 1 && `they differ by ${number(100 * result.difference, 3)} % of the largest` },
     { label: 'Peak force across the tool', value: result.peak_xy_N, unit: 'N' },
+    result.process_damping && { label: 'Process damping', value: result.process_damping.wear_land_um, unit: 'µm',
+      note: 'wear land of the flanks; right for small vibrations' },
   ].filter(Boolean));
 }
 

@@ -168,3 +168,8 @@ function runoutWords(runout, factor = 1.96) {
   }
   return parts.join(', and ');
 }
+
+/** "wear land of 80 µm (30 000 N/mm³)" */
+function dampingWords(damping) {
+  return `wear land of ${number(damping.wear_land_um)} µm (${number(damping.indentation_N_per_mm3)} N/mm³)`;
+}

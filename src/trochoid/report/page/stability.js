@@ -1,7 +1,8 @@
 // The page of `stability`.
 
 const stabilityKnown = ['multiplier', 'stable', 'verdict', 'limit_depth_mm', 'limit', 'chip_floor',
-  'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes', 'better_speed', 'measured_frf'];
+  'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes', 'better_speed', 'measured_frf',
+  'process_damping'];
 
 const bifurcations = {
   hopf: 'Hopf: a vibration with a frequency of its own',
@@ -49,6 +50,14 @@ function depthWords(result) {
     bold(better.limit_depth_mm, 'mm'), ', also when the spindle is 2 % off.']
     : isNumber(limit) && 'better_speed' in result
       ? [...words, 'No speed of the diagram within 30 % allows much more.'] : words;
+}
+
+/** What damps, and how deep it would be without. */
+function dampingProse({ process_damping: damping }) {
+  if (!damping) return null;
+  const without = damping.limit_depth_without_mm;
+  return prose(`With process damping of a ${dampingWords(damping)}. `,
+    ...(isNumber(without) ? ['Without it this cut would chatter from ', el('b', {}, `${number(without)} mm`), ' on.'] : []));
 }
 
 /** Values over x at other places of it; null outside, and where two neighbours are far apart. */
@@ -134,6 +143,7 @@ function stabilityLead(result) {
           ? number(measured.chatter_frequency_Hz, 5) : null, unit: 'Hz' },
     ].filter(Boolean)),
     prose(...depthWords(result)),
+    dampingProse(result),
     result.chip_floor && prose('A power law has no slope where the chip begins. With a chip floor of ',
       number(0.5 * result.chip_floor.chip_floor_um), ' and ', number(2 * result.chip_floor.chip_floor_um),
       ' µm the Floquet multiplier is ', number(result.chip_floor.multiplier_at_half, 6), ' and ',
@@ -207,7 +217,9 @@ function lobesSection(report) {
   chart.element.append(readout);
   const part = section('lobes', 'Stability lobe diagram', 'Lobes',
     prose('The Floquet multiplier |μ|: by what factor a small vibration grows in a period of the cut, for every ' +
-      'spindle speed and axial depth; everything else as in the case.'), chart.element);
+      'spindle speed and axial depth; everything else as in the case' +
+      `${result.process_damping ? `, with process damping of a ${dampingWords(result.process_damping)}` : ''}.`),
+    chart.element);
   return { part, draw: () => chart.resize() };
 }
 
@@ -234,7 +246,9 @@ function limitSection(report) {
   const part = section('limit', 'Limit depth and chatter frequency', 'Limit',
     prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
       'The frequency is the strongest of the chatter that appears at the limit. Almost everywhere that ' +
-      'has a frequency of its own (Hopf); at a period doubling (flip) it repeats after two periods.'), chart.element);
+      'has a frequency of its own (Hopf); at a period doubling (flip) it repeats after two periods.' +
+      (result.process_damping ? ` Process damping of a ${dampingWords(result.process_damping)} lifts it where the spindle is slow.` : '')),
+    chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 

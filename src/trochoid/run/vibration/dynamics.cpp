@@ -28,6 +28,7 @@ MotionResult result_of(const inputs::Case& given, const MotionProblem& problem) 
   const double D = problem.setup.cutter.profile.D;
   MotionResult r{.heading = heading_of(given),
                  .system = problem.system,
+                 .damping = problem.setup.process_damping,
                  .steps_per_tooth = problem.grid.steps_per_tooth,
                  .engagement = chip::tooth_arc(problem.setup.cut.engagement, D, D / 2),
                  .entry = geometry::tooth_angles(problem.setup.cutter)};

@@ -133,6 +133,13 @@ Warnings motion_warnings(const inputs::Case& given, const SteadyState& steady,
   const bool chatter = dynamics::chatters(steady.verdict);
   if (chatter) {
     warnings.push_back({"chatter", chatter_warning(steady, linear_growth)});
+    if (given.setup.process_damping.acts()) {
+      warnings.push_back(
+          {"process_damping_of_chatter",
+           "Process damping is that of small vibrations, on the way out as much as on "
+           "the way in. Of chatter it tells where it begins; its amplitude would be "
+           "another one."});
+    }
   } else if (std::holds_alternative<Bounded>(steady.verdict)) {
     warnings.push_back(
         {"not_periodic",
