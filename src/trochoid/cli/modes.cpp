@@ -4,6 +4,7 @@
 #include <trochoid/inputs/case.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/shared_modes.h>
 
 namespace trochoid::cli {
 
@@ -23,6 +24,13 @@ void refuse_for_case(const Options& options, bool given, const char* names,
   }
 }
 
+int answer_modes(const inputs::Case& given, const Options& options) {
+  return deliver(run::modes_are_shared(given)
+                     ? results::answer_of(run::shared_modes(given))
+                     : results::answer_of(run::modes(given)),
+                 options);
+}
+
 }  // namespace
 
 int modes(const Options& options) {
@@ -31,9 +39,8 @@ int modes(const Options& options) {
                    !options.band.empty();
   if (is_case(options.file)) {
     refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
-    return deliver(results::answer_of(run::modes(inputs::read_case(
-                       options.file, inputs::Command::modes, folder))),
-                   options);
+    return answer_modes(inputs::read_case(options.file, inputs::Command::modes, folder),
+                        options);
   }
   inputs::MachineTables machine;
   machine.frf =
@@ -42,9 +49,8 @@ int modes(const Options& options) {
                         .dataset = options.dataset,
                         .modes = options.modes,
                         .band = options.band};
-  return deliver(results::answer_of(run::modes(
-                     inputs::bare_case(machine, inputs::Command::modes, folder))),
-                 options);
+  return answer_modes(inputs::bare_case(machine, inputs::Command::modes, folder),
+                      options);
 }
 
 int actuator(const Options& options) {

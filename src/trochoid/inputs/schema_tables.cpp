@@ -82,12 +82,14 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
               {Command::dynamics, Command::correct}),
       several("measured_frf",
               "how the tool point, or the work, answers to a force, as measured: for "
-              "stability, with modes or without",
+              "stability, with modes or without, and for modes that several responses "
+              "share",
               t.machine.measured_frfs),
       perhaps("actuator", "the actuator that moves the table", t.machine.actuator,
               {Command::correct}),
-      perhaps("frf", "a measured frequency response, from which modes are found",
-              t.machine.frf, {Command::modes}),
+      perhaps("frf",
+              "a measured frequency response, from which `modes` finds modes, and how",
+              t.machine.frf),
       perhaps("step", "a measured step, from which the actuator is found",
               t.machine.step, {Command::actuator}),
       perhaps("command", "an imposed command of the actuator", t.machine.command),

@@ -122,4 +122,15 @@ struct ShapesFit {
 ShapesFit identify_shapes(const std::vector<DirectedResponse>& all,
                           const ShapesOptions& options);
 
+/// Whether complex modes describe a response better than the real ones found in it.
+struct ComplexCheck {
+  double evidence = 0.0;   ///< criterion of real modes less that of complex ones
+  double omega = 0.0;      ///< of the mode whose shape is the most imaginary [rad/s]
+  double imaginary = 0.0;  ///< |Im phi|/|phi| there
+};
+
+/// @brief The fit of one response once more with complex shapes, from its own modes.
+/// @return none: it has terms with a negative mass outside of the band, or no answer
+std::optional<ComplexCheck> complex_check(const ModesFit& fit, ResponseKind kind);
+
 }  // namespace trochoid::structure
