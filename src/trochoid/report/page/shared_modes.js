@@ -23,9 +23,9 @@ function sharedModesPage(report) {
 }
 
 function modeRows(modes, imaginary) {
-  const scale = { stiffness_N_per_m: 1e-6 };
-  const keys = ['frequency_Hz', 'damping_ratio', 'mass_kg', 'stiffness_N_per_m', 'damping_Ns_per_m',
-    ...(isNumber(modes[0].angle_deg) ? ['angle_deg'] : []), ...(imaginary ? ['imaginary_fraction'] : [])];
+  const scale = { stiffness_N_per_m: 1e-6, imaginary_fraction: 100 };
+  const keys = ['frequency_Hz', 'damping_ratio', ...(isNumber(modes[0].angle_deg) ? ['angle_deg'] : []),
+    'mass_kg', 'stiffness_N_per_m', ...(imaginary ? ['imaginary_fraction'] : ['damping_Ns_per_m'])];
   return modes.map((mode, i) => [`${i + 1}`, ...keys.map((key) =>
     withError(mode[key] * (scale[key] || 1), mode.se?.[key] * (scale[key] || 1)))]);
 }
@@ -33,15 +33,16 @@ function modeRows(modes, imaginary) {
 function sharedModesTable({ modes, real_modes: real, shapes, unresolved }) {
   if (!Array.isArray(modes) || !modes.length) return null;
   const complex = shapes === 'complex';
-  const heads = ['', 'natural frequency, Hz', 'damping ratio', 'modal mass, kg', 'modal stiffness, N/µm',
-    'modal damping, N s/m', ...(isNumber(modes[0].angle_deg) ? ['direction, ° from +x to +y'] : [])];
+  const heads = (last) => ['', 'frequency, Hz', 'damping ratio',
+    ...(isNumber(modes[0].angle_deg) ? ['direction, °'] : []), 'mass, kg', 'stiffness, N/µm', last];
+  const damping = 'damping, N s/m';
   return section('modes', 'The modes', 'Modes',
-    table([...heads, ...(complex ? ['imaginary fraction of the shape'] : [])], modeRows(modes, complex),
-      { class: 'fits' }),
+    table(heads(complex ? 'imaginary, %' : damping), modeRows(modes, complex), { class: 'fits' }),
     prose('Frequency and damping ratio are common to all responses; mass, stiffness and damping are those of motion ' +
-      'along the shape. ± half of a 95 % confidence interval, under the noise that each response shows.'),
+      'along the shape, whose direction is told from +x towards +y. ± half of a 95 % confidence interval, under the ' +
+      'noise that each response shows.'),
     complex ? prose('The real modes that fit all responses best, which modes.toml holds:') : null,
-    complex ? table(heads, modeRows(real, false), { class: 'fits' }) : null,
+    complex ? table(heads(damping), modeRows(real, false), { class: 'fits' }) : null,
     unresolved?.length ? prose('In the fit, and not among the modes: ',
       unresolved.map(({ why }) => why).join('; '), '.') : null);
 }
@@ -54,14 +55,12 @@ function shapesTable({ modes, responses }) {
   if (!Array.isArray(modes) || !modes.length) return null;
   const shapes = modes.map(({ shape }, i) => [`${i + 1}`, ...shape.map((one) =>
     partsOf(one.re_per_sqrt_kg, one.re_se, one.im_per_sqrt_kg, one.im_se))]);
-  const residues = modes.map((_, i) => [`${i + 1}`, ...responses.map((response) => {
-    const one = response.residues[i];
-    return partsOf(one.re_per_kg, one.re_se, one.im_per_kg, one.im_se);
-  })]);
+  const residues = responses.map((response) => [response.name, ...response.residues.map((one) =>
+    partsOf(one.re_per_kg, one.re_se, one.im_per_kg, one.im_se))]);
   return section('shapes', 'Shapes and residues', 'Shapes',
     table(['', ...modes[0].shape.map(({ axis }) => `φ ${axis}, 1/√kg`)], shapes, { class: 'fits' }),
     prose('Shapes, scaled to a modal mass of 1; the largest component has a real part above 0.'),
-    table(['', ...responses.map(({ name }) => `${name}, 1/kg`)], residues, { class: 'fits' }),
+    table(['', ...modes.map((_, i) => `mode ${i + 1}, 1/kg`)], residues, { class: 'fits' }),
     prose('Residues: what each mode gives to each response, motion named before force: the product of both components ' +
       'of the shape.'));
 }

@@ -38,12 +38,12 @@ void warn_of_complex_shapes(const ShapesFit& fit, Warnings& warnings) {
   warnings.push_back(
       {"complex_modes",
        fmt::format(
-           "{}Their imaginary part is {} of the shape. The cut is simulated with "
+           "{}As a fraction of the shape their imaginary part is {}. The cut is simulated with "
            "real modes only: modes.toml holds those that fit all responses best.",
            fit.complex_evidence
                ? fmt::format("Real modes do not describe these responses: complex "
                              "shapes are likelier, their criterion is less by "
-                             "{:.3g}. ",
+                             "{:.0f}. ",
                              *fit.complex_evidence)
                : std::string("The shapes are complex. "),
            each)});
@@ -128,7 +128,7 @@ void add_complex_warning(const structure::ComplexCheck& check, Warnings& warning
         {"complex_modes",
          fmt::format(
              "Real modes do not describe this response: complex ones are likelier, "
-             "their criterion is less by {:.3g}; at {} the imaginary part is "
+             "their criterion is less by {:.0f}; at {} the imaginary part is "
              "{:.1f} % of the shape. A damper in one place does that, and so does "
              "a delay between the channels. [frf] shapes = \"complex\" fits them.",
              check.evidence, hertz(check.omega), 100 * check.imaginary)});
