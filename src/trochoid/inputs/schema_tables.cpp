@@ -82,8 +82,7 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
               {Command::dynamics, Command::correct}),
       several("measured_frf",
               "how the tool point, or the work, answers to a force, as measured: for "
-              "stability, with modes or without, and for modes that several responses "
-              "share",
+              "stability, and for modes that several responses share",
               t.machine.measured_frfs),
       perhaps("actuator", "the actuator that moves the table", t.machine.actuator,
               {Command::correct}),

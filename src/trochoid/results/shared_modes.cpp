@@ -150,7 +150,7 @@ Object response_value(const SharedResponse& response, const FittedResponse& fit,
   add("residues", std::move(residues));
   if (all.residual_terms) {
     add("residual_terms",
-        Object{{"above_m_per_N", fit.residual[0]}, {"below_per_kg", -fit.residual[1]}});
+        Object{{"above_m_per_N", fit.residual[0]}, {"below_per_kg", fit.residual[1]}});
   }
   return out;
 }

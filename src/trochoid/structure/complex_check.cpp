@@ -15,7 +15,7 @@ constexpr double closely = 1e-3;
 
 std::optional<ComplexCheck> complex_check(const ModesFit& fit, ResponseKind kind) {
   ShapesModel real{.residual_terms = fit.residual_terms,
-                   .residual = {{fit.residual[0], -fit.residual[1]}},
+                   .residual = {{fit.residual[0], fit.residual[1]}},
                    .directions = 1};
   for (const auto& modes : {fit.modes, fit.outside, fit.unresolved}) {
     for (const FittedMode& mode : modes) {
