@@ -1,104 +1,8 @@
 #include "shim.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double um = 1e-6;
-
-/* Which field of a line of names a column is; -1: none. */
-static int column_of(const char* line, const char* name) {
-  const size_t length = strlen(name);
-  int column = 0;
-  for (;;) {
-    const size_t field = strcspn(line, ",\r\n");
-    if (field == length && strncmp(line, name, length) == 0) {
-      return column;
-    }
-    if (line[field] != ',') {
-      return -1;
-    }
-    line += field + 1;
-    ++column;
-  }
-}
-
-/* The number in a field; NaN if there is none. */
-static double number_in(const char* line, int column) {
-  char* end;
-  double value;
-  for (; column > 0; --column) {
-    line = strchr(line, ',');
-    if (line == NULL) {
-      return NAN;
-    }
-    ++line;
-  }
-  value = strtod(line, &end);
-  return end == line ? NAN : value;
-}
-
-/* Angles equally spaced over a turn, and the command around its middle. */
-static const char* check_table(TrochoidHal* hal, const double* angle) {
-  double low = hal->hal_table_um[0], high = low;
-  int i;
-  if (hal->hal_points < 2) {
-    return "fewer than two points";
-  }
-  for (i = 0; i < hal->hal_points; ++i) {
-    const double value = hal->hal_table_um[i];
-    if (!(fabs(angle[i] - 360.0 * i / hal->hal_points) < 1e-3)) {
-      return "angles are not equally spaced from 0 to below 360 deg";
-    }
-    if (!(fabs(value) < 1e6)) {
-      return "a command is not a number";
-    }
-    low = value < low ? value : low;
-    high = value > high ? value : high;
-  }
-  for (i = 0; i < hal->hal_points; ++i) {
-    hal->hal_table_um[i] -= 0.5 * (low + high);
-  }
-  return NULL;
-}
-
-const char* trochoid_hal_read_table(TrochoidHal* hal, const char* path) {
-  static double angle[TROCHOID_TABLE_POINTS];
-  char line[4096];
-  int angles = 0, commands = 1;
-  FILE* file = fopen(path, "r");
-  hal->hal_points = 0;
-  if (file == NULL) {
-    return "cannot be opened";
-  }
-  while (fgets(line, sizeof line, file) != NULL) {
-    if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0') {
-      continue;
-    }
-    if (hal->hal_points == 0 && isnan(number_in(line, 0))) {
-      angles = column_of(line, "angle_deg");
-      commands = column_of(line, "command_um");
-      if (angles < 0 || commands < 0) {
-        break;
-      }
-      continue;
-    }
-    if (hal->hal_points == TROCHOID_TABLE_POINTS) {
-      hal->hal_points = 0;
-      fclose(file);
-      return "more than 720 points";
-    }
-    angle[hal->hal_points] = number_in(line, angles);
-    hal->hal_table_um[hal->hal_points] = number_in(line, commands);
-    ++hal->hal_points;
-  }
-  fclose(file);
-  if (angles < 0 || commands < 0) {
-    return "has no columns angle_deg and command_um";
-  }
-  return check_table(hal, angle);
-}
 
 static void set_config(TrochoidControllerConfig* config, const TrochoidHal* hal,
                        const TrochoidHalSettings* s) {
@@ -175,14 +79,59 @@ static void begin_learning(TrochoidHal* hal, double gain) {
   }
 }
 
-/* The gain for this period, learnt or set. */
-static double gain_of(TrochoidHal* hal, const TrochoidHalIn* in) {
+static void begin_estimating(TrochoidHal* hal) {
+  TrochoidEstimatorConfig config = hal->hal_model;
+  config.most_m = 0.5 * um * (hal->hal_settings.set_upper_um - hal->hal_settings.set_lower_um);
+  config.step_m = 0.5 * config.most_m;
+  config.least_force_N = hal->hal_settings.set_least_force;
+  config.event_change = hal->hal_settings.set_tool_change;
+  if (trochoid_estimator_init(&hal->hal_estimator, &config) ==
+      TROCHOID_ESTIMATOR_ACCEPTED) {
+    hal->hal_learning = 1;
+  }
+}
+
+/* What is learnt or set for this period: the waves with a model, else the gain. */
+static void set_learnt(TrochoidHal* hal, const TrochoidHalIn* in,
+                       TrochoidControllerInput* input) {
+  input->gain = in->in_gain;
   if (!in->in_learn) {
     hal->hal_learning = 0;
-  } else if (!hal->hal_learning) {
-    begin_learning(hal, in->in_gain);
+    return;
   }
-  return hal->hal_learning ? hal->hal_online.result.gain : in->in_gain;
+  if (!hal->hal_learning) {
+    if (hal->hal_model.teeth > 0) {
+      begin_estimating(hal);
+    } else {
+      begin_learning(hal, in->in_gain);
+    }
+  }
+  if (hal->hal_learning && hal->hal_model.teeth > 0) {
+    memcpy(input->cosine_m, hal->hal_estimator.result.cosine_m, sizeof input->cosine_m);
+    memcpy(input->sine_m, hal->hal_estimator.result.sine_m, sizeof input->sine_m);
+  } else if (hal->hal_learning) {
+    input->gain = hal->hal_online.result.gain;
+  }
+}
+
+/* One sample of the force, with the angle that the controller knows. */
+static void learn(TrochoidHal* hal, const TrochoidHalIn* in,
+                  const TrochoidControllerResult* now) {
+  const int active = now->state == TROCHOID_RUNNING;
+  TrochoidEstimatorResult learnt;
+  if (hal->hal_model.teeth == 0) {
+    hal->hal_out.out_difference =
+        trochoid_online_sample(&hal->hal_online, now->angle_rev, in->in_force, active)
+            .difference;
+    return;
+  }
+  learnt = trochoid_estimator_sample(&hal->hal_estimator,
+                                     now->angle_rev + hal->hal_settings.set_phase_turns,
+                                     in->in_force, active);
+  hal->hal_out.out_difference = learnt.difference;
+  hal->hal_out.out_tool_events = learnt.events;
+  hal->hal_out.out_tooth = learnt.tooth;
+  hal->hal_out.out_tooth_change_um = learnt.change_m / um;
 }
 
 void trochoid_hal_step(TrochoidHal* hal, const TrochoidHalSettings* settings,
@@ -199,17 +148,14 @@ void trochoid_hal_step(TrochoidHal* hal, const TrochoidHalSettings* settings,
   memset(&input, 0, sizeof input);
   input.position_rev = in->in_position;
   input.speed_rps = in->in_speed;
-  input.gain = gain_of(hal, in);
+  set_learnt(hal, in, &input);
   input.dt_s = in->in_dt;
   input.index = in->in_index;
   input.enable = in->in_enable;
   input.inhibit = in->in_inhibit;
   result = trochoid_controller_step(&hal->hal_controller, &input);
   if (hal->hal_learning) {
-    hal->hal_out.out_difference =
-        trochoid_online_sample(&hal->hal_online, result.angle_rev, in->in_force,
-                               result.state == TROCHOID_RUNNING)
-            .difference;
+    learn(hal, in, &result);
   }
   hal->hal_out.out_command_um = result.command_m / um;
   hal->hal_out.out_angle = result.angle_rev;

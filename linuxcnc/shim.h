@@ -9,6 +9,7 @@ extern "C" {
 #endif
 
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/estimator.h>
 #include <trochoid/correction/online.h>
 
 /* What the parameters say. Lengths in um, angles in turns, times in seconds. */
@@ -18,7 +19,7 @@ typedef struct TrochoidHalSettings {
   double set_min_rps, set_max_rps, set_speed_change;
   double set_index_turns, set_position_tol_turns, set_wrap_turns;
   double set_recover, set_good_turns;
-  double set_feed_um, set_exponent, set_least_force;
+  double set_feed_um, set_exponent, set_least_force, set_tool_change;
 } TrochoidHalSettings;
 
 typedef struct TrochoidHalIn {
@@ -29,6 +30,8 @@ typedef struct TrochoidHalIn {
 
 typedef struct TrochoidHalOut {
   double out_command_um, out_angle, out_fade, out_gain, out_speed, out_difference;
+  double out_tooth_change_um;
+  int out_tool_events, out_tooth;
   int out_state, out_problem, out_fault, out_limited, out_turns, out_refused;
 } TrochoidHalOut;
 
@@ -37,6 +40,8 @@ typedef struct TrochoidHal {
   TrochoidController hal_controller;
   TrochoidController hal_candidate;
   TrochoidOnline hal_online;
+  TrochoidEstimator hal_estimator;
+  TrochoidEstimatorConfig hal_model; /* of no teeth: none was read */
   TrochoidHalSettings hal_settings;
   TrochoidHalOut hal_out;
   double hal_table_um[TROCHOID_TABLE_POINTS];
@@ -49,6 +54,10 @@ typedef struct TrochoidHal {
    equally spaced from 0. The middle of the command is put at mid-stroke. Not in real
    time. Returns null, or what is wrong. */
 const char* trochoid_hal_read_table(TrochoidHal* hal, const char* path);
+
+/* Reads the estimator.csv of `trochoid correct`, columns by their names. Not in real time.
+   Returns null, or what is wrong; then there is no model. */
+const char* trochoid_hal_read_model(TrochoidHal* hal, const char* path);
 
 /* One period. New settings are taken while the command rests and enable is off. */
 void trochoid_hal_step(TrochoidHal* hal, const TrochoidHalSettings* settings,

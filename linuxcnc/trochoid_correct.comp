@@ -6,7 +6,8 @@ wrong speed, a jump of the position or *inhibit* it ramps to mid-stroke. Not par
 chain.
 
 The table is read when the module is loaded: *loadrt trochoid_correct table=/path/command.csv*, with
-columns angle_deg and command_um. Parameters are taken while *enable* is off and the command rests.
+columns angle_deg and command_um; *model=/path/estimator.csv* tells how to learn with any number of
+flutes. Both are written by *trochoid correct*. Parameters are taken while *enable* is off and the command rests.
 The guide of the project (docs/guide/controller.md) has the states, the faults and their times.
 """;
 author "The Trochoid authors";
@@ -18,7 +19,7 @@ pin in float speed "Spindle speed, turns per second (encoder.N.velocity); may be
 pin in bit enable "Run; connect to spindle.0.at-speed and a switch";
 pin in bit inhibit "Ramp to mid-stroke at once; connect to the amplifier's fault line";
 pin in float gain = 1.0 "Factor of the table; where learning begins";
-pin in bit learn "Adapt the gain from the force until both flutes have the same peak";
+pin in bit learn "Learn from the force until all flutes have the same peak: with model= waves that are added to the table, else the gain of two flutes";
 pin in float force "A component of the cutting force, N; for learning";
 
 pin out float command_um "To the amplifier";
@@ -27,6 +28,9 @@ pin out float fade "Part of the command that is given";
 pin out float gain_now "Gain in force";
 pin out float speed_filtered "Turns per second";
 pin out float difference "Of the flutes' peaks in the last turn, over the larger; while learning";
+pin out s32 tool_events "Changes of the tool that were recognised; with model=";
+pin out s32 tooth "That the last one was of, from 1; 0: several";
+pin out float tooth_change_um "By how much that tooth stands out more";
 pin out s32 state "0 disabled, 1 waiting, 2 fading in, 3 running, 4 fading out, 5 fault, 6 not ready";
 pin out s32 problem "Of this period: 0 none, 1 time, 2 input, 3 inhibited, 4 overspeed, 5 underspeed, 6 index lost, 7 position, 8 speed changed";
 pin out s32 fault "What ended the last run, numbered as problem";
@@ -53,6 +57,7 @@ param rw s32 good_turns = 1 "Turns in order before a run";
 param rw float feed_um = 50.0 "Feed per tooth; for learning";
 param rw float exponent = 0.3 "m of the force law; for learning";
 param rw float least_force = 1.0 "Below: no cut, N; for learning";
+param rw float tool_change = 0.1 "Part of the mean force by which a flute changes that is a change of the tool; 0: none is looked for";
 
 option extra_setup yes;
 option data TrochoidHal;
@@ -65,10 +70,20 @@ function _ fp;
 static char *table = "";
 RTAPI_MP_STRING(table, "CSV file with angle_deg and command_um");
 
+static char *model = "";
+RTAPI_MP_STRING(model, "CSV file estimator.csv, for learning with any number of flutes");
+
 EXTRA_SETUP() {
   const char *wrong;
   (void)prefix;
   (void)extra_arg;
+  if (model != NULL && model[0] != 0) {
+    wrong = trochoid_hal_read_model(&data, model);
+    if (wrong != NULL) {
+      rtapi_print_msg(RTAPI_MSG_ERR, "trochoid_correct: %s %s\n", model, wrong);
+      return -EINVAL;
+    }
+  }
   if (table == NULL || table[0] == 0) {
     rtapi_print_msg(RTAPI_MSG_WARN, "trochoid_correct: no table=, so only mid-stroke is commanded\n");
     return 0;
@@ -106,6 +121,7 @@ FUNCTION(_) {
   s.set_feed_um = feed_um;
   s.set_exponent = exponent;
   s.set_least_force = least_force;
+  s.set_tool_change = tool_change;
 
   i.in_position = position;
   i.in_speed = speed;
@@ -126,6 +142,9 @@ FUNCTION(_) {
   gain_now = o.out_gain;
   speed_filtered = o.out_speed;
   difference = o.out_difference;
+  tool_events = o.out_tool_events;
+  tooth = o.out_tooth;
+  tooth_change_um = o.out_tooth_change_um;
   state = o.out_state;
   problem = o.out_problem;
   fault = o.out_fault;

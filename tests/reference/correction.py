@@ -5,7 +5,7 @@ instead of quadrature, the motion as a plain function of the spindle angle, the 
 solving its linear equations. Units: mm, N, s, rad; k0 in N/mm^(2-m). Forces on the tool,
 teeth numbered in order of passage.
 
-Ids: R-1, R-3 to R-8, R-11 to R-14, R-20, R-29, R-30, R-32, R-33 of docs/theory/correction.md, L-7 to L-12 of
+Ids: R-1, R-3 to R-8, R-11 to R-14, R-20, R-27 to R-33 of docs/theory/correction.md, L-7 to L-12 of
 controller.md.
 """
 import numpy as np
@@ -53,6 +53,10 @@ def flutes(X, cut, count=200001):
     out = []
     for j in range(N):
         own = j * TURN / N + middle + np.linspace(-0.5, 0.5, count) * (TURN / N - 2e-9)
+        ends = np.arange(N) * TURN / N + np.array([[cut["arc"][0]], [cut["arc"][1]]])
+        beside = (ends.ravel() + [[-1e-9], [1e-9]]).ravel()  # forces jump there
+        beside = own[0] + np.mod(beside - own[0], TURN)
+        own = np.concatenate([own, beside[beside < own[-1]]])
         peak = np.max(np.abs(forces(own, X, cut)[1]))
         arc = j * TURN / N + np.linspace(*cut["arc"], count)
         h = chip(arc, j, X, cut["ft"], cut["rho"], cut["arc"], cut["marks"])
@@ -179,6 +183,69 @@ def least_chip_rms(rho, arc, n_max, second_axis):
     size = np.linalg.norm(normal)
     return (np.linalg.norm(e - A @ x) / np.sqrt(len(e)),
             normal @ e / size / np.sqrt(len(e)) if size > 1e-12 else 0.0)
+
+
+def wave_sum(c):
+    """A motion of harmonics."""
+    n = np.arange(1, len(c) + 1)
+    return lambda phi: np.real(np.exp(1j * np.multiply.outer(phi, n)) @ c)
+
+
+def unevenness(c, cut):
+    """Sum of squares that harmonics leave.  R-28"""
+    return np.sum(differences(wave_sum(c), cut, 20001) ** 2)
+
+
+def wave_model(cut, count, act, table, ks, cs, d=2e-4):
+    """dv_j over the amplitudes of the command, a_1 b_1 a_2 ...  R-31"""
+    columns = []
+    for k in range(count):
+        n = k // 2 + 1
+        c = np.zeros(n, complex)
+        c[-1] = (1, -1j)[k % 2] * plant(n * cut["Omega"], act, table, ks, cs)
+        up, down = (differences(wave_sum(s * d * c), cut, 20001) for s in (1, -1))
+        columns.append((up - down) / (2 * d))
+    return np.array(columns).T
+
+
+def runout_model(cut, d=2e-4):
+    """dv_j over what each tooth stands out.  R-31"""
+    columns = []
+    for each in np.eye(len(cut["rho"])):
+        up, down = (differences(np.zeros_like, dict(cut, rho=cut["rho"] + s * d * each), 20001)
+                    for s in (1, -1))
+        columns.append((up - down) / (2 * d))
+    return np.array(columns).T
+
+
+def relative(values):
+    return (max(values) - min(values)) / max(values)
+
+
+def transition_candidate(cut, width, n, count=4001):
+    """Factor of so many harmonics of a width that makes the peaks of two teeth alike, and
+    the differences of peaks and areas with it; among these R-27 chooses."""
+    c = harmonics(quintic(cut["rho"], cut["arc"], width), n, 20000)
+    side = lambda f: np.diff(flutes(wave_sum(f * c), cut, count)[:, 0])[0]
+    f, last, before = 1.0, 0.8, side(0.8)
+    while abs(f - last) > 1e-9:  # the secant method
+        now = side(f)
+        f, last, before = f - now * (f - last) / (now - before), f, now
+    left = flutes(wave_sum(f * c), cut, count)
+    return f, relative(left[:, 0]), relative(left[:, 1])
+
+
+def command_range(cut, width, n, factor, act, table, ks, cs):
+    """Peak to peak of the command that brings the table there."""
+    c = factor * harmonics(quintic(cut["rho"], cut["arc"], width), n, 20000)
+    u = wave_sum(inverse(c, cut["Omega"], act, table, ks, cs))(np.linspace(0, TURN, 2000))
+    return np.ptp(u)
+
+
+def choose_transition(candidates):
+    """(w, n) of the rows w, n, D, A.  R-27"""
+    least = min(c[2] for c in candidates)
+    return min((c for c in candidates if c[2] <= least + 0.001), key=lambda c: c[3])[:2]
 
 
 def broyden(J, s, change):

@@ -1,11 +1,13 @@
 // What the library says of the cases that compare_correction.py sends, as JSON.
 #include <trochoid/base/units.h>
 #include <trochoid/correction/command.h>
-#include <trochoid/correction/estimator.h>
+#include <trochoid/correction/equal_flutes.h>
+#include <trochoid/correction/estimator_model.h>
 #include <trochoid/correction/ratio.h>
 #include <trochoid/correction/rigid_cut.h>
 #include <trochoid/correction/shapes.h>
 #include <trochoid/correction/spindle_speed.h>
+#include <trochoid/correction/transition.h>
 
 #include <nlohmann/json.hpp>
 
@@ -93,52 +95,50 @@ void add_more(const Json& in, const correction::RigidCut& cut,
   }
 }
 
-/// Waves that an estimator learns from forces, turn by turn.
-Json waves_of(const Json& in) {
-  static TrochoidEstimator estimator;
-  TrochoidEstimatorConfig c;
-  trochoid_estimator_defaults(&c);
-  const auto S = in["S"].get<std::vector<std::vector<double>>>();
-  c.teeth = static_cast<int32_t>(S.size());
-  c.harmonics = static_cast<int32_t>(S[0].size() / 2);
-  c.wait_turns = 0;
-  c.deadband = 0.0;
-  c.event_change = 0.0;
-  c.most_m = 1.0;
-  c.step_m = 1.0;
-  for (std::size_t j = 0; j < S.size(); ++j) {
-    c.start_rev[j] = static_cast<double>(j) / static_cast<double>(S.size());
-    for (std::size_t k = 0; k < S[j].size(); ++k) {
-      c.wave_model[j][k] = S[j][k] / 1e-5;
-    }
+/// Waves that make the flutes alike, and how waves and teeth change them.
+void add_flutes_alike(const force::Setup& setup, const force::Law& law,
+                      const correction::Plant& plant, Json& out) {
+  const correction::RigidCut cut(setup, law);
+  const auto alike = equal_flutes(correction::Target::peak_force, cut,
+                                  correction::Shape::harmonics, {.harmonics = 3});
+  for (const auto& c : std::get<correction::Harmonics>(alike.motion).c) {
+    out["alike"].push_back(complex_pair(c));
   }
-  Json out;
-  trochoid_estimator_init(&estimator, &c);
-  const auto turns = in["v"].get<std::vector<std::vector<double>>>();
-  for (std::size_t t = 0; t <= turns.size(); ++t) {
-    const auto& v = turns[std::min(t, turns.size() - 1)];
-    for (std::size_t i = 0; i < 20 * v.size(); ++i) {
-      const auto learnt = trochoid_estimator_sample(
-          &estimator,
-          (static_cast<double>(i) + 0.5) / (20.0 * static_cast<double>(v.size())),
-          100 * (1 + v[i / 20]), 1);
-      if (learnt.turn == TROCHOID_TURN_LEARNT) {
-        Json wave;
-        for (int n = 0; n < c.harmonics; ++n) {
-          wave.push_back(learnt.cosine_m[n] / 1e-5);
-          wave.push_back(learnt.sine_m[n] / 1e-5);
-        }
-        out.push_back(wave);
-      }
+  const correction::Setting setting{.ok = true,
+                                    .cut = {.setup = setup, .law = law, .plant = plant},
+                                    .rho = setup.runout.radial_offsets};
+  const auto config = estimator_for(setting, correction::Harmonics{}).value();
+  for (int j = 0; j < config.teeth; ++j) {
+    Json waves;
+    for (int k = 0; k < 2 * config.harmonics; ++k) {
+      waves.push_back(config.wave_model[j][k] * unit::mm);
     }
+    out["S"].push_back(waves);
+    Json teeth;
+    for (int i = 0; i < config.teeth; ++i) {
+      teeth.push_back(config.runout_model[j][i] * unit::mm);
+    }
+    out["W"].push_back(teeth);
   }
-  return out;
+}
+
+/// Widths and harmonics to choose among, and what is chosen at each speed.
+void add_transitions(const correction::RigidCut& cut, const correction::Plant& plant,
+                     const std::vector<double>& rpm, Json& out) {
+  const auto candidates = transition_candidates(cut, {});
+  for (const auto& one : candidates) {
+    out["candidates"].push_back(
+        {one.width, one.harmonics, one.peak_difference, one.area_difference});
+  }
+  const correction::MapSetting setting{.model = plant, .real = plant};
+  for (const double n : rpm) {
+    const auto& best = chosen_transition(cut, candidates, correction::Method::inverse,
+                                         setting, n * unit::rpm);
+    out["chosen"].push_back({best.width, best.harmonics});
+  }
 }
 
 Json numbers_of(const Json& in) {
-  if (in.contains("S")) {
-    return waves_of(in);
-  }
   const force::Setup setup = setup_of(in);
   const correction::RigidCut cut(setup, law_of(in["law"]));
   const correction::PeriodicMotion X = motion_of(cut, in);
@@ -177,6 +177,12 @@ Json numbers_of(const Json& in) {
   }
   if (in["more"]) {
     add_more(in, cut, X, out);
+  }
+  if (in["alike"]) {
+    add_flutes_alike(setup, law_of(in["law"]), plant, out);
+  }
+  if (!in["rpm"].empty()) {
+    add_transitions(cut, plant, in["rpm"], out);
   }
   return out;
 }

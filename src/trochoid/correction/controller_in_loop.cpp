@@ -177,16 +177,9 @@ class Loop {
       return;
     }
     if (rigid_.teeth() > 2) {  // from nothing: the waves take the place of the table
-      TrochoidEstimatorConfig config;
-      trochoid_estimator_defaults(&config);
-      if (rigid_.teeth() > TROCHOID_ESTIMATOR_TEETH) {
-        refused_estimator_ = TROCHOID_ESTIMATOR_REFUSED_TEETH;
-        return;
-      }
-      set_estimator_model(s, plan.motion, config);
-      config.wait_turns =
-          1 + static_cast<int32_t>(settling_time(s.cut.plant) * omega_ / unit::turn);
-      refused_estimator_ = trochoid_estimator_init(&estimator_, &config);
+      const auto config = estimator_for(s, plan.motion);
+      refused_estimator_ = config ? trochoid_estimator_init(&estimator_, &*config)
+                                  : TROCHOID_ESTIMATOR_REFUSED_TEETH;
       gain_ = 0.0;
       return;
     }

@@ -1,5 +1,7 @@
 #include <trochoid/correction/correct.h>
 
+#include <trochoid/correction/estimator_model.h>
+
 namespace trochoid::correction {
 
 Correction correct(const CorrectionProblem& problem,
@@ -47,6 +49,7 @@ Correction correct(const CorrectionProblem& problem,
   c.axes = axis_limits(
       RigidCut(c.setting.cut.setup, c.setting.cut.law, c.setting.cut.slices),
       options.harmonics);
+  c.estimator = estimator_for(c.setting, c.plan.motion);
   if (problem.controller) {
     tell("Running the controller");
     c.controller = controller_in_loop(c.setting, c.plan, *problem.controller);

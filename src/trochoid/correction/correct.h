@@ -31,6 +31,8 @@ struct Correction {
   BeforeAfter cuts;
   SpeedMap speeds;
   AxisLimits axes;
+  /// What an estimator on the machine begins with; none of more than eight teeth.
+  std::optional<TrochoidEstimatorConfig> estimator;
   std::optional<ControllerInLoop> controller;
 };
 

@@ -1,6 +1,7 @@
 #include <trochoid/correction/estimator_model.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/correction/learning.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +59,14 @@ void set_windows(const RigidCut& cut, TrochoidEstimatorConfig& config) {
 
 }  // namespace
 
-void set_estimator_model(const Setting& s, const PeriodicMotion& around,
-                         TrochoidEstimatorConfig& config) {
+std::optional<TrochoidEstimatorConfig> estimator_for(const Setting& s,
+                                                     const PeriodicMotion& around) {
   const RigidCut cut = cut_with(s, s.rho);
+  if (cut.teeth() > TROCHOID_ESTIMATOR_TEETH) {
+    return std::nullopt;
+  }
+  TrochoidEstimatorConfig config;
+  trochoid_estimator_defaults(&config);
   const double rps = s.cut.setup.cut.Omega / unit::turn;
   config.teeth = cut.teeth();
   const int allowed =
@@ -69,6 +75,7 @@ void set_estimator_model(const Setting& s, const PeriodicMotion& around,
                                 static_cast<int>(TROCHOID_WAVE_HARMONICS));
   config.most_m = (s.limits.stroke_high - s.limits.stroke_low) / 2;
   config.step_m = config.most_m / 2;
+  config.wait_turns = 1 + static_cast<int32_t>(settling_time(s.cut.plant) * rps);
   set_windows(cut, config);
   const Harmonics base = harmonics_of(around, table_harmonics / 3);
   for (int k = 0; k < 2 * config.harmonics; ++k) {
@@ -93,6 +100,7 @@ void set_estimator_model(const Setting& s, const PeriodicMotion& around,
       config.runout_model[j][i] = (up[j] - down[j]) / (2 * difference);
     }
   }
+  return config;
 }
 
 }  // namespace trochoid::correction

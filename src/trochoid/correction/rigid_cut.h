@@ -104,6 +104,8 @@ class RigidCut {
   };
   struct Nodes;
 
+  [[nodiscard]] std::array<double, 3> force_of_tooth(const PeriodicMotion& X,
+                                                     std::size_t j, double phi) const;
   [[nodiscard]] Contact contact(const PeriodicMotion& X, const Disk& disk,
                                 std::size_t j, double phi) const;
   void add_force(const Disk& disk, const Contact& c,

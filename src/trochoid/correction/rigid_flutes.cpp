@@ -4,6 +4,8 @@
 #include <trochoid/dynamics/steady_state.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,8 @@ namespace {
 constexpr double steps_per_turn = 1440;
 /// Inside a panel, off its ends [rad].
 constexpr double beside = 1e-9;
+/// Of the angle of a peak: its value is then good to rounding.
+constexpr int bits = 26;
 
 double wrapped(double angle) noexcept {
   return angle - unit::turn * std::floor(angle / unit::turn);
@@ -28,19 +32,25 @@ double difference_of(std::span<const Flute> flutes, double Flute::*value) {
   return dynamics::relative_difference(values);
 }
 
-/// A largest value, and by how many steps the top of a parabola lies beside it.
+/// The largest value at a node, and where its neighbours in the same panel are.
 struct Top {
-  double value = 0.0;
-  double shift = 0.0;
+  double value = -1.0;
+  double from = 0.0;
+  double at = 0.0;
+  double to = 0.0;
 };
 
-Top top_of(double before, double here, double after) noexcept {
-  const double bend = before - 2 * here + after;
-  if (!(bend < 0)) {
-    return {here, 0.0};
+/// The largest value between the neighbours, and where it is: a force has kinks, so that
+/// a parabola through three nodes would miss it.
+template <typename F>
+Top highest(const F& f, Top top) {
+  const auto [at, less] = boost::math::tools::brent_find_minima(
+      [&](double phi) { return -f(phi); }, top.from, top.to, bits);
+  if (-less > top.value) {
+    top.value = -less;
+    top.at = at;
   }
-  const double shift = std::clamp((before - after) / (2 * bend), -0.5, 0.5);
-  return {here - (before - after) * shift / 4, shift};
+  return top;
 }
 
 }  // namespace
@@ -75,7 +85,8 @@ std::vector<double> chip_differences(std::span<const double> rho) {
 /// The force over a turn, at nodes that avoid every jump.
 struct RigidCut::Nodes {
   std::vector<double> angle;
-  std::vector<bool> inner;  ///< has neighbours at equal distance
+  std::vector<double> from;  ///< the node before in the same panel, or this one
+  std::vector<double> to;    ///< the node after, or this one
   std::vector<std::array<double, 3>> force;
   std::vector<double> chip;   ///< shape (nodes, teeth)
   std::vector<double> own_y;  ///< |F_y| of each tooth, shape (nodes, teeth) [N]
@@ -132,39 +143,57 @@ RigidCut::Nodes RigidCut::nodes(const PeriodicMotion& X) const {
         }
       }
       nodes.angle.push_back(phi);
-      nodes.inner.push_back(i > 0 && i < steps);
+      nodes.from.push_back(from + length * std::max(0, i - 1) / steps);
+      nodes.to.push_back(from + length * std::min(steps, i + 1) / steps);
       nodes.force.push_back(F);
     }
   }
   return nodes;
 }
 
+std::array<double, 3> RigidCut::force_of_tooth(const PeriodicMotion& X, std::size_t j,
+                                               double phi) const {
+  std::array<double, 3> F{};
+  for (const Disk& disk : disks_) {
+    add_force(disk, contact(X, disk, j, phi), F);
+  }
+  return F;
+}
+
 std::vector<Flute> RigidCut::peaks(const PeriodicMotion& X) const {
   const Nodes all = nodes(X);
   const std::size_t count = psi_.size();
-  std::vector<Flute> flutes(count);
-  const auto top = [&](std::size_t i, const auto& value) {
-    return all.inner[i] ? top_of(value(i - 1), value(i), value(i + 1))
-                        : Top{value(i), 0.0};
+  struct Tops {
+    Top x, y, own, chip;
   };
+  std::vector<Tops> tops(count);
   for (std::size_t i = 0; i < all.angle.size(); ++i) {
-    const std::size_t j = turn_of(all.angle[i]);
-    Flute& f = flutes[j];
-    const auto F_x = [&](std::size_t k) { return std::abs(all.force[k][0]); };
-    const auto F_y = [&](std::size_t k) { return std::abs(all.force[k][1]); };
-    f.peak_x = std::max(f.peak_x, top(i, F_x).value);
-    const Top y = top(i, F_y);
-    if (y.value > f.peak_y) {
-      f.peak_y = y.value;
-      const double step = all.inner[i] ? all.angle[i + 1] - all.angle[i] : 0.0;
-      f.peak_y_angle = wrapped(all.angle[i] + y.shift * step - psi_[j]);
-    }
+    const auto raise = [&](Top& top, double value) {
+      if (value > top.value) {
+        top = {value, all.from[i], all.angle[i], all.to[i]};
+      }
+    };
+    Tops& whole = tops[turn_of(all.angle[i])];
+    raise(whole.x, std::abs(all.force[i][0]));
+    raise(whole.y, std::abs(all.force[i][1]));
     for (std::size_t k = 0; k < count; ++k) {
-      const auto h = [&](std::size_t n) { return all.chip[n * count + k]; };
-      flutes[k].peak_chip = std::max(flutes[k].peak_chip, top(i, h).value);
-      const auto own = [&](std::size_t n) { return all.own_y[n * count + k]; };
-      flutes[k].own_peak_y = std::max(flutes[k].own_peak_y, top(i, own).value);
+      raise(tops[k].own, all.own_y[i * count + k]);
+      raise(tops[k].chip, all.chip[i * count + k]);
     }
+  }
+  std::vector<Flute> flutes(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    const auto along = [&](std::size_t q) {
+      return [&, q](double phi) { return std::abs(force(X, phi)[q]); };
+    };
+    const auto own = [&](double phi) { return std::abs(force_of_tooth(X, j, phi)[1]); };
+    const auto h = [&](double phi) { return contact(X, disks_.front(), j, phi).h; };
+    const Top y = highest(along(1), tops[j].y);
+    flutes[j] = {.peak_x = highest(along(0), tops[j].x).value,
+                 .peak_y = y.value,
+                 .peak_y_angle = wrapped(y.at - psi_[j]),
+                 .own_peak_y = highest(own, tops[j].own).value,
+                 .peak_chip = highest(h, tops[j].chip).value};
   }
   return flutes;
 }
@@ -203,10 +232,7 @@ Prediction RigidCut::predict(const PeriodicMotion& X, int samples) const {
     out.table.push_back(place_at(X, phi));
     out.force.emplace_back();
     for (std::size_t j = 0; j < count; ++j) {
-      std::array<double, 3> F{};
-      for (const Disk& disk : disks_) {
-        add_force(disk, contact(X, disk, j, phi), F);
-      }
+      const std::array<double, 3> F = force_of_tooth(X, j, phi);
       for (std::size_t q = 0; q < 3; ++q) {
         out.force.back()[q] += F[q];
       }

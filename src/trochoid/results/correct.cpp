@@ -233,6 +233,9 @@ Answer answer_of(const CorrectResult& r) {
   if (c.speeds.spindle) {
     answer.tables.push_back(spindle_table(*c.speeds.spindle));
   }
+  if (c.estimator) {
+    answer.tables.push_back(estimator_table(*c.estimator));
+  }
   if (c.controller && c.controller->ok) {
     answer.tables.push_back(controller_table(*c.controller));
   }

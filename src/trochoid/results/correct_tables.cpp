@@ -100,6 +100,26 @@ base::Table spindle_table(const correction::SpeedModulation& m) {
   return table;
 }
 
+base::Table estimator_table(const TrochoidEstimatorConfig& model) {
+  base::Table table{"estimator.csv", {}};
+  const auto n = static_cast<std::size_t>(model.teeth);
+  const auto add = [&](const std::string& name, const auto& value) {
+    add_column(table, name, n, value);
+  };
+  add("flute", [](std::size_t j) { return static_cast<double>(j + 1); });
+  add("window_start_turns", [&](std::size_t j) { return model.start_rev[j]; });
+  add("wait_turns", [&](std::size_t) { return model.wait_turns; });
+  for (int k = 0; k < 2 * model.harmonics; ++k) {
+    add(fmt::format("{}{}_per_um", k % 2 == 0 ? "cosine" : "sine", k / 2 + 1),
+        [&](std::size_t j) { return model.wave_model[j][k] * unit::um; });
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    add(fmt::format("tooth{}_per_um", i + 1),
+        [&](std::size_t j) { return model.runout_model[j][i] * unit::um; });
+  }
+  return table;
+}
+
 base::Table controller_table(const correction::ControllerInLoop& run) {
   base::Table table{"controller.csv", {}};
   const auto& samples = run.samples;

@@ -20,6 +20,9 @@ base::Table speeds_table(const correction::SpeedMap& map);
 /// spindle.csv: speed and torque of the spindle over a turn, in place of the table.
 base::Table spindle_table(const correction::SpeedModulation& m);
 
+/// estimator.csv: how waves of the command and teeth change the flutes, for the machine.
+base::Table estimator_table(const TrochoidEstimatorConfig& model);
+
 /// controller.csv: the controller at each of its steps.
 base::Table controller_table(const correction::ControllerInLoop& run);
 

@@ -116,7 +116,7 @@ class Halrun:
 # The first module starts the process that holds them all; it must be our rtapi_app.
 SINGLE = """
 loadusr -Wn threads ./rtapi_app load threads name1=servo period1={period}
-loadrt trochoid_correct table={table}
+loadrt trochoid_correct table={table} {model}
 loadrt trochoid_bench
 loadrt sampler depth=16000 cfg=usuuuuff
 setp trochoid-correct.0.start-um 30
@@ -152,7 +152,7 @@ unloadrt all
 # One thread for the pulses too: with two, their order is that of the scheduler.
 ENCODER = """
 loadusr -Wn threads ./rtapi_app load threads name1=servo period1=100000
-loadrt trochoid_correct table={table}
+loadrt trochoid_correct table={table} {model}
 loadrt trochoid_bench
 loadrt sim_encoder num_chan=1
 loadrt encoder num_chan=1
@@ -218,7 +218,7 @@ class Hal(unittest.TestCase):
         cls.halrun.close()
 
     def samples(self, text, amplitude=14.0, **settings):
-        values = {"period": PERIOD, "table": "table.csv", "enable_at": 0,
+        values = {"period": PERIOD, "table": "table.csv", "model": "", "enable_at": 0,
                   "disable_at": NEVER, "lose_index_at": NEVER, "more": "", **settings}
         folder = self.halrun.folder
         (folder / "table.csv").write_text(table_text(amplitude))
@@ -229,6 +229,15 @@ class Hal(unittest.TestCase):
         found = [Sample(line) for line in lines]
         self.assertEqual([s.tick for s in found], list(range(values["ticks"])))
         return found
+
+    def program_answer(self, name):
+        """A file of the program's answer to the example, for the component."""
+        example = pathlib.Path(__file__).parents[3] / "examples/runout_correction"
+        answer = self.halrun.folder / "answer"
+        subprocess.run([os.environ["TROCHOID"], "correct", example / "case.toml",
+                        "--output", answer, "--no-report"], check=True, capture_output=True)
+        shutil.copy(answer / name, self.halrun.folder)
+        return (answer / name).read_text()
 
     def offline(self, ticks, enable_at=0, disable_at=NEVER, lose_index_at=NEVER, learn=0):
         arguments = [self.halrun.folder / "table.csv", ticks, enable_at, disable_at,
@@ -263,6 +272,18 @@ class Hal(unittest.TestCase):
         for sample in found[running + 7 * turn:]:
             self.assertLess(sample.difference(), 0.03, sample.tick)
         self.assert_same_bits(found, self.offline(4800, learn=1))
+
+    def test_waves_are_learnt_with_the_model_that_the_program_wrote(self):
+        self.program_answer("estimator.csv")
+        found = self.samples(SINGLE, model="model=estimator.csv", ticks=9600,
+                             more="setp trochoid-correct.0.learn 1\n"
+                             "setp trochoid-correct.0.gain 0\n"
+                             "setp trochoid-correct.0.lead-s 0")
+        running = next(s.tick for s in found if s.state == RUNNING)
+        self.assertGreater(found[running].difference(), 0.5)
+        print(f"waves: {found[running].difference():.3f} to {found[-1].difference():.4f}")
+        for sample in found[-5 * 200:]:
+            self.assertLess(sample.difference(), 0.03, sample.tick)
 
     def test_lost_index_ramps_to_mid_stroke(self):
         lost = 2600
@@ -299,14 +320,9 @@ class Hal(unittest.TestCase):
         self.assertLess(after.difference(), 0.03)
 
     def test_gives_the_command_that_the_program_wrote(self):
-        example = pathlib.Path(__file__).parents[3] / "examples/runout_correction"
-        answer = self.halrun.folder / "answer"
-        subprocess.run([os.environ["TROCHOID"], "correct", example / "case.toml",
-                        "--output", answer, "--no-report"], check=True, capture_output=True)
         wanted = [float(line.split(",")[1])
-                  for line in (answer / "command.csv").read_text().splitlines()[1:]]
+                  for line in self.program_answer("command.csv").splitlines()[1:]]
         middle = (max(wanted) + min(wanted)) / 2
-        shutil.copy(answer / "command.csv", self.halrun.folder)
         found = self.samples(SINGLE, table="command.csv", ticks=3200,
                              more="setp trochoid-correct.0.lead-s 0")
         self.assertEqual(found[-1].state, RUNNING)

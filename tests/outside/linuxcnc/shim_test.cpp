@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -102,7 +104,10 @@ struct Machine {
   TrochoidHalSettings set = settings();
   TrochoidHalOut out{};
   double position = 0.3;
+  double gain = 1.0;
+  double force = 0.0;
   bool enable = true;
+  bool learn = false;
 
   Machine() {
     std::string wrong;
@@ -115,7 +120,9 @@ struct Machine {
     position -= in.in_index != 0 ? 1.0 : 0.0;
     in.in_position = position;
     in.in_speed = 20.0;
-    in.in_gain = 1.0;
+    in.in_gain = gain;
+    in.in_force = force;
+    in.in_learn = learn ? 1 : 0;
     in.in_dt = 1e-3;
     in.in_enable = enable ? 1 : 0;
     trochoid_hal_step(hal.get(), &set, &in, &out);
@@ -178,6 +185,118 @@ TEST(Shim, RefusedSettingsLeaveTheOldOnesInForce) {
   machine.run(1000);
   EXPECT_EQ(machine.out.out_state, TROCHOID_RUNNING);
   EXPECT_LE(machine.out.out_command_um, 60.0);
+}
+
+const std::string model_of_three =
+    "flute,window_start_turns,wait_turns,cosine1_per_um,sine1_per_um,cosine2_per_um,"
+    "sine2_per_um,tooth1_per_um,tooth2_per_um,tooth3_per_um\n"
+    "1,0.1,2,0.05,0.01,0.02,-0.03,0.03,-0.01,-0.02\n"
+    "2,0.4,2,-0.01,-0.05,0.03,0.02,-0.02,0.03,-0.01\n"
+    "3,0.8,2,-0.04,0.04,-0.05,0.01,-0.01,-0.02,0.03\n";
+
+std::string model_problem(const std::string& text) {
+  const auto hal = std::make_unique<TrochoidHal>();
+  const std::string path = file_with(text);
+  const char* said = trochoid_hal_read_model(hal.get(), path.c_str());
+  std::filesystem::remove(path);
+  EXPECT_EQ(said == nullptr, hal->hal_model.teeth > 0);
+  return said != nullptr ? said : "";
+}
+
+std::string without(std::string text, const std::string& part) {
+  return text.replace(text.find(part), part.size(), "");
+}
+
+TEST(Shim, RefusesModelsThatAreWrong) {
+  EXPECT_EQ(model_problem(model_of_three), "");
+  EXPECT_EQ(
+      model_problem(""),
+      "has no columns window_start_turns, wait_turns, cosine1_per_um, sine1_per_um");
+  EXPECT_EQ(
+      model_problem(without(model_of_three, ",sine2_per_um")),
+      "has no columns window_start_turns, wait_turns, cosine1_per_um, sine1_per_um");
+  EXPECT_EQ(model_problem(without(model_of_three, "tooth3_per_um")),
+            "has not as many columns tooth1_per_um, ... as flutes");
+  const auto last = model_of_three.substr(model_of_three.find("3,0.8"));
+  EXPECT_EQ(model_problem(without(model_of_three, last)),
+            "has not as many columns tooth1_per_um, ... as flutes");
+  std::string many = model_of_three;
+  for (int i = 0; i < 6; ++i) {
+    many += last;
+  }
+  EXPECT_EQ(model_problem(many), "has more than 8 flutes");
+  for (const std::string wrong : {"x", "nan", "1e99"}) {
+    std::string text = model_of_three;
+    EXPECT_NE(model_problem(text.replace(text.find("-0.03"), 5, wrong)), "") << wrong;
+    text = model_of_three;
+    EXPECT_NE(model_problem(text.replace(text.find("0.4,2"), 5, wrong + ",2")), "");
+  }
+  TrochoidHal hal{};
+  EXPECT_STREQ(trochoid_hal_read_model(&hal, "/nowhere/estimator.csv"),
+               "cannot be opened");
+}
+
+/// Three flutes that the waves change as the model says, and a tooth that wears.
+struct ThreeFlutes {
+  Machine machine;
+  std::array<double, 3> runout = {0.25, -0.15, -0.1};
+  std::array<double, 3> peak{};
+
+  ThreeFlutes() {
+    const std::string path = file_with(model_of_three);
+    EXPECT_EQ(trochoid_hal_read_model(machine.hal.get(), path.c_str()), nullptr);
+    std::filesystem::remove(path);
+    machine.set.set_phase_turns = 0.05;
+    machine.set.set_tool_change = 0.1;
+    machine.learn = true;
+    machine.gain = 0.0;
+  }
+  void turn() {
+    const TrochoidEstimatorConfig& model = machine.hal->hal_model;
+    for (int i = 0; i < 50; ++i) {
+      const double angle = machine.position + 0.02 + machine.set.set_phase_turns;
+      const double since = angle - std::floor(angle);
+      const int j = since < 0.1 || since >= 0.8 ? 2 : since < 0.4 ? 0 : 1;
+      double v = runout[static_cast<std::size_t>(j)];
+      for (int k = 0; k < 4; ++k) {
+        const auto& waves = machine.hal->hal_controller;
+        v += model.wave_model[j][k] *
+             (k % 2 == 0 ? waves.cosine_m[k / 2] : waves.sine_m[k / 2]);
+      }
+      peak[static_cast<std::size_t>(j)] = v;
+      machine.force = 100.0 * (1.0 + v);
+      machine.step();
+    }
+  }
+  [[nodiscard]] double difference() const {
+    const auto [low, high] = std::ranges::minmax(peak);
+    return high - low;
+  }
+};
+
+TEST(Shim, LearnsWavesForThreeFlutesAndTellsWhichToothChanged) {
+  ThreeFlutes cut;
+  for (int i = 0; i < 60; ++i) {
+    cut.turn();
+  }
+  EXPECT_EQ(cut.machine.out.out_state, TROCHOID_RUNNING);
+  EXPECT_LT(cut.difference(), 0.01);
+  EXPECT_LT(cut.machine.out.out_difference, 0.01);
+  EXPECT_EQ(cut.machine.out.out_tool_events, 0);
+  cut.runout[1] -= 6 * 0.03;  // what the model makes of 6 um of tooth 2
+  cut.runout[0] += 6 * 0.01;
+  cut.runout[2] += 6 * 0.02;
+  for (int i = 0; i < 60; ++i) {
+    cut.turn();
+  }
+  EXPECT_LT(cut.difference(), 0.01);
+  EXPECT_EQ(cut.machine.out.out_tool_events, 1);
+  EXPECT_EQ(cut.machine.out.out_tooth, 2);
+  EXPECT_NEAR(cut.machine.out.out_tooth_change_um, -6.0, 0.5);
+  cut.machine.learn = false;  // without learning there are no waves
+  cut.turn();
+  cut.turn();
+  EXPECT_GT(cut.difference(), 0.3);
 }
 
 TEST(Shim, WithoutATableOnlyMidStrokeIsCommanded) {

@@ -39,7 +39,7 @@ class Correct(InFolder):
         done, summary = self.correct("--simulate-controller")
         files = {p.name for p in (self.folder / "cut.correct").iterdir()}
         self.assertEqual(files, {"case.toml", "summary.json", "report.html", "command.csv",
-                                 "command.h", "forces.csv", "speeds.csv", "controller.csv"})
+                                 "command.h", "estimator.csv", "forces.csv", "speeds.csv", "controller.csv"})
         self.assertIn("difference of the peaks", done.stdout)
         forces = self.columns("forces.csv")
         for when, share in (("before", 0.30), ("after", -0.01)):

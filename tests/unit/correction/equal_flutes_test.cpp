@@ -123,9 +123,7 @@ TEST(EqualFlutes, MayMakeTheFlutesOwnForcesEqual) {  // [R-26]
 /// Each entry against a step a hundred times as long, where peaks are nearly linear.
 TEST(EstimatorModel, TellsWhatAWaveAndAToothChange) {
   const Setting s = four_on_the_table();
-  TrochoidEstimatorConfig config;
-  trochoid_estimator_defaults(&config);
-  set_estimator_model(s, Harmonics{}, config);
+  const TrochoidEstimatorConfig config = estimator_for(s, Harmonics{}).value();
   EXPECT_EQ(config.teeth, 4);
   EXPECT_EQ(config.harmonics, 3);
   EXPECT_NEAR(config.most_m, 30e-6, 1e-12);
