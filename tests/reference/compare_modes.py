@@ -13,6 +13,7 @@ import modes
 
 EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples/tap_test"
 TRUTH = tomllib.loads((EXAMPLE / "truth.toml").read_text())
+SEVERAL = EXAMPLE.parent / "several_responses"
 KEYS = ("mass_kg", "stiffness_N_per_m", "damping_Ns_per_m")
 
 
@@ -71,6 +72,83 @@ class Compared(unittest.TestCase):
                 # a thousandth more: rounded samples, the base line before each blow
                 slack = 4 * mode["se"][key] + 1e-3 * truth[key]
                 self.assertLess(abs(mode[key] - truth[key]), slack, key)
+
+    def read_sets(self):
+        """The complex sets 58 of the example, by motion and force."""
+        lines = (SEVERAL / "tool.uff").read_text().splitlines()
+        out = {}
+        for i in (i for i, line in enumerate(lines) if line == "    58"):
+            place = lines[i + 6].split()
+            name = "xy"[int(place[6]) - 1] + "xy"[int(place[9]) - 1]
+            n, first, step = (float(lines[i + 7].split()[k]) for k in (1, 3, 4))
+            numbers = []
+            for line in lines[i + 12:]:
+                if line == "    -1":
+                    break
+                numbers += [float(line[k:k + 13]) for k in range(0, len(line), 13)]
+            H = np.array(numbers).reshape(-1, 2)
+            self.assertEqual(len(H), n)
+            out[name] = H[:, 0] + 1j * H[:, 1]
+        return first + step * np.arange(int(n)), out
+
+    def truth_of_several(self):
+        """Poles and shapes by the eigenvectors of the state matrix, scaled by rank one of
+        their residues."""
+        truth = tomllib.loads((SEVERAL / "truth.toml").read_text())
+        M = C = K = 0
+        for m in truth["mode"]:
+            n = np.array([np.cos(np.radians(m["angle_deg"])), np.sin(np.radians(m["angle_deg"]))])
+            w, N = 2 * np.pi * m["frequency_Hz"], m["mass_kg"] * np.outer(n, n)
+            M, K, C = M + N, K + w**2 * N, C + 2 * m["damping_ratio"] * w * N
+        d = np.radians(truth["damper"]["angle_deg"])
+        C = C + truth["damper"]["damping_Ns_per_m"] * np.outer([np.cos(d), np.sin(d)],
+                                                              [np.cos(d), np.sin(d)])
+        A = np.block([[np.zeros((2, 2)), np.eye(2)],
+                      [-np.linalg.solve(M, K), -np.linalg.solve(M, C)]])
+        values, V = np.linalg.eig(A)
+        left = np.linalg.solve(V, np.vstack([np.zeros((2, 2)), np.linalg.inv(M)]))
+        rows = []
+        for r in sorted((r for r in range(4) if values[r].imag > 0),
+                        key=lambda r: abs(values[r])):
+            p = values[r]
+            Z = np.outer(V[:2, r], left[r]) * 2j * p.imag
+            phi = modes.rank_one(Z[0, 0], Z[0, 1], Z[1, 1])
+            rows.append([abs(p), -p.real / abs(p), *phi.real, *phi.imag])
+        return np.array(rows)
+
+    def test_several_responses(self):  # [M-30] [M-31] [M-32] [M-33] [M-34]
+        f, responses = self.read_sets()
+        truth = self.truth_of_several()
+        rows, cov, models, weights = modes.fit_shared(f, responses, truth, True)
+        result = answer("modes", SEVERAL / "tool.uff")
+        self.assertEqual(result["shapes"], "complex")
+        found = result["modes"]
+        self.assertEqual(len(found), 2)
+        size = len(truth[0])
+        for r, mode in enumerate(found):
+            row = rows[r]
+            se = np.sqrt(np.diag(cov))[size * r:size * r + size]
+            phi = row[2:4] + 1j * row[4:6]
+            phi *= np.sign(phi[np.argmax(np.abs(phi))].real)
+            expected = modes.told(row[0], row[1], phi)
+            self.near([2 * np.pi * mode["frequency_Hz"], mode["damping_ratio"]], row[:2], 1e-6)
+            self.near([2 * np.pi * mode["se"]["frequency_Hz"], mode["se"]["damping_ratio"]],
+                      se[:2], 1e-3)
+            self.near([mode[key] for key in (*KEYS, "angle_deg", "imaginary_fraction")],
+                      expected, 1e-5)
+            shape = mode["shape"]
+            ours = [s["re_per_sqrt_kg"] + 1j * s["im_per_sqrt_kg"] for s in shape]
+            np.testing.assert_allclose(ours, phi, atol=1e-5)
+            self.near([[s["re_se"] for s in shape], [s["im_se"] for s in shape]],
+                      se[2:].reshape(2, 2), 1e-3)
+            # The noise is drawn once: within four standard errors of the structure.
+            self.assertLess(np.max(np.abs(row - truth[r]) / se), 4)
+        gains = {name: modes.gain(responses[name], models[name], weights[name])
+                 for name in ("xy", "yx")}
+        pair = result["reciprocity"][0]
+        self.assertEqual((pair["response"], pair["over"]), ("yx", "xy"))
+        self.near(pair["gain"], gains["yx"][0] / gains["xy"][0], 1e-6)
+        self.near(pair["se"], np.hypot(gains["xy"][1], gains["yx"][1]), 1e-3)
 
     def test_actuator(self):  # [M-13]
         t, _, y = np.loadtxt(EXAMPLE / "step.csv", delimiter=",", skiprows=2).T

@@ -1,6 +1,6 @@
 """Modes and actuators, written once more: plain formulas and scipy's fits.
 
-Ids: M-1 to M-4, M-6 to M-8, M-11, M-13, M-15, M-16, M-20, M-21 of docs/theory/modes.md.
+Ids: M-1 to M-4, M-6 to M-8, M-11, M-13, M-15, M-16, M-20, M-21, M-30 to M-34 of docs/theory/modes.md.
 """
 import numpy as np
 from scipy import optimize, signal
@@ -75,6 +75,88 @@ def fit_accelerance(f, H, start):
         across = 1 / np.hypot(sigma[0], sigma[2] * np.abs(model(p)))
     se = np.sqrt(np.diag(cov)).reshape(x0.shape) * x0
     return p.reshape(x0.shape) * x0, se, sigma
+
+
+def shared(w, poles, phi, j, k):
+    """Receptance of motion j to a force along k as a sum of pairs of poles.  M-30
+
+    poles of shape (modes,) above the real axis; phi (modes, 2), complex for complex shapes."""
+    s = 1j * np.asarray(w)[:, None]
+    residue = -1j * phi[:, j] * phi[:, k] / (2 * poles.imag)
+    return (residue / (s - poles) + np.conj(residue) / (s - np.conj(poles))).sum(1)
+
+
+def rank_one(Zxx, Zxy, Zyy):
+    """The factor of a symmetric matrix of rank one, by its larger direct entry.  M-32"""
+    if Zxx.real >= Zyy.real:
+        first = np.sqrt(Zxx)
+        return np.array([first, Zxy / first])
+    first = np.sqrt(Zyy)
+    return np.array([Zxy / first, first])
+
+
+def told(omega, zeta, phi):
+    """Mass, stiffness, damping, direction in degrees, imaginary fraction.  M-33"""
+    m = 1 / np.sum(np.abs(phi)**2)
+    return (m, m * omega**2, 2 * m * zeta * omega,
+            np.degrees(np.arctan(phi[1].real / phi[0].real)),
+            np.linalg.norm(phi.imag) / np.linalg.norm(phi))
+
+
+def fit_shared(f, responses, start, complex_shapes):
+    """Common modes of accelerances {"xy": H}, each weighted by its own noise.  M-31
+
+    start: rows of omega, zeta, Re phi x, y[, Im phi x, y]. Without residual terms.
+    Returns those rows, their covariance over the flattened rows, and the models."""
+    w = 2 * np.pi * f
+    x0 = np.asarray(start, float)
+    p = np.ones(x0.size)
+    weights = {name: (1, 1 / np.abs(H).max(), 1 / np.abs(H).max())
+               for name, H in responses.items()}
+
+    def models(p):
+        rows = p.reshape(x0.shape) * x0
+        omega, zeta = rows[:, 0], rows[:, 1]
+        poles = -zeta * omega + 1j * omega * np.sqrt(1 - zeta**2)
+        phi = rows[:, 2:4] + (1j * rows[:, 4:6] if complex_shapes else 0)
+        return {name: -w**2 * shared(w, poles, phi, "xy".index(name[0]), "xy".index(name[1]))
+                for name in responses}
+
+    def residual(p):
+        M = models(p)
+        out = []
+        for name, H in responses.items():
+            turn, along, across = weights[name]
+            d = (H - M[name]) * turn
+            out += [d.real * along, d.imag * across]
+        return np.concatenate(out)
+
+    before = np.zeros(x0.size)
+    while np.max(np.abs(p - before)) > 1e-9:
+        before = p
+        fit = optimize.least_squares(residual, p, method="lm", xtol=1e-13, ftol=1e-13,
+                                     gtol=1e-13)
+        p = fit.x
+        cov = np.linalg.inv(fit.jac.T @ fit.jac)
+        leverage = np.einsum("ia,ab,ib->i", fit.jac, cov, fit.jac)
+        M = models(p)
+        for i, (name, H) in enumerate(responses.items()):
+            turn = np.conj(M[name]) / np.abs(M[name])
+            n = 2 * len(f)
+            floor, magnitude, phase = noise((H - M[name]) * turn, M[name],
+                                            leverage[i * n:(i + 1) * n])
+            weights[name] = (turn, 1 / np.hypot(floor, magnitude * np.abs(M[name])),
+                             1 / np.hypot(floor, phase * np.abs(M[name])))
+    scale = x0.ravel()
+    return p.reshape(x0.shape) * x0, cov * np.outer(scale, scale), models(p), weights
+
+
+def gain(H, M, weights):
+    """By which real factor of M a response is fitted best, with its error.  M-34"""
+    turn, along, across = weights
+    A = np.concatenate([(M * turn).real * along, (M * turn).imag * across])
+    b = np.concatenate([(H * turn).real * along, (H * turn).imag * across])
+    return A @ b / (A @ A), 1 / np.sqrt(A @ A)
 
 
 def h1(force, response, starts, n, rate, window_end):

@@ -4,6 +4,7 @@
 #include <trochoid/cli/work_on.h>
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/shared_modes.h>
 
 namespace trochoid::cli {
 
@@ -47,7 +48,9 @@ int modes(const Options& options) {
   return work_on(given, options, base::Command::modes,
                  [&](const run::Progress& progress, base::Stop /*stop*/) {
                    progress("Fitting the modes");
-                   return results::answer_of(run::modes(given));
+                   return run::modes_are_shared(given)
+                              ? results::answer_of(run::shared_modes(given))
+                              : results::answer_of(run::modes(given));
                  });
 }
 

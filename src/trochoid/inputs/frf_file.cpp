@@ -215,6 +215,14 @@ FrfFile read_frf(const std::string& text, const std::string& name,
       ->read(text, name, source);
 }
 
+std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source) {
+  auto in = open_table(source.file, source.location, frf_kind);
+  const std::string text{std::istreambuf_iterator<char>(in),
+                         std::istreambuf_iterator<char>()};
+  return is_uff(text) ? directed_frfs_from_uff(text, source.file.string(), source)
+                      : std::vector<DirectedFrf>();
+}
+
 FrfFile read_frf(const FrfSource& source) {
   auto in = open_table(source.file, source.location, frf_kind);
   const std::string text{std::istreambuf_iterator<char>(in),

@@ -3,6 +3,7 @@
 #include <trochoid/base/warning.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
+#include <trochoid/structure/mode.h>
 
 #include <filesystem>
 #include <istream>
@@ -28,6 +29,19 @@ struct FrfFile {
   std::string description;  ///< what it is, in words, where the file says it
   std::vector<base::Warning> notes;
 };
+
+/// A response and its directions, as a universal file says them.
+struct DirectedFrf {
+  structure::Axis motion = structure::Axis::x;
+  structure::Axis force = structure::Axis::x;
+  FrfFile file;  ///< a direction against an axis has turned its sign
+};
+
+/// @brief The responses of a universal file that are of one point, along x and y, with a
+///        direct one, joined by a cross response, and none twice.
+/// @return empty: it holds no such set, or is no universal file
+/// @throws base::InputError with every problem of the file
+std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source);
 
 /// @brief Read a measured frequency response.
 ///

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 
 namespace trochoid::inputs {
 
@@ -109,10 +111,13 @@ const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& prob
   }
   const auto wanted = static_cast<std::size_t>(std::max(source.dataset, 0));
   if (wanted > responses.size() || (wanted == 0 && responses.size() > 1)) {
-    problems.add(1, 1,
-                 fmt::format("the file holds {} frequency responses: choose one by "
-                             "--dataset, or dataset = in [frf]{}",
-                             responses.size(), list));
+    problems.add(
+        1, 1,
+        fmt::format("the file holds {} frequency responses: choose one by "
+                    "--dataset, or dataset = in [frf]; they are fitted together "
+                    "where all are of one point, along x and y, a direct one "
+                    "and a cross one among them{}",
+                    responses.size(), list));
     return nullptr;
   }
   return responses[wanted == 0 ? 0 : wanted - 1];
@@ -128,7 +133,111 @@ bool holds_tap(const UffFile& file) {
                                   [](const auto& c) { return c.name == "force"; });
 }
 
+/// One set as a response.
+FrfFile taken(const Uff58& set, const FrfSource& source, Problems& problems) {
+  FrfFile out;
+  out.description = described(set);
+  if (set.y.size() < set.promised) {
+    problems.add(set.line, 1,
+                 fmt::format("the head of this set speaks of {} points, the data end "
+                             "after {}: the file is cut off",
+                             set.promised, set.y.size()));
+  }
+  if (!set.complex_valued()) {
+    problems.add(set.line, 1,
+                 "this frequency response has real values: its phase is lost, and "
+                 "with it the damping");
+  }
+  const double factor =
+      settle_unit({unit_text(set), set.line, 1}, source, out, problems);
+  for (std::size_t i = 0; i < set.y.size(); ++i) {
+    out.response.omega.push_back(set.x[i] * unit::Hz);
+    out.response.H.push_back(factor * set.y[i]);
+  }
+  check_order(out.response.omega, {set.line}, 1, problems);
+  return out;
+}
+
+/// What else a file holds is not read.
+void note_others(const UffFile& file, FrfFile& out) {
+  if (!file.others.empty()) {
+    out.notes.push_back(
+        {"sets_passed_over",
+         fmt::format("The file holds {} data sets of other kinds, which "
+                     "were passed over.",
+                     file.others.size())});
+  }
+}
+
+/// x or y, from the number of a direction; none: another one.
+std::optional<structure::Axis> axis_of(int direction) {
+  switch (std::abs(direction)) {
+    case 1:
+      return structure::Axis::x;
+    case 2:
+      return structure::Axis::y;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Whether responses may share their modes: one point, x and y joined, none twice.
+bool belong_together(const std::vector<const Uff58*>& sets) {
+  bool direct = false;
+  bool cross = false;
+  bool both = false;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const Uff58& a = *sets[i];
+    const auto motion = axis_of(a.response_direction);
+    const auto force = axis_of(a.reference_direction);
+    if (!motion || !force || a.response_node != sets[0]->response_node ||
+        a.reference_node != sets[0]->response_node) {
+      return false;
+    }
+    direct = direct || *motion == *force;
+    cross = cross || *motion != *force;
+    both = both || *motion != axis_of(sets[0]->response_direction);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (motion == axis_of(sets[k]->response_direction) &&
+          force == axis_of(sets[k]->reference_direction)) {
+        return false;
+      }
+    }
+  }
+  return sets.size() > 1 && direct && (cross || !both);
+}
+
 }  // namespace
+
+std::vector<DirectedFrf> directed_frfs_from_uff(const std::string& text,
+                                                const std::string& name,
+                                                const FrfSource& source) {
+  Problems problems{name, {}};
+  const UffFile file = read_uff(text, name);
+  std::vector<const Uff58*> sets;
+  for (const Uff58& set : file.sets) {
+    if (set.function_type == frequency_response) {
+      sets.push_back(&set);
+    }
+  }
+  if (!belong_together(sets)) {
+    return {};
+  }
+  std::vector<DirectedFrf> out;
+  for (const Uff58* set : sets) {
+    out.push_back({.motion = *axis_of(set->response_direction),
+                   .force = *axis_of(set->reference_direction),
+                   .file = taken(*set, source, problems)});
+    if ((set->response_direction < 0) != (set->reference_direction < 0)) {
+      for (auto& H : out.back().file.response.H) {
+        H = -H;
+      }
+    }
+  }
+  if (!problems.lines.empty()) throw base::InputError(problems.lines);
+  note_others(file, out.front().file);
+  return out;
+}
 
 FrfFile frf_from_uff(const std::string& text, const std::string& name,
                      const FrfSource& source) {
@@ -138,34 +247,10 @@ FrfFile frf_from_uff(const std::string& text, const std::string& name,
   if (holds_tap(file)) {
     out = tap_file(tap_columns(file), source, problems);
   } else if (const Uff58* set = chosen(file, source, problems)) {
-    out.description = described(*set);
-    if (set->y.size() < set->promised) {
-      problems.add(set->line, 1,
-                   fmt::format("the head of this set speaks of {} points, the data end "
-                               "after {}: the file is cut off",
-                               set->promised, set->y.size()));
-    }
-    if (!set->complex_valued()) {
-      problems.add(set->line, 1,
-                   "this frequency response has real values: its phase is lost, and "
-                   "with it the damping");
-    }
-    const double factor =
-        settle_unit({unit_text(*set), set->line, 1}, source, out, problems);
-    for (std::size_t i = 0; i < set->y.size(); ++i) {
-      out.response.omega.push_back(set->x[i] * unit::Hz);
-      out.response.H.push_back(factor * set->y[i]);
-    }
-    check_order(out.response.omega, {set->line}, 1, problems);
+    out = taken(*set, source, problems);
   }
   if (!problems.lines.empty()) throw base::InputError(problems.lines);
-  if (!file.others.empty()) {
-    out.notes.push_back(
-        {"sets_passed_over",
-         fmt::format("The file holds {} data sets of other kinds, which "
-                     "were passed over.",
-                     file.others.size())});
-  }
+  note_others(file, out);
   return out;
 }
 

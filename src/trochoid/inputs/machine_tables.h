@@ -114,6 +114,22 @@ constexpr std::string_view name_of(ResidualTerms terms) noexcept {
   return {};
 }
 
+/// Whether modes may move all directions in step only.
+enum class Shapes { choose, real, complex };
+
+/// Names of files.
+constexpr std::string_view name_of(Shapes shapes) noexcept {
+  switch (shapes) {
+    case Shapes::choose:
+      return "choose";
+    case Shapes::real:
+      return "real";
+    case Shapes::complex:
+      return "complex";
+  }
+  return {};
+}
+
 using structure::Axis;
 using structure::ModeBody;
 
@@ -177,13 +193,15 @@ struct Stability {
 
 /// [frf]: a measured frequency response.
 struct FrfTables {
-  std::string file;      ///< absolute, or relative to where we run
+  std::string file;      ///< absolute, or relative to where we run; empty: the
+                         ///< [[measured_frf]] together
   std::string location;  ///< file:line:col of its `file` key
   std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
   int dataset = 0;           ///< of a universal file, from 1; 0: the only one
   int modes = 0;             ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ResidualTerms residual_terms = ResidualTerms::choose;
+  Shapes shapes = Shapes::choose;
   signal::TapOptions tap;  ///< for hammer blows in time
   ModeBody body = ModeBody::tool;
   Axis axis = Axis::x;

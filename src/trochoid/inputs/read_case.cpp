@@ -41,8 +41,8 @@ Command purpose_of(std::optional<Command> command, const Node& root) {
   if (has("command") && has("mode")) {
     return Command::dynamics;
   }
-  if (!has("tool") && (has("frf") || has("step"))) {
-    return has("frf") ? Command::modes : Command::actuator;
+  if (!has("tool") && (has("frf") || has("measured_frf") || has("step"))) {
+    return has("frf") || has("measured_frf") ? Command::modes : Command::actuator;
   }
   return has("surface") || has("wall") || has("cutter_body") ? Command::surface
                                                              : Command::simulate;
@@ -273,7 +273,7 @@ void take_from_memory(const RecordsInMemory& records, CaseTables& tables) {
 }
 
 void rename_machine_files(MachineTables& machine, const fs::path& folder) {
-  if (machine.frf) {
+  if (machine.frf && !machine.frf->file.empty()) {
     machine.frf->file = renamed(machine.frf->file, machine.frf->file, folder);
   }
   for (MeasuredFrf& frf : machine.measured_frfs) {
@@ -311,10 +311,17 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   const Command purpose = purpose_of(command, root);
   CaseTables tables = read_tables(root, purpose, findings);
   take_from_memory(source.records, tables);
+  if (purpose == Command::modes && !tables.machine.measured_frfs.empty() &&
+      !tables.machine.frf) {
+    tables.machine.frf.emplace();  // its defaults stand in the echo
+  }
   const bool no_cut = (purpose == Command::modes || purpose == Command::actuator) &&
                       find(root, "tool") == nullptr && find(root, "cut") == nullptr;
   Case c =
       no_cut ? assemble_machine(tables, findings) : assemble(tables, purpose, findings);
+  if (purpose == Command::modes) {
+    check_shared_modes(c.machine, findings);
+  }
   if (!findings.problems.empty()) {
     throw base::InputError(lines(findings));
   }

@@ -89,6 +89,12 @@ void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
 /// @param number  1, 2 ... of the [[surface_measurement]]
 void settle_frame(SurfaceFrame& frame, std::size_t number, Findings& findings);
 
+/// @brief Directions, bands, and that none is given twice, of all [[measured_frf]].
+void check_measured_frfs(const std::vector<MeasuredFrf>& all, Findings& findings);
+
+/// @brief What `modes` needs: a file in [frf], or [[measured_frf]] of one structure.
+void check_shared_modes(const MachineTables& machine, Findings& findings);
+
 /// @brief The same for [frf] and [step].
 void settle_machine_files(MachineTables& machine, Findings& findings);
 

@@ -121,7 +121,7 @@ void check_step(const StepTables& step, Findings& findings) {
 }  // namespace
 
 void settle_machine_files(MachineTables& machine, Findings& findings) {
-  if (machine.frf) {
+  if (machine.frf && !machine.frf->file.empty()) {
     settle_file("frf.file", "a frequency response (csv, text or uff)",
                 machine.frf->file, machine.frf->location, findings);
   }

@@ -51,34 +51,6 @@ void check_slowest(const CaseTables& t, double Omega, const std::string& key,
   }
 }
 
-Axis force_axis(const MeasuredFrf& frf) {
-  return frf.force_axis.value_or(frf.axis);
-}
-
-bool is_cross(const MeasuredFrf& frf) {
-  return force_axis(frf) != frf.axis;
-}
-
-/// What the chip feels of one response, and the lines of it that are used.
-void check_measured_frf(const MeasuredFrf& frf, const std::string& path,
-                        Findings& findings) {
-  const std::string axis = path + ".axis";
-  if ((frf.axis == Axis::z || force_axis(frf) == Axis::z) &&
-      sound(findings, {axis, path + ".force_axis"})) {
-    report(findings, axis,
-           fmt::format("{}: along z, which the chip does not feel; must be along x or "
-                       "y, force and motion",
-                       path));
-  }
-  const std::string band = path + ".band_Hz";
-  if (frf.band.size() == 2 && sound(findings, {band}) && frf.band[0] >= frf.band[1]) {
-    report(findings, band,
-           fmt::format("{} = [{}, {}]: not in order; must be the lowest, then the "
-                       "highest frequency",
-                       band, frf.band[0], frf.band[1]));
-  }
-}
-
 /// Something must vibrate: modes, or what was measured of them.
 void check_what_vibrates(const MachineTables& machine, Findings& findings) {
   const bool measured = !machine.measured_frfs.empty();
@@ -87,35 +59,7 @@ void check_what_vibrates(const MachineTables& machine, Findings& findings) {
            "[[mode]] is missing (a mode of vibration), and so is [[measured_frf]]; "
            "stability needs one of the two");
   }
-  if (measured &&
-      std::all_of(machine.measured_frfs.begin(), machine.measured_frfs.end(),
-                  is_cross) &&
-      sound(findings, {"measured_frf[1].axis", "measured_frf[1].force_axis"})) {
-    report(findings, "measured_frf[1]",
-           "measured_frf: all of them are cross responses; must have a direct one "
-           "along x or y, measured where the force acts and along it");
-  }
-  for (std::size_t i = 0; i < machine.measured_frfs.size(); ++i) {
-    check_measured_frf(machine.measured_frfs[i], fmt::format("measured_frf[{}]", i + 1),
-                       findings);
-  }
-}
-
-void check_twice(const MachineTables& machine, Findings& findings) {
-  const std::vector<MeasuredFrf>& all = machine.measured_frfs;
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (all[i].body == all[k].body && all[i].axis == all[k].axis &&
-          force_axis(all[i]) == force_axis(all[k])) {
-        const std::string path = fmt::format("measured_frf[{}]", i + 1);
-        report(findings, path,
-               fmt::format("{}: the same body and directions as measured_frf[{}]; each "
-                           "response may be given once",
-                           path, k + 1));
-        break;
-      }
-    }
-  }
+  check_measured_frfs(machine.measured_frfs, findings);
 }
 
 }  // namespace
@@ -141,7 +85,6 @@ void check_steps(const std::optional<base::Steps>& steps, const std::string& key
 void check_stability(CaseTables& t, Findings& findings) {
   const std::vector<Mode>& modes = t.machine.modes;
   check_what_vibrates(t.machine, findings);
-  check_twice(t.machine, findings);
   const bool all_z = !modes.empty() &&
                      std::all_of(modes.begin(), modes.end(),
                                  [](const Mode& mode) { return mode.axis == Axis::z; });

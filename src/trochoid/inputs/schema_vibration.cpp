@@ -10,10 +10,14 @@ constexpr double longest_mm = 10000;
 
 /// Where a frequency response is: of [frf] and of [[measured_frf]].
 template <class Table>
-void describe_response_file(const Visitor& v, Table& t) {
+void describe_response_file(const Visitor& v, Table& t, Need need) {
   v({.name = "file",
-     .meaning = "the measured frequency response, relative to the file that names it",
-     .need = Need::always},
+     .meaning =
+         need == Need::always
+             ? "the measured frequency response, relative to the file that names it"
+             : "the measured frequency response, relative to the file that names it; "
+               "left out: all [[measured_frf]], which share their modes",
+     .need = need},
     &t.file);
   v({.name = "kind",
      .meaning = "displacement, velocity or acceleration over force; needed where the "
@@ -132,7 +136,7 @@ void describe(const Visitor& v, Actuator& t) {
 }
 
 void describe(const Visitor& v, FrfTables& t) {
-  describe_response_file(v, t);
+  describe_response_file(v, t, Need::optional);
   v({.name = "modes",
      .meaning = "how many modes are fitted; 0: their number is chosen",
      .range = between(0, 20)},
@@ -141,6 +145,12 @@ void describe(const Visitor& v, FrfTables& t) {
   v({.name = "residual_terms",
      .meaning = "residual terms: they stand for the modes below and above the band"},
     choice(t.residual_terms));
+  v({.name = "shapes",
+     .meaning =
+         "real: a mode moves all directions in step; complex: a damper in one "
+         "place puts them out of step; choose: whichever is likelier where there "
+         "are several responses, real with a warning where there is one"},
+    choice(t.shapes));
   v({.name = "estimator",
      .meaning = "of hammer blows in time: H1 lets the noise of the sensor average out, "
                 "H2 that of the force"},
@@ -157,11 +167,13 @@ void describe(const Visitor& v, FrfTables& t) {
      .range = between(0, 1)},
     &t.tap.window_end);
   v({.name = "body", .meaning = "what vibrates, for modes.toml"}, choice(t.body));
-  v({.name = "axis", .meaning = "in which direction, for modes.toml"}, choice(t.axis));
+  v({.name = "axis",
+     .meaning = "in which direction, for modes.toml, where `file` is one response"},
+    choice(t.axis));
 }
 
 void describe(const Visitor& v, MeasuredFrf& t) {
-  describe_response_file(v, t);
+  describe_response_file(v, t, Need::always);
   describe_band(v, t);
   v({.name = "body", .meaning = "what was hit and measured"}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction the motion was measured"},

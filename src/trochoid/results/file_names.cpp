@@ -49,7 +49,11 @@ constexpr auto names = std::to_array<std::string_view>({"case.toml",
                                                         "error_map.csv",
                                                         "overview.csv",
                                                         "passes.csv",
-                                                        "wall_loads.csv"});
+                                                        "wall_loads.csv",
+                                                        "fitted_xx.csv",
+                                                        "fitted_xy.csv",
+                                                        "fitted_yx.csv",
+                                                        "fitted_yy.csv"});
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

@@ -248,7 +248,10 @@ void add_alternative(const Search& search, ModesFit& fit) {
 ModesFit identify_modes(const FrequencyResponse& response,
                         const ModesOptions& options) {
   const FrequencyResponse lines = in_band(response, options);
-  ModesFit fit{.omega = lines.omega, .H = lines.H};
+  ModesFit fit{.omega = lines.omega,
+               .H = lines.H,
+               .window_decay = options.window_decay,
+               .noise_bandwidth = lines.noise_bandwidth};
   const auto needed = static_cast<std::size_t>(4 * std::max(options.count, 1) + 4);
   if (lines.omega.size() < needed) {
     return refused(

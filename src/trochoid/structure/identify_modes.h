@@ -65,6 +65,8 @@ struct ModesFit {
   double explained = 0.0;                    ///< 1 - sum |residual|^2 / sum |H|^2
   double rms = 0.0;  ///< sqrt(mean |residual|^2), in the unit of H
   ResponseNoise noise;
+  double window_decay = 0.0;       ///< of the lines fitted, as in the options [1/s]
+  double noise_bandwidth = 1.0;    ///< of the lines fitted
   std::vector<ModesOrder> orders;  ///< all that were tried
   /// Resonances that are in the fit, but too narrow for the lines or cut off by the
   /// band: their numbers are no answer.

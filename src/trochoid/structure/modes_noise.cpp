@@ -34,20 +34,18 @@ Complex turn_of(Complex H) {
   return size > 0 ? std::conj(H) / size : Complex(1.0);
 }
 
-Squares squares_of(const FrequencyResponse& lines, const ModesSolution& solution) {
+Squares squares_of(const FrequencyResponse& lines, std::span<const Complex> left,
+                   std::span<const double> leverage) {
   Squares s;
-  const std::vector<Complex> left = gaps(lines, solution.model);
   double largest = 0.0;
   for (std::size_t i = 0; i < left.size(); ++i) {
     const Complex H = lines.H[i] - left[i];
     s.power.push_back(std::norm(H));
-    largest = std::max({largest, s.power.back(), std::norm(lines.H[i])});
+    largest = std::max(largest, std::norm(lines.H[i]));
   }
   s.scale = largest > 0 ? largest : 1.0;
   const auto kept = [&](std::size_t row) {
-    return solution.leverage.empty()
-               ? 1.0
-               : 1 - std::min(solution.leverage[row], most_leverage);
+    return leverage.empty() ? 1.0 : 1 - std::min(leverage[row], most_leverage);
   };
   for (std::size_t i = 0; i < left.size(); ++i) {
     const Complex turned = left[i] * turn_of(lines.H[i] - left[i]);
@@ -165,7 +163,13 @@ double deviance_of(const Squares& s, const Variances& v) {
 
 NoiseEstimate estimate_noise(const FrequencyResponse& lines,
                              const ModesSolution& solution) {
-  const Squares s = squares_of(lines, solution);
+  return estimate_noise(lines, gaps(lines, solution.model), solution.leverage);
+}
+
+NoiseEstimate estimate_noise(const FrequencyResponse& lines,
+                             std::span<const Complex> left,
+                             std::span<const double> leverage) {
+  const Squares s = squares_of(lines, left, leverage);
   const auto n = static_cast<double>(2 * s.power.size());
   Variances even{};
   Variances part{};
@@ -197,10 +201,16 @@ NoiseEstimate estimate_noise(const FrequencyResponse& lines,
 
 LineWeights weights_of(const FrequencyResponse& lines, const ResponseNoise& noise,
                        const ModesModel& model) {
+  std::vector<Complex> modelled;
+  for (const double omega : lines.omega) {
+    modelled.push_back(factor(lines.kind, omega) * receptance(model, omega));
+  }
+  return weights_of(modelled, noise);
+}
+
+LineWeights weights_of(std::span<const Complex> modelled, const ResponseNoise& noise) {
   LineWeights out;
-  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
-    const Complex H =
-        factor(lines.kind, lines.omega[i]) * receptance(model, lines.omega[i]);
+  for (const Complex& H : modelled) {
     const double size = std::abs(H);
     out.turn.push_back(turn_of(H));
     out.along.push_back(1 / std::hypot(noise.floor, noise.magnitude * size));

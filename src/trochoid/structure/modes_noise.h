@@ -3,6 +3,9 @@
 #include <trochoid/structure/identify_modes.h>
 #include <trochoid/structure/modes_problem.h>
 
+#include <complex>
+#include <span>
+
 namespace trochoid::structure {
 
 /// What the noise of a response is taken for.
@@ -23,8 +26,19 @@ struct NoiseEstimate {
 NoiseEstimate estimate_noise(const FrequencyResponse& lines,
                              const ModesSolution& solution);
 
+/// @brief The same from what any model leaves of a response.
+/// @param left      measured less modelled, in the unit of H, shape (n)
+/// @param leverage  of real and imaginary part in turn, shape (2 n); empty: not known
+NoiseEstimate estimate_noise(const FrequencyResponse& lines,
+                             std::span<const std::complex<double>> left,
+                             std::span<const double> leverage);
+
 /// @brief The weights that follow from a noise, around a model.
 LineWeights weights_of(const FrequencyResponse& lines, const ResponseNoise& noise,
                        const ModesModel& model);
+
+/// @brief The same around modelled lines, in the unit of the noise.
+LineWeights weights_of(std::span<const std::complex<double>> modelled,
+                       const ResponseNoise& noise);
 
 }  // namespace trochoid::structure

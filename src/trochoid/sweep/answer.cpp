@@ -7,6 +7,7 @@
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/dynamics.h>
 #include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/shared_modes.h>
 #include <trochoid/run/vibration/stability.h>
 #include <trochoid/run/wall/calibrate.h>
 #include <trochoid/run/wall/plan.h>
@@ -41,7 +42,8 @@ results::Answer answer(base::Command command, const inputs::Case& given,
     case Command::stability:
       return answer_of(run::stability(given, silent));
     case Command::modes:
-      return answer_of(run::modes(given));
+      return run::modes_are_shared(given) ? answer_of(run::shared_modes(given))
+                                          : answer_of(run::modes(given));
     case Command::actuator:
       return answer_of(run::actuator(given));
     case Command::dynamics:

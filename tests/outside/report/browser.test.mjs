@@ -32,7 +32,7 @@ async function check(name, options, plots) {
 
 const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2, tool_point: 4,
-  modes: 6, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
+  modes: 6, shared_modes: 16, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
   wall_plan: 6 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {

@@ -6,6 +6,7 @@
 #include <trochoid/run/vibration/actuator.h>
 #include <trochoid/run/vibration/dynamics.h>
 #include <trochoid/run/vibration/modes.h>
+#include <trochoid/run/vibration/shared_modes.h>
 #include <trochoid/run/vibration/stability.h>
 
 namespace sample {
@@ -22,6 +23,14 @@ const std::filesystem::path examples = TROCHOID_EXAMPLES;
 Answer modes() {
   return answer_of(trochoid::run::modes(
       inputs::read_case(examples / "tap_test/case.toml", inputs::Command::modes)));
+}
+
+Answer shared_modes() {
+  inputs::MachineTables machine;
+  machine.frf = inputs::FrfTables{
+      .file = (examples / "several_responses/tool.uff").string(), .modes = 2};
+  return answer_of(trochoid::run::shared_modes(
+      inputs::bare_case(machine, inputs::Command::modes, {})));
 }
 
 Answer actuator() {

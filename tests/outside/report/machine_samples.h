@@ -10,6 +10,9 @@ namespace sample {
 trochoid::results::Answer modes();
 trochoid::results::Answer actuator();
 
+/// The four responses of examples/several_responses together.
+trochoid::results::Answer shared_modes();
+
 /// examples/runout_table_8mm with its sine.
 trochoid::results::Answer motion();
 

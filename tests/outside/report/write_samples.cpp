@@ -326,6 +326,7 @@ int main(int argc, char** argv) {
           std::pair{"stability", sample::lobes(cases / "stability")},
           std::pair{"tool_point", sample::tool_point()},
           std::pair{"modes", sample::modes()},
+          std::pair{"shared_modes", sample::shared_modes()},
           std::pair{"actuator", sample::actuator()},
           std::pair{"dynamics", sample::motion()},
           std::pair{"correct", sample::correction()},

@@ -23,14 +23,17 @@ struct MadeSet {
   int axis = 18;       ///< kind of the abscissa
   int kind = 12;       ///< of the ordinate
   int direction = -1;  ///< of the response
+  int reference = 1;   ///< direction of the force
+  int node = 7;        ///< of the response
 };
 
 inline std::string head_of(const MadeSet& set) {
   const auto points = set.promised < 0 ? static_cast<int>(set.y.size()) : set.promised;
   const double step = set.even && set.x.size() > 1 ? set.x[1] - set.x[0] : 0.0;
   std::string text = "tip of the tool\nNONE\n01-Jan-20 10:00:00\nNONE\nNONE\n";
-  text += fmt::format("{:5}{:10}{:5}{:10} {:<10}{:10}{:4} {:<10}{:10}{:4}\n",
-                      set.function, 1, 0, 0, "tip", 7, set.direction, "tip", 7, 1);
+  text +=
+      fmt::format("{:5}{:10}{:5}{:10} {:<10}{:10}{:4} {:<10}{:10}{:4}\n", set.function,
+                  1, 0, 0, "tip", set.node, set.direction, "tip", 7, set.reference);
   text += fmt::format("{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}\n", set.type, points,
                       set.even ? 1 : 0, set.x.empty() ? 0.0 : set.x[0], step, 0.0);
   const auto axis = [&](int type, const char* label, const std::string& unit) {

@@ -17,6 +17,7 @@ const withError = (value, se) => (isNumber(value)
 
 function modesPage(report) {
   const { result } = report;
+  if (Array.isArray(result.responses)) return sharedModesPage(report);
   const modes = Array.isArray(result.modes) ? result.modes : [];
   const rms = Object.entries(result).find(([key]) => key.startsWith('rms_'));
   return [
@@ -139,6 +140,17 @@ function polar(re, im, middle) {
 
 function responseSection(report) {
   const t = tableNamed(report, 'fitted.csv');
+  const { kind, description } = report.result;
+  const chart = responseChart(t, { kind, key: 'frequency', modes: report.result.modes });
+  if (!chart) return null;
+  return { part: section('response', 'Frequency response function', 'Response',
+    prose(sentence(kindLabels[kind] || 'the response'), description ? `: ${description}. ` : '. ',
+      chart.fitted ? 'Grey is what was measured, blue the modes together.' : 'Grey is what was measured.'),
+    chart.element), draw: chart.draw };
+}
+
+/** Magnitude, phase, real and imaginary part of a response and of the fit through it. */
+function responseChart(t, { kind, key, modes }) {
   const x = columnNamed(t, 'frequency_Hz');
   if (!x?.length) return null;
   const part = (prefix) => t.columns.find((column) => column.name.startsWith(prefix))?.values;
@@ -147,17 +159,17 @@ function responseSection(report) {
   const fittedRe = part('fitted_re_');
   const fittedIm = part('fitted_im_');
   const mif = columnNamed(t, 'mode_indicator');
-  const unit = unitOfKind[report.result.kind] || '';
-  const middle = middleOfPhase[report.result.kind] || 0;
+  const unit = unitOfKind[kind] || '';
+  const middle = middleOfPhase[kind] || 0;
   const of = polar(re, im, middle);
   const fit = fittedRe ? polar(fittedRe, fittedIm, middle) : null;
   const both = (values, fitted) => [
     { name: 'measured', values, color: '--measured', width: 2.2 },
     fitted && { name: 'fit', values: fitted, color: '--s1', width: 1.6 },
   ].filter(Boolean);
-  const marks = (report.result.modes || []).map((mode, i) => ({ x: mode.frequency_Hz,
+  const marks = (modes || []).map((mode, i) => ({ x: mode.frequency_Hz,
     text: `${i + 1}`, color: '--soft' }));
-  const chart = figure({ key: 'frequency', x, label: 'frequency', unit: 'Hz',
+  const chart = figure({ key, x, label: 'frequency', unit: 'Hz',
     caption: zoomHint + thinned(t) });
   const panels = [
     { label: '|H|', unit: `dB re 1 ${unit}`, height: 190,
@@ -168,11 +180,7 @@ function responseSection(report) {
     mif && { label: 'mode indicator', unit: '', height: 90,
       series: [{ name: '', values: mif, color: '--measured', width: 1.2 }] },
   ].filter(Boolean);
-  return { part: section('response', 'Frequency response function', 'Response',
-    prose(sentence(kindLabels[report.result.kind] || 'the response'),
-      report.result.description ? `: ${report.result.description}. ` : '. ',
-      fit ? 'Grey is what was measured, blue the modes together.' : 'Grey is what was measured.'),
-    chart.element), draw: () => chart.draw(panels) };
+  return { element: chart.element, fitted: Boolean(fit), draw: () => chart.draw(panels) };
 }
 
 function actuatorPage(report) {

@@ -2,7 +2,9 @@
 #include <trochoid/run/vibration/modes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/run/vibration/tap_response.h>
 #include <trochoid/run/vibration/warnings.h>
+#include <trochoid/structure/identify_shapes.h>
 
 #include <fmt/core.h>
 
@@ -16,9 +18,6 @@ namespace {
 
 /// Orders that the diagram of stabilisation shows beyond the modes that were found.
 constexpr int orders_beyond = 6;
-
-/// Lines below the first of this coherence are left out where no band is given.
-constexpr double least_coherence = 0.5;
 
 structure::ModesOptions options_of(const inputs::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
@@ -41,39 +40,6 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
           .kind = frf.kind,
           .dataset = frf.dataset};
 }
-
-namespace {
-
-/// The response that blows in time give, in the form of M-22.
-structure::FrequencyResponse response_of(const signal::TapResponse& tap,
-                                         structure::ResponseKind kind) {
-  structure::FrequencyResponse out{.kind = kind,
-                                   .omega = tap.omega,
-                                   .H = tap.H,
-                                   .noise_bandwidth = tap.noise_bandwidth};
-  for (std::size_t i = 0; i < tap.omega.size(); ++i) {
-    const double omega = tap.omega[i];
-    const std::complex<double> ratio =
-        std::complex<double>(0, omega) / std::complex<double>(tap.decay, omega);
-    const int times = static_cast<int>(kind);  // of the time derivative: 0, 1 or 2
-    for (int k = 0; k < times; ++k) {
-      out.H[i] *= ratio;
-    }
-  }
-  return out;
-}
-
-/// The lowest line that the hits agree on [rad/s]; 0: nobody knows.
-double first_coherent(const signal::TapResponse& tap) {
-  const auto at =
-      std::find_if(tap.coherence.begin(), tap.coherence.end(),
-                   [](double coherence) { return coherence >= least_coherence; });
-  return at == tap.coherence.end()
-             ? 0.0
-             : tap.omega[static_cast<std::size_t>(at - tap.coherence.begin())];
-}
-
-}  // namespace
 
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
@@ -110,6 +76,9 @@ results::ModesResult modes(const inputs::Case& given) {
     return r;
   }
   add_modes_warnings(r.fit, r.heading.warnings);
+  if (const auto complex = structure::complex_check(r.fit, r.kind)) {
+    add_complex_warning(*complex, r.heading.warnings);
+  }
   r.heading.message =
       fmt::format("{} mode{} from {} lines.", r.fit.modes.size(),
                   r.fit.modes.size() == 1 ? "" : "s", r.fit.omega.size());

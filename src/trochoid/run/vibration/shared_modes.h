@@ -1,0 +1,19 @@
+#pragma once
+
+#include <trochoid/inputs/case.h>
+#include <trochoid/results/shared_modes.h>
+
+namespace trochoid::run {
+
+/// @brief Whether `modes` of a case are those that several responses share, or complex.
+///
+/// [[measured_frf]] without a file in [frf], or a universal file with responses of one
+/// point along x and y of which none is chosen.
+/// @throws base::InputError when the file cannot be read
+bool modes_are_shared(const inputs::Case& given);
+
+/// @brief Modes that several responses share.
+/// @throws base::InputError when a file cannot be read
+results::SharedModesResult shared_modes(const inputs::Case& given);
+
+}  // namespace trochoid::run
