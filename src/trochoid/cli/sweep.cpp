@@ -37,8 +37,9 @@ void check_place(const std::filesystem::path& folder) {
 
 /// A part that takes too long is given up; those before it are kept.
 [[noreturn]] void give_up() noexcept {
-  complain("trochoid sweep: the time limit has passed; rows that are done are kept, and "
-           "the same command goes on there\n");
+  complain(
+      "trochoid sweep: the time limit has passed; rows that are done are kept, and "
+      "the same command goes on there\n");
   std::fflush(stdout);
   std::_Exit(no_answer);
 }

@@ -91,7 +91,7 @@ std::string page_scripts() {
         groups_js(),  identify_js(),     drawing_js(),  map_js(),       bent_js(),
         surface_js(), wall_map_js(),     ellipse_js(),  calibrate_js(), stability_js(),
         modes_js(),   shared_modes_js(), dynamics_js(), moving_js(),    correct_js(),
-        plan_js(),    plan_wall_js(),    sweep_js(), any_js()}) {
+        plan_js(),    plan_wall_js(),    sweep_js(),    any_js()}) {
     text += part;
   }
   return "\n(() => {\n'use strict';\n" + text + pages_js() + std::string(main_js()) +

@@ -135,10 +135,10 @@ void conclude(SweepResult& r, std::size_t wanted) {
   if (r.rows.size() < wanted) {
     r.heading.ok = false;
     r.complete = false;
-    r.heading.message =
-        fmt::format("the time limit has passed after {} of {} rows; they are kept, and "
-                    "the same command goes on there",
-                    r.rows.size(), wanted);
+    r.heading.message = fmt::format(
+        "the time limit has passed after {} of {} rows; they are kept, and "
+        "the same command goes on there",
+        r.rows.size(), wanted);
     return;
   }
   const auto answered = static_cast<std::size_t>(
