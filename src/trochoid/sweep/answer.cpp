@@ -17,12 +17,6 @@
 
 namespace trochoid::sweep {
 
-namespace {
-
-void silent(const run::Step&) {}
-
-}  // namespace
-
 results::Answer answer(base::Command command, const inputs::Case& given,
                        const AnswerOptions& options) {
   using base::Command;
@@ -31,29 +25,29 @@ results::Answer answer(base::Command command, const inputs::Case& given,
     case Command::simulate:
       return answer_of(run::simulate(given));
     case Command::identify: {
-      results::IdentifyResult result = run::identify(given, silent);
+      results::IdentifyResult result = run::identify(given, {});
       result.whole_curves = options.curves;
       return answer_of(result);
     }
     case Command::surface:
-      return answer_of(run::surface(given, silent));
+      return answer_of(run::surface(given, {}));
     case Command::calibrate:
-      return answer_of(run::calibrate(given, silent));
+      return answer_of(run::calibrate(given, {}));
     case Command::stability:
-      return answer_of(run::stability(given, silent));
+      return answer_of(run::stability(given, {}));
     case Command::modes:
       return run::modes_are_shared(given) ? answer_of(run::shared_modes(given))
                                           : answer_of(run::modes(given));
     case Command::actuator:
       return answer_of(run::actuator(given));
     case Command::dynamics:
-      return answer_of(run::dynamics(given, silent));
+      return answer_of(run::dynamics(given, {}));
     case Command::correct:
-      return answer_of(run::correct(given, options.simulate_controller, silent));
+      return answer_of(run::correct(given, options.simulate_controller, {}));
     case Command::plan:
       return given.plan.of == inputs::PlanOf::wall
-                 ? answer_of(run::plan_wall(given, silent))
-                 : answer_of(run::plan(given, silent));
+                 ? answer_of(run::plan_wall(given, {}))
+                 : answer_of(run::plan(given, {}));
   }
   throw std::logic_error("a command without an answer");
 }

@@ -112,10 +112,8 @@ std::vector<SweepRow> all_rows(const Study& study, const Samples& samples, Parts
   while (rows.size() < samples.rows() && !stop.wanted()) {
     const std::size_t first = rows.size();
     const std::size_t count = std::min(size, samples.rows() - first);
-    if (progress) {
-      progress({"rows of the sweep",
-                static_cast<double>(first) / static_cast<double>(samples.rows())});
-    }
+    progress({"rows of the sweep",
+              static_cast<double>(first) / static_cast<double>(samples.rows())});
     const auto begun = std::chrono::steady_clock::now();
     std::vector<SweepRow> part(count);
     numerics::for_each_index(
@@ -174,9 +172,7 @@ SweepResult sweep(const Request& request, const run::Progress& progress,
                     .take = request.take.empty() ? plan.take : request.take};
   const Samples samples(plan);
   const inputs::Case first = check_keys(study, samples.row(0), request.folder);
-  if (progress) {
-    progress("The first row");
-  }
+  progress("The first row");
   const results::Answer answered = answer(study.command, first);
   if (answered.heading.ok || study.take.empty()) {
     check_take(study, answered);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace trochoid::run {
@@ -19,8 +21,25 @@ struct Step {
   operator const std::string&() const noexcept { return what; }
 };
 
-/// @brief Told what a long command is doing; may be empty.
-using Progress = std::function<void(const Step& step)>;
+/// @brief Told what a long command is doing; may be empty: then nobody is told.
+class Progress {
+ public:
+  Progress() = default;
+  // Implicit: whatever takes a step is one.
+  template <class Tell>
+  requires(!std::same_as<std::remove_cvref_t<Tell>, Progress> &&
+           std::invocable<Tell&, const Step&>) Progress(Tell tell)
+      : tell_(std::move(tell)) {}
+
+  void operator()(const Step& step) const {
+    if (tell_) {
+      tell_(step);
+    }
+  }
+
+ private:
+  std::function<void(const Step& step)> tell_;
+};
 
 /// @brief A line for a person: `limit depth: 40 %, 12 s, about 18 s left`.
 /// @param elapsed  since the command began [s]

@@ -39,11 +39,7 @@ ByFrequency by_frequency(const dynamics::StabilityProblem& problem,
   const dynamics::FrequencyOptions options{.harmonics = harmonics,
                                            .stop = problem.stop};
   const std::string what = harmonics == 0 ? "zeroth order" : "multi-frequency";
-  const auto tell = [&](double share) {
-    if (progress) {
-      progress({what, share});
-    }
-  };
+  const auto tell = [&](double share) { progress({what, share}); };
   ByFrequency out{dynamics::frequency_limit(model, response, problem.setup.cut.Omega,
                                             depths, options),
                   dynamics::frequency_limits(model, response, problem.spindle_speeds,
@@ -124,9 +120,7 @@ results::StabilityResult stability(const inputs::Case& given, const Progress& pr
   }
   if (r.no_modes.empty()) {
     r.stability = dynamics::stability(r.problem, [&](const char* what, double done) {
-      if (progress) {
-        progress({what, done});
-      }
+      progress({what, done});
     });
     base::add(r.heading.warnings,
               stability_warnings(given, r.problem.options, r.stability));

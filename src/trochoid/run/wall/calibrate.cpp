@@ -35,11 +35,7 @@ std::string refusal(const inputs::Case& given, const surface::CoefficientFit& fi
 
 results::CalibrateResult calibrate(const inputs::Case& given,
                                    const Progress& progress) {
-  const auto tell = [&](const char* what) {
-    if (progress) {
-      progress(what);
-    }
-  };
+  const auto tell = [&](const char* what) { progress(what); };
   MeasuredWall wall = measured_wall(given);
   tell("Fitting the coefficients");
   results::CalibrateResult r{.heading = heading_of(given),

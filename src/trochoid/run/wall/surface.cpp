@@ -52,11 +52,7 @@ surface::MeanAndExtremes straight_error(const inputs::Case& given,
 }  // namespace
 
 results::SurfaceResult surface(const inputs::Case& given, const Progress& progress) {
-  const auto tell = [&](const char* what) {
-    if (progress) {
-      progress(what);
-    }
-  };
+  const auto tell = [&](const char* what) { progress(what); };
   tell("Solving the wall");
   results::SurfaceResult r{.heading = heading_of(given),
                            .diameter = given.setup.cutter.profile.D,
