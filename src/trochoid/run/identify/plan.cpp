@@ -368,8 +368,7 @@ struct Planning {
 }  // namespace
 
 results::PlanResult plan(const inputs::Case& given, const Progress& progress) {
-  const Progress told = progress ? progress : [](const Step&) {};
-  return Planning{given, told}.answer();
+  return Planning{given, progress}.answer();
 }
 
 }  // namespace trochoid::run

@@ -31,6 +31,9 @@ class Progress {
            std::invocable<Tell&, const Step&>) Progress(Tell tell)
       : tell_(std::move(tell)) {}
 
+  /// Whether somebody is told.
+  explicit operator bool() const noexcept { return static_cast<bool>(tell_); }
+
   void operator()(const Step& step) const {
     if (tell_) {
       tell_(step);

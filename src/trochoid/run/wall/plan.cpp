@@ -347,8 +347,7 @@ struct WallPlanning {
 }  // namespace
 
 results::PlanWallResult plan_wall(const inputs::Case& given, const Progress& progress) {
-  const Progress told = progress ? progress : [](const Step&) {};
-  return WallPlanning{given, told}.answer();
+  return WallPlanning{given, progress}.answer();
 }
 
 }  // namespace trochoid::run
