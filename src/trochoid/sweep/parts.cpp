@@ -113,13 +113,18 @@ std::string head_of(std::string_view meaning, std::size_t cells) {
   return fmt::format("trochoid sweep {:016x} {}\n", checksum(meaning), cells);
 }
 
+/// A line with its end; one that was cut short is none.
+bool whole_line(std::istream& in, std::string& line) {
+  return std::getline(in, line) && !in.eof();
+}
+
 /// The next part, if it is whole and follows on `rows`.
 std::optional<std::string> whole_part(std::istream& in, std::size_t rows) {
   std::size_t first = 0;
   std::size_t count = 0;
   std::string wanted;
   std::string line;
-  if (!std::getline(in, line)) {
+  if (!whole_line(in, line)) {
     return std::nullopt;
   }
   std::istringstream head(line);
@@ -127,7 +132,7 @@ std::optional<std::string> whole_part(std::istream& in, std::size_t rows) {
     return std::nullopt;
   }
   std::string text;
-  for (std::size_t i = 0; i < count && std::getline(in, line); ++i) {
+  for (std::size_t i = 0; i < count && whole_line(in, line); ++i) {
     text += line + '\n';
   }
   return fmt::format("{:016x}", checksum(text)) == wanted ? std::optional(text)
@@ -149,7 +154,7 @@ Parts::Parts(fs::path file, std::string_view meaning, std::size_t cells)
   if (fs::is_regular_file(fs::symlink_status(file_, absent))) {
     std::ifstream in(file_, std::ios::binary);
     std::string line;
-    if (std::getline(in, line) && line + '\n' == head) {
+    if (whole_line(in, line) && line + '\n' == head) {
       whole = head.size();
       while (const auto part = whole_part(in, done_.size())) {
         std::istringstream rows(*part);

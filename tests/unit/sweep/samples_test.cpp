@@ -83,7 +83,7 @@ TEST(Samples, OfAHypercubeHitEveryStretchOnce) {
                              {.key = "b", .where = {}, .values = EvenValues{0, 1, {}}}},
                     .method = SweepMethod::latin_hypercube,
                     .rows = 50};
-  for (const std::size_t key : {0, 1}) {
+  for (const std::size_t key : {std::size_t{0}, std::size_t{1}}) {
     std::vector<double> values = column(sweep, key);
     EXPECT_FALSE(std::ranges::is_sorted(values));
     std::ranges::sort(values);
