@@ -1,10 +1,10 @@
+#include <trochoid/results/csv_cells.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/results/number.h>
 
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 
 namespace trochoid::results {
 
@@ -23,16 +23,6 @@ std::size_t rows_of(const base::Table& table) {
     }
   }
   return rows;
-}
-
-/// In quotes, on one line: what is in quotes is no number.
-void append_quoted(std::string& line, std::string_view text) {
-  line += '"';
-  for (const char c : text) {
-    line += c == '\n' || c == '\r' ? ' ' : c;
-    if (c == '"') line += '"';
-  }
-  line += '"';
 }
 
 }  // namespace

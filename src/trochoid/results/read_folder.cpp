@@ -1,6 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/nesting.h>
 #include <trochoid/base/read_text.h>
+#include <trochoid/results/csv_cells.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/results/json.h>
 
@@ -56,30 +57,6 @@ double read_number(std::string_view cell, const std::string& place) {
                             "' is not a number"});
   }
   return value;
-}
-
-/// The cell up to the next comma that stands in no quotes.
-std::string_view cut_cell(std::string_view& row) {
-  if (!row.starts_with('"')) return cut_at(row, ',');
-  bool quoted = false;
-  for (std::size_t i = 0; i <= row.size(); ++i) {
-    if (i < row.size() && row[i] == '"') quoted = !quoted;
-    if (i == row.size() || (row[i] == ',' && !quoted)) {
-      const std::string_view cell = row.substr(0, i);
-      row = row.substr(std::min(i + 1, row.size()));
-      return cell;
-    }
-  }
-  return {};
-}
-
-std::string unquoted(std::string_view cell) {
-  std::string text;
-  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
-    text += cell[i];
-    if (cell[i] == '"') ++i;
-  }
-  return text;
 }
 
 /// The cells of a row, a text where it stands in quotes.

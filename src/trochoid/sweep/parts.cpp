@@ -1,6 +1,7 @@
 #include <trochoid/sweep/parts.h>
 
 #include <trochoid/base/error.h>
+#include <trochoid/results/csv_cells.h>
 #include <trochoid/results/number.h>
 
 #include <fmt/core.h>
@@ -29,83 +30,38 @@ std::uint64_t checksum(std::string_view text) {
   return sum;
 }
 
-/// A text in quotes, on one line.
-void append_text(std::string& line, std::string_view text) {
-  line += '"';
-  for (const char c : text) {
-    line += c == '\n' || c == '\r' ? ' ' : c;
-    if (c == '"') {
-      line += '"';
-    }
-  }
-  line += '"';
-}
-
 std::string line_of(const SweepRow& row) {
   std::string line;
   for (const Cell& cell : row.cells) {
     if (const auto* value = std::get_if<double>(&cell)) {
       results::append_number(line, *value);
     } else {
-      append_text(line, std::get<std::string>(cell));
+      results::append_quoted(line, std::get<std::string>(cell));
     }
     line += ',';
   }
-  append_text(line, row.status);
+  results::append_quoted(line, row.status);
   line += ',';
-  append_text(line, row.message);
+  results::append_quoted(line, row.message);
   return line + '\n';
 }
 
-std::string take_text(std::string_view& rest) {
-  std::string text;
-  rest.remove_prefix(1);
-  while (!rest.empty()) {
-    const char c = rest.front();
-    rest.remove_prefix(1);
-    if (c != '"') {
-      text += c;
-    } else if (!rest.empty() && rest.front() == '"') {
-      text += c;
-      rest.remove_prefix(1);
-    } else {
-      break;
-    }
+Cell cell_of(std::string_view text) {
+  if (text.starts_with('"')) {
+    return results::unquoted(text);
   }
-  return text;
-}
-
-Cell take_cell(std::string_view& rest) {
-  Cell cell = std::numeric_limits<double>::quiet_NaN();
-  if (rest.starts_with('"')) {
-    cell = take_text(rest);
-  } else {
-    double value = 0.0;
-    const std::size_t end = std::min(rest.find(','), rest.size());
-    const auto read = std::from_chars(rest.data(), rest.data() + end, value);
-    if (read.ec == std::errc{}) {
-      cell = value;
-    }
-    rest.remove_prefix(end);
-  }
-  if (rest.starts_with(',')) {
-    rest.remove_prefix(1);
-  }
-  return cell;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 SweepRow row_of(std::string_view line, std::size_t cells) {
   SweepRow row;
   for (std::size_t i = 0; i < cells; ++i) {
-    row.cells.push_back(take_cell(line));
+    row.cells.push_back(cell_of(results::cut_cell(line)));
   }
-  const auto text = [&] {
-    const Cell cell = take_cell(line);
-    const auto* found = std::get_if<std::string>(&cell);
-    return found != nullptr ? *found : std::string();
-  };
-  row.status = text();
-  row.message = text();
+  row.status = results::unquoted(results::cut_cell(line));
+  row.message = results::unquoted(results::cut_cell(line));
   return row;
 }
 
