@@ -65,39 +65,22 @@ struct Candidate {
   std::string fault;  ///< empty: it may be the answer
 };
 
-std::size_t count_of(const Candidate& candidate, TermRole role) {
-  return static_cast<std::size_t>(
-      std::count_if(candidate.terms.begin(), candidate.terms.end(),
-                    [&](const TermVerdict& term) { return term.role == role; }));
-}
-
 Candidate judged(const FrequencyResponse& lines, ModesTrial trial,
                  const ModesOptions& options) {
   Candidate out{.trial = std::move(trial)};
   for (std::size_t r = 0; r < out.trial.solution.model.terms.size(); ++r) {
     out.terms.push_back(verdict_on(lines, out.trial.solution, r));
   }
-  const bool none = count_of(out, TermRole::mode) == 0;
-  const bool whole = options.count > 0;
-  for (const TermVerdict& term : out.terms) {
-    const bool fatal =
-        term.role == TermRole::none || (term.role == TermRole::unresolved && whole) ||
-        (term.role == TermRole::outside && !options.residual_terms.value_or(true));
-    if (term.role != TermRole::mode && (fatal || none) && out.fault.empty()) {
-      out.fault = term.why;
-    }
-  }
-  if (!out.trial.solution.converged && out.fault.empty()) {
-    out.fault = "the fit did not converge";
-  }
+  out.fault = fault_of(out.terms, options.count, options.residual_terms,
+                       out.trial.solution.converged);
   out.trial.criterion +=
-      very_strong * static_cast<double>(count_of(out, TermRole::unresolved));
+      very_strong * static_cast<double>(count_of(out.terms, TermRole::unresolved));
   return out;
 }
 
 ModesOrder order_of(const Candidate& candidate) {
   const ModesModel& model = candidate.trial.solution.model;
-  ModesOrder out{.count = count_of(candidate, TermRole::mode),
+  ModesOrder out{.count = count_of(candidate.terms, TermRole::mode),
                  .residual_terms = model.residual_terms,
                  .criterion = candidate.trial.criterion,
                  .fault = candidate.fault};
@@ -127,8 +110,8 @@ bool taken(Search& search, Candidate next, int wanted) {
   const Candidate& chosen = search.chosen;
   const bool better = chosen.trial.solution.model.terms.empty() ||
                       next.trial.criterion < chosen.trial.criterion;
-  const bool right =
-      wanted == 0 || count_of(next, TermRole::mode) == static_cast<std::size_t>(wanted);
+  const bool right = wanted == 0 || count_of(next.terms, TermRole::mode) ==
+                                        static_cast<std::size_t>(wanted);
   if (!right || !next.fault.empty() || !better) {
     return false;
   }

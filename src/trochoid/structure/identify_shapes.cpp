@@ -32,38 +32,21 @@ struct Candidate {
   std::string fault;  ///< empty: it may be the answer
 };
 
-std::size_t count_of(const Candidate& candidate, TermRole role) {
-  return static_cast<std::size_t>(
-      std::count_if(candidate.terms.begin(), candidate.terms.end(),
-                    [&](const TermVerdict& term) { return term.role == role; }));
-}
-
 Candidate judged(Responses all, ShapesTrial trial, const ShapesOptions& options) {
   Candidate out{.trial = std::move(trial)};
   for (std::size_t r = 0; r < out.trial.solution.model.terms.size(); ++r) {
     out.terms.push_back(verdict_on(all, out.trial.solution, r));
   }
-  const bool none = count_of(out, TermRole::mode) == 0;
-  for (const TermVerdict& term : out.terms) {
-    const bool fatal =
-        term.role == TermRole::none ||
-        (term.role == TermRole::unresolved && options.count > 0) ||
-        (term.role == TermRole::outside && !options.residual_terms.value_or(true));
-    if (term.role != TermRole::mode && (fatal || none) && out.fault.empty()) {
-      out.fault = term.why;
-    }
-  }
-  if (!out.trial.solution.converged && out.fault.empty()) {
-    out.fault = "the fit did not converge";
-  }
+  out.fault = fault_of(out.terms, options.count, options.residual_terms,
+                       out.trial.solution.converged);
   out.trial.criterion +=
-      very_strong * static_cast<double>(count_of(out, TermRole::unresolved));
+      very_strong * static_cast<double>(count_of(out.terms, TermRole::unresolved));
   return out;
 }
 
 ShapesOrder order_of(const Candidate& candidate) {
   const ShapesModel& model = candidate.trial.solution.model;
-  ShapesOrder out{.order = {.count = count_of(candidate, TermRole::mode),
+  ShapesOrder out{.order = {.count = count_of(candidate.terms, TermRole::mode),
                             .residual_terms = model.residual_terms,
                             .criterion = candidate.trial.criterion,
                             .fault = candidate.fault},
@@ -126,7 +109,7 @@ void search(Responses all, const ShapesOptions& options, bool complex_shapes,
           (out.first_fault.empty() || count <= std::max(options.count, 1))) {
         out.first_fault = next.fault;
       }
-      const std::size_t modes = count_of(next, TermRole::mode);
+      const std::size_t modes = count_of(next.terms, TermRole::mode);
       const bool right =
           options.count == 0 || modes == static_cast<std::size_t>(options.count);
       if (right && next.fault.empty() &&

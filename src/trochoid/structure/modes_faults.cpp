@@ -136,4 +136,23 @@ std::string fault_of_kind(const FrequencyResponse& lines, int count, double expl
       names[static_cast<std::size_t>(given)], may);
 }
 
+std::size_t count_of(std::span<const TermVerdict> terms, TermRole role) noexcept {
+  return static_cast<std::size_t>(std::ranges::count(terms, role, &TermVerdict::role));
+}
+
+std::string fault_of(std::span<const TermVerdict> terms, int count,
+                     std::optional<bool> residual_terms, bool converged) {
+  const bool none = count_of(terms, TermRole::mode) == 0;
+  for (const TermVerdict& term : terms) {
+    const bool fatal =
+        term.role == TermRole::none ||
+        (term.role == TermRole::unresolved && count > 0) ||
+        (term.role == TermRole::outside && !residual_terms.value_or(true));
+    if (term.role != TermRole::mode && (fatal || none) && !term.why.empty()) {
+      return term.why;
+    }
+  }
+  return converged ? std::string() : "the fit did not converge";
+}
+
 }  // namespace trochoid::structure

@@ -2,6 +2,9 @@
 
 #include <trochoid/structure/modes_problem.h>
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 
 namespace trochoid::structure {
@@ -26,6 +29,15 @@ struct TermVerdict {
 /// @param solution  with its covariance, if all of it can be told
 TermVerdict verdict_on(const FrequencyResponse& lines, const ModesSolution& solution,
                        std::size_t r);
+
+/// @brief How many terms are of a kind.
+std::size_t count_of(std::span<const TermVerdict> terms, TermRole role) noexcept;
+
+/// @brief Why the terms of a fit are no answer; empty: they may be one.
+/// @param count           modes that were asked for; 0: as many as there are
+/// @param residual_terms  whether they were asked for; absent: as it may be
+std::string fault_of(std::span<const TermVerdict> terms, int count,
+                     std::optional<bool> residual_terms, bool converged);
 
 /// @brief Whether the highest peak turns like a response of this kind.
 /// @param count      pairs of poles to look for

@@ -1,4 +1,5 @@
 #include "../inputs/case_text.h"
+#include "slot_case.h"
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
@@ -20,26 +21,8 @@ namespace {
 using inputs::Command;
 using inputs::test::CaseFolder;
 
-const std::string slot = R"(
-[tool]
-teeth = 2
-diameter_mm = 10
-helix_deg = 0
-[cut]
-engagement = "slot"
-axial_depth_mm = 0.3
-feed_per_tooth_mm = 0.05
-spindle_rpm = 12000
-[chip]
-model = "none"
-[force]
-K_tc_MPa = 600
-K_rc_MPa = 200
-K_ac_MPa = 0
-K_te_N_per_mm = 0
-K_re_N_per_mm = 0
-K_ae_N_per_mm = 0
-[stability]
+const std::string slot =
+    small_cut("engagement = \"slot\"", "0.3", 12000) + R"([stability]
 spindle_rpm = [12000, 12500, 2]
 axial_depth_mm = [0.1, 4, 10]
 )";

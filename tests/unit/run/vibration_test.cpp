@@ -1,4 +1,5 @@
 #include "../inputs/case_text.h"
+#include "slot_case.h"
 
 #include <trochoid/base/units.h>
 #include <trochoid/run/vibration/actuator.h>
@@ -18,32 +19,8 @@ namespace {
 using inputs::Command;
 using inputs::test::CaseFolder;
 
-const std::string benchmark = R"(
-[tool]
-teeth = 2
-diameter_mm = 10
-helix_deg = 0
-[cut]
-engagement = "slot"
-axial_depth_mm = 0.2
-feed_per_tooth_mm = 0.05
-spindle_rpm = 5000
-[chip]
-model = "none"
-[force]
-K_tc_MPa = 600
-K_rc_MPa = 200
-K_ac_MPa = 0
-K_te_N_per_mm = 0
-K_re_N_per_mm = 0
-K_ae_N_per_mm = 0
-[[mode]]
-body = "tool"
-axis = "x"
-mass_kg = 0.03993
-frequency_Hz = 922
-damping_ratio = 0.011
-)";
+const std::string benchmark =
+    small_cut("engagement = \"slot\"", "0.2", 5000) + one_mode;
 const std::string along_z = R"(
 [[mode]]
 body = "tool"

@@ -1,4 +1,5 @@
 #include "../inputs/case_text.h"
+#include "slot_case.h"
 
 #include <trochoid/run/correct/work.h>
 #include <trochoid/run/identify/plan.h>
@@ -22,33 +23,8 @@ namespace {
 using inputs::Command;
 using inputs::test::CaseFolder;
 
-const std::string cut = R"(
-[tool]
-teeth = 2
-diameter_mm = 10
-helix_deg = 0
-[cut]
-engagement = "down"
-radial_depth_mm = 1
-axial_depth_mm = 0.2
-feed_per_tooth_mm = 0.05
-spindle_rpm = 5000
-[chip]
-model = "none"
-[force]
-K_tc_MPa = 600
-K_rc_MPa = 200
-K_ac_MPa = 0
-K_te_N_per_mm = 0
-K_re_N_per_mm = 0
-K_ae_N_per_mm = 0
-[[mode]]
-body = "tool"
-axis = "x"
-mass_kg = 0.03993
-frequency_Hz = 922
-damping_ratio = 0.011
-)";
+const std::string cut =
+    small_cut("engagement = \"down\"\nradial_depth_mm = 1", "0.2", 5000) + one_mode;
 
 inputs::Case read(const std::string& more, Command command) {
   return CaseFolder().read(cut + more, command);
