@@ -1,35 +1,20 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/case.h>
 
-#include <unistd.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "bytes.h"
+#include "folder.h"
 
 namespace {
 
 using trochoid::fuzz::demand;
+using trochoid::fuzz::Folder;
+using trochoid::fuzz::write;
 using trochoid::inputs::Command;
-
-/// A folder of this process, so that relative names in a case lead nowhere.
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() /
-                               ("trochoid_fuzz_" + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
-void write(const std::filesystem::path& file, std::string_view text) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-}
 
 /// The commands in their order, and none: that which the tables show.
 std::optional<Command> command_of(std::uint8_t byte) {
@@ -42,7 +27,7 @@ std::optional<Command> command_of(std::uint8_t byte) {
 
 /// The first byte says the command. A case as it was understood is understood again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
+  static const Folder folder("trochoid_fuzz");
   if (size == 0) return 0;
   const auto command = command_of(data[0]);
   const auto file = folder.path / "case.toml";

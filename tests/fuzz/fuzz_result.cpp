@@ -2,8 +2,6 @@
 #include <trochoid/report/report.h>
 #include <trochoid/results/folder.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -12,27 +10,14 @@
 #include <string_view>
 
 #include "bytes.h"
+#include "folder.h"
 
 namespace {
 
 using trochoid::fuzz::demand;
+using trochoid::fuzz::Folder;
+using trochoid::fuzz::write;
 namespace results = trochoid::results;
-
-/// A result folder of this process.
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() /
-                               ("trochoid_result_" + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
-void write(const std::filesystem::path& file, std::string_view text) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-}
 
 auto angle_brackets(const std::string& page) {
   return std::count(page.begin(), page.end(), '<');
@@ -63,7 +48,7 @@ std::string_view cut_off(std::string_view& left) {
 
 /// summary.json, case.toml and forces.csv, with a byte 0 between them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
+  static const Folder folder("trochoid_result");
   std::string_view left(reinterpret_cast<const char*>(data), size);
   for (const char* const name : {"summary.json", "case.toml", "forces.csv"}) {
     write(folder.path / name, cut_off(left));

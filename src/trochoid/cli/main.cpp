@@ -98,11 +98,14 @@ void add_output(CLI::App& app, Options& options) {
                  "Folder for the results (default: CASE.COMMAND beside the case)");
   app.add_flag("--json", options.json, "Print summary.json instead of the table");
   app.add_flag("--no-report", options.no_report, "Do not write report.html");
-  app.add_flag("--anyway", options.anyway,
-               "Compute even what will take more than 1e9 evaluations or 1 GB");
   app.add_option("--time-limit", options.time_limit,
                  "End after so many seconds of work, with what was found till then")
       ->check(CLI::Range(0.001, 1e9));
+}
+
+void add_anyway(CLI::App& app, Options& options) {
+  app.add_flag("--anyway", options.anyway,
+               "Compute even what will take more than 1e9 evaluations or 1 GB");
 }
 
 /// What a bare data file does not say by itself.
@@ -193,6 +196,7 @@ int run(int argc, char** argv) {
                                        std::string(purpose_of(command)));
     add_common(*sub, options);
     add_output(*sub, options);
+    add_anyway(*sub, options);
     add_data_options(*sub, command, options);
     sub->callback(
         [&, command] { chosen = [&, command] { return answer(command, options); }; });
@@ -205,6 +209,7 @@ int run(int argc, char** argv) {
       "nothing is written");
   add_common(*check, options);
   add_output(*check, options);
+  add_anyway(*check, options);
   check->callback([&] { chosen = [&] { return trochoid::cli::check(options); }; });
   std::string wanted;
   const std::vector<std::string> names(trochoid::base::names<Command>.begin(),

@@ -109,7 +109,9 @@ std::vector<SweepRow> all_rows(const Study& study, const Samples& samples, Parts
   std::vector<SweepRow> rows = parts.take_done();
   rows.resize(std::min(rows.size(), samples.rows()));
   std::size_t size = least_part;
-  while (rows.size() < samples.rows() && !stop.wanted()) {
+  const std::size_t done = rows.size();
+  // One part at least: every run gets on.
+  while (rows.size() < samples.rows() && (rows.size() == done || !stop.wanted())) {
     const std::size_t first = rows.size();
     const std::size_t count = std::min(size, samples.rows() - first);
     progress({"rows of the sweep",

@@ -25,7 +25,8 @@ struct Request {
 /// run was cut short: what it had done is taken over from `part_file`, which the caller
 /// removes once the result is written.
 /// @throws base::InputError where the case, a swept key or what is to be taken is wrong
-/// @param stop  from when on no further part is begun: no answer, but rows that are kept
+/// @param stop  from when on no part is begun but the first: no answer, but rows that
+///              are kept
 results::SweepResult sweep(const Request& request, const run::Progress& progress,
                            base::Stop stop = {});
 
