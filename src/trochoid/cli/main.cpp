@@ -103,7 +103,10 @@ void add_output(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.001, 1e9));
 }
 
-void add_anyway(CLI::App& app, Options& options) {
+/// What is told to all that take one case.
+void add_case(CLI::App& app, Options& options) {
+  add_common(app, options);
+  add_output(app, options);
   app.add_flag("--anyway", options.anyway,
                "Compute even what will take more than 1e9 evaluations or 1 GB");
 }
@@ -194,9 +197,7 @@ int run(int argc, char** argv) {
   for (const Command command : all_commands()) {
     CLI::App* sub = app.add_subcommand(std::string(name_of(command)),
                                        std::string(purpose_of(command)));
-    add_common(*sub, options);
-    add_output(*sub, options);
-    add_anyway(*sub, options);
+    add_case(*sub, options);
     add_data_options(*sub, command, options);
     sub->callback(
         [&, command] { chosen = [&, command] { return answer(command, options); }; });
@@ -207,9 +208,7 @@ int run(int argc, char** argv) {
       "check",
       "Read a case file and its measurements and name every mistake in them; "
       "nothing is written");
-  add_common(*check, options);
-  add_output(*check, options);
-  add_anyway(*check, options);
+  add_case(*check, options);
   check->callback([&] { chosen = [&] { return trochoid::cli::check(options); }; });
   std::string wanted;
   const std::vector<std::string> names(trochoid::base::names<Command>.begin(),

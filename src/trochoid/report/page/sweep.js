@@ -89,6 +89,6 @@ function tornadoSection(t, keys, quantities) {
     })]);
   if (!rows.length || !swept.length) return null;
   return section('matters', 'What matters', 'What matters',
-    prose('Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0 is no matter.'),
+    prose('Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0: one does not tell the other.'),
     table(['', ...swept], rows));
 }
