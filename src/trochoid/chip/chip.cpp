@@ -2,6 +2,7 @@
 #include <trochoid/chip/chip.h>
 #include <trochoid/chip/mark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -130,11 +131,18 @@ struct Closest {
 
 Closest closest_mark(const Ray& ray) noexcept {
   Closest best;
-  for (int m = 1; m <= ray.p.marks; ++m) {
+  const auto look = [&](int m) {
     const double above = above_mark(ray, m);
     if (above < best.above) {
       best = {above, m};
     }
+  };
+  if (!ray.slice.near.empty()) {
+    std::ranges::for_each(ray.slice.near[static_cast<std::size_t>(ray.j)], look);
+    return best;
+  }
+  for (int m = 1; m <= ray.p.marks; ++m) {
+    look(m);
   }
   return best;
 }

@@ -5,6 +5,7 @@
 #include <trochoid/geometry/cutter.h>
 #include <trochoid/geometry/runout.h>
 
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct Slice {
   /// How much farther out on the ray the axis stands than when the mark of the m-th
   /// tooth before was left [m], shape (teeth), or empty: no deflection.
   std::span<const double> advance = {};
+  /// Of each tooth the marks that can bound its chip, as near_marks has them; empty: any.
+  std::span<const std::pmr::vector<int>> near = {};
 };
 
 /// @brief Chip at one edge point, and what bounds it.

@@ -3,6 +3,7 @@
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/chip/harmonics.h>
+#include <trochoid/chip/near_marks.h>
 #include <trochoid/numerics/trig_roots.h>
 
 #include <algorithm>
@@ -41,57 +42,6 @@ TrigPolynomial difference(const TrigPolynomial& p, const TrigPolynomial& q) noex
     out.b[i] = (k <= p.highest ? p.b[i] : 0.0) - (k <= q.highest ? q.b[i] : 0.0);
   }
   return out;
-}
-
-/// Whether one chip is above another for certain for u = sin(theta) from lowest to 1.
-bool lies_above(const MarkEstimate& p, const MarkEstimate& q, double lowest) noexcept {
-  const double sine = p.sine - q.sine;
-  const double square = p.square - q.square;
-  const double skew = p.skew + q.skew;
-  const auto above = [&](double u) {
-    return p.mean - q.mean + sine * u + square * (1 - u * u) >
-           skew * std::abs(u) + p.rest + q.rest;
-  };
-  if (!above(lowest) || !above(1.0) || (lowest < 0 && !above(0.0))) {
-    return false;
-  }
-  if (square >= 0) {  // bent downwards: lowest at an end
-    return true;
-  }
-  const auto above_inside = [&](double u, double from, double to) {
-    return !(u > from && u < to) || above(u);
-  };
-  return above_inside((sine + skew) / (2 * square), lowest, 0.0) &&
-         above_inside((sine - skew) / (2 * square), std::max(lowest, 0.0), 1.0);
-}
-
-/// @brief Marks that can be the nearest one where there is a chip at all.
-Marks marks_that_matter(const Passage& passage, const Slice& slice, int tooth,
-                        std::pmr::memory_resource& memory) {
-  std::pmr::vector<MarkEstimate> chips(&memory);
-  chips.reserve(index(passage.marks));
-  double lowest = -1.0;
-  for (int m = 1; m <= passage.marks; ++m) {
-    const MarkEstimate chip = estimate_over_mark(passage, slice, tooth, m);
-    if (chip.sine > chip.skew) {
-      const double most = chip.mean + chip.square + chip.rest;
-      const double slope = most > 0 ? chip.sine - chip.skew : chip.sine + chip.skew;
-      lowest = std::max(lowest, -most / slope);
-    }
-    chips.push_back(chip);
-  }
-  lowest = std::min(lowest, 1.0);
-  Marks kept(&memory);
-  kept.reserve(chips.size());
-  for (std::size_t m = 0; m < chips.size(); ++m) {
-    const auto below = [&](const MarkEstimate& other) {
-      return lies_above(chips[m], other, lowest);
-    };
-    if (std::none_of(chips.begin(), chips.end(), below)) {
-      kept.push_back(static_cast<int>(m));
-    }
-  }
-  return kept;
 }
 
 /// In [start, start + 2 pi).
@@ -163,7 +113,7 @@ void add_stock_edge(double y, double R, const ToothHarmonics& tooth, const Marks
   };
   add(nullptr);
   for (const int m : marks) {
-    add(&*tooth.over_mark[index(m)]);
+    add(&*tooth.over_mark[index(m - 1)]);
   }
 }
 
@@ -187,10 +137,10 @@ struct Search {
     double least = std::numeric_limits<double>::infinity();
     Winner winner;
     for (const int m : marks) {
-      const double h = value(*tooth.over_mark[index(m)], s, c);
+      const double h = value(*tooth.over_mark[index(m - 1)], s, c);
       if (h < least) {
         least = h;
-        winner.mark = m + 1;
+        winner.mark = m;
       }
     }
     const double y_lo = passage.stock.y_lo - slice.shift;
@@ -236,13 +186,13 @@ std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
   std::array<std::byte, 2048> space;  // most often enough
   std::pmr::monotonic_buffer_resource memory(space.data(), space.size());
   const Search search{passage, slice,
-                      out,     marks_that_matter(passage, slice, tooth, memory),
+                      out,     near_marks(passage, slice, tooth, memory),
                       own.R,   own.epsilon};
   out.over_mark.resize(index(passage.marks));
   for (const int m : search.marks) {
-    out.over_mark[index(m)] =
-        harmonics_over_mark(passage, slice, tooth, m + 1, tolerance);
-    if (!out.over_mark[index(m)]) {
+    out.over_mark[index(m - 1)] =
+        harmonics_over_mark(passage, slice, tooth, m, tolerance);
+    if (!out.over_mark[index(m - 1)]) {
       return std::nullopt;
     }
   }
@@ -250,10 +200,10 @@ std::optional<ToothHarmonics> tooth_harmonics(const Passage& passage,
   breaks.reserve(32);
   out.pieces.reserve(8);
   for (std::size_t i = 0; i < search.marks.size(); ++i) {
-    const TrigPolynomial& p = *out.over_mark[index(search.marks[i])];
+    const TrigPolynomial& p = *out.over_mark[index(search.marks[i] - 1)];
     add_roots(p, h_threshold, breaks);
     for (std::size_t k = i + 1; k < search.marks.size(); ++k) {
-      add_roots(difference(p, *out.over_mark[index(search.marks[k])]), 0.0, breaks);
+      add_roots(difference(p, *out.over_mark[index(search.marks[k] - 1)]), 0.0, breaks);
     }
   }
   if (passage.model.model == Model::trochoidal) {

@@ -16,9 +16,6 @@ using numerics::TrigPolynomial;
 constexpr int most = TrigPolynomial::most;
 using Powers = std::array<double, most + 1>;
 
-/// Above this f/(2 pi R) the series of C-9 may not converge for every mark.
-constexpr double largest_feed = 0.1;
-
 /// c^n = sum over k of of_power[n][k] cos(k theta).
 constexpr auto of_power = [] {
   std::array<Powers, most + 2> table{};

@@ -7,6 +7,10 @@
 
 namespace trochoid::chip {
 
+/// Above this f/(2 pi R) the series of C-9 may not converge for every mark, and the bounds
+/// of MarkEstimate are not known to hold.
+inline constexpr double largest_feed = 0.1;
+
 /// @brief The chip over a mark to second order in the feed, with u = sin(theta): between
 /// mean + sine u + square (1 - u^2) - (skew |u| + rest) and the same plus.
 struct MarkEstimate {

@@ -1,7 +1,9 @@
 #include <trochoid/force/cumulative.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/chip/harmonics.h>
 #include <trochoid/chip/intervals.h>
+#include <trochoid/chip/near_marks.h>
 #include <trochoid/geometry/edge.h>
 
 #include <algorithm>
@@ -34,6 +36,7 @@ CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tole
     edge_factor_ = std::hypot(1.0, r_ * slope);
   }
   geometry::edge_positions(runout_of(setup), psi_, r_, 0.0, teeth_);
+  find_near_marks();
   if (lag_ > 0) {
     const std::size_t tables = teeth_alike(setup) ? 1 : psi_.size();
     tables_.reserve(tables);
@@ -43,8 +46,18 @@ CumulativeForce::CumulativeForce(const Setup& setup, const Law& law, double tole
   }
 }
 
+void CumulativeForce::find_near_marks() {
+  const double least = std::ranges::min(teeth_, {}, &geometry::EdgePosition::R).R;
+  if (passage_.marks < 2 || passage_.feed > chip::largest_feed * least) {
+    return;
+  }
+  for (std::size_t j = 0; j < teeth_.size(); ++j) {
+    near_.push_back(chip::near_marks(passage_, slice(), static_cast<int>(j)));
+  }
+}
+
 EdgeMoments CumulativeForce::integrand(std::size_t tooth, double theta) const noexcept {
-  const chip::Slice slice{r_, teeth_};
+  const chip::Slice slice = this->slice();
   const chip::Chip chip =
       chip::chip_at(passage_, slice, static_cast<int>(tooth), theta);
   if (!chip.in_cut) {
@@ -58,7 +71,7 @@ EdgeMoments CumulativeForce::integrand(std::size_t tooth, double theta) const no
 }
 
 void CumulativeForce::tabulate(std::size_t tooth, double tolerance) {
-  const chip::Slice slice{r_, teeth_};
+  const chip::Slice slice = this->slice();
   const auto pieces =
       chip::engaged_pieces(passage_, slice, static_cast<int>(tooth), start);
   const auto f = [&](double theta) { return integrand(tooth, theta); };

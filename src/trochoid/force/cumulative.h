@@ -45,6 +45,10 @@ class CumulativeForce {
               std::span<std::array<double, 3>> out) const;
 
  private:
+  [[nodiscard]] chip::Slice slice() const noexcept {
+    return {.r = r_, .teeth = teeth_, .near = near_};
+  }
+  void find_near_marks();
   [[nodiscard]] EdgeMoments integrand(std::size_t tooth, double theta) const noexcept;
   void tabulate(std::size_t tooth, double tolerance);
 
@@ -56,6 +60,7 @@ class CumulativeForce {
   double lag_ = 0.0;          ///< of the edge over a_p [rad]; 0: zero helix
   std::vector<double> psi_;
   std::vector<geometry::EdgePosition> teeth_;
+  std::vector<std::pmr::vector<int>> near_;  ///< marks; empty: any may be near
   std::vector<numerics::PiecewiseIntegral<8>> tables_;  ///< one, if the teeth are equal
 };
 

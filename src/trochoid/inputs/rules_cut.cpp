@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace trochoid::inputs {
 
@@ -47,6 +48,26 @@ void settle_feed(CutTable& cut, const std::string& path, int teeth,
   cut.feed_per_tooth =
       cut.feed_per_tooth ? *cut.feed_per_tooth : as_written(from_rate, unit::mm);
   cut.feed_rate.reset();
+}
+
+/// A tooth that is fed as fast as it turns never comes round behind another one.
+void check_feed(const CutTable& cut, const std::string& path,
+                const geometry::Cutter& cutter, Findings& findings) {
+  const std::string key = path + ".feed_per_tooth_mm";
+  const geometry::Profile& profile = cutter.profile;
+  const double widest =
+      profile.D + 2 * cut.axial_depth * std::tan(std::max(profile.beta, 0.0));
+  const double most = std::numbers::pi * widest / cutter.teeth();
+  if (!(cut.feed_per_tooth.value_or(0.0) >= most) ||
+      !sound(findings,
+             {"tool.teeth", "tool.diameter_mm", key, path + ".axial_depth_mm"})) {
+    return;
+  }
+  report(findings, key,
+         fmt::format("{} = {} mm: in a turn the tool is fed by as much as its teeth go "
+                     "round, and cuts nothing; must be less than {:.6g} mm (pi "
+                     "times the diameter over the teeth)",
+                     key, mm(*cut.feed_per_tooth), most / unit::mm));
 }
 
 geometry::Engagement engagement_of(const CutTable& cut, const std::string& path,
@@ -125,6 +146,7 @@ void check_windings(const CutTable& cut, const std::string& path,
 geometry::Cut cut_of(CutTable& cut, const std::string& path,
                      const geometry::Cutter& cutter, Findings& findings) {
   settle_feed(cut, path, cutter.teeth(), findings);
+  check_feed(cut, path, cutter, findings);
   check_height(cut, path, cutter.profile, findings);
   check_windings(cut, path, cutter, findings);
   return {.engagement = engagement_of(cut, path, cutter.profile.D, findings),

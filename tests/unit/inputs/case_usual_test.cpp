@@ -47,15 +47,15 @@ TEST(CaseUsual, EachIsAKeyOfTheSchemaAndItsRangeIsWithin) {
   }
 }
 
-TEST(CaseUsual, AFeedOfThirtyMillimetresIsNamedOnce) {
+TEST(CaseUsual, AFeedOfThreeMillimetresIsNamedOnce) {
   const CaseFolder folder;
   EXPECT_TRUE(folder.read(cut("feed_per_tooth_mm = 0.1\n")).notes.empty());
-  const Case c = folder.read(cut("feed_per_tooth_mm = 30\n"));
+  const Case c = folder.read(cut("feed_per_tooth_mm = 3\n"));
   ASSERT_EQ(c.notes.size(), 1);
   EXPECT_EQ(c.notes[0].code, "unusual_value");
   EXPECT_NE(
       c.notes[0].message.find(
-          "case.toml:10:21: cut.feed_per_tooth_mm = 30 mm: ordinary are 0 to 1 mm"),
+          "case.toml:10:21: cut.feed_per_tooth_mm = 3 mm: ordinary are 0 to 1 mm"),
       std::string::npos)
       << c.notes[0].message;
 }
