@@ -1,6 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <memory>
 
 namespace trochoid::base {
 
@@ -10,9 +13,25 @@ namespace trochoid::base {
 struct Stop {
   using Clock = std::chrono::steady_clock;
   Clock::time_point at = Clock::time_point::max();
+  /// What may still be computed, in evaluations of the force at a point of an edge, for all
+  /// copies together; none: as much as it takes. Other than time, it is the same everywhere.
+  std::shared_ptr<std::atomic<std::int64_t>> left = nullptr;
 
-  [[nodiscard]] bool wanted() const noexcept {
+  [[nodiscard]] bool wanted() const noexcept { return spent() || late(); }
+  /// Whether the time is up.
+  [[nodiscard]] bool late() const noexcept {
     return at != Clock::time_point::max() && Clock::now() >= at;
+  }
+  /// Whether there is nothing left.
+  [[nodiscard]] bool spent() const noexcept {
+    return left != nullptr && left->load(std::memory_order_relaxed) <= 0;
+  }
+  /// So much has been computed.
+  void count(double evaluations) const noexcept {
+    if (left != nullptr) {
+      left->fetch_sub(static_cast<std::int64_t>(evaluations),
+                      std::memory_order_relaxed);
+    }
   }
 };
 

@@ -1,5 +1,6 @@
 #include <trochoid/force/forces.h>
 
+#include <trochoid/base/overloaded.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
 #include <trochoid/force/turn_kernel.h>
@@ -181,31 +182,46 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
 
 struct ForceMatrix::Parts {
   std::size_t columns;
+  std::size_t teeth;
   std::variant<TurnMatrix, CumulativeForce, NodeForce, AxialForce> method;
 };
 
 ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
   const std::size_t columns = form(law).columns();
+  const std::size_t count = setup.cutter.pitch.size();
   const auto parts = [&] {
     const double allowed = std::min(tolerance, smooth_turn_tolerance);
     if (const auto teeth = linear_turn(setup, law, allowed)) {
-      return Parts{columns, TurnMatrix{turn_polynomial(*teeth, chip_weights()),
-                                       turn_polynomial(*teeth, edge_weights()),
-                                       teeth->lag == 0.0}};
+      return Parts{
+          columns, count,
+          TurnMatrix{turn_polynomial(*teeth, chip_weights()),
+                     turn_polynomial(*teeth, edge_weights()), teeth->lag == 0.0}};
     }
     if (keeps_radius(setup)) {
-      return Parts{columns, CumulativeForce(setup, law, tolerance)};
+      return Parts{columns, count, CumulativeForce(setup, law, tolerance)};
     }
     if (auto nodes = NodeForce::make(setup, law, tolerance)) {
-      return Parts{columns, std::move(*nodes)};
+      return Parts{columns, count, std::move(*nodes)};
     }
-    return Parts{columns, AxialForce(setup, law, tolerance)};
+    return Parts{columns, count, AxialForce(setup, law, tolerance)};
   };
   parts_ = std::make_shared<const Parts>(parts());
 }
 
 int ForceMatrix::columns() const noexcept {
   return static_cast<int>(parts_->columns);
+}
+
+double ForceMatrix::work(std::size_t angles) const noexcept {
+  // Seen on a machine of 2023 against single chips: a turn of one tooth, and an angle.
+  const auto [once, each] = std::visit(
+      base::Overloaded{[](const TurnMatrix&) { return std::pair(40.0, 0.1); },
+                       [](const CumulativeForce&) { return std::pair(2000.0, 0.3); },
+                       [](const NodeForce&) { return std::pair(200.0, 4.0); },
+                       [](const AxialForce&) { return std::pair(0.0, 100.0); }},
+      parts_->method);
+  return static_cast<double>(parts_->teeth) *
+         (once + each * static_cast<double>(angles));
 }
 
 std::optional<std::vector<double>> ForceMatrix::jumps() const {

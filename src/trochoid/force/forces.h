@@ -23,6 +23,9 @@ class ForceMatrix {
   ForceMatrix(const Setup& setup, const Law& law, double tolerance);
 
   [[nodiscard]] int columns() const noexcept;
+  /// About what it takes to find it at so many angles, in evaluations of a chip and its
+  /// force at a point of an edge.
+  [[nodiscard]] double work(std::size_t angles) const noexcept;
 
   /// @brief Angles at which the matrix jumps, in [0, 2 pi] and ascending, where they are
   /// known: of straight edges under a linear law. Nothing: they are not.

@@ -53,6 +53,7 @@ void Derivatives::add_force(const Point& point, std::size_t r, double factor,
   std::vector<force::Vector3> F = force::forces(
       setup_of(problem_, point, run),
       force::with_coefficients(point.law, coefficients(r)), phi, problem_.tolerance);
+  problem_.stop.count(at_.matrix[r].work(phi.size()));
   leave_out_unmeasured(run, {F.front().data(), 3 * F.size()});
   double* const to = &out[first_row(problem_, r)];
   if (run.band == 0) {

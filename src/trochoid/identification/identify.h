@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/base/estimate.h>
+#include <trochoid/base/stop.h>
 #include <trochoid/force/setup.h>
 #include <trochoid/identification/response.h>
 
@@ -99,6 +100,8 @@ struct Options {
   /// Absent: the runout of the setup, where there is one, at any phase. Where it does not
   /// lead to a good fit nearby, everything is searched.
   std::optional<Start> start = std::nullopt;
+  /// When late, a search is content with the best that it has; counts what it computes.
+  base::Stop stop = {};
 };
 
 /// Part of a channel that is not force: constant +

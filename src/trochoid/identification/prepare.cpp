@@ -75,6 +75,7 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
   }
   set_groups(runs, out);
   out.fixed_phase = options.phase.value_or(0.0);
+  out.stop = options.stop;
   out.columns = static_cast<int>(force::form(law).columns());
   if (options.start && options.start->phase.size() == runs.size()) {
     out.start = Point{options.start->runout, law, options.start->phase};

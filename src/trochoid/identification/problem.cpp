@@ -25,6 +25,13 @@ TurnGrid grid_of(const Problem& problem, const FoldedRun& run) {
   return {fine, std::min(run.highest, fine / 2 - 1), sudden};
 }
 
+TurnMatrix turn_of(const Problem& problem, const FoldedRun& run,
+                   const force::ForceMatrix& matrix) {
+  const TurnGrid grid = grid_of(problem, run);
+  problem.stop.count(matrix.work(index(grid.angles)));
+  return turn_matrix(matrix, grid);
+}
+
 /// Row-major, shape (n, columns), into columns that are a stride apart.
 void by_columns(std::span<const double> rows, std::size_t columns, std::size_t stride,
                 std::span<double> out) {
@@ -204,6 +211,7 @@ void fill_all_rows(const Problem& problem, const Evaluation& at, std::size_t r,
   }
   std::vector<double> phi(run.angle);
   for (double& a : phi) a += phase;
+  problem.stop.count(at.matrix[r].work(phi.size()));
   if (run.band == 0) {
     at.matrix[r].evaluate_columns(phi, run.weight, C, stride);
     return;
@@ -256,9 +264,8 @@ void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at)
     if (!again) {
       at.matrix.emplace_back(setup_of(problem, at.point, run), at.point.law,
                              problem.tolerance);
-      at.turn.push_back(run.turn_map.empty()
-                            ? TurnMatrix{}
-                            : turn_matrix(at.matrix[r], grid_of(problem, run)));
+      at.turn.push_back(run.turn_map.empty() ? TurnMatrix{}
+                                             : turn_of(problem, run, at.matrix[r]));
     }
     const std::span<double> own =
         std::span(at.D).subspan(first_column(problem, r) * rows,  // I-19

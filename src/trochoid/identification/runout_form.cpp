@@ -166,6 +166,7 @@ FormChoice better_runout(const force::Setup& setup, const force::Law& law,
        {RunoutUnknowns::offsets, RunoutUnknowns::eccentricity, RunoutUnknowns::both}) {
     if (form == stated.options.runout) continue;
     if (form == RunoutUnknowns::both && !both_show(setup, runs)) continue;
+    if (stated.options.stop.wanted()) break;
     const Fit& like = contest.fits[contest.winner()];
     contest.fits.push_back(fit_with(setup, law, runs, like, form));
   }

@@ -30,11 +30,12 @@ std::vector<int> bands(const force::Setup& setup, std::span<const Run> runs) {
 Viewed fit_as_seen(const force::Setup& setup, const force::Law& law,
                    std::span<const Run> runs, const Options& options) {
   Viewed out{identify(setup, law, runs, options), {}};
-  if (!out.fit.ok || !repeats(runs, out.fit)) return out;
+  if (!out.fit.ok || options.stop.wanted() || !repeats(runs, out.fit)) return out;
   out.views.push_back(view_of(out.fit));
   Options near = options;
   near.start = Start{out.fit.runout, out.fit.phase};
   for (const int n : bands(setup, runs)) {
+    if (options.stop.wanted()) return out;
     near.band_harmonics = n;
     if (const Fit fit = identify(setup, law, runs, near); fit.ok) {
       out.views.push_back(view_of(fit));

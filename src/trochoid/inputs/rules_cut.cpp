@@ -50,24 +50,32 @@ void settle_feed(CutTable& cut, const std::string& path, int teeth,
   cut.feed_rate.reset();
 }
 
+/// No chip is thinner than an atom [m]: of iron.
+constexpr double thinnest_feed = 0.25e-9;
+
 /// A tooth that is fed as fast as it turns never comes round behind another one.
 void check_feed(const CutTable& cut, const std::string& path,
                 const geometry::Cutter& cutter, Findings& findings) {
   const std::string key = path + ".feed_per_tooth_mm";
+  const double feed = cut.feed_per_tooth.value_or(0.0);
+  if (feed > 0 && feed < thinnest_feed && sound(findings, {key})) {
+    report(findings, key,
+           fmt::format("{} = {} mm: less than an atom; must be 0 or at least {:g} mm",
+                       key, mm(feed), thinnest_feed / unit::mm));
+  }
   const geometry::Profile& profile = cutter.profile;
   const double widest =
       profile.D + 2 * cut.axial_depth * std::tan(std::max(profile.beta, 0.0));
   const double most = std::numbers::pi * widest / cutter.teeth();
-  if (!(cut.feed_per_tooth.value_or(0.0) >= most) ||
-      !sound(findings,
-             {"tool.teeth", "tool.diameter_mm", key, path + ".axial_depth_mm"})) {
+  if (!(feed >= most) || !sound(findings, {"tool.teeth", "tool.diameter_mm", key,
+                                           path + ".axial_depth_mm"})) {
     return;
   }
   report(findings, key,
          fmt::format("{} = {} mm: in a turn the tool is fed by as much as its teeth go "
                      "round, and cuts nothing; must be less than {:.6g} mm (pi "
                      "times the diameter over the teeth)",
-                     key, mm(*cut.feed_per_tooth), most / unit::mm));
+                     key, mm(feed), most / unit::mm));
 }
 
 geometry::Engagement engagement_of(const CutTable& cut, const std::string& path,

@@ -27,6 +27,9 @@ RunoutFit runout_of(const Setting& setting, std::span<const Reading> readings,
 /// Farther off than so many standard deviations, or this.
 constexpr double far_off = 5.0;
 constexpr double never_far = 0.25e-6;  // [m]
+/// So many times farther from the median of all readings than most of them: a slip of the
+/// unit or the point, which no fit survives.
+constexpr double wild = 20.0;
 /// More than this share are no outliers: the model does not fit.
 constexpr double most_outliers = 0.15;
 
@@ -44,21 +47,27 @@ Kept all_of(std::span<const Reading> readings) {
   return kept;
 }
 
-/// Leave out what lies far from what is predicted. @return whether anything does
-bool leave_out(std::span<const double> predicted, std::size_t whole, Kept& kept,
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Leave out what lies far from what is predicted, in parts of far_off.
+/// @return whether anything does
+bool leave_out(std::span<const double> predicted, double far, Kept& kept,
                std::vector<Outlier>& outliers) {
   std::vector<double> size;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     size.push_back(std::abs(kept.readings[i].error - predicted[i]));
   }
-  std::vector<double> sorted = size;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double most = std::max(far_off * 1.4826 * *middle, never_far);  // E-26
-  const auto count = static_cast<double>(
-      std::count_if(size.begin(), size.end(), [&](double s) { return s > most; }));
-  const double all = static_cast<double>(outliers.size()) + count;
-  if (count == 0 || all > most_outliers * static_cast<double>(whole)) {
+  const double s = 1.4826 * median_of(size);
+  const double most = far * std::max(far_off * s, never_far);  // E-26
+  const auto count = static_cast<double>(std::count_if(
+      size.begin(), size.end(), [&](double distance) { return distance > most; }));
+  const auto before = static_cast<double>(outliers.size());
+  const double whole = before + static_cast<double>(size.size());
+  if (count == 0 || before + count > most_outliers * whole) {
     return false;
   }
   Kept rest;
@@ -72,6 +81,15 @@ bool leave_out(std::span<const double> predicted, std::size_t whole, Kept& kept,
   }
   kept = std::move(rest);
   return true;
+}
+
+/// What is wild before anything is fitted.
+void leave_out_wild(Kept& kept, std::vector<Outlier>& outliers) {
+  std::vector<double> errors;
+  for (const Reading& reading : kept.readings) errors.push_back(reading.error);
+  if (errors.empty()) return;
+  const std::vector<double> median(errors.size(), median_of(errors));
+  leave_out(median, wild, kept, outliers);
 }
 
 StatedFits fit_stated(const Setting& setting, const Kept& kept,
@@ -160,7 +178,6 @@ Fits fit_robustly(const Setting& setting, std::span<const Datum> datum,
                   const FitOptions& options, Kept& kept, std::vector<Outlier>& outliers,
                   const std::function<void()>& means_fitted) {
   constexpr int most_rounds = 4;
-  const std::size_t whole = kept.readings.size();
   std::vector<Datum> first(datum.begin(), datum.end());
   for (Datum& d : first) {
     d = decided(d, Form::offset);
@@ -169,6 +186,7 @@ Fits fit_robustly(const Setting& setting, std::span<const Datum> datum,
   const bool open =
       options.shared || !options.feedback ||
       std::any_of(datum.begin(), datum.end(), [](const Datum& d) { return d.decide; });
+  if (options.robust) leave_out_wild(kept, outliers);
   Fits fits;
   for (int round = 0; round < most_rounds; ++round) {
     const bool may_leave = robust && round + 1 < most_rounds;
@@ -178,7 +196,7 @@ Fits fit_robustly(const Setting& setting, std::span<const Datum> datum,
       break;
     }
     fits.predicted = predicted_by(fits.stated, kept.readings.size());
-    if (may_leave && leave_out(fits.predicted, whole, kept, outliers)) {
+    if (may_leave && leave_out(fits.predicted, 1.0, kept, outliers)) {
       continue;
     }
     if (open) {
@@ -188,7 +206,7 @@ Fits fit_robustly(const Setting& setting, std::span<const Datum> datum,
       break;
     }
     fits.predicted = fits.joint.fit.predicted;
-    if (!may_leave || !leave_out(fits.predicted, whole, kept, outliers)) {
+    if (!may_leave || !leave_out(fits.predicted, 1.0, kept, outliers)) {
       break;
     }
   }

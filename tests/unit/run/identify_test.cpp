@@ -74,6 +74,23 @@ TEST(Identify, WithoutTimeFitsTheModelThatDecidesAlone) {
       << said->message;
 }
 
+TEST(Identify, WithoutWorkLeftFitsTheModelThatDecidesAlone) {
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));
+  const auto given = folder.read(inputs::test::slot + measurement, Command::identify);
+  base::Stop little;
+  little.left = std::make_shared<std::atomic<std::int64_t>>(1);
+  const IdentifyResult r = identify(
+      given, [](const std::string&) {}, little);
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  EXPECT_NEAR(r.fits[2].coefficients.at(0)->value, 2620e6,
+              4 * r.fits[2].coefficients.at(0)->se);
+  EXPECT_EQ(r.fits[0].message, "not fitted: these records take much work");
+  EXPECT_TRUE(warned(r, "work_limit"));
+  EXPECT_FALSE(warned(r, "time_limit"));
+  EXPECT_LT(little.left->load(), -1000);
+}
+
 /// The same eccentricity before and after half a turn in the holder: all of it is the
 /// tool's.
 TEST(Identify, TellsToolAndHolderApart) {

@@ -65,7 +65,7 @@ Fit decided(const inputs::Case& given, std::span<const identification::Run> runs
 }
 
 /// There was no time for this one.
-Fit not_fitted(const Fit& other, chip::Model model) {
+Fit not_fitted(const Fit& other, chip::Model model, const base::Stop& stop) {
   Fit fit;
   fit.options = other.options;
   fit.options.chip_model = model;
@@ -73,7 +73,7 @@ Fit not_fitted(const Fit& other, chip::Model model) {
   fit.law = other.law;
   fit.coefficients.resize(other.coefficients.size());
   fit.measured = other.measured;
-  fit.message = "not fitted: the time was up";
+  fit.message = fmt::format("not fitted: {}", why_ended(stop));
   for (const force::Quantity& coefficient : force::coefficient_quantities(fit.law)) {
     fit.unidentifiable.emplace_back(coefficient.key, fit.message);
   }
@@ -91,6 +91,7 @@ Fits all_fits(const inputs::Case& given, std::span<const identification::Run> ru
   Options options = fit_options(given, models[first]);
   options.start = known.start;
   options.response = known.response;
+  options.stop = stop;
   progress({"fitting, one chip model after the other", 0.0});
   out.fits[first] = first_fit(given, runs, options, out);
   if (stop.wanted()) {
@@ -103,7 +104,7 @@ Fits all_fits(const inputs::Case& given, std::span<const identification::Run> ru
   for (std::size_t i = 0; i < models.size(); ++i) {
     if (i == first) continue;
     if (stop.wanted()) {
-      out.fits[i] = not_fitted(out.fits[first], models[i]);
+      out.fits[i] = not_fitted(out.fits[first], models[i], stop);
       out.left_out.push_back(fmt::format("chip model {}", chip::name_of(models[i])));
       continue;
     }
@@ -119,6 +120,10 @@ Fits all_fits(const inputs::Case& given, std::span<const identification::Run> ru
     done += 1.0;
   }
   return out;
+}
+
+std::string why_ended(const base::Stop& stop) {
+  return stop.spent() ? "these records take much work" : "the time was up";
 }
 
 std::optional<std::size_t> chosen_fit(const std::vector<Fit>& fits) {

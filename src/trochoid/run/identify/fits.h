@@ -35,6 +35,9 @@ struct Known {
 Fits all_fits(const inputs::Case& given, std::span<const identification::Run> runs,
               const Known& known, const Progress& progress, base::Stop stop);
 
+/// Why no more is begun, in words.
+std::string why_ended(const base::Stop& stop);
+
 /// The fit that counts: the exact model where it was asked for, else the one that fits
 /// best; none where none stands.
 std::optional<std::size_t> chosen_fit(const std::vector<identification::Fit>& fits);

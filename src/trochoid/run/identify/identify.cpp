@@ -26,6 +26,9 @@ using results::IdentifyResult;
 
 /// A fit that leaves less of the force (rms) reads its channels rightly.
 constexpr double too_good_to_doubt = 0.005;
+/// Evaluations after which only what an answer needs is still computed: some ten seconds
+/// of one core.
+constexpr std::int64_t most_of_fits = 100'000'000;
 /// One that leaves more may be of another cut.
 constexpr double worth_a_look = 0.2;
 
@@ -221,9 +224,14 @@ struct Identification {
     auto& warnings = r.heading.warnings;
     const bool after_verdict =
         !warnings.empty() && warnings.front().code == "do_not_use";
-    warnings.insert(warnings.begin() + (after_verdict ? 1 : 0),
-                    {"time_limit", fmt::format("The time was up, left out: {}.",
-                                               fmt::join(left_out, "; "))});
+    warnings.insert(
+        warnings.begin() + (after_verdict ? 1 : 0),
+        stop.spent()
+            ? base::Warning{"work_limit", fmt::format("These records take much work; "
+                                                      "--anyway does also: {}.",
+                                                      fmt::join(left_out, "; "))}
+            : base::Warning{"time_limit", fmt::format("The time was up, left out: {}.",
+                                                      fmt::join(left_out, "; "))});
   }
 
   void add_curves() {
@@ -308,7 +316,10 @@ struct Identification {
 
 IdentifyResult identify(const inputs::Case& given, const Progress& progress,
                         base::Stop stop) {
-  return Identification{given, progress, stop}.answer();
+  if (stop.left == nullptr) {
+    stop.left = std::make_shared<std::atomic<std::int64_t>>(most_of_fits);
+  }
+  return Identification{given, progress, std::move(stop)}.answer();
 }
 
 }  // namespace trochoid::run

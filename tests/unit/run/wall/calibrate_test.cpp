@@ -154,6 +154,14 @@ TEST(CalibrateWall, NamesReadingsFarOff) {  // [E-26]
   EXPECT_GT(kept.calibration.coefficients.rms, 2 * found.rms);
 }
 
+/// Millimetres read as metres: no model gets so far as to a fit.
+TEST(CalibrateWall, NamesWildReadingsBeforeAnyFit) {  // [E-26]
+  const std::string file = profile_at("30", 0.0, 40.0);
+  const results::CalibrateResult r =
+      calibrate(measuring(file, "30", "model = \"quasi_static\""), {});
+  EXPECT_EQ(r.calibration.outliers.size(), 3U);
+}
+
 TEST(CalibrateWall, DoubtsAnXThatCountsFromTheScan) {
   const std::string file = profile_at("30", -29.9, 0.0);
   EXPECT_TRUE(
