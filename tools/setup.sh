@@ -27,9 +27,12 @@ programs=(g++=g++ cmake=cmake ninja=ninja-build git=git pkg-config=pkg-config)
 report_programs=(node=nodejs npm=npm)
 python_libraries=(pybind11-dev libpython3-dev python3-numpy)
 test_libraries=(libgtest-dev libbenchmark-dev libmatio-dev python3-scipy "${python_libraries[@]}")
+# Of the documentation as a site (./run docs).
+site_libraries=(python3-sphinx furo python3-myst-parser python3-breathe doxygen libjs-katex)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
-  mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv)
+  mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
+  python3-jsonschema "${site_libraries[@]}")
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
 
 # One argument, one line.
@@ -104,7 +107,7 @@ install_optional() {
     say "That did not work; the tests that need it are skipped."
 }
 
-# What node_modules must hold for "$1" (run, python or test): the lock file's packages.
+# What node_modules must hold for "$1" (run, python, docs or test): the lock file's packages.
 have_node_modules() {
   local stamp=$root/node_modules/.complete
   [ ! -f "$root/package-lock.json" ] && return
@@ -124,7 +127,7 @@ install_node_modules() {
   printf '%s' "$1" >"$root/node_modules/.complete"
 }
 
-# setup run|python|test: install what it needs, unless its stamp says that this was done.
+# setup run|python|docs|test: install what it needs, unless its stamp says that this was done.
 setup() {
   local stamp=$root/build/.setup-$1
   if [ "$stamp" -nt "$root/tools/setup.sh" ] && have_node_modules "$1"; then
@@ -133,6 +136,7 @@ setup() {
   local needs=("${libraries[@]}" "${programs[@]}")
   [ -f "$root/package-lock.json" ] && needs+=("${report_programs[@]}")
   [ "$1" = python ] && needs+=("${python_libraries[@]}")
+  [ "$1" = docs ] && needs+=("${python_libraries[@]}" "${site_libraries[@]}")
   [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
   if ! command -v dpkg-query >/dev/null; then
     stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \

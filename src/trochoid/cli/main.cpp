@@ -4,6 +4,7 @@
 #include <trochoid/cli/commands.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/memory.h>
+#include <trochoid/inputs/case.h>
 #include <trochoid/inputs/findings.h>
 #include <trochoid/numerics/thread_count.h>
 #include <trochoid/results/provenance.h>
@@ -165,6 +166,26 @@ CLI::App* add_sweep(CLI::App& app, Options& options) {
   return sweep;
 }
 
+/// `new COMMAND [FILE]`, and the schema that editors know a case file by.
+CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
+  const std::vector<std::string> names(trochoid::base::names<Command>.begin(),
+                                       trochoid::base::names<Command>.end());
+  CLI::App* fresh =
+      app.add_subcommand("new", "Write a commented case file to start from");
+  fresh->add_option("COMMAND", wanted, fmt::format("{}", fmt::join(names, ", ")))
+      ->required()
+      ->check(CLI::IsMember(names));
+  fresh->add_option("FILE", options.file, "Where (default: print it)");
+  fresh->add_flag_callback(
+      "--schema",
+      [] {
+        fmt::print("{}", trochoid::inputs::case_schema());
+        throw CLI::Success();
+      },
+      "Print the JSON Schema of the case file, for editors");
+  return fresh;
+}
+
 /// Named with the nearest one there is, before anything else is looked at.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "-";
@@ -211,14 +232,7 @@ int run(int argc, char** argv) {
   add_case(*check, options);
   check->callback([&] { chosen = [&] { return trochoid::cli::check(options); }; });
   std::string wanted;
-  const std::vector<std::string> names(trochoid::base::names<Command>.begin(),
-                                       trochoid::base::names<Command>.end());
-  CLI::App* fresh =
-      app.add_subcommand("new", "Write a commented case file to start from");
-  fresh->add_option("COMMAND", wanted, fmt::format("{}", fmt::join(names, ", ")))
-      ->required()
-      ->check(CLI::IsMember(names));
-  fresh->add_option("FILE", options.file, "Where (default: print it)");
+  CLI::App* fresh = add_new(app, wanted, options);
   fresh->callback([&] {
     chosen = [&] {
       return trochoid::cli::new_case(*trochoid::base::named<Command>(wanted),

@@ -151,6 +151,10 @@ struct Plan {
   std::vector<std::string> quantities;  ///< names without unit, coefficients, runout
 };
 
+/// Version of the case file: its key `schema`. Raised when a key goes, or changes its
+/// meaning or unit; further keys do not raise it.
+inline constexpr int case_version = 1;
+
 /// @brief A case file, read and checked, in SI and radians.
 struct Case {
   std::filesystem::path file;
@@ -189,5 +193,13 @@ std::string new_case(Command command);
 
 /// @brief The page docs/formats/case.md, made from the schema.
 std::string describe_case_file();
+
+/// @brief The file docs/formats/case.schema.json: JSON Schema (draft 7) of a case file,
+/// made from the same schema, for editors and checkers.
+///
+/// It tells types, ranges, choices, unknown keys, and what goes together within a table.
+/// What no JSON Schema says is only for read_case: keys that depend on another table or on
+/// the command, files that must be there, numbers that must fit one another.
+std::string case_schema();
 
 }  // namespace trochoid::inputs

@@ -31,11 +31,19 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
   replaced whole. An included file may include another. Of several, `include = ["x.toml",
   "y.toml"]`, lists of tables are joined (the `[[mode]]` of both), of all else the later
   file wins.
+* `schema = 1` above all tables says which version of these keys is meant; left out, it
+  is that of the program. It is raised when a key goes or changes its meaning or unit, not
+  for further keys; a file of another version is refused before anything else is judged.
 * In the folder of results, `case.toml` is the case as it was understood, with every
   default filled in. It is a case file again.
 * A force record is a file of [one of these formats](record.md); a measured surface is
   [text or a map](surface.md).
 * `[sweep]` sets keys to many values, one after another: see [the guide](../guide/sweep.md).
+* Editors complete and check keys by [case.schema.json](case.schema.json) (JSON Schema,
+  draft 7, with units, ranges and defaults): the line `#:schema case.schema.json` at the
+  top of a case, for Even Better TOML and other editors with
+  [Taplo](https://taplo.tamasfe.dev); `trochoid new --schema` prints that file. What depends
+  on the command, on other tables or on files, only `trochoid check` tells.
 * The letters and signs are those of [the notation](../notation.md).
 )";
 
@@ -53,14 +61,6 @@ std::string default_of(const Key& key, const Field& field) {
     text += (text.empty() ? "" : "; ") + std::string(key.standard);
   }
   return text;
-}
-
-std::string meaning_of(const Key& key) {
-  if (key.only.selector.empty()) {
-    return std::string(key.meaning);
-  }
-  return fmt::format("only for `{}` = `\"{}\"`: {}", key.only.selector,
-                     fmt::join(key.only.values, "\"`, `\""), key.meaning);
 }
 
 std::string usual_table() {

@@ -1,5 +1,7 @@
 #include <trochoid/base/error.h>
+#include <trochoid/inputs/case.h>
 #include <trochoid/inputs/document.h>
+#include <trochoid/inputs/read_value.h>
 
 #include <fmt/core.h>
 
@@ -108,7 +110,19 @@ Node load_included(const Node& include, const fs::path& file, Reading& reading) 
   return base;
 }
 
+/// Of another version nothing else would be judged rightly.
+void refuse_other_versions(const Node& root) {
+  const Node* version = find(root, "schema");
+  if (version != nullptr && number_in(*version) != case_version) {
+    throw base::InputError({fmt::format(
+        "{}: schema = {}: no version of the case file that this program reads; must be {}, "
+        "or left out (what a later Trochoid wrote, an earlier one may not read)",
+        to_string(version->where), to_string(*version), case_version)});
+  }
+}
+
 Node complete(Node root, const fs::path& file, Reading& reading) {
+  refuse_other_versions(root);
   const Node* include = find(root, "include");
   if (include == nullptr) {
     return root;

@@ -94,8 +94,8 @@ std::vector<std::string> report_unknown(const Node& root,
   }
   std::vector<std::string> meant;
   for (const Member& member : std::get<Members>(root.value)) {
-    const bool known = member.key == "title" || member.key == "include" ||
-                       member.key == "sweep" ||
+    const bool known = member.key == "title" || member.key == "schema" ||
+                       member.key == "include" || member.key == "sweep" ||
                        std::find(names.begin(), names.end(), member.key) != names.end();
     if (known) {
       continue;
@@ -109,11 +109,12 @@ std::vector<std::string> report_unknown(const Node& root,
           fmt::format("[{}]: no such table{}", shown, suggestion(member.key, names)));
     } else {
       const std::string home = home_of(member.key);
-      report(
-          findings, shown, member.where,
-          fmt::format(
-              "{} = {}: no such key above the tables{}", shown, to_string(member.node),
-              home.empty() ? suggestion(member.key, {"title", "include"}) : home));
+      report(findings, shown, member.where,
+             fmt::format("{} = {}: no such key above the tables{}", shown,
+                         to_string(member.node),
+                         home.empty()
+                             ? suggestion(member.key, {"title", "include", "schema"})
+                             : home));
     }
   }
   return meant;

@@ -10,7 +10,7 @@
 namespace trochoid::inputs {
 
 std::string home_of(std::string_view key) {
-  if (key == "title" || key == "include") {
+  if (key == "title" || key == "schema" || key == "include") {
     return fmt::format("; {} stands above all tables", key);
   }
   CaseTables tables;

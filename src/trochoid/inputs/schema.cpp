@@ -88,7 +88,11 @@ struct Expectation {
                          : fmt::format("a list of {}", what);
   }
   std::string operator()(const bool*) const { return "true or false"; }
-  std::string operator()(const int*) const { return "a whole number" + limits(); }
+  std::string operator()(const int*) const {
+    return key.range.low == key.range.high
+               ? fmt::format("the whole number {}", number_text(key.range.low))
+               : "a whole number" + limits();
+  }
   std::string operator()(const double*) const { return "a number" + limits(); }
   std::string operator()(const std::optional<double>*) const {
     return "a number" + limits();
@@ -205,6 +209,14 @@ Unit unit_of(std::string_view key) {
     }
   }
   return {};
+}
+
+std::string meaning_of(const Key& key) {
+  if (key.only.selector.empty()) {
+    return std::string(key.meaning);
+  }
+  return fmt::format("only for `{}` = `\"{}\"`: {}", key.only.selector,
+                     fmt::join(key.only.values, "\"`, `\""), key.meaning);
 }
 
 std::string expectation(const Key& key, const Field& field) {

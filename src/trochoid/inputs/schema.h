@@ -123,6 +123,9 @@ struct Unit {
 /// @brief The unit that ends the name of a key; no unit: factor 1.
 Unit unit_of(std::string_view key);
 
+/// @brief What a key means, and for which choices alone; Markdown.
+std::string meaning_of(const Key& key);
+
 /// @brief What a key accepts, in words: `a number above 0 and at most 1000 mm`.
 std::string expectation(const Key& key, const Field& field);
 

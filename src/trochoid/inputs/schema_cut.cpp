@@ -54,6 +54,10 @@ void describe_profile(const Visitor& v, ToolTable& t) {
 }  // namespace
 
 void describe(const Visitor& v, CaseTables& t) {
+  v({.name = "schema",
+     .meaning = "version of the case file: of what its keys mean",
+     .range = between(case_version, case_version)},
+    &t.version);
   v({.name = "title", .meaning = "what this case is, for the report"}, &t.title);
 }
 

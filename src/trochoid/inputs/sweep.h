@@ -83,6 +83,9 @@ Sweep read_sweep(const Node& root, const std::filesystem::path& file);
 /// @brief [sweep] as a file would say it.
 std::string sweep_toml(const Sweep& sweep);
 
+/// @brief [sweep] in JSON Schema (draft 7): what read_sweep takes.
+std::string sweep_schema();
+
 /// @brief The same case without its [sweep].
 Node without_sweep(Node root);
 

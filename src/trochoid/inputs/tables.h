@@ -134,6 +134,7 @@ struct IdentifyTable {
 };
 
 struct CaseTables {
+  int version = case_version;
   std::string title;
   ToolTable tool;
   geometry::Runout runout;

@@ -9,6 +9,10 @@
 
 namespace trochoid::results {
 
+/// Version of summary.json, in it as trochoid.schema. Raised when a key goes, or changes
+/// its meaning or unit; further keys do not raise it.
+inline constexpr int summary_version = 1;
+
 /// @brief Text of summary.json: provenance, status, warnings, result.
 std::string summary_json(const Answer& answer);
 

@@ -39,7 +39,7 @@ double compliance(const Cantilever& cutter, double z_observed,
 ///           min(s, L_s);  theta_s u = (2 p L_s - L_s^2 + <L_s-p>^2) u/(2 E I_s);
 ///           delta_t = (3 p_t u^2 - u^3 + <u-p_t>^3)/(6 E I_t),
 ///           u = <s-L_s>, p_t = <s_load-L_s>
-/// @src [wang2015] eq. (4), reconstructed; <x> = max(x, 0) adds loads on the arbor
+/// @src [wang2015] eq. (4), reconstructed; <v-p> = max(v-p, 0) adds loads on the arbor
 CantileverParts compliance_parts(const Cantilever& cutter, double z_observed,
                                  double z_loaded) noexcept;
 

@@ -1,4 +1,4 @@
-"""The Python of docs/python.md runs as it stands there, one block after the other."""
+"""The Python of docs/python.md and of the tutorial runs as it stands there."""
 
 import contextlib
 import io
@@ -47,6 +47,19 @@ class Page(unittest.TestCase):
                     exec(block, names)
         self.assertIn("K_tc_MPa", str(names["found"]))
         self.assertGreater(pathlib.Path("fit.png").stat().st_size, 10000)
+
+    def test_the_blocks_of_the_tutorial_run(self):
+        page = (ROOT / "docs/guide/tutorial.md").read_text()
+        blocks = re.findall(r"```python\n(.*?)```", page, re.S)
+        self.assertGreater(len(blocks), 0)
+        said = io.StringIO()
+        with warnings.catch_warnings(), contextlib.redirect_stdout(said):
+            warnings.simplefilter("ignore", trochoid.AnswerWarning)
+            names = {}
+            for block in blocks:
+                exec(block, names)
+        self.assertEqual(len(said.getvalue().splitlines()), 4)
+        self.assertEqual(names["peaks"], sorted(names["peaks"]))
 
     def test_names_of_the_page_are_there(self):
         page = (ROOT / "docs/python.md").read_text()

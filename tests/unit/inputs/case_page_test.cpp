@@ -10,15 +10,23 @@ namespace {
 
 using test::CaseFolder;
 
-TEST(CasePage, IsWhatTheSchemaSays) {
-  const auto page = std::filesystem::path(TROCHOID_SOURCE_DIR) / "docs/formats/case.md";
-  const std::string made = describe_case_file();
+/// Compare a file of docs/formats with what is made now.
+void expect_up_to_date(const std::string& name, const std::string& made) {
+  const auto page = std::filesystem::path(TROCHOID_SOURCE_DIR) / "docs/formats" / name;
   if (test::content(page) != made) {
-    const auto renewed = std::filesystem::temp_directory_path() / "trochoid-case.md";
+    const auto renewed = std::filesystem::temp_directory_path() / ("trochoid-" + name);
     std::ofstream(renewed) << made;
-    FAIL() << "docs/formats/case.md is out of date; renew it with\n  cp "
+    FAIL() << "docs/formats/" << name << " is out of date; renew it with\n  cp "
            << renewed.string() << " " << page.string();
   }
+}
+
+TEST(CasePage, IsWhatTheSchemaSays) {
+  expect_up_to_date("case.md", describe_case_file());
+}
+
+TEST(CasePage, JsonSchemaIsWhatTheSchemaSays) {
+  expect_up_to_date("case.schema.json", case_schema());
 }
 
 TEST(CasePage, NewSimulateIsAValidCase) {

@@ -48,7 +48,7 @@ TEST(Summary, HasExactlyTheShapeOfEveryCommand) {
       json_value(R"({"mean_N": [1.0, -2.5, 0.1], "teeth": [{"tooth": 1}]})");
   const auto read = nlohmann::ordered_json::parse(summary_json(answer));
   const nlohmann::ordered_json expected = {
-      {"trochoid", {{"version", version()}, {"commit", commit()}}},
+      {"trochoid", {{"version", version()}, {"commit", commit()}, {"schema", 1}}},
       {"command", "simulate"},
       {"status", "ok"},
       {"message", "Two teeth cut."},

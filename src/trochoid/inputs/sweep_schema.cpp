@@ -1,0 +1,63 @@
+#include <trochoid/base/names.h>
+#include <trochoid/inputs/sweep.h>
+
+#include <nlohmann/json.hpp>
+
+namespace trochoid::inputs {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json form(const Json& keys, const Json& needed) {
+  return {{"type", "object"},
+          {"properties", keys},
+          {"required", needed},
+          {"additionalProperties", false}};
+}
+
+/// What one key of `over` may be set to, as read_values reads it.
+Json forms() {
+  const Json number{{"type", "number"}};
+  const Json text{{"type", "string"}};
+  const Json count{{"type", "integer"}, {"minimum", 1}, {"maximum", most_sweep_rows}};
+  const Json values{
+      {"type", "array"},
+      {"minItems", 1},
+      {"items", {{"type", Json::array({"number", "string", "boolean"})}}}};
+  const Json spread{{"type", "number"}, {"exclusiveMinimum", 0}};
+  return {{"anyOf",
+           {form({{"from", number}, {"to", number}, {"count", count}}, {"from", "to"}),
+            form({{"values", values}}, Json::array({"values"})),
+            form({{"mean", number}, {"sd", spread}}, {"mean", "sd"}),
+            form({{"file", text}, {"column", text}}, {"file", "column"})}}};
+}
+
+}  // namespace
+
+std::string sweep_schema() {
+  const Json text{{"type", "string"}};
+  Json out = form(
+      {{"over", {{"type", "object"}, {"additionalProperties", forms()}}},
+       {"method", {{"enum", base::names<SweepMethod>}, {"default", "grid"}}},
+       {"seed", {{"type", "integer"}, {"minimum", 0}, {"default", 1}}},
+       {"count", {{"type", "integer"}, {"minimum", 1}, {"maximum", most_sweep_rows}}},
+       {"command", text},
+       {"take", {{"type", "array"}, {"items", text}}}},
+      Json::array({"over"}));
+  out["properties"]["over"]["minProperties"] = 1;
+  out["properties"]["over"]["description"] =
+      "keys of the case in quotes, such as \"cut.spindle_rpm\", and their values";
+  out["properties"]["method"]["description"] =
+      "grid: every combination; list: all keys together; random, latin_hypercube: by "
+      "chance";
+  out["properties"]["count"]["description"] =
+      "rows of random and latin_hypercube; default: 200";
+  out["properties"]["command"]["description"] = "what answers each row";
+  out["properties"]["take"]["description"] =
+      "what is taken from each answer, such as \"result.peak_xy_N\"";
+  out["description"] = "one case over many values of its keys";
+  return out.dump();
+}
+
+}  // namespace trochoid::inputs
