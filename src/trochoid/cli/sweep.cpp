@@ -53,8 +53,9 @@ int sweep(const Options& options) {
   const auto result = [&] {
     ProgressLine progress(options.quiet);
     const TimeLimit limit(options.time_limit, true, give_up);
-    return sweep::sweep({.file = options.file,
-                         .command = options.command,
+    const inputs::Node root = inputs::load_document(options.file);
+    return sweep::sweep({root, options.file, {}},
+                        {.command = options.command,
                          .take = options.take,
                          .part_file = part,
                          .folder = folder},
