@@ -19,6 +19,10 @@ struct Request {
   std::filesystem::path folder = {};  ///< where the result will be, for file names
 };
 
+/// @brief Where rows that are done are kept until the folder is written: beside it,
+/// hidden.
+std::filesystem::path part_file_of(const std::filesystem::path& folder);
+
 /// @brief One case over many values of its keys: [sweep].
 ///
 /// The caller removes `part_file` once the result is written.

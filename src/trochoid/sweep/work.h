@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <vector>
 
 namespace trochoid::sweep {
@@ -23,6 +24,11 @@ class Work {
   [[nodiscard]] const Prepared& prepared() const noexcept { return prepared_; }
   [[nodiscard]] std::size_t rows() const noexcept { return prepared_.samples.rows(); }
   [[nodiscard]] std::size_t done() const noexcept { return rows_.size(); }
+
+  /// What outlives a kill; empty: nothing does.
+  [[nodiscard]] const std::filesystem::path& part_file() const noexcept {
+    return parts_.file();
+  }
 
   /// @brief Keep the next rows, answered elsewhere.
   /// @throws base::InputError when the file of parts cannot be written
