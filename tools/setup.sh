@@ -29,7 +29,8 @@ python_libraries=(pybind11-dev libpython3-dev python3-numpy)
 test_libraries=(libgtest-dev libbenchmark-dev libmatio-dev python3-scipy "${python_libraries[@]}")
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
-  mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv)
+  mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
+  python3-distributed python3-mpi4py openmpi-bin)
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
 
 # One argument, one line.

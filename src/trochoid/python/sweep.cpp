@@ -171,7 +171,8 @@ void bind_sweep(py::module_& m) {
            py::arg("part_file"), py::arg("folder"))
       .def_property_readonly("rows", &Work::rows)
       .def_property_readonly("done", &Work::done)
-      .def_property_readonly("part_file", &Work::part_file)
+      .def_property_readonly("part_file",
+                             [](const Work& work) { return work.part_file().string(); })
       .def_property_readonly("study",
                              [](const Work& work) { return work.prepared().study; })
       .def("values", &values_of)

@@ -102,7 +102,7 @@ class _Asking:
         self.early: dict[int, tuple[int, bytes]] = {}
 
     def unfinished(self, why: str) -> SweepUnfinished:
-        done, rows, file = self.work.done, self.work.rows, str(self.work.part_file)
+        done, rows, file = self.work.done, self.work.rows, self.work.part_file
         kept = f"they are kept in {file}, and the same call goes on there"
         lost = "they are lost, as neither folder nor part_file says where to keep them"
         told = f"{why}; {done} of {rows} rows are done: {kept if file else lost}"
