@@ -14,7 +14,7 @@ from concurrent.futures import (
 )
 
 import numpy as np
-from sweeping import CASE, Killer, Sweeping, sweep
+from sweeping import CASE, EXAMPLES, Killer, Sweeping, sweep
 
 import trochoid
 from trochoid import _executor
@@ -67,7 +67,7 @@ class Executors(Sweeping):
             self.same(sweep(executor=processes), self.wanted)
 
     def test_records_in_memory_travel(self):
-        slot = CASE.parents[1] / "st52_slot/case.toml"
+        slot = EXAMPLES / "st52_slot/case.toml"
         forces = trochoid.forces(
             trochoid.Case.from_file(CASE), np.arange(4000) * 360 * 875 / 60 / 1e3
         )
@@ -80,7 +80,7 @@ class Executors(Sweeping):
             self.same(trochoid.sweep(slot, over, **asked, executor=processes), wanted)
 
     def test_a_file_of_a_case_is_found_from_anywhere(self):
-        shutil.copy(CASE.parents[1] / "tap_test/tip_x.csv", self.folder)
+        shutil.copy(EXAMPLES / "tap_test/tip_x.csv", self.folder)
         (self.folder / "tap.toml").write_text('[frf]\nfile = "tip_x.csv"\nmodes = 1\n')
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)

@@ -10,7 +10,8 @@ import numpy as np
 
 import trochoid
 
-CASE = pathlib.Path(__file__).resolve().parents[3] / "examples/ball/case.toml"
+CASE = pathlib.Path(__file__).resolve().with_name("slot.toml")
+EXAMPLES = CASE.parents[3] / "examples"
 TAKE = ["result.peak_xy_N", "result.mean_N[2]"]
 #: Two of three helix angles go; the speeds are no short numbers.
 OVER = {

@@ -65,7 +65,7 @@ def part(build: str, *asked: Any) -> tuple:
 
 class _Asked(NamedTuple):
     first: int
-    count: int
+    rows: int
     attempt: int = 1
 
 
@@ -115,10 +115,10 @@ class _Asking:
                 asked = self.repeat.pop()
             elif self.next < self.work.rows and len(self.early) < ahead:
                 asked = _Asked(self.next, min(self.size, self.work.rows - self.next))
-                self.next += asked.count
+                self.next += asked.rows
             else:
                 return
-            values = self.work.values(asked.first, asked.count)
+            values = self.work.values(asked.first, asked.rows)
             try:
                 future = self.executor.submit(
                     part, _core.build, self.study, asked.first, values, asked.attempt
@@ -140,17 +140,17 @@ class _Asking:
         while self.work.done in self.early:
             count, text = self.early.pop(self.work.done)
             self.work.add(count, text)
-        for asked, error in failed:
-            self.failed(asked, error)
+        for asked, why in failed:
+            self.failed(asked, why)
 
     def answered(self, asked: _Asked, done: _Done) -> None:
         if done.build != _core.build:
             raise SweepUnfinished(
                 f"a worker has trochoid {done.build}, and here it is {_core.build}"
             )
-        self.early[asked.first] = (asked.count, done.text)
-        wanted = int(asked.count * _PART_S / max(done.took_s, 1e-9))
-        self.size = max(1, min(wanted, 8 * asked.count, _MOST_ROWS))
+        self.early[asked.first] = (asked.rows, done.text)
+        wanted = int(asked.rows * _PART_S / max(done.took_s, 1e-9))
+        self.size = max(1, min(wanted, 8 * asked.rows, _MOST_ROWS))
 
     def failed(self, asked: _Asked, error: BaseException) -> None:
         if isinstance(error, SweepUnfinished):
@@ -163,7 +163,7 @@ class _Asking:
             raise self.unfinished(f"the executor broke down ({_why(error)})") from error
         if asked.attempt == _TRIES:
             raise self.unfinished(
-                f"rows {asked.first + 1} to {asked.first + asked.count} failed {_TRIES} times"
+                f"rows {asked.first + 1} to {asked.first + asked.rows} failed {_TRIES} times"
                 f", at last with {_why(error)}"
             ) from error
         self.repeat.append(asked._replace(attempt=asked.attempt + 1))
