@@ -19,6 +19,9 @@ OVER = {
     "tool.helix_deg": {"values": [10, 2000, 25.5]},
 }
 
+#: Long enough that a worker dies amid it.
+LONG = {"cut.spindle_rpm": np.linspace(500, 9000, 1500) / 3}
+
 
 def sweep(over=OVER, **options):
     return trochoid.sweep(CASE, over, **{"command": "simulate", "take": TAKE, **options})
