@@ -73,7 +73,7 @@ class Executors(Sweeping):
         )
         record = trochoid.Record(forces, sample_rate_Hz=1e3)
         asked = {"command": "identify", "take": "result.fits[1].rms_N", "records": record}
-        over = {"cut.axial_depth_mm": [1.5, 2.5, 3.5]}
+        over = {"cut.axial_depth_mm": [1.5, 2.5]}
         wanted = trochoid.sweep(slot, over, **asked)
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(1, mp_context=context) as processes:
@@ -85,9 +85,9 @@ class Executors(Sweeping):
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
         asked = {"command": "modes", "take": "result.modes[1].frequency_Hz"}
-        over = {"frf.modes": [1, 2]}
+        over = {"frf.modes": [1]}
         wanted = trochoid.sweep("tap.toml", over, **asked)
-        self.assertEqual(list(wanted.tables["sweep"]["status"]), ["ok", "ok"])
+        self.assertEqual(list(wanted.tables["sweep"]["status"]), ["ok"])
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(
             1, mp_context=context, initializer=os.chdir, initargs=("/",)
