@@ -32,7 +32,8 @@ site_libraries=(python3-sphinx furo python3-myst-parser python3-breathe doxygen 
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
   mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
-  python3-jsonschema "${site_libraries[@]}")
+  python3-distributed python3-mpi4py openmpi-bin python3-jsonschema
+  "${site_libraries[@]}")
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
 
 # One argument, one line.

@@ -18,15 +18,6 @@ namespace trochoid::cli {
 
 namespace {
 
-/// Hidden, beside the result folder.
-std::filesystem::path part_file(const std::filesystem::path& folder) {
-  std::filesystem::path part = std::filesystem::absolute(folder).lexically_normal();
-  if (part.filename().empty()) {
-    part = part.parent_path();
-  }
-  return part.replace_filename(fmt::format(".{}.part", part.filename().string()));
-}
-
 void check_place(const std::filesystem::path& folder) {
   try {
     results::check_place(folder);
@@ -49,12 +40,13 @@ void check_place(const std::filesystem::path& folder) {
 int sweep(const Options& options) {
   const std::filesystem::path folder = result_folder(options, "sweep");
   check_place(folder);
-  const std::filesystem::path part = part_file(folder);
+  const std::filesystem::path part = sweep::part_file_of(folder);
   const auto result = [&] {
     ProgressLine progress(options.quiet);
     const TimeLimit limit(options.time_limit, true, give_up);
-    return sweep::sweep({.file = options.file,
-                         .command = options.command,
+    const inputs::Node root = inputs::load_document(options.file);
+    return sweep::sweep({root, options.file, {}},
+                        {.command = options.command,
                          .take = options.take,
                          .part_file = part,
                          .folder = folder},

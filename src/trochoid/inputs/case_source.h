@@ -21,6 +21,9 @@ struct CaseSource {
   const Node& root;            ///< with what it includes
   std::filesystem::path file;  ///< its folder is what names of files count from
   RecordsInMemory records;
+  /// What relative names of case files count from, where that is not the folder in which
+  /// the process runs: names of files are found from anywhere.
+  std::filesystem::path base = {};
 };
 
 /// @brief As read_case of a file.

@@ -3,6 +3,7 @@
 #include <trochoid/base/warning.h>
 #include <trochoid/inputs/document.h>
 
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -19,8 +20,9 @@ struct Findings {
     Location where;
     std::string text;
   };
-  std::string file;    ///< the case file itself
-  int first_line = 1;  ///< 0: no file, as in Location
+  std::string file;                 ///< the case file itself
+  int first_line = 1;               ///< 0: no file, as in Location
+  std::filesystem::path base = {};  ///< as in CaseSource
   std::map<std::string, Location> places;
   std::set<std::string> wrong;  ///< paths with a problem of their own
   std::vector<Problem> problems;

@@ -261,7 +261,8 @@ std::string renamed(const std::string& name, const fs::path& file,
 
 Findings findings_of(const CaseSource& source) {
   return {.file = source.file.string(),
-          .first_line = std::min(1, source.root.where.line)};
+          .first_line = std::min(1, source.root.where.line),
+          .base = source.base};
 }
 
 void take_from_memory(const RecordsInMemory& records, CaseTables& tables) {

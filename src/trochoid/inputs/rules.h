@@ -105,7 +105,9 @@ void check_file(const std::filesystem::path& file, const std::string& key,
                 const std::string& shown, std::string_view what, Findings& findings);
 
 /// @brief A file that a case names, seen from where we run.
-/// @param named_at  the place of the name: the path is relative to that file
-std::filesystem::path resolved(const std::string& file, const Location& named_at);
+/// @param named_at  the place of the name: the path is relative to that file, and that
+///                  file to Findings::base
+std::filesystem::path resolved(const std::string& file, const Location& named_at,
+                               const Findings& findings);
 
 }  // namespace trochoid::inputs

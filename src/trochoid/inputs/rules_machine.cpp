@@ -92,7 +92,7 @@ void settle_file(const std::string& key, std::string_view what, std::string& fil
                  std::string& location, Findings& findings) {
   const Location named_at = place_of(findings, key);
   const std::string shown = file;
-  const auto whole = resolved(shown, named_at);
+  const auto whole = resolved(shown, named_at, findings);
   if (sound(findings, {key})) {
     check_file(whole, key, shown, what, findings);
   }

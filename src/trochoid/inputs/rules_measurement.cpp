@@ -102,8 +102,11 @@ void check_columns(const std::vector<std::string>& columns, const std::string& k
 
 }  // namespace
 
-std::filesystem::path resolved(const std::string& file, const Location& named_at) {
-  return (std::filesystem::path(named_at.file).parent_path() / file).lexically_normal();
+std::filesystem::path resolved(const std::string& file, const Location& named_at,
+                               const Findings& findings) {
+  const std::filesystem::path folder =
+      findings.base / std::filesystem::path(named_at.file).parent_path();
+  return (folder / file).lexically_normal();
 }
 
 void check_file(const std::filesystem::path& file, const std::string& key,
@@ -137,7 +140,7 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   result.rigid = table.resonance == Resonance::none;
   if (!table.frf.empty()) {
     const Location named_at = place_of(findings, "dynamometer.frf");
-    result.frf = resolved(table.frf, named_at);
+    result.frf = resolved(table.frf, named_at, findings);
     result.frf_location = to_string(named_at);
     check_file(result.frf, "dynamometer.frf", table.frf,
                "the response of the dynamometer (UFF58 or a table)", findings);
@@ -177,7 +180,7 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                            const geometry::Cutter& cutter, Findings& findings) {
   const std::string path = fmt::format("measurement[{}]", number);
   const Location named_at = place_of(findings, path + ".file");
-  Measurement m{.file = resolved(table.file, named_at),
+  Measurement m{.file = resolved(table.file, named_at, findings),
                 .format = table.format,
                 .columns = table.columns,
                 .angle_column = table.angle_column,

@@ -158,7 +158,7 @@ void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
   const std::string key = fmt::format("surface_measurement[{}].file", number);
   const Location named_at = place_of(findings, key);
   const std::string shown = measurement.file;
-  const auto file = resolved(shown, named_at);
+  const auto file = resolved(shown, named_at, findings);
   if (sound(findings, {key})) {
     check_file(file, key, shown, "a measured surface (csv, x3p or sdf)", findings);
   }

@@ -10,6 +10,7 @@ namespace trochoid::python {
 
 void bind_inputs(pybind11::module_& module);
 void bind_results(pybind11::module_& module);
+void bind_sweep(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
 void bind_force(pybind11::module_& module);
 void bind_dynamics(pybind11::module_& module);

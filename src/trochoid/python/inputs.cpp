@@ -2,6 +2,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/python/bindings.h>
 #include <trochoid/python/document.h>
+#include <trochoid/python/state.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -22,10 +23,6 @@ namespace trochoid::python {
 namespace {
 
 namespace fs = std::filesystem;
-using Numbers = py::array_t<double, py::array::c_style>;
-
-/// A column of a record in memory: its name, unit and samples.
-using GivenColumn = std::tuple<std::string, std::string, Numbers>;
 
 void remove(inputs::Node& table, const std::vector<std::string>& path,
             std::size_t depth) {
@@ -38,21 +35,6 @@ void remove(inputs::Node& table, const std::vector<std::string>& path,
   for (inputs::Member& member : *members) {
     if (member.key == path[depth]) remove(member.node, path, depth + 1);
   }
-}
-
-/// The samples are copied: what a case holds does not change.
-std::shared_ptr<const inputs::NumericTable> record_in_memory(
-    const std::vector<GivenColumn>& columns) {
-  auto table = std::make_shared<inputs::NumericTable>();
-  std::vector<std::vector<double>> values;
-  for (const auto& [name, unit, samples] : columns) {
-    const double* begin = samples.data();
-    values.emplace_back(begin, begin + samples.size());
-    table->columns.push_back(
-        {.name = name, .path = name, .unit = unit, .count = values.back().size()});
-  }
-  table->values = [values = std::move(values)](std::size_t i) { return values[i]; };
-  return table;
 }
 
 void bind_document(py::module_& m) {
@@ -90,6 +72,16 @@ void bind_document(py::module_& m) {
              changed.records[name] = record_in_memory(columns);
              return changed;
            })
+      .def(py::pickle(
+          [](const Document& self) {
+            return py::make_tuple(state_of(self.root), self.file.string(),
+                                  state_of(self.records));
+          },
+          [](const py::tuple& state) {
+            return Document{node_of_state(state[0]),
+                            fs::path(state[1].cast<std::string>()),
+                            records_of_state(state[2])};
+          }))
       .def("check_keys",
            [](const Document& self) { inputs::check_keys(self.source()); })
       .def("to_dict", [](const Document& self) { return object_of(self.root); });

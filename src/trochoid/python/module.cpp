@@ -45,6 +45,8 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "What trochoid's Python files call; use those.";
   py::register_exception_translator(&translate);
   m.attr("version") = std::string(trochoid::results::version());
+  m.attr("build") = std::string(trochoid::results::version()) + " " +
+                    std::string(trochoid::results::commit());
   py::list commands;
   for (const std::string_view name : trochoid::base::names<trochoid::base::Command>) {
     commands.append(std::string(name));
@@ -54,6 +56,7 @@ PYBIND11_MODULE(_core, m) {
   trochoid::python::bind_inputs(m);
   trochoid::python::bind_results(m);
   trochoid::python::bind_run(m);
+  trochoid::python::bind_sweep(m);
   trochoid::python::bind_force(m);
   trochoid::python::bind_dynamics(m);
 }

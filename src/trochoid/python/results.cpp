@@ -50,8 +50,23 @@ py::object object_of(const results::Value& value) {
       value.data);
 }
 
+/// A column of texts; texts that follow on one like them are one object.
+py::object texts_of(const std::vector<std::string>& texts) {
+  py::list list(texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const bool again = i > 0 && texts[i] == texts[i - 1];
+    list[i] = again ? py::object(list[i - 1]) : py::object(py::str(texts[i]));
+  }
+  return py::module_::import("numpy").attr("array")(list, py::arg("dtype") = "O");
+}
+
 /// A column as an array that looks into the answer, which it keeps.
 py::object array_of(const base::Table::Column& column, const py::object& owner) {
+  if (!column.texts.empty()) {
+    py::object texts = texts_of(column.texts);
+    texts.attr("flags").attr("writeable") = false;
+    return texts;
+  }
   py::array_t<double> array(static_cast<py::ssize_t>(column.values.size()),
                             column.values.data(), owner);
   array.attr("flags").attr("writeable") = false;

@@ -1,16 +1,10 @@
 #include <trochoid/sweep/parts.h>
 
 #include <trochoid/base/error.h>
-#include <trochoid/results/csv_cells.h>
-#include <trochoid/results/number.h>
+#include <trochoid/sweep/part_text.h>
 
 #include <fmt/core.h>
 
-#include <charconv>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <sstream>
 #include <system_error>
 
 namespace trochoid::sweep {
@@ -18,81 +12,10 @@ namespace trochoid::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-using results::Cell;
 using results::SweepRow;
-
-/// FNV-1a, 64 bits: against torn files, not against forgers.
-std::uint64_t checksum(std::string_view text) {
-  std::uint64_t sum = 0xcbf29ce484222325U;
-  for (const char c : text) {
-    sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  }
-  return sum;
-}
-
-std::string line_of(const SweepRow& row) {
-  std::string line;
-  for (const Cell& cell : row.cells) {
-    if (const auto* value = std::get_if<double>(&cell)) {
-      results::append_number(line, *value);
-    } else {
-      results::append_quoted(line, std::get<std::string>(cell));
-    }
-    line += ',';
-  }
-  results::append_quoted(line, row.status);
-  line += ',';
-  results::append_quoted(line, row.message);
-  return line + '\n';
-}
-
-Cell cell_of(std::string_view text) {
-  if (text.starts_with('"')) {
-    return results::unquoted(text);
-  }
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
-SweepRow row_of(std::string_view line, std::size_t cells) {
-  SweepRow row;
-  for (std::size_t i = 0; i < cells; ++i) {
-    row.cells.push_back(cell_of(results::cut_cell(line)));
-  }
-  row.status = results::unquoted(results::cut_cell(line));
-  row.message = results::unquoted(results::cut_cell(line));
-  return row;
-}
 
 std::string head_of(std::string_view meaning, std::size_t cells) {
   return fmt::format("trochoid sweep {:016x} {}\n", checksum(meaning), cells);
-}
-
-/// A line with its end; one that was cut short is none.
-bool whole_line(std::istream& in, std::string& line) {
-  return std::getline(in, line) && !in.eof();
-}
-
-/// The next part, if it is whole and follows on `rows`.
-std::optional<std::string> whole_part(std::istream& in, std::size_t rows) {
-  std::size_t first = 0;
-  std::size_t count = 0;
-  std::string wanted;
-  std::string line;
-  if (!whole_line(in, line)) {
-    return std::nullopt;
-  }
-  std::istringstream head(line);
-  if (!(head >> first >> count >> wanted) || first != rows || count == 0) {
-    return std::nullopt;
-  }
-  std::string text;
-  for (std::size_t i = 0; i < count && whole_line(in, line); ++i) {
-    text += line + '\n';
-  }
-  return fmt::format("{:016x}", checksum(text)) == wanted ? std::optional(text)
-                                                          : std::nullopt;
 }
 
 [[noreturn]] void cannot_write(const fs::path& file) {
@@ -104,6 +27,9 @@ std::optional<std::string> whole_part(std::istream& in, std::size_t rows) {
 
 Parts::Parts(fs::path file, std::string_view meaning, std::size_t cells)
     : file_(std::move(file)) {
+  if (file_.empty()) {
+    return;
+  }
   const std::string head = head_of(meaning, cells);
   std::size_t whole = 0;
   std::error_code absent;
@@ -112,11 +38,8 @@ Parts::Parts(fs::path file, std::string_view meaning, std::size_t cells)
     std::string line;
     if (whole_line(in, line) && line + '\n' == head) {
       whole = head.size();
-      while (const auto part = whole_part(in, done_.size())) {
-        std::istringstream rows(*part);
-        while (std::getline(rows, line)) {
-          done_.push_back(row_of(line, cells));
-        }
+      while (const auto part = read_part(in, done_.size(), cells)) {
+        done_.insert(done_.end(), part->begin(), part->end());
         whole = static_cast<std::size_t>(in.tellg());
       }
     }
@@ -135,12 +58,10 @@ Parts::Parts(fs::path file, std::string_view meaning, std::size_t cells)
 }
 
 void Parts::add(std::size_t first, std::span<const SweepRow> rows) {
-  std::string text;
-  for (const SweepRow& row : rows) {
-    text += line_of(row);
+  if (file_.empty()) {
+    return;
   }
-  out_ << fmt::format("{} {} {:016x}\n", first, rows.size(), checksum(text)) << text
-       << std::flush;
+  out_ << part_text(first, rows) << std::flush;
   if (!out_) {
     cannot_write(file_);
   }

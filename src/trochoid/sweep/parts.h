@@ -19,11 +19,13 @@ namespace trochoid::sweep {
 /// checksum. A part that a kill or a full disk cut short is not believed.
 class Parts {
  public:
-  /// @param file     hidden, beside the result folder
+  /// @param file     hidden, beside the result folder; empty: nothing is kept
   /// @param meaning  text of all that the rows depend on
   /// @param cells    of a row
   /// @throws base::InputError when it cannot be written
   Parts(std::filesystem::path file, std::string_view meaning, std::size_t cells);
+
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
 
   /// Rows of an earlier run of the same sweep, from the first on.
   [[nodiscard]] std::vector<results::SweepRow> take_done() { return std::move(done_); }

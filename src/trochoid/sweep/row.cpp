@@ -1,10 +1,12 @@
 #include <trochoid/sweep/row.h>
 
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/case_source.h>
+#include <trochoid/numerics/parallel.h>
 #include <trochoid/sweep/answer.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -22,7 +24,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Cell> cell_of(const Value& value) {
   if (const auto* real = std::get_if<double>(&value.data)) {
-    return *real;
+    return std::isfinite(*real) ? *real : none;
   }
   if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
     return static_cast<double>(*whole);
@@ -48,6 +50,20 @@ Cell cell_of(const inputs::Node& node) {
     return *truth ? 1.0 : 0.0;
   }
   return std::get<std::string>(node.value);
+}
+
+/// As a file of rows holds them, so that rows read from it are the same.
+void put_on_one_line(results::SweepRow& row) {
+  const auto join = [](std::string& text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  };
+  for (Cell& cell : row.cells) {
+    if (auto* text = std::get_if<std::string>(&cell)) {
+      join(*text);
+    }
+  }
+  join(row.message);
 }
 
 const Value* entry_of(const Value& list, std::string_view number) {
@@ -115,6 +131,18 @@ std::vector<std::string> paths_of(const Answer& answer) {
   return paths;
 }
 
+inputs::Node root_of(const Study& study, std::span<const inputs::Node> values) {
+  inputs::Node root = study.root;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    set_key(root, study.over[k], values[k]);
+  }
+  return root;
+}
+
+inputs::CaseSource source_of(const Study& study, const inputs::Node& root) {
+  return {root, study.file, study.records, study.base};
+}
+
 results::SweepRow row_of(const Study& study, std::span<const inputs::Node> values) {
   results::SweepRow row{.cells = {}, .status = "ok", .message = {}};
   for (const inputs::Node& value : values) {
@@ -122,26 +150,32 @@ results::SweepRow row_of(const Study& study, std::span<const inputs::Node> value
   }
   row.cells.resize(values.size() + study.take.size(), none);
   try {
-    inputs::Node root = study.root;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      set_key(root, study.over[k], values[k]);
-    }
-    const Answer found = answer(
-        study.command,
-        inputs::read_case(inputs::CaseSource{root, study.file, {}}, study.command));
+    const inputs::Node root = root_of(study, values);
+    const Answer found =
+        answer(study.command, inputs::read_case(source_of(study, root), study.command));
     if (!found.heading.ok) {
       row.status = "failed";
       row.message = found.heading.message;
-      return row;
-    }
-    for (std::size_t i = 0; i < study.take.size(); ++i) {
-      row.cells[values.size() + i] = taken(found, study.take[i]).value_or(Cell{none});
+    } else {
+      for (std::size_t i = 0; i < study.take.size(); ++i) {
+        row.cells[values.size() + i] = taken(found, study.take[i]).value_or(Cell{none});
+      }
     }
   } catch (const base::InputError& error) {
     row.status = "wrong_input";
     row.message = error.problems().empty() ? error.what() : error.problems().front();
   }
+  put_on_one_line(row);
   return row;
+}
+
+std::vector<results::SweepRow> rows(
+    const Study& study, std::size_t count,
+    const std::function<std::vector<inputs::Node>(std::size_t)>& values) {
+  std::vector<results::SweepRow> rows(count);
+  numerics::for_each_index(
+      count, [&](std::size_t i) { rows[i] = row_of(study, values(i)); }, 1);
+  return rows;
 }
 
 }  // namespace trochoid::sweep

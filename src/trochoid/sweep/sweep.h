@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/base/stop.h>
+#include <trochoid/inputs/case_source.h>
 #include <trochoid/results/sweep.h>
 #include <trochoid/run/shared/progress.h>
 
@@ -12,22 +13,23 @@ namespace trochoid::sweep {
 
 /// What is asked of a sweep beside the case.
 struct Request {
-  std::filesystem::path file;       ///< the case
-  std::string command;              ///< empty: that of [sweep]
-  std::vector<std::string> take;    ///< empty: those of [sweep]
-  std::filesystem::path part_file;  ///< where rows that are done are kept until the end
+  std::string command;                ///< empty: that of [sweep]
+  std::vector<std::string> take;      ///< empty: those of [sweep]
+  std::filesystem::path part_file;    ///< keeps rows that are done; empty: nothing does
   std::filesystem::path folder = {};  ///< where the result will be, for file names
 };
 
+/// @brief Where rows that are done are kept until the folder is written: beside it,
+/// hidden.
+std::filesystem::path part_file_of(const std::filesystem::path& folder);
+
 /// @brief One case over many values of its keys: [sweep].
 ///
-/// Rows are the same bits whatever the number of threads, and whether or not an earlier
-/// run was cut short: what it had done is taken over from `part_file`, which the caller
-/// removes once the result is written.
+/// The caller removes `part_file` once the result is written.
 /// @throws base::InputError where the case, a swept key or what is to be taken is wrong
 /// @param stop  from when on no part is begun but the first: no answer, but rows that
 ///              are kept
-results::SweepResult sweep(const Request& request, const run::Progress& progress,
-                           base::Stop stop = {});
+results::SweepResult sweep(const inputs::CaseSource& source, const Request& request,
+                           const run::Progress& progress, base::Stop stop = {});
 
 }  // namespace trochoid::sweep

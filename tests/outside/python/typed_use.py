@@ -1,5 +1,7 @@
 """What mypy must accept; it is not run."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 import trochoid
@@ -11,3 +13,12 @@ answer: trochoid.Answer = trochoid.identify(
 good: bool = answer.ok
 codes: list[str] = [warning.code for warning in answer.warnings]
 force: np.ndarray = trochoid.forces({"tool": {"teeth": 2}}, [0, 15.5])
+over = {"cut.spindle_rpm": np.linspace(800, 900, 3), "tool.teeth": [2, 3]}
+with ThreadPoolExecutor(2) as threads:
+    try:
+        swept: trochoid.Answer = trochoid.sweep(
+            case, over, command="simulate", take=["result.peak_xy_N"], executor=threads
+        )
+    except trochoid.SweepUnfinished as broken:
+        left: int = broken.rows - broken.done
+status: np.ndarray = swept.tables["sweep"]["status"]

@@ -29,8 +29,10 @@ from ._commands import (
     surface,
 )
 from ._errors import AnswerWarning, InputError, Problem
+from ._executor import SweepUnfinished
 from ._kernels import chip, force_matrix, forces, multiplier
 from ._record import Record
+from ._sweep import sweep
 
 __version__: str = _core.version
 
@@ -47,6 +49,7 @@ __all__ = [
     "InputError",
     "Problem",
     "Record",
+    "SweepUnfinished",
     "Values",
     "Warned",
     "actuator",
@@ -64,4 +67,5 @@ __all__ = [
     "simulate",
     "stability",
     "surface",
+    "sweep",
 ]

@@ -122,13 +122,21 @@ class Answer:
 
     @property
     def tables(self) -> Mapping[str, Mapping[str, np.ndarray]]:
-        """The CSV files: ``answer.tables["forces"]["Fx_N"]``, read-only float64 (n,)."""
+        """The CSV files: ``answer.tables["forces"]["Fx_N"]``, read-only float64 (n,).
+
+        Columns of texts, as of a sweep, are arrays of str objects.
+        """
         return self._tables
 
-    def frame(self, table: str) -> pandas.DataFrame:
-        """A table as a DataFrame of pandas, which must be installed."""
+    def frame(self, table: Optional[str] = None) -> pandas.DataFrame:
+        """A table as a DataFrame of pandas, which must be installed.
+
+        Its name may be left out where there is one table only.
+        """
+        if table is None and len(self._tables) == 1:
+            table = next(iter(self._tables))
         try:
-            columns = self._tables[table]
+            columns = self._tables[table]  # type: ignore[index]
         except KeyError:
             raise KeyError(
                 f"there is no table {table!r}; there are {', '.join(self._tables)}"

@@ -127,6 +127,9 @@ class Case:
             self._checked[command] = _core.read_case(self._document, command, "")
         return self._checked[command]
 
+    def __reduce__(self) -> tuple:
+        return Case._of, (self._document, self.file)
+
     def __repr__(self) -> str:
         tables = self._document.to_dict()
         title = tables.get("title", "")

@@ -147,6 +147,23 @@ def _plan(answer: Answer, axes: Axes) -> None:
     axes.set(xlabel="peak_force_N", ylabel="how many times narrower the intervals become")
 
 
+def _sweep(answer: Answer, axes: Axes) -> None:
+    """Each number that was taken, over the first key whose values are numbers and differ."""
+    table = answer.tables["sweep"]
+    numbers = {n: table[n] for n in table if table[n].dtype.kind == "f"}
+    keys = [key for key in answer.result["keys"] if key in numbers and np.ptp(numbers[key]) > 0]
+    taken = [name for name in numbers if name not in answer.result["keys"]]
+    if not keys or not taken:
+        raise ValueError("there are no numbers to show")
+    line = "-" if len(keys) == 1 and answer.method in ("grid", "list") else ""
+    order = np.argsort(table[keys[0]], kind="stable")
+    for number, name in enumerate(taken):
+        axes.plot(
+            table[keys[0]][order], table[name][order], "." + line, color=f"C{number}", label=name
+        )
+    axes.set_xlabel(keys[0])
+
+
 _PICTURES = {
     "simulate": _forces,
     "identify": _identify,
@@ -158,4 +175,5 @@ _PICTURES = {
     "dynamics": _dynamics,
     "correct": _correct,
     "plan": _plan,
+    "sweep": _sweep,
 }

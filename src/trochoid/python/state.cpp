@@ -1,0 +1,130 @@
+#include <trochoid/python/state.h>
+
+#include <trochoid/base/overloaded.h>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <utility>
+
+namespace py = pybind11;
+
+namespace trochoid::python {
+
+namespace {
+
+/// A date is bytes, so that it is no text.
+py::object state_of_value(const inputs::Node& node) {
+  return std::visit(
+      base::Overloaded{[](const inputs::DateOrTime& date) -> py::object {
+                         return py::bytes(date.text);
+                       },
+                       [](const inputs::Array& entries) -> py::object {
+                         py::list list;
+                         for (const inputs::Node& entry : entries)
+                           list.append(state_of(entry));
+                         return list;
+                       },
+                       [](const inputs::Members& members) -> py::object {
+                         py::list list;
+                         for (const inputs::Member& member : members) {
+                           list.append(py::make_tuple(member.key,
+                                                      state_of(member.where),
+                                                      state_of(member.node)));
+                         }
+                         return py::tuple(list);
+                       },
+                       [](const auto& value) -> py::object { return py::cast(value); }},
+      node.value);
+}
+
+inputs::Members members_of_state(const py::handle& state) {
+  inputs::Members members;
+  for (const py::handle one : state) {
+    const auto parts = one.cast<py::tuple>();
+    members.push_back({parts[0].cast<std::string>(), location_of_state(parts[1]),
+                       node_of_state(parts[2])});
+  }
+  return members;
+}
+
+}  // namespace
+
+std::shared_ptr<const inputs::NumericTable> record_in_memory(
+    const std::vector<GivenColumn>& columns) {
+  auto table = std::make_shared<inputs::NumericTable>();
+  std::vector<std::vector<double>> values;
+  for (const auto& [name, unit, samples] : columns) {
+    const double* begin = samples.data();
+    values.emplace_back(begin, begin + samples.size());
+    table->columns.push_back(
+        {.name = name, .path = name, .unit = unit, .count = values.back().size()});
+  }
+  table->values = [values = std::move(values)](std::size_t i) { return values[i]; };
+  return table;
+}
+
+py::tuple state_of(const inputs::Location& where) {
+  return py::make_tuple(py::bytes(where.file), where.line, where.column);
+}
+
+inputs::Location location_of_state(const py::handle& state) {
+  const auto parts = state.cast<py::tuple>();
+  return {parts[0].cast<std::string>(), parts[1].cast<int>(), parts[2].cast<int>()};
+}
+
+py::tuple state_of(const inputs::Node& node) {
+  return py::make_tuple(state_of_value(node), state_of(node.where), node.inherited);
+}
+
+inputs::Node node_of_state(const py::handle& state) {
+  const auto parts = state.cast<py::tuple>();
+  const py::object value = parts[0];
+  inputs::Node node{{}, location_of_state(parts[1]), parts[2].cast<bool>()};
+  if (py::isinstance<py::bytes>(value)) {
+    node.value = inputs::DateOrTime{value.cast<std::string>()};
+  } else if (py::isinstance<py::bool_>(value)) {
+    node.value = value.cast<bool>();
+  } else if (py::isinstance<py::int_>(value)) {
+    node.value = value.cast<std::int64_t>();
+  } else if (py::isinstance<py::float_>(value)) {
+    node.value = value.cast<double>();
+  } else if (py::isinstance<py::str>(value)) {
+    node.value = value.cast<std::string>();
+  } else if (py::isinstance<py::tuple>(value)) {
+    node.value = members_of_state(value);
+  } else {
+    inputs::Array entries;
+    for (const py::handle entry : value) entries.push_back(node_of_state(entry));
+    node.value = std::move(entries);
+  }
+  return node;
+}
+
+py::dict state_of(const inputs::RecordsInMemory& records) {
+  py::dict state;
+  for (const auto& [name, table] : records) {
+    py::list columns;
+    for (std::size_t i = 0; i < table->columns.size(); ++i) {
+      const std::vector<double> samples = table->values(i);
+      columns.append(
+          py::make_tuple(table->columns[i].name, table->columns[i].unit,
+                         py::array_t<double>(static_cast<py::ssize_t>(samples.size()),
+                                             samples.data())));
+    }
+    state[py::str(name)] = columns;
+  }
+  return state;
+}
+
+inputs::RecordsInMemory records_of_state(const py::handle& state) {
+  inputs::RecordsInMemory records;
+  for (const auto& [name, columns] : state.cast<py::dict>()) {
+    records[name.cast<std::string>()] =
+        record_in_memory(columns.cast<std::vector<GivenColumn>>());
+  }
+  return records;
+}
+
+}  // namespace trochoid::python

@@ -1,0 +1,135 @@
+"""One case over many values of its keys."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any, Optional, Union
+
+from . import _core
+from ._answer import Answer
+from ._case import CaseLike, as_case
+from ._commands import Records, _told
+from ._executor import answer_rows
+from ._record import with_records
+
+
+def _values(values: Any) -> Any:
+    """Arrays and lists are `values` of [sweep]; tables are as they are there."""
+    if isinstance(values, range):
+        return {"values": list(values)}
+    if isinstance(values, (list, tuple)) or hasattr(values, "tolist"):
+        return {"values": values}
+    return values
+
+
+def _with_sweep(
+    document: _core.Document, over: Optional[Mapping[str, Any]], table: Mapping[str, Any]
+) -> _core.Document:
+    """What is given here wins over the case's own [sweep]."""
+    given = {key: value for key, value in table.items() if value is not None}
+    if over is not None:
+        given["over"] = {key: _values(values) for key, values in over.items()}
+        document = document.without(["sweep", "over"])
+    return document.with_tables({"sweep": given}) if given else document
+
+
+def sweep(
+    case: CaseLike,
+    over: Optional[Mapping[str, Any]] = None,
+    *,
+    command: Optional[str] = None,
+    take: Union[str, Sequence[str], None] = None,
+    method: Optional[str] = None,
+    count: Optional[int] = None,
+    seed: Optional[int] = None,
+    records: Records = None,
+    executor: Optional[Executor] = None,
+    in_flight: Optional[int] = None,
+    folder: Union[str, os.PathLike, None] = None,
+    part_file: Union[str, os.PathLike, None] = None,
+    progress: Optional[Callable[[int, int], object]] = None,
+    **options: Any,
+) -> Answer:
+    """One case over many values of its keys: a row a case, as ``trochoid sweep``.
+
+    Parameters
+    ----------
+    case : Case, path of a case file, or dict
+        What is not given here stands in its ``[sweep]`` (docs/guide/sweep.md).
+    over : mapping
+        ``{"cut.spindle_rpm": np.linspace(3000, 6000, 31)}``: keys of the case, each with
+        its values (array, list) or a table as in ``[sweep.over]``: ``{"from": 1, "to": 2,
+        "count": 5}``, ``{"mean": 922, "sd": 9}``, ``{"file": "cuts.csv", "column": "rpm"}``.
+    command : str
+        What answers each row: ``"simulate"``, ``"stability"`` ...
+    take : list of str
+        What is taken from each answer: ``["result.limit_depth_mm", "result.mean_N[2]"]``.
+    method : {"grid", "list", "latin_hypercube", "random"}
+        Every combination (default), the first values of all keys, then the second ones,
+        or ``count`` rows by chance, the same ones for the same ``seed``.
+    count, seed : int
+        Of the rows by chance.
+    records : list of Record, optional
+        Measurements as arrays, in place of ``[[measurement]]``; they travel to workers.
+    executor : concurrent.futures.Executor, optional
+        Who answers the rows, in parts of about a second and each part on one thread:
+        processes, Dask's ``client.get_executor()``, ``MPIPoolExecutor``
+        (docs/guide/clusters.md). Default: the threads of this process.
+    in_flight : int, optional
+        Parts that are asked for at a time; default: two a worker, and two.
+    folder : path, optional
+        Save the result there, as ``answer.save(folder)``. Until then rows that are done
+        are kept beside it, in ``.FOLDER.part``: after a kill the same call goes on there.
+    part_file : path, optional
+        Keep them in this file instead; it stays.
+    progress : callable, optional
+        Called with rows that are done, and all of them.
+    **options
+        Further keys of ``[sweep]``.
+
+    Returns
+    -------
+    Answer
+        ``rows``, ``failed``, ``quantities``; table ``sweep``: the swept keys, what was
+        taken, ``status`` (``ok``, ``failed``, ``wrong_input``) and ``message``. The same
+        bits as the program's, whoever answered.
+
+    Raises
+    ------
+    InputError
+        Where the case, a key or what is to be taken is wrong, before the work begins.
+    SweepUnfinished
+        The executor broke down; rows that are done are kept, the same call goes on.
+
+    Examples
+    --------
+    >>> found = trochoid.sweep("case.toml", {"cut.spindle_rpm": np.linspace(3e3, 6e3, 31)},
+    ...                        command="stability", take=["result.limit_depth_mm"])
+    >>> found.tables["sweep"]["limit_depth_mm"]
+    """
+    given = as_case(case)
+    document = given._document
+    if records is not None:
+        document = with_records(document, records)
+    table = {"method": method, "count": count, "seed": seed, **options}
+    work = _core.SweepWork(
+        _with_sweep(document, over, table),
+        command=command or "",
+        take=[take] if isinstance(take, str) else list(take or ()),
+        part_file=part_file or "",
+        folder=folder or "",
+    )
+    if executor is None:
+        work.go_on(progress)
+    else:
+        answer_rows(work, executor, in_flight, progress)
+    default = None if given.file is None else given.file.with_suffix(".sweep")
+    answer = _told(Answer(work.take_answer(), work.case_toml, default))
+    if folder is not None:
+        answer.save(folder)
+        if part_file is None:
+            Path(work.part_file).unlink(missing_ok=True)
+    return answer

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <trochoid/inputs/case_source.h>
+#include <trochoid/run/shared/progress.h>
+#include <trochoid/sweep/row.h>
+#include <trochoid/sweep/samples.h>
+#include <trochoid/sweep/sweep.h>
+
+#include <filesystem>
+#include <string>
+
+namespace trochoid::sweep {
+
+/// A sweep that was checked: its rows can be answered anywhere and in any order.
+struct Prepared {
+  Study study;
+  Samples samples;
+  results::SweepResult result;  ///< without rows; case_toml is that for Request::folder
+  std::string sweep_toml;       ///< [sweep] of the case as understood
+};
+
+/// @brief Check a case with [sweep], and lay out its rows.
+/// @throws base::InputError where the case, a swept key or what is to be taken is wrong
+Prepared prepare(const inputs::CaseSource& source, const Request& request,
+                 const run::Progress& progress);
+
+/// @brief The case as understood, [sweep] too, with names of files as they count from
+/// the folder.
+std::string case_toml(const Prepared& prepared, const std::filesystem::path& folder);
+
+/// All that the rows depend on: of another meaning nothing is taken over.
+std::string meaning_of(const Prepared& prepared);
+
+}  // namespace trochoid::sweep

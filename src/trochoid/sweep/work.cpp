@@ -1,0 +1,96 @@
+#include <trochoid/sweep/work.h>
+
+#include <trochoid/numerics/parallel.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace trochoid::sweep {
+
+namespace {
+
+using results::SweepResult;
+using results::SweepRow;
+
+constexpr std::size_t most_part = 1 << 16;
+
+void conclude(SweepResult& r, std::size_t wanted) {
+  if (r.rows.size() < wanted) {
+    r.heading.ok = false;
+    r.complete = false;
+    r.heading.message = fmt::format(
+        "the time limit has passed after {} of {} rows; they are kept, and "
+        "the same command goes on there",
+        r.rows.size(), wanted);
+    return;
+  }
+  const auto answered = static_cast<std::size_t>(
+      std::ranges::count(r.rows, std::string("ok"), &SweepRow::status));
+  const std::size_t failed = r.rows.size() - answered;
+  r.heading.ok = answered > 0;
+  if (answered == 0) {
+    r.heading.message = fmt::format("None of {} cases has an answer; the first: {}",
+                                    r.rows.size(), r.rows.front().message);
+    return;
+  }
+  r.heading.message = fmt::format("{} cases answered.", answered);
+  if (failed > 0) {
+    const auto& why = *std::ranges::find_if(
+        r.rows, [](const SweepRow& row) { return row.status != "ok"; });
+    r.heading.warnings.push_back(
+        {"rows_without_answer",
+         fmt::format("{} of {} cases have no answer; the first of them: {}", failed,
+                     r.rows.size(), why.message)});
+  }
+}
+
+}  // namespace
+
+Work::Work(const inputs::CaseSource& source, const Request& request,
+           const run::Progress& progress)
+    : prepared_(prepare(source, request, progress)),
+      parts_(request.part_file, meaning_of(prepared_),
+             prepared_.study.over.size() + prepared_.study.take.size()),
+      rows_(parts_.take_done()) {
+  rows_.resize(std::min(rows_.size(), rows()));
+}
+
+void Work::add(std::vector<SweepRow> part) {
+  parts_.add(rows_.size(), part);
+  std::ranges::move(part, std::back_inserter(rows_));
+}
+
+void Work::go_on(const run::Progress& progress, base::Stop stop,
+                 std::chrono::duration<double> part_time) {
+  const Samples& samples = prepared_.samples;
+  const std::size_t least = numerics::thread_count();
+  std::size_t size = least;
+  const std::size_t before = done();
+  // One part at least: every run gets on.
+  while (done() < rows() && (done() == before || !stop.wanted())) {
+    const std::size_t first = done();
+    progress({"rows of the sweep",
+              static_cast<double>(first) / static_cast<double>(rows())});
+    const auto begun = std::chrono::steady_clock::now();
+    add(sweep::rows(prepared_.study, std::min(size, rows() - first),
+                    [&](std::size_t i) { return samples.row(first + i); }));
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    // Only the size of the parts depends on the clock, nothing in them.
+    size = took < part_time / 2   ? std::min(2 * size, most_part)
+           : took > 2 * part_time ? std::max(size / 2, least)
+                                  : size;
+  }
+}
+
+SweepResult Work::take_result() {
+  SweepResult result = prepared_.result;
+  result.rows = std::move(rows_);
+  rows_.clear();
+  conclude(result, rows());
+  return result;
+}
+
+}  // namespace trochoid::sweep

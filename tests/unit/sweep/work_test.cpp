@@ -1,0 +1,107 @@
+#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/document.h>
+#include <trochoid/numerics/parallel.h>
+#include <trochoid/sweep/part_text.h>
+#include <trochoid/sweep/work.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace trochoid::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* swept = R"(
+[sweep]
+command = "simulate"
+take = ["result.peak_xy_N"]
+[sweep.over]
+"cut.spindle_rpm" = { from = 500, to = 900, count = 40 }
+)";
+
+struct WorkOfACase : testing::Test {
+  WorkOfACase() {
+    std::ofstream(file) << inputs::new_case(base::Command::simulate) << swept;
+    root = inputs::load_document(file);
+  }
+  ~WorkOfACase() override { fs::remove(file); }
+  WorkOfACase(const WorkOfACase&) = delete;
+  WorkOfACase& operator=(const WorkOfACase&) = delete;
+
+  [[nodiscard]] Work work() const {
+    return {{root, file, {}}, Request{.part_file = {}}, run::Progress()};
+  }
+
+  fs::path file = fs::temp_directory_path() / "trochoid_work_test.toml";
+  inputs::Node root;
+};
+
+std::string all_of(results::SweepResult result) {
+  return part_text(0, result.rows);
+}
+
+TEST_F(WorkOfACase, IsTheSameWhoeverAnswers) {
+  Work here = work();
+  here.go_on({}, {}, std::chrono::seconds(1));
+  Work elsewhere = work();
+  for (std::size_t first = 0; first < 24; first += 8) {
+    const auto& [study, samples, result, toml] = elsewhere.prepared();
+    const std::string sent = part_text(
+        first, rows(study, 8, [&](std::size_t i) { return samples.row(first + i); }));
+    std::istringstream in(sent);
+    elsewhere.add(*read_part(in, first, 2));
+  }
+  elsewhere.go_on({}, {}, std::chrono::seconds(1));
+  const results::SweepResult whole = here.take_result();
+  EXPECT_TRUE(whole.complete);
+  EXPECT_EQ(all_of(whole), all_of(elsewhere.take_result()));
+}
+
+TEST_F(WorkOfACase, KeepsItsRowsWhereProgressThrows) {
+  Work cut = work();
+  const auto throws = [&](const run::Step&) {
+    if (cut.done() > 10) throw std::runtime_error("Ctrl-C");
+  };
+  EXPECT_THROW(cut.go_on(throws, {}, std::chrono::seconds(1)), std::runtime_error);
+  EXPECT_GT(cut.done(), 10U);
+  cut.go_on({}, {}, std::chrono::seconds(1));
+  EXPECT_EQ(cut.done(), cut.rows());
+}
+
+TEST(Part, OfOtherRowsOrCutShortIsNone) {
+  const std::string text = part_text(
+      3,
+      std::vector<results::SweepRow>{{.cells = {1.5}, .status = "ok", .message = {}}});
+  const auto read = [](const std::string& part, std::size_t first) {
+    std::istringstream in(part);
+    return read_part(in, first, 1).has_value();
+  };
+  EXPECT_TRUE(read(text, 3));
+  EXPECT_FALSE(read(text, 0));
+  EXPECT_FALSE(read(text.substr(0, text.size() - 1), 3));
+  EXPECT_FALSE(read("", 3));
+}
+
+TEST(Threads, AreOneWhereThatIsAsked) {
+  std::atomic<int> others = 0;
+  const auto self = std::this_thread::get_id();
+  numerics::on_one_thread([&] {
+    EXPECT_EQ(numerics::thread_count(), 1U);
+    numerics::for_each_index(1000, [&](std::size_t) {
+      others += std::this_thread::get_id() == self ? 0 : 1;
+      std::this_thread::yield();
+    });
+  });
+  EXPECT_EQ(others, 0);
+  EXPECT_GE(numerics::thread_count(), 1U);
+}
+
+}  // namespace
+}  // namespace trochoid::sweep
