@@ -9,7 +9,7 @@
 #include <trochoid/sweep/answer.h>
 #include <trochoid/sweep/parts.h>
 #include <trochoid/sweep/row.h>
-#include <trochoid/sweep/samples.h>
+#include <trochoid/sweep/rows.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -104,18 +104,18 @@ std::string meaning_of(const std::string& case_toml) {
   return fmt::format("{} {}\n{}", results::version(), results::commit(), case_toml);
 }
 
-std::vector<SweepRow> all_rows(const Study& study, const Samples& samples, Parts& parts,
+std::vector<SweepRow> all_rows(const Study& study, const Rows& samples, Parts& parts,
                                const run::Progress& progress, base::Stop stop) {
   std::vector<SweepRow> rows = parts.take_done();
-  rows.resize(std::min(rows.size(), samples.rows()));
+  rows.resize(std::min(rows.size(), samples.size()));
   std::size_t size = least_part;
   const std::size_t done = rows.size();
   // One part at least: every run gets on.
-  while (rows.size() < samples.rows() && (rows.size() == done || !stop.wanted())) {
+  while (rows.size() < samples.size() && (rows.size() == done || !stop.wanted())) {
     const std::size_t first = rows.size();
-    const std::size_t count = std::min(size, samples.rows() - first);
+    const std::size_t count = std::min(size, samples.size() - first);
     progress({"rows of the sweep",
-              static_cast<double>(first) / static_cast<double>(samples.rows())});
+              static_cast<double>(first) / static_cast<double>(samples.size())});
     const auto begun = std::chrono::steady_clock::now();
     std::vector<SweepRow> part(count);
     numerics::for_each_index(
@@ -161,19 +161,54 @@ void conclude(SweepResult& r, std::size_t wanted) {
   }
 }
 
+/// Names of files as the case in the result folder must have them.
+void name_files_from(const std::filesystem::path& folder, inputs::Sweep& plan) {
+  namespace fs = std::filesystem;
+  for (inputs::DrawnFile& drawn : plan.covariance) {
+    const fs::path whole = fs::absolute(drawn.path).lexically_normal();
+    drawn.path =
+        folder.empty()
+            ? whole
+            : whole.lexically_relative(fs::absolute(folder).lexically_normal());
+  }
+}
+
+/// What is known of the answer before the first row.
+SweepResult empty_result(const inputs::Sweep& plan, const Found& found,
+                         const inputs::Case& first) {
+  const bool drawn = !found.sets.empty();
+  SweepResult r{.heading = {.title = first.title, .warnings = found.warnings},
+                .command = plan.command,
+                .method = std::string(name_of(plan.method)),
+                .by_chance = by_chance(plan.method) || (drawn && plan.rows == 1),
+                .draws = drawn ? plan.draws : 0,
+                .take = plan.take};
+  r.heading.warnings.insert(r.heading.warnings.end(), first.notes.begin(),
+                            first.notes.end());
+  for (const SweptKey& key : plan.over) {
+    r.keys.push_back(key.key);
+  }
+  for (const SweptKey& key : found.keys) {
+    r.drawn.push_back(key.key);
+  }
+  return r;
+}
+
 }  // namespace
 
 SweepResult sweep(const Request& request, const run::Progress& progress,
                   base::Stop stop) {
   const Node root = inputs::load_document(request.file);
   inputs::Sweep plan = inputs::read_sweep(root, request.file);
-  const Study study{.command = command_of(request, plan),
-                    .root = inputs::without_sweep(root),
-                    .file = request.file,
-                    .over = plan.over,
-                    .take = request.take.empty() ? plan.take : request.take};
-  const Samples samples(plan);
-  const inputs::Case first = check_keys(study, samples.row(0), request.folder);
+  const Found found = find_all(plan, inputs::without_sweep(root));
+  Study study{.command = command_of(request, plan),
+              .root = found.root,
+              .file = request.file,
+              .over = plan.over,
+              .take = request.take.empty() ? plan.take : request.take};
+  study.over.insert(study.over.end(), found.keys.begin(), found.keys.end());
+  const Rows samples(plan, found);
+  const inputs::Case first = check_keys(study, samples.first(), request.folder);
   progress("The first row");
   const results::Answer answered = answer(study.command, first);
   if (answered.heading.ok || study.take.empty()) {
@@ -181,22 +216,14 @@ SweepResult sweep(const Request& request, const run::Progress& progress,
   }
   plan.command = name_of(study.command);
   plan.take = study.take;
+  name_files_from(request.folder, plan);
   const std::string case_toml = first.as_understood + "\n" + inputs::sweep_toml(plan);
-  SweepResult r{.heading = {.title = first.title,
-                            .warnings = first.notes,
-                            .case_toml = case_toml},
-                .command = std::string(name_of(study.command)),
-                .method = std::string(name_of(plan.method)),
-                .by_chance = plan.method == inputs::SweepMethod::random ||
-                             plan.method == inputs::SweepMethod::latin_hypercube,
-                .take = study.take};
-  for (const SweptKey& key : study.over) {
-    r.keys.push_back(key.key);
-  }
-  Parts parts(request.part_file, meaning_of(case_toml),
+  SweepResult r = empty_result(plan, found, first);
+  r.heading.case_toml = case_toml;
+  Parts parts(request.part_file, meaning_of(case_toml + found.meaning),
               study.over.size() + study.take.size());
   r.rows = all_rows(study, samples, parts, progress, stop);
-  conclude(r, samples.rows());
+  conclude(r, samples.size());
   return r;
 }
 

@@ -1,0 +1,160 @@
+#include <trochoid/base/error.h>
+#include <trochoid/base/read_text.h>
+#include <trochoid/results/file_names.h>
+#include <trochoid/results/joint.h>
+#include <trochoid/results/json.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace trochoid::results {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+  throw base::InputError({fmt::format("{}: {}", file.string(), why)});
+}
+
+Value summary_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    refuse(file,
+           "there is no such file; must be a summary.json of identify, modes or "
+           "calibrate, or its folder");
+  }
+  const auto text = base::read_text(file);
+  if (!text || !is_our_summary(*text)) {
+    refuse(file,
+           "not a summary.json of trochoid; must be that of identify, modes or "
+           "calibrate, or its folder");
+  }
+  return json_value(*text);
+}
+
+std::string text_of(const Value* value) {
+  const auto* text =
+      value != nullptr ? std::get_if<std::string>(&value->data) : nullptr;
+  return text != nullptr ? *text : std::string();
+}
+
+double number_of(const Value& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+    return static_cast<double>(*whole);
+  }
+  const auto* real = std::get_if<double>(&value.data);
+  return real != nullptr ? *real : none;
+}
+
+const Array& list_of(const Value* value) {
+  static const Array empty;
+  const auto* list = value != nullptr ? std::get_if<Array>(&value->data) : nullptr;
+  return list != nullptr ? *list : empty;
+}
+
+std::vector<double> numbers_of(const Value* value) {
+  std::vector<double> numbers;
+  for (const Value& entry : list_of(value)) {
+    numbers.push_back(number_of(entry));
+  }
+  return numbers;
+}
+
+/// The covariance of a group; of the first one where none is named.
+const Value* covariance_in(const Value& result, const std::string& group,
+                           const fs::path& file) {
+  if (group.empty()) {
+    return find(result, "covariance");
+  }
+  std::string names;
+  for (const Value& one : list_of(find(result, "groups"))) {
+    const std::string name = text_of(find(one, "group"));
+    if (name == group) {
+      return find(one, "covariance");
+    }
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
+  }
+  refuse(file, fmt::format("there is no group \"{}\"; there {}", group,
+                           names.empty() ? "are none" : "are " + names));
+}
+
+bool whole(const Joint& joint) {
+  const std::size_t n = joint.names.size();
+  bool finite = n > 0 && joint.values.size() == n && joint.factors.size() == n &&
+                joint.covariance.size() == n * n;
+  for (const auto* list : {&joint.values, &joint.factors, &joint.covariance}) {
+    for (const double value : *list) {
+      finite = finite && std::isfinite(value);
+    }
+  }
+  return finite;
+}
+
+Joint joint_in(const Value& value) {
+  Joint joint{.law = text_of(find(value, "law")),
+              .chip_model = text_of(find(value, "chip_model"))};
+  if (const Value* teeth = find(value, "teeth")) {
+    const double count = number_of(*teeth);
+    joint.teeth = count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  for (const Value& mode : list_of(find(value, "modes"))) {
+    joint.modes.push_back({text_of(find(mode, "body")), text_of(find(mode, "axis"))});
+  }
+  for (const Value& name : list_of(find(value, "names"))) {
+    joint.names.push_back(text_of(&name));
+  }
+  joint.values = numbers_of(find(value, "values"));
+  joint.factors = numbers_of(find(value, "interval_factors"));
+  for (const Value& row : list_of(find(value, "matrix"))) {
+    const std::vector<double> numbers = numbers_of(&row);
+    joint.covariance.insert(joint.covariance.end(), numbers.begin(), numbers.end());
+  }
+  for (const Value& one : list_of(find(value, "not_found"))) {
+    joint.not_found.emplace_back(text_of(find(one, "name")), text_of(find(one, "why")));
+  }
+  return joint;
+}
+
+}  // namespace
+
+ReadJoint read_joint(const fs::path& path, const std::string& group) {
+  std::error_code error;
+  ReadJoint out{.file = fs::is_directory(path, error) ? path / "summary.json" : path};
+  const Value summary = summary_of(out.file);
+  out.command = text_of(find(summary, "command"));
+  if (out.command != "identify" && out.command != "modes" &&
+      out.command != "calibrate") {
+    refuse(out.file, fmt::format("of the command {}, which finds nothing to draw; must "
+                                 "be of identify, modes or calibrate",
+                                 out.command));
+  }
+  if (text_of(find(summary, "status")) != "ok") {
+    refuse(out.file, fmt::format("{} had no answer there ({}), so there is nothing to "
+                                 "draw",
+                                 out.command, text_of(find(summary, "message"))));
+  }
+  const Value* result = find(summary, "result");
+  const Value* covariance =
+      result != nullptr ? covariance_in(*result, group, out.file) : nullptr;
+  if (covariance == nullptr) {
+    refuse(out.file, fmt::format("no `covariance` in it, as versions before it left it "
+                                 "out; run {} again",
+                                 out.command));
+  }
+  out.joint = joint_in(*covariance);
+  if (!whole(out.joint)) {
+    refuse(out.file,
+           "`covariance` names nothing, or not one finite number for each name: "
+           "nothing was found with an error there");
+  }
+  out.do_not_use = text_of(find(*result, "verdict")) == "do not use";
+  return out;
+}
+
+}  // namespace trochoid::results
