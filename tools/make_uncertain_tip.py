@@ -13,7 +13,7 @@ EXAMPLE = pathlib.Path(__file__).resolve().parent.parent / "examples/uncertain_s
 def main():
     truth = tomllib.loads((EXAMPLE / "truth.toml").read_text())
     mode, noise = truth["mode"][0], truth["noise"]
-    f = np.arange(700.0, 1200.5, 4.0)
+    f = np.arange(760.0, 1100.5, 5.0)
     w, wn = 2 * np.pi * f, 2 * np.pi * mode["frequency_Hz"]
     H = 1 / mode["mass_kg"] / (wn**2 - w**2 + 2j * mode["damping_ratio"] * wn * w)
     random = np.random.default_rng(922)

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace trochoid::sweep {
 
@@ -131,6 +132,24 @@ std::vector<SweepRow> all_rows(const Study& study, const Rows& samples, Parts& p
   return rows;
 }
 
+/// An interval of draws is that of those with a number: told where some have none.
+void warn_of_missing_numbers(SweepResult& r) {
+  for (std::size_t t = 0; r.draws > 0 && t < r.take.size(); ++t) {
+    const std::size_t cell = r.keys.size() + r.drawn.size() + t;
+    const auto missing = std::ranges::count_if(r.rows, [&](const SweepRow& row) {
+      const auto* value = std::get_if<double>(&row.cells[cell]);
+      return row.status == "ok" && value != nullptr && std::isnan(*value);
+    });
+    if (missing > 0) {
+      r.heading.warnings.push_back(
+          {"draws_without_number",
+           fmt::format(
+               "{} of {} rows have no {}: the intervals are those of the others",
+               missing, r.rows.size(), r.take[t])});
+    }
+  }
+}
+
 void conclude(SweepResult& r, std::size_t wanted) {
   if (r.rows.size() < wanted) {
     r.heading.ok = false;
@@ -159,6 +178,7 @@ void conclude(SweepResult& r, std::size_t wanted) {
          fmt::format("{} of {} cases have no answer; the first of them: {}", failed,
                      r.rows.size(), why.message)});
   }
+  warn_of_missing_numbers(r);
 }
 
 /// Names of files as the case in the result folder must have them.

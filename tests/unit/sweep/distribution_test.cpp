@@ -63,8 +63,8 @@ double covariance(const Values& x, const Values& y) {
 }
 
 double part_within(const Values& x, double low, double high) {
-  return static_cast<double>(std::ranges::count_if(
-             x, [&](double v) { return low < v && v < high; })) /
+  return static_cast<double>(
+             std::ranges::count_if(x, [&](double v) { return low < v && v < high; })) /
          static_cast<double>(x.size());
 }
 
@@ -77,6 +77,23 @@ TEST(Draws, HaveTheCovarianceThatIsStated) {  // [U-1] [U-4]
     EXPECT_NEAR(covariance(x[1], x[1]), 4, 0.13);
     EXPECT_NEAR(covariance(x[0], x[1]), -54, 2);
   }
+}
+
+// The numbers are those of tests/reference/uncertainty.py.
+TEST(Draws, AreThoseOfTheFormulaForGivenChances) {  // [U-2] [U-3] [U-4] [U-5]
+  Joint joint = two(-0.9);
+  joint.factors = {numerics::student_t(0.975, 8), 1.96};
+  const Values x = drawn(distribution_of(joint).value(), Values{0.3, 0.8, 0.6});
+  EXPECT_NEAR(x[0], 784.6017114590874, 1e-6);
+  EXPECT_NEAR(x[1], 11.67762930405095, 1e-8);
+  const Joint of_mode{.names = {"mode[1].frequency_Hz", "mode[1].mass_kg"},
+                      .values = {900, 0.04},
+                      .factors = {1.96, 1.96},
+                      .covariance = {81, 0.018, 0.018, 1.6e-5}};
+  const Distribution d = distribution_of(of_mode).value();
+  const Values y = drawn(d, Values{0.9, 0.2, 0.5});
+  EXPECT_NEAR(y[0], 911.6081876708294, 1e-9);
+  EXPECT_NEAR(y[1], 0.039649189064544836, 1e-14);
 }
 
 TEST(Draws, FollowTheCorrelation) {
@@ -123,11 +140,11 @@ TEST(FreedomOf, IsTheInverseOfStudentsQuantile) {
 
 Joint mode(double part) {
   const Values at = {900, 0.02, 0.04};
-  Joint joint{.names = {"mode[1].frequency_Hz", "mode[1].damping_ratio",
-                        "mode[1].mass_kg"},
-              .values = at,
-              .factors = {1.96, 1.96, 1.96},
-              .covariance = Values(9, 0.0)};
+  Joint joint{
+      .names = {"mode[1].frequency_Hz", "mode[1].damping_ratio", "mode[1].mass_kg"},
+      .values = at,
+      .factors = {1.96, 1.96, 1.96},
+      .covariance = Values(9, 0.0)};
   for (std::size_t i = 0; i < 3; ++i) {
     joint.covariance[4 * i] = part * part * at[i] * at[i];
   }
@@ -140,8 +157,9 @@ TEST(DrawsOfAMode, AreNeverBelowZeroHoweverWide) {  // [U-5]
     EXPECT_GT(*std::ranges::min_element(column), 0);
   }
   // Drawn as they are, one in twenty were: the interval reaches to -0.18 of the value.
-  EXPECT_NEAR(part_within(x[1], 0.02 * std::exp(-1.96 * 0.6), 0.02 * std::exp(1.96 * 0.6)),
-              0.95, 0.006);
+  EXPECT_NEAR(
+      part_within(x[1], 0.02 * std::exp(-1.96 * 0.6), 0.02 * std::exp(1.96 * 0.6)),
+      0.95, 0.006);
 }
 
 TEST(DrawsOfAMode, AreNormalWithinANarrowInterval) {

@@ -47,10 +47,9 @@ struct FoundFile : testing::Test {
     return {.path = path, .group = {}, .where = {"case.toml", 7, 14}};
   }
 
-  fs::path folder =
-      fs::temp_directory_path() /
-      (std::string("trochoid_found_") +
-       testing::UnitTest::GetInstance()->current_test_info()->name());
+  fs::path folder = fs::temp_directory_path() /
+                    (std::string("trochoid_found_") +
+                     testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 Joint slot() {
@@ -100,8 +99,8 @@ TEST_F(FoundFile, IsPutIntoTheCase) {  // [U-6]
   EXPECT_EQ(found.keys[2].key, "runout.angle_deg");
   EXPECT_EQ(std::get<double>(found.values[0].value), 800);
   EXPECT_NEAR(std::get<double>(found.values[1].value), 0.005, 1e-15);
-  EXPECT_NEAR(std::get<double>(found.values[2].value),
-              std::atan2(4, 3) / unit::deg, 1e-12);
+  EXPECT_NEAR(std::get<double>(found.values[2].value), std::atan2(4, 3) / unit::deg,
+              1e-12);
   const Node* force = find(found.root, "force");
   EXPECT_EQ(std::get<double>(find(*force, "K_tc_MPa")->value), 800);
   EXPECT_EQ(std::get<std::string>(find(*force, "law")->value), "linear_edge");
@@ -112,9 +111,8 @@ TEST_F(FoundFile, IsPutIntoTheCase) {  // [U-6]
 TEST_F(FoundFile, OfAnEccentricityNearZeroIsDrawnByItsComponents) {
   Joint joint = slot();
   joint.values = {800, 0, 0};
-  const inputs::Sweep sweep{.covariance = {file(joint, "identify")},
-                            .draws = 4000,
-                            .rows = 1};
+  const inputs::Sweep sweep{
+      .covariance = {file(joint, "identify")}, .draws = 4000, .rows = 1};
   const Found found = find_all(sweep, table({}));
   const Rows rows(sweep, found);
   ASSERT_EQ(rows.size(), 4000U);
@@ -137,10 +135,12 @@ TEST_F(FoundFile, OfAnEccentricityNearZeroIsDrawnByItsComponents) {
 }
 
 TEST_F(FoundFile, FindsItsModesAmongThoseOfTheCase) {
-  const Node root = table({{"mode", {}, {.value = inputs::Array{a_mode("tool", "y", 901),
-                                                   a_mode("tool", "x", 1510),
-                                                   a_mode("tool", "x", 890)},
-                                         .where = {}}}});
+  const Node root = table(
+      {{"mode",
+        {},
+        {.value = inputs::Array{a_mode("tool", "y", 901), a_mode("tool", "x", 1510),
+                                a_mode("tool", "x", 890)},
+         .where = {}}}});
   const Found found =
       find_all({.covariance = {file(two_modes(), "modes")}, .draws = 5}, root);
   EXPECT_EQ(found.keys[0].key, "mode[3].frequency_Hz");
@@ -170,8 +170,8 @@ TEST_F(FoundFile, IsRefusedWhereTheCaseIsAnother) {
   const std::string why = problems_of(sweep, four);
   EXPECT_NE(why.find("case.toml:7:14"), std::string::npos);
   EXPECT_NE(why.find("runout of 2 teeth"), std::string::npos);
-  const Node far = table({{"mode", {}, {.value = inputs::Array{a_mode("tool", "x", 700)},
-                                        .where = {}}}});
+  const Node far = table(
+      {{"mode", {}, {.value = inputs::Array{a_mode("tool", "x", 700)}, .where = {}}}});
   EXPECT_NE(problems_of({.covariance = {file(two_modes(), "modes")}, .draws = 5}, far)
                 .find("none nearer than 700 Hz"),
             std::string::npos);

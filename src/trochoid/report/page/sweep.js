@@ -22,9 +22,9 @@ function sweepPage(report) {
     bandSection(bands, keys, quantities, result.draws),
     // Where there are bands, they say it better than a cloud of all draws.
     ...(bands && keys.length === 1 ? [] :
-      all.map((_, i) => sweptSection(t, all, i, quantities))),
+      keys.map((_, i) => sweptSection(t, keys, i, quantities))),
     { part: quantities.length > 0 && all.length > 1 ?
-      tornadoSection(t, all, quantities) : null },
+      tornadoSection(t, all, quantities, bands ? keys : []) : null },
     { part: bands ? section('bands', 'The intervals', 'Intervals', firstRows(bands)) : null },
     { part: t ? section('rows', 'The table', 'Table', firstRows(t)) : null },
     { part: restSection(result, sweepKnown) },
@@ -107,16 +107,36 @@ function rankCorrelation(a, b) {
   return size > 0 ? sum((k) => (u[k] - mean) * (v[k] - mean)) / size : NaN;
 }
 
-/** Which key matters most for which quantity. */
-function tornadoSection(t, keys, quantities) {
-  const swept = keys.filter((key) => numeric(columnNamed(t, key)));
+/** The rows of each point, by the values of its keys. */
+function pointsOf(t, keys) {
+  const points = new Map();
+  columnNamed(t, keys[0]).forEach((_, row) => {
+    const name = keys.map((key) => columnNamed(t, key)[row]).join(' ');
+    points.set(name, [...(points.get(name) || []), row]);
+  });
+  return [...points.values()];
+}
+
+/** The same within each point, without its sign: root mean square over the points. */
+function correlationInPoints(points, a, b) {
+  const squares = points.map((rows) => rankCorrelation(rows.map((r) => a[r]),
+    rows.map((r) => b[r])) ** 2).filter(isNumber);
+  return Math.sqrt(squares.reduce((sum, x) => sum + x, 0) / squares.length);
+}
+
+/** Which key matters most for which quantity; what differs between `apart` is left out. */
+function tornadoSection(t, keys, quantities, apart) {
+  const swept = keys.filter((key) => !apart.includes(key) && numeric(columnNamed(t, key)));
+  const points = apart.length ? pointsOf(t, apart) : null;
   const rows = quantities.filter((q) => numeric(columnNamed(t, shortPath(q.take)))).map((q) => [
     shortPath(q.take), ...swept.map((key) => {
-      const value = rankCorrelation(columnNamed(t, key), columnNamed(t, shortPath(q.take)));
+      const [a, b] = [columnNamed(t, key), columnNamed(t, shortPath(q.take))];
+      const value = points ? correlationInPoints(points, a, b) : rankCorrelation(a, b);
       return isNumber(value) ? value.toFixed(2) : missing;
     })]);
   if (!rows.length || !swept.length) return null;
   return section('matters', 'What matters', 'What matters',
-    prose('Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0: one does not tell the other.'),
+    prose(points ? 'Correlation of the ranks of the draws, without its sign: 1 decides, 0 does not matter. Root mean square over the points.' :
+      'Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0: one does not tell the other.'),
     table(['', ...swept], rows));
 }
