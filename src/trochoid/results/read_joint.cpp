@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -84,10 +85,45 @@ const Value* covariance_in(const Value& result, const std::string& group,
                            names.empty() ? "are none" : "are " + names));
 }
 
+/// k of `before[k]after`, `after` beginning what follows; 0: it is another name.
+std::size_t entry_in(std::string_view name, std::string_view before,
+                     std::string_view after) {
+  if (!name.starts_with(before)) {
+    return 0;
+  }
+  std::size_t k = 0;
+  const char* end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + before.size(), end, k);
+  return read.ec == std::errc{} && std::string_view(read.ptr, end).starts_with(after)
+             ? k
+             : 0;
+}
+
+/// Whether every name is one of those that a command writes: the file may be anyone's.
+bool known_names(const Joint& joint) {
+  constexpr std::size_t most_teeth = 64;
+  for (std::size_t i = 0; i < joint.names.size(); ++i) {
+    const std::string& name = joint.names[i];
+    const std::size_t tooth = entry_in(name, "runout.radial_offsets_mm[", "]");
+    const std::size_t mode = entry_in(name, "mode[", "].");
+    const bool pair =
+        name == "runout.e_x_mm"
+            ? i + 1 < joint.names.size() && joint.names[i + 1] == "runout.e_y_mm"
+            : name == "runout.e_y_mm" && i > 0 && joint.names[i - 1] == "runout.e_x_mm";
+    const bool law = name.starts_with("force.") && !joint.law.empty() &&
+                     name.find_first_of(".[", 6) == std::string::npos;
+    const bool offset = tooth > 0 && tooth <= joint.teeth && joint.teeth <= most_teeth;
+    if (!pair && !law && !offset && (mode == 0 || mode > joint.modes.size())) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool whole(const Joint& joint) {
   const std::size_t n = joint.names.size();
   bool finite = n > 0 && joint.values.size() == n && joint.factors.size() == n &&
-                joint.covariance.size() == n * n;
+                joint.covariance.size() == n * n && known_names(joint);
   for (const auto* list : {&joint.values, &joint.factors, &joint.covariance}) {
     for (const double value : *list) {
       finite = finite && std::isfinite(value);
@@ -150,8 +186,8 @@ ReadJoint read_joint(const fs::path& path, const std::string& group) {
   out.joint = joint_in(*covariance);
   if (!whole(out.joint)) {
     refuse(out.file,
-           "`covariance` names nothing, or not one finite number for each name: "
-           "nothing was found with an error there");
+           "`covariance` names nothing, or something else than what the command finds, "
+           "or has not one finite number for each name");
   }
   out.do_not_use = text_of(find(*result, "verdict")) == "do not use";
   return out;

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
+#include <trochoid/chip/model.h>
 #include <trochoid/results/joint.h>
 #include <trochoid/results/json.h>
 #include <trochoid/sweep/put_modes.h>
@@ -138,8 +139,8 @@ class Putting {
       add("do_not_use",
           fmt::format("{} itself says not to use these numbers", read.command));
     }
-    const std::string model =
-        text_at(found_.root, "chip", "model", read.joint.chip_model.c_str());
+    const std::string model = text_at(found_.root, "chip", "model",
+                                      chip::name_of(chip::Model::trochoidal).data());
     if (model != read.joint.chip_model && !read.joint.chip_model.empty()) {
       add("other_chip_model",
           fmt::format("the coefficients were found with the chip model {}, the case "

@@ -152,6 +152,14 @@ class Draws(InFolder):
         none = json.loads(json.dumps(good))
         none["result"]["covariance"]["values"][0] = None
         self.write("none.json", json.dumps(none))
+        for i, name in enumerate(("mode[x].mass_kg", "runout.e_x_mm", "cut.spindle_rpm",
+                                  "runout.radial_offsets_mm[9]", "force.a.b", "")):
+            odd = json.loads(json.dumps(good))
+            odd["result"]["covariance"]["names"][-1] = name
+            self.write(f"odd{i}.json", json.dumps(odd))
+            self.case(f'covariance = "odd{i}.json"')
+            self.assertIn("something else than what the command finds",
+                          self.run_program("sweep", "next.toml", code=2).stderr, name)
         self.write("text.json", "{}")
         for sweep, says in (
                 ('covariance = "gone"', "there is no such file"),
@@ -189,7 +197,7 @@ class Draws(InFolder):
         self.case('covariance = "known.identify"\ndraws = 5',
                   force={"K_tc_MPa": 1000})
         printed = self.run_program("sweep", "next.toml", "--no-report").stdout
-        for says in ("warning [not_drawn]", "K_ae_N_per_mm stays", "[other_value]",
+        for says in ("warning [other_chip_model]", "warning [not_drawn]", "K_ae_N_per_mm stays", "[other_value]",
                      "force.K_tc_MPa = 1000"):
             self.assertIn(says, printed)
 

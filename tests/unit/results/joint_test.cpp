@@ -98,15 +98,15 @@ TEST(ReadJoint, ReadsBackTheSameBits) {
   Joint joint = joint_of(fit, 0);
   joint.not_found = {{"force.K_ae_N_per_mm", "why, \"so\""}};
   const auto file = std::filesystem::temp_directory_path() / "trochoid_joint.json";
-  std::ofstream(file) << json_text(
-      Object{{"trochoid", Object{}},
-             {"command", "identify"},
-             {"status", "ok"},
-             {"result", Object{{"verdict", "do not use"},
-                               {"covariance", joint_value(joint)},
-                               {"groups", Array{Object{{"group", "worn"},
-                                                       {"covariance",
-                                                        joint_value(joint_of(fit, 1))}}}}}}});
+  std::ofstream(file) << json_text(Object{
+      {"trochoid", Object{}},
+      {"command", "identify"},
+      {"status", "ok"},
+      {"result", Object{{"verdict", "do not use"},
+                        {"covariance", joint_value(joint)},
+                        {"groups", Array{Object{{"group", "worn"},
+                                                {"covariance",
+                                                 joint_value(joint_of(fit, 1))}}}}}}});
   const ReadJoint back = read_joint(file, "");
   EXPECT_EQ(back.joint.names, joint.names);
   EXPECT_EQ(back.joint.values, joint.values);
