@@ -384,7 +384,7 @@ class Uncertain(unittest.TestCase):
         truth = (EXAMPLES / "uncertain_stability/truth.toml").read_text()
         for i, rpm in enumerate(bands["cut.spindle_rpm"]):
             true = self.folder / "true.toml"
-            true.write_text(text.replace("spindle_rpm = 5000\n", f"spindle_rpm = {rpm}\n")
+            true.write_text(re.sub("^include.*", "", text, flags=re.M).replace("spindle_rpm = 5000\n", f"spindle_rpm = {rpm}\n")
                             .split("[sweep]")[0] + truth.split("[noise]")[0])
             self.run_program("stability", true)
             depth = self.result("true.stability")["limit_depth_mm"]
