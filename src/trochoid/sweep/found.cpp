@@ -34,18 +34,9 @@ std::string whole_of(const std::string& key) {
 std::optional<double> number_at(const Node& root, const std::string& key) {
   const auto dot = key.find('.');
   const Node* table = find(root, key.substr(0, dot));
-  const Node* node =
-      table != nullptr && std::holds_alternative<inputs::Members>(table->value)
-          ? find(*table, key.substr(dot + 1))
-          : nullptr;
-  if (node == nullptr) {
-    return std::nullopt;
-  }
-  if (const auto* whole = std::get_if<std::int64_t>(&node->value)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* real = std::get_if<double>(&node->value);
-  return real != nullptr ? std::optional(*real) : std::nullopt;
+  return table != nullptr && std::holds_alternative<inputs::Members>(table->value)
+             ? number_in(*table, key.substr(dot + 1))
+             : std::nullopt;
 }
 
 std::string text_at(const Node& root, std::string_view table, std::string_view key,

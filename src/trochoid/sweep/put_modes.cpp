@@ -29,18 +29,6 @@ std::string text_in(const Node& table, std::string_view key) {
   return text != nullptr ? *text : std::string();
 }
 
-std::optional<double> number_in(const Node& table, std::string_view key) {
-  const Node* node = find(table, key);
-  if (node == nullptr) {
-    return std::nullopt;
-  }
-  if (const auto* whole = std::get_if<std::int64_t>(&node->value)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* real = std::get_if<double>(&node->value);
-  return real != nullptr ? std::optional(*real) : std::nullopt;
-}
-
 /// Natural frequency of a mode of a case [Hz]; none where it is not said.
 std::optional<double> frequency_of(const Node& mode) {
   if (const auto f = number_in(mode, "frequency_Hz")) {
@@ -121,6 +109,18 @@ void rename(results::Joint& joint, const std::vector<std::size_t>& place) {
 }
 
 }  // namespace
+
+std::optional<double> number_in(const Node& table, std::string_view key) {
+  const Node* node = find(table, key);
+  if (node == nullptr) {
+    return std::nullopt;
+  }
+  if (const auto* whole = std::get_if<std::int64_t>(&node->value)) {
+    return static_cast<double>(*whole);
+  }
+  const auto* real = std::get_if<double>(&node->value);
+  return real != nullptr ? std::optional(*real) : std::nullopt;
+}
 
 void put_modes(Node& root, const inputs::Location& where, results::Joint& joint,
                const std::string& file,

@@ -4,9 +4,14 @@
 #include <trochoid/results/joint.h>
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace trochoid::sweep {
+
+/// @brief A number of a table of a case, as it stands there; none: another value, or none.
+std::optional<double> number_in(const inputs::Node& table, std::string_view key);
 
 /// @brief Find the modes of a joint answer among those of a case: its names then are keys
 /// of that case, whose modes have mass, frequency and damping ratio.
