@@ -4,11 +4,13 @@ The expected numbers are not stored: simulated records carry their truth beside 
 forces come from the transcription in tests/reference. Only examples/st52_predict/
 material.toml is an answer of the program; `examples_test.py --renew` writes it anew.
 """
+import json
 import math
 import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import tomllib
@@ -352,6 +354,58 @@ class Ringing(unittest.TestCase):
             self.assertAlmostEqual(found / want, 1, delta=0.01)
         used = [w["message"] for w in answer.summary["warnings"] if w["code"] == "part_used"]
         self.assertEqual(len(used), 2)
+
+
+class Uncertain(unittest.TestCase):
+    """Examples that draw what another one found: the truth lies where they say."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="trochoid_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        for name in ("uncertain_stability", "uncertain_force", "st52_slot"):
+            shutil.copytree(EXAMPLES / name, self.folder / name)
+
+    def run_program(self, *arguments):
+        done = subprocess.run([program.PROGRAM, *map(str, arguments), "-q", "--no-report"],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def result(self, folder):
+        return json.loads((self.folder / folder / "summary.json").read_text())["result"]
+
+    def test_the_limit_depth(self):
+        self.run_program("modes", "uncertain_stability/tip.toml")
+        case = self.folder / "uncertain_stability/case.toml"
+        text = case.read_text().replace("count = 21", "count = 3").replace(
+            "draws = 200", "draws = 60")
+        case.write_text(text)
+        self.run_program("sweep", case)
+        bands = program.Answer(case.with_suffix(".sweep"), 0, "").columns("bands.csv")
+        truth = (EXAMPLES / "uncertain_stability/truth.toml").read_text()
+        for i, rpm in enumerate(bands["cut.spindle_rpm"]):
+            true = self.folder / "true.toml"
+            true.write_text(re.sub("^include.*", "", text, flags=re.M).replace("spindle_rpm = 5000\n", f"spindle_rpm = {rpm}\n")
+                            .split("[sweep]")[0] + truth.split("[noise]")[0])
+            self.run_program("stability", true)
+            depth = self.result("true.stability")["limit_depth_mm"]
+            off = abs(depth - bands["median_limit_depth_mm"][i])
+            self.assertLess(off, 3 * bands["sd_limit_depth_mm"][i])
+            self.assertLess(bands["sd_limit_depth_mm"][i], 0.1 * depth)
+            self.assertEqual(bands["failed_limit_depth_mm"][i], 0)
+
+    def test_the_force(self):
+        self.run_program("identify", "st52_slot/case.toml")
+        self.run_program("sweep", "uncertain_force/case.toml")
+        truth = (EXAMPLES / "st52_slot/truth.toml").read_text()
+        true = self.folder / "true.toml"
+        true.write_text(truth.replace("axial_depth_mm = 2.0", "axial_depth_mm = 3.0").replace(
+            "feed_per_tooth_mm = 0.04", "feed_per_tooth_mm = 0.06"))
+        self.run_program("simulate", true)
+        want = self.result("true.simulate")
+        for told, true_value in zip(self.result("uncertain_force/case.sweep")["quantities"],
+                                    (want["peak_xy_N"], want["mean_N"][0])):
+            self.assertLess(abs(told["median"] - true_value), 3 * told["sd"])
+            self.assertTrue(told["low"] < told["median"] < told["high"])
 
 
 def renew():

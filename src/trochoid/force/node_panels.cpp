@@ -21,6 +21,9 @@ constexpr double largest_bend = 0.1;
 constexpr double bend_of_one_step = 0.005;
 constexpr double bend_of_two_steps = 0.025;
 constexpr int most_steps = 4;
+/// Chips over marks are as large as the runout: no rule follows them better than to this
+/// part of it.
+constexpr double rounding = 1e-11;
 
 /// How far behind the side of the tool, as a sine, a chip may still be found.
 double rear_sine(const Edges& edges, double r, double runout) {
@@ -76,7 +79,8 @@ class Resolution {
       : all_(all), marks_(static_cast<std::size_t>(edges.passage.marks)) {
     const double gap = *std::max_element(edges.setup.cutter.pitch.begin(),
                                          edges.setup.cutter.pitch.end());
-    allowed_ = tolerance * (edges.passage.feed * gap);
+    allowed_ = std::max(tolerance * (edges.passage.feed * gap),
+                        rounding * reach_of(edges.setup.runout));
     allowed_edge_ = tolerance;
   }
 

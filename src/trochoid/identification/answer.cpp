@@ -363,6 +363,7 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   fit.phase = point.phase;
   fit.phase_se.assign(point.phase.size(), std::nullopt);
   fill_phases(problem, reasons, fit);
+  fit.found = found_together(problem, p, K, known);
 }
 
 void refuse_coefficients(const Problem& problem, Fit& fit) {

@@ -21,6 +21,11 @@ void fill_fitted(const Problem& problem, std::span<const Run> runs,
 void fill_estimates(const Problem& problem, std::span<const double> p,
                     std::span<const double> K, const Uncertainty& known, Fit& fit);
 
+/// @brief What was found with an error, and its covariance (I-4, I-14): of the phases and
+/// of the constants of channels the rest is taken whatever they are.
+FoundTogether found_together(const Problem& problem, std::span<const double> p,
+                             std::span<const double> K, const Uncertainty& known);
+
 /// No coefficient has a value, for the reason in the message.
 void refuse_coefficients(const Problem& problem, Fit& fit);
 

@@ -3,6 +3,7 @@
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/stop.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/identification/found.h>
 #include <trochoid/identification/response.h>
 
 #include <array>
@@ -162,6 +163,9 @@ struct Fit {
   int rank = 0;                  ///< of [D], channel columns included
   double freedom = 0.0;          ///< equations less unknowns
   double interval_factor = 0.0;  ///< half of a 95 % interval over its standard error
+  /// Everything with an error that another cut shares: groups one after the other, then
+  /// the runout, an eccentricity by its components, then exponents.
+  FoundTogether found;
   /// Unidentifiable quantities, by name of the summary, and why.
   std::vector<std::pair<std::string, std::string>> unidentifiable;
   /// Runout that is found where a tooth just starts or stops cutting: a value without a

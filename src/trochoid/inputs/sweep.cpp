@@ -17,6 +17,7 @@ namespace trochoid::inputs {
 
 namespace {
 
+constexpr int usual_count = 200;
 constexpr const char* forms =
     "{ from, to, count }, { values = [...] }, { mean, sd } or { file, column }";
 
@@ -200,10 +201,6 @@ void read_over(const Node& over, const std::filesystem::path& file, Sweep& sweep
   }
 }
 
-bool by_chance(SweepMethod method) {
-  return method == SweepMethod::latin_hypercube || method == SweepMethod::random;
-}
-
 /// How many values a key has by itself; 0: as many as are asked for.
 std::size_t own_count(const SweptKey& key) {
   if (const auto* list = std::get_if<ListedValues>(&key.values)) {
@@ -215,7 +212,13 @@ std::size_t own_count(const SweptKey& key) {
 
 void count_rows(std::optional<std::int64_t> count, Sweep& sweep, Findings& findings) {
   if (by_chance(sweep.method)) {
-    sweep.rows = static_cast<std::size_t>(count.value_or(200));
+    sweep.rows = sweep.draws > 0
+                     ? sweep.draws
+                     : static_cast<std::size_t>(count.value_or(usual_count));
+    return;
+  }
+  if (sweep.over.empty()) {
+    sweep.rows = 1;
     return;
   }
   sweep.rows = sweep.method == SweepMethod::grid ? 1 : own_count(sweep.over.front());
@@ -234,7 +237,7 @@ void count_rows(std::optional<std::int64_t> count, Sweep& sweep, Findings& findi
                          "all keys together",
                          path, own, sweep.rows));
     } else if (sweep.method == SweepMethod::grid) {
-      if (own > most_sweep_rows / sweep.rows) {
+      if (own > most_sweep_rows / sweep.rows / std::max<std::size_t>(sweep.draws, 1)) {
         report(findings, path, key.where,
                fmt::format("{}: more than {} combinations", path, most_sweep_rows));
         return;
@@ -259,6 +262,57 @@ void read_take(Keys& keys, Sweep& sweep) {
   }
   for (const Node& path : *list) {
     sweep.take.push_back(std::get<std::string>(path.value));
+  }
+}
+
+/// One entry of `covariance`; false: it is none.
+bool read_drawn(const Node& node, const std::filesystem::path& file, Sweep& sweep,
+                Findings& findings) {
+  DrawnFile drawn{.where = node.where};
+  const auto* name = std::get_if<std::string>(&node.value);
+  if (std::holds_alternative<Members>(node.value)) {
+    Keys keys(node, "sweep.covariance", findings);
+    const Node* of = keys.take("file");
+    name = of != nullptr ? std::get_if<std::string>(&of->value) : nullptr;
+    drawn.group = keys.text("group").value_or("");
+    keys.finish();
+  }
+  if (name == nullptr || name->empty()) {
+    return false;
+  }
+  drawn.path = file.parent_path() / *name;
+  sweep.covariance.push_back(std::move(drawn));
+  return true;
+}
+
+/// `covariance` and `draws`, which belong together.
+void read_draws(Keys& keys, const std::filesystem::path& file, Sweep& sweep,
+                Findings& findings) {
+  const Node* node = keys.take("covariance");
+  const auto draws = keys.whole("draws", 1, most_draws);
+  if (node == nullptr) {
+    if (keys.has("draws")) {
+      keys.wrong(*keys.take("draws"), "draws",
+                 "`covariance` is missing: the summary.json of identify, modes or "
+                 "calibrate that is drawn from");
+    }
+    return;
+  }
+  const auto* list = std::get_if<Array>(&node->value);
+  const std::vector<Node> entries = list != nullptr ? *list : Array{*node};
+  const bool right =
+      !entries.empty() && std::ranges::all_of(entries, [&](const Node& n) {
+        return read_drawn(n, file, sweep, findings);
+      });
+  if (!right) {
+    keys.wrong(*node, "covariance",
+               "must be a summary.json of identify, modes or calibrate, its folder, a "
+               "list of them, or { file, group } for one group of records");
+  }
+  sweep.draws = static_cast<std::size_t>(draws.value_or(usual_count));
+  if (by_chance(sweep.method) && keys.has("count")) {
+    keys.wrong(*keys.take("count"), "count",
+               "with `covariance` each row is one draw: `draws` says how many");
   }
 }
 
@@ -291,11 +345,14 @@ Sweep read_sweep(const Node& root, const std::filesystem::path& file) {
   const auto count = keys.whole("count", 1, most_sweep_rows);
   sweep.command = keys.text("command").value_or("");
   read_take(keys, sweep);
+  read_draws(keys, file, sweep, findings);
   if (const Node* over = keys.take("over")) {
     read_over(*over, file, sweep, findings);
-  } else {
-    report(findings, "sweep.over", table->where,
-           "sweep.over is missing (which keys take which values)");
+  } else if (sweep.covariance.empty()) {
+    report(
+        findings, "sweep.over", table->where,
+        "sweep.over is missing (which keys take which values), or `covariance` (what "
+        "is drawn)");
   }
   keys.finish();
   if (findings.problems.empty()) {

@@ -61,18 +61,33 @@ constexpr std::string_view name_of(SweepMethod method) noexcept {
   return {};
 }
 
+/// What an earlier command found, to be drawn with its covariance.
+struct DrawnFile {
+  std::filesystem::path path;  ///< summary.json, or the folder that holds it
+  std::string group;           ///< of records; empty: the first
+  Location where;
+};
+
 /// [sweep] of a case.
 struct Sweep {
   std::vector<SweptKey> over;
+  std::vector<DrawnFile> covariance;
+  std::size_t draws = 0;  ///< of each row; by chance one, and as many rows; 0: none
   SweepMethod method = SweepMethod::grid;
   std::uint64_t seed = 1;
-  std::size_t rows = 0;           ///< of all methods
+  std::size_t rows = 0;           ///< of all methods, before draws multiply them
   std::string command;            ///< empty: the command line says it
   std::vector<std::string> take;  ///< paths in summary.json; empty: the same
 };
 
 /// No sweep has more rows.
 inline constexpr std::size_t most_sweep_rows = 100'000'000;
+inline constexpr std::size_t most_draws = 1'000'000;
+
+/// Whether each row is drawn by chance.
+constexpr bool by_chance(SweepMethod method) noexcept {
+  return method == SweepMethod::random || method == SweepMethod::latin_hypercube;
+}
 
 /// @brief Read [sweep] of a case.
 /// @param root  the case, with what it includes

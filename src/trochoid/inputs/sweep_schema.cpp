@@ -33,6 +33,15 @@ Json forms() {
             form({{"file", text}, {"column", text}}, {"file", "column"})}}};
 }
 
+/// What is drawn, as read_covariance reads it.
+Json drawn() {
+  const Json text{{"type", "string"}};
+  const Json one{
+      {"anyOf",
+       {text, form({{"file", text}, {"group", text}}, Json::array({"file"}))}}};
+  return {{"anyOf", {one, {{"type", "array"}, {"minItems", 1}, {"items", one}}}}};
+}
+
 }  // namespace
 
 std::string sweep_schema() {
@@ -43,8 +52,12 @@ std::string sweep_schema() {
        {"seed", {{"type", "integer"}, {"minimum", 0}, {"default", 1}}},
        {"count", {{"type", "integer"}, {"minimum", 1}, {"maximum", most_sweep_rows}}},
        {"command", text},
-       {"take", {{"type", "array"}, {"items", text}}}},
-      Json::array({"over"}));
+       {"take", {{"type", "array"}, {"items", text}}},
+       {"covariance", drawn()},
+       {"draws", {{"type", "integer"}, {"minimum", 1}, {"maximum", most_draws}}}},
+      Json::array());
+  out["anyOf"] = {{{"required", Json::array({"over"})}},
+                  {{"required", Json::array({"covariance"})}}};
   out["properties"]["over"]["minProperties"] = 1;
   out["properties"]["over"]["description"] =
       "keys of the case in quotes, such as \"cut.spindle_rpm\", and their values";
@@ -53,6 +66,10 @@ std::string sweep_schema() {
       "chance";
   out["properties"]["count"]["description"] =
       "rows of random and latin_hypercube; default: 200";
+  out["properties"]["covariance"]["description"] =
+      "results of identify, modes or calibrate whose numbers are drawn together";
+  out["properties"]["draws"]["description"] =
+      "how many; of each point of a grid or list";
   out["properties"]["command"]["description"] = "what answers each row";
   out["properties"]["take"]["description"] =
       "what is taken from each answer, such as \"result.peak_xy_N\"";

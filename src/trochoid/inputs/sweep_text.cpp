@@ -48,9 +48,22 @@ std::string sweep_toml(const Sweep& sweep) {
   }
   text += fmt::format("take = [{}]\nmethod = \"{}\"\n", fmt::join(paths, ", "),
                       name_of(sweep.method));
-  if (sweep.method == SweepMethod::random ||
-      sweep.method == SweepMethod::latin_hypercube) {
+  if (!sweep.covariance.empty()) {
+    std::vector<std::string> files;
+    for (const DrawnFile& drawn : sweep.covariance) {
+      const std::string file = toml_string(drawn.path.string());
+      files.push_back(drawn.group.empty()
+                          ? file
+                          : fmt::format("{{ file = {}, group = {} }}", file,
+                                        toml_string(drawn.group)));
+    }
+    text += fmt::format("seed = {}\ncovariance = [{}]\ndraws = {}\n", sweep.seed,
+                        fmt::join(files, ", "), sweep.draws);
+  } else if (by_chance(sweep.method)) {
     text += fmt::format("seed = {}\ncount = {}\n", sweep.seed, sweep.rows);
+  }
+  if (sweep.over.empty()) {
+    return text;
   }
   text += "[sweep.over]\n";
   for (const SweptKey& key : sweep.over) {

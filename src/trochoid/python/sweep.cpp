@@ -103,7 +103,7 @@ py::list values_of(const Work& work, std::size_t first, std::size_t count) {
   py::list rows;
   for (std::size_t i = first; i < first + count; ++i) {
     py::list values;
-    for (const Node& value : work.prepared().samples.row(i)) {
+    for (const Node& value : work.prepared().rows.row(i)) {
       values.append(object_of(value));
     }
     rows.append(py::tuple(values));

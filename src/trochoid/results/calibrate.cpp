@@ -3,10 +3,12 @@
 #include <trochoid/base/units.h>
 #include <trochoid/results/calibrate_text.h>
 #include <trochoid/results/estimate_value.h>
+#include <trochoid/results/joint.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trochoid::results {
 
@@ -117,6 +119,43 @@ Object runout_value(const CalibrateResult& r) {
   return value;
 }
 
+/// What material.toml holds, with its covariance; a runout only where it was found
+/// together with the coefficients.
+Joint joint_of(const CalibrateResult& r) {
+  const surface::FoundCoefficients& found = r.calibration.coefficients;
+  const RunoutFit& runout = r.calibration.runout;
+  const auto names = force::coefficient_quantities(r.law);
+  Joint joint{.law = std::string(force::name_of(r.law))};
+  std::vector<double> units;
+  const auto add = [&](std::string name, double value, const Estimate& like,
+                       double unit) {
+    add_found(joint, std::move(name), value / unit, interval_factor(like));
+    units.push_back(unit);
+  };
+  const double tr = found.correlation * found.K_tc.se * found.K_rc.se;
+  std::vector<double> covariance = {found.K_tc.se * found.K_tc.se, tr, tr,
+                                    found.K_rc.se * found.K_rc.se};
+  if (r.calibration.with_runout && r.teeth > 1) {
+    const double rho = runout.eccentricity.value;
+    joint.teeth = static_cast<std::size_t>(r.teeth);
+    add("runout.e_x_mm", rho * std::cos(runout.angle.value), runout.eccentricity,
+        unit::mm);
+    add("runout.e_y_mm", rho * std::sin(runout.angle.value), runout.eccentricity,
+        unit::mm);
+    covariance.assign(runout.covariance.begin(), runout.covariance.end());
+  } else if (runout.ok) {
+    joint.not_found.emplace_back("runout.eccentricity_mm",
+                                 "found apart from the coefficients");
+  }
+  add(fmt::format("force.{}", names[0].key), found.K_tc.value, found.K_tc,
+      names[0].unit);
+  add(fmt::format("force.{}", names[1].key), found.K_rc.value, found.K_rc,
+      names[1].unit);
+  const bool known = std::isfinite(found.K_tc.se) && std::isfinite(found.K_rc.se);
+  set_covariance(joint, known ? covariance : std::vector<double>{}, units);
+  return joint;
+}
+
 /// How many readings there are, and what became of the others.
 Object readings_value(const CalibrateResult& r) {
   return {{"used", r.readings.size()},
@@ -184,6 +223,9 @@ Object result_of(const CalibrateResult& r) {
   const bool offset = !datum.empty() && !c.datum_parts.empty() &&
                       c.datum_parts.front().set == 0 &&
                       c.datum_parts.front().kind == surface::DatumPart::Kind::offset;
+  if (c.ok) {
+    add("covariance", joint_value(joint_of(r)));
+  }
   add("offset_mm", offset ? Value(datum.front().value / unit::mm) : Value());
   if (!datum.empty()) {
     add("datum", datum_value(r));

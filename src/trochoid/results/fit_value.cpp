@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
 #include <trochoid/results/estimate_value.h>
+#include <trochoid/results/joint_of_fit.h>
 
 #include <fmt/core.h>
 
@@ -142,8 +143,10 @@ Array groups_value(const Fit& fit, std::span<const std::string> files) {
   for (const identification::Group& group : fit.groups) {
     Array own;
     for (const std::size_t r : group.runs) own.emplace_back(files[r]);
+    const auto g = static_cast<std::size_t>(&group - fit.groups.data());
     out.emplace_back(Object{{"group", group.name.empty() ? Value() : Value(group.name)},
                             {"coefficients", coefficients_value(group)},
+                            {"covariance", joint_value(joint_of(fit, g))},
                             {"files", std::move(own)}});
   }
   return out;

@@ -7,6 +7,7 @@
 #include <trochoid/results/estimate_value.h>
 #include <trochoid/results/fit_value.h>
 #include <trochoid/results/fits_table.h>
+#include <trochoid/results/joint_of_fit.h>
 #include <trochoid/results/material.h>
 
 #include <fmt/core.h>
@@ -130,6 +131,7 @@ Object result_of(const IdentifyResult& r) {
   if (r.chosen) {
     const Fit& chosen = r.fits[*r.chosen];
     set(result, "chosen", chip::name_of(chosen.chip.model));
+    set(result, "covariance", joint_value(joint_of(chosen, 0)));
     if (grouped) {
       set(result, "groups", groups_value(chosen, files));
     }

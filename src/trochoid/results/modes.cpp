@@ -2,6 +2,7 @@
 
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
+#include <trochoid/results/joint.h>
 
 #include <fmt/core.h>
 
@@ -79,6 +80,24 @@ Value modes_value(const ModesFit& fit) {
     modes.emplace_back(mode_value(mode));
   }
   return modes;
+}
+
+/// What modes.toml holds, with its covariance.
+Joint joint_of(const ModesResult& r) {
+  Joint joint;
+  std::vector<double> units;
+  for (const FittedMode& m : r.fit.modes) {
+    joint.modes.push_back({std::string(name_of(r.body)), std::string(name_of(r.axis))});
+    const auto key = [&](const char* what) {
+      return fmt::format("mode[{}].{}", joint.modes.size(), what);
+    };
+    add_found(joint, key("frequency_Hz"), m.omega / unit::Hz);
+    add_found(joint, key("damping_ratio"), m.zeta);
+    add_found(joint, key("mass_kg"), m.mode.mass);
+    units.insert(units.end(), {unit::Hz, 1.0, 1.0});
+  }
+  set_covariance(joint, r.fit.covariance, units);
+  return joint;
 }
 
 Value residual_terms_value(const ModesFit& fit) {
@@ -167,6 +186,7 @@ Object result_of(const ModesResult& r) {
                          unit::in(fit.omega.back(), unit::Hz)});
   }
   if (fit.ok) {
+    add("covariance", joint_value(joint_of(r)));
     add("explained", fit.explained);
     add(fmt::format("rms_{}", unit_suffix(r.kind)), fit.rms);
     add("residual_terms", residual_terms_value(fit));

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
+#include <trochoid/results/joint.h>
 
 #include <fmt/core.h>
 
@@ -102,6 +103,28 @@ Object mode_value(const ShapeMode& m, bool complex_shapes) {
   out.push_back({"shape", shape_value(m, complex_shapes)});
   out.push_back({"lines_in_peak", m.lines_in_peak});
   return out;
+}
+
+/// What modes.toml holds, with its covariance.
+Joint joint_of(const SharedModesResult& r) {
+  Joint joint;
+  std::vector<double> units;
+  for (const ShapeMode& m : r.fit.real_modes) {
+    const Lying at = lying(r, m);
+    joint.modes.push_back({std::string(name_of(r.body)), std::string(at.axis)});
+    const auto add = [&](const char* what, double value, double unit) {
+      add_found(joint, fmt::format("mode[{}].{}", joint.modes.size(), what), value);
+      units.push_back(unit);
+    };
+    add("frequency_Hz", m.omega.value / unit::Hz, unit::Hz);
+    add("damping_ratio", m.zeta.value, 1.0);
+    add("mass_kg", m.mass.value, 1.0);
+    if (m.phi.size() > 1) {
+      add("angle_deg", at.angle, unit::deg);
+    }
+  }
+  set_covariance(joint, r.fit.covariance, units);
+  return joint;
 }
 
 Array modes_value(const std::vector<ShapeMode>& modes, bool complex_shapes) {
@@ -211,6 +234,7 @@ Object result_of(const SharedModesResult& r) {
   if (!fit.ok) {
     return result;
   }
+  add("covariance", joint_value(joint_of(r)));
   add("reciprocity", reciprocity_value(r));
   add("complex_evidence",
       fit.complex_evidence ? Value(*fit.complex_evidence) : Value(nullptr));

@@ -1,5 +1,6 @@
 #include <trochoid/results/sweep.h>
 
+#include <trochoid/results/spread.h>
 #include <trochoid/results/text_table.h>
 
 #include <fmt/core.h>
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 namespace trochoid::results {
 
@@ -30,20 +33,43 @@ std::string text_of(const Cell& cell) {
   return text != nullptr ? *text : std::isnan(*value) ? "" : fmt::format("{}", *value);
 }
 
+/// Where what was taken stands in a row.
+std::size_t place_of_take(const SweepResult& r, std::size_t i) {
+  return r.keys.size() + r.drawn.size() + i;
+}
+
+void add_cells(const SweepResult& r, std::string name, std::size_t cell,
+               std::span<const SweepRow* const> rows, base::Table& table) {
+  auto& column = table.columns.emplace_back();
+  column.name = std::move(name);
+  const bool text = is_text(r, cell);
+  for (const SweepRow* row : rows) {
+    if (text) {
+      column.texts.push_back(text_of(row->cells[cell]));
+    } else {
+      column.values.push_back(std::get<double>(row->cells[cell]));
+    }
+  }
+}
+
 base::Table table_of(const SweepResult& r) {
   base::Table table{"sweep.csv", {}};
-  for (std::size_t c = 0; c < r.keys.size() + r.take.size(); ++c) {
-    auto& column = table.columns.emplace_back();
-    column.name =
-        c < r.keys.size() ? r.keys[c] : column_name(r.take[c - r.keys.size()]);
-    const bool text = is_text(r, c);
-    for (const SweepRow& row : r.rows) {
-      if (text) {
-        column.texts.push_back(text_of(row.cells[c]));
-      } else {
-        column.values.push_back(std::get<double>(row.cells[c]));
-      }
-    }
+  std::vector<const SweepRow*> rows;
+  for (const SweepRow& row : r.rows) {
+    rows.push_back(&row);
+  }
+  for (std::size_t c = 0; c < r.keys.size(); ++c) {
+    add_cells(r, r.keys[c], c, rows, table);
+  }
+  if (r.draws > 0) {
+    base::add_column(table, "draw", rows.size(),
+                     [&](std::size_t i) { return i % r.draws + 1; });
+  }
+  for (std::size_t c = 0; c < r.drawn.size(); ++c) {
+    add_cells(r, r.drawn[c], r.keys.size() + c, rows, table);
+  }
+  for (std::size_t c = 0; c < r.take.size(); ++c) {
+    add_cells(r, column_name(r.take[c]), place_of_take(r, c), rows, table);
   }
   auto& status = table.columns.emplace_back();
   status.name = "status";
@@ -58,46 +84,38 @@ base::Table table_of(const SweepResult& r) {
   return table;
 }
 
-/// Between two of the sorted values, as far on as the share says.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(i);
-  return i + 1 < sorted.size() ? sorted[i] + part * (sorted[i + 1] - sorted[i])
-                               : sorted.back();
-}
-
-/// Numbers of the rows that answered, sorted.
-std::vector<double> numbers_of(const SweepResult& r, std::size_t column) {
-  std::vector<double> sorted;
-  for (const SweepRow& row : r.rows) {
-    const auto* value = std::get_if<double>(&row.cells[column]);
+/// Numbers of some rows that answered; none: there are none.
+std::optional<Spread> spread_in(const SweepResult& r, std::size_t take,
+                                std::span<const SweepRow> rows) {
+  std::vector<double> values;
+  for (const SweepRow& row : rows) {
+    const auto* value = std::get_if<double>(&row.cells[place_of_take(r, take)]);
     if (row.status == "ok" && value != nullptr && !std::isnan(*value)) {
-      sorted.push_back(*value);
+      values.push_back(*value);
     }
   }
-  std::ranges::sort(sorted);
-  return sorted;
+  return values.empty() ? std::optional<Spread>() : spread_of(std::move(values));
 }
 
 /// What is said of one quantity: of rows drawn by chance its 95 % interval.
 Value quantity(const SweepResult& r, std::size_t i) {
-  const std::vector<double> sorted = numbers_of(r, r.keys.size() + i);
-  Object object = {{"take", r.take[i]}, {"answers", sorted.size()}};
-  if (sorted.empty()) {
+  const auto spread = spread_in(r, i, r.rows);
+  Object object = {{"take", r.take[i]}, {"answers", spread ? spread->count : 0}};
+  if (!spread) {
     return object;
   }
-  double mean = 0.0;
-  for (const double value : sorted) {
-    mean += value / static_cast<double>(sorted.size());
-  }
-  set(object, "min", sorted.front());
-  set(object, "median", quantile(sorted, 0.5));
-  set(object, "max", sorted.back());
+  set(object, "min", spread->min);
+  set(object, "median", spread->median);
+  set(object, "max", spread->max);
   if (r.by_chance) {
-    set(object, "mean", mean);
-    set(object, "low", quantile(sorted, 0.025));
-    set(object, "high", quantile(sorted, 0.975));
+    set(object, "mean", spread->mean);
+    set(object, "sd", spread->sd);
+    set(object, "low", spread->low);
+    set(object, "high", spread->high);
+    set(object, "low_between", spread->low_between);
+    set(object, "high_between", spread->high_between);
+    set(object, "without_answer",
+        1 - static_cast<double>(spread->count) / static_cast<double>(r.rows.size()));
   }
   return object;
 }
@@ -107,27 +125,135 @@ std::size_t count_of(const SweepResult& r, std::string_view status) {
       std::ranges::count(r.rows, status, &SweepRow::status));
 }
 
+/// Whether every point has an interval of its own.
+bool has_bands(const SweepResult& r) {
+  return r.draws > 0 && !r.by_chance;
+}
+
+/// The rows of each point, one after the other; the last may be cut short.
+std::vector<std::span<const SweepRow>> points_of(const SweepResult& r) {
+  std::vector<std::span<const SweepRow>> points;
+  for (std::size_t i = 0; i < r.rows.size(); i += r.draws) {
+    points.push_back(
+        std::span(r.rows).subspan(i, std::min(r.draws, r.rows.size() - i)));
+  }
+  return points;
+}
+
+/// bands.csv: of each point the interval of what was taken.
+base::Table bands_table(const SweepResult& r) {
+  base::Table table{"bands.csv", {}};
+  const auto points = points_of(r);
+  std::vector<const SweepRow*> first;
+  for (const auto& point : points) {
+    first.push_back(&point.front());
+  }
+  for (std::size_t c = 0; c < r.keys.size(); ++c) {
+    add_cells(r, r.keys[c], c, first, table);
+  }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t t = 0; t < r.take.size(); ++t) {
+    if (is_text(r, place_of_take(r, t))) continue;
+    std::vector<std::optional<Spread>> spread;
+    for (const auto& point : points) {
+      spread.push_back(spread_in(r, t, point));
+    }
+    const auto add = [&](const char* what, double Spread::*member) {
+      base::add_column(
+          table, fmt::format("{}_{}", what, column_name(r.take[t])), points.size(),
+          [&](std::size_t p) { return spread[p] ? (*spread[p]).*member : none; });
+    };
+    add("median", &Spread::median);
+    add("low", &Spread::low);
+    add("high", &Spread::high);
+    add("sd", &Spread::sd);
+    base::add_column(table, fmt::format("failed_{}", column_name(r.take[t])),
+                     points.size(), [&](std::size_t p) {
+                       return points[p].size() - (spread[p] ? spread[p]->count : 0);
+                     });
+  }
+  return table;
+}
+
+std::string cell_text(double value) {
+  return fmt::format("{:.5g}", value);
+}
+
+/// A row for each point: the keys, then median and interval of what was taken.
+std::string points_table(const SweepResult& r) {
+  constexpr std::size_t most_shown = 24;
+  std::vector<std::vector<std::string>> rows(1, r.keys);
+  for (const std::string& take : r.take) {
+    const std::string name = column_name(take);
+    rows[0].insert(rows[0].end(), {name, "95 % from", "to"});
+  }
+  const auto points = points_of(r);
+  for (const auto& point :
+       std::span(points).first(std::min(points.size(), most_shown))) {
+    auto& row = rows.emplace_back();
+    for (std::size_t k = 0; k < r.keys.size(); ++k) {
+      row.push_back(text_of(point.front().cells[k]));
+    }
+    for (std::size_t t = 0; t < r.take.size(); ++t) {
+      const auto spread = spread_in(r, t, point);
+      const std::size_t place = row.size();
+      row.resize(place + 3);
+      row[place] = spread ? cell_text(spread->median) : "no number";
+      row[place + 1] = spread ? cell_text(spread->low) : "";
+      row[place + 2] = spread ? cell_text(spread->high) : "";
+    }
+  }
+  return aligned(rows) +
+         (points.size() > most_shown
+              ? fmt::format("and {} more: bands.csv\n", points.size() - most_shown)
+              : std::string());
+}
+
+/// How well the ends of the intervals are known, in words.
+std::string ends_line(const SweepResult& r) {
+  const std::size_t each = r.by_chance ? r.rows.size() : r.draws;
+  if (r.draws == 0 || r.rows.empty()) {
+    return {};
+  }
+  if (each < least_for_bounds) {
+    return fmt::format(
+        "(of {} draws the ends of the 95 % are hardly known; {} draws or more tell how "
+        "well)\n",
+        each, least_for_bounds);
+  }
+  const auto spread = r.by_chance ? spread_in(r, 0, r.rows) : std::nullopt;
+  if (!spread || !spread->low_between) {
+    return {};
+  }
+  return fmt::format(
+      "(of {} draws; more of them would move the ends of the 95 % of {}: the lower one "
+      "lies within {} to {}, the upper one within {} to {})\n",
+      spread->count, column_name(r.take[0]), cell_text((*spread->low_between)[0]),
+      cell_text((*spread->low_between)[1]), cell_text((*spread->high_between)[0]),
+      cell_text((*spread->high_between)[1]));
+}
+
 std::string short_table(const SweepResult& r) {
+  if (has_bands(r)) {
+    return points_table(r) + ends_line(r);
+  }
   std::vector<std::vector<std::string>> rows;
   rows.push_back(r.by_chance ? std::vector<std::string>{"", "median", "95 % from", "to"}
                              : std::vector<std::string>{"", "least", "median", "most"});
   for (std::size_t i = 0; i < r.take.size(); ++i) {
-    const std::vector<double> sorted = numbers_of(r, r.keys.size() + i);
-    if (sorted.empty()) {
-      rows.push_back({column_name(r.take[i]), "no number", "", ""});
-      continue;
+    const std::string name = column_name(r.take[i]);
+    const auto spread = spread_in(r, i, r.rows);
+    if (!spread) {
+      rows.push_back({name, "no number", "", ""});
+    } else if (r.by_chance) {
+      rows.push_back({name, cell_text(spread->median), cell_text(spread->low),
+                      cell_text(spread->high)});
+    } else {
+      rows.push_back({name, cell_text(spread->min), cell_text(spread->median),
+                      cell_text(spread->max)});
     }
-    const double middle = quantile(sorted, 0.5);
-    const auto cell = [](double value) { return fmt::format("{:.5g}", value); };
-    rows.push_back(r.by_chance
-                       ? std::vector<std::string>{column_name(r.take[i]), cell(middle),
-                                                  cell(quantile(sorted, 0.025)),
-                                                  cell(quantile(sorted, 0.975))}
-                       : std::vector<std::string>{column_name(r.take[i]),
-                                                  cell(sorted.front()), cell(middle),
-                                                  cell(sorted.back())});
   }
-  return aligned(rows);
+  return aligned(rows) + ends_line(r);
 }
 
 }  // namespace
@@ -137,16 +263,22 @@ Answer answer_of(const SweepResult& r) {
   for (std::size_t i = 0; i < r.take.size(); ++i) {
     quantities.push_back(quantity(r, i));
   }
-  return {.command = "sweep",
-          .heading = r.heading,
-          .result = Object{{"command", r.command},
-                           {"method", r.method},
-                           {"rows", r.rows.size()},
-                           {"failed", r.rows.size() - count_of(r, "ok")},
-                           {"keys", r.keys},
-                           {"quantities", quantities}},
-          .short_table = short_table(r),
-          .tables = {table_of(r)}};
+  Answer answer{.command = "sweep",
+                .heading = r.heading,
+                .result = Object{{"command", r.command},
+                                 {"method", r.method},
+                                 {"rows", r.rows.size()},
+                                 {"failed", r.rows.size() - count_of(r, "ok")},
+                                 {"keys", r.keys},
+                                 {"draws", r.draws},
+                                 {"drawn", r.drawn},
+                                 {"quantities", quantities}},
+                .short_table = short_table(r),
+                .tables = {table_of(r)}};
+  if (has_bands(r) && !r.rows.empty()) {
+    answer.tables.push_back(bands_table(r));
+  }
+  return answer;
 }
 
 }  // namespace trochoid::results

@@ -13,7 +13,7 @@ using Cell = std::variant<double, std::string>;
 
 /// One row of a sweep.
 struct SweepRow {
-  std::vector<Cell> cells;  ///< values of the swept keys, then what was taken
+  std::vector<Cell> cells;  ///< values of the swept keys, drawn ones, what was taken
   std::string status;       ///< `ok`, `failed`, `wrong_input`
   std::string message;      ///< why, where it is not ok
 };
@@ -21,12 +21,14 @@ struct SweepRow {
 /// @brief What `sweep` answers: a table, one row a case.
 struct SweepResult {
   Heading heading;
-  std::string command;            ///< that answered every row
-  std::string method;             ///< how rows were laid out
-  bool complete = true;           ///< false: the time was up before the last row
-  bool by_chance = false;         ///< then the spread of the rows is an interval
-  std::vector<std::string> keys;  ///< that were swept
-  std::vector<std::string> take;  ///< paths in the answers
+  std::string command;             ///< that answered every row
+  std::string method;              ///< how rows were laid out
+  bool complete = true;            ///< false: the time was up before the last row
+  bool by_chance = false;          ///< then the spread of the rows is an interval
+  std::size_t draws = 0;           ///< of each point; 0: nothing is drawn
+  std::vector<std::string> keys;   ///< that were swept
+  std::vector<std::string> drawn;  ///< keys that were drawn
+  std::vector<std::string> take;   ///< paths in the answers
   std::vector<SweepRow> rows;
 };
 

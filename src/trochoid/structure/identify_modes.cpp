@@ -174,11 +174,13 @@ ModesFit refused(ModesFit fit, std::string reason) {
 void take(const FrequencyResponse& lines, const ModesTrial& trial,
           const std::vector<TermVerdict>& terms, double window_decay, ModesFit& fit) {
   const ModesSolution& solution = trial.solution;
+  std::vector<std::pair<double, std::size_t>> answers;  // natural frequency, term
   for (std::size_t r = 0; r < terms.size(); ++r) {
     FittedMode mode = fitted_mode(solution, r, window_decay);
     mode.lines_in_peak = lines_in_peak(lines, solution.model.terms[r]);
     if (terms[r].role == TermRole::mode) {
       fit.modes.push_back(mode);
+      answers.emplace_back(mode.omega, r);
     } else if (terms[r].role == TermRole::outside) {
       fit.outside.push_back(mode);
     } else {
@@ -188,6 +190,12 @@ void take(const FrequencyResponse& lines, const ModesTrial& trial,
   }
   std::sort(fit.modes.begin(), fit.modes.end(),
             [](const FittedMode& a, const FittedMode& b) { return a.omega < b.omega; });
+  std::sort(answers.begin(), answers.end());
+  std::vector<std::size_t> order;
+  for (const auto& [omega, term] : answers) {
+    order.push_back(term);
+  }
+  fit.covariance = mode_covariance(solution, order, window_decay);
   fit.residual_terms = solution.model.residual_terms;
   fit.residual = solution.model.residual;
   fit.noise = trial.noise;

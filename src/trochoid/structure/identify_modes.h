@@ -56,6 +56,9 @@ struct ModesFit {
   bool ok = false;
   std::string reason;             ///< when not ok
   std::vector<FittedMode> modes;  ///< by frequency; empty when not ok
+  /// Of omega [rad/s], zeta and mass [kg] of each mode in turn: row-major, shape (3 modes,
+  /// 3 modes).
+  std::vector<double> covariance;
   bool residual_terms = false;
   std::array<double, 2> residual{};  ///< U [m/N] and L [1/kg] for modes above and below
   std::vector<FittedMode> outside;   ///< stand for modes above and below as well

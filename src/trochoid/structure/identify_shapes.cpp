@@ -168,12 +168,14 @@ void take(Responses all, const Candidate& chosen, ShapesFit& fit) {
     fit.modes.push_back(shape_mode(all, chosen.trial.solution, r));
   }
   fit.real_modes = fit.modes;
+  fit.covariance = shape_covariance(chosen.trial.solution, answers);
   if (model.complex_shapes) {
     const ShapesTrial real = as_real(all, chosen.trial);
     fit.real_modes.clear();
     for (const std::size_t r : answers) {
       fit.real_modes.push_back(shape_mode(all, real.solution, r));
     }
+    fit.covariance = shape_covariance(real.solution, answers);
   }
   for (std::size_t r = 0; r < chosen.terms.size(); ++r) {
     if (chosen.terms[r].role == TermRole::outside) {

@@ -89,6 +89,9 @@ struct ShapesFit {
   bool complex_shapes = false;
   /// The same modes with real shapes: `modes` themselves unless these are complex.
   std::vector<ShapeMode> real_modes;
+  /// Of omega [rad/s], zeta, mass [kg] and, of several directions, angle [rad] of each of
+  /// the real modes in turn: row-major; empty: not all can be told.
+  std::vector<double> covariance;
   /// By how much the criterion of real shapes is above that of complex ones; absent:
   /// not both were tried with an answer.
   std::optional<double> complex_evidence;

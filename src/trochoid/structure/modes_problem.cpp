@@ -284,41 +284,97 @@ void describe(const FrequencyResponse& lines, const LineWeights& weights,
   }
 }
 
+namespace {
+
+using Slopes = std::array<double, 3>;  ///< by omega, zeta and A of a term
+
+/// A term with the exponential window taken out (M-22).
+struct WithoutWindow {
+  double w = 0.0;      ///< [rad/s]
+  double sigma = 0.0;  ///< [1/s]
+  double zeta = 0.0;
+  Slopes by_w{};
+  Slopes by_sigma{};
+  Slopes by_zeta{};
+};
+
+WithoutWindow without_window(const ModeTerm& t, double a) {
+  WithoutWindow out;
+  out.sigma = t.zeta * t.omega - a;
+  out.w =
+      std::sqrt(std::max(t.omega * t.omega - 2 * a * t.zeta * t.omega + a * a, 0.0));
+  if (out.w == 0) {
+    return out;
+  }
+  out.zeta = out.sigma / out.w;
+  out.by_sigma = {t.zeta, t.omega, 0};
+  out.by_w = {(t.omega - a * t.zeta) / out.w, -a * t.omega / out.w, 0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.by_zeta[i] = (out.by_sigma[i] - out.zeta * out.by_w[i]) / out.w;
+  }
+  return out;
+}
+
+/// What the covariance of two terms makes of a quantity of each.
+double covariance(const ModesSolution& solution, std::size_t r, const Slopes& g,
+                  std::size_t s, const Slopes& h) {
+  const std::size_t n = solution.model.size();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      sum += g[i] * h[j] * solution.covariance[(3 * r + i) * n + 3 * s + j];
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
                        double window_decay) {
   const ModeTerm& t = solution.model.terms[r];
-  const double a = window_decay;
-  const double sigma = t.zeta * t.omega - a;  // M-22
-  const double w =
-      std::sqrt(std::max(t.omega * t.omega - 2 * a * t.zeta * t.omega + a * a, 0.0));
+  const auto [w, sigma, zeta, by_w, by_sigma, by_zeta] =
+      without_window(t, window_decay);
   FittedMode out{
       .mode = {.mass = 1 / t.A, .stiffness = w * w / t.A, .damping = 2 * sigma / t.A},
       .omega = w,
-      .zeta = w > 0 ? sigma / w : 0.0};
+      .zeta = zeta};
   if (solution.covariance.empty() || w == 0) {
     return out;
   }
-  const std::size_t n = solution.model.size();
-  using Slopes = std::array<double, 3>;  // by omega, zeta and A of the term
   const auto error = [&](const Slopes& g) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        sum += g[i] * g[j] * solution.covariance[(3 * r + i) * n + 3 * r + j];
-      }
-    }
-    return std::sqrt(std::max(sum, 0.0));
+    return std::sqrt(std::max(covariance(solution, r, g, r, g), 0.0));
   };
-  const Slopes by_sigma = {t.zeta, t.omega, 0};
-  const Slopes by_w = {(t.omega - a * t.zeta) / w, -a * t.omega / w, 0};
   const double A2 = t.A * t.A;
   out.omega_se = error(by_w);
-  out.zeta_se = error({(by_sigma[0] - out.zeta * by_w[0]) / w,
-                       (by_sigma[1] - out.zeta * by_w[1]) / w, 0});
+  out.zeta_se = error(by_zeta);
   out.mass_se = error({0, 0, 1 / A2});
   out.stiffness_se = error({2 * w * by_w[0] / t.A, 2 * w * by_w[1] / t.A, -w * w / A2});
   out.damping_se =
       error({2 * by_sigma[0] / t.A, 2 * by_sigma[1] / t.A, -2 * sigma / A2});
+  return out;
+}
+
+std::vector<double> mode_covariance(const ModesSolution& solution,
+                                    std::span<const std::size_t> terms,
+                                    double window_decay) {
+  std::vector<double> out;
+  if (solution.covariance.empty()) {
+    return out;
+  }
+  const auto slopes = [&](std::size_t k) {
+    const ModeTerm& t = solution.model.terms[terms[k / 3]];
+    const WithoutWindow free = without_window(t, window_decay);
+    const std::array<Slopes, 3> all = {
+        free.by_w, free.by_zeta, {0, 0, -1 / (t.A * t.A)}};
+    return all[k % 3];
+  };
+  for (std::size_t i = 0; i < 3 * terms.size(); ++i) {
+    for (std::size_t j = 0; j < 3 * terms.size(); ++j) {
+      out.push_back(
+          covariance(solution, terms[i / 3], slopes(i), terms[j / 3], slopes(j)));
+    }
+  }
   return out;
 }
 

@@ -84,4 +84,11 @@ void describe(const FrequencyResponse& lines, const LineWeights& weights,
 FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
                        double window_decay);
 
+/// @brief Covariance of natural frequency [rad/s], damping ratio and mass [kg] of some
+/// terms, as fitted_mode gives them, those of one term behind those of another.
+/// @return row-major, shape (3 terms, 3 terms); empty as that of the solution
+std::vector<double> mode_covariance(const ModesSolution& solution,
+                                    std::span<const std::size_t> terms,
+                                    double window_decay);
+
 }  // namespace trochoid::structure

@@ -40,13 +40,8 @@ std::vector<double> numbers_of(const ShapesModel& model, const ShapeTerm& t) {
 
 using Quantity = std::function<double(std::span<const double>)>;
 
-/// A quantity of one term with its standard error, its derivatives as quotients.
-Known known(const ShapesSolution& solution, std::size_t r, const Quantity& quantity) {
-  std::vector<double> p = numbers_of(solution.model, solution.model.terms[r]);
-  Known out{.value = quantity(p)};
-  if (solution.covariance.empty()) {
-    return out;
-  }
+/// Derivatives of a quantity by the parameters of its term, as quotients.
+std::vector<double> slopes_of(std::vector<double> p, const Quantity& quantity) {
   constexpr double step = 1e-6;
   double size = 0.0;  // of the shape, whose components may be 0
   for (std::size_t k = 2; k < p.size(); ++k) {
@@ -62,15 +57,32 @@ Known known(const ShapesSolution& solution, std::size_t r, const Quantity& quant
     slope.push_back((above - quantity(p)) / (2 * h));
     p[k] = at;
   }
+  return slope;
+}
+
+/// What the covariance of two terms makes of a quantity of each.
+double covariance(const ShapesSolution& solution, std::size_t r,
+                  std::span<const double> g, std::size_t s, std::span<const double> h) {
   const std::size_t n = solution.model.size();
-  const std::size_t first = r * p.size();
   double sum = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    for (std::size_t j = 0; j < p.size(); ++j) {
-      sum += slope[i] * slope[j] * solution.covariance[(first + i) * n + first + j];
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    for (std::size_t j = 0; j < h.size(); ++j) {
+      sum +=
+          g[i] * h[j] * solution.covariance[(r * g.size() + i) * n + s * h.size() + j];
     }
   }
-  out.se = std::sqrt(std::max(sum, 0.0));
+  return sum;
+}
+
+/// A quantity of one term with its standard error.
+Known known(const ShapesSolution& solution, std::size_t r, const Quantity& quantity) {
+  const std::vector<double> p = numbers_of(solution.model, solution.model.terms[r]);
+  Known out{.value = quantity(p)};
+  if (solution.covariance.empty()) {
+    return out;
+  }
+  const std::vector<double> slope = slopes_of(p, quantity);
+  out.se = std::sqrt(std::max(covariance(solution, r, slope, r, slope), 0.0));
   return out;
 }
 
@@ -80,6 +92,26 @@ double squared(std::span<const double> p) {
     sum += value * value;
   }
   return sum;
+}
+
+double omega_of(std::span<const double> p) {
+  return p[0];
+}
+
+double zeta_of(std::span<const double> p) {
+  return p[1];
+}
+
+double mass_of(std::span<const double> p) {
+  return 1 / squared(p);  // M-33
+}
+
+/// The angle of a shape, near the one it has: without a jump there.
+Quantity angle_about(const ShapeTerm& t) {
+  const double at = std::atan2(t.phi[1].real(), t.phi[0].real());
+  return [at](auto p) {
+    return at + std::remainder(std::atan2(p[3], p[2]) - at, 2 * std::numbers::pi);
+  };
 }
 
 /// Directions are lines: an angle in (-90, 90] deg.
@@ -188,9 +220,9 @@ ShapeMode shape_mode(Responses all, const ShapesSolution& solution, std::size_t 
     return known(solution, r, quantity);
   };
   ShapeMode out{.phi = t.phi};
-  out.omega = of([](auto p) { return p[0]; });
-  out.zeta = of([](auto p) { return p[1]; });
-  out.mass = of([](auto p) { return 1 / squared(p); });  // M-33
+  out.omega = of(omega_of);
+  out.zeta = of(zeta_of);
+  out.mass = of(mass_of);
   out.stiffness = of([](auto p) { return p[0] * p[0] / squared(p); });
   out.damping = of([](auto p) { return 2 * p[1] * p[0] / squared(p); });
   const auto largest = std::max_element(
@@ -205,10 +237,7 @@ ShapeMode shape_mode(Responses all, const ShapesSolution& solution, std::size_t 
         re, both ? of([m, n](auto p) { return p[2 + n + m]; }).se : 0.0);
   }
   if (n > 1) {
-    const double at = std::atan2(t.phi[1].real(), t.phi[0].real());
-    out.angle = of([at](auto p) {
-      return at + std::remainder(std::atan2(p[3], p[2]) - at, 2 * std::numbers::pi);
-    });
+    out.angle = of(angle_about(t));
     out.angle.value = of_a_line(out.angle.value);
   }
   if (solution.model.complex_shapes) {
@@ -223,6 +252,34 @@ ShapeMode shape_mode(Responses all, const ShapesSolution& solution, std::size_t 
   out.lines_in_peak = lines_in_peak(all.front(), t);
   for (const DirectedResponse& one : all) {
     out.lines_in_peak = std::min(out.lines_in_peak, lines_in_peak(one, t));
+  }
+  return out;
+}
+
+std::vector<double> shape_covariance(const ShapesSolution& solution,
+                                     const std::vector<std::size_t>& terms) {
+  std::vector<double> out;
+  if (solution.covariance.empty()) {
+    return out;
+  }
+  std::vector<std::vector<double>> slopes;
+  for (const std::size_t r : terms) {
+    const ShapeTerm& t = solution.model.terms[r];
+    const std::vector<double> p = numbers_of(solution.model, t);
+    for (const Quantity& quantity :
+         {Quantity(omega_of), Quantity(zeta_of), Quantity(mass_of)}) {
+      slopes.push_back(slopes_of(p, quantity));
+    }
+    if (t.phi.size() > 1) {
+      slopes.push_back(slopes_of(p, angle_about(t)));
+    }
+  }
+  const std::size_t each = slopes.size() / terms.size();
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    for (std::size_t j = 0; j < slopes.size(); ++j) {
+      out.push_back(
+          covariance(solution, terms[i / each], slopes[i], terms[j / each], slopes[j]));
+    }
   }
   return out;
 }

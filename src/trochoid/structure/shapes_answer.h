@@ -19,6 +19,12 @@ TermVerdict verdict_on(Responses all, const ShapesSolution& solution, std::size_
 /// @src derived
 ShapeMode shape_mode(Responses all, const ShapesSolution& solution, std::size_t r);
 
+/// @brief Covariance of natural frequency [rad/s], damping ratio, mass [kg] and, of more
+/// than one direction, angle [rad] of some terms, those of one behind those of another.
+/// @return row-major, square; empty as that of the solution
+std::vector<double> shape_covariance(const ShapesSolution& solution,
+                                     const std::vector<std::size_t>& terms);
+
 /// @brief One response with the fit through it.
 /// @param answers  terms that are modes, in the order of the answer
 FittedResponse fitted_response(Responses all, const ShapesTrial& trial,

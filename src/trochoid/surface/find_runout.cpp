@@ -259,6 +259,13 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
         estimate(best.datum[d], um * um * G(k + 2 + d, k + 2 + d), freedom));
   }
   fit.correlation = G(k, k + 1) / std::sqrt(G(k, k) * G(k + 1, k + 1));
+  const std::array<std::size_t, 4> place = {0, 1, k, k + 1};
+  const std::array<double, 4> unit = {um, um, MN_m2, MN_m2};
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = 0; b < 4; ++b) {
+      fit.covariance[4 * a + b] = unit[a] * unit[b] * G(place[a], place[b]);
+    }
+  }
   fit.ok = true;
   fit.message.clear();
 }

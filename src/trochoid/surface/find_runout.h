@@ -3,6 +3,8 @@
 #include <trochoid/surface/fit_models.h>
 #include <trochoid/surface/tooth_model.h>
 
+#include <array>
+
 namespace trochoid::surface {
 
 /// @brief Runout that single readings show, and the coefficients found with it.
@@ -16,6 +18,8 @@ struct RunoutFit {
   Estimate K_tc;             ///< fitted together with the runout [N/m^2]
   Estimate K_rc;             ///< [N/m^2]
   double correlation = 0.0;  ///< of the two
+  /// Of rho cos(lambda), rho sin(lambda) [m], K_tc and K_rc [N/m^2]: row-major.
+  std::array<double, 16> covariance{};
   std::vector<Estimate> datum;    ///< as of CoefficientFit
   double rms_without = 0.0;       ///< of all readings, runout left out [m]
   double rms = 0.0;               ///< [m]

@@ -4,6 +4,7 @@
 #include <trochoid/surface/joint_model.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -108,6 +109,13 @@ void put_runout(const Mixture& m, const Scatter& scatter, double f_z, RunoutFit&
   double angle = std::atan2(s, c);
   angle += angle < 0 ? unit::turn : 0.0;
   fit.angle = estimate(angle, across, freedom);
+  const std::array<std::size_t, 4> place = {0, 1, n - 2, n - 1};
+  const std::array<double, 4> unit = {um, um, MN_m2, MN_m2};
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = 0; b < 4; ++b) {
+      fit.covariance[4 * a + b] = unit[a] * unit[b] * whole(place[a], place[b]);
+    }
+  }
   if (n == 5) {
     fit.start = estimate(f_z * m.mean[2], f_z * f_z * whole(2, 2), freedom);
   }

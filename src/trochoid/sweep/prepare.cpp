@@ -78,28 +78,61 @@ void check_take(const Study& study, const results::Answer& answer) {
   }
 }
 
-/// The case of the first row.
-inputs::Case first_case(const Study& study, const Samples& samples,
+/// The case of the first row, with everything that is drawn as found.
+inputs::Case first_case(const Study& study, const Rows& rows,
                         const std::filesystem::path& folder) {
-  const Node root = root_of(study, samples.row(0));
+  const Node root = root_of(study, rows.first());
   return inputs::read_case(source_of(study, root), study.command, folder);
 }
 
-std::string joined(const inputs::Case& first, const std::string& sweep_toml) {
-  return first.as_understood + "\n" + sweep_toml;
+/// [sweep] with names of files as they count from the folder.
+std::string sweep_toml(inputs::Sweep plan, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  for (inputs::DrawnFile& drawn : plan.covariance) {
+    const fs::path whole = fs::absolute(drawn.path).lexically_normal();
+    drawn.path =
+        folder.empty()
+            ? whole
+            : whole.lexically_relative(fs::absolute(folder).lexically_normal());
+  }
+  return inputs::sweep_toml(plan);
+}
+
+/// What is known of the answer before the first row.
+results::SweepResult empty_result(const inputs::Sweep& plan, const Found& found,
+                                  const inputs::Case& first) {
+  const bool drawn = !found.sets.empty();
+  results::SweepResult r{
+      .heading = {.title = first.title, .warnings = found.warnings},
+      .command = plan.command,
+      .method = std::string(name_of(plan.method)),
+      .by_chance = by_chance(plan.method) || (drawn && plan.rows == 1),
+      .draws = drawn ? plan.draws : 0,
+      .take = plan.take};
+  r.heading.warnings.insert(r.heading.warnings.end(), first.notes.begin(),
+                            first.notes.end());
+  for (const inputs::SweptKey& key : plan.over) {
+    r.keys.push_back(key.key);
+  }
+  for (const inputs::SweptKey& key : found.keys) {
+    r.drawn.push_back(key.key);
+  }
+  return r;
 }
 
 Study study_of(const inputs::CaseSource& source, const Request& request,
-               const inputs::Sweep& plan) {
+               const inputs::Sweep& plan, const Found& found) {
   Study study{.command = command_of(source, request, plan),
-              .root = inputs::without_sweep(source.root),
+              .root = found.root,
               .file = source.file,
               .over = {},
               .take = request.take.empty() ? plan.take : request.take,
               .records = source.records,
               .base = source.base};
-  for (const inputs::SweptKey& key : plan.over) {
-    study.over.push_back({.key = key.key, .where = key.where, .values = {}});
+  for (const std::vector<inputs::SweptKey>* keys : {&plan.over, &found.keys}) {
+    for (const inputs::SweptKey& key : *keys) {
+      study.over.push_back({.key = key.key, .where = key.where, .values = {}});
+    }
   }
   return study;
 }
@@ -109,10 +142,11 @@ Study study_of(const inputs::CaseSource& source, const Request& request,
 Prepared prepare(const inputs::CaseSource& source, const Request& request,
                  const run::Progress& progress) {
   inputs::Sweep plan = inputs::read_sweep(source.root, source.file);
-  Study study = study_of(source, request, plan);
-  Samples samples(plan);
-  check_keys(study, samples.row(0));
-  const inputs::Case first = first_case(study, samples, request.folder);
+  const Found found = find_all(plan, inputs::without_sweep(source.root));
+  Study study = study_of(source, request, plan, found);
+  Rows rows(plan, found);
+  check_keys(study, rows.first());
+  const inputs::Case first = first_case(study, rows, request.folder);
   progress("The first row");
   const results::Answer answered = answer(study.command, first);
   if (answered.heading.ok || study.take.empty()) {
@@ -120,33 +154,25 @@ Prepared prepare(const inputs::CaseSource& source, const Request& request,
   }
   plan.command = name_of(study.command);
   plan.take = study.take;
-  std::string toml = inputs::sweep_toml(plan);
-  results::SweepResult result{
-      .heading = {.title = first.title,
-                  .warnings = first.notes,
-                  .case_toml = joined(first, toml)},
-      .command = std::string(name_of(study.command)),
-      .method = std::string(name_of(plan.method)),
-      .by_chance = plan.method == inputs::SweepMethod::random ||
-                   plan.method == inputs::SweepMethod::latin_hypercube,
-      .take = study.take};
-  for (const inputs::SweptKey& key : study.over) {
-    result.keys.push_back(key.key);
-  }
-  return {.study = std::move(study),
-          .samples = std::move(samples),
-          .result = std::move(result),
-          .sweep_toml = std::move(toml)};
+  Prepared prepared{.study = std::move(study),
+                    .rows = std::move(rows),
+                    .result = empty_result(plan, found, first),
+                    .plan = std::move(plan),
+                    .meaning = found.meaning};
+  prepared.result.heading.case_toml =
+      first.as_understood + "\n" + sweep_toml(prepared.plan, request.folder);
+  return prepared;
 }
 
 std::string case_toml(const Prepared& prepared, const std::filesystem::path& folder) {
-  return joined(first_case(prepared.study, prepared.samples, folder),
-                prepared.sweep_toml);
+  return first_case(prepared.study, prepared.rows, folder).as_understood + "\n" +
+         sweep_toml(prepared.plan, folder);
 }
 
 std::string meaning_of(const Prepared& prepared) {
-  std::string meaning = fmt::format("{} {}\n{}", results::version(), results::commit(),
-                                    prepared.result.heading.case_toml);
+  std::string meaning =
+      fmt::format("{} {}\n{}{}", results::version(), results::commit(),
+                  prepared.result.heading.case_toml, prepared.meaning);
   for (const auto& [name, table] : prepared.study.records) {
     for (std::size_t i = 0; i < table->columns.size(); ++i) {
       const std::vector<double> samples = table->values(i);

@@ -3,7 +3,7 @@
 #include <trochoid/inputs/case_source.h>
 #include <trochoid/run/shared/progress.h>
 #include <trochoid/sweep/row.h>
-#include <trochoid/sweep/samples.h>
+#include <trochoid/sweep/rows.h>
 #include <trochoid/sweep/sweep.h>
 
 #include <filesystem>
@@ -14,9 +14,10 @@ namespace trochoid::sweep {
 /// A sweep that was checked: its rows can be answered anywhere and in any order.
 struct Prepared {
   Study study;
-  Samples samples;
+  Rows rows;
   results::SweepResult result;  ///< without rows; case_toml is that for Request::folder
-  std::string sweep_toml;       ///< [sweep] of the case as understood
+  inputs::Sweep plan;           ///< [sweep] as understood
+  std::string meaning;          ///< all that draws depend on beside the seed
 };
 
 /// @brief Check a case with [sweep], and lay out its rows.

@@ -1,11 +1,8 @@
 #include <trochoid/sweep/samples.h>
 
-#include <boost/math/special_functions/erf.hpp>
+#include <trochoid/sweep/chance.h>
 
 #include <algorithm>
-#include <numbers>
-#include <numeric>
-#include <random>
 
 namespace trochoid::sweep {
 
@@ -16,32 +13,6 @@ using inputs::ListedValues;
 using inputs::NormalValues;
 using inputs::SweepMethod;
 using inputs::SweptKey;
-
-/// From 0 to 1, neither of them; std::uniform_real_distribution is not the same
-/// everywhere.
-double uniform(std::mt19937_64& random) {
-  return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
-}
-
-/// Below `most`; std::uniform_int_distribution is not the same everywhere.
-std::size_t below(std::mt19937_64& random, std::size_t most) {
-  return std::min(static_cast<std::size_t>(uniform(random) * static_cast<double>(most)),
-                  most - 1);
-}
-
-/// One number for each row, each in a stretch of its own of 1/rows.
-void add_stratified(std::mt19937_64& random, std::size_t rows,
-                    std::vector<double>& chance) {
-  std::vector<std::size_t> place(rows);
-  std::iota(place.begin(), place.end(), std::size_t{0});
-  for (std::size_t i = rows; i > 1; --i) {
-    std::swap(place[i - 1], place[below(random, i)]);
-  }
-  for (const std::size_t p : place) {
-    chance.push_back((static_cast<double>(p) + uniform(random)) /
-                     static_cast<double>(rows));
-  }
-}
 
 inputs::Node number(const SweptKey& key, double value) {
   return {.value = value, .where = key.where};
@@ -75,8 +46,7 @@ inputs::Node value_of_chance(const SweptKey& key, double p) {
         ->values[std::min(static_cast<std::size_t>(p * static_cast<double>(n)), n - 1)];
   }
   if (const auto* normal = std::get_if<NormalValues>(&key.values)) {
-    const double z = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p);
-    return number(key, normal->mean + normal->sd * z);
+    return number(key, normal->mean + normal->sd * normal_quantile(p));
   }
   return number(key, between(std::get<EvenValues>(key.values), p));
 }
@@ -92,13 +62,9 @@ std::size_t count_of(const SweptKey& key) {
 
 Samples::Samples(const inputs::Sweep& sweep) : sweep_(sweep) {
   std::mt19937_64 random(sweep.seed);
-  if (sweep.method == SweepMethod::random) {
-    chance_.resize(sweep.rows * sweep.over.size());
-    std::ranges::generate(chance_, [&] { return uniform(random); });
-  } else if (sweep.method == SweepMethod::latin_hypercube) {
-    for (std::size_t k = 0; k < sweep.over.size(); ++k) {
-      add_stratified(random, sweep.rows, chance_);
-    }
+  if (by_chance(sweep.method)) {
+    chance_ = chances(random, sweep.over.size(), sweep.rows,
+                      sweep.method == SweepMethod::latin_hypercube);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -16,6 +17,24 @@ using results::SweepResult;
 using results::SweepRow;
 
 constexpr std::size_t most_part = 1 << 16;
+
+/// An interval of draws is that of those with a number: told where some have none.
+void warn_of_missing_numbers(SweepResult& r) {
+  for (std::size_t t = 0; r.draws > 0 && t < r.take.size(); ++t) {
+    const std::size_t cell = r.keys.size() + r.drawn.size() + t;
+    const auto missing = std::ranges::count_if(r.rows, [&](const SweepRow& row) {
+      const auto* value = std::get_if<double>(&row.cells[cell]);
+      return row.status == "ok" && value != nullptr && std::isnan(*value);
+    });
+    if (missing > 0) {
+      r.heading.warnings.push_back(
+          {"draws_without_number",
+           fmt::format(
+               "{} of {} rows have no {}: the intervals are those of the others",
+               missing, r.rows.size(), r.take[t])});
+    }
+  }
+}
 
 void conclude(SweepResult& r, std::size_t wanted) {
   if (r.rows.size() < wanted) {
@@ -45,6 +64,7 @@ void conclude(SweepResult& r, std::size_t wanted) {
          fmt::format("{} of {} cases have no answer; the first of them: {}", failed,
                      r.rows.size(), why.message)});
   }
+  warn_of_missing_numbers(r);
 }
 
 }  // namespace
@@ -65,7 +85,7 @@ void Work::add(std::vector<SweepRow> part) {
 
 void Work::go_on(const run::Progress& progress, base::Stop stop,
                  std::chrono::duration<double> part_time) {
-  const Samples& samples = prepared_.samples;
+  const Rows& all = prepared_.rows;
   const std::size_t least = numerics::thread_count();
   std::size_t size = least;
   const std::size_t before = done();
@@ -76,7 +96,7 @@ void Work::go_on(const run::Progress& progress, base::Stop stop,
               static_cast<double>(first) / static_cast<double>(rows())});
     const auto begun = std::chrono::steady_clock::now();
     add(sweep::rows(prepared_.study, std::min(size, rows() - first),
-                    [&](std::size_t i) { return samples.row(first + i); }));
+                    [&](std::size_t i) { return all.row(first + i); }));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     // Only the size of the parts depends on the clock, nothing in them.
     size = took < part_time / 2   ? std::min(2 * size, most_part)

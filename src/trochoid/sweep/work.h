@@ -22,7 +22,7 @@ class Work {
        const run::Progress& progress);
 
   [[nodiscard]] const Prepared& prepared() const noexcept { return prepared_; }
-  [[nodiscard]] std::size_t rows() const noexcept { return prepared_.samples.rows(); }
+  [[nodiscard]] std::size_t rows() const noexcept { return prepared_.rows.size(); }
   [[nodiscard]] std::size_t done() const noexcept { return rows_.size(); }
 
   /// What outlives a kill; empty: nothing does.

@@ -168,6 +168,75 @@ TEST(IdentifyModes, AnExponentialWindowIsTakenOut) {  // [M-22]
   EXPECT_GT(bare.modes.at(0).zeta, 0.012) << "the window is a damping";
 }
 
+/// Stiffness and damping follow from frequency, damping ratio and mass: so do errors.
+void expect_consistent(const ModesFit& fit) {
+  const std::size_t n = 3 * fit.modes.size();
+  ASSERT_EQ(fit.covariance.size(), n * n);
+  for (std::size_t k = 0; k < fit.modes.size(); ++k) {
+    const FittedMode& m = fit.modes[k];
+    const double x[] = {m.omega, m.zeta, m.mode.mass};
+    const auto error = [&](double omega, double zeta, double mass) {
+      const double power[] = {omega, zeta, mass};
+      double sum = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          sum += power[i] * power[j] / (x[i] * x[j]) *
+                 fit.covariance[(3 * k + i) * n + 3 * k + j];
+        }
+      }
+      return std::sqrt(sum);
+    };
+    EXPECT_NEAR(error(1, 0, 0) * m.omega / m.omega_se, 1, 1e-9);
+    EXPECT_NEAR(error(0, 1, 0) * m.zeta / m.zeta_se, 1, 1e-9);
+    EXPECT_NEAR(error(0, 0, 1) * m.mode.mass / m.mass_se, 1, 1e-9);
+    EXPECT_NEAR(error(2, 0, 1) * m.mode.stiffness / m.stiffness_se, 1, 1e-6);
+    EXPECT_NEAR(error(1, 1, 1) * m.mode.damping / m.damping_se, 1, 1e-6);
+  }
+}
+
+TEST(IdentifyModes, TheCovarianceIsThatOfTheStandardErrors) {  // [U-1]
+  const auto record = made({mode_of(500, 0.02, 1.0), mode_of(700, 0.03, 0.8)},
+                           ResponseKind::accelerance, {300, 1000, 2}, 0.01);
+  for (const double a : {0.0, 20.0}) {
+    const auto fit = identify_modes(record, {.count = 2, .window_decay = a});
+    ASSERT_TRUE(fit.ok) << fit.reason;
+    expect_consistent(fit);
+  }
+}
+
+TEST(IdentifyModes, CloseModesHangTogetherAsTheCovarianceSays) {
+  const std::vector<Mode> truth = {mode_of(500, 0.03, 1.0), mode_of(520, 0.03, 1.0)};
+  const auto clean = made(truth, ResponseKind::receptance, {400, 620, 2});
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal(0.0, 0.01 * std::abs(clean.H[50]));
+  constexpr int runs = 100;
+  double mean[2] = {};
+  double square[2] = {};
+  double product = 0.0;
+  double told = 0.0;
+  for (int i = 0; i < runs; ++i) {
+    auto noisy = clean;
+    for (auto& H : noisy.H) {
+      const double re = normal(random);
+      H += std::complex<double>(re, normal(random));
+    }
+    const auto fit = identify_modes(noisy, {.count = 2, .residual_terms = false});
+    ASSERT_EQ(fit.modes.size(), 2U) << fit.reason;
+    for (std::size_t k = 0; k < 2; ++k) {
+      mean[k] += fit.modes[k].mode.mass / runs;
+      square[k] += std::pow(fit.modes[k].mode.mass, 2) / runs;
+    }
+    product += fit.modes[0].mode.mass * fit.modes[1].mode.mass / runs;
+    told += fit.covariance[2 * 6 + 5] / (fit.modes[0].mass_se * fit.modes[1].mass_se) /
+            runs;
+  }
+  const double seen =
+      (product - mean[0] * mean[1]) /
+      std::sqrt((square[0] - mean[0] * mean[0]) * (square[1] - mean[1] * mean[1]));
+  EXPECT_LT(told, -0.4) << "what one takes the other leaves";
+  EXPECT_NEAR(seen, told, 0.2);
+}
+
 void expect_refused(const FrequencyResponse& record, const ModesOptions& options,
                     const std::string& words) {
   const auto fit = identify_modes(record, options);

@@ -74,6 +74,31 @@ TEST(IdentifyShapes,
   }
 }
 
+TEST(IdentifyShapes, TheCovarianceIsThatOfTheStandardErrors) {  // [U-1]
+  const auto fit = identify_shapes(all_of(tilted, {"xx", "xy", "yy"}, {.band = coarse}),
+                                   {.count = 2});
+  ASSERT_EQ(fit.real_modes.size(), 2U) << told(fit);
+  ASSERT_EQ(fit.covariance.size(), 64U);
+  const auto at = [&](std::size_t i, std::size_t j) {
+    return fit.covariance[8 * i + j];
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ShapeMode& m = fit.real_modes[k];
+    const std::size_t i = 4 * k;
+    EXPECT_NEAR(std::sqrt(at(i, i)) / m.omega.se, 1, 1e-9);
+    EXPECT_NEAR(std::sqrt(at(i + 1, i + 1)) / m.zeta.se, 1, 1e-9);
+    EXPECT_NEAR(std::sqrt(at(i + 2, i + 2)) / m.mass.se, 1, 1e-9);
+    EXPECT_NEAR(std::sqrt(at(i + 3, i + 3)) / m.angle.se, 1, 1e-9);
+    const double w = 2 / m.omega.value;
+    const double u = 1 / m.mass.value;
+    const double both =
+        w * w * at(i, i) + 2 * w * u * at(i, i + 2) + u * u * at(i + 2, i + 2);
+    EXPECT_NEAR(std::sqrt(both) * m.stiffness.value / m.stiffness.se, 1, 1e-6);
+  }
+  EXPECT_EQ(at(2, 6), at(6, 2));
+  EXPECT_NE(at(2, 6), 0);
+}
+
 TEST(IdentifyShapes, KindsAndLinesMayDifferBetweenResponses) {  // [M-30]
   std::vector<DirectedResponse> all = all_of(tilted, {"xx"}, {.band = coarse});
   all.push_back(measured(tilted, "xy",

@@ -52,9 +52,10 @@ TEST_F(WorkOfACase, IsTheSameWhoeverAnswers) {
   here.go_on({}, {}, std::chrono::seconds(1));
   Work elsewhere = work();
   for (std::size_t first = 0; first < 24; first += 8) {
-    const auto& [study, samples, result, toml] = elsewhere.prepared();
+    const Prepared& prepared = elsewhere.prepared();
     const std::string sent = part_text(
-        first, rows(study, 8, [&](std::size_t i) { return samples.row(first + i); }));
+        first, rows(prepared.study, 8,
+                    [&](std::size_t i) { return prepared.rows.row(first + i); }));
     std::istringstream in(sent);
     elsewhere.add(*read_part(in, first, 2));
   }

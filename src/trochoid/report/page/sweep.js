@@ -1,6 +1,6 @@
 // The page of `sweep`: what was taken from every case, over what was swept.
 
-const sweepKnown = ['command', 'method', 'rows', 'failed', 'keys', 'quantities'];
+const sweepKnown = ['command', 'method', 'rows', 'failed', 'keys', 'draws', 'drawn', 'quantities'];
 const shortPath = (path) => path.replace(/^result\./, '');
 
 /** Name and unit of a path; the entry of a list is part of the name: `mean_N[2]`. */
@@ -14,11 +14,18 @@ function sweepPage(report) {
   const { result } = report;
   const t = tableNamed(report, 'sweep.csv');
   const quantities = Array.isArray(result.quantities) ? result.quantities : [];
+  const keys = result.keys || [];
+  const all = [...keys, ...(result.drawn || [])];
+  const bands = tableNamed(report, 'bands.csv');
   return [
-    { lead: sweepTiles(quantities) },
-    ...(result.keys || []).map((_, i) => sweptSection(t, result.keys, i, quantities)),
-    { part: quantities.length > 0 && (result.keys || []).length > 1 ?
-      tornadoSection(t, result.keys, quantities) : null },
+    { lead: bands ? null : sweepTiles(quantities) },
+    bandSection(bands, keys, quantities, result.draws),
+    // Where there are bands, they say it better than a cloud of all draws.
+    ...(bands && keys.length === 1 ? [] :
+      keys.map((_, i) => sweptSection(t, keys, i, quantities))),
+    { part: quantities.length > 0 && all.length > 1 ?
+      tornadoSection(t, all, quantities, bands ? keys : []) : null },
+    { part: bands ? section('bands', 'The intervals', 'Intervals', firstRows(bands)) : null },
     { part: t ? section('rows', 'The table', 'Table', firstRows(t)) : null },
     { part: restSection(result, sweepKnown) },
   ];
@@ -58,6 +65,27 @@ function sweptSection(t, keys, i, quantities) {
     draw: () => chart.draw(panels) };
 }
 
+/** Median and 95 % band of every quantity over a single key. */
+function bandSection(t, keys, quantities, draws) {
+  const x = t && keys.length === 1 ? columnNamed(t, keys[0]) : null;
+  if (!numeric(x) || new Set(x).size < 2) return null;
+  const order = x.map((_, row) => row).sort((a, b) => x[a] - x[b]);
+  const column = (what, q) => columnNamed(t, `${what}_${shortPath(q.take)}`);
+  const shown = quantities.filter((q) => numeric(column('median', q)));
+  if (!shown.length) return null;
+  const { name, unit } = nameAndUnit(keys[0].split('.').pop());
+  const sorted = (values) => order.map((row) => (isNumber(values[row]) ? values[row] : null));
+  const chart = figure({ key: 'bands', x: sorted(x), label: words(name), unit,
+    caption: zoomHint });
+  const panels = shown.map((q, n) => ({ label: taken(q.take).name, unit: taken(q.take).unit,
+    height: 260, band: { name: '95 % of the draws', low: sorted(column('low', q)),
+      high: sorted(column('high', q)) },
+    series: [{ name: 'median', color: seriesColor(n), width: 2, values: sorted(column('median', q)) }] }));
+  return { part: section('band', `Over ${keys[0]}, with what is uncertain`, keys[0],
+    prose(`Of ${draws} draws, the same at every value.`), chart.element),
+  draw: () => chart.draw(panels) };
+}
+
 /** By how much a quantity and a key go together: the correlation of their ranks. */
 function rankCorrelation(a, b) {
   const both = a.map((_, i) => i).filter((i) => isNumber(a[i]) && isNumber(b[i]));
@@ -79,16 +107,36 @@ function rankCorrelation(a, b) {
   return size > 0 ? sum((k) => (u[k] - mean) * (v[k] - mean)) / size : NaN;
 }
 
-/** Which key matters most for which quantity. */
-function tornadoSection(t, keys, quantities) {
-  const swept = keys.filter((key) => numeric(columnNamed(t, key)));
+/** The rows of each point, by the values of its keys. */
+function pointsOf(t, keys) {
+  const points = new Map();
+  columnNamed(t, keys[0]).forEach((_, row) => {
+    const name = keys.map((key) => columnNamed(t, key)[row]).join(' ');
+    points.set(name, [...(points.get(name) || []), row]);
+  });
+  return [...points.values()];
+}
+
+/** The same within each point, without its sign: root mean square over the points. */
+function correlationInPoints(points, a, b) {
+  const squares = points.map((rows) => rankCorrelation(rows.map((r) => a[r]),
+    rows.map((r) => b[r])) ** 2).filter(isNumber);
+  return Math.sqrt(squares.reduce((sum, x) => sum + x, 0) / squares.length);
+}
+
+/** Which key matters most for which quantity; what differs between `apart` is left out. */
+function tornadoSection(t, keys, quantities, apart) {
+  const swept = keys.filter((key) => !apart.includes(key) && numeric(columnNamed(t, key)));
+  const points = apart.length ? pointsOf(t, apart) : null;
   const rows = quantities.filter((q) => numeric(columnNamed(t, shortPath(q.take)))).map((q) => [
     shortPath(q.take), ...swept.map((key) => {
-      const value = rankCorrelation(columnNamed(t, key), columnNamed(t, shortPath(q.take)));
+      const [a, b] = [columnNamed(t, key), columnNamed(t, shortPath(q.take))];
+      const value = points ? correlationInPoints(points, a, b) : rankCorrelation(a, b);
       return isNumber(value) ? value.toFixed(2) : missing;
     })]);
   if (!rows.length || !swept.length) return null;
   return section('matters', 'What matters', 'What matters',
-    prose('Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0: one does not tell the other.'),
+    prose(points ? 'Correlation of the ranks of the draws, without its sign: 1 decides, 0 does not matter. Root mean square over the points.' :
+      'Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0: one does not tell the other.'),
     table(['', ...swept], rows));
 }

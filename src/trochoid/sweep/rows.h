@@ -1,0 +1,35 @@
+#pragma once
+
+#include <trochoid/sweep/found.h>
+#include <trochoid/sweep/samples.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace trochoid::sweep {
+
+/// @brief What all rows are set to: the swept keys, then those that are drawn.
+///
+/// Of a grid or a list each point has all draws, one after the other, and every point the
+/// same ones: what differs between points is no chance. By chance each row has a draw of
+/// its own.
+class Rows {
+ public:
+  Rows(const inputs::Sweep& sweep, Found found);
+
+  [[nodiscard]] std::size_t size() const noexcept;
+  [[nodiscard]] std::vector<inputs::Node> row(std::size_t i) const;
+  /// The first row with everything as found.
+  [[nodiscard]] std::vector<inputs::Node> first() const;
+
+ private:
+  Samples samples_;
+  Found found_;
+  std::size_t draws_ = 0;     ///< that there are; 0: nothing is drawn
+  bool of_each_row_ = false;  ///< a draw belongs to a row, not to all points
+  /// One list for each set, shape (its chances, draws).
+  std::vector<std::vector<double>> chance_;
+};
+
+}  // namespace trochoid::sweep
