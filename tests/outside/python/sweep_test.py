@@ -13,7 +13,7 @@ import unittest
 import warnings
 
 import numpy as np
-from sweeping import CASE, OVER, TAKE, Sweeping, sweep
+from sweeping import CASE, EXAMPLES, OVER, TAKE, Sweeping, sweep
 
 import trochoid
 
@@ -55,6 +55,31 @@ class Sweep(Sweeping):
         )
         self.assertEqual(run.returncode, 0, run.stderr)
         self.same_folder(case, trochoid.sweep(case))
+
+    def test_draws_of_an_answer_are_those_of_its_folder(self):
+        found = trochoid.identify(EXAMPLES / "st52_slot/case.toml")
+        place = found.save(self.folder / "found", report=False)
+        case, run = self.program(
+            f"""
+            [sweep]
+            command = "simulate"
+            take = ["result.peak_xy_N"]
+            covariance = "{place}"
+            draws = 12
+            seed = 3
+            over = {{ "cut.feed_per_tooth_mm" = {{ values = [0.03, 0.05] }} }}
+            """
+        )
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = dict(command="simulate", take="result.peak_xy_N", draws=12, seed=3)
+        over = {"cut.feed_per_tooth_mm": [0.03, 0.05]}
+        self.same_folder(case, trochoid.sweep(case, covariance=str(place)))
+        ours = trochoid.sweep(CASE, over, covariance=found, **told)
+        theirs = trochoid.sweep(CASE, over, covariance=place, **told)
+        for name, column in theirs.tables["sweep"].items():
+            np.testing.assert_array_equal(ours.tables["sweep"][name], column)
+        self.assertEqual(len(theirs.tables["bands"]["median_peak_xy_N"]), 2)
+        self.assertEqual(ours.quantities, theirs.quantities)
 
     def test_arrays_are_the_values_of_a_table(self):
         case, run = self.program(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+import shutil
+import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
@@ -25,6 +28,27 @@ def _values(values: Any) -> Any:
     return values
 
 
+#: what is drawn from: an answer, what a command wrote, or {"file": ..., "group": ...}
+Found = Union[Answer, str, os.PathLike, Mapping[str, Any]]
+
+
+def _on_disk(found: Found) -> Any:
+    """As a case file names it; an answer is written for as long as Python runs."""
+    if isinstance(found, Answer):
+        folder = tempfile.mkdtemp(prefix="trochoid_found_")
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        return os.fspath(found.save(Path(folder) / found.command_name, report=False))
+    if isinstance(found, Mapping):
+        return {**found, "file": os.path.abspath(found["file"])} if "file" in found else found
+    return os.path.abspath(found)
+
+
+def _covariance(found: Union[Found, Sequence[Found], None]) -> Any:
+    if found is None or isinstance(found, (Answer, str, os.PathLike, Mapping)):
+        return None if found is None else _on_disk(found)
+    return [_on_disk(one) for one in found]
+
+
 def _with_sweep(
     document: _core.Document, over: Optional[Mapping[str, Any]], table: Mapping[str, Any]
 ) -> _core.Document:
@@ -45,6 +69,8 @@ def sweep(
     method: Optional[str] = None,
     count: Optional[int] = None,
     seed: Optional[int] = None,
+    covariance: Union[Found, Sequence[Found], None] = None,
+    draws: Optional[int] = None,
     records: Records = None,
     executor: Optional[Executor] = None,
     in_flight: Optional[int] = None,
@@ -72,6 +98,13 @@ def sweep(
         or ``count`` rows by chance, the same ones for the same ``seed``.
     count, seed : int
         Of the rows by chance.
+    covariance : Answer, path, dict, or a list of them
+        What ``identify``, ``modes`` or ``calibrate`` found, drawn with its correlations
+        (theory U-1 to U-7): an answer, a folder that a command wrote, or ``{"file":
+        folder, "group": name}``.
+    draws : int
+        How many draws (200); of a grid or list each point has all of them. Intervals are
+        in ``quantities``, over a grid in table ``bands``.
     records : list of Record, optional
         Measurements as arrays, in place of ``[[measurement]]``; they travel to workers.
     executor : concurrent.futures.Executor, optional
@@ -114,7 +147,14 @@ def sweep(
     document = given._document
     if records is not None:
         document = with_records(document, records)
-    table = {"method": method, "count": count, "seed": seed, **options}
+    table = {
+        "method": method,
+        "count": count,
+        "seed": seed,
+        "covariance": _covariance(covariance),
+        "draws": draws,
+        **options,
+    }
     work = _core.SweepWork(
         _with_sweep(document, over, table),
         command=command or "",
