@@ -12,6 +12,8 @@ constexpr std::size_t wide = std::tuple_size_v<Triple>;
 /// What the last terms of a panel may be, of the largest value.
 constexpr double smallest_tail = 1e-10;
 constexpr int most_halvings = 30;
+/// Of a chip that is a difference of radii, of the radius.
+constexpr double rounding = 1e-15;
 
 struct Stretch {
   const TurnTeeth& teeth;
@@ -36,7 +38,18 @@ struct Stretch {
 
 using NodeValues = std::array<Triple, panel_nodes>;
 
-bool resolved(const NodeValues& y) noexcept {
+/// What rounding makes of the values.
+double noise_of(const Stretch& stretch) noexcept {
+  const TurnWeights& w = stretch.weights;
+  double most = 0.0;
+  for (std::size_t q = 0; q < wide; ++q) {
+    most = std::max(most,
+                    std::abs(w.h_cos[q]) + std::abs(w.h_sin[q]) + std::abs(w.h_one[q]));
+  }
+  return rounding * stretch.teeth.r * most;
+}
+
+bool resolved(const NodeValues& y, double noise) noexcept {
   double largest = 0.0;
   double last = 0.0;
   for (std::size_t q = 0; q < wide; ++q) {
@@ -51,7 +64,7 @@ bool resolved(const NodeValues& y) noexcept {
       last = std::max(last, std::abs(c));
     }
   }
-  return last <= smallest_tail * largest;
+  return last <= std::max(smallest_tail * largest, noise);
 }
 
 void add(const Stretch& stretch, double from, double to, int halvings,
@@ -63,7 +76,7 @@ void add(const Stretch& stretch, double from, double to, int halvings,
   for (std::size_t i = 0; i < panel_nodes; ++i) {
     y[i] = stretch.at(middle + edge.half() * rule.t[i]);
   }
-  if (halvings < most_halvings && to - from > 1e-9 && !resolved(y)) {
+  if (halvings < most_halvings && to - from > 1e-9 && !resolved(y, noise_of(stretch))) {
     add(stretch, from, middle, halvings + 1, out);
     add(stretch, middle, to, halvings + 1, out);
     return;

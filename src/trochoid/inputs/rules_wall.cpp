@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace trochoid::inputs {
 
@@ -180,8 +181,29 @@ void check_wall_loads(const Wall& wall, Findings& findings) {
   }
 }
 
+/// What is shorter than a tenth of its thickness is no plate.
+void check_plate(const CaseTables& tables, Findings& findings) {
+  constexpr double least = 0.1;
+  if (!tables.machine.wall || !sound(findings, {"wall.thickness_mm"})) {
+    return;
+  }
+  const auto& wall = *tables.machine.wall;
+  for (const auto& [name, size] :
+       {std::pair("length_mm", wall.length), std::pair("height_mm", wall.height)}) {
+    const std::string key = std::string("wall.") + name;
+    if (size < least * wall.thickness && sound(findings, {key})) {
+      report(findings, key,
+             fmt::format("{} = {} mm: less than a tenth of thickness_mm = {} mm, no "
+                         "plate; must be at least {:.6g} mm",
+                         key, mm(size), mm(wall.thickness),
+                         least * wall.thickness / unit::mm));
+    }
+  }
+}
+
 void check_passes(const CaseTables& tables, Findings& findings) {
   const MachineTables& m = tables.machine;
+  check_plate(tables, findings);
   if (m.surface) {
     check_also_bends(*m.surface, findings);
   }
