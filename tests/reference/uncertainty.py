@@ -27,7 +27,7 @@ def drawn(found, chance):
 
     Cholesky in the order of the numbers: the program takes the largest pivots, so the
     same chances give the same draw only where those come in that order."""
-    x = np.array(found["values"])
+    x = np.array(found["found"])
     logs = np.array([n.startswith("mode[") and not n.endswith("angle_deg")
                      for n in found["names"]])
     size = np.where(logs, x, 1.0)
@@ -62,9 +62,9 @@ def spread(values):
 
 if __name__ == "__main__":  # numbers of tests/unit/sweep/distribution_test.cpp
     w = stats.t.ppf(0.975, 8)
-    two = {"names": ["a", "b"], "values": [800, 10], "interval_factors": [w, 1.96],
+    two = {"names": ["a", "b"], "found": [800, 10], "interval_factors": [w, 1.96],
            "matrix": [[900, -54], [-54, 4]]}
     print([float(v) for v in drawn(two, (0.3, 0.8, 0.6))])
-    mode = {"names": ["mode[1].frequency_Hz", "mode[1].mass_kg"], "values": [900, 0.04],
+    mode = {"names": ["mode[1].frequency_Hz", "mode[1].mass_kg"], "found": [900, 0.04],
             "interval_factors": [1.96, 1.96], "matrix": [[81, 0.018], [0.018, 1.6e-5]]}
     print([float(v) for v in drawn(mode, (0.9, 0.2, 0.5))])

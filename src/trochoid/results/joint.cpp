@@ -62,7 +62,7 @@ Value joint_value(const Joint& joint) {
     not_found.emplace_back(Object{{"name", name}, {"why", why}});
   }
   out.push_back({"names", joint.names});
-  out.push_back({"values", joint.values});
+  out.push_back({"found", joint.values});
   out.push_back({"interval_factors", joint.factors});
   out.push_back({"matrix", std::move(matrix)});
   out.push_back({"not_found", std::move(not_found)});

@@ -145,7 +145,7 @@ Joint joint_in(const Value& value) {
   for (const Value& name : list_of(find(value, "names"))) {
     joint.names.push_back(text_of(&name));
   }
-  joint.values = numbers_of(find(value, "values"));
+  joint.values = numbers_of(find(value, "found"));
   joint.factors = numbers_of(find(value, "interval_factors"));
   for (const Value& row : list_of(find(value, "matrix"))) {
     const std::vector<double> numbers = numbers_of(&row);

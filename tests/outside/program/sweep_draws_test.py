@@ -83,7 +83,7 @@ class Draws(InFolder):
         sd = np.sqrt(np.diag(wanted))
         np.testing.assert_allclose(np.corrcoef(x.T), wanted / np.outer(sd, sd), atol=0.12)
         np.testing.assert_allclose(x.std(0), sd, rtol=0.12)
-        np.testing.assert_allclose(x.mean(0), found["values"], atol=0.02 * sd.max())
+        np.testing.assert_allclose(x.mean(0), found["found"], atol=0.02 * sd.max())
         peaks = [float(row["peak_xy_N"]) for row in rows]
         told = self.result("next.sweep")["quantities"][0]
         own = uncertainty.spread(peaks)
@@ -150,7 +150,7 @@ class Draws(InFolder):
         bent["result"]["covariance"]["matrix"][0][0] = -1.0
         self.write("bent.json", json.dumps(bent))
         none = json.loads(json.dumps(good))
-        none["result"]["covariance"]["values"][0] = None
+        none["result"]["covariance"]["found"][0] = None
         self.write("none.json", json.dumps(none))
         for i, name in enumerate(("mode[x].mass_kg", "runout.e_x_mm", "cut.spindle_rpm",
                                   "runout.radial_offsets_mm[9]", "force.a.b", "")):
