@@ -30,6 +30,6 @@ endif()
 # Each file still includes what it uses. The preset `dev`, tools/tidy and whoever sets
 # CMAKE_DISABLE_PRECOMPILE_HEADERS compile without, and find the one that does not.
 set(TROCHOID_PRECOMPILED
-  <fmt/core.h> <algorithm> <array> <cmath> <complex> <cstddef> <functional> <limits>
-  <memory> <numbers> <numeric> <optional> <span> <stdexcept> <string> <string_view>
-  <utility> <variant> <vector>)
+  <fmt/core.h> <algorithm> <array> <atomic> <chrono> <cmath> <complex> <cstddef>
+  <filesystem> <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <set>
+  <span> <stdexcept> <string> <string_view> <utility> <variant> <vector>)
