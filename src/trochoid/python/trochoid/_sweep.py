@@ -56,7 +56,9 @@ def _with_sweep(
     given = {key: value for key, value in table.items() if value is not None}
     if over is not None:
         given["over"] = {key: _values(values) for key, values in over.items()}
-        document = document.without(["sweep", "over"])
+    for key in ("over", "covariance"):
+        if key in given:
+            document = document.without(["sweep", key])
     return document.with_tables({"sweep": given}) if given else document
 
 
