@@ -103,7 +103,8 @@ def sweep(
     covariance : Answer, path, dict, or a list of them
         What ``identify``, ``modes`` or ``calibrate`` found, drawn with its correlations
         (theory U-1 to U-7): an answer, a folder that a command wrote, or ``{"file":
-        folder, "group": name}``.
+        folder, "group": name}``. A saved ``case.toml`` names the folder; that of an
+        answer which was not saved goes when Python ends.
     draws : int
         How many draws (200); of a grid or list each point has all of them. Intervals are
         in ``quantities``, over a grid in table ``bands``.
