@@ -56,8 +56,14 @@ std::vector<Placed> all_of(const Problem& problem, std::span<const double> p,
 FoundTogether found_together(const Problem& problem, std::span<const double> p,
                              std::span<const double> K, const Uncertainty& known) {
   std::vector<Placed> placed = all_of(problem, p, K);
+  const auto has = [&](std::size_t column) {
+    return known.reason[column].empty() && !known.on_edge[column];
+  };
+  // One component of an eccentricity without the other is no key of a case.
   std::erase_if(placed, [&](const Placed& one) {
-    return !known.reason[one.column].empty() || known.on_edge[one.column];
+    return !has(one.column) ||
+           (one.found.kind == FoundKind::eccentricity_x && !has(one.column + 1)) ||
+           (one.found.kind == FoundKind::eccentricity_y && !has(one.column - 1));
   });
   FoundTogether out;
   const std::size_t width = known.reason.size();

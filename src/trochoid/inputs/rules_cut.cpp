@@ -50,8 +50,8 @@ void settle_feed(CutTable& cut, const std::string& path, int teeth,
   cut.feed_rate.reset();
 }
 
-/// No chip is thinner than an atom [m]: of iron.
-constexpr double thinnest_feed = 0.25e-9;
+/// Below it nothing is cut, with the sharpest diamond [m].
+constexpr double thinnest_feed = 1e-9;
 
 /// A tooth that is fed as fast as it turns never comes round behind another one.
 void check_feed(const CutTable& cut, const std::string& path,
@@ -59,9 +59,10 @@ void check_feed(const CutTable& cut, const std::string& path,
   const std::string key = path + ".feed_per_tooth_mm";
   const double feed = cut.feed_per_tooth.value_or(0.0);
   if (feed > 0 && feed < thinnest_feed && sound(findings, {key})) {
-    report(findings, key,
-           fmt::format("{} = {} mm: less than an atom; must be 0 or at least {:g} mm",
-                       key, mm(feed), thinnest_feed / unit::mm));
+    report(
+        findings, key,
+        fmt::format("{} = {} mm: thinner than any chip; must be 0 or at least {:g} mm",
+                    key, mm(feed), thinnest_feed / unit::mm));
   }
   const geometry::Profile& profile = cutter.profile;
   const double widest =

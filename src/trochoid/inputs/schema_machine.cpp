@@ -7,7 +7,10 @@ namespace {
 
 constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);
-constexpr Range modulus = above_up_to(0, 10000);
+/// From soft foam to twice diamond: below, everything is a hinge.
+constexpr Range modulus = between(0.01, 10000);
+/// From the thinnest foil [mm].
+constexpr Range thickness = between(1e-3, longest_mm);
 
 /// Loads that no cut makes.
 void describe_loads(const Visitor& v, Wall& t) {
@@ -99,14 +102,13 @@ void describe(const Visitor& v, WallPass& t) {
 }
 
 void describe(const Visitor& v, Wall& t) {
-  const auto size = [&](std::string_view name, std::string_view meaning,
+  const auto size = [&](std::string_view name, std::string_view meaning, Range range,
                         double& value) {
-    v({.name = name, .meaning = meaning, .range = length, .need = Need::always},
-      &value);
+    v({.name = name, .meaning = meaning, .range = range, .need = Need::always}, &value);
   };
-  size("length_mm", "length of the wall along the feed", t.length);
-  size("height_mm", "height of the wall above its clamping", t.height);
-  size("thickness_mm", "thickness of the wall", t.thickness);
+  size("length_mm", "length of the wall along the feed", length, t.length);
+  size("height_mm", "height of the wall above its clamping", length, t.height);
+  size("thickness_mm", "thickness of the wall", thickness, t.thickness);
   v({.name = "youngs_modulus_GPa",
      .meaning = "Young's modulus of the wall",
      .range = modulus,

@@ -5,7 +5,8 @@ namespace trochoid::inputs {
 
 namespace {
 
-constexpr double fastest_Hz = 1e7;
+/// Ultrasonic machines stay below it.
+constexpr double fastest_Hz = 1e5;
 constexpr double longest_mm = 10000;
 
 /// Where a frequency response is: of [frf] and of [[measured_frf]].

@@ -245,6 +245,11 @@ void count_rows(std::optional<std::int64_t> count, Sweep& sweep, Findings& findi
       sweep.rows *= own;
     }
   }
+  if (sweep.rows > most_sweep_rows / std::max<std::size_t>(sweep.draws, 1)) {
+    report(findings, "sweep.draws", sweep.over.front().where,
+           fmt::format("sweep.draws = {} of {} rows: more than {} rows", sweep.draws,
+                       sweep.rows, most_sweep_rows));
+  }
 }
 
 void read_take(Keys& keys, Sweep& sweep) {

@@ -33,7 +33,7 @@ Json forms() {
             form({{"file", text}, {"column", text}}, {"file", "column"})}}};
 }
 
-/// What is drawn, as read_covariance reads it.
+/// What is drawn, as read_drawn reads it.
 Json drawn() {
   const Json text{{"type", "string"}};
   const Json one{

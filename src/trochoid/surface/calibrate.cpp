@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace trochoid::surface {
@@ -83,12 +84,15 @@ bool leave_out(std::span<const double> predicted, double far, Kept& kept,
   return true;
 }
 
-/// What is wild before anything is fitted.
+/// What is wild before anything is fitted; each measurement has a zero of its own.
 void leave_out_wild(Kept& kept, std::vector<Outlier>& outliers) {
-  std::vector<double> errors;
-  for (const Reading& reading : kept.readings) errors.push_back(reading.error);
-  if (errors.empty()) return;
-  const std::vector<double> median(errors.size(), median_of(errors));
+  if (kept.readings.empty()) return;
+  std::map<std::size_t, std::vector<double>> errors;
+  for (const Reading& r : kept.readings) errors[r.set].push_back(r.error);
+  std::map<std::size_t, double> middle;
+  for (auto& [set, of_set] : errors) middle[set] = median_of(std::move(of_set));
+  std::vector<double> median;
+  for (const Reading& r : kept.readings) median.push_back(middle.at(r.set));
   leave_out(median, wild, kept, outliers);
 }
 

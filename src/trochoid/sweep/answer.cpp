@@ -13,6 +13,10 @@
 #include <trochoid/run/wall/plan.h>
 #include <trochoid/run/wall/surface.h>
 
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace trochoid::sweep {
@@ -25,7 +29,12 @@ results::Answer answer(base::Command command, const inputs::Case& given,
     case Command::simulate:
       return answer_of(run::simulate(given));
     case Command::identify: {
-      results::IdentifyResult result = run::identify(given, {});
+      base::Stop stop;
+      if (options.anyway) {
+        stop.left = std::make_shared<std::atomic<std::int64_t>>(
+            std::numeric_limits<std::int64_t>::max());
+      }
+      results::IdentifyResult result = run::identify(given, {}, stop);
       result.whole_curves = options.curves;
       return answer_of(result);
     }

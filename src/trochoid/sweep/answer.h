@@ -10,6 +10,7 @@ namespace trochoid::sweep {
 struct AnswerOptions {
   bool curves = false;               ///< of identify: every sample
   bool simulate_controller = false;  ///< of correct
+  bool anyway = false;               ///< of identify: whatever work it takes
 };
 
 /// @brief The answer of any command, without files and without progress.

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/chip/model.h>
+#include <trochoid/inputs/read_value.h>
 #include <trochoid/results/joint.h>
 #include <trochoid/results/json.h>
 #include <trochoid/sweep/put_modes.h>
@@ -52,7 +53,9 @@ std::string text_at(const Node& root, std::string_view table, std::string_view k
 /// One file at a time, with what is wrong of all.
 class Putting {
  public:
-  explicit Putting(const Node& root) { found_.root = root; }
+  explicit Putting(const Node& root) : takes_all_(!has_modes(root)) {
+    found_.root = root;
+  }
 
   void put(const DrawnFile& drawn) {
     at_ = &drawn;
@@ -73,7 +76,7 @@ class Putting {
     }
     const std::size_t before = problems_.size();
     check_case(read.joint);
-    put_modes(found_.root, drawn.where, read.joint, file_,
+    put_modes(found_.root, read.joint, {drawn.where, file_, takes_all_},
               [&](const std::string& why) { wrong(why); });
     if (problems_.size() > before) {
       return;
@@ -158,7 +161,17 @@ class Putting {
         given != nullptr ? std::get_if<inputs::Array>(&given->value) : nullptr;
     if (entries == nullptr || entries->size() != joint.teeth) {
       set_key(found_.root, list, zeros);
+      return;
     }
+    // Found offsets are from tooth 1 on, and so must be those that stay.
+    Node from_first{.value = *entries, .where = list.where};
+    const double first = inputs::number_in(entries->front()).value_or(0.0);
+    for (Node& entry : std::get<inputs::Array>(from_first.value)) {
+      if (const auto own = inputs::number_in(entry)) {
+        entry.value = *own - first;
+      }
+    }
+    set_key(found_.root, list, from_first);
   }
 
   void put_values(const results::Joint& joint) {
@@ -210,6 +223,7 @@ class Putting {
     }
   }
 
+  bool takes_all_ = false;  ///< a case without modes takes those of every file
   Found found_;
   std::vector<std::string> problems_;
   const DrawnFile* at_ = nullptr;

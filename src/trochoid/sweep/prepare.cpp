@@ -89,11 +89,10 @@ inputs::Case first_case(const Study& study, const Rows& rows,
 std::string sweep_toml(inputs::Sweep plan, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   for (inputs::DrawnFile& drawn : plan.covariance) {
-    const fs::path whole = fs::absolute(drawn.path).lexically_normal();
-    drawn.path =
-        folder.empty()
-            ? whole
-            : whole.lexically_relative(fs::absolute(folder).lexically_normal());
+    if (!folder.empty()) {
+      drawn.path =
+          drawn.path.lexically_relative(fs::absolute(folder).lexically_normal());
+    }
   }
   return inputs::sweep_toml(plan);
 }
@@ -106,7 +105,7 @@ results::SweepResult empty_result(const inputs::Sweep& plan, const Found& found,
       .heading = {.title = first.title, .warnings = found.warnings},
       .command = plan.command,
       .method = std::string(name_of(plan.method)),
-      .by_chance = by_chance(plan.method) || (drawn && plan.rows == 1),
+      .by_chance = by_chance(plan.method) || (drawn && plan.over.empty()),
       .draws = drawn ? plan.draws : 0,
       .take = plan.take};
   r.heading.warnings.insert(r.heading.warnings.end(), first.notes.begin(),
@@ -143,6 +142,9 @@ Prepared prepare(const inputs::CaseSource& source, const Request& request,
                  const run::Progress& progress) {
   inputs::Sweep plan = inputs::read_sweep(source.root, source.file);
   const Found found = find_all(plan, inputs::without_sweep(source.root));
+  for (inputs::DrawnFile& drawn : plan.covariance) {
+    drawn.path = std::filesystem::absolute(drawn.path).lexically_normal();
+  }
   Study study = study_of(source, request, plan, found);
   Rows rows(plan, found);
   check_keys(study, rows.first());
@@ -158,7 +160,8 @@ Prepared prepare(const inputs::CaseSource& source, const Request& request,
                     .rows = std::move(rows),
                     .result = empty_result(plan, found, first),
                     .plan = std::move(plan),
-                    .meaning = found.meaning};
+                    .meaning = found.meaning,
+                    .as_understood = first.as_understood};
   prepared.result.heading.case_toml =
       first.as_understood + "\n" + sweep_toml(prepared.plan, request.folder);
   return prepared;
@@ -170,9 +173,13 @@ std::string case_toml(const Prepared& prepared, const std::filesystem::path& fol
 }
 
 std::string meaning_of(const Prepared& prepared) {
+  inputs::Sweep plan = prepared.plan;
+  for (inputs::DrawnFile& drawn : plan.covariance) {
+    drawn.path.clear();  // what is drawn is told by its numbers, wherever it lies
+  }
   std::string meaning =
-      fmt::format("{} {}\n{}{}", results::version(), results::commit(),
-                  prepared.result.heading.case_toml, prepared.meaning);
+      fmt::format("{} {}\n{}\n{}{}", results::version(), results::commit(),
+                  prepared.as_understood, inputs::sweep_toml(plan), prepared.meaning);
   for (const auto& [name, table] : prepared.study.records) {
     for (std::size_t i = 0; i < table->columns.size(); ++i) {
       const std::vector<double> samples = table->values(i);

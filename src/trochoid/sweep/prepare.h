@@ -18,6 +18,7 @@ struct Prepared {
   results::SweepResult result;  ///< without rows; case_toml is that for Request::folder
   inputs::Sweep plan;           ///< [sweep] as understood
   std::string meaning;          ///< all that draws depend on beside the seed
+  std::string as_understood;    ///< the case of the first row, without [sweep]
 };
 
 /// @brief Check a case with [sweep], and lay out its rows.

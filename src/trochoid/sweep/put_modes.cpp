@@ -1,6 +1,7 @@
 #include <trochoid/sweep/put_modes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/inputs/read_value.h>
 
 #include <fmt/core.h>
 
@@ -112,33 +113,32 @@ void rename(results::Joint& joint, const std::vector<std::size_t>& place) {
 
 std::optional<double> number_in(const Node& table, std::string_view key) {
   const Node* node = find(table, key);
-  if (node == nullptr) {
-    return std::nullopt;
-  }
-  if (const auto* whole = std::get_if<std::int64_t>(&node->value)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* real = std::get_if<double>(&node->value);
-  return real != nullptr ? std::optional(*real) : std::nullopt;
+  return node != nullptr ? inputs::number_in(*node) : std::nullopt;
 }
 
-void put_modes(Node& root, const inputs::Location& where, results::Joint& joint,
-               const std::string& file,
+bool has_modes(const Node& root) {
+  const Node* modes = find(root, "mode");
+  const auto* list =
+      modes != nullptr ? std::get_if<inputs::Array>(&modes->value) : nullptr;
+  return list != nullptr && !list->empty();
+}
+
+void put_modes(Node& root, results::Joint& joint, const ModesFile& from,
                const std::function<void(const std::string&)>& report) {
   if (joint.modes.empty()) {
     return;
   }
+  const inputs::Location& where = from.where;
   inputs::Array& modes = modes_of(root, where);
-  const bool none = modes.empty();
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < joint.modes.size(); ++i) {
     const results::JointMode& wanted = joint.modes[i];
     const double frequency = number_of(joint, i, "frequency_Hz");
-    if (none) {
+    if (from.takes_all) {
       modes.push_back({.value = Members{{"body", where, text_node(wanted.body, where)},
                                         {"axis", where, text_node(wanted.axis, where)}},
                        .where = where});
-      place.push_back(i);
+      place.push_back(modes.size() - 1);
       continue;
     }
     const Nearest near = nearest_to(modes, wanted, frequency, place);
@@ -146,7 +146,7 @@ void put_modes(Node& root, const inputs::Location& where, results::Joint& joint,
       report(fmt::format(
           "{}: a mode of the {} along {} at {:.5g} Hz, but the case has {}; must be "
           "there, as by include of the modes.toml beside it",
-          file, wanted.body, wanted.axis, frequency,
+          from.file, wanted.body, wanted.axis, frequency,
           near.frequency ? fmt::format("none nearer than {:.5g} Hz", *near.frequency)
                          : std::string("no such mode")));
       return;

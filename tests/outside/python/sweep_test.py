@@ -11,6 +11,7 @@ import textwrap
 import time
 import unittest
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from sweeping import CASE, EXAMPLES, OVER, TAKE, Sweeping, sweep
@@ -81,6 +82,23 @@ class Sweep(Sweeping):
         self.assertEqual(len(theirs.tables["bands"]["median_peak_xy_N"]), 2)
         self.assertEqual(ours.quantities, theirs.quantities)
 
+    def test_draws_of_an_answer_go_on_where_they_were(self):
+        found = trochoid.identify(EXAMPLES / "st52_slot/case.toml")
+        seen = []
+
+        def stop(done, rows):
+            seen.append(done)
+            if done > 0:
+                raise KeyboardInterrupt
+
+        for _ in range(2):
+            with self.assertRaises(KeyboardInterrupt):
+                trochoid.sweep(CASE, command="simulate", take=["result.peak_xy_N"], draws=10**5,
+                               covariance=found, part_file=self.folder / "rows", progress=stop)
+            seen.append("interrupted")
+        second = seen[seen.index("interrupted") + 1]
+        self.assertGreater(second, 0)
+
     def test_arrays_are_the_values_of_a_table(self):
         case, run = self.program(
             """
@@ -140,6 +158,11 @@ class Sweep(Sweeping):
         axes = sweep().plot().axes[0]
         self.assertEqual(axes.get_xlabel(), "cut.spindle_rpm")
         self.assertEqual(len(axes.lines), 2)
+        found = trochoid.identify(EXAMPLES / "st52_slot/case.toml")
+        drawn = trochoid.sweep(CASE, covariance=found, draws=5, command="simulate",
+                               take=["result.peak_xy_N"])
+        self.assertEqual([line.get_label() for line in drawn.plot().axes[0].lines],
+                         ["peak_xy_N"])
 
     def test_what_is_wrong_is_told_before_the_work(self):
         for over, options, says in (
@@ -162,6 +185,8 @@ class Sweep(Sweeping):
             self.assertIn(says, str(error.exception))
         with self.assertRaises(TypeError):
             sweep(executor="threads")
+        with ThreadPoolExecutor(1) as executor, self.assertRaisesRegex(ValueError, "in_flight"):
+            sweep(executor=executor, in_flight=0)
 
     def test_a_case_travels_with_places_and_records(self):
         case = trochoid.Case.from_file(CASE)

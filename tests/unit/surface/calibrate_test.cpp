@@ -75,6 +75,25 @@ TEST(Calibrate, RunoutBelowThreeStandardErrorsIsNotSeen) {
   EXPECT_FALSE(is_seen(runout));
 }
 
+/// Each measurement has a zero of its own, far from the other's or not.
+TEST(Calibrate, AZeroFarFromTheOthersIsNoOutlier) {  // [E-26]
+  const Setting s = with_eccentricity(Model::envelope);
+  std::vector<Reading> readings = profile(s);
+  const std::size_t first = readings.size();
+  for (std::size_t i = 0; i < first; i += 9) {
+    readings.push_back(readings[i]);
+    readings.back().set = 1;
+    readings.back().error += 0.5e-3;
+  }
+  Setting blind = s;
+  blind.setup.runout = {.order = s.setup.runout.order};
+  const Calibration c =
+      calibrate(blind, readings, std::array{Datum{}, Datum{.offset = true}},
+                {.feedback = Feedback::none});
+  ASSERT_TRUE(c.ok) << c.message;
+  EXPECT_TRUE(c.outliers.empty());
+}
+
 TEST(Calibrate, ReadingsOfZeroHaveNoRunoutToLookFor) {
   const Setting s = made_setting(Model::imprint);
   auto readings = imprints(s, K);

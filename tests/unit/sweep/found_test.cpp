@@ -108,6 +108,28 @@ TEST_F(FoundFile, IsPutIntoTheCase) {  // [U-6]
   EXPECT_EQ(found.warnings[0].code, "not_drawn");
 }
 
+/// Found offsets count from tooth 1; so must those of the case that stay.
+TEST_F(FoundFile, OfOffsetsMovesThoseThatStayToTheSameZero) {
+  const Joint second{.law = "linear_edge",
+                     .chip_model = "trochoidal",
+                     .teeth = 3,
+                     .names = {"runout.radial_offsets_mm[2]"},
+                     .values = {-0.010},
+                     .factors = {2},
+                     .covariance = {1e-6}};
+  const Node own = {.value = inputs::Array{number(0.010), number(0.004), number(0.002)},
+                    .where = {}};
+  const Node root = table({{"runout", {}, table({{"radial_offsets_mm", {}, own}})}});
+  const Found found =
+      find_all({.covariance = {file(second, "identify")}, .draws = 5}, root);
+  const Node* list = find(*find(found.root, "runout"), "radial_offsets_mm");
+  const auto& offsets = std::get<inputs::Array>(list->value);
+  ASSERT_EQ(offsets.size(), 3U);
+  EXPECT_NEAR(std::get<double>(offsets[0].value), 0.0, 1e-15);
+  EXPECT_NEAR(std::get<double>(offsets[1].value), -0.010, 1e-15);
+  EXPECT_NEAR(std::get<double>(offsets[2].value), -0.008, 1e-15);
+}
+
 TEST_F(FoundFile, OfAnEccentricityNearZeroIsDrawnByItsComponents) {
   Joint joint = slot();
   joint.values = {800, 0, 0};
@@ -159,6 +181,18 @@ TEST_F(FoundFile, GivesItsModesToACaseWithoutAny) {
   ASSERT_EQ(modes.size(), 2U);
   EXPECT_EQ(std::get<std::string>(find(modes[1], "body")->value), "tool");
   EXPECT_EQ(std::get<double>(find(modes[1], "frequency_Hz")->value), 1500);
+}
+
+TEST_F(FoundFile, ACaseWithoutModesTakesThoseOfEveryFile) {
+  Joint along_y = two_modes();
+  along_y.modes = {{"tool", "y"}, {"tool", "y"}};
+  const Found found =
+      find_all({.covariance = {file(two_modes(), "modes"), file(along_y, "modes_y")},
+                .draws = 5},
+               table({}));
+  ASSERT_EQ(std::get<inputs::Array>(find(found.root, "mode")->value).size(), 4U);
+  ASSERT_EQ(found.keys.size(), 12U);
+  EXPECT_EQ(found.keys[6].key, "mode[3].frequency_Hz");
 }
 
 TEST_F(FoundFile, IsRefusedWhereTheCaseIsAnother) {

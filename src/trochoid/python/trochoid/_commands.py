@@ -81,7 +81,9 @@ def simulate(case: CaseLike, *, records: Records = None) -> Answer:
     return _run("simulate", case, records)
 
 
-def identify(case: CaseLike, *, records: Records = None, curves: bool = False) -> Answer:
+def identify(
+    case: CaseLike, *, records: Records = None, curves: bool = False, anyway: bool = False
+) -> Answer:
     """Cutting coefficients and runout from measured forces, and how well each is known.
 
     Parameters
@@ -95,6 +97,9 @@ def identify(case: CaseLike, *, records: Records = None, curves: bool = False) -
     curves : bool
         Tables ``fitted`` and ``residual`` with every sample of long records, not the
         mean turn.
+    anyway : bool
+        Do all, however long it takes; otherwise records of much work are answered
+        without what the answer can do without (warning ``work_limit``).
 
     Returns
     -------
@@ -116,7 +121,7 @@ def identify(case: CaseLike, *, records: Records = None, curves: bool = False) -
     >>> found = trochoid.identify("case.toml", records=[record])
     >>> found.fits[-1].coefficients.K_tc_MPa.value
     """
-    return _run("identify", case, records, curves=curves)
+    return _run("identify", case, records, curves=curves, anyway=anyway)
 
 
 def surface(case: CaseLike) -> Answer:

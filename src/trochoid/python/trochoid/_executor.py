@@ -181,6 +181,8 @@ def answer_rows(
             f"executor: an Executor is needed, not {type(executor).__name__}"
             "; of Dask it is client.get_executor()"
         )
+    if in_flight is not None and in_flight < 1:
+        raise ValueError(f"in_flight = {in_flight}: must be at least 1")
     asking = _Asking(work, executor, in_flight or 2 * _workers(executor) + 2)
     told = -1
     try:

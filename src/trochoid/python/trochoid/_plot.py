@@ -151,11 +151,12 @@ def _sweep(answer: Answer, axes: Axes) -> None:
     """Each number that was taken, over the first key whose values are numbers and differ."""
     table = answer.tables["sweep"]
     numbers = {n: table[n] for n in table if table[n].dtype.kind == "f"}
-    keys = [key for key in answer.result["keys"] if key in numbers and np.ptp(numbers[key]) > 0]
-    taken = [name for name in numbers if name not in answer.result["keys"]]
+    swept = [*answer.result["keys"], *answer.result["drawn"]]
+    keys = [key for key in swept if key in numbers and np.ptp(numbers[key]) > 0]
+    taken = [name for name in numbers if name not in (*swept, "draw")]
     if not keys or not taken:
         raise ValueError("there are no numbers to show")
-    line = "-" if len(keys) == 1 and answer.method in ("grid", "list") else ""
+    line = "-" if len(keys) == 1 and not answer.result["drawn"] and answer.method in ("grid", "list") else ""
     order = np.argsort(table[keys[0]], kind="stable")
     for number, name in enumerate(taken):
         axes.plot(

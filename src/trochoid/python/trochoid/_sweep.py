@@ -56,7 +56,9 @@ def _with_sweep(
     given = {key: value for key, value in table.items() if value is not None}
     if over is not None:
         given["over"] = {key: _values(values) for key, values in over.items()}
-        document = document.without(["sweep", "over"])
+    for key in ("over", "covariance"):
+        if key in given:
+            document = document.without(["sweep", key])
     return document.with_tables({"sweep": given}) if given else document
 
 
@@ -101,7 +103,8 @@ def sweep(
     covariance : Answer, path, dict, or a list of them
         What ``identify``, ``modes`` or ``calibrate`` found, drawn with its correlations
         (theory U-1 to U-7): an answer, a folder that a command wrote, or ``{"file":
-        folder, "group": name}``.
+        folder, "group": name}``. A saved ``case.toml`` names the folder; that of an
+        answer which was not saved goes when Python ends.
     draws : int
         How many draws (200); of a grid or list each point has all of them. Intervals are
         in ``quantities``, over a grid in table ``bands``.
