@@ -37,8 +37,9 @@ struct FoundFile : testing::Test {
   FoundFile(const FoundFile&) = delete;
   FoundFile& operator=(const FoundFile&) = delete;
 
-  inputs::DrawnFile file(const Joint& joint, const char* command) {
-    const fs::path path = folder / (std::string(command) + ".json");
+  inputs::DrawnFile file(const Joint& joint, const char* command,
+                         const std::string& name = "found") {
+    const fs::path path = folder / (name + "." + command + ".json");
     std::ofstream(path) << results::json_text(results::Object{
         {"trochoid", results::Object{}},
         {"command", command},
@@ -186,10 +187,10 @@ TEST_F(FoundFile, GivesItsModesToACaseWithoutAny) {
 TEST_F(FoundFile, ACaseWithoutModesTakesThoseOfEveryFile) {
   Joint along_y = two_modes();
   along_y.modes = {{"tool", "y"}, {"tool", "y"}};
-  const Found found =
-      find_all({.covariance = {file(two_modes(), "modes"), file(along_y, "modes_y")},
-                .draws = 5},
-               table({}));
+  const Found found = find_all(
+      {.covariance = {file(two_modes(), "modes"), file(along_y, "modes", "other")},
+       .draws = 5},
+      table({}));
   ASSERT_EQ(std::get<inputs::Array>(find(found.root, "mode")->value).size(), 4U);
   ASSERT_EQ(found.keys.size(), 12U);
   EXPECT_EQ(found.keys[6].key, "mode[3].frequency_Hz");
