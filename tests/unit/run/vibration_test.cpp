@@ -171,7 +171,7 @@ TEST_F(Vibration, ADiagramOfOnePointIsOne) {
 
 TEST_F(Vibration, AFastModeIsRefusedBeforeTheWork) {
   const std::string fast =
-      "[[mode]]\nbody = \"tool\"\naxis = \"y\"\nmass_kg = 1e-6\nfrequency_Hz = 5e6\n"
+      "[[mode]]\nbody = \"tool\"\naxis = \"y\"\nmass_kg = 1e-6\nstiffness_N_per_m = 1e9\n"
       "damping_ratio = 0.01\n";
   const auto r = run::dynamics(read(benchmark + fast, Command::dynamics), {});
   EXPECT_FALSE(r.heading.ok);
