@@ -1,6 +1,6 @@
 # A second library of the same sources under the sanitizers, in the same build and the same
 # ctest run, so that one command tests both. "quick" is what reads files and the kernels
-# below them, in a few minutes; "all" is every room, in an hour (./test --all).
+# below them; "all" is every room (./test --all).
 set(TROCHOID_SANITIZED_TESTS quick CACHE STRING
   "Run tests also under ASan and UBSan: quick, all or OFF")
 set(TROCHOID_SANITIZED_ROOMS base numerics geometry chip force signal inputs)

@@ -82,6 +82,15 @@ class Sweep(Sweeping):
         self.assertEqual(len(theirs.tables["bands"]["median_peak_xy_N"]), 2)
         self.assertEqual(ours.quantities, theirs.quantities)
 
+    def test_draws_at_a_single_point_have_a_band_and_a_list_a_limit(self):
+        found = trochoid.identify(EXAMPLES / "st52_slot/case.toml", anyway=True)
+        told = dict(command="simulate", take=["result.peak_xy_N"], covariance=found)
+        one = trochoid.sweep(CASE, {"cut.spindle_rpm": [900]}, draws=5, **told)
+        self.assertEqual(len(one.tables["bands"]["median_peak_xy_N"]), 1)
+        speeds = {"cut.spindle_rpm": np.linspace(800, 900, 1000)}
+        with self.assertRaisesRegex(trochoid.InputError, "more than 100000000 rows"):
+            trochoid.sweep(CASE, speeds, method="list", draws=10**6, **told)
+
     def test_draws_of_an_answer_go_on_where_they_were(self):
         found = trochoid.identify(EXAMPLES / "st52_slot/case.toml")
         seen = []
