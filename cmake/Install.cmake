@@ -42,4 +42,12 @@ foreach(name trochoid trochoid-controller)
   configure_file(cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig})
 endforeach()
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Pages and examples, as far from one another as their links have it; without the answers
+# of who ran the examples here.
+install(FILES LICENSE README.md CHANGELOG.md ARCHITECTURE.md CONTRIBUTING.md CITATION.cff
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+install(DIRECTORY docs examples linuxcnc DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT documents
+  REGEX "\\.(simulate|identify|check|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|sweep)$" EXCLUDE
+  PATTERN __pycache__ EXCLUDE)

@@ -27,12 +27,17 @@ programs=(g++=g++ cmake=cmake ninja=ninja-build git=git pkg-config=pkg-config)
 report_programs=(node=nodejs npm=npm)
 python_libraries=(pybind11-dev libpython3-dev python3-numpy)
 test_libraries=(libgtest-dev libbenchmark-dev libmatio-dev python3-scipy "${python_libraries[@]}")
+# Of ./run packages.
+package_programs=(dpkg-shlibdeps=dpkg-dev file=file xz=xz-utils)
 # Of the documentation as a site (./run docs).
 site_libraries=(python3-sphinx furo python3-myst-parser python3-breathe doxygen libjs-katex)
+# Of the page that runs in a browser (./run web).
+web_programs=(emcc=emscripten)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
   mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
   python3-distributed python3-mpi4py openmpi-bin python3-jsonschema
+  man-db zsh fish dpkg-dev file
   "${site_libraries[@]}")
 test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
 
@@ -108,7 +113,7 @@ install_optional() {
     say "That did not work; the tests that need it are skipped."
 }
 
-# What node_modules must hold for "$1" (run, python, docs or test): the lock file's packages.
+# What node_modules must hold for "$1" (run, python, docs, packages, web or test): the lock file's packages.
 have_node_modules() {
   local stamp=$root/node_modules/.complete
   [ ! -f "$root/package-lock.json" ] && return
@@ -128,7 +133,7 @@ install_node_modules() {
   printf '%s' "$1" >"$root/node_modules/.complete"
 }
 
-# setup run|python|docs|test: install what it needs, unless its stamp says that this was done.
+# setup run|python|docs|packages|web|test: install what it needs, unless its stamp says that this was done.
 setup() {
   local stamp=$root/build/.setup-$1
   if [ "$stamp" -nt "$root/tools/setup.sh" ] && have_node_modules "$1"; then
@@ -137,7 +142,9 @@ setup() {
   local needs=("${libraries[@]}" "${programs[@]}")
   [ -f "$root/package-lock.json" ] && needs+=("${report_programs[@]}")
   [ "$1" = python ] && needs+=("${python_libraries[@]}")
+  [ "$1" = packages ] && needs+=("${python_libraries[@]}" "${package_programs[@]}")
   [ "$1" = docs ] && needs+=("${python_libraries[@]}" "${site_libraries[@]}")
+  [ "$1" = web ] && needs+=("${web_programs[@]}")
   [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
   if ! command -v dpkg-query >/dev/null; then
     stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \
@@ -201,6 +208,19 @@ compile_python() {
       stop "CMake does not find what the Python module needs; see $log."
   fi
   compile trochoid_python
+}
+
+# The page that runs in a browser, in build/web, whatever else was built.
+compile_web() {
+  local folder=$root/build/web
+  if [ ! -f "$folder/build.ninja" ]; then
+    say "Configuring the page"
+    (cd "$root" && emcmake cmake --fresh -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+      -DTROCHOID_BUILD_TESTS=OFF -DTROCHOID_BUILD_PYTHON=OFF -DTROCHOID_DEVELOPER=OFF \
+      -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) </dev/null >>"$log" 2>&1 ||
+      { rm -f "$folder/build.ninja"; tail -n 25 "$log" >&2; stop "CMake did not succeed; above is the end of $log."; }
+  fi
+  build=$folder compile trochoid_web
 }
 
 # One at a time in one clone; the lock goes when the program ends, however it ends.

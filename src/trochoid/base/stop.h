@@ -16,8 +16,14 @@ struct Stop {
   /// What may still be computed, in evaluations of the force at a point of an edge, for all
   /// copies together; none: as much as it takes. Other than time, it is the same everywhere.
   std::shared_ptr<std::atomic<std::int64_t>> left = nullptr;
+  /// What was begun before nothing was left may take so much more.
+  std::int64_t grace = 0;
 
   [[nodiscard]] bool wanted() const noexcept { return spent() || late(); }
+  /// Whether even what was begun takes too much, and is to end without an answer.
+  [[nodiscard]] bool exhausted() const noexcept {
+    return left != nullptr && left->load(std::memory_order_relaxed) <= -grace;
+  }
   /// Whether the time is up.
   [[nodiscard]] bool late() const noexcept {
     return at != Clock::time_point::max() && Clock::now() >= at;

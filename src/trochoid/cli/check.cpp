@@ -1,4 +1,5 @@
 #include <trochoid/base/error.h>
+#include <trochoid/base/names.h>
 #include <trochoid/cli/commands.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/frf_file.h>
@@ -37,7 +38,8 @@ void check_machine_files(const inputs::Case& given,
 }  // namespace
 
 int check(const Options& options) {
-  const inputs::Case given = inputs::read_case(options.file, std::nullopt);
+  const inputs::Case given =
+      inputs::read_case(options.file, base::named<base::Command>(options.command));
   std::vector<std::string> problems;
   std::string found;
   for (const base::Warning& note : given.notes) {

@@ -22,7 +22,7 @@ struct Options {
   bool simulate_controller = false;  ///< of correct
   bool curves = false;               ///< of identify: of every sample
 
-  std::string command;            ///< of sweep: what answers each row
+  std::string command;            ///< of sweep, and that check is for
   std::vector<std::string> take;  ///< of sweep: paths in the answers
 
   // Of a bare data file, which has no case to say them.

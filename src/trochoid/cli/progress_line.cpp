@@ -25,9 +25,11 @@ double seconds() {
 }  // namespace
 
 ProgressLine::ProgressLine(bool quiet)
-    : terminal_(isatty(STDERR_FILENO) == 1),
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
       started_(seconds()),
       step_started_(started_),
+      told_(started_),
       step_("Reading") {
   if (!quiet) {
     try {
@@ -58,6 +60,11 @@ void ProgressLine::operator()(const run::Step& step) {
     step_started_ = seconds();
   }
   step_ = step;
+  // Where there are no threads, in a browser say, the work speaks up by itself.
+  constexpr double pause = 0.3;  // [s]
+  if (!quiet_ && !teller_.joinable() && seconds() - told_ > pause) {
+    tell();
+  }
 }
 
 std::string ProgressLine::doing() {
@@ -85,6 +92,7 @@ void ProgressLine::tell() {
   std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", text.c_str());
   std::fflush(stderr);
   shown_ = true;
+  told_ = now;
 }
 
 }  // namespace trochoid::cli

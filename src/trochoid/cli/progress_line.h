@@ -30,11 +30,13 @@ class ProgressLine {
   void tell_until_done();
   void tell();
 
+  bool quiet_;
   bool terminal_;
   bool shown_ = false;
   bool done_ = false;
   double started_ = 0.0;       ///< [s]
   double step_started_ = 0.0;  ///< [s]
+  double told_ = 0.0;          ///< when a line was shown last [s]
   run::Step step_;
   std::mutex mutex_;
   std::condition_variable ended_;

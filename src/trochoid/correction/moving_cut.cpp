@@ -115,9 +115,15 @@ void take(const Step& step, force::Power& law, std::vector<double>& rho) {
 
 }  // namespace
 
-int slices_for(const geometry::Cutter& cutter) noexcept {
-  constexpr int slices_of_helix = 20;
-  return cutter.helix > 0 ? slices_of_helix : 1;
+int slices_for(const force::Setup& setup) noexcept {
+  constexpr double most = 20.0;
+  constexpr double each = 0.5 * unit::deg;
+  const geometry::Cutter& cutter = setup.cutter;
+  if (!(cutter.helix > 0)) {
+    return 1;
+  }
+  const double lag = 2 * setup.cut.a_p * std::tan(cutter.helix) / cutter.lag_diameter;
+  return static_cast<int>(std::clamp(std::ceil(lag / each), 1.0, most));
 }
 
 dynamics::MotionProblem problem_of(const MovingCut& cut,

@@ -24,8 +24,9 @@ struct MovingCut {
   int samples_per_rev = 1440;
 };
 
-/// Slices in which a rigid cut follows the helix of a cutter.
-int slices_for(const geometry::Cutter& cutter) noexcept;
+/// Slices in which a rigid cut follows the helix of a cutter: one for half a degree of its
+/// lag, and at most 20.
+int slices_for(const force::Setup& setup) noexcept;
 
 /// What dynamics::motion does for a cut.
 dynamics::MotionProblem problem_of(const MovingCut& cut, const PeriodicMotion& command);

@@ -217,7 +217,10 @@ double ForceMatrix::work(std::size_t angles) const noexcept {
   const auto [once, each] = std::visit(
       base::Overloaded{[](const TurnMatrix&) { return std::pair(40.0, 0.1); },
                        [](const CumulativeForce&) { return std::pair(2000.0, 0.3); },
-                       [](const NodeForce&) { return std::pair(200.0, 4.0); },
+                       [](const NodeForce& force) {
+                         return std::pair(200.0,
+                                          4.0 * static_cast<double>(force.panels()));
+                       },
                        [](const AxialForce&) { return std::pair(0.0, 100.0); }},
       parts_->method);
   return static_cast<double>(parts_->teeth) *

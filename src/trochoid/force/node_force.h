@@ -24,6 +24,9 @@ class NodeForce {
   static std::optional<NodeForce> make(const Setup& setup, const Law& law,
                                        double tolerance);
 
+  /// Into how many panels an edge is cut.
+  [[nodiscard]] std::size_t panels() const noexcept { return panels_.panels.size(); }
+
   /// @param[out] C  row-major, the first 3 x columns of each, shape (angles)
   void matrices(std::span<const double> phi, std::span<std::array<double, 18>> C) const;
 

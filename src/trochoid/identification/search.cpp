@@ -79,7 +79,9 @@ void move_single_teeth(const Problem& coarse, Minimum& best) {
   const auto count = static_cast<std::size_t>(coarse.unknowns.runout_count());
   if (count < 2 || count > 11) return;
   bool better = true;
-  for (int round = 0; better && round < 3 && !coarse.stop.late(); ++round) {
+  for (int round = 0;
+       better && round < 3 && !coarse.stop.late() && !coarse.stop.exhausted();
+       ++round) {
     better = false;
     for (std::size_t i = 0; i < count; ++i) {
       Candidate moved = best_on_line(coarse, best.p, i);
@@ -112,7 +114,7 @@ std::vector<std::vector<double>> first_starts(const Problem& problem,
 void renumber(const Problem& coarse, Minimum& m) {
   const auto n = static_cast<std::ptrdiff_t>(coarse.unknowns.runout_count());
   if (n == 0 || coarse.unknowns.phases < 2) return;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 3 && !coarse.stop.exhausted(); ++round) {
     const std::vector<double> runout(m.p.begin(), m.p.begin() + n);
     const std::vector<Candidate> found = scan(coarse, {runout});
     if (found.empty()) return;
@@ -133,7 +135,7 @@ std::vector<Minimum> coarse_minima(const Problem& coarse,
                                    std::size_t starts) {
   std::vector<Minimum> out;
   for (std::vector<double>& start : first_starts(coarse, candidates, starts)) {
-    if (!out.empty() && coarse.stop.late()) break;
+    if (!out.empty() && (coarse.stop.late() || coarse.stop.exhausted())) break;
     Minimum m = refine(coarse, std::move(start), coarse_step, coarse_options());
     renumber(coarse, m);
     apply_gauge(coarse, m.p);
@@ -211,7 +213,7 @@ Minimum search_between_jumps(const Problem& problem,
   const std::vector<Minimum> minima = coarse_minima(smooth, candidates);
   Minimum best = refine_between_jumps(problem, minima.front().p);
   if (minima.size() > 1 && minima[1].rss < near_tie * minima[0].rss &&
-      !problem.stop.late()) {
+      !problem.stop.late() && !problem.stop.exhausted()) {
     Minimum second = refine_between_jumps(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }
@@ -236,7 +238,7 @@ Minimum settle(const Problem& problem, const std::vector<double>& start) {
   options.function_tolerance = 1e-24;
   options.standard_errors = last_step;
   Minimum out = refine(problem, start, {}, options);
-  if (out.converged) return out;
+  if (out.converged || problem.stop.exhausted()) return out;
   // Kinks of the sum of squares can keep the steps from vanishing; what counts is that
   // they no longer gain anything.
   Minimum again = refine(problem, out.p, {}, options);
@@ -261,7 +263,7 @@ Minimum search_from(const Problem& problem, const std::vector<Candidate>& candid
       coarse_minima(coarse_problem(problem), candidates);
   Minimum best = settle(problem, minima.front().p);
   if (minima.size() > 1 && minima[1].rss < near_tie * minima[0].rss &&
-      !problem.stop.late()) {
+      !problem.stop.late() && !problem.stop.exhausted()) {
     Minimum second = settle(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }

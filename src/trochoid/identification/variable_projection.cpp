@@ -81,7 +81,9 @@ class ScaledResiduals {
 
   bool operator()(std::span<const double> p, std::span<double> r,
                   std::span<double> jacobian) {
-    const State* const here = find(p);
+    const State* const here = last_.known && problem_.stop.exhausted()
+                                  ? nullptr
+                                  : find(p);  // no further step
     if (here == nullptr) return false;
     std::ranges::transform(here->residual, r.begin(),
                            [&](double v) { return v / scale_; });
@@ -135,6 +137,10 @@ Minimum refine(const Problem& problem, std::vector<double> start, const Step& st
   out.rss = 2.0 * summary.final_cost * scale * scale;
   out.converged = summary.converged;
   out.reason = summary.reason;
+  if (problem.stop.exhausted()) {
+    out.converged = false;
+    out.reason = "it takes too much work; --anyway goes on";
+  }
   if (State* const end = residuals.find(out.p)) {
     out.correlation = correlation(end->residual);
     out.at = std::make_shared<Evaluation>(std::move(end->at));

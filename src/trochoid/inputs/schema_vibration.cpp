@@ -5,8 +5,9 @@ namespace trochoid::inputs {
 
 namespace {
 
-/// Ultrasonic machines stay below it.
+/// Ultrasonic machines stay below the one, all that swings on a machine above the other.
 constexpr double fastest_Hz = 1e5;
+constexpr double slowest_Hz = 0.01;
 constexpr double longest_mm = 10000;
 
 /// Where a frequency response is: of [frf] and of [[measured_frf]].
@@ -70,7 +71,7 @@ void describe(const Visitor& v, Mode& t) {
     &t.damping);
   v({.name = "frequency_Hz",
      .meaning = "natural frequency",
-     .range = above_up_to(0, fastest_Hz)},
+     .range = between(slowest_Hz, fastest_Hz)},
     &t.frequency);
   v({.name = "damping_ratio",
      .meaning = "damping over critical damping (zeta)",
@@ -93,7 +94,7 @@ void describe(const Visitor& v, Actuator& t) {
     &t.time_constants);
   v({.name = "frequency_Hz",
      .meaning = "natural frequency",
-     .range = above_up_to(0, fastest_Hz),
+     .range = between(slowest_Hz, fastest_Hz),
      .rival = "time_constants_s"},
     &t.frequency);
   v({.name = "damping_ratio",

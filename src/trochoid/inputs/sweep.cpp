@@ -77,6 +77,15 @@ class Keys {
     return value == nullptr ? std::nullopt : std::optional(*value);
   }
 
+  std::optional<bool> truth(std::string_view key) {
+    const Node* node = take(key);
+    const auto* value = node ? std::get_if<bool>(&node->value) : nullptr;
+    if (node != nullptr && value == nullptr) {
+      wrong(*node, key, "must be true or false");
+    }
+    return value == nullptr ? std::nullopt : std::optional(*value);
+  }
+
   void wrong(const Node& node, std::string_view key, std::string_view why) {
     report(findings_, path_of(key), node.where,
            fmt::format("{} = {}: {}", path_of(key), to_string(node), why));
@@ -349,6 +358,7 @@ Sweep read_sweep(const Node& root, const std::filesystem::path& file) {
       keys.whole("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
   const auto count = keys.whole("count", 1, most_sweep_rows);
   sweep.command = keys.text("command").value_or("");
+  sweep.hdf5 = keys.truth("hdf5").value_or(false);
   read_take(keys, sweep);
   read_draws(keys, file, sweep, findings);
   if (const Node* over = keys.take("over")) {

@@ -78,6 +78,7 @@ struct Sweep {
   std::size_t rows = 0;           ///< of all methods, before draws multiply them
   std::string command;            ///< empty: the command line says it
   std::vector<std::string> take;  ///< paths in summary.json; empty: the same
+  bool hdf5 = false;              ///< the table as HDF5 too
 };
 
 /// No sweep has more rows.

@@ -52,6 +52,7 @@ std::string sweep_schema() {
        {"seed", {{"type", "integer"}, {"minimum", 0}, {"default", 1}}},
        {"count", {{"type", "integer"}, {"minimum", 1}, {"maximum", most_sweep_rows}}},
        {"command", text},
+       {"hdf5", {{"type", "boolean"}, {"default", false}}},
        {"take", {{"type", "array"}, {"items", text}}},
        {"covariance", drawn()},
        {"draws", {{"type", "integer"}, {"minimum", 1}, {"maximum", most_draws}}}},
@@ -70,6 +71,7 @@ std::string sweep_schema() {
       "results of identify, modes or calibrate whose numbers are drawn together";
   out["properties"]["draws"]["description"] =
       "how many; of each point of a grid or list";
+  out["properties"]["hdf5"]["description"] = "the table as HDF5 too: sweep.h5";
   out["properties"]["command"]["description"] = "what answers each row";
   out["properties"]["take"]["description"] =
       "what is taken from each answer, such as \"result.peak_xy_N\"";

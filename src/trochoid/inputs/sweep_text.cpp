@@ -48,6 +48,9 @@ std::string sweep_toml(const Sweep& sweep) {
   }
   text += fmt::format("take = [{}]\nmethod = \"{}\"\n", fmt::join(paths, ", "),
                       name_of(sweep.method));
+  if (sweep.hdf5) {
+    text += "hdf5 = true\n";
+  }
   if (!sweep.covariance.empty()) {
     std::vector<std::string> files;
     for (const DrawnFile& drawn : sweep.covariance) {

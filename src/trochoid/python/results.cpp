@@ -132,8 +132,11 @@ void bind_results(py::module_& m) {
       .def_property_readonly("texts",
                              [](const Answer& a) {
                                py::dict all;
-                               for (const auto& text : a.texts)
-                                 all[py::str(text.file)] = text.text;
+                               for (const auto& [file, text] : a.texts) {
+                                 all[py::str(file)] = file.ends_with(".h5")
+                                                          ? py::object(py::bytes(text))
+                                                          : py::object(py::str(text));
+                               }
                                return all;
                              })
       .def("result",

@@ -12,6 +12,10 @@ std::string_view uplot_js();
 
 // The scripts of page/, each needs those above it.
 std::string_view text_js();      ///< numbers, names and elements
+std::string_view band_js();      ///< what of a curve is in the band of a fit
+std::string_view svg_js();       ///< a canvas that becomes a file
+std::string_view save_js();      ///< pictures and data saved, tables behind
+std::string_view touch_js();     ///< zoom by fingers and by rectangles
 std::string_view charts_js();    ///< curves
 std::string_view parts_js();     ///< what several commands show
 std::string_view measured_js();  ///< measured against computed
@@ -25,6 +29,7 @@ std::string_view surface_js();
 std::string_view wall_map_js();  ///< readings on a wall
 std::string_view ellipse_js();   ///< two coefficients known together
 std::string_view calibrate_js();
+std::string_view calibrate_words_js();
 std::string_view stability_js();
 std::string_view correct_js();
 std::string_view modes_js();         ///< modes and actuators

@@ -1,5 +1,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/results/calibrate.h>
+#include <trochoid/results/coefficient_words.h>
 
 #include <fmt/core.h>
 
@@ -27,15 +28,8 @@ std::string value_of(const Estimate& e, double unit) {
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, width, digits);
 }
 
-/// `K_tc` and `MPa` of `K_tc_MPa`.
-std::pair<std::string, std::string> name_and_unit(std::string_view key) {
-  const std::size_t at = key.find('_', key.find('_') + 1);
-  return {std::string(key.substr(0, at)), std::string(key.substr(at + 1))};
-}
-
 std::string coefficient(const force::Quantity& quantity, const Estimate& e) {
-  const auto [name, unit] = name_and_unit(quantity.key);
-  return fmt::format("{} = {} {}", name, value_of(e, quantity.unit), unit);
+  return coefficient_words(quantity.key, value_of(e, quantity.unit));
 }
 
 std::string runout_of(const CalibrateResult& r) {

@@ -1,7 +1,6 @@
 #include <trochoid/results/identify.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/identification/reliability.h>
 #include <trochoid/results/clocking.h>
 #include <trochoid/results/curve_tables.h>
 #include <trochoid/results/estimate_value.h>
@@ -11,7 +10,6 @@
 #include <trochoid/results/material.h>
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -47,6 +45,13 @@ Object signal_value(const IdentifyResult& r) {
              {"spindle_rpm", alone_or_list(std::move(rpm))},
              {"spindle_rpm_se", alone_or_list(std::move(rpm_se))},
              {"stated_rpm", alone_or_list(std::move(stated))}};
+  if (!r.folded.empty()) {
+    Array turns;
+    for (const signal::OneRevolution& one : r.folded) {
+      turns.emplace_back(one.revolutions);
+    }
+    out.push_back({"revolutions", std::move(turns)});
+  }
   if (is_signed_permutation(r.channels)) {
     out.push_back({"axes", signal::axes_names(r.channels)});
   } else {
@@ -174,15 +179,6 @@ std::string form_line(const IdentifyResult& r) {
   return fmt::format("runout: {}\n", r.runout_form->why);
 }
 
-std::string verdict_line(const IdentifyResult& r) {
-  if (!r.reasons_against.empty()) {
-    return identification::do_not_use(r.reasons_against);
-  }
-  return r.reasons_for_care.empty() ? std::string("Usable.")
-                                    : fmt::format("Usable with care: {}.",
-                                                  fmt::join(r.reasons_for_care, "; "));
-}
-
 std::string short_table(const IdentifyResult& r) {
   if (!r.chosen) {
     return "No answer: " + r.heading.message + "\n";
@@ -192,8 +188,8 @@ std::string short_table(const IdentifyResult& r) {
       chosen.groups.size() > 1 ? groups_table(chosen) + "\n" : std::string();
   const std::string gauge =
       r.clocking ? clocking_lines(*r.clocking, factor_of(r)) : std::string();
-  return verdict_line(r) + "\n\n" + groups + fits_table(r.fits) + form_line(r) + gauge +
-         signal_lines(r);
+  return identification_verdict(r) + "\n\n" + groups + fits_table(r.fits) +
+         form_line(r) + gauge + signal_lines(r);
 }
 
 /// folded.csv: mean and scatter of the measured force over one turn; none where no

@@ -79,6 +79,14 @@ struct IdentifyResult {
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };
 
+/// @brief May the numbers be used, and why not: `Usable.`, `Usable with care: ...`,
+/// `Do not use these numbers: ...`; of an answer that is there.
+std::string identification_verdict(const IdentifyResult& result);
+
+/// @brief The verdict, the two main coefficients and the runout with their intervals, and
+/// how much of the force stays unexplained; of an answer that is there.
+std::string identification_sentence(const IdentifyResult& result);
+
 Answer answer_of(const IdentifyResult& result);
 
 }  // namespace trochoid::results

@@ -47,10 +47,10 @@ std::string design_words(const PlanWallResult& r, const PlannedDesign& d) {
 }
 
 std::string cut_words(const GridCell& cell) {
+  const double rate = cell.removal_rate / mm3_per_min;
   return fmt::format(
-      "feed {:.3g} mm per tooth, radial depth {:.3g} mm ({:.3g} "
-      "mm3/min)",
-      cell.f_z / unit::mm, cell.a_e / unit::mm, cell.removal_rate / mm3_per_min);
+      "feed {:.3g} mm per tooth, radial depth {:.3g} mm ({:.{}f} mm3/min)",
+      cell.f_z / unit::mm, cell.a_e / unit::mm, rate, rate < 100 ? 1 : 0);
 }
 
 /// Cheaper designs, each better at the worst of its intervals than all before it.

@@ -92,11 +92,10 @@ std::size_t entry_in(std::string_view name, std::string_view before,
     return 0;
   }
   std::size_t k = 0;
-  const char* end = name.data() + name.size();
-  const auto read = std::from_chars(name.data() + before.size(), end, k);
-  return read.ec == std::errc{} && std::string_view(read.ptr, end).starts_with(after)
-             ? k
-             : 0;
+  name.remove_prefix(before.size());
+  const auto read = std::from_chars(name.data(), name.data() + name.size(), k);
+  name.remove_prefix(static_cast<std::size_t>(read.ptr - name.data()));
+  return read.ec == std::errc{} && name.starts_with(after) ? k : 0;
 }
 
 /// Whether every name is one of those that a command writes: the file may be anyone's.

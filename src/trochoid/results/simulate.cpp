@@ -162,11 +162,15 @@ std::string short_table(const SimulateResult& r) {
 
 }  // namespace
 
+Answer answer_without_tables(const SimulateResult& r) {
+  return {.command = "simulate",
+          .heading = r.heading,
+          .result = result_of(r),
+          .short_table = short_table(r)};
+}
+
 Answer answer_of(const SimulateResult& r) {
-  Answer answer{.command = "simulate",
-                .heading = r.heading,
-                .result = result_of(r),
-                .short_table = short_table(r)};
+  Answer answer = answer_without_tables(r);
   // One by one: a list in braces would copy what may be a million rows.
   answer.tables.push_back(force_table(r));
   answer.tables.push_back(chip_table(r.chips));

@@ -38,6 +38,13 @@ struct SimulateResult {
   std::vector<Comparison> comparison;  ///< one a measurement
 };
 
+/// @brief Force and torque of the cut in a sentence, and what speaks for or against them:
+/// teeth that idle, chips that do not add up, the records they were compared with.
+std::string simulation_sentence(const SimulateResult& result);
+
 Answer answer_of(const SimulateResult& result);
+
+/// The same for whom the numbers of summary.json are enough.
+Answer answer_without_tables(const SimulateResult& result);
 
 }  // namespace trochoid::results

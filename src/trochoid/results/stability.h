@@ -37,6 +37,10 @@ struct StabilityResult {
   std::optional<MeasuredStability> measured = {};
 };
 
+/// @brief Whether the cut is stable, how deep it may be, at which speed near it deeper,
+/// and how far that is to be trusted.
+std::string stability_sentence(const StabilityResult& result);
+
 Answer answer_of(const StabilityResult& result);
 
 }  // namespace trochoid::results

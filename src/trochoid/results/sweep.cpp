@@ -1,5 +1,6 @@
 #include <trochoid/results/sweep.h>
 
+#include <trochoid/results/hdf5_table.h>
 #include <trochoid/results/spread.h>
 #include <trochoid/results/text_table.h>
 
@@ -275,6 +276,9 @@ Answer answer_of(const SweepResult& r) {
                                  {"quantities", quantities}},
                 .short_table = short_table(r),
                 .tables = {table_of(r)}};
+  if (r.hdf5) {
+    answer.texts.push_back({"sweep.h5", hdf5_table(answer.tables.front())});
+  }
   if (has_bands(r) && !r.rows.empty()) {
     answer.tables.push_back(bands_table(r));
   }

@@ -30,6 +30,7 @@ struct SweepResult {
   std::vector<std::string> drawn;  ///< keys that were drawn
   std::vector<std::string> take;   ///< paths in the answers
   std::vector<SweepRow> rows;
+  bool hdf5 = false;  ///< the table as HDF5 too
 };
 
 Answer answer_of(const SweepResult& result);

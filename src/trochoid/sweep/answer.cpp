@@ -27,7 +27,8 @@ results::Answer answer(base::Command command, const inputs::Case& given,
   using results::answer_of;
   switch (command) {
     case Command::simulate:
-      return answer_of(run::simulate(given));
+      return options.tables ? answer_of(run::simulate(given))
+                            : results::answer_without_tables(run::simulate(given));
     case Command::identify: {
       base::Stop stop;
       if (options.anyway) {

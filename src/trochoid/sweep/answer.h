@@ -11,6 +11,7 @@ struct AnswerOptions {
   bool curves = false;               ///< of identify: every sample
   bool simulate_controller = false;  ///< of correct
   bool anyway = false;               ///< of identify: whatever work it takes
+  bool tables = true;                ///< of simulate
 };
 
 /// @brief The answer of any command, without files and without progress.

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
 #include <trochoid/inputs/findings.h>
+#include <trochoid/results/hdf5_table.h>
 #include <trochoid/results/provenance.h>
 #include <trochoid/sweep/answer.h>
 
@@ -107,7 +108,8 @@ results::SweepResult empty_result(const inputs::Sweep& plan, const Found& found,
       .method = std::string(name_of(plan.method)),
       .by_chance = by_chance(plan.method) || (drawn && plan.over.empty()),
       .draws = drawn ? plan.draws : 0,
-      .take = plan.take};
+      .take = plan.take,
+      .hdf5 = plan.hdf5};
   r.heading.warnings.insert(r.heading.warnings.end(), first.notes.begin(),
                             first.notes.end());
   for (const inputs::SweptKey& key : plan.over) {
@@ -141,6 +143,11 @@ Study study_of(const inputs::CaseSource& source, const Request& request,
 Prepared prepare(const inputs::CaseSource& source, const Request& request,
                  const run::Progress& progress) {
   inputs::Sweep plan = inputs::read_sweep(source.root, source.file);
+  if (plan.hdf5 && !results::has_hdf5()) {
+    throw base::InputError(
+        {source.file.string() +
+         ": sweep.hdf5 = true: this program was built without HDF5"});
+  }
   const Found found = find_all(plan, inputs::without_sweep(source.root));
   for (inputs::DrawnFile& drawn : plan.covariance) {
     drawn.path = std::filesystem::absolute(drawn.path).lexically_normal();
@@ -174,6 +181,7 @@ std::string case_toml(const Prepared& prepared, const std::filesystem::path& fol
 
 std::string meaning_of(const Prepared& prepared) {
   inputs::Sweep plan = prepared.plan;
+  plan.hdf5 = false;  // the rows are the same
   for (inputs::DrawnFile& drawn : plan.covariance) {
     drawn.path.clear();  // what is drawn is told by its numbers, wherever it lies
   }

@@ -210,6 +210,15 @@ class ExitCode(InFolder):
         self.assertFalse(list(self.folder.glob("cut.*/")))
         self.assertEqual(self.run_program("check", "cut.toml", "-q").stdout, "")
 
+    def test_check_for_a_command(self):
+        self.write("cut.toml", simulation())
+        self.run_program("check", "cut.toml", "--for", "simulate")
+        for command, missing in (("identify", "measurement"), ("stability", "mode")):
+            said = self.run_program("check", "cut.toml", "--for", command, code=2).stderr
+            self.assertIn(missing, said)
+            self.assertIn(command, said)
+        self.run_program("check", "cut.toml", "--for", "simulat", code=2)
+
     def test_check_tells_time_and_gaps(self):
         times = [0.001 * i for i in range(400)] + [0.5 + 0.001 * i for i in range(400)]
         self.write("record.csv", "time_s,Fx_N,Fy_N,Fz_N\n" + "".join(

@@ -74,6 +74,17 @@ class Sweep(InFolder):
         self.run_program("report", "again", "-q")
         self.assertEqual(before, data())
 
+    def test_the_table_as_hdf5(self):
+        self.case('hdf5 = true\nover = { "cut.spindle_rpm" = { values = [800, 900] } }')
+        self.run_program("sweep", "cut.toml", *TAKE, "-q")
+        table = (self.folder / "cut.sweep/sweep.h5").read_bytes()
+        self.assertEqual(table[:8], b"\x89HDF\r\n\x1a\n")
+        for column in self.rows()[0]:
+            self.assertIn(column.encode(), table)
+        self.run_program("sweep", "cut.sweep/case.toml", "-o", "again", "-q")
+        self.assertEqual(table, (self.folder / "again/sweep.h5").read_bytes())
+        self.run_program("report", "again", "-q")
+
     def test_other_commands_do_not_mind(self):
         self.case('over = { "cut.spindle_rpm" = { values = [800] } }')
         self.run_program("simulate", "cut.toml", "-q", "--no-report")
@@ -107,6 +118,8 @@ class Sweep(InFolder):
                 ('over = { "cut.spindle_rpm" = { mean = 1, sd = 2 } }', ["latin_hypercube"]),
                 ('over = { "cut.spindle_rpm" = { mean = 1, sd = 0 } }', ["sd"]),
                 ('over = { "cut.spindle_rpm" = { form = 1, to = 2, count = 3 } }', ["form"]),
+                ('hdf5 = 1\nover = { "cut.spindle_rpm" = { values = [1] } }',
+                 ["sweep.hdf5 = 1", "true or false"]),
                 ('over = { "cut.spindle_rpm" = 3 }', ["{ from, to, count }"]),
                 ('over = { cut.spindle_rpm = { values = [3] } }', ["sweep.over.cut"]),
                 ('over = {}', ["sweep.over"]),

@@ -68,6 +68,29 @@ TEST(IdentifyAnswer, BeginsWithAVerdict) {
   EXPECT_TRUE(says(result(r), R"("with_care": ["z may be reversed")")) << result(r);
 }
 
+TEST(IdentifySentence, SaysNumbersAndWhatStaysUnexplained) {
+  IdentifyResult r = made();
+  r.fits[0].unexplained.in_band = 0.23;
+  const std::string said = identification_sentence(r);
+  EXPECT_TRUE(said.starts_with("Usable. K_tc = ")) << said;
+  EXPECT_TRUE(says(said, " MPa and K_rc = ")) << said;
+  EXPECT_TRUE(says(said, "Unexplained stays 23 % of the force (rms), ")) << said;
+  EXPECT_TRUE(says(said, "3 samples of 1 record.")) << said;
+  r.fits[0].options.band_harmonics = 2;
+  EXPECT_TRUE(says(identification_sentence(r),
+                   "of the force within its mean and first 2 harmonics (rms)"));
+}
+
+TEST(IdentifySentence, HoldsNoNumbersThatMustNotBeUsed) {
+  IdentifyResult r = made();
+  r.reasons_against = {"it explains nothing"};
+  const std::string said = identification_sentence(r);
+  EXPECT_TRUE(
+      said.starts_with("Do not use these numbers: it explains nothing. Unexplained"))
+      << said;
+  EXPECT_FALSE(says(said, "K_tc")) << said;
+}
+
 TEST(IdentifyAnswer, IsNoMaterialWithoutAFit) {
   EXPECT_EQ(answer_of(made()).texts.at(0).file, "material.toml");
   IdentifyResult r = made();

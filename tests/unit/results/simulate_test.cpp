@@ -50,6 +50,30 @@ std::string value(const Answer& answer, std::string_view key) {
   return found != nullptr ? json_text(*found) : "absent";
 }
 
+TEST(SimulateSentence, SaysTheForceAndThatNothingIsBesideIt) {
+  EXPECT_EQ(
+      simulation_sentence(made()),
+      "The force in the plane of the table is 2.24 N at most, the mean force 0, 1, "
+      "3 N in x, y, z; the torque is 3 N m on average and 4 N m at most. Tooth 2 "
+      "cuts nothing 1 mm above the tip. Nothing measured is beside it: it is as "
+      "good as the coefficients and the runout of the case.");
+}
+
+TEST(SimulateSentence, SaysHowMuchOfARecordIsMissed) {
+  SimulateResult r = made();
+  r.engagement.teeth.pop_back();
+  r.comparison = {{.file = "record.csv", .match = {.rms = 30, .measured_rms = 100}}};
+  r.heading.warnings = {{"volume", "..."}};
+  const std::string said = simulation_sentence(r);
+  EXPECT_TRUE(said.ends_with(
+      " Take it with care: the chips do not add up to the material there is. It misses "
+      "30 % of the force measured in record.csv (rms)."))
+      << said;
+  EXPECT_EQ(said.find("cuts nothing"), std::string::npos) << said;
+  r.heading.warnings = {{"no_cut", "..."}};
+  EXPECT_EQ(simulation_sentence(r), "No tooth cuts anything: see the warnings.");
+}
+
 TEST(SimulateAnswer, HasItsNumbersInTheUnitsOfFiles) {
   const Answer answer = answer_of(made());
   EXPECT_EQ(answer.command, "simulate");

@@ -40,6 +40,43 @@ StabilityResult stability_result() {
   return r;
 }
 
+TEST(StabilitySentence, SaysHowDeepAndAtWhichSpeedDeeper) {
+  StabilityResult r = stability_result();
+  EXPECT_EQ(
+      stability_sentence(r),
+      "Unstable: the cut at 0.5 mm and 5000 rpm chatters; at this speed it is stable "
+      "to 0.3 mm. This is as sure as the modes and coefficients of the case.");
+  r.stability.limit_curve.push_back(
+      {{.Omega = 5500 * unit::rpm, .depth = 1.2e-3, .multiplier = {-1.0, 0.0}}, 850.0});
+  EXPECT_NE(stability_sentence(r).find(" Near it 5500 rpm allows 1.2 mm, also when "),
+            std::string::npos)
+      << stability_sentence(r);
+  r.stability.whole = false;
+  EXPECT_EQ(stability_sentence(r).find("Near it"), std::string::npos);
+}
+
+TEST(StabilitySentence, SaysHowFarBelowTheLimitAStableCutIs) {
+  StabilityResult r = stability_result();
+  r.stability.verdict = dynamics::StabilityVerdict::stable;
+  const auto first = [&] {
+    const std::string said = stability_sentence(r);
+    return said.substr(0, said.find(". ") + 1);
+  };
+  EXPECT_EQ(first(),
+            "Stable at 0.5 mm, on an island: at 5000 rpm chatter begins at 0.3 mm.");
+  r.stability.limit->limit.depth = 0.52e-3;
+  EXPECT_EQ(
+      first(),
+      "Stable to 0.52 mm at 5000 rpm: the cut of 0.5 mm lies 3.8 % below, which is "
+      "close.");
+  r.stability.limit.reset();
+  EXPECT_EQ(first(), "Stable: at 5000 rpm no axial depth up to 2 mm chatters.");
+  r.stability.verdict = dynamics::StabilityVerdict::marginal;
+  EXPECT_EQ(
+      first(),
+      "Marginal: whether the cut at 0.5 mm and 5000 rpm is stable cannot be told.");
+}
+
 TEST(StabilityAnswer, TablesCarryNamesAndUnits) {
   const Answer answer = answer_of(stability_result());
   const base::Table& lobes = table_of(answer, "lobes.csv");

@@ -80,6 +80,7 @@ TEST(Identify, WithoutWorkLeftFitsTheModelThatDecidesAlone) {
   const auto given = folder.read(inputs::test::slot + measurement, Command::identify);
   base::Stop little;
   little.left = std::make_shared<std::atomic<std::int64_t>>(1);
+  little.grace = 1'000'000'000;
   const IdentifyResult r = identify(
       given, [](const std::string&) {}, little);
   ASSERT_TRUE(r.heading.ok) << r.heading.message;
@@ -89,6 +90,22 @@ TEST(Identify, WithoutWorkLeftFitsTheModelThatDecidesAlone) {
   EXPECT_TRUE(warned(r, "work_limit"));
   EXPECT_FALSE(warned(r, "time_limit"));
   EXPECT_LT(little.left->load(), -1000);
+}
+
+TEST(Identify, EndsEvenTheFitThatDecidesWhereItTakesTooMuch) {
+  const CaseFolder folder;
+  folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));
+  const auto given = folder.read(inputs::test::slot + measurement, Command::identify);
+  const auto work = [&](std::int64_t grace) {
+    base::Stop little;
+    little.left = std::make_shared<std::atomic<std::int64_t>>(1);
+    little.grace = grace;
+    const IdentifyResult r = identify(
+        given, [](const std::string&) {}, little);
+    EXPECT_TRUE(warned(r, "work_limit") || !r.heading.ok);
+    return -little.left->load();
+  };
+  EXPECT_LT(work(0), work(1'000'000'000) / 2);
 }
 
 /// The same eccentricity before and after half a turn in the holder: all of it is the

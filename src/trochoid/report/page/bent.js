@@ -64,7 +64,9 @@ function bentSection(report) {
   const largest = Math.max(...bodies.map((body) => body.largest));
   if (!bodies.length || !(largest > 0)) return null;
   const paint = (c, width, height) => paintBent(c, width, height, { bodies, bent, largest });
-  const chart = drawing({ label: 'Deflected shapes of cutter and wall, seen along the feed', paint,
+  const chart = drawing({ label: 'Deflected shapes of cutter and wall, seen along the feed', paint, lowOnPaper: true,
+    data: () => ({ head: t.columns.map(({ name }) => name),
+      rows: t.columns[0].values.map((_, i) => t.columns.map(({ values }) => values[i])) }),
     height: (width) => (width > 640 ? 500 : 780) });
   const how = bodies.map((body) => `${body.name} ${number(1000 * body.largest, 3)} µm ${body.place}`);
   const part = section('bent', 'Deflected shapes of cutter and wall', 'Deflection',

@@ -2,7 +2,7 @@
 
 const calibrateKnown = ['model', 'feedback', 'coefficients', 'correlation', 'rank', 'condition', 'rms_mm',
   'offset_mm', 'datum', 'noise_mm', 'means', 'readings', 'answers', 'ten_more_readings', 'runout', 'with_runout',
-  'combination', 'message'];
+  'combination', 'message', 'covariance', 'form', 'explanations', 'outliers', 'scatter'];
 
 /** `envelope`, `entry` -> words of a heading. */
 const readingName = (model, feedback) => (errorModels[model]?.name || model) +
@@ -39,6 +39,7 @@ function calibratePage(report) {
     readingResiduals(report),
     { part: answersTable(result, readings, keys) },
     fitted ? ellipseSection(readings, keys) : null,
+    { part: explanationsPart(result, keys) },
     { part: runoutPart(result) },
     adviceSection(result, keys, fitted),
     { part: datumPart(result) },
@@ -229,8 +230,10 @@ function meansSection(report, readings) {
   const place = numbered ? 'Mean' : tall ? 'Travel [mm]' : 'Height [mm]';
   chart.controls.append(...[choice(place, groups.map((group) => ({ value: group,
     text: number(group.value, 5) })), state.group, draw)].filter(Boolean));
-  const part = section('means', 'Measured and fitted', 'Fit', prose(text, report.result.with_runout ?
-    ' The answer that counts, with runout, is a fit to single readings: see what it leaves below.' : null),
+  const part = section('means', 'Measured and fitted', 'Fit', prose(text, !report.result.with_runout ? null :
+    fits.some((fit) => fit.chosen) ? ' The answer that counts, with runout, is a fit to single readings, here as their ' +
+      'means: see what it leaves of each below.' :
+      ' The answer that counts, with runout, is a fit to single readings and not drawn here: see below what it leaves.'),
   chart.element);
   return { part, draw: () => draw() };
 }
@@ -303,74 +306,4 @@ function answersTable(result, readings, keys) {
       { class: 'fits', chosen: best >= 0 && answered.length ? 1 + best : undefined }),
     noted.length ? el('ul', { class: 'reasons' }, noted.map(({ name, message }) =>
       el('li', {}, el('b', {}, `${sentence(name)}: `), message))) : null);
-}
-
-/** As the program judges it: three standard errors from none. */
-const runoutSeen = (runout) => runout.eccentricity_mm > 3 * runout.eccentricity_se_mm;
-
-function runoutPart(result) {
-  const { runout } = result;
-  if (isEmpty(runout)) return null;
-  if (!isNumber(runout.eccentricity_mm)) {
-    return section('runout', 'Runout', 'Runout', prose('Not known: ', runout.identifiable || 'not fitted', '.'));
-  }
-  const width = micro(1.96 * runout.eccentricity_se_mm);
-  const turn = 1.96 * runout.angle_se_deg;
-  const less = 100 * (1 - runout.rms_mm / runout.rms_without_mm);
-  const pitch = runout.angle_known_up_to_deg;
-  return section('runout', 'Runout', 'Runout',
-    prose(runoutSeen(runout) ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
-      el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
-      ' off its centre, at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
-      ' from the tip of tooth 1 towards tooth 2 (eccentricity, 95 %).', isNumber(pitch) ?
-        ` As the teeth of the readings are not numbered, the angle may as well be any multiple of ${
-          number(pitch)}° further.` : ''),
-    prose(`All readings are left with ${fixed(micro(runout.rms_mm), 3)} µm rms with runout and ${
-      fixed(micro(runout.rms_without_mm), 3)} µm without: ${number(less, 2)} % less.`));
-}
-
-/** What ten more readings at each height would give. */
-function adviceSection(result, keys, fitted) {
-  const advice = (result.ten_more_readings || []).filter((entry) => isNumber(entry.height_mm));
-  if (!fitted || !advice.length) return null;
-  const chosen = result.answers.find((answer) =>
-    answer.model === result.model && answer.feedback === result.feedback);
-  const now = keys.map((key) => chosen?.coefficients?.[key]?.se);
-  const best = advice[0];
-  const sorted = [...advice].sort((a, b) => a.height_mm - b.height_mm);
-  const gains = keys.map((key, k) => sorted.map((entry) => 100 * (1 - entry[`se_${key}`] / now[k])));
-  const gain = keys.map((key, k) => 100 * (1 - best[`se_${key}`] / now[k]));
-  const chart = figure({ key: 'advice', points: true, x: sorted.map((entry) => entry.height_mm), unit: 'mm',
-    label: 'height above the tip', caption: zoomHint });
-  const series = keys.map((key, k) => ({ name: symbol(nameAndUnit(key).name), values: gains[k],
-    color: seriesColor(k), width: 1.8, points: 5, dash: k ? [6, 3] : undefined }));
-  const part = section('advice', 'Where further readings would help', 'Advice',
-    prose('Ten more readings at ', el('b', {}, `${number(best.height_mm, 3)} mm`), ' above the tip would do most: ' +
-      'the standard error of ', symbol(nameAndUnit(keys[0]).name), ` would fall from ${number(now[0], 3)} to ${
-        number(best[`se_${keys[0]}`], 3)} MPa (${number(gain[0], 2)} % less). `, gain[0] < 10 ?
-        'That is little: heights are covered well, and only many more readings, or a more compliant wall, ' +
-        'would tell more.' : ''), sorted.length > 2 ? chart.element : null);
-  const panel = { label: 'standard error less by', unit: '%', height: 170, series };
-  return { part, draw: sorted.length > 2 ? () => chart.draw([panel]) : undefined };
-}
-
-function datumPart(result) {
-  if (isEmpty(result.datum)) return null;
-  const files = result.datum.map((one, i) => {
-    const parts = [];
-    if (one.offset_mm) {
-      const width = micro(half(one.offset_mm));
-      parts.push(`all readings lie ${measured(micro(one.offset_mm.value), width)} ± ${
-        measured(width, width)} µm high`);
-    }
-    (one.slopes_mm_per_mm || []).forEach((slope, k) => {
-      const width = micro(half(slope));
-      parts.push(`they lean ${measured(micro(slope.value), width)} ± ${measured(width, width)} µm per mm ${
-        k ? 'over the height' : 'along the feed'}`);
-    });
-    return parts.length ? el('li', {}, result.datum.length > 1 ? `Measurement ${i + 1}: ` : '',
-      sentence(parts.join(', '))) : null;
-  });
-  return section('datum', 'Datum of the readings', 'Datum',
-    prose('Estimated along with the coefficients (95 %) and taken off:'), el('ul', { class: 'reasons' }, files));
 }

@@ -100,11 +100,30 @@ function zeroLine(u) {
   u.ctx.restore();
 }
 
+/** A curve that begins anew after the places in `jumps`; a point alone between two of them is a dot. */
+function broken({ jumps, color }) {
+  if (!jumps?.length) return {};
+  const ends = new Set(jumps);
+  const paths = (u, k, from, to) => {
+    const stroke = new Path2D();
+    let pen = false;
+    for (let i = Math.max(0, from - 1); i <= Math.min(u.data[0].length - 1, to + 1); ++i) {
+      const v = u.data[k][i];
+      if (isNumber(v)) stroke[pen ? 'lineTo' : 'moveTo'](u.valToPos(u.data[0][i], 'x', true), u.valToPos(v, 'y', true));
+      pen = isNumber(v) && !ends.has(i);
+    }
+    return { stroke, fill: null, clip: null, band: null, gaps: null, flags: 3 };
+  };
+  return { paths, points: { show: true, size: 4, width: 0, fill: () => css(color),
+    filter: () => jumps.filter((i) => ends.has(i - 1)) } };
+}
+
 function curve(series) {
   return {
     stroke: () => css(series.color), width: series.width || 1.5, dash: series.dash,
     points: { show: Boolean(series.points), size: series.points || 6,
       fill: () => css(series.color), width: 0 },
+    ...broken(series),
     ...(series.line === false ? { paths: () => null } : {}), pxAlign: 0,
   };
 }
@@ -112,7 +131,7 @@ function curve(series) {
 /** One plot of a stack, in its own element. */
 function plotOf(stack, panel, last) {
   const { row, show } = legend(panel);
-  const place = el('div', { class: 'plot' });
+  const place = el('div', { class: 'plot', role: 'img', 'aria-label': panelWords(panel, stack) });
   const edges = panel.band ? [panel.band.low, panel.band.high] : [];
   const element = el('div', { class: 'panel' }, row, place);
   const options = {
@@ -165,7 +184,9 @@ function figure(stack) {
   const element = el('figure', { class: 'chart' }, controls, place,
     el('figcaption', {}, `${stack.label}${stack.unit ? ` [${stack.unit}]` : ''}`,
       stack.caption ? el('span', {}, stack.caption) : null));
-  const chart = { element, controls, plots: [], range: null };
+  const chart = { element, controls, stack, plots: [], panels: [], range: null };
+  element.append(...tools({ element, size: () => stackSize(chart, place.clientWidth),
+    paint: (c) => paintStack(c, place.clientWidth, chart), data: () => stackData(chart) }));
   chart.zoom = (range) => {
     chart.range = range;
     for (const plot of chart.plots) plot.setScale('x', { min: range[0], max: range[1] });
@@ -178,34 +199,44 @@ function figure(stack) {
     const made = panels.map((panel, i) => plotOf(stack,
       { height: 150, range: paddedRange, ...panel }, i === panels.length - 1));
     place.replaceChildren(...made.map(({ element: panel }) => panel));
+    chart.panels = made.map(({ panel }) => panel);
     chart.plots = made.map(({ make }) => make());
+    for (const plot of chart.plots) fingersOnPlot(plot, chart);
     chart.sizes = made.map(({ panel, last }) => panel.height + (last ? 30 : 0));
     chart.resize();
     if (before && isNumber(before[0])) chart.zoom(before);
   };
-  chart.resize = (width = place.clientWidth) => {
+  chart.resize = (width = place.clientWidth, tall = 1) => {
     if (width < 40) return;
-    chart.plots.forEach((plot, i) => plot.setSize({ width, height: chart.sizes[i] }));
+    chart.plots.forEach((plot, i) => plot.setSize({ width,
+      height: Math.max(60, Math.round(tall * chart.panels[i].height)) + chart.sizes[i] - chart.panels[i].height }));
   };
   chart.redraw = () => chart.plots.forEach((plot) => plot.redraw(false, true));
   charts.add(chart);
   return chart;
 }
 
-/** Buttons that show some revolutions or everything; needed where nobody can drag. */
-function rangeChoice(figures, x) {
-  const first = x[0];
-  const last = x[x.length - 1];
-  const turns = (last - first) / 360;
+/**
+ * Buttons that show some revolutions or everything; needed where nobody can drag. x: angles; places(): what
+ * the curves are over now, the time or the angles.
+ */
+function rangeChoice(figures, x, places = () => x) {
+  const turns = (x[x.length - 1] - x[0]) / 360;
   const options = [1, 2, 5].filter((n) => n < turns - 0.01)
     .map((n) => ({ value: n, text: n === 1 ? '1 revolution' : `${n} revolutions` }));
   options.push({ value: 0, text: 'all' });
-  const show = (n) => figures.forEach((chart) =>
-    chart.zoom([first, n ? first + 360 * n : last]));
+  const rangeOf = (n) => {
+    const now = places();
+    const [first, last] = [now[0], now[now.length - 1]];
+    return [first, n ? first + (last - first) * n / turns : last];
+  };
+  const show = (n) => figures.forEach((chart) => chart.zoom(rangeOf(n)));
   const start = turns > 5 ? 2 : 0;
-  if (start) figures.forEach((chart) => { chart.range = [first, first + 720]; });
+  if (start) figures.forEach((chart) => { chart.range = rangeOf(start); });
   return choice('Show', options, start, show);
 }
+
+const onPaper = 0.68;  // of the height of curves, so that a page holds two stacks of them
 
 function watchPage() {
   const each = (action) => () => charts.forEach((chart) => action(chart));
@@ -222,7 +253,7 @@ function watchPage() {
     document.documentElement.classList.add('print');
     opened = [...document.querySelectorAll('details:not(.raw):not([open])')];
     for (const details of opened) details.open = true;
-    charts.forEach((chart) => { chart.resize(680); chart.redraw(); });
+    charts.forEach((chart) => { chart.resize(680, onPaper); chart.redraw(); });
   });
   window.addEventListener('afterprint', () => {
     document.documentElement.classList.remove('print');

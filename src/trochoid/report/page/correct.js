@@ -44,6 +44,29 @@ function correctLead({ before, after, command, reduction, controller }) {
   ])];
 }
 
+/** The bars of one quantity with an axis at their left; returns where each is, and its value in words. */
+function paintFlutes(c, kind, sides, { left, top, width }) {
+  const values = sides.map((side) => side.flutes.map(kind.of));
+  const most = Math.max(...values.flat()) || 1;
+  const [start, floor, tall] = [left + 44, top + 198, 172];
+  write(c, kind.name, left + 4, top + 10, { color: '--ink' });
+  for (const v of ticksBetween(0, most, 4)) {
+    const at = Math.round(floor - tall * v / most) + 0.5;
+    line(c, [[start - 4, at], [left + width - 10, at]], css('--grid'));
+    write(c, number(v, 4), start - 7, at, { align: 'right' });
+  }
+  const slot = (width - 54) / values[0].length;
+  return values[0].flatMap((_, j) => {
+    write(c, `flute ${sides[0].flutes[j].tooth}`, start + (j + 0.48) * slot, top + 210, { align: 'center' });
+    return [['--s2', 0.08, 'before'], ['--s1', 0.5, 'after']].map(([color, shift, when], k) => {
+      const [x0, high] = [start + (j + shift) * slot, tall * values[k][j] / most];
+      filled(c, [[x0, floor], [x0, floor - high], [x0 + 0.38 * slot, floor - high], [x0 + 0.38 * slot, floor]], css(color));
+      return { x: [x0, x0 + 0.38 * slot], y: [top + 20, floor],
+        text: `flute ${sides[0].flutes[j].tooth}, ${when}: ${kind.name} ${number(values[k][j], 5)}` };
+    });
+  });
+}
+
 /** Bars of one quantity, a pair for each flute: before and after. */
 function flutesSection({ before, after }) {
   if (!before?.flutes || !after?.flutes) return null;
@@ -57,32 +80,19 @@ function flutesSection({ before, after }) {
   const inRow = (width) => (width < 520 ? 1 : kinds.length);
   const rows = before.flutes.map((f, i) => [`${f.tooth}`,
     ...kinds.flatMap(({ of }) => [number(of(f), 4), number(of(after.flutes[i]), 4)])]);
+  let bars = [];
   const paint = (c, width) => {
+    bars = [];
     const columns = inRow(width);
-    const each = width / columns;
-    kinds.forEach((kind, index) => {
-      const k = index % columns;
-      const top = 220 * Math.floor(index / columns);
-      const most = Math.max(...before.flutes.map(kind.of), ...after.flutes.map(kind.of)) || 1;
-      write(c, kind.name, k * each + 4, top + 10, { color: '--ink' });
-      const n = before.flutes.length;
-      const slot = (each - 24) / n;
-      const floor = top + 198;
-      for (let j = 0; j < n; ++j) {
-        const x = k * each + 8 + j * slot;
-        [[before, '--s2', 0.08], [after, '--s1', 0.5]].forEach(([side, color, shift]) => {
-          const high = 172 * kind.of(side.flutes[j]) / most;
-          const x0 = x + shift * slot;
-          filled(c, [[x0, floor], [x0, floor - high], [x0 + 0.38 * slot, floor - high],
-            [x0 + 0.38 * slot, floor]], css(color));
-        });
-        write(c, `flute ${before.flutes[j].tooth}`, x + 0.48 * slot, top + 210,
-          { align: 'center' });
-      }
-    });
+    kinds.forEach((kind, index) => bars.push(...paintFlutes(c, kind, [before, after],
+      { left: (index % columns) * width / columns, top: 220 * Math.floor(index / columns), width: width / columns })));
   };
-  const chart = drawing({ label: 'Bars of every flute before and after', paint,
+  const chart = drawing({ label: 'Bars of every flute before and after the command', paint,
+    data: () => ({ head: ['flute', ...kinds.flatMap(({ name }) => [`${name}, before`, `${name}, after`])],
+      rows: before.flutes.map((f, i) => [f.tooth, ...kinds.flatMap(({ of }) => [of(f), of(after.flutes[i])])]) }),
     height: (width) => 220 * Math.ceil(kinds.length / inRow(width)) });
+  readoutOf(chart, 'Point at a bar for its value.', ([x, y]) => bars.find((bar) =>
+    x >= bar.x[0] && x <= bar.x[1] && y >= bar.y[0] && y <= bar.y[1])?.text);
   const part = section('flutes', 'Flutes before and after', 'Flutes',
     prose('Left bar: without the command. Right bar: with it. The peaks are those of the whole ' +
       'force on the tool while a flute cuts; the chip area is what the flute takes at its tip. ' +

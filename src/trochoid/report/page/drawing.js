@@ -2,11 +2,12 @@
 
 /**
  * A canvas that follows its width, the colours and the paper, like a figure. options:
- * {label, height (of the width), paint(c, width, height), caption}; paint works in CSS pixels.
+ * {label, height (of the width), paint(c, width, height), caption, data() -> {head, rows},
+ * lowOnPaper}; paint works in CSS pixels, data are what a table of it holds, lowOnPaper: any height will do.
  */
 function drawing(options) {
   const canvas = el('canvas', { role: 'img', 'aria-label': options.label });
-  const place = el('div', { class: 'drawing' }, canvas);
+  const place = el('div', { class: 'drawing' }, canvas);  // what marks a zoom lies over it
   const controls = el('div', { class: 'controls' });
   const element = el('figure', { class: 'chart' }, controls, place,
     options.caption ? el('figcaption', {}, el('span', {}, options.caption)) : null);
@@ -21,15 +22,30 @@ function drawing(options) {
     c.font = font;
     options.paint(c, chart.width, chart.height);
   };
-  chart.resize = (width = place.clientWidth) => {
+  chart.resize = (width = place.clientWidth, tall = 1) => {
     if (width < 40) return;
     chart.width = width;
-    chart.height = options.height(width);
+    chart.height = Math.round(options.height(width) * (tall < 1 && options.lowOnPaper ? 0.78 : 1));
     canvas.style.width = `${width}px`;
     chart.redraw();
   };
+  element.append(...tools({ element, size: () => [chart.width, chart.height],
+    paint: (c) => options.paint(c, chart.width, chart.height), data: options.data }));
   charts.add(chart);
   return chart;
+}
+
+/** A line below a drawing: a hint, or what lies under the pointer. read([x, y] in pixels): text or nothing. */
+function readoutOf(chart, hint, read) {
+  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, hint);
+  chart.canvas.addEventListener('pointermove', (event) => {
+    const box = chart.canvas.getBoundingClientRect();
+    const told = read([event.clientX - box.left, event.clientY - box.top]);
+    readout.replaceChildren(...[told ?? hint].flat());
+  });
+  chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(hint));
+  chart.canvas.parentElement.after(readout);
+  return readout;
 }
 
 /** 1, 2 or 5 times a power of ten, at least `size`. */

@@ -182,21 +182,19 @@ function onceSection(report) {
   const dots = (name, values, color) => ({ name, values, color, points: 5, width: 1 });
   const chart = figure({ key: 'turn', x: turn, label: 'turn', unit: '', points: true,
     caption: zoomHint + thinned(t) });
-  const scatter = drawing({ label: 'Tool minus work at the start of each turn, y over x',
-    height: (width) => Math.round(Math.min(420, Math.max(260, 0.6 * width))),
-    paint: (c, width, height) => paintScatter(c, width, height, x, y) });
+  const scatter = inPlane ? scatterOf(turn, x, y) : null;
   const part = section('once', 'Once per turn: the Poincaré section', 'Once per turn',
     prose('Tool minus work at the moment the tip of tooth 1 passes θ = 0. ' +
       (report.result.periodic
         ? `A motion that repeats with every turn stands still here${report.result.period?.turns > 1 ? `; this one goes round ${number(report.result.period.turns, 3)} places` : ''}: first the transient of the start dies out.`
         : 'A motion in steady state would stand still here; this one does not.')),
-    chart.element, inPlane ? scatter.element : null);
+    chart.element, scatter?.element);
   const panels = [{ label: 'x', unit: 'µm', height: 120, series: [dots('', x, '--s1')] },
     { label: 'y', unit: 'µm', height: 120, series: [dots('', y, '--s2')] }]
     .filter(({ series: [{ values }] }) => moves(values));
   return panels.length ? { part, draw: () => {
     chart.draw(panels);
-    if (inPlane) scatter.resize();
+    scatter?.resize();
   } } : null;
 }
 
@@ -222,14 +220,35 @@ function spectrumSection(report) {
   return { part, draw: () => chart.draw([{ label: 'amplitude', unit: 'µm', series }]) };
 }
 
-function paintScatter(c, width, height, x, y) {
+/** y over x, a dot a turn. */
+function scatterOf(turn, x, y) {
   const ends = (values) => {
     const [low, high] = [Math.min(...values), Math.max(...values)];
     const margin = 0.08 * (high - low) || 0.1;
     return [low - margin, high + margin];
   };
-  const { px, py } = plane(c, { left: 62, top: 34, width: width - 74, height: height - 34 - 44,
-    x: ends(x), y: ends(y), xLabel: 'x [µm]', yLabel: 'y [µm], every turn a dot, the last third large' });
+  let places = null;
+  const chart = drawing({ label: 'Tool minus work at the start of each turn, y over x',
+    height: (width) => Math.round(Math.min(420, Math.max(260, 0.6 * width))),
+    data: () => ({ head: ['turn', 'x [µm]', 'y [µm]'], rows: turn.map((n, i) => [n, x[i], y[i]]) }),
+    paint: (c, width, height) => { places = paintScatter(c, width, height, { x, y, view: chart.view }); } });
+  zoomable(chart, () => places.frame, { x: ends(x), y: ends(y) });
+  readoutOf(chart, 'Point at a turn for its values; drag or pinch to zoom.', ([u, v]) => {
+    const far = turn.map((_, i) => Math.hypot(places.px(x[i]) - u, places.py(y[i]) - v));
+    const i = far.indexOf(Math.min(...far));
+    return far[i] < 30 ? `turn ${number(turn[i])}: x ${number(x[i], 5)} µm, y ${number(y[i], 5)} µm` : null;
+  });
+  return chart;
+}
+
+function paintScatter(c, width, height, { x, y, view }) {
+  const frame = { left: 62, top: 34, width: width - 74, height: height - 34 - 44, ...view,
+    xLabel: 'x [µm]', yLabel: 'y [µm], every turn a dot, the last third large' };
+  const { px, py } = plane(c, frame);
+  c.save();
+  c.beginPath();
+  c.rect(frame.left, frame.top, frame.width, frame.height);
+  c.clip();
   const places = x.map((v, i) => [px(v), py(y[i])]);
   line(c, places, css('--zero'), 1);
   places.forEach(([u, v], i) => {
@@ -239,6 +258,8 @@ function paintScatter(c, width, height, x, y) {
     c.arc(u, v, late ? 4 : 2.5, 0, 2 * Math.PI);
     c.fill();
   });
+  c.restore();
+  return { frame, px, py };
 }
 
 /** The error left on the finished walls by the motion. */

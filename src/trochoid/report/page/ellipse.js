@@ -47,19 +47,28 @@ function writeSymbol(c, { name, unit }, x, y) {
   c.restore();
 }
 
-/** answers: [{name, color, pair: [K, K], correlation, chosen}] */
-function paintEllipses(c, width, height, { answers, labels }) {
-  const regions = answers.map((answer) => ellipseOf(answer.pair, answer.correlation));
+/** The axes around all regions and intervals. */
+function aroundRegions(answers) {
+  const regions = answers.flatMap((answer) => ellipseOf(answer.pair, answer.correlation));
   const range = (k) => {
-    const all = [...regions.flat().map((point) => point[k]), ...answers.flatMap(({ pair }) =>
-      [pair[k].low, pair[k].high])];
+    const all = [...regions.map((point) => point[k]), ...answers.flatMap(({ pair }) => [pair[k].low, pair[k].high])];
     const [low, high] = [Math.min(...all), Math.max(...all)];
     return [low - 0.06 * (high - low), high + 0.06 * (high - low)];
   };
-  const { px, py } = plane(c, { left: 56, top: 24, width: width - 72, height: height - 24 - 44,
-    x: range(0), y: range(1), xLabel: '', yLabel: '' });
+  return { x: range(0), y: range(1) };
+}
+
+/** answers: [{name, color, pair: [K, K], correlation, chosen}]; returns the frame. */
+function paintEllipses(c, width, height, { answers, labels, view }) {
+  const regions = answers.map((answer) => ellipseOf(answer.pair, answer.correlation));
+  const frame = { left: 56, top: 24, width: width - 72, height: height - 24 - 44, ...view, xLabel: '', yLabel: '' };
+  const { px, py } = plane(c, frame);
   writeSymbol(c, labels[1], 0, 10);
   writeSymbol(c, labels[0], width - 80, height - 10);
+  c.save();
+  c.beginPath();
+  c.rect(frame.left, frame.top, frame.width, frame.height);
+  c.clip();
   answers.forEach(({ pair: [a, b], color, chosen }, i) => {
     const points = regions[i].map(([x, y]) => [px(x), py(y)]);
     c.globalAlpha = chosen ? 0.25 : 0.1;
@@ -75,6 +84,8 @@ function paintEllipses(c, width, height, { answers, labels }) {
     c.arc(px(a.value), py(b.value), chosen ? 4 : 3, 0, 2 * Math.PI);
     c.fill();
   });
+  c.restore();
+  return frame;
 }
 
 /** Names and colours above a drawing. */
@@ -94,12 +105,21 @@ function ellipseSection(answers, keys) {
   const main = known_.find(({ chosen }) => chosen) || known_[0];
   if (!main) return null;
   const names = keys.map((key) => nameAndUnit(key));
-  const state = { shown: known_ };
-  const chart = drawing({ label: 'Joint region of the two coefficients', height: () => 400,
-    paint: (c, width, height) => paintEllipses(c, width, height, { answers: state.shown, labels: names }) });
+  const state = { shown: known_, frame: null };
+  const chart = drawing({ label: 'Joint 95 % regions of the two coefficients', height: () => 400, lowOnPaper: true,
+    data: () => ({ head: ['answer', ...keys.flatMap((key) => [key, `${key}, low`, `${key}, high`]), 'correlation'],
+      rows: known_.map(({ name, pair, correlation }) => [name, ...pair.flatMap((k) => [k.value, k.low, k.high]), correlation]) }),
+    paint: (c, width, height) => {
+      state.frame = paintEllipses(c, width, height, { answers: state.shown, labels: names, view: chart.view });
+    } });
+  zoomable(chart, () => state.frame, aroundRegions(known_));
+  readoutOf(chart, 'Point for values; drag or pinch to zoom, double-click to see all.', (place) => {
+    const [u, v] = valuesAtPlace(state.frame, place);
+    return [symbol(names[0].name), ` ${number(u)} ${names[0].unit}, `, symbol(names[1].name), ` ${number(v)} ${names[1].unit}`];
+  });
   chart.controls.append(...[keysOf(known_), choice('Show', known_.length > 1 ? [{ value: known_, text: 'all' },
     { value: [main], text: main.chosen ? 'the chosen one' : main.name }] : [], known_,
-  (shown) => { state.shown = shown; chart.redraw(); })].filter(Boolean));
+  (shown) => { state.shown = shown; chart.view = aroundRegions(shown); chart.redraw(); })].filter(Boolean));
   const [a, b] = main.pair;
   const slope = main.correlation * b.se / a.se;
   const part = section('together', 'What is known of the two together', 'Together',

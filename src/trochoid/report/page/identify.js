@@ -1,7 +1,7 @@
 // The page of `identify`.
 
 const identifyKnown = ['fits', 'chosen', 'groups', 'clocking', 'signal', 'do_not_use', 'verdict',
-  'with_care', 'runout_form', 'views', 'curves'];
+  'with_care', 'runout_form', 'views', 'curves', 'covariance'];
 
 function identifyPage(report) {
   const { result } = report;
@@ -11,12 +11,13 @@ function identifyPage(report) {
   const trust = trustIn(report);
   const curves = measuredOverAngle(report, {
     heading: 'Measured and fitted force', short: 'Forces', model: best?.chip_model,
+    bandOf: (model) => fits.find((fit) => fit.chip_model === model)?.band_harmonics || 0,
     text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.' +
       (result.curves === 'mean turn' ? ' The records are long: this is the mean of all their turns ' +
         '(identify --curves keeps every sample).' : ''),
   });
   return [
-    { lead: best ? headline(best, fits, trust, verdictOf(result)) : null },
+    { lead: best ? headline(best, fits, trust) : null },
     { part: best ? coefficientSection(best, trust, result.groups?.[0]) : null },
     { part: result.clocking && trust ? clockingSection(result.clocking) : null },
     groupsSection(result.groups),
@@ -44,7 +45,16 @@ function reasonOf(fit, key) {
   return entry?.reason || entry?.message || (entry === false ? 'cannot be told apart' : '');
 }
 
-function headline(fit, fits, trust, verdict) {
+/** How much of the force stays unexplained, else what is left in newtons. */
+function residualTile(fit, fits) {
+  const share = fit.unexplained_in_band;
+  const rms = isNumber(fit.rms_N) ? fixed(fit.rms_N, 3) : null;
+  if (!isNumber(share)) return { label: 'Residual of the fit', value: rms, unit: 'N rms', note: comparison(fit, fits) };
+  return { label: fit.band_harmonics ? `Unexplained, mean and ${fit.band_harmonics} harmonics` : 'Unexplained of the force',
+    value: number(100 * share, 2), unit: '% rms', note: [`${rms} N`, comparison(fit, fits)].filter(Boolean).join('; ') };
+}
+
+function headline(fit, fits, trust) {
   const runout = runoutWords(fit.runout, fit.interval_factor);
   const [key, main] = coefficientsOf(fit).find(([, entry]) => entry) || [];
   const spread = spreadOf(fit.runout);
@@ -56,13 +66,11 @@ function headline(fit, fits, trust, verdict) {
         unit: nameAndUnit(key).unit, note: known(main, trust).text },
       { label: 'Runout between teeth', value: spread && fixed(spread, 3), unit: 'µm',
         note: spread && !trust ? 'do not use' : fit.runout?.eccentricity_mm ? 'off centre' : null },
-      { label: 'Residual of the fit', value: isNumber(fit.rms_N) ? fixed(fit.rms_N, 3) : null,
-        unit: 'N rms',
-        note: comparison(fit, fits) },
+      residualTile(fit, fits),
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
     ]),
-    trust && (verdict || runout) ? prose(verdict && el('b', {}, verdict), runout && ' Runout: ', runout, runout && '.') : null,
+    trust && runout ? prose('Runout: ', runout, '.') : null,
   ];
 }
 
@@ -83,13 +91,6 @@ function comparison(fit, fits) {
 }
 
 const half = (entry) => (isNumber(entry?.high - entry?.low) ? (entry.high - entry.low) / 2 : null);
-
-/** One sentence: may the numbers be used? What must not be used says so elsewhere. */
-function verdictOf(result) {
-  const care = [result.with_care ?? []].flat();
-  if (!isEmpty(result.do_not_use) || !result.verdict) return null;
-  return care.length ? `Usable with care: ${care.join('; ')}.` : 'Usable.';
-}
 
 /** The best that may be said of a coefficient: nothing, `roughly` of a poor fit, anything. */
 function trustIn(report) {

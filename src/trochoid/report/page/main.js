@@ -14,8 +14,16 @@ function build() {
   }
   // Plots need the width of their place, so they are drawn when all stands on the page.
   for (const { draw } of parts) draw?.();
+  for (const sentence_ of document.querySelectorAll('.lead p')) typeset(sentence_);
   contents();
   watchPage();
+}
+
+/** What the program writes in plain letters: `K_tc`, `+-`, `um`. */
+function typeset(element) {
+  const text = element.textContent.replaceAll(' +- ', ' ± ').replace(/(\d) um\b/g, '$1 µm')
+    .replace(/(\d) (?=(?:MPa|µm|N|mm|rpm|Hz|%)(?![\w]))/g, '$1\u00a0');
+  element.replaceChildren(...text.split(/\b(K_[a-z0-9]+)(?![\w.])/).map((part, i) => (i % 2 ? symbol(part) : part)));
 }
 
 function contents() {

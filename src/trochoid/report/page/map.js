@@ -123,7 +123,7 @@ function lineLabels(c, values, view, frame) {
 
 /**
  * A map with its colours, what lies under the cursor, and the section that is chosen. map:
- * {rows, views, unit, xLabel, yLabel, read(row, i), pick(row), section()}.
+ * {rows, views, xLabel, yLabel, columns: [name, key] of the table, read(row, i), pick(row), section()}.
  */
 function heatMap(map) {
   const { rows } = map;
@@ -132,44 +132,45 @@ function heatMap(map) {
   const x = ends(rows.flatMap((row) => [row.x[0], row.x[row.x.length - 1]]));
   const heights = ends(rows.map((row) => row.height));
   const state = { view: map.views[0], frame: null };
-  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, map.hint);
   const paint = (c, width, height) => {
     const { view } = state;
-    const frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, x, y: heights,
+    const { x, y } = chart.view;
+    const frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, x, y,
       xLabel: map.xLabel, yLabel: map.yLabel };
     state.frame = frame;
     write(c, view.label, 0, 8, { color: '--ink' });
     if (view.teeth) toothBar(c, view, frame.left, frame.width);
     else colorBar(c, view, frame.left, frame.width);
-    const values = pictureOf(rows, view, x, heights, Math.round(frame.width * devicePixelRatio),
+    const values = pictureOf(rows, view, x, y, Math.round(frame.width * devicePixelRatio),
       Math.round(frame.height * devicePixelRatio));
     c.putImageData(imageOf(values, view), Math.round(frame.left * devicePixelRatio),
       Math.round(frame.top * devicePixelRatio));
     if (view.step) lineLabels(c, values, view, frame);
     const { py } = plane(c, frame, { grid: false });
-    const y = py(map.section().height);
-    line(c, [[frame.left, y], [frame.left + frame.width, y]], '#ffffff', 2.5);
-    line(c, [[frame.left, y], [frame.left + frame.width, y]], '#17212b', 1.2, [6, 4]);
+    const at = py(map.section().height);
+    if (at < frame.top - 1 || at > frame.top + frame.height + 1) return;
+    line(c, [[frame.left, at], [frame.left + frame.width, at]], '#ffffff', 2.5);
+    line(c, [[frame.left, at], [frame.left + frame.width, at]], '#17212b', 1.2, [6, 4]);
   };
-  const chart = drawing({ label: 'Map of the error over feed and height', paint,
+  const chart = drawing({ label: `Map of the error over feed and height: ${map.xLabel}, ${map.yLabel}`, paint, lowOnPaper: true,
+    data: () => ({ head: [map.xLabel, map.yLabel, ...map.columns.map(([name]) => name)],
+      rows: rows.flatMap((row) => row.x.map((v, i) => [v, row.height, ...map.columns.map(([, key]) => row[key][i])])) }),
     height: (width) => Math.round(Math.min(430, Math.max(330, 0.5 * width))) });
-  const at = (event) => {
-    const { frame } = state;
-    const box = chart.canvas.getBoundingClientRect();
-    const share = (v, from, size) => Math.min(1, Math.max(0, (v - from) / size));
-    const v = x[0] + (x[1] - x[0]) * share(event.clientX - box.left, frame.left, frame.width);
-    const h = heights[1] - (heights[1] - heights[0]) * share(event.clientY - box.top, frame.top, frame.height);
+  zoomable(chart, () => state.frame, { x, y: heights });
+  const at = (place) => {
+    const [v, h] = valuesAtPlace(state.frame, place);
     const row = rows[nearest(rows.map((one) => one.height), h)];
     return { row, i: nearest(row.x, v) };
   };
-  chart.canvas.addEventListener('pointermove', (event) => {
-    const { row, i } = at(event);
-    readout.replaceChildren(...[map.read(row, i)].flat());
+  readoutOf(chart, map.hint, (place) => {
+    const { row, i } = at(place);
+    return map.read(row, i);
   });
-  chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(map.hint));
-  chart.canvas.addEventListener('click', (event) => map.pick(at(event).row));
+  chart.canvas.addEventListener('click', (event) => {
+    const box = chart.canvas.getBoundingClientRect();
+    map.pick(at([event.clientX - box.left, event.clientY - box.top]).row);
+  });
   chart.controls.append(...[choice('Show', map.views.map((view) => ({ value: view, text: view.name })),
     state.view, (view) => { state.view = view; chart.redraw(); })].filter(Boolean));
-  chart.element.append(readout);
   return chart;
 }

@@ -16,13 +16,17 @@ function rowsOfRun(t, run) {
   };
 }
 
-/** words: {heading, short, text, model}; model: the one that is shown first. */
+/**
+ * words: {heading, short, text, model, bandOf}; model: the one that is shown first; bandOf(model):
+ * how many harmonics its fit counts, 0: all.
+ */
 function measuredOverAngle(report, words) {
   const fitted = tableNamed(report, 'fitted.csv');
   const residual = tableNamed(report, 'residual.csv');
   if (!fitted?.drawn) return [];
   const models = modelsOf(fitted);
   const runs = [...new Set(columnNamed(fitted, 'run') || [1])];
+  const bandOf = words.bandOf || (() => 0);
   const state = { run: runs[0], model: models.includes(words.model) ? words.model : models[0] };
   const x = rowsOfRun(fitted, state.run)('angle_deg');
   const base = { key: 'recorded', x, label: 'φ, recorded spindle angle', unit: '°' };
@@ -30,7 +34,7 @@ function measuredOverAngle(report, words) {
   const left = residual?.drawn ? figure({ ...base, caption: thinned(residual) }) : null;
   const redraw = () => {
     drawForces(forces, rowsOfRun(fitted, state.run), state.model, models);
-    if (left) drawResiduals(left, rowsOfRun(residual, state.run), state.model);
+    if (left) drawResiduals(left, rowsOfRun(residual, state.run), state.model, bandOf(state.model));
   };
   const pick = (name) => (value) => { state[name] = value; redraw(); };
   const both = [forces, left].filter(Boolean);
@@ -43,7 +47,8 @@ function measuredOverAngle(report, words) {
   if (left) {
     parts.push({ part: section('residuals', 'Residuals: what stays unexplained', 'Residuals',
       prose('Measured minus computed, on one scale. Only noise should be left; a pattern that ' +
-        'repeats with the teeth tells of something that the model does not know.'), left.element) });
+        'repeats with the teeth tells of something that the model does not know.', bandWords(bandOf(state.model))),
+      left.element) });
   }
   return parts;
 }
@@ -56,15 +61,24 @@ function drawForces(chart, values, model, models) {
   ].filter((series) => series.values)), values('angle_deg'));
 }
 
-function drawResiduals(chart, values, model) {
-  const panels = forcePanels((axis) => [{
-    name: '', values: values(`F${axis}_${model}_N`), color: '--s6', width: 1,
-  }].filter((series) => series.values));
+/** What grey and coloured lines of the residuals are where the fit counts a band only. */
+const bandWords = (band) => (band ? ` The fit counts the mean and the first ${band} harmonics of a turn: the coloured ` +
+  'line is what it leaves of them, grey is what stays of everything.' : '');
+
+function drawResiduals(chart, values, model, band) {
+  const angle = values('angle_deg');
+  const panels = forcePanels((axis) => {
+    const whole = values(`F${axis}_${model}_N`);
+    const counted = whole && band ? inBand(angle, whole, band) : null;
+    return counted ? [
+      { name: 'everything', values: whole, color: '--measured', width: 1 },
+      { name: `mean and first ${band} harmonics`, values: counted, color: '--s6', width: 1.8 },
+    ] : [{ name: '', values: whole, color: '--s6', width: 1 }].filter((series) => series.values);
+  });
   const all = panels.flatMap(({ series }) => series[0].values.filter(isNumber));
   const [low, high] = paddedRange(null, all.reduce((a, b) => Math.min(a, b), 0),
     all.reduce((a, b) => Math.max(a, b), 0));
-  chart.draw(panels.map((panel) => ({ ...panel, height: 100, range: () => [low, high] })),
-    values('angle_deg'));
+  chart.draw(panels.map((panel) => ({ ...panel, height: 100, range: () => [low, high] })), angle);
 }
 
 /** The whole records as they came, and which part of each was used. */
@@ -100,6 +114,14 @@ function overviewSection(report) {
   return { part, draw: () => draw(runs[0]) };
 }
 
+/** "5 revolutions laid over one another. " */
+function turnWords(turns, runs) {
+  const counts = [turns ?? []].flat();
+  if (counts.length !== runs.length) return 'All revolutions laid over one another. ';
+  const of = counts.length > 1 ? ` of run ${runs.join(', ')}` : '';
+  return [el('b', {}, `${counts.join(', ')} revolutions`), `${of} laid over one another. `];
+}
+
 /** One revolution: the mean of all, and how far single ones scatter around it. */
 function foldedSection(report) {
   const folded = tableNamed(report, 'folded.csv');
@@ -124,7 +146,7 @@ function foldedSection(report) {
   chart.controls.append(...[choice('Run', runs.map((r) => ({ value: r, text: number(r) })),
     runs[0], draw)].filter(Boolean));
   const part = section('folded', 'How well revolutions repeat', 'Revolutions',
-    prose('All revolutions laid over one another. A wide band is noise, chatter or a spindle ' +
+    prose(turnWords(report.result.signal?.revolutions, runs), 'A wide band is noise, chatter or a spindle ' +
       'speed that drifts.'), chart.element);
   return { part, draw: () => draw(runs[0]) };
 }

@@ -138,6 +138,17 @@ function polar(re, im, middle) {
   };
 }
 
+const kindsInOrder = ['receptance', 'mobility', 'accelerance'];
+
+/** A response as another kind: each is the one before times i omega. */
+function asKind({ re, im }, hertz, from, to) {
+  const times = kindsInOrder.indexOf(to) - kindsInOrder.indexOf(from);
+  const turned = [[1, 0], [0, 1], [-1, 0], [0, -1]][((times % 4) + 4) % 4];
+  const size = hertz.map((f) => (f > 0 ? (2 * Math.PI * f) ** times : times ? NaN : 1));
+  return { re: re.map((a, i) => size[i] * (turned[0] * a - turned[1] * im[i])),
+    im: re.map((a, i) => size[i] * (turned[0] * im[i] + turned[1] * a)) };
+}
+
 function responseSection(report) {
   const t = tableNamed(report, 'fitted.csv');
   const { kind, description } = report.result;
@@ -159,10 +170,6 @@ function responseChart(t, { kind, key, modes }) {
   const fittedRe = part('fitted_re_');
   const fittedIm = part('fitted_im_');
   const mif = columnNamed(t, 'mode_indicator');
-  const unit = unitOfKind[kind] || '';
-  const middle = middleOfPhase[kind] || 0;
-  const of = polar(re, im, middle);
-  const fit = fittedRe ? polar(fittedRe, fittedIm, middle) : null;
   const both = (values, fitted) => [
     { name: 'measured', values, color: '--measured', width: 2.2 },
     fitted && { name: 'fit', values: fitted, color: '--s1', width: 1.6 },
@@ -171,16 +178,27 @@ function responseChart(t, { kind, key, modes }) {
     text: `${i + 1}`, color: '--soft' }));
   const chart = figure({ key, x, label: 'frequency', unit: 'Hz',
     caption: zoomHint + thinned(t) });
-  const panels = [
-    { label: '|H|', unit: `dB re 1 ${unit}`, height: 190,
-      series: both(of.magnitude, fit?.magnitude), markers: marks },
-    { label: 'phase', unit: '°', height: 120, series: both(of.phase, fit?.phase) },
-    { label: 'real part', unit, height: 130, series: both(re, fittedRe) },
-    { label: 'imaginary part', unit, height: 130, series: both(im, fittedIm) },
-    mif && { label: 'mode indicator', unit: '', height: 90,
-      series: [{ name: '', values: mif, color: '--measured', width: 1.2 }] },
-  ].filter(Boolean);
-  return { element: chart.element, fitted: Boolean(fit), draw: () => chart.draw(panels) };
+  const panelsAs = (shown_) => {
+    const of = asKind({ re, im }, x, kind, shown_);
+    const fit = fittedRe ? asKind({ re: fittedRe, im: fittedIm }, x, kind, shown_) : null;
+    const unit = unitOfKind[shown_] || '';
+    const middle = middleOfPhase[shown_] || 0;
+    const [round, roundFit] = [polar(of.re, of.im, middle), fit && polar(fit.re, fit.im, middle)];
+    return [
+      { label: '|H|', unit: `dB re 1 ${unit}`, height: 190,
+        series: both(round.magnitude, roundFit?.magnitude), markers: marks },
+      { label: 'phase', unit: '°', height: 120, series: both(round.phase, roundFit?.phase) },
+      { label: 'real part', unit, height: 130, series: both(of.re, fit?.re) },
+      { label: 'imaginary part', unit, height: 130, series: both(of.im, fit?.im) },
+      mif && { label: 'mode indicator', unit: '', height: 90,
+        series: [{ name: '', values: mif, color: '--measured', width: 1.2 }] },
+    ].filter(Boolean);
+  };
+  if (kindsInOrder.includes(kind)) {
+    chart.controls.append(choice('Show as', kindsInOrder.map((value) => ({ value, text: value })), kind,
+      (value) => chart.draw(panelsAs(value))));
+  }
+  return { element: chart.element, fitted: Boolean(fittedRe), draw: () => chart.draw(panelsAs(kind)) };
 }
 
 function actuatorPage(report) {

@@ -111,7 +111,7 @@ function movingSection(report) {
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
   chart.controls.append(el('div', { class: 'moments' },
     still ? null : el('div', { class: 'choice' }, el('div', {}, button)), slider));
-  chart.element.append(readout);
+  chart.canvas.parentElement.after(readout);
   const part = section('moving', 'The cut from above', 'From above',
     prose('Stock, tool and the force on it (arrow) at one moment of the last turns; a tooth with a black tip is ' +
       'where it may cut. Thin: the path of the middle of the tool. ' +

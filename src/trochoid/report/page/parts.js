@@ -55,7 +55,7 @@ const forcePanels = (curves) => axesOfForce.map((axis) => ({
   label: forceName(axis), unit: 'N', series: curves(axis),
 })).filter((panel) => panel.series.length);
 
-const zoomHint = 'Drag to zoom, double-click to see all.';
+const zoomHint = 'Drag or pinch to zoom; double-click or double-tap to see all.';
 
 /** h over theta, one curve a tooth; from chip_curve.csv, else from chip.csv. */
 function chipSection(report, note) {
@@ -137,10 +137,10 @@ function engagementSection(teeth, height) {
       el('li', { class: 'ticks' }, el('b', {}), el('span', { class: 'track' }, ticks))));
 }
 
-/** Other scalars and lists of `result`, so that nothing stays hidden. */
+/** Other scalars and lists of `result`, so that nothing stays hidden; a covariance is for programs. */
 function restSection(result, known) {
   const rest = Object.fromEntries(Object.entries(result)
-    .filter(([key, value]) => !known.includes(key) && !isEmpty(value)));
+    .filter(([key, value]) => key !== 'covariance' && !known.includes(key) && !isEmpty(value)));
   if (isEmpty(rest)) return null;
   return section('more', 'More of the result', 'More', described(rest));
 }

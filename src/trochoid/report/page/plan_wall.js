@@ -147,18 +147,16 @@ function errorGridSection(report) {
     viewOf('mean', 'mean error', 'mean error of the wall [µm], positive: material left')];
   if (cutting.limited === 'mean') views.reverse();
   const state = { view: views[0], frame: null };
-  const hint = 'Point at the map for values.';
-  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, hint);
   const x = [rows[0].x[0], rows[0].x[rows[0].x.length - 1]];
   const y = [rows[0].height, rows[rows.length - 1].height];
   const paint = (c, width, height) => {
     const { view } = state;
-    const frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, x, y,
+    const frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, ...chart.view,
       xLabel: 'feed per tooth [mm]', yLabel: 'radial depth [mm]' };
     state.frame = frame;
     write(c, view.label, 0, 8, { color: '--ink' });
     colorBar(c, view, frame.left, frame.width);
-    const values = pictureOf(view.rows, view, x, y, Math.round(frame.width * devicePixelRatio),
+    const values = pictureOf(view.rows, view, frame.x, frame.y, Math.round(frame.width * devicePixelRatio),
       Math.round(frame.height * devicePixelRatio));
     c.putImageData(imageOf(values, view), Math.round(frame.left * devicePixelRatio),
       Math.round(frame.top * devicePixelRatio));
@@ -166,24 +164,22 @@ function errorGridSection(report) {
     if (view.limited) paintLimit(c, values, limit, frame);
     markGrid(c, { cutting, frame, ...places, limited: view.limited });
   };
-  const chart = drawing({ label: 'Map of the error over feed and radial depth', paint,
+  const chart = drawing({ label: 'Map of the error over feed and radial depth', paint, lowOnPaper: true,
+    data: () => ({ head: ['feed per tooth [mm]', 'radial depth [mm]', 'largest error [µm]', 'mean error [µm]',
+      'removal rate [mm³/min]'],
+    rows: rows.flatMap((row) => row.x.map((v, i) => [v, row.height, row.peak[i], row.mean[i], row.rate[i]])) }),
     height: (width) => Math.round(Math.min(430, Math.max(330, 0.5 * width))) });
-  chart.canvas.addEventListener('pointermove', (event) => {
-    const { frame } = state;
-    const box = chart.canvas.getBoundingClientRect();
-    const share = (v, from, size) => Math.min(1, Math.max(0, (v - from) / size));
-    const f = x[0] + (x[1] - x[0]) * share(event.clientX - box.left, frame.left, frame.width);
-    const a = y[1] - (y[1] - y[0]) * share(event.clientY - box.top, frame.top, frame.height);
+  zoomable(chart, () => state.frame, { x, y });
+  readoutOf(chart, 'Point at the map for values; drag or pinch to zoom.', (place) => {
+    const [f, a] = valuesAtPlace(state.frame, place);
     const row = rows[nearest(rows.map((one) => one.height), a)];
     const i = nearest(row.x, f);
-    readout.replaceChildren(`feed ${number(row.x[i], 3)} mm per tooth, radial depth ${number(row.height, 3)} mm: `,
+    return [`feed ${number(row.x[i], 3)} mm per tooth, radial depth ${number(row.height, 3)} mm: `,
       el('b', {}, `${number(row.peak[i], 3)} µm`), ` at most, ${number(row.mean[i], 3)} µm on average; ${
-        mm3(row.rate[i])}`);
+        mm3(row.rate[i])}`];
   });
-  chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(hint));
   chart.controls.append(...[choice('Show', views.map((view) => ({ value: view, text: view.name })), state.view,
     (view) => { state.view = view; chart.redraw(); })].filter(Boolean));
-  chart.element.append(readout);
   const { best, stated } = cutting;
   const words_ = !isNumber(limit) ? ['No error is allowed or forbidden: give ', el('code', {}, 'largest_error_um'),
     ' to see which cuts keep it.'] : best ? ['The red line is the limit of ', el('b', {}, `${number(limit)} µm`),

@@ -62,7 +62,18 @@ function forcesOverAngle(report) {
   const chart = figure({
     key: 'angle', x, label: 'φ, spindle angle', unit: '°', caption: zoomHint + thinned(forces),
   });
-  chart.controls.append(...[rangeChoice([chart], x)].filter(Boolean));
+  const time = columnNamed(forces, 'time_s');
+  const state = { x };
+  const over = (name) => {
+    state.x = name === 'time' ? time : x;
+    Object.assign(chart.stack, name === 'time' ? { key: 'time', label: 'time', unit: 's' }
+      : { key: 'angle', label: 'φ, spindle angle', unit: '°' });
+    chart.element.querySelector('figcaption').firstChild.textContent = stackLabel(chart.stack);
+    chart.draw(panels, state.x);
+    chart.zoom([state.x[0], state.x[state.x.length - 1]]);
+  };
+  chart.controls.append(...[rangeChoice([chart], x, () => state.x), time && choice('Over', [
+    { value: 'angle', text: 'angle' }, { value: 'time', text: 'time' }], 'angle', over)].filter(Boolean));
   const part = section('forces', 'Cutting force over the spindle angle', 'Forces',
     prose('Force on the tool in the workpiece frame: x is the direction of feed, z points up.'),
     chart.element);

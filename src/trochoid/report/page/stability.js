@@ -30,28 +30,6 @@ function limitWords(limit) {
     .filter(Boolean).join(', ');
 }
 
-/** How deep at this speed, and which speed near it allows more: text and its bold numbers. */
-function depthWords(result) {
-  const bold = (value, unit) => el('b', {}, `${number(value)} ${unit}`);
-  const rpm = (value) => `${number(value, 5)} rpm`;
-  const depth = result.axial_depth_mm;
-  const limit = result.limit_depth_mm;
-  if (!isNumber(limit)) {
-    return [`At ${rpm(result.spindle_rpm)} no axial depth up to `,
-      bold(result.greatest_depth_mm, 'mm'), ' chatters.'];
-  }
-  const off = Math.abs(100 * (depth / limit - 1));
-  const where = depth <= limit ? `${number(off, 2)} % below that`
-    : result.stable ? 'where it is stable again: see the map' : `${number(off, 2)} % too deep`;
-  const words = [`At ${rpm(result.spindle_rpm)} this cut chatters from `, bold(limit, 'mm'),
-    ` axial depth on; it is ${number(depth)} mm deep, ${where}. `];
-  const better = result.better_speed;
-  return better ? [...words, 'A better speed near it: ', el('b', {}, rpm(better.spindle_rpm)), ' allows ',
-    bold(better.limit_depth_mm, 'mm'), ', also when the spindle is 2 % off.']
-    : isNumber(limit) && 'better_speed' in result
-      ? [...words, 'No speed of the diagram within 30 % allows much more.'] : words;
-}
-
 /** What damps, and how deep it would be without. */
 function dampingProse({ process_damping: damping }) {
   if (!damping) return null;
@@ -60,15 +38,26 @@ function dampingProse({ process_damping: damping }) {
     ...(isNumber(without) ? ['Without it this cut would chatter from ', el('b', {}, `${number(without)} mm`), ' on.'] : []));
 }
 
-/** Values over x at other places of it; null outside, and where two neighbours are far apart. */
-function valuesAt(places, x, values) {
+/** Places after which a frequency goes on in another branch: the step there is far above the usual ones. */
+function jumpsOf(values) {
+  const steps = values.slice(1).map((v, i) => Math.abs(v - values[i]) / Math.abs(values[i] || 1));
+  const usual = [...steps].sort((a, b) => a - b)[Math.floor(steps.length / 2)] || 0;
+  return steps.map((step, i) => (step > Math.max(0.04, 6 * usual) ? i : -1)).filter((i) => i >= 0);
+}
+
+/** Values over x at other places of it; null outside, and between two branches. */
+function valuesAt(places, x, values, jumps = []) {
   return places.map((p) => {
     const i = x.findIndex((v) => v >= p);
     if (i < 0 || (i === 0 && x[0] > p)) return null;
     if (x[i] === p || i === 0) return values[i];
+    if (jumps.includes(i - 1)) return null;
     return values[i - 1] + (values[i] - values[i - 1]) * (p - x[i - 1]) / (x[i] - x[i - 1]);
   });
 }
+
+/** Index of the last place before x. */
+const placeBefore = (places, x) => Math.max(0, places.findIndex((p) => p >= x) - 1);
 
 /** The limit by the measured response beside that of the multiplier. */
 function measuredSection(report) {
@@ -110,8 +99,12 @@ function measuredSection(report) {
   }
   const chart = figure({ key: 'measured', x: places, label: 'spindle speed', unit: 'rpm', caption: zoomHint });
   const markers = [{ x: result.spindle_rpm, text: 'the case' }];
-  const series = (what) => curves.map((curve) => ({ name: curve.name, color: curve.color, width: curve.width,
-    values: valuesAt(places, curve.x, curve[what]) }));
+  const series = (what) => curves.map((curve) => {
+    const jumps = what === 'hertz' ? jumpsOf(curve.hertz) : [];
+    const values = valuesAt(places, curve.x, curve[what], jumps);
+    return { name: curve.name, color: curve.color, width: curve.width, values,
+      jumps: jumps.map((i) => placeBefore(places, curve.x[i + 1])) };
+  });
   const panels = [
     { label: 'limit depth', unit: 'mm', height: 220, markers, series: [...series('depth'),
       { name: 'depth of the case', values: places.map(() => result.axial_depth_mm), color: '--s4', dash: [6, 3] }] },
@@ -130,7 +123,7 @@ function stabilityLead(result) {
       { label: 'The cut is', value: result.verdict,
         note: `${number(result.spindle_rpm, 6)} rpm, ${number(result.axial_depth_mm)} mm deep` },
       result.multiplier && { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
-        note: 'below 1: a small vibration fades' },
+        note: mu.absolute < 1 ? 'below 1: a small vibration fades' : 'above 1: a small vibration grows' },
       !result.multiplier && { label: 'Floquet multiplier', value: 'none', note: 'no modes: by the measured response' },
       { label: 'Limit depth at this speed', value: isNumber(result.limit_depth_mm) ?
         number(result.limit_depth_mm) : 'none', unit: isNumber(result.limit_depth_mm) && 'mm',
@@ -142,7 +135,6 @@ function stabilityLead(result) {
         : { label: 'Chatter frequency at the limit', value: isNumber(measured?.chatter_frequency_Hz)
           ? number(measured.chatter_frequency_Hz, 5) : null, unit: 'Hz' },
     ].filter(Boolean)),
-    prose(...depthWords(result)),
     dampingProse(result),
     result.chip_floor && prose('A power law has no slope where the chip begins. With a chip floor of ',
       number(0.5 * result.chip_floor.chip_floor_um), ' and ', number(2 * result.chip_floor.chip_floor_um),
@@ -177,11 +169,11 @@ function lobesSection(report) {
     key: 'mu', colors: aroundZero, range: [0.5, 1.5], step: 0, smooth: true };
   let frame = null;
   const paint = (c, width, height) => {
-    frame = { left: 52, top: 76, width: width - 72, height: height - 76 - 44, x, y: heights,
+    frame = { left: 52, top: 76, width: width - 72, height: height - 76 - 44, ...chart.view,
       xLabel: 'spindle speed [rpm]', yLabel: 'axial depth [mm]' };
     write(c, view.label, 0, 8, { color: '--ink' });
     colorBar(c, view, frame.left, frame.width);
-    const values = pictureOf(rows, view, x, heights, Math.round(frame.width * devicePixelRatio),
+    const values = pictureOf(rows, view, frame.x, frame.y, Math.round(frame.width * devicePixelRatio),
       Math.round(frame.height * devicePixelRatio));
     c.putImageData(imageOf(values, view), Math.round(frame.left * devicePixelRatio),
       Math.round(frame.top * devicePixelRatio));
@@ -191,30 +183,26 @@ function lobesSection(report) {
     c.rect(frame.left, frame.top, frame.width, frame.height);
     c.clip();
     line(c, speeds.map((v, i) => [px(v), py(limits[i])]), '#17212b', 1.8);
-    c.restore();
     const at = [px(result.spindle_rpm), py(result.axial_depth_mm)];
+    const inside = at[0] >= frame.left - 1 && at[0] <= frame.left + frame.width + 1;
+    c.restore();
+    if (!inside || at[1] < frame.top - 1 || at[1] > frame.top + frame.height + 1) return;
     for (const [color, wide] of [['#ffffff', 5], ['#17212b', 2.2]]) {
       line(c, [[at[0] - 8, at[1]], [at[0] + 8, at[1]]], color, wide);
       line(c, [[at[0], at[1] - 8], [at[0], at[1] + 8]], color, wide);
     }
   };
-  const hint = 'Point at the map for values. The cross is the case.';
-  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, hint);
-  const chart = drawing({ label: 'Stability lobe diagram: Floquet multiplier over spindle speed and axial depth', paint,
+  const chart = drawing({ label: 'Stability lobe diagram: Floquet multiplier over spindle speed and axial depth', paint, lowOnPaper: true,
+    data: () => ({ head: ['spindle speed [rpm]', 'axial depth [mm]', '|μ|'],
+      rows: rows[0].x.flatMap((v, i) => rows.map((row) => [v, row.height, row.mu[i]])) }),
     height: (width) => Math.round(Math.min(480, Math.max(330, 0.5 * width))) });
-  chart.canvas.addEventListener('pointermove', (event) => {
-    const box = chart.canvas.getBoundingClientRect();
-    const share = (v, from, size) => Math.min(1, Math.max(0, (v - from) / size));
-    const n = x[0] + (x[1] - x[0]) * share(event.clientX - box.left, frame.left, frame.width);
-    const d = heights[1] - (heights[1] - heights[0]) *
-      share(event.clientY - box.top, frame.top, frame.height);
+  zoomable(chart, () => frame, { x, y: heights });
+  readoutOf(chart, 'Point at the map for values; drag or pinch to zoom. The cross is the case.', (place) => {
+    const [n, d] = valuesAtPlace(frame, place);
     const row = rows[nearest(rows.map((one) => one.height), d)];
     const i = nearest(row.x, n);
-    readout.replaceChildren(`${number(row.x[i], 6)} rpm, ${number(row.height)} mm: |μ| = `,
-      el('b', {}, number(row.mu[i], 5)));
+    return [`${number(row.x[i], 6)} rpm, ${number(row.height)} mm: |μ| = `, el('b', {}, number(row.mu[i], 5))];
   });
-  chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(hint));
-  chart.element.append(readout);
   const part = section('lobes', 'Stability lobe diagram', 'Lobes',
     prose('The Floquet multiplier |μ|: by what factor a small vibration grows in a period of the cut, for every ' +
       'spindle speed and axial depth; everything else as in the case' +
@@ -232,6 +220,7 @@ function limitSection(report) {
   const doubled = columnNamed(t, 'argument_deg').map((a, i) =>
     (Math.abs(Math.abs(a) - 180) < 1e-3 ? depths[i] : null));
   const markers = [{ x: result.spindle_rpm, text: 'the case' }];
+  const hertz = columnNamed(t, 'chatter_frequency_Hz');
   const chart = figure({ key: 'limit', x, label: 'spindle speed', unit: 'rpm',
     caption: zoomHint + thinned(t) });
   const panels = [
@@ -241,11 +230,12 @@ function limitSection(report) {
       { name: 'depth of the case', values: x.map(() => result.axial_depth_mm), color: '--s2',
         dash: [6, 3] }].filter(Boolean) },
     { label: 'chatter frequency there', unit: 'Hz', height: 150, markers, series: [
-      { name: '', values: columnNamed(t, 'chatter_frequency_Hz'), color: '--s3' }] },
+      { name: '', values: hertz, jumps: jumpsOf(hertz), color: '--s3' }] },
   ];
   const part = section('limit', 'Limit depth and chatter frequency', 'Limit',
     prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
-      'The frequency is the strongest of the chatter that appears at the limit. Almost everywhere that ' +
+      'The frequency is the strongest of the chatter that appears at the limit; where it jumps, another branch ' +
+      'is the first to chatter. Almost everywhere that ' +
       'has a frequency of its own (Hopf); at a period doubling (flip) it repeats after two periods.' +
       (result.process_damping ? ` Process damping of a ${dampingWords(result.process_damping)} lifts it where the spindle is slow.` : '')),
     chart.element);

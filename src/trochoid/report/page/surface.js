@@ -18,6 +18,8 @@ const feedbackWords = {
   direct: 'the deflection changes entry and chip',
 };
 const micro = (mm) => (isNumber(mm) ? 1000 * mm : null);
+/** What rounding leaves of a value that is nothing beside `scale`. */
+const orNothing = (value, scale) => (Math.abs(value) < 1e-6 * Math.abs(scale) ? 0 : value);
 
 function surfacePage(report) {
   const rows = wallRows(tableNamed(report, 'surface.csv'));
@@ -63,6 +65,7 @@ function surfaceLead(result, heights) {
   if (!heights.length) return null;
   const top = heights.reduce((a, b) => (b.max_error_mm > a.max_error_mm ? b : a));
   const rough = heights.reduce((a, b) => (b.Ra_um > a.Ra_um ? b : a));
+  const least = orNothing(result.min_error_mm, result.peak_error_mm);
   const F = result.forces || {};
   const model = errorModels[result.model] || { name: result.model, what: '' };
   return [
@@ -71,8 +74,8 @@ function surfaceLead(result, heights) {
         note: result.mean_error_mm < 0 ? 'negative: cut too deep' : 'positive: material is left' },
       { label: 'Largest error', value: fixed(micro(result.peak_error_mm), 3), unit: 'µm',
         note: `${number(top.height_mm, 3)} mm above the tip` },
-      { label: 'Smallest error', value: fixed(micro(result.min_error_mm), 3), unit: 'µm',
-        note: result.min_error_mm < 0 ? 'negative: cut too deep' : 'nowhere cut too deep' },
+      { label: 'Smallest error', value: fixed(micro(least), 3), unit: 'µm',
+        note: least < 0 ? 'negative: cut too deep' : 'nowhere cut too deep' },
       result.model !== 'quasi_static' && { label: 'Roughness along the feed, Ra',
         value: fixed(rough.Ra_um, 3), unit: 'µm', note: `Rt up to ${fixed(Math.max(
           ...heights.map((h) => h.Rt_um)), 3)} µm` },
@@ -135,8 +138,8 @@ function mapSection(report, rows, section_, pick) {
   ].filter(Boolean);
   const chart = heatMap({
     rows, views, xLabel: 'x, along the feed [mm]', yLabel: 'height above the tip [mm]', pick,
-    section: () => section_.row,
-    hint: 'Point at the map for values; a click chooses the height of the profile below.',
+    section: () => section_.row, columns: [['error [µm]', 'error'], ['tooth', 'tooth']],
+    hint: 'Point at the map for values; a click chooses the height of the profile below. Drag or pinch to zoom.',
     read: (row, i) => [`x ${number(row.x[i], 6)} mm, height ${number(row.height, 4)} mm: `,
       el('b', {}, `${number(row.error[i], 4)} µm`), ` (${row.marks[i] >= 0 ? '+' : ''}${
         number(row.marks[i], 3)} µm from the mean of this height), tooth ${row.tooth[i]}`],
@@ -263,7 +266,7 @@ function wallForces(report, section_) {
   return { part, draw };
 }
 
-const hundredths = (um) => (isNumber(um) ? um.toFixed(2).replace('-', '−') : missing);
+const hundredths = (um) => (isNumber(um) ? um.toFixed(2).replace(/^-(0\.00)$/, '$1').replace('-', '−') : missing);
 
 function marksTable(heights) {
   if (!heights.length) return null;

@@ -127,14 +127,22 @@ function choice(label, options, chosen, onChange) {
     el('span', {}, label), el('div', {}, buttons));
 }
 
-/** rows: arrays of cells; the first cell of a row is its head. */
+const manyColumns = 6;
+
+/**
+ * rows: arrays of cells; the first cell of a row is its head. On a narrow page a table with many columns
+ * becomes a list: each cell says the name of its column.
+ */
 function table(head, rows, options = {}) {
+  const many = head.length > manyColumns;
+  const names = head.map((content) => textOf(content));
   const cell = (tag, content, i) => {
     const chosen = options.chosen === i ? 'chosen' : undefined;
     const scope = tag === 'th' ? (i === 0 ? 'row' : 'col') : undefined;
-    return el(tag, { class: chosen, scope }, content);
+    return el(tag, { class: chosen, scope, 'data-label': many && tag === 'td' ? names[i] : undefined }, content);
   };
-  return el('div', { class: 'scroll' }, el('table', { class: options.class },
+  const kinds = [options.class, many ? 'many' : null].filter(Boolean).join(' ');
+  return el('div', { class: 'scroll' }, el('table', { class: kinds || undefined },
     el('thead', {}, el('tr', {}, head.map((content, i) => cell('th', content, i)))),
     el('tbody', {}, rows.map((row) => el('tr', {},
       row.map((content, i) => cell(i === 0 ? 'th' : 'td', content, i)))))));

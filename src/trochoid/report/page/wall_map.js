@@ -21,6 +21,7 @@ function paintDots(c, { dots, view, frame, px, py }) {
   c.strokeStyle = view.under ? '#ffffff' : css('--zero');  // nothing left over is nearly white
   for (const dot of dots) {
     const [x, y] = [px(dot.x), py(dot.height)];
+    if (x < frame.left || x > frame.left + frame.width || y < frame.top || y > frame.top + frame.height) continue;
     c.fillStyle = `rgb(${colorAt(view.colors, (dot[view.key] - low) / (high - low || 1)).join()})`;
     c.beginPath();
     c.arc(x, y, size / 2, 0, 2 * Math.PI);
@@ -45,17 +46,17 @@ function aroundDots(values) {
 function dotMap({ dots, views, xLabel, read, hint }) {
   const x = aroundDots(dots.map((dot) => dot.x));
   const y = aroundDots(dots.map((dot) => dot.height));
-  const state = { view: views[0], places: null };
-  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, hint);
+  const state = { view: views[0], places: null, frame: null };
   const paint = (c, width, height) => {
     const { view } = state;
-    const frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, x, y, xLabel,
+    const frame = { left: 52, top: 76, width: width - 62, height: height - 76 - 44, ...chart.view, xLabel,
       yLabel: 'height above the tip [mm]' };
     write(c, view.label, 0, 8, { color: '--ink' });
     colorBar(c, view, frame.left, frame.width);
+    state.frame = frame;
     const rows = view.under ? rowsOfDots(dots, view.under) : [];
     if (rows.length) {
-      const values = pictureOf(rows, { key: view.under, smooth: true }, x, y,
+      const values = pictureOf(rows, { key: view.under, smooth: true }, frame.x, frame.y,
         Math.round(frame.width * devicePixelRatio), Math.round(frame.height * devicePixelRatio));
       c.putImageData(imageOf(values, { ...view, step: 0 }), Math.round(frame.left * devicePixelRatio),
         Math.round(frame.top * devicePixelRatio));
@@ -64,19 +65,18 @@ function dotMap({ dots, views, xLabel, read, hint }) {
     state.places = places;
     paintDots(c, { dots, view, frame, ...places });
   };
-  const chart = drawing({ label: 'Map of the readings over feed and height', paint,
+  const chart = drawing({ label: 'Map of the readings over feed and height', paint, lowOnPaper: true,
+    data: () => ({ head: [xLabel, 'height above the tip [mm]', 'tooth', 'measured [µm]', 'fitted [µm]', 'left [µm]'],
+      rows: dots.map((dot) => [dot.x, dot.height, dot.tooth || null, dot.was, dot.fit, dot.left]) }),
     height: (width) => Math.round(Math.min(430, Math.max(330, 0.5 * width))) });
-  chart.canvas.addEventListener('pointermove', (event) => {
-    const box = chart.canvas.getBoundingClientRect();
-    const far = ({ x: at, height }) => Math.hypot(state.places.px(at) - (event.clientX - box.left),
-      state.places.py(height) - (event.clientY - box.top));
+  zoomable(chart, () => state.frame, { x, y });
+  readoutOf(chart, hint, (place) => {
+    const far = ({ x: at, height }) => Math.hypot(state.places.px(at) - place[0], state.places.py(height) - place[1]);
     const near = dots.reduce((a, b) => (far(b) < far(a) ? b : a));
-    readout.replaceChildren(...(far(near) < 40 ? [read(near)].flat() : [hint]));
+    return far(near) < 40 ? [read(near)].flat() : null;
   });
-  chart.canvas.addEventListener('pointerleave', () => readout.replaceChildren(hint));
   chart.controls.append(...[choice('Show', views.map((view) => ({ value: view, text: view.name })),
     state.view, (view) => { state.view = view; chart.redraw(); })].filter(Boolean));
-  chart.element.append(readout);
   return chart;
 }
 

@@ -20,7 +20,7 @@ correction::MovingCut moving_cut(const inputs::Case& given) {
     }
   }
   cut.plant = plant_of(given.machine);
-  cut.slices = correction::slices_for(given.setup.cutter);
+  cut.slices = correction::slices_for(given.setup);
   cut.revolutions = static_cast<int>(given.sampling.revolutions);
   cut.samples_per_rev = given.sampling.samples_per_rev;
   return cut;

@@ -9,7 +9,7 @@ std::vector<Work> correct_work(const inputs::Case& given) {
   constexpr double command = 7e6;
   constexpr double speed = 8e4;
   constexpr double slice = 0.4;  // that a slice costs more
-  const double slices = correction::slices_for(given.setup.cutter);
+  const double slices = correction::slices_for(given.setup);
   const double speeds = given.machine.correct->spindle_speed->count;
   return {{.what = "speeds, and the command itself",
            .count = speeds,

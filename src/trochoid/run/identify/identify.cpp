@@ -80,19 +80,6 @@ std::vector<results::RecordSummary> summaries(
   return all;
 }
 
-std::string headline(const IdentifyResult& r) {
-  std::size_t samples = 0;
-  for (const results::RecordSummary& record : r.records) {
-    samples += record.samples;
-  }
-  const Fit& fit = r.fits[*r.chosen];
-  return fmt::format(
-      "Coefficients and runout from {} samples of {} record{}; the {} model leaves "
-      "{:.2f} N rms.",
-      samples, r.records.size(), r.records.size() == 1 ? "" : "s",
-      chip::name_of(fit.chip.model), fit.rms);
-}
-
 /// A stated form of the runout that another one beats.
 void warn_form(const std::optional<results::RunoutForm>& form,
                std::vector<base::Warning>& warnings) {
@@ -191,14 +178,13 @@ struct Identification {
   /// Warnings, and before everything else whether the numbers may be used at all.
   void judge() {
     const Fit& chosen = r.fits[*r.chosen];
-    r.heading.message = headline(r);
     r.reasons_against = identification::reasons_against(chosen);
     add_fit_warnings(given, r.fits, chosen, r.heading.warnings);
     warn_form(r.runout_form, r.heading.warnings);
     if (!r.reasons_against.empty()) {
-      const std::string verdict = identification::do_not_use(r.reasons_against);
-      r.heading.message = verdict + " " + r.heading.message;
-      r.heading.warnings.insert(r.heading.warnings.begin(), {"do_not_use", verdict});
+      r.heading.warnings.insert(
+          r.heading.warnings.begin(),
+          {"do_not_use", identification::do_not_use(r.reasons_against)});
       add_causes();
     } else if (chosen.unexplained.in_band > too_good_to_doubt && stop.wanted()) {
       left_out.emplace_back("a look at other readings of the channels");
@@ -214,6 +200,7 @@ struct Identification {
     if (r.reasons_against.empty()) {
       r.reasons_for_care = reasons_for_care(r.heading.warnings);
     }
+    r.heading.message = results::identification_sentence(r);
     put_notes_last();
     add_left_out();
   }
@@ -318,6 +305,7 @@ IdentifyResult identify(const inputs::Case& given, const Progress& progress,
                         base::Stop stop) {
   if (stop.left == nullptr) {
     stop.left = std::make_shared<std::atomic<std::int64_t>>(most_of_fits);
+    stop.grace = most_of_fits;
   }
   return Identification{given, progress, std::move(stop)}.answer();
 }

@@ -113,7 +113,7 @@ results::SimulateResult simulate(const inputs::Case& given) {
   if (!given.measurements.empty()) {
     r.comparison = compare(given, warnings);
   }
-  r.heading.message = fmt::format("{} samples of the force on the tool.", r.phi.size());
+  r.heading.message = results::simulation_sentence(r);
   return r;
 }
 

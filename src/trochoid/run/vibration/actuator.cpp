@@ -1,10 +1,12 @@
 #include <trochoid/run/shared/heading.h>
 #include <trochoid/run/vibration/actuator.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/run/vibration/warnings.h>
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <utility>
 
 namespace trochoid::run {
@@ -29,8 +31,13 @@ results::ActuatorResult actuator(const inputs::Case& given) {
     return r;
   }
   add_actuator_warnings(r.record, r.fit, r.heading.warnings);
-  r.heading.message = fmt::format("Gain and two poles from {} samples of a step.",
-                                  r.record.time.size());
+  const structure::ActuatorDynamics& found = r.fit.dynamics;
+  r.heading.message = fmt::format(
+      "Gain {:.3g}, natural frequency {:.3g} Hz, damping ratio {:.2g}. The step is met to "
+      "{:.2g} um rms ({} samples).",
+      found.gain, 1 / std::sqrt(found.product) / unit::Hz,
+      found.sum / (2 * std::sqrt(found.product)), r.fit.rms / unit::um,
+      r.record.time.size());
   return r;
 }
 

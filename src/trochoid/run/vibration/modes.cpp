@@ -2,6 +2,7 @@
 #include <trochoid/run/vibration/modes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/run/vibration/mode_words.h>
 #include <trochoid/run/vibration/tap_response.h>
 #include <trochoid/run/vibration/warnings.h>
 #include <trochoid/structure/identify_shapes.h>
@@ -79,9 +80,13 @@ results::ModesResult modes(const inputs::Case& given) {
   if (const auto complex = structure::complex_check(r.fit, r.kind)) {
     add_complex_warning(*complex, r.heading.warnings);
   }
+  std::vector<ModeWords> words;
+  for (const structure::FittedMode& mode : r.fit.modes) {
+    words.push_back({mode.omega, mode.zeta});
+  }
   r.heading.message =
-      fmt::format("{} mode{} from {} lines.", r.fit.modes.size(),
-                  r.fit.modes.size() == 1 ? "" : "s", r.fit.omega.size());
+      fmt::format("{}. {} ({} lines).", mode_words(words),
+                  unexplained_power(r.fit.explained), r.fit.omega.size());
   return r;
 }
 

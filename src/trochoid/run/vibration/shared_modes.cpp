@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/frf_file.h>
 #include <trochoid/run/shared/heading.h>
+#include <trochoid/run/vibration/mode_words.h>
 #include <trochoid/run/vibration/modes.h>
 #include <trochoid/run/vibration/tap_response.h>
 #include <trochoid/run/vibration/warnings.h>
@@ -167,10 +168,18 @@ results::SharedModesResult shared_modes(const inputs::Case& given) {
     return r;
   }
   add_shape_warnings(r, r.heading.warnings);
-  r.heading.message = fmt::format(
-      "{} mode{} with {} shapes from {} response{}.", r.fit.modes.size(),
-      r.fit.modes.size() == 1 ? "" : "s", r.fit.complex_shapes ? "complex" : "real",
-      all.size(), all.size() == 1 ? "" : "s");
+  std::vector<ModeWords> words;
+  for (const structure::ShapeMode& mode : r.fit.modes) {
+    words.push_back({mode.omega.value, mode.zeta.value});
+  }
+  double worst = 1.0;
+  for (const structure::FittedResponse& one : r.fit.responses) {
+    worst = std::min(worst, one.explained);
+  }
+  r.heading.message =
+      fmt::format("{}, with {} shapes. {}, of the worst of {} response{}.",
+                  mode_words(words), r.fit.complex_shapes ? "complex" : "real",
+                  unexplained_power(worst), all.size(), all.size() == 1 ? "" : "s");
   return r;
 }
 

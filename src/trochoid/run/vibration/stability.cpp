@@ -95,14 +95,6 @@ void warn_of_time(const results::StabilityResult& r,
                          done, asked)});
 }
 
-/// Without modes the measured response decides.
-std::string message_without_modes(const results::StabilityResult& r) {
-  const auto& limit = r.measured->multi_frequency.limit;
-  const bool unstable = limit && limit->depth < r.problem.setup.cut.a_p;
-  return fmt::format("By the measured response the cut is {}.",
-                     unstable ? "unstable" : "stable");
-}
-
 }  // namespace
 
 results::StabilityResult stability(const inputs::Case& given, const Progress& progress,
@@ -124,8 +116,6 @@ results::StabilityResult stability(const inputs::Case& given, const Progress& pr
     });
     base::add(r.heading.warnings,
               stability_warnings(given, r.problem.options, r.stability));
-    r.heading.message =
-        fmt::format("The cut is {}.", dynamics::name_of(r.stability.verdict));
   }
   if (point) {
     r.measured = measured_stability(given, r.problem, *point, progress);
@@ -136,11 +126,11 @@ results::StabilityResult stability(const inputs::Case& given, const Progress& pr
         {"no_modes", fmt::format("No Floquet multiplier: no modes could be fitted to "
                                  "the measured response. {}",
                                  r.no_modes)});
-    r.heading.message = message_without_modes(r);
   }
   if (!r.stability.whole || (r.measured && stop.wanted())) {
     warn_of_time(r, r.heading.warnings);
   }
+  r.heading.message = results::stability_sentence(r);
   return r;
 }
 

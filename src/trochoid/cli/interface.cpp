@@ -1,0 +1,222 @@
+#include <trochoid/cli/interface.h>
+
+#include <trochoid/base/command.h>
+#include <trochoid/base/names.h>
+#include <trochoid/inputs/case.h>
+#include <trochoid/results/provenance.h>
+
+#include <CLI/CLI.hpp>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trochoid::cli {
+
+namespace {
+
+using base::Command;
+
+int answer(Command command, const Options& options) {
+  switch (command) {
+    case Command::simulate:
+      return simulate(options);
+    case Command::identify:
+      return identify(options);
+    case Command::surface:
+      return surface(options);
+    case Command::calibrate:
+      return calibrate(options);
+    case Command::stability:
+      return stability(options);
+    case Command::modes:
+      return modes(options);
+    case Command::actuator:
+      return actuator(options);
+    case Command::dynamics:
+      return dynamics(options);
+    case Command::correct:
+      return correct(options);
+    case Command::plan:
+      return plan(options);
+  }
+  return our_bug;
+}
+
+std::vector<Command> all_commands() {
+  std::vector<Command> all;
+  all.reserve(base::names<Command>.size());
+  for (const std::string_view name : base::names<Command>) {
+    all.push_back(*base::named<Command>(name));
+  }
+  return all;
+}
+
+void add_common(CLI::App& app, Options& options) {
+  app.add_option("CASE.toml", options.file,
+                 "The case file (docs/formats/case.md; `trochoid new` writes one)")
+      ->required()
+      ->type_name(std::string(types::file));
+  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+}
+
+void add_output(CLI::App& app, Options& options) {
+  app.add_option("-o,--output", options.folder,
+                 "Folder for the results (default: CASE.COMMAND beside the case)")
+      ->type_name(std::string(types::folder));
+  app.add_flag("--json", options.json, "Print summary.json instead of the table");
+  app.add_flag("--no-report", options.no_report, "Do not write report.html");
+  app.add_option("--time-limit", options.time_limit,
+                 "End after so many seconds of work, with what was found till then")
+      ->check(CLI::Range(0.001, 1e9));
+}
+
+/// What is told to all that take one case.
+void add_case(CLI::App& app, Options& options) {
+  add_common(app, options);
+  add_output(app, options);
+  app.add_flag("--anyway", options.anyway,
+               "Compute even what will take more than 1e9 evaluations or 1 GB");
+}
+
+/// What a bare data file does not say by itself.
+void add_data_options(CLI::App& app, Command command, Options& options) {
+  if (command == Command::modes) {
+    app.get_option("CASE.toml")
+        ->description(
+            "The measured frequency response function (UFF58, or a "
+            "table), or a case with [frf]")
+        ->type_name(std::string(types::data));
+    app.add_option("--kind", options.kind,
+                   "What was measured, if the file does not say it by its unit")
+        ->check(CLI::IsMember({"receptance", "mobility", "accelerance"}));
+    app.add_option("--modes", options.modes,
+                   "How many modes to fit (default: their number is chosen)")
+        ->check(CLI::Range(1, 20));
+    app.add_option("--band", options.band, "Lowest and highest frequency used, in Hz")
+        ->expected(2);
+    app.add_option("--dataset", options.dataset,
+                   "Which frequency response function of a universal file, from 1")
+        ->check(CLI::Range(1, 100000));
+  }
+  if (command == Command::identify) {
+    app.add_flag(
+        "--curves", options.curves,
+        "Write every sample of long records to fitted.csv and residual.csv, not "
+        "the mean turn");
+  }
+  if (command == Command::correct) {
+    app.add_flag("--simulate-controller", options.simulate_controller,
+                 "Run the real-time controller in the loop ([controller])");
+  }
+  if (command == Command::actuator) {
+    app.get_option("CASE.toml")
+        ->description("The record of the step (CSV), or a case with [step]")
+        ->type_name(std::string(types::data));
+    app.add_option("--step-um", options.step_um,
+                   "Height of the commanded step (default: from its column)");
+    app.add_option("--start-s", options.start_s,
+                   "When the step was commanded (default: fitted)");
+  }
+}
+
+CLI::App* add_sweep(CLI::App& app, Options& options) {
+  CLI::App* sweep = app.add_subcommand(
+      "sweep",
+      "One case over many values of its keys ([sweep]): a table, a row a case; goes on "
+      "where it was stopped");
+  add_common(*sweep, options);
+  add_output(*sweep, options);
+  sweep
+      ->add_option("--command", options.command,
+                   "What answers each row (default: `command` of [sweep])")
+      ->type_name(std::string(types::command));
+  sweep->add_option("--take", options.take,
+                    "What is taken from each answer, such as result.peak_xy_N; several "
+                    "times (default: `take` of [sweep])");
+  return sweep;
+}
+
+/// `new COMMAND [FILE]`, and the schema that editors know a case file by.
+CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
+  const std::vector<std::string> names(base::names<Command>.begin(),
+                                       base::names<Command>.end());
+  CLI::App* fresh =
+      app.add_subcommand("new", "Write a commented case file to start from");
+  fresh->add_option("COMMAND", wanted, fmt::format("{}", fmt::join(names, ", ")))
+      ->required()
+      ->check(CLI::IsMember(names));
+  fresh->add_option("FILE", options.file, "Where (default: print it)")
+      ->type_name(std::string(types::file));
+  fresh->add_flag_callback(
+      "--schema",
+      [] {
+        fmt::print("{}", inputs::case_schema());
+        throw CLI::Success();
+      },
+      "Print the JSON Schema of the case file, for editors");
+  return fresh;
+}
+
+std::string footer() {
+  std::vector<std::string> codes;
+  for (const auto& [code, meaning] : exit_codes) {
+    codes.push_back(fmt::format("{} {}", code, meaning));
+  }
+  return fmt::format("Start with\n  {}\nExit codes: {}.",
+                     fmt::join(first_steps, "\n  "), fmt::join(codes, ", "));
+}
+
+}  // namespace
+
+void add_interface(CLI::App& app, Chosen& chosen) {
+  app.name("trochoid");
+  app.description("What a milling cutter with runout really does.");
+  app.footer(footer());
+  app.set_version_flag("--version", std::string(results::version()));
+  app.require_subcommand(1);
+  Options& options = chosen.options;
+  for (const Command command : all_commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(name_of(command)),
+                                       std::string(purpose_of(command)));
+    add_case(*sub, options);
+    add_data_options(*sub, command, options);
+    sub->callback([&chosen, command] {
+      chosen.command = [&chosen, command] { return answer(command, chosen.options); };
+    });
+  }
+  CLI::App* sweep = add_sweep(app, options);
+  sweep->callback(
+      [&chosen] { chosen.command = [&chosen] { return cli::sweep(chosen.options); }; });
+  CLI::App* check = app.add_subcommand(
+      "check",
+      "Read a case file and its measurements and name every mistake in them; "
+      "nothing is written");
+  add_case(*check, options);
+  check->add_option("--for", options.command, "The command that the case is meant for")
+      ->check(CLI::IsMember(std::vector<std::string>(base::names<Command>.begin(),
+                                                     base::names<Command>.end())));
+  check->callback(
+      [&chosen] { chosen.command = [&chosen] { return cli::check(chosen.options); }; });
+  CLI::App* fresh = add_new(app, chosen.wanted, options);
+  fresh->callback([&chosen] {
+    chosen.command = [&chosen] {
+      return new_case(*base::named<Command>(chosen.wanted), chosen.options.file);
+    };
+  });
+  CLI::App* report = app.add_subcommand(
+      "report", "Make report.html of a result folder again from its files");
+  report->add_option("FOLDER", options.file, "The result folder")
+      ->required()
+      ->type_name(std::string(types::folder));
+  report->add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  report->callback([&chosen] {
+    chosen.command = [&chosen] { return cli::report(chosen.options); };
+  });
+}
+
+}  // namespace trochoid::cli

@@ -1,0 +1,116 @@
+#include <trochoid/base/units.h>
+#include <trochoid/results/better_speed.h>
+#include <trochoid/results/stability.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <optional>
+
+namespace trochoid::results {
+
+namespace {
+
+using dynamics::StabilityVerdict;
+
+/// A limit this near, relative to it, is no better known than modes and coefficients.
+constexpr double close_to_limit = 0.1;
+
+struct Asked {
+  double depth = 0.0;  ///< [m]
+  double speed = 0.0;  ///< [rpm]
+};
+
+Asked asked_of(const StabilityResult& r) {
+  const geometry::Cut& cut = r.problem.setup.cut;
+  return {cut.a_p, unit::in(cut.Omega, unit::rpm)};
+}
+
+std::string no_limit(const Asked& asked, double greatest) {
+  return fmt::format("Stable: at {:g} rpm no axial depth up to {:g} mm chatters.",
+                     asked.speed, unit::in(greatest, unit::mm));
+}
+
+std::string unstable(const Asked& asked, double limit) {
+  const std::string cut =
+      fmt::format("Unstable: the cut at {:g} mm and {:g} rpm chatters",
+                  unit::in(asked.depth, unit::mm), asked.speed);
+  return asked.depth > limit
+             ? fmt::format("{}; at this speed it is stable to {:.3g} mm.", cut,
+                           limit / unit::mm)
+             : cut + '.';
+}
+
+std::string stable(const Asked& asked, double limit) {
+  if (asked.depth > limit) {
+    return fmt::format(
+        "Stable at {:g} mm, on an island: at {:g} rpm chatter begins at {:.3g} mm.",
+        unit::in(asked.depth, unit::mm), asked.speed, limit / unit::mm);
+  }
+  const double below = 1 - asked.depth / limit;
+  return fmt::format(
+      "Stable to {:.3g} mm at {:g} rpm: the cut of {:g} mm lies {:.2g} % below{}.",
+      limit / unit::mm, asked.speed, unit::in(asked.depth, unit::mm), 100 * below,
+      below < close_to_limit ? ", which is close" : "");
+}
+
+std::string verdict_of(StabilityVerdict verdict, const Asked& asked,
+                       const std::optional<double>& limit, double greatest) {
+  if (verdict == StabilityVerdict::marginal) {
+    return fmt::format(
+        "Marginal: whether the cut at {:g} mm and {:g} rpm is stable cannot be told.",
+        unit::in(asked.depth, unit::mm), asked.speed);
+  }
+  if (verdict == StabilityVerdict::stable) {
+    return limit ? stable(asked, *limit) : no_limit(asked, greatest);
+  }
+  return unstable(asked, limit.value_or(asked.depth));
+}
+
+/// Which speed near it allows more; empty where no lobes were asked for, or not all done.
+std::string speeds_near(const StabilityResult& r) {
+  const dynamics::Stability& s = r.stability;
+  if (!s.limit || !s.whole || s.limit_curve.size() < 2) {
+    return {};
+  }
+  const auto better = better_speed(r);
+  return better ? fmt::format(
+                      " Near it {:.5g} rpm allows {:.3g} mm, also when the "
+                      "spindle is 2 % off.",
+                      better->Omega / unit::rpm, better->depth / unit::mm)
+                : " No speed of the diagram within 30 % allows much more.";
+}
+
+/// What the measured response says by itself, beside the modes.
+std::string by_response(const StabilityResult& r) {
+  const auto& limit = r.measured->multi_frequency.limit;
+  const std::string at =
+      limit ? fmt::format("the limit is {:.3g} mm", limit->depth / unit::mm)
+            : std::string("no depth chatters");
+  return fmt::format(" By the measured response itself {}.", at);
+}
+
+}  // namespace
+
+std::string stability_sentence(const StabilityResult& r) {
+  const Asked asked = asked_of(r);
+  if (!r.no_modes.empty()) {
+    const auto& limit = r.measured->multi_frequency.limit;
+    const bool chatters = limit && limit->depth < asked.depth;
+    return "By the measured response: " +
+           verdict_of(chatters ? StabilityVerdict::unstable : StabilityVerdict::stable,
+                      asked, limit ? std::optional(limit->depth) : std::nullopt,
+                      r.measured->greatest_depth);
+  }
+  const dynamics::Stability& s = r.stability;
+  const std::string text =
+      verdict_of(s.verdict, asked,
+                 s.limit ? std::optional(s.limit->limit.depth) : std::nullopt,
+                 s.greatest_depth) +
+      speeds_near(r);
+  return text + (r.measured ? by_response(r)
+                            : " This is as sure as the modes and coefficients of the "
+                              "case.");
+}
+
+}  // namespace trochoid::results

@@ -1,0 +1,204 @@
+// The page for browsers in headless Chromium, opened from a file: what it answers is what
+// the program answers.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const file = process.env.TROCHOID_PAGE;
+const program = process.env.TROCHOID;
+const hangs = 900_000;  // ms; for what never comes
+const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
+const skip = file === undefined ? 'no page was built' : false;
+if (skip) console.log(skip);
+let browser;
+
+before(async () => {
+  if (!skip) browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+                                               args: ['--no-sandbox', '--disable-dev-shm-usage'], timeout: hangs });
+});
+after(() => browser?.close());
+
+/** The page, ready; what it asks of the network, and complaints. */
+async function opened(options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1200, height: 900 }, ...options });
+  context.setDefaultTimeout(hangs);
+  const page = await context.newPage();
+  const seen = { requests: [], complaints: [] };
+  page.on('request', (request) => { if (!/^(blob|data|about):/.test(request.url())) seen.requests.push(request.url()); });
+  page.on('console', (message) => { if (message.type() === 'error') seen.complaints.push(message.text()); });
+  page.on('pageerror', (error) => seen.complaints.push(String(error)));
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForSelector('body.ready');
+  return { page, seen, context };
+}
+
+/** Run what is chosen. @returns files of the answer as text, and what was said */
+async function answerOf(page) {
+  await page.click('#run');
+  await page.waitForFunction(() => document.getElementById('run').disabled === false);
+  return page.evaluate(() => ({
+    said: document.getElementById('said').textContent,
+    printed: document.getElementById('printed').textContent,
+    files: Object.fromEntries(Object.entries(window.trochoidPage.answer?.files ?? {})
+      .map(([name, bytes]) => [name, new TextDecoder().decode(bytes)])),
+  }));
+}
+
+const number = /^-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+
+/** The largest difference of two texts, in numbers relative to the largest in their column or line. */
+function difference(a, b, name) {
+  if (a === b) return 0;
+  const split = (text) => text.split(/([\s,:[\]{}"]+)/);
+  const left = split(a);
+  const right = split(b);
+  assert.equal(left.length, right.length, `${name}: another form`);
+  const scale = Math.max(...left.filter((w) => number.test(w)).map((w) => Math.abs(Number(w))), 0);
+  let worst = 0;
+  left.forEach((word, i) => {
+    if (word === right[i]) return;
+    assert.ok(number.test(word) && number.test(right[i]), `${name}: ${word} and ${right[i]}`);
+    worst = Math.max(worst, Math.abs(Number(word) - Number(right[i])) / Math.max(Math.abs(Number(word)), 1e-6 * scale));
+  });
+  return worst;
+}
+
+const withoutCommit = (text) => text.replace(/"(commit|version)": "[^"]*"/g, '').replace(/\(?commit [0-9a-f]+\)?/g, '');
+
+test('every example answers as the program does', { skip }, async () => {
+  const { page, seen, context } = await opened();
+  const names = await page.evaluate(() => Object.keys(window.trochoidPage.examples));
+  assert.ok(names.length >= 20, `${names.length} examples`);
+  const temporary = fs.mkdtempSync(path.join(os.tmpdir(), 'page-'));
+  for (const name of names) {
+    const [command, place] = name.split(' ');
+    const [folder, ...rest] = place.split('/');
+    fs.cpSync(path.join('examples', folder), path.join(temporary, folder), { recursive: true });
+    const out = `${rest.join('/').replace(/\.toml$/, '')}.${command}`;
+    const native = spawnSync(program, [command, rest.join('/'), '-o', out], { cwd: path.join(temporary, folder), encoding: 'utf8' });
+    await page.check(`#tasks input[value=${command}]`);
+    await page.selectOption('#example', name);
+    const begun = Date.now();
+    const answer = await answerOf(page);
+    const seconds = (Date.now() - begun) / 1000;
+    assert.equal(/Answered/.test(answer.said), native.status === 0, `${name}: ${answer.said} ${answer.printed}`);
+    const written = fs.existsSync(path.join(temporary, folder, out)) ? fs.readdirSync(path.join(temporary, folder, out)) : [];
+    assert.deepEqual(Object.keys(answer.files).sort(), written.sort(), name);
+    let worst = 0;
+    let same = 0;
+    for (const one of written.filter((n) => n !== 'report.html')) {
+      const ours = withoutCommit(answer.files[one]);
+      const theirs = withoutCommit(fs.readFileSync(path.join(temporary, folder, out, one), 'utf8'));
+      same += ours === theirs ? 1 : 0;
+      worst = Math.max(worst, difference(theirs, ours, `${name} ${one}`));
+    }
+    console.log(`${name}: ${seconds.toFixed(1)} s, ${same} of ${written.length - 1} files the same bytes, numbers within ${worst.toExponential(1)}`);
+    assert.ok(worst < 1e-3, `${name}: ${worst}`);
+  }
+  fs.rmSync(temporary, { recursive: true });
+  assert.deepEqual(seen.requests.filter((url) => !url.startsWith('file:')), []);
+  assert.deepEqual(seen.complaints, []);
+  await context.close();
+});
+
+test('mistakes are shown at their field, and told again where they have none', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.fill('[id="tool.teeth"]', '-2');
+  await page.press('[id="tool.teeth"]', 'Tab');
+  const said = page.locator('[data-key="tool.teeth"] .mistake');
+  await said.waitFor({ state: 'visible' });
+  assert.match(await said.textContent(), /out of range; must be a whole number from 1 to 64/);
+  await page.fill('[id="tool.teeth"]', '2');
+  await page.press('[id="tool.teeth"]', 'Tab');
+  await page.waitForFunction(() => /record\.csv/.test(document.getElementById('mistakes').textContent));
+  assert.equal(await said.isVisible(), false);
+  await context.close();
+});
+
+test('what was typed survives a reload', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.fill('[id="cut.axial_depth_mm"]', '3,25');
+  await page.press('[id="cut.axial_depth_mm"]', 'Tab');
+  await page.reload();
+  await page.waitForSelector('body.ready');
+  assert.equal(await page.inputValue('[id="cut.axial_depth_mm"]'), '3.25');
+  await context.close();
+});
+
+test('a record that is dropped is the one of the case, however long it is', { skip }, async () => {
+  const { page, context } = await opened();
+  const temporary = fs.mkdtempSync(path.join(os.tmpdir(), 'page-'));
+  const record = fs.readFileSync('examples/st52_slot/record.csv', 'utf8').trimEnd().split('\n');
+  const head = record.findIndex((line) => /^[-\d]/.test(line));
+  const rows = record.slice(head);
+  const step = 0.0002;
+  const long = Array.from({ length: 1_000_000 }, (_, i) => {
+    const cells = rows[i % rows.length].split(',');
+    cells[0] = (i * step).toFixed(4);
+    return cells.join(',');
+  });
+  fs.writeFileSync(path.join(temporary, 'long.csv'), [...record.slice(0, head), ...long, ''].join('\n'));
+  await page.selectOption('#example', 'identify st52_slot/case.toml');
+  await page.evaluate(() => { window.trochoidPage.files.delete('record.csv'); });
+  await page.setInputFiles('#pick', path.join(temporary, 'long.csv'));
+  await page.waitForFunction(() => /file = "long.csv"/.test(document.getElementById('text').value));
+  const begun = Date.now();
+  const answer = await answerOf(page);
+  console.log(`a record of 10^6 rows: ${(Date.now() - begun) / 1000} s; ${answer.said}`);
+  assert.ok(!/wrong|broke/.test(answer.said), answer.said + answer.printed);
+  fs.rmSync(temporary, { recursive: true });
+  await context.close();
+});
+
+test('a broken file is refused in the words of the program', { skip }, async () => {
+  const { page, context } = await opened();
+  for (const name of fs.readdirSync('tests/broken/case').filter((n) => n.endsWith('.expected')).slice(0, 40)) {
+    const wrong = name.replace(/\.expected$/, '');
+    if (!fs.existsSync(path.join('tests/broken/case', wrong))) continue;
+    const text = fs.readFileSync(path.join('tests/broken/case', wrong));
+    if (text.length > 1e6) continue;
+    const native = spawnSync(program, ['check', wrong, '--for', 'simulate'], { cwd: 'tests/broken/case', encoding: 'utf8' });
+    const ours = await page.evaluate(async ([file, bytes]) => window.trochoidPage.program.run('check', {
+      args: ['check', file, '--for', 'simulate'], files: { [file]: Uint8Array.from(bytes) }, folder: 'none' }), [wrong, [...text]]);
+    if (/no such file|cannot be (found|read)/i.test(native.stderr + ours.err)) continue;  // beside it lies more
+    assert.equal(ours.err.trim(), native.stderr.trim(), wrong);
+  }
+  await context.close();
+});
+
+test('the keyboard is enough, and 400 pixels', { skip }, async () => {
+  const { page, context } = await opened({ viewport: { width: 400, height: 800 } });
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(wide <= 400, `${wide} px wide`);
+  await page.focus('#tasks input:checked');
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await page.evaluate(() => window.trochoidPage.task), 'simulate');
+  for (let i = 0; i < 400 && (await page.evaluate(() => document.activeElement.id)) !== 'run'; ++i) await page.keyboard.press('Tab');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('#said.good');
+  await page.waitForSelector('#report:not([hidden])');
+  await context.close();
+});
+
+test('work can be stopped', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.check('#tasks input[value=stability]');
+  await page.selectOption('#example', 'stability stability_922Hz/case.toml');
+  await page.click('#run');
+  await page.click('#stop');
+  await page.waitForFunction(() => document.getElementById('said').textContent === 'Stopped.');
+  const answer = await answerOf(page);
+  assert.match(answer.said, /Answered/);
+  await context.close();
+});
+
+test('it is one file of less than 3 MB, compressed', { skip }, () => {
+  const size = Number(execFileSync('sh', ['-c', `gzip -9 -c '${file}' | wc -c`], { encoding: 'utf8' }));
+  console.log(`${(size / 1e6).toFixed(2)} MB compressed`);
+  assert.ok(size < 3e6, `${size}`);
+});

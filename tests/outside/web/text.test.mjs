@@ -1,0 +1,112 @@
+// What the page does to a case file, without a browser.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { parse } from 'smol-toml';
+
+const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../..');
+const need = createRequire(import.meta.url);
+globalThis.tomlOf = need(`${root}/web/case_text.js`).tomlOf;
+const { tablesOf, withKey, withoutTable, tomlOf } = need(`${root}/web/case_text.js`);
+const { typed, mistakesOf, rangeOf, unitOf } = need(`${root}/web/form.js`);
+const { zipOf } = need(`${root}/web/files.js`);
+
+function cases() {
+  const examples = path.join(root, 'examples');
+  return fs.readdirSync(examples).filter((name) => fs.statSync(path.join(examples, name)).isDirectory())
+    .flatMap((name) => fs.readdirSync(path.join(examples, name), { withFileTypes: true })
+    .filter((entry) => entry.name.endsWith('.toml'))
+    .map((entry) => [`${name}/${entry.name}`, fs.readFileSync(path.join(examples, name, entry.name), 'utf8')]));
+}
+
+const comments = (text) => text.split('\n').filter((line) => line.startsWith('#')).length;
+
+test('a key set to what it is leaves the case as it was', () => {
+  for (const [name, text] of cases()) {
+    const before = parse(text);
+    for (const { name: table, entry } of tablesOf(text)) {
+      if (table.includes('.')) continue;
+      const of = table === '' ? before : entry ? before[table][entry - 1] : before[table];
+      for (const [key, value] of Object.entries(of)) {
+        if (typeof value === 'object' && !(Array.isArray(value) && typeof value[0] !== 'object')) continue;
+        const after = withKey(text, entry ? `${table}[${entry}]` : table, key, tomlOf(value));
+        assert.deepEqual(parse(after), before, `${name}: ${table}.${key}`);
+        assert.equal(comments(after), comments(text), name);
+      }
+    }
+  }
+});
+
+const small = `title = "a" # of it
+
+[tool]            # the cutter
+teeth = 2         # how many
+# helix_deg = 30  # the helix
+pitch_deg = [ # unequal
+  170,
+  190,
+]
+
+[[measurement]]
+file = "one.csv"
+[[measurement]]
+file = "two.csv"
+`;
+
+test('a key is set, uncommented, added and left out in its place', () => {
+  assert.match(withKey(small, 'tool', 'teeth', '3'), /^teeth = 3 +# how many$/m);
+  const helix = withKey(small, 'tool', 'helix_deg', '25');
+  assert.match(helix, /^helix_deg = 25 +# the helix$/m);
+  assert.equal(parse(helix).tool.helix_deg, 25);
+  assert.equal(parse(withKey(small, 'tool', 'diameter_mm', '8')).tool.diameter_mm, 8);
+  assert.deepEqual(parse(withKey(small, 'tool', 'pitch_deg', '[180, 180]')).tool.pitch_deg, [180, 180]);
+  assert.equal(parse(withKey(small, 'tool', 'teeth', null)).tool.teeth, undefined);
+  assert.equal(parse(withKey(small, 'measurement[2]', 'file', '"x.csv"')).measurement[1].file, 'x.csv');
+  assert.equal(parse(withKey(small, '', 'title', '"b"')).title, 'b');
+  assert.equal(parse(withKey(small, 'cut', 'spindle_rpm', '900')).cut.spindle_rpm, 900);
+  assert.equal(parse(withoutTable(small, 'measurement[1]')).measurement.length, 1);
+});
+
+test('what is typed is what TOML takes', () => {
+  const schema = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8'));
+  const teeth = schema.properties.tool.properties.teeth;
+  const phase = schema.properties.identify.properties.phase_deg;
+  assert.equal(typed(' 3 ', teeth), '3');
+  assert.equal(typed('0,04', schema.properties.cut.properties.feed_per_tooth_mm), '0.04');
+  assert.equal(typed('', teeth), null);
+  assert.equal(typed('free', phase), '"free"');
+  assert.equal(typed('12.5', phase), '12.5');
+  assert.equal(typed('a "b" c', schema.properties.title), '"a \\"b\\" c"');
+  assert.equal(typed('-x, y, z', schema.properties.dynamometer.properties.axes), '["-x", "y", "z"]');
+  assert.equal(typed('auto', schema.properties.dynamometer.properties.axes), '"auto"');
+  assert.equal(typed('170, 190', schema.properties.tool.properties.pitch_deg), '[170, 190]');
+  assert.equal(rangeOf(teeth), 'from 1, at most 64');
+  assert.equal(unitOf(schema.properties.tool.properties.diameter_mm), 'mm');
+});
+
+test('mistakes are told by the key they belong to', () => {
+  const [wrong, missing, table, file] = mistakesOf([
+    'case.toml:2:9: tool.teeth = -2: out of range; must be a whole number',
+    'case.toml:1:1: tool.helix_deg is missing; must be a number',
+    'case.toml:1:1: [force] is missing (the force law); simulate needs it',
+    'record.csv: no such file'].join('\n'));
+  assert.deepEqual([wrong.path, wrong.row], ['tool.teeth', 2]);
+  assert.equal(wrong.text, 'tool.teeth = -2: out of range; must be a whole number');
+  assert.equal(missing.path, 'tool.helix_deg');
+  assert.equal(table.path, 'force');
+  assert.equal(file.path, undefined);
+});
+
+test('a zip file is one', async () => {
+  const { execFileSync } = await import('node:child_process');
+  const folder = fs.mkdtempSync('/tmp/zip-');
+  const bytes = new Uint8Array(await zipOf({ 'forces.csv': Buffer.from('a,b\n1,2\n'), 'ü.json': Buffer.from('{}') }).arrayBuffer());
+  fs.writeFileSync(`${folder}/all.zip`, bytes);
+  const code = 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; print(z.namelist(), z.read("forces.csv"))';
+  const said = execFileSync('/usr/bin/python3', ['-c', code, `${folder}/all.zip`], { encoding: 'utf8' });
+  assert.equal(said.trim(), "['forces.csv', 'ü.json'] b'a,b\\n1,2\\n'");
+  fs.rmSync(folder, { recursive: true });
+});

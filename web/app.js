@@ -1,0 +1,243 @@
+// The page: a task, its files, its case, the answer.
+'use strict';
+
+const toml = smolToml;
+const tasks = {
+  identify: ['Identify', 'coefficients and runout from measured forces'],
+  simulate: ['Predict', 'chip, forces and torque of a cut'],
+  calibrate: ['Wall: calibrate', 'coefficients from a measured thin wall'],
+  surface: ['Wall: predict', 'the error a cut leaves on a wall'],
+  modes: ['Modes', 'of a tool from a measured response'],
+  stability: ['Stability', 'does it chatter, and how deep may it cut'],
+  dynamics: ['Vibration', 'the cut in the time domain'],
+  correct: ['Runout correction', 'the motion of a table that undoes runout'],
+  actuator: ['Actuator', 'its transfer function from a step'],
+  plan: ['Plan', 'the cut to measure next'],
+};
+
+const $ = (id) => document.getElementById(id);
+const utf8 = new TextEncoder();
+const page = {
+  task: 'identify', text: '', name: 'case.toml', files: new Map(), opened: null,
+  program: null, schema: null, examples: {}, templates: {}, answer: null, checks: 0,
+};
+window.trochoidPage = page;  // for tests, and for who looks into it
+
+function given() {
+  try {
+    return toml.parse(page.text);
+  } catch {
+    return null;  // the program says where
+  }
+}
+
+function keep() {
+  kept.write({ task: page.task, text: page.text, name: page.name, example: page.example });
+}
+
+/** All files as the program meets them. */
+function allFiles() {
+  return { ...Object.fromEntries(page.files), [page.name]: utf8.encode(page.text) };
+}
+
+function tablesOfTask() {
+  return [...new Set(tablesOf(page.templates[page.task] ?? '').map((t) => t.name).filter((n) => n !== ''))];
+}
+
+function change(path, key, value) {
+  take(withKey(page.text, path, key, value));
+}
+
+/** The case is this text now. */
+function take(text) {
+  page.text = text;
+  if ($('text').value !== text) $('text').value = text;
+  keep();
+  showForm();
+  check();
+}
+
+function showForm() {
+  const read = given();
+  $('form').classList.toggle('stale', read === null);
+  if (read === null) return;
+  const open = new Set([...document.querySelectorAll('#form details[open][data-table]')].map((d) => d.dataset.table));
+  const focused = document.activeElement?.id;
+  $('form').replaceChildren(caseForm({
+    schema: page.schema, given: read, tables: tablesOfTask(), opened: page.opened ?? open, files: page.files, change,
+    add: (name) => take(`${page.text.replace(/\n*$/, '\n')}\n[[${name}]]\n`),
+    remove: (path) => take(withoutTable(page.text, path)),
+  }));
+  page.opened = null;
+  $('drawing').replaceChildren(...[drawCut(read)].filter(Boolean));
+  if (focused) $(focused)?.focus();
+}
+
+function showFiles() {
+  const names = [...page.files.keys()].filter((n) => n !== page.name).sort();
+  $('files').replaceChildren(...names.map((name) => element('li', {}, name, ' ',
+    element('button', { type: 'button', class: 'quiet', title: `Forget ${name}`,
+                        onclick: () => { page.files.delete(name); showFiles(); check(); } }, '×'))));
+  $('files-dropped').replaceChildren(...names.map((value) => element('option', { value })));
+}
+
+/** What the program says of the case, at its fields. */
+async function check() {
+  const mine = ++page.checks;
+  await new Promise((done) => setTimeout(done, 300));
+  if (mine !== page.checks || page.program === null) return;
+  const answer = await page.program.run('check', {
+    args: ['check', page.name, '--for', page.task], files: allFiles(), folder: 'none' });
+  if (mine !== page.checks) return;
+  const rest = showMistakes($('form'), answer.code === 0 ? [] : mistakesOf(answer.err));
+  $('mistakes').replaceChildren(...rest.map(({ line }) => element('li', {}, line)));
+  $('checked').textContent = answer.code === 0 ? answer.out : '';
+  $('state').textContent = answer.code === 0 ? 'No mistakes found.' : 'There are mistakes; they stand at their fields.';
+}
+
+function say(text, kind = '') {
+  $('said').textContent = text;
+  $('said').className = kind;
+}
+
+async function run() {
+  const folder = `${page.name.replace(/\.toml$/, '')}.${page.task}`;
+  const args = [page.task, page.name, '-o', folder,
+                ...($('options').value.trim() === '' ? [] : $('options').value.trim().split(/\s+/))];
+  $('run').disabled = true;
+  $('stop').disabled = false;
+  const begun = performance.now();
+  const ticks = setInterval(() => { $('time').textContent = `${((performance.now() - begun) / 1000).toFixed(0)} s`; }, 500);
+  say('Working …');
+  try {
+    const answer = await page.program.run('work', { args, files: allFiles(), folder }, (line) => say(line));
+    show(answer, folder, (performance.now() - begun) / 1000);
+  } catch (error) {
+    say(error.message === 'stopped' ? 'Stopped.' : `The program broke: ${error.message}`, 'bad');
+  } finally {
+    clearInterval(ticks);
+    $('time').textContent = '';
+    $('run').disabled = false;
+    $('stop').disabled = true;
+  }
+}
+
+function show(answer, folder, seconds) {
+  page.answer = { folder, files: answer.files };
+  const names = Object.keys(answer.files).sort();
+  const told = (answer.code === 2 || names.length === 0 ? answer.err || answer.out : answer.out).trim();
+  say(`${answer.code === 0 ? 'Answered' : answer.code === 1 ? 'No good answer' : 'The input is wrong'} after ${seconds.toFixed(1)} s.`,
+      answer.code === 0 ? 'good' : 'bad');
+  $('printed').textContent = told;
+  $('downloads').replaceChildren(...names.map((name) => element('li', {},
+    element('a', { href: '#', onclick: (e) => { e.preventDefault(); saveAs(new Blob([answer.files[name]]), name); } }, name))));
+  $('all').hidden = names.length === 0;
+  const report = answer.files['report.html'];
+  $('report').hidden = report === undefined;
+  if (report) $('report').srcdoc = new TextDecoder().decode(report);
+  $('answer').hidden = false;
+  $('answer').scrollIntoView({ behavior: 'smooth', block: 'start' });
+}
+
+async function dropped(list) {
+  for (const file of list) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    if (/\.toml$/i.test(file.name) && !/^(material|modes|actuator|truth)/.test(file.name)) {
+      page.name = file.name;
+      page.example = undefined;
+      page.opened = new Set(['tool', 'cut']);
+      take(new TextDecoder().decode(bytes));
+      continue;
+    }
+    page.files.set(file.name, bytes);
+    nameFile(file.name);
+  }
+  showFiles();
+  showForm();
+  check();
+}
+
+/** A measurement that was dropped takes the place of a file that is not there. */
+function nameFile(name) {
+  const read = given();
+  for (const table of ['measurement', 'surface_measurement', 'measured_frf']) {
+    const place = (read?.[table] ?? []).findIndex((entry) => entry.file !== undefined && !page.files.has(entry.file));
+    if (place >= 0 && tablesOfTask().includes(table)) return take(withKey(page.text, `${table}[${place + 1}]`, 'file', JSON.stringify(name)));
+  }
+  for (const table of ['frf', 'step']) {
+    if (read?.[table]?.file !== undefined && !page.files.has(read[table].file)) {
+      return take(withKey(page.text, table, 'file', JSON.stringify(name)));
+    }
+  }
+  return undefined;
+}
+
+function choose(task, text) {
+  page.task = task;
+  page.opened = new Set(['tool', 'cut', 'measurement[1]']);
+  document.querySelectorAll('#tasks input').forEach((input) => { input.checked = input.value === task; });
+  const mine = Object.keys(page.examples).filter((name) => name.startsWith(`${task} `));
+  $('example').replaceChildren(element('option', { value: '' }, 'an example …'),
+    ...mine.map((name) => element('option', { value: name, selected: name === page.example }, name.slice(task.length + 1))));
+  if (text !== undefined) take(text);
+}
+
+function startExample(name) {
+  const { file, files } = page.examples[name];
+  page.example = name;
+  page.files = new Map(Object.entries(files).map(([path, base64]) => [path, Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
+  page.name = file;
+  const bytes = page.files.get(file);
+  page.files.delete(file);
+  showFiles();
+  choose(name.split(' ')[0], new TextDecoder().decode(bytes));
+}
+
+function fresh(task) {
+  page.name = 'case.toml';
+  page.example = undefined;
+  choose(task, page.templates[task]);
+}
+
+async function begin() {
+  const missing = whatIsMissing();
+  if (missing !== '') {
+    say(missing, 'bad');
+    return;
+  }
+  page.schema = JSON.parse($('schema').textContent);
+  const [wasm, examples] = await Promise.all(['wasm', 'examples'].map((id) => inflated($(id).textContent.trim())));
+  page.examples = JSON.parse(new TextDecoder().decode(examples));
+  page.program = new Program(`${$('glue').textContent}\n${$('engine').textContent}`, await WebAssembly.compile(wasm));
+  for (const task of Object.keys(tasks)) {
+    page.templates[task] = (await page.program.run('check', { args: ['new', task], files: {}, folder: 'none' })).out;
+  }
+  const before = kept.read();
+  if (before?.example && page.examples[before.example]) startExample(before.example);
+  if (before?.text && tasks[before.task]) {
+    page.name = before.name ?? 'case.toml';
+    choose(before.task, before.text);
+  } else {
+    fresh('identify');
+  }
+  document.body.classList.add('ready');
+  say('Ready. Nothing leaves this computer.');
+}
+
+$('tasks').replaceChildren(...Object.entries(tasks).map(([task, [title, about]]) => element('label', { class: 'task' },
+  element('input', { type: 'radio', name: 'task', value: task, onchange: () => fresh(task) }),
+  element('strong', {}, title), element('span', {}, about))));
+$('text').addEventListener('change', () => take($('text').value));
+$('example').addEventListener('change', (e) => { if (e.target.value !== '') startExample(e.target.value); });
+$('run').addEventListener('click', run);
+$('stop').addEventListener('click', () => page.program.stop('work'));
+$('pick').addEventListener('change', (e) => dropped(e.target.files));
+$('all').addEventListener('click', () => saveAs(zipOf(page.answer.files), `${page.answer.folder}.zip`));
+$('save-case').addEventListener('click', () => saveAs(new Blob([page.text], { type: 'application/toml' }), page.name));
+for (const name of ['dragover', 'drop']) {
+  document.addEventListener(name, (e) => {
+    e.preventDefault();
+    if (name === 'drop') dropped(e.dataTransfer.files);
+  });
+}
+begin().catch((error) => say(`The page could not start: ${error.message}`, 'bad'));

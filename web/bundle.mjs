@@ -1,0 +1,53 @@
+// Puts the page, the program and the examples into one file:
+//   node bundle.mjs ENGINE_FOLDER OUTPUT.html
+import fs from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const root = path.dirname(here);
+const [engine, output] = process.argv.slice(2);
+const text = (...parts) => fs.readFileSync(path.join(...parts), 'utf8');
+const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString('base64');
+
+/** Files of an example, those below its folder. */
+function filesOf(folder, prefix = '') {
+  return Object.fromEntries(fs.readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
+    const file = path.join(folder, entry.name);
+    if (entry.isDirectory()) return /\.(identify|simulate|\w+)$/.test(entry.name) ? [] : Object.entries(filesOf(file, `${prefix}${entry.name}/`));
+    return entry.name === 'README.md' ? [] : [[prefix + entry.name, fs.readFileSync(file).toString('base64')]];
+  }));
+}
+
+/** What the pages of the examples run, `command folder/file` -> its files. */
+function examples() {
+  const all = {};
+  const commands = 'simulate|identify|surface|calibrate|stability|modes|actuator|dynamics|correct|plan';
+  for (const name of fs.readdirSync(path.join(root, 'examples'))) {
+    const folder = path.join(root, 'examples', name);
+    if (!fs.existsSync(path.join(folder, 'README.md'))) continue;
+    const runs = text(folder, 'README.md').matchAll(new RegExp(`(?:trochoid|run) (${commands}) (?:examples/${name}/)?(\\S+\\.toml)`, 'g'));
+    for (const [, command, file] of runs) {
+      if (fs.existsSync(path.join(folder, file))) all[`${command} ${name}/${file}`] = { file, files: filesOf(folder) };
+    }
+  }
+  return all;
+}
+
+const scripts = ['files.js', 'case_text.js', 'drawing.js', 'form.js', 'program.js', 'app.js'].map((file) => text(here, file));
+const smol = `/*!\n${text(root, 'node_modules/smol-toml/LICENSE')}*/\nconst smolToml = (() => { const module = { exports: {} };\n${text(root, 'node_modules/smol-toml/dist/index.cjs')}\nreturn module.exports; })();`;
+const inScript = (script) => script.replaceAll('</script', '<\\/script');
+const parts = {
+  style: text(here, 'style.css'),
+  schema: inScript(JSON.stringify(JSON.parse(text(root, 'docs/formats/case.schema.json')))),
+  wasm: packed(fs.readFileSync(path.join(engine, 'trochoid.wasm'))),
+  examples: packed(JSON.stringify(examples())),
+  glue: inScript(text(engine, 'trochoid.js')),
+  engine: inScript(text(here, 'engine.js')),
+  scripts: inScript([smol, ...scripts.map((s) => s.replace("'use strict';", ''))].join('\n')),
+};
+const html = text(here, 'page.html').replace(/@(\w+)@/g, (_, name) => parts[name]);
+fs.mkdirSync(path.dirname(output), { recursive: true });
+fs.writeFileSync(output, html);
+console.log(`${output}: ${(html.length / 1e6).toFixed(2)} MB, ${(gzipSync(html).length / 1e6).toFixed(2)} MB compressed`);

@@ -1,0 +1,158 @@
+// The form of a case: its fields, units, ranges and help are those of the schema.
+'use strict';
+
+function element(name, attributes = {}, ...children) {
+  const node = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith('on')) node.addEventListener(key.slice(2), value);
+    else if (value !== undefined && value !== false) node.setAttribute(key, value === true ? '' : value);
+  }
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+/** The alternatives that a key of the schema has. */
+const formsOf = (schema) => schema.anyOf ?? schema.oneOf ?? [schema];
+
+const unitOf = (schema) => /\[([^\]]+)\]/.exec(schema.description ?? '')?.[1] ?? '';
+
+const helpOf = (schema) => (schema.description ?? '').replace(/\s*\[[^\]]+\]/, '');
+
+/** The range in words: `above 0, at most 64`. */
+function rangeOf(schema) {
+  const all = [];
+  for (const one of formsOf(schema)) {
+    if (one.minimum !== undefined) all.push(`from ${one.minimum}`);
+    if (one.exclusiveMinimum !== undefined) all.push(`above ${one.exclusiveMinimum}`);
+    if (one.maximum !== undefined) all.push(`at most ${one.maximum}`);
+    if (one.exclusiveMaximum !== undefined) all.push(`below ${one.exclusiveMaximum}`);
+  }
+  return all.join(', ');
+}
+
+const isFile = (key) => key === 'file' || key === 'frf' || key === 'include' || key === 'command_file';
+
+const typeOf = (schema) => schema.type ?? typeof (schema.const ?? schema.enum?.[0]);
+
+const isPlain = (value) => /^([-+]?\.?\d|\[|\{|(true|false)$|["'])/.test(value);
+
+/** What was typed, as TOML writes it; null: nothing. Quotes and brackets may be left out. */
+function typed(text, schema) {
+  const value = text.trim();
+  if (value === '') return null;
+  const types = formsOf(schema).map(typeOf);
+  if (types.every((t) => t === 'string')) return /^["']/.test(value) ? value : JSON.stringify(value);
+  if (types.includes('array') && value.includes(',') && !value.startsWith('[')) {
+    return `[${value.split(',').map((one) => (isPlain(one.trim()) ? one.trim() : JSON.stringify(one.trim()))).join(', ')}]`;
+  }
+  if (types.includes('string') && !isPlain(value)) return JSON.stringify(value);
+  return value.replace(/^(-?\d+),(\d+)$/, '$1.$2');  // a decimal comma
+}
+
+const shownValue = (value) =>
+  value === undefined ? '' : typeof value === 'string' ? value : tomlOf(value);
+
+/** One key: label, input, unit and help. */
+function field({ path, key, schema, value, needed, files, change }) {
+  const id = `${path}.${key}`;
+  const choices = formsOf(schema).length === 1 ? schema.enum : undefined;
+  const set = (text) => change(path, key, text);
+  let input;
+  if (choices) {
+    input = element('select', { id, onchange: (e) => set(e.target.value === '' ? null : JSON.stringify(e.target.value)) },
+      element('option', { value: '' }, schema.default === undefined ? '' : `${schema.default} (usual)`),
+      ...choices.map((c) => element('option', { value: c, selected: c === value }, c)));
+  } else if (schema.type === 'boolean') {
+    input = element('input', { id, type: 'checkbox', checked: value === true,
+                               onchange: (e) => set(String(e.target.checked)) });
+  } else {
+    const list = isFile(key) ? 'files-dropped' : undefined;
+    const usual = schema.default === undefined ? '' : shownValue(schema.default);
+    input = element('input', { id, type: 'text', list, spellcheck: 'false', value: shownValue(value),
+                               inputmode: schema.type === 'number' || schema.type === 'integer' ? 'decimal' : undefined,
+                               placeholder: usual, onchange: (e) => set(typed(e.target.value, schema)) });
+    if (isFile(key) && value !== undefined && !files.has(value)) input.classList.add('no-file');
+  }
+  const range = rangeOf(schema);
+  input.setAttribute('aria-describedby', `${id}.help`);
+  return element('div', { class: `field${needed ? ' needed' : ''}${value === undefined ? ' unset' : ''}`, 'data-key': id },
+    element('label', { for: id }, key),
+    element('span', { class: 'input' }, input, element('span', { class: 'unit' }, unitOf(schema))),
+    element('p', { class: 'help', id: `${id}.help` }, helpOf(schema) + (range ? ` (${range})` : '')),
+    element('p', { class: 'mistake', role: 'alert', hidden: true }));
+}
+
+/** A table of the case, or one entry of a list of them. */
+function tablePart({ name, path, schema, values, open, listed, ...rest }) {
+  const keys = Object.entries(schema.properties).filter(([, s]) => s.type !== 'object' || s.description);
+  const needed = new Set(schema.required ?? []);
+  const isSet = ([key]) => values[key] !== undefined || needed.has(key);
+  const make = ([key, s]) =>
+    field({ path, key, schema: s, value: values[key], needed: needed.has(key), ...rest });
+  const others = keys.filter((k) => !isSet(k));
+  return element('details', { class: 'table', open, 'data-table': path },
+    element('summary', {}, element('code', {}, listed ? `[[${name}]]` : `[${name}]`), ' ',
+      element('span', { class: 'about' }, schema.description ?? ''),
+      listed ? element('button', { type: 'button', class: 'quiet', title: 'Leave this entry out',
+                                   onclick: (e) => { e.preventDefault(); rest.remove(path); } }, 'remove') : null),
+    ...keys.filter(isSet).map(make),
+    others.length === 0 ? null
+      : element('details', { class: 'more' }, element('summary', {}, `${others.length} more keys`), ...others.map(make)));
+}
+
+/**
+ * The form of a case.
+ * @param schema the JSON Schema of the case file
+ * @param given  the case, as read
+ * @param tables names of the tables to show although they are not there
+ * @param opened paths of the tables that are open; all: null
+ */
+function caseForm({ schema, given, tables, opened, ...rest }) {
+  const form = element('div', { class: 'form' });
+  const isOpen = (path) => opened === null || opened.has(path);
+  for (const [name, s] of Object.entries(schema.properties)) {
+    const value = given[name];
+    const list = s.type === 'array' && s.items?.properties;
+    if (s.properties && (value !== undefined || tables.includes(name))) {
+      form.append(tablePart({ name, path: name, schema: s, values: value ?? {}, open: isOpen(name), ...rest }));
+    } else if (list && (value !== undefined || tables.includes(name))) {
+      (Array.isArray(value) ? value : []).forEach((entry, i) => {
+        const path = `${name}[${i + 1}]`;
+        form.append(tablePart({ name, path, schema: { description: s.description, ...s.items }, values: entry,
+                                open: isOpen(path), listed: true, ...rest }));
+      });
+      form.append(element('button', { type: 'button', class: 'quiet', onclick: () => rest.add(name) }, `add [[${name}]]`));
+    }
+  }
+  return form;
+}
+
+/** Mistakes as the program says them: `file:line:col: tool.teeth = 0: why`. */
+function mistakesOf(text) {
+  return text.split('\n').filter((line) => line !== '').map((line) => {
+    const match = /^(.*?):(\d+):(\d+): \[?([A-Za-z_][\w.[\]]*?)\]?(?= |:|$)/.exec(line);
+    const path = match?.[4].replace(/\[(\d+)\]$/, '[$1]');
+    return { line, path, row: match ? Number(match[2]) : undefined,
+             text: match ? line.slice(line.indexOf(':', match[1].length + 1 + match[2].length) + match[3].length + 3) : line };
+  });
+}
+
+/** Each mistake at its field, or at its table. @returns those that have no place */
+function showMistakes(form, mistakes) {
+  for (const node of form.querySelectorAll('.mistake')) { node.hidden = true; node.textContent = ''; }
+  form.querySelectorAll('.wrong').forEach((node) => node.classList.remove('wrong'));
+  return mistakes.filter(({ path, text }) => {
+    const place = path && form.querySelector(`[data-key="${CSS.escape(path)}"], [data-key="${path}"]`);
+    if (!place) return true;
+    const said = place.querySelector('.mistake');
+    said.textContent = text;
+    said.hidden = false;
+    place.classList.add('wrong');
+    for (let up = place.parentElement; up !== form; up = up.parentElement) up.open = true;
+    return false;
+  });
+}
+
+if (typeof module !== 'undefined') {
+  module.exports = { typed, mistakesOf, rangeOf, unitOf };
+}
