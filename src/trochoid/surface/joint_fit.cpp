@@ -80,11 +80,26 @@ Scatter scatter_after(const Given& wall, const FittedRows& rows,
   return scatter;
 }
 
-/// Without the ways that are beyond hope.
+/// Without the ways that are beyond hope, the cheapest first.
 void drop_hopeless(std::vector<Tried>& tried) {
   constexpr double hopeless = 40;  // chances of one in 10^8
   const double least = cheapest(tried).fit.cost;
   std::erase_if(tried, [&](const Tried& t) { return t.fit.cost > least + hopeless; });
+  std::ranges::stable_sort(tried, {}, [](const Tried& t) { return t.fit.cost; });
+}
+
+/// Settled, and once more with more care where it may count among those tried: less
+/// evidence by so much is a chance of one in 10^5.
+RowFit settle_among(const RowProblem& problem, const Way& way, const Values& start,
+                    double& most_evidence) {
+  constexpr double beyond_hope = 12.0;
+  RowFit fit = settle(problem, way, start);
+  if (!fit.ok || fit.evidence < most_evidence - beyond_hope) {
+    return fit;
+  }
+  fit = settle_twice(problem, way, std::move(fit));
+  most_evidence = std::max(most_evidence, fit.evidence);
+  return fit;
 }
 
 /// Of all readings, what they scatter about their means included [m].
@@ -148,8 +163,9 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
   problem.scatter =
       scatter_after(wall, rows, problem, cheapest(tried).fit, options.shared);
   const std::size_t ways = tried.size();
+  double most_evidence = -std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < ways; ++w) {
-    RowFit again = settle_twice(problem, tried[w].way, tried[w].fit.p);
+    RowFit again = settle_among(problem, tried[w].way, tried[w].fit.p, most_evidence);
     if (again.ok) {  // else the first one stays
       tried[w].fit = std::move(again);
     }
@@ -163,7 +179,7 @@ JointFit fit_jointly(const Setting& setting, std::span<const Reading> readings,
           .what = {.feedback = tried[w].what.feedback, .form = static_cast<Form>(form)},
           .way = tried[w].way,
           .form = form_columns};
-      one.fit = settle_twice(problem, one.way, tried[w].fit.p);
+      one.fit = settle_among(problem, one.way, tried[w].fit.p, most_evidence);
       tried.push_back(std::move(one));
     }
   }

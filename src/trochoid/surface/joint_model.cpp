@@ -21,7 +21,7 @@ struct Steps {
   }
 };
 constexpr Steps fine = {0.05, 0.01, 0.02};
-/// Forces that are kept for the next time.
+/// Forces and slopes that are kept for the next time.
 constexpr std::size_t most_known = 12;
 /// Beyond, slopes of D are found anew: a micrometre, or 100 MPa.
 constexpr double far_off = 1.0;
@@ -123,52 +123,75 @@ double JointModel::rebase(std::span<const double> p) {
   for (std::size_t i = 0; i < here.size(); ++i) {
     moved += (here[i] - before[i]) * (here[i] - before[i]);
   }
-  double far = 0.0;
-  for (std::size_t k = 0; k < slopes_at_.size(); ++k) {
-    far = std::max(far, std::abs(p[k] - slopes_at_[k]));
-  }
-  if (slopes_.empty() || far > far_off) {
-    const std::size_t n = p.size();
-    slopes_at_.assign(p.begin(), p.end());
-    slopes_.assign(here.size() * n, 0.0);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double step = of_change.of(k, n);
-      const auto there = [&](double by) {
-        std::vector<double> q(p.begin(), p.end());
-        q[k] += by;
-        const JointState state = unpack(q);
-        const bool same_cut = has_start() && k == 2;
-        return change(state, same_cut ? forces : both(state));
-      };
-      const std::vector<double> above = there(step);
-      const std::vector<double> below = there(-step);
-      for (std::size_t i = 0; i < std::min(above.size(), below.size()); ++i) {
-        slopes_[i * n + k] = (above[i] - below[i]) / (2 * step);
-      }
-    }
-  }
   base_.assign(p.begin(), p.end());
   change_ = here;
+  slopes_ = slopes_of_change(p, forces).values;
   return std::sqrt(moved / static_cast<double>(here.size()));
 }
 
-/// Slopes of e_0 [units of scale], found anew where the last ones were found far off, or
-/// with other steps.
-const std::vector<double>& JointModel::stiff_slopes(std::span<const double> p,
-                                                    std::span<const double> steps) {
+void JointModel::set_column(std::size_t k, std::span<const double> above,
+                            std::span<const double> below, Slopes& slopes) {
+  const std::size_t n = slopes.at.size();
+  const std::size_t rows = std::min(above.size(), below.size());
+  slopes.values.resize(std::max(slopes.values.size(), rows * n));
+  for (std::size_t i = 0; i < rows; ++i) {
+    slopes.values[i * n + k] = (above[i] - below[i]) / (2 * slopes.steps[k]);
+  }
+}
+
+const JointModel::Slopes& JointModel::keep(Slopes found, std::vector<Slopes>& known) {
+  if (known.size() == most_known) {
+    known.erase(known.begin());
+  }
+  known.push_back(std::move(found));
+  return known.back();
+}
+
+const JointModel::Slopes& JointModel::slopes_of_change(std::span<const double> p,
+                                                       const BothForces& forces) {
   const std::size_t n = p.size();
-  bool near = !stiff_at_.empty();
-  for (std::size_t k = 0; near && k < n; ++k) {
-    const double apart = std::abs(p[k] - stiff_at_[k]);
-    near = apart <= 2 * steps[k] && 2 * stiff_steps_[k] > steps[k] &&
-           stiff_steps_[k] < 2 * steps[k];
+  for (const Slopes& known : slopes_of_change_) {
+    double far = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      far = std::max(far, std::abs(p[k] - known.at[k]));
+    }
+    if (far <= far_off) {
+      return known;
+    }
   }
-  if (near) {
-    return stiff_slopes_;
+  // Zero where no steady state is found on both sides.
+  Slopes found{.at = {p.begin(), p.end()},
+               .values = std::vector<double>(change_.size() * n)};
+  for (std::size_t k = 0; k < n; ++k) {
+    found.steps.push_back(of_change.of(k, n));
+    const auto there = [&](double by) {
+      std::vector<double> q(p.begin(), p.end());
+      q[k] += by;
+      const JointState state = unpack(q);
+      const bool same_cut = has_start() && k == 2;
+      return change(state, same_cut ? forces : both(state));
+    };
+    set_column(k, there(found.steps[k]), there(-found.steps[k]), found);
   }
-  stiff_at_.assign(p.begin(), p.end());
-  stiff_steps_.assign(steps.begin(), steps.end());
-  std::vector<double> q = stiff_at_;
+  return keep(std::move(found), slopes_of_change_);
+}
+
+/// Of e_0: found anew where none were found close by with like steps.
+const JointModel::Slopes& JointModel::stiff_slopes(std::span<const double> p,
+                                                   std::span<const double> steps) {
+  const std::size_t n = p.size();
+  for (const Slopes& known : stiff_slopes_) {
+    bool near = true;
+    for (std::size_t k = 0; near && k < n; ++k) {
+      near = std::abs(p[k] - known.at[k]) <= 2 * steps[k] &&
+             2 * known.steps[k] > steps[k] && known.steps[k] < 2 * steps[k];
+    }
+    if (near) {
+      return known;
+    }
+  }
+  Slopes found{.at = {p.begin(), p.end()}, .steps = {steps.begin(), steps.end()}};
+  std::vector<double> q = found.at;
   const auto predicted = [&](std::size_t k, double by) {
     q[k] = p[k] + by;
     const JointState s = unpack(q);
@@ -176,40 +199,45 @@ const std::vector<double>& JointModel::stiff_slopes(std::span<const double> p,
     return model_.predict(*forces_of(s.runout), s.K, s.runout, s.start);
   };
   for (std::size_t k = 0; k < n; ++k) {
-    const auto above = predicted(k, steps[k]);
-    const auto below = predicted(k, -steps[k]);
-    stiff_slopes_.resize(above.size() * n);
-    for (std::size_t i = 0; i < above.size(); ++i) {
-      stiff_slopes_[i * n + k] = (above[i] - below[i]) / (2 * steps[k]) / scale;
-    }
+    set_column(k, predicted(k, steps[k]), predicted(k, -steps[k]), found);
   }
-  return stiff_slopes_;
+  return keep(std::move(found), stiff_slopes_);
 }
 
 Linearised JointModel::at(std::span<const double> p, std::span<const double> steps) {
+  const JointState here = unpack(p);
+  Linearised out{
+      .f = model_.predict(*forces_of(here.runout), here.K, here.runout, here.start)};
+  if (!base_.empty()) {
+    const std::vector<double> D = said(p);
+    std::transform(out.f.begin(), out.f.end(), D.begin(), out.f.begin(), std::plus<>());
+  }
+  for (double& f : out.f) {
+    f /= scale;
+  }
+  out.slopes = [this, at = std::vector<double>(p.begin(), p.end()),
+                with = std::vector<double>(steps.begin(), steps.end())] {
+    return slopes_at(at, with);
+  };
+  return out;
+}
+
+std::vector<double> JointModel::slopes_at(std::span<const double> p,
+                                          std::span<const double> steps) {
   const std::size_t n = p.size();
   std::vector<double> own(n);
   for (std::size_t k = 0; k < n; ++k) {
     own[k] = steps.empty() ? fine.of(k, n)
                            : std::clamp(steps[k], least.of(k, n), wide.of(k, n));
   }
-  const JointState here = unpack(p);
-  Linearised out{
-      .f = model_.predict(*forces_of(here.runout), here.K, here.runout, here.start)};
-  out.J = stiff_slopes(p, own);
+  std::vector<double> J = stiff_slopes(p, own).values;
   if (!base_.empty()) {
-    const std::vector<double> D = said(p);
-    for (std::size_t i = 0; i < D.size(); ++i) {
-      out.f[i] += D[i];
-      for (std::size_t k = 0; k < n; ++k) {
-        out.J[i * n + k] += slopes_[i * n + k] / scale;
-      }
-    }
+    std::transform(J.begin(), J.end(), slopes_.begin(), J.begin(), std::plus<>());
   }
-  for (double& f : out.f) {
-    f /= scale;
+  for (double& slope : J) {
+    slope /= scale;
   }
-  return out;
+  return J;
 }
 
 std::vector<double> JointModel::predict(std::span<const Reading> readings,

@@ -59,6 +59,16 @@ class JointModel {
     ToothModel::Forces bent;
     std::shared_ptr<const ToothModel::Forces> straight;
   };
+  /// By all unknowns, and about which place and by which differences they were found.
+  struct Slopes {
+    std::vector<double> at;
+    std::vector<double> steps;
+    std::vector<double> values;  ///< row-major, shape (readings, unknowns)
+  };
+  /// The differences between two sides, by one unknown.
+  static void set_column(std::size_t k, std::span<const double> above,
+                         std::span<const double> below, Slopes& slopes);
+  static const Slopes& keep(Slopes found, std::vector<Slopes>& known);
   /// Without feedback: the same for e_0 and D.
   [[nodiscard]] std::shared_ptr<const ToothModel::Forces> forces_of(
       RunoutVector runout) const;
@@ -67,8 +77,12 @@ class JointModel {
   [[nodiscard]] std::vector<double> change(const JointState& state,
                                            const BothForces& forces) const;
   [[nodiscard]] std::vector<double> said(std::span<const double> p) const;
-  const std::vector<double>& stiff_slopes(std::span<const double> p,
-                                          std::span<const double> steps);
+  /// Of the readings, in units of `scale` [m], shape (readings, unknowns).
+  std::vector<double> slopes_at(std::span<const double> p,
+                                std::span<const double> steps);
+  /// Those found nearby, or at p.
+  const Slopes& slopes_of_change(std::span<const double> p, const BothForces& forces);
+  const Slopes& stiff_slopes(std::span<const double> p, std::span<const double> steps);
 
   Setting setting_;
   std::shared_ptr<const Stations> stations_;
@@ -79,12 +93,10 @@ class JointModel {
   std::vector<double> base_;    ///< p_b; empty: D is zero
   std::vector<double> change_;  ///< D(p_b) [m]
   std::vector<double> slopes_;  ///< D' [m], row-major, shape (readings, unknowns)
-  std::vector<double> slopes_at_;
-  std::vector<double> stiff_slopes_;  ///< of e_0, shape (readings, unknowns)
+  std::vector<Slopes> slopes_of_change_;  ///< found so far
+  std::vector<Slopes> stiff_slopes_;      ///< of e_0, found so far
   mutable std::vector<std::shared_ptr<const ToothModel::Forces>> known_;
   mutable ToothModel::Forces last_;  ///< with feedback
-  std::vector<double> stiff_at_;
-  std::vector<double> stiff_steps_;
 };
 
 }  // namespace trochoid::surface

@@ -20,16 +20,18 @@ struct Normal {
   double rest = 0.0;  ///< of what is left with itself
 };
 
-Values rows_of(const RowProblem& problem, const Linearised& at, std::size_t unknowns) {
+/// @param J  of the unknowns; empty: the form alone
+Values rows_of(const RowProblem& problem, const Values& f, const Values& J) {
+  const std::size_t unknowns = J.size() / problem.error.size();
   const std::size_t k = problem.form.count;
   Values rows;
   rows.reserve(problem.error.size() * (unknowns + k + 1));
   for (std::size_t i = 0; i < problem.error.size(); ++i) {
-    const double* J = at.J.data() + i * unknowns;
-    rows.insert(rows.end(), J, J + unknowns);
+    const double* slopes = J.data() + i * unknowns;
+    rows.insert(rows.end(), slopes, slopes + unknowns);
     const double* B = problem.form.values.data() + i * k;
     rows.insert(rows.end(), B, B + k);
-    rows.push_back(problem.error[i] - at.f[i]);
+    rows.push_back(problem.error[i] - f[i]);
   }
   return rows;
 }
@@ -81,6 +83,12 @@ std::pair<Values, double> solved_from(const Normal& normal, std::size_t first) {
     cost -= x[i] * normal.g[first + i];
   }
   return {x, cost};
+}
+
+/// The form that is best beside f, and the cost.
+std::pair<Values, double> form_alone(const RowProblem& problem, const Values& f) {
+  const Values rows = rows_of(problem, f, {});
+  return solved_from(normal_of(problem, problem.scatter, rows, 0), 0);
 }
 
 /// (A)^-1 and the logarithm of its determinant.
@@ -153,7 +161,6 @@ RowFit fit_rows(const RowProblem& problem, const RowModel& model, Values start) 
   constexpr double step_in_se = 0.5;
   RowFit fit;
   Values p = std::move(start);
-  Values step(p.size());
   Values differences;
   Values rows;
   Normal normal;
@@ -164,16 +171,18 @@ RowFit fit_rows(const RowProblem& problem, const RowModel& model, Values start) 
     if (!at.good && fit.p.empty()) {
       return fit;
     }
-    Values here = rows_of(problem, at, p.size());
-    Normal there = normal_of(problem, problem.scatter, here, p.size());
-    const auto [form, stay] = solved_from(there, p.size());
+    const auto [form, stay] = form_alone(problem, at.f);
     if (at.good && stay < fit.cost) {
+      const bool settled = fit.cost - stay <= negligible;
       fit.p = p;
       fit.form = form;
       fit.cost = stay;
-      rows = std::move(here);
-      normal = std::move(there);
-      halvings = 0;
+      rows = rows_of(problem, at.f, at.slopes());
+      normal = normal_of(problem, problem.scatter, rows, p.size());
+      if (settled) {  // whatever the slopes promise: they are none of the kinks
+        break;
+      }
+      halvings = std::max(0, halvings - 1);
     } else if (++halvings > most_halvings) {
       break;
     }
@@ -184,10 +193,10 @@ RowFit fit_rows(const RowProblem& problem, const RowModel& model, Values start) 
       differences[i] = step_in_se * std::sqrt(variances[i * (normal.A.rows + 1)]);
     }
     const auto [x, go] = solved_from(normal, 0);
-    if (!first && halvings == 0 && fit.cost - go <= negligible) {
+    const double share = std::ldexp(1.0, -halvings);
+    if (!first && share * (2 - share) * (fit.cost - go) <= negligible) {
       break;
     }
-    const double share = std::ldexp(1.0, -halvings);
     for (std::size_t i = 0; i < p.size(); ++i) {
       p[i] = fit.p[i] + share * x[i];
     }

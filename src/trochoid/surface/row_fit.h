@@ -12,8 +12,9 @@ namespace trochoid::surface {
 /// What a model says of some rows, and how that changes with its unknowns.
 struct Linearised {
   std::vector<double> f;  ///< shape (rows)
-  std::vector<double> J;  ///< row-major, shape (rows, unknowns)
-  bool good = true;       ///< false: the model has no answer there
+  /// How, row-major, shape (rows, unknowns): asked only where the fit goes on from.
+  std::function<std::vector<double>()> slopes;
+  bool good = true;  ///< false: the model has no answer there
 };
 
 /// @param steps  of differences, for a model that takes them; empty: its own

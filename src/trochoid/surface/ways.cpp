@@ -66,13 +66,16 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
     const Prediction there = feedback == Feedback::none
                                  ? model->rigid(K)
                                  : model->with_feedback(K, feedback);
-    Linearised out{.good = there.good};
+    Values e;
+    Values per_K;
     for (std::size_t i = 0; i < there.error.size(); ++i) {
-      out.f.push_back(there.error[i] / um);
-      out.J.push_back(there.per_K[i * columns] * MN_m2 / um);
-      out.J.push_back(there.per_K[i * columns + 1] * MN_m2 / um);
+      e.push_back(there.error[i] / um);
+      per_K.push_back(there.per_K[i * columns] * MN_m2 / um);
+      per_K.push_back(there.per_K[i * columns + 1] * MN_m2 / um);
     }
-    return out;
+    return Linearised{.f = std::move(e),
+                      .slopes = [per_K = std::move(per_K)] { return per_K; },
+                      .good = there.good};
   };
   std::vector<std::size_t> mean_of;
   for (std::size_t i = 0; i < found.nominal.size(); ++i) {
@@ -116,11 +119,11 @@ RowFit settle(const RowProblem& problem, const Way& way, Values start) {
   return fit;
 }
 
-RowFit settle_twice(const RowProblem& problem, const Way& way, const Values& start) {
+RowFit settle_twice(const RowProblem& problem, const Way& way, RowFit settled) {
   constexpr double aside = 1.5;  // standard errors of K_tc
   constexpr double gain = 0.3;   // of the cost
   constexpr int most_rounds = 3;
-  RowFit best = settle(problem, way, start);
+  RowFit best = std::move(settled);
   for (int k = 0; best.ok && k < most_rounds; ++k) {
     const std::size_t n = best.p.size();
     const std::size_t width = best.own.size();

@@ -31,9 +31,8 @@ Way nominal_way(const Setting& setting, const ModelFits& found, Feedback feedbac
 /// again.
 RowFit settle(const RowProblem& problem, const Way& way, std::vector<double> start);
 
-/// @brief Settled, and again from either side along what is known least: the valley
+/// @brief What is settled again from either side along what is known least: the valley
 /// between coefficients and form is long and its floor rough.
-RowFit settle_twice(const RowProblem& problem, const Way& way,
-                    const std::vector<double>& start);
+RowFit settle_twice(const RowProblem& problem, const Way& way, RowFit settled);
 
 }  // namespace trochoid::surface

@@ -1,0 +1,101 @@
+#include <trochoid/surface/row_fit.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace trochoid::surface {
+namespace {
+
+constexpr std::size_t rows = 40;
+
+double x_of(std::size_t row) {
+  return -1.0 + 2.0 * static_cast<double>(row) / (rows - 1);
+}
+
+/// a + b x, as measured with an alternating error of 0.01.
+struct Line {
+  std::vector<double> error;
+  std::vector<double> count = std::vector<double>(rows, 1.0);
+
+  Line(double a, double b) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      error.push_back(a + b * x_of(i) + (i % 2 == 0 ? 0.01 : -0.01));
+    }
+  }
+  [[nodiscard]] RowProblem problem() const {
+    return {
+        .error = error, .count = count, .independent = rows, .scatter = {.s2 = 1e-4}};
+  }
+};
+
+/// How often a model was asked, and how often for its slopes.
+struct Asked {
+  int values = 0;
+  int slopes = 0;
+};
+
+/// The line, with slopes that are `share` of the true ones.
+RowModel line_model(Asked& asked, double share) {
+  return [&asked, share](std::span<const double> p, std::span<const double>) {
+    ++asked.values;
+    Linearised at;
+    for (std::size_t i = 0; i < rows; ++i) {
+      at.f.push_back(p[0] + p[1] * x_of(i));
+    }
+    at.slopes = [&asked, share] {
+      ++asked.slopes;
+      std::vector<double> J;
+      for (std::size_t i = 0; i < rows; ++i) {
+        J.insert(J.end(), {share, share * x_of(i)});
+      }
+      return J;
+    };
+    return at;
+  };
+}
+
+TEST(FitRows, FindsALineAndHowWellItIsKnown) {
+  const Line line(0.3, -2.0);
+  Asked asked;
+  const RowFit fit = fit_rows(line.problem(), line_model(asked, 1.0), {0.0, 0.0});
+  ASSERT_TRUE(fit.ok);
+  EXPECT_NEAR(fit.p[0], 0.3, 1e-3);
+  EXPECT_NEAR(fit.p[1], -2.0, 2e-3);
+  EXPECT_NEAR(fit.cost, rows, 0.1);
+  EXPECT_NEAR(fit.covariance[0], 1e-4 / rows, 1e-9);
+}
+
+/// Slopes cost many values each: where a step is not taken they are not asked for.
+TEST(FitRows, AsksForSlopesOnlyWhereItGoesOnFrom) {
+  const Line line(0.3, -2.0);
+  Asked asked;
+  // Steps are 2.5 times too long: the first ones lead uphill.
+  const RowFit fit = fit_rows(line.problem(), line_model(asked, 0.4), {0.0, 0.0});
+  ASSERT_TRUE(fit.ok);
+  EXPECT_NEAR(fit.p[1], -2.0, 0.05);
+  EXPECT_LT(asked.slopes, asked.values);
+}
+
+/// Once a step gains next to nothing the floor of the valley is reached, whatever
+/// slopes over a distance promise beyond.
+TEST(FitRows, EndsWhereAStepGainsNothing) {
+  const Line line(0.3, -2.0);
+  Asked asked;
+  const RowModel smooth = line_model(asked, 1.0);
+  const RowModel rough = [&](std::span<const double> p, std::span<const double> steps) {
+    Linearised at = smooth(p, steps);
+    for (std::size_t i = 0; i < rows; ++i) {
+      at.f[i] += 2e-3 * std::cos(1e4 * p[0] + static_cast<double>(i));
+    }
+    return at;
+  };
+  const RowFit fit = fit_rows(line.problem(), rough, {0.0, 0.0});
+  ASSERT_TRUE(fit.ok);
+  EXPECT_NEAR(fit.p[1], -2.0, 5e-3);
+  EXPECT_LE(asked.values, 12);
+}
+
+}  // namespace
+}  // namespace trochoid::surface
