@@ -13,6 +13,9 @@ using Values = std::vector<double>;
 constexpr double rounding = 1e-12;
 /// Of a correlation that the root does not give back.
 constexpr double most_lost = 1e-6;
+/// Of the largest: pivots as large as this are as good, and rounding, which is not the same
+/// everywhere, must not choose among them.
+constexpr double as_good = 0.9;
 
 /// Correlations; a variance of zero has none.
 Values correlations(std::span<const double> C, std::span<const double> sd) {
@@ -45,11 +48,13 @@ Values root_of_correlations(std::span<const double> R, std::size_t n) {
     left[i] = R[i * n + i];
   }
   for (std::size_t k = 0; k < n; ++k) {
-    const auto pivot =
-        static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
-    if (left[pivot] <= rounding) {
+    const double largest = std::ranges::max(left);
+    if (largest <= rounding) {
       break;
     }
+    const auto pivot = static_cast<std::size_t>(
+        std::ranges::find_if(left, [&](double v) { return v >= as_good * largest; }) -
+        left.begin());
     used[pivot] = true;
     const double diagonal = std::sqrt(left[pivot]);
     row(pivot)[k] = diagonal;

@@ -7,8 +7,8 @@
 
 namespace trochoid::numerics {
 
-/// @brief A root L of a covariance of any rank, by Cholesky with the largest pivots of the
-/// correlations.
+/// @brief A root L of a covariance of any rank, by Cholesky of the correlations with
+/// large pivots: the first one that is nearly as large as any.
 ///
 /// @eq U-2 C = L L^T
 /// @src standard
