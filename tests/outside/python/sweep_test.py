@@ -210,7 +210,7 @@ class Sweep(Sweeping):
         self.assertEqual(said(case), said(again))
 
     def test_the_program_and_python_go_on_for_one_another(self):
-        over = '[sweep]\nover = { "cut.spindle_rpm" = { from = 100, to = 9000, count = 900 } }'
+        over = '[sweep]\nover = { "cut.spindle_rpm" = { from = 100, to = 9000, count = 6000 } }'
         options = ("--command", "simulate", "--take", TAKE[0])
         case, run = self.program(over, *options, "--time-limit", "0.2", "--no-report")
         self.assertEqual(run.returncode, 1, run.stderr)
@@ -219,7 +219,7 @@ class Sweep(Sweeping):
         rest = trochoid.sweep(case, command="simulate", take=TAKE[0], folder=folder,
                               progress=lambda done, rows: seen.append((done, rows)))
         self.assertGreater(seen[0][0], 0)
-        self.assertEqual(seen[-1], (900, 900))
+        self.assertEqual(seen[-1], (6000, 6000))
         self.assertFalse(part.exists())
         self.assertTrue((folder / "summary.json").exists())
         self.same(rest, trochoid.sweep(case, command="simulate", take=TAKE[0]))

@@ -8,7 +8,7 @@ import { pathToFileURL } from 'node:url';
 const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
 export const samples = process.env.SAMPLES;
 export const pictures = path.join(samples, '..', 'pictures');
-const hangs = 1_200_000;  // ms; for what never comes, not for a busy machine
+const hangs = 120_000;  // ms; for what never comes, not for a busy machine
 let browser;
 
 export async function openBrowser() {

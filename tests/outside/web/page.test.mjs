@@ -49,6 +49,10 @@ async function answerOf(page) {
   }));
 }
 
+// Numbers agree so well; depths of this curve are searched no finer than that.
+const same = 1e-9;
+const coarse = { 'zeroth_order.csv': 1e-3 };
+
 const number = /^-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
 /** The largest difference of two texts, in numbers relative to the largest in their column or line. */
@@ -90,15 +94,16 @@ test('every example answers as the program does', { skip }, async () => {
     const written = fs.existsSync(path.join(temporary, folder, out)) ? fs.readdirSync(path.join(temporary, folder, out)) : [];
     assert.deepEqual(Object.keys(answer.files).sort(), written.sort(), name);
     let worst = 0;
-    let same = 0;
+    let equal = 0;
     for (const one of written.filter((n) => n !== 'report.html')) {
       const ours = withoutCommit(answer.files[one]);
       const theirs = withoutCommit(fs.readFileSync(path.join(temporary, folder, out, one), 'utf8'));
-      same += ours === theirs ? 1 : 0;
-      worst = Math.max(worst, difference(theirs, ours, `${name} ${one}`));
+      equal += ours === theirs ? 1 : 0;
+      const apart = difference(theirs, ours, `${name} ${one}`);
+      assert.ok(apart < (coarse[one] ?? same), `${name} ${one}: ${apart}`);
+      worst = Math.max(worst, apart);
     }
-    console.log(`${name}: ${seconds.toFixed(1)} s, ${same} of ${written.length - 1} files the same bytes, numbers within ${worst.toExponential(1)}`);
-    assert.ok(worst < 1e-3, `${name}: ${worst}`);
+    console.log(`${name}: ${seconds.toFixed(1)} s, ${equal} of ${written.length - 1} files the same bytes, numbers within ${worst.toExponential(1)}`);
   }
   fs.rmSync(temporary, { recursive: true });
   assert.deepEqual(seen.requests.filter((url) => !url.startsWith('file:')), []);
