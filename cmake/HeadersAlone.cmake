@@ -2,12 +2,12 @@
 # alone, linked into a folder of their own, for /usr/include is that of this machine.
 set(from /usr/include)
 set(here ${PROJECT_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${here})
 foreach(part eigen3/Eigen eigen3/unsupported fmt hwy toml++ nlohmann CLI boost ceres)
   if(NOT EXISTS ${from}/${part})
     message(FATAL_ERROR "${from}/${part} is not here: tools/setup.sh installs it")
   endif()
   get_filename_component(name ${part} NAME)
-  file(MAKE_DIRECTORY ${here})
   file(CREATE_LINK ${from}/${part} ${here}/${name} SYMBOLIC)
 endforeach()
 

@@ -86,8 +86,14 @@ async function check() {
   const mine = ++page.checks;
   await new Promise((done) => setTimeout(done, 300));
   if (mine !== page.checks || page.program === null) return;
-  const answer = await page.program.run('check', {
-    args: ['check', page.name, '--for', page.task], files: allFiles(), folder: 'none' });
+  let answer;
+  try {
+    answer = await page.program.run('check', {
+      args: ['check', page.name, '--for', page.task], files: allFiles(), folder: 'none' });
+  } catch (error) {
+    $('state').textContent = `The program broke while it checked the case: ${error.message}`;
+    return;
+  }
   if (mine !== page.checks) return;
   const rest = showMistakes($('form'), answer.code === 0 ? [] : mistakesOf(answer.err));
   $('mistakes').replaceChildren(...rest.map(({ line }) => element('li', {}, line)));

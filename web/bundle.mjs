@@ -15,7 +15,7 @@ const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString('base64');
 function filesOf(folder, prefix = '') {
   return Object.fromEntries(fs.readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
     const file = path.join(folder, entry.name);
-    if (entry.isDirectory()) return /\.(identify|simulate|\w+)$/.test(entry.name) ? [] : Object.entries(filesOf(file, `${prefix}${entry.name}/`));
+    if (entry.isDirectory()) return /\.\w+$/.test(entry.name) ? [] : Object.entries(filesOf(file, `${prefix}${entry.name}/`));
     return entry.name === 'README.md' ? [] : [[prefix + entry.name, fs.readFileSync(file).toString('base64')]];
   }));
 }

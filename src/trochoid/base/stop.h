@@ -24,6 +24,8 @@ struct Stop {
   [[nodiscard]] bool exhausted() const noexcept {
     return left != nullptr && left->load(std::memory_order_relaxed) <= -grace;
   }
+  /// Whether what was begun is to end now, too.
+  [[nodiscard]] bool over() const noexcept { return late() || exhausted(); }
   /// Whether the time is up.
   [[nodiscard]] bool late() const noexcept {
     return at != Clock::time_point::max() && Clock::now() >= at;

@@ -79,9 +79,7 @@ void move_single_teeth(const Problem& coarse, Minimum& best) {
   const auto count = static_cast<std::size_t>(coarse.unknowns.runout_count());
   if (count < 2 || count > 11) return;
   bool better = true;
-  for (int round = 0;
-       better && round < 3 && !coarse.stop.late() && !coarse.stop.exhausted();
-       ++round) {
+  for (int round = 0; better && round < 3 && !coarse.stop.over(); ++round) {
     better = false;
     for (std::size_t i = 0; i < count; ++i) {
       Candidate moved = best_on_line(coarse, best.p, i);
@@ -135,7 +133,7 @@ std::vector<Minimum> coarse_minima(const Problem& coarse,
                                    std::size_t starts) {
   std::vector<Minimum> out;
   for (std::vector<double>& start : first_starts(coarse, candidates, starts)) {
-    if (!out.empty() && (coarse.stop.late() || coarse.stop.exhausted())) break;
+    if (!out.empty() && coarse.stop.over()) break;
     Minimum m = refine(coarse, std::move(start), coarse_step, coarse_options());
     renumber(coarse, m);
     apply_gauge(coarse, m.p);
@@ -213,7 +211,7 @@ Minimum search_between_jumps(const Problem& problem,
   const std::vector<Minimum> minima = coarse_minima(smooth, candidates);
   Minimum best = refine_between_jumps(problem, minima.front().p);
   if (minima.size() > 1 && minima[1].rss < near_tie * minima[0].rss &&
-      !problem.stop.late() && !problem.stop.exhausted()) {
+      !problem.stop.over()) {
     Minimum second = refine_between_jumps(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }
@@ -263,7 +261,7 @@ Minimum search_from(const Problem& problem, const std::vector<Candidate>& candid
       coarse_minima(coarse_problem(problem), candidates);
   Minimum best = settle(problem, minima.front().p);
   if (minima.size() > 1 && minima[1].rss < near_tie * minima[0].rss &&
-      !problem.stop.late() && !problem.stop.exhausted()) {
+      !problem.stop.over()) {
     Minimum second = settle(problem, minima[1].p);
     if (second.rss < best.rss) best = std::move(second);
   }
