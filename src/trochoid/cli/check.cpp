@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
-#include <trochoid/cli/commands.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cli/given_case.h>
+#include <trochoid/inputs/case_source.h>
 #include <trochoid/inputs/frf_file.h>
 #include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/step_file.h>
@@ -38,8 +38,9 @@ void check_machine_files(const inputs::Case& given,
 }  // namespace
 
 int check(const Options& options) {
-  const inputs::Case given =
-      inputs::read_case(options.file, base::named<base::Command>(options.command));
+  const inputs::Node root = document_of(options);
+  const inputs::Case given = inputs::read_case(
+      {root, options.file, {}}, base::named<base::Command>(options.command));
   std::vector<std::string> problems;
   std::string found;
   for (const base::Warning& note : given.notes) {

@@ -13,6 +13,8 @@ namespace trochoid::cli {
 struct Options {
   std::filesystem::path file;    ///< the case, or the folder of `report`
   std::filesystem::path folder;  ///< -o; empty: beside the case
+  std::vector<std::string> set;  ///< KEY=VALUE, beside the case file
+  bool from_input = false;       ///< the case is read from the standard input
   bool json = false;
   bool quiet = false;
   bool no_report = false;

@@ -1,6 +1,8 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
+#include <trochoid/inputs/case_source.h>
+#include <trochoid/inputs/set_beside.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/run/correct/work.h>
 #include <trochoid/run/identify/work.h>
@@ -9,6 +11,8 @@
 #include <trochoid/run/wall/work.h>
 
 #include <filesystem>
+#include <iostream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -89,11 +93,34 @@ inputs::Case checked(const Options& options, base::Command command, const Read& 
   return std::move(*given);
 }
 
+inputs::Node standard_input(const std::filesystem::path& name) {
+  constexpr std::size_t most = std::size_t{16} << 20U;  // as of a file
+  std::string text;
+  std::string part(4096, '\0');
+  while (text.size() <= most && std::cin) {
+    std::cin.read(part.data(), static_cast<std::streamsize>(part.size()));
+    text.append(part, 0, static_cast<std::size_t>(std::cin.gcount()));
+  }
+  if (text.size() > most) {
+    throw base::InputError({name.string() +
+                            ":1:1: larger than 16 MiB; this cannot be a "
+                            "case file"});
+  }
+  return inputs::with_includes(inputs::parse_text(text, name.string()), name);
+}
+
 }  // namespace
+
+inputs::Node document_of(const Options& options) {
+  return inputs::with_settings(options.from_input ? standard_input(options.file)
+                                                  : inputs::load_document(options.file),
+                               options.set, options.file);
+}
 
 inputs::Case given_case(const Options& options, base::Command command) {
   return checked(options, command, [&](const std::filesystem::path& folder) {
-    return inputs::read_case(options.file, command, folder);
+    const inputs::Node root = document_of(options);
+    return inputs::read_case({root, options.file, {}}, command, folder);
   });
 }
 

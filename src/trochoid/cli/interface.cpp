@@ -57,10 +57,17 @@ std::vector<Command> all_commands() {
 }
 
 void add_common(CLI::App& app, Options& options) {
-  app.add_option("CASE.toml", options.file,
-                 "The case file (docs/formats/case.md; `trochoid new` writes one)")
+  app.add_option(
+         "CASE.toml", options.file,
+         "The case file (docs/formats/case.md; `trochoid new` writes one); -: the "
+         "standard input")
       ->required()
       ->type_name(std::string(types::file));
+  app.add_option("--set", options.set,
+                 "In place of what the case says, such as cut.spindle_rpm=900; "
+                 "several times")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
 
@@ -162,6 +169,14 @@ CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
   return fresh;
 }
 
+/// The standard input is a case in the working folder.
+void take_input(Options& options) {
+  if (options.file == "-") {
+    options.from_input = true;
+    options.file = "stdin.toml";
+  }
+}
+
 std::string footer() {
   std::vector<std::string> codes;
   for (const auto& [code, meaning] : exit_codes) {
@@ -186,12 +201,15 @@ void add_interface(CLI::App& app, Chosen& chosen) {
     add_case(*sub, options);
     add_data_options(*sub, command, options);
     sub->callback([&chosen, command] {
+      take_input(chosen.options);
       chosen.command = [&chosen, command] { return answer(command, chosen.options); };
     });
   }
   CLI::App* sweep = add_sweep(app, options);
-  sweep->callback(
-      [&chosen] { chosen.command = [&chosen] { return cli::sweep(chosen.options); }; });
+  sweep->callback([&chosen] {
+    take_input(chosen.options);
+    chosen.command = [&chosen] { return cli::sweep(chosen.options); };
+  });
   CLI::App* check = app.add_subcommand(
       "check",
       "Read a case file and its measurements and name every mistake in them; "
@@ -200,8 +218,10 @@ void add_interface(CLI::App& app, Chosen& chosen) {
   check->add_option("--for", options.command, "The command that the case is meant for")
       ->check(CLI::IsMember(std::vector<std::string>(base::names<Command>.begin(),
                                                      base::names<Command>.end())));
-  check->callback(
-      [&chosen] { chosen.command = [&chosen] { return cli::check(chosen.options); }; });
+  check->callback([&chosen] {
+    take_input(chosen.options);
+    chosen.command = [&chosen] { return cli::check(chosen.options); };
+  });
   CLI::App* fresh = add_new(app, chosen.wanted, options);
   fresh->callback([&chosen] {
     chosen.command = [&chosen] {

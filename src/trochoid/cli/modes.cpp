@@ -22,6 +22,10 @@ void refuse_for_case(const Options& options, bool given, const char* names,
                             " go with a bare data file; in a case they are keys of " +
                             table});
   }
+  if (!options.set.empty() && !is_case(options.file)) {
+    throw base::InputError({options.file.string() +
+                            ": --set goes with a case, and this is a bare data file"});
+  }
 }
 
 /// The case that is named, or that of a bare data file.

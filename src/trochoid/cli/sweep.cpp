@@ -2,6 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/cli/progress_line.h>
 #include <trochoid/cli/time_limit.h>
 #include <trochoid/results/folder.h>
@@ -44,7 +45,7 @@ int sweep(const Options& options) {
   const auto result = [&] {
     ProgressLine progress(options.quiet);
     const TimeLimit limit(options.time_limit, true, give_up);
-    const inputs::Node root = inputs::load_document(options.file);
+    const inputs::Node root = document_of(options);
     return sweep::sweep({root, options.file, {}},
                         {.command = options.command,
                          .take = options.take,

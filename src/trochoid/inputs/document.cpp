@@ -141,9 +141,10 @@ std::string_view hint(std::string_view why) {
 }  // namespace
 
 std::string to_string(const Location& where) {
-  return where.line == 0
-             ? std::string("case")
-             : fmt::format("{}:{}:{}", where.file, where.line, where.column);
+  if (where.line == 0 || where.line == beside_the_file) {
+    return where.line == 0 ? "case" : "--set";
+  }
+  return fmt::format("{}:{}:{}", where.file, where.line, where.column);
 }
 
 const Node* find(const Node& table, std::string_view key) {
@@ -161,19 +162,22 @@ std::string to_string(const Node& node) {
 }
 
 Node parse_file(const std::filesystem::path& file) {
-  const std::string text = content_of(file);
+  return parse_text(content_of(file), file.string());
+}
+
+Node parse_text(const std::string& text, const std::string& name) {
   if (const auto deep = base::too_deep(text)) {
-    refuse({file.string(), deep->line, deep->column},
+    refuse({name, deep->line, deep->column},
            std::string(deep->why) + "; no case file needs that");
   }
   try {
-    const toml::table table = toml::parse(text, file.string());
-    Node root = converted_table(file.string(), table);
-    root.where = {file.string()};
+    const toml::table table = toml::parse(text, name);
+    Node root = converted_table(name, table);
+    root.where = {name};
     return root;
   } catch (const toml::parse_error& error) {
     const std::string_view why = error.description();
-    refuse(location(file.string(), error.source()),
+    refuse(location(name, error.source()),
            fmt::format("not valid TOML: {}{}", shortened(base::one_line(why), 200),
                        hint(why)));
   }

@@ -11,15 +11,18 @@ namespace trochoid::inputs {
 
 /// Where something stands in a file; line and column count from 1.
 ///
-/// Line 0: it stands in none, a program gave it. The folder of `file` is still the one
-/// that names of files count from.
+/// Line 0: it stands in none, a program gave it; line -1: it was set beside the file. The
+/// folder of `file` is still the one that names of files count from.
 struct Location {
   std::string file;
   int line = 1;
   int column = 1;
 };
 
-/// `file:line:col`, or `case` for what stands in no file.
+/// Of what was set beside the file (set_beside.h).
+inline constexpr int beside_the_file = -1;
+
+/// `file:line:col`, or `case` for what stands in no file, `--set` for what is set beside it.
 std::string to_string(const Location& where);
 
 struct Member;
@@ -58,6 +61,10 @@ std::string to_string(const Node& node);
 /// @brief Parse one TOML file, without looking at `include`.
 /// @throws base::InputError when it cannot be read, or is not TOML
 Node parse_file(const std::filesystem::path& file);
+
+/// @brief The same of a text.
+/// @param name  of the file that it stands for, in messages
+Node parse_text(const std::string& text, const std::string& name);
 
 /// @brief Parse a TOML file and merge what it includes; the including file wins.
 ///

@@ -1,5 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/set_beside.h>
 #include <trochoid/inputs/sweep.h>
 
 #include <fmt/core.h>
@@ -11,8 +12,8 @@ namespace trochoid::inputs {
 
 namespace {
 
-[[noreturn]] void refuse(const SweptKey& key, std::string_view why) {
-  throw base::InputError({fmt::format("{}: sweep.over.{}: {}", to_string(key.where),
+[[noreturn]] void refuse(const KeyToSet& key, std::string_view why) {
+  throw base::InputError({fmt::format("{}: {}{}: {}", to_string(key.where), key.table,
                                       shown_key(key.key), why)});
 }
 
@@ -22,7 +23,7 @@ struct Part {
   std::size_t entry = 0;
 };
 
-Part part_of(std::string_view text, const SweptKey& key) {
+Part part_of(std::string_view text, const KeyToSet& key) {
   const std::size_t open = text.find('[');
   if (open == std::string_view::npos) {
     return {std::string(text), 0};
@@ -37,7 +38,10 @@ Part part_of(std::string_view text, const SweptKey& key) {
   return part;
 }
 
-Node& child_of(Node& table, const std::string& name, const SweptKey& key) {
+Node& child_of(Node& table, const std::string& name, const KeyToSet& key) {
+  if (name.empty()) {
+    refuse(key, "must be a path such as cut.spindle_rpm");
+  }
   auto* members = std::get_if<Members>(&table.value);
   if (members == nullptr) {
     refuse(key, fmt::format("what is above {} is no table", name));
@@ -53,7 +57,7 @@ Node& child_of(Node& table, const std::string& name, const SweptKey& key) {
 
 }  // namespace
 
-void set_key(Node& root, const SweptKey& key, const Node& value) {
+void set_key(Node& root, const KeyToSet& key, const Node& value) {
   if (key.key.empty() || key.key.ends_with('.')) {
     refuse(key, "must be a path such as cut.spindle_rpm");
   }
@@ -74,6 +78,10 @@ void set_key(Node& root, const SweptKey& key, const Node& value) {
   }
   *at = value;
   at->where = key.where;
+}
+
+void set_key(Node& root, const SweptKey& key, const Node& value) {
+  set_key(root, {key.key, key.where, "sweep.over."}, value);
 }
 
 }  // namespace trochoid::inputs

@@ -105,9 +105,7 @@ std::string sweep_schema();
 /// @brief The same case without its [sweep].
 Node without_sweep(Node root);
 
-/// @brief Set a key of a case; tables on the way to it are made where they are missing.
-/// @throws base::InputError where the path leads through something that is no table, or
-/// to an entry that a list does not have
+/// @brief As set_key of set_beside.h.
 void set_key(Node& root, const SweptKey& key, const Node& value);
 
 }  // namespace trochoid::inputs
