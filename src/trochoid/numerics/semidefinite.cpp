@@ -48,7 +48,7 @@ Values root_of_correlations(std::span<const double> R, std::size_t n) {
     left[i] = R[i * n + i];
   }
   for (std::size_t k = 0; k < n; ++k) {
-    const double largest = std::ranges::max(left);
+    const double largest = *std::ranges::max_element(left);
     if (largest <= rounding) {
       break;
     }

@@ -41,6 +41,16 @@ TEST(CorrectionProblem, FollowsAHelixInSlices) {
       10);
 }
 
+TEST(CorrectionProblem, TakesNoMoreSlicesThanAHelixLags) {
+  const auto slices = [](const char* helix) {
+    return problem_of(correction_case({{"helix_deg = 0 ", helix}})).cut.slices;
+  };
+  EXPECT_EQ(slices("helix_deg = 1e-300 "), 1);
+  const int few = slices("helix_deg = 1 ");
+  EXPECT_GE(few, 1);
+  EXPECT_LT(few, slices("helix_deg = 30 "));
+}
+
 TEST(CorrectionProblem, HasAControllerWhereOneIsAskedFor) {
   const inputs::Case given =
       correction_case({{"encoder_counts = 4096", "encoder_counts = 100"}});
