@@ -20,6 +20,17 @@ function filesOf(folder, prefix = '') {
   }));
 }
 
+/** Files of an example, and those of others that its cases include. */
+function filesOfExample(folder) {
+  const files = filesOf(folder);
+  for (const name of Object.keys(files).filter((one) => one.endsWith('.toml'))) {
+    for (const [, other] of text(folder, name).matchAll(/^include = "\.\.\/(\w+)\/\w+\.toml"/gm)) {
+      Object.assign(files, filesOf(path.join(root, 'examples', other), `../${other}/`));
+    }
+  }
+  return files;
+}
+
 /** What the pages of the examples run, `command folder/file` -> its files. */
 function examples() {
   const all = {};
@@ -29,7 +40,7 @@ function examples() {
     if (!fs.existsSync(path.join(folder, 'README.md'))) continue;
     const runs = text(folder, 'README.md').matchAll(new RegExp(`(?:trochoid|run) (${commands}) (?:examples/${name}/)?(\\S+\\.toml)`, 'g'));
     for (const [, command, file] of runs) {
-      if (fs.existsSync(path.join(folder, file))) all[`${command} ${name}/${file}`] = { file, files: filesOf(folder) };
+      if (fs.existsSync(path.join(folder, file))) all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder) };
     }
   }
   return all;

@@ -12,6 +12,9 @@ namespace {
 
 /// Differences of the peaks that are as good as the same.
 constexpr double as_good = 1e-3;
+/// Differences of the areas that are the same but for rounding, which is not the same
+/// everywhere and must not choose: the narrowest is taken then.
+constexpr double same_area = 1e-9;
 /// A harmonic that is none, over the largest.
 constexpr double negligible = 1e-9;
 
@@ -112,15 +115,16 @@ const TransitionCandidate& chosen_transition(
   for (std::size_t i = 1; i < judged.size(); ++i) {
     least = order(i) < order(least) ? i : least;
   }
-  std::size_t best = least;
+  const TransitionCandidate* best = nullptr;
   for (std::size_t i = 0; i < judged.size(); ++i) {
     if (judged[i].broken == judged[least].broken &&
         judged[i].peaks <= judged[least].peaks + as_good &&
-        candidates[i].area_difference < candidates[best].area_difference) {
-      best = i;
+        (best == nullptr ||
+         candidates[i].area_difference < best->area_difference - same_area)) {
+      best = &candidates[i];
     }
   }
-  return candidates[best];
+  return best != nullptr ? *best : candidates[least];
 }
 
 }  // namespace trochoid::correction

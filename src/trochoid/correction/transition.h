@@ -42,7 +42,8 @@ std::vector<TransitionCandidate> transition_candidates(const RigidCut& cut,
 ///
 /// @eq R-27 (w, n) = argmin A(w, n) over {D(w, n; Omega) <= min D + 0.001}: D the
 ///          difference of the peaks, A that of the chip areas; commands that keep
-///          stroke, slew and frequency come before those that do not
+///          stroke, slew and frequency come before those that do not, and of equal ones
+///          the narrowest
 /// @src derived
 /// @param candidates  of transition_candidates for `method`; at least one
 /// @param Omega       spindle speed [rad/s]

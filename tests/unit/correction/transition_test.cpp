@@ -86,6 +86,23 @@ TEST(Transition, OfTheBestPeaksItTakesTheMostEvenChips) {  // [R-27]
   }
 }
 
+/// Rounding, which is not the same everywhere, must not choose the command.
+TEST(Transition, OfEqualOnesItTakesTheFirst) {
+  const RigidCut cut = paper_cut();
+  auto candidates = transition_candidates(cut, {});
+  std::erase_if(candidates, [](const auto& one) { return one.harmonics != 3; });
+  ASSERT_GT(candidates.size(), 2U);
+  double less = 0.0;
+  for (TransitionCandidate& one : candidates) {
+    one.peak_difference = 1e-15 - less;
+    one.area_difference = 1e-15 - less;
+    less += 1e-17;
+  }
+  const TransitionCandidate& best = chosen_transition(cut, candidates, Method::inverse,
+                                                      paper_map(), 1200 * unit::rpm);
+  EXPECT_EQ(&best, candidates.data());
+}
+
 TEST(Transition, WhereNoCommandFitsTheBestThatIsCutOffIsTaken) {
   const RigidCut cut = paper_cut();
   const auto candidates = transition_candidates(cut, {});
