@@ -154,9 +154,13 @@ class Place(InFolder):
             lock.enter_context(locked(self.folder))
             hidden = list(self.folder.glob(".long.simulate.new-*"))
             if hidden and running.poll() is None:
-                while not (hidden[0] / "summary.json").exists() and running.poll() is None:
+                # Without its folder it was the trial whether one can be made there: the
+                # program now waits for us.
+                while (hidden[0].exists() and not (hidden[0] / "summary.json").exists()
+                       and running.poll() is None):
                     time.sleep(0.01)  # the last of its files
-                return running, hidden[0], lock
+                if hidden[0].exists():
+                    return running, hidden[0], lock
             lock.close()
             self.assert_done(running)
         self.fail("never caught")
