@@ -50,10 +50,4 @@ set_property(TARGET trochoid_alone APPEND PROPERTY LINK_DEPENDS
 
 install(PROGRAMS $<TARGET_FILE:trochoid_alone> DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT alone EXCLUDE_FROM_ALL)
-# The licences of what is linked into it, as Debian has them.
-foreach(package libc6-dev libstdc++-12-dev libhdf5-dev libaec-dev zlib1g-dev libfmt-dev
-    libhwy-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libeigen3-dev libboost-dev
-    libceres-dev)
-  install(FILES /usr/share/doc/${package}/copyright RENAME ${package}
-    DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT alone EXCLUDE_FROM_ALL OPTIONAL)
-endforeach()
+trochoid_install_licences(alone libc6-dev libstdc++-12-dev libhdf5-dev libaec-dev zlib1g-dev)

@@ -17,5 +17,3 @@ foreach(name Eigen3::Eigen hwy::hwy tomlplusplus::tomlplusplus
   target_include_directories(${name} INTERFACE ${here})
 endforeach()
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
-# One set of instructions for all: which there are is not asked at run time.
-add_compile_definitions(HWY_COMPILE_ONLY_EMU128)

@@ -51,3 +51,14 @@ install(DIRECTORY docs examples linuxcnc DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT documents
   REGEX "\\.(simulate|identify|check|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|sweep)$" EXCLUDE
   PATTERN __pycache__ EXCLUDE)
+
+# The licences of what is linked into a program that stands alone, as Debian has them:
+# trochoid_install_licences(COMPONENT PACKAGE...), besides those of the headers it is built on.
+function(trochoid_install_licences component)
+  foreach(package ${ARGN} libfmt-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
+      libcli11-dev libeigen3-dev libboost-dev libceres-dev)
+    install(FILES /usr/share/doc/${package}/copyright RENAME ${package}
+      DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL
+      OPTIONAL)
+  endforeach()
+endfunction()

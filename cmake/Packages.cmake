@@ -1,10 +1,18 @@
-# ./run packages: a Debian package and an archive for other systems with Linux, by CPack.
-# Which parts go into which is said in PackageKind.cmake.
+# ./run packages: a Debian package and an archive for other systems with Linux, by CPack;
+# ./run windows: one for Windows. Which parts go into which is said in PackageKind.cmake.
 set(CPACK_PACKAGE_NAME trochoid)
 set(CPACK_PACKAGE_VENDOR "The Trochoid authors")
 set(CPACK_PACKAGE_CONTACT "The Trochoid authors")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_TROCHOID_PROCESSOR ${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_TROCHOID_PROGRAM alone)
+if(WIN32)
+  set(CPACK_TROCHOID_PROGRAM windows)
+  install(PROGRAMS $<TARGET_FILE:trochoid_cli> DESTINATION .
+    COMPONENT windows EXCLUDE_FROM_ALL)
+  trochoid_install_licences(windows mingw-w64-x86-64-dev gcc-mingw-w64-x86-64-posix
+    libz-mingw-w64-dev)
+endif()
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

@@ -1,5 +1,6 @@
 # For the browser: Emscripten's compiler, one thread, files that live in memory alone.
 include(cmake/HeadersAlone.cmake)
+add_compile_definitions(HWY_COMPILE_ONLY_EMU128)  # one set of instructions for all
 
 add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)

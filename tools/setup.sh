@@ -33,6 +33,9 @@ package_programs=(dpkg-shlibdeps=dpkg-dev file=file xz=xz-utils)
 site_libraries=(python3-sphinx furo python3-myst-parser python3-breathe doxygen libjs-katex)
 # Of the page that runs in a browser (./run web).
 web_programs=(emcc=emscripten)
+# Of the program for Windows (./run windows), and what runs it in the tests.
+windows_programs=(x86_64-w64-mingw32-g++-posix=g++-mingw-w64-x86-64-posix wine=wine)
+windows_libraries=(libz-mingw-w64-dev wine64)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
   mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
@@ -113,7 +116,7 @@ install_optional() {
     say "That did not work; the tests that need it are skipped."
 }
 
-# What node_modules must hold for "$1" (run, python, docs, packages, web or test): the lock file's packages.
+# What node_modules must hold for "$1" (test, or what ./run makes): the lock file's packages.
 have_node_modules() {
   local stamp=$root/node_modules/.complete
   [ ! -f "$root/package-lock.json" ] && return
@@ -133,7 +136,7 @@ install_node_modules() {
   printf '%s' "$1" >"$root/node_modules/.complete"
 }
 
-# setup run|python|docs|packages|web|test: install what it needs, unless its stamp says that this was done.
+# setup run|python|docs|packages|web|windows|test: install what it needs, unless its stamp says that this was done.
 setup() {
   local stamp=$root/build/.setup-$1
   if [ "$stamp" -nt "$root/tools/setup.sh" ] && have_node_modules "$1"; then
@@ -145,6 +148,7 @@ setup() {
   [ "$1" = packages ] && needs+=("${python_libraries[@]}" "${package_programs[@]}")
   [ "$1" = docs ] && needs+=("${python_libraries[@]}" "${site_libraries[@]}")
   [ "$1" = web ] && needs+=("${web_programs[@]}")
+  [ "$1" = windows ] && needs+=("${windows_programs[@]}" "${windows_libraries[@]}")
   [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
   if ! command -v dpkg-query >/dev/null; then
     stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \
@@ -210,17 +214,47 @@ compile_python() {
   compile trochoid_python
 }
 
-# The page that runs in a browser, in build/web, whatever else was built.
-compile_web() {
-  local folder=$root/build/web
+# compile_elsewhere FOLDER WHAT TARGET COMMAND...: for another system, whatever else was
+# built; the command is that of CMake.
+compile_elsewhere() {
+  local folder=$1 what=$2 target=$3
+  shift 3
   if [ ! -f "$folder/build.ninja" ]; then
-    say "Configuring the page"
-    (cd "$root" && emcmake cmake --fresh -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-      -DTROCHOID_BUILD_TESTS=OFF -DTROCHOID_BUILD_PYTHON=OFF -DTROCHOID_DEVELOPER=OFF \
-      -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) </dev/null >>"$log" 2>&1 ||
+    say "Configuring $what"
+    (cd "$root" && "$@" --fresh -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+      -DTROCHOID_BUILD_TESTS=OFF -DTROCHOID_BUILD_PYTHON=OFF) </dev/null >>"$log" 2>&1 ||
       { rm -f "$folder/build.ninja"; tail -n 25 "$log" >&2; stop "CMake did not succeed; above is the end of $log."; }
   fi
-  build=$folder compile trochoid_web
+  build=$folder compile "$target"
+}
+
+# The page that runs in a browser.
+compile_web() {
+  compile_elsewhere "$root/build/web" "the page" trochoid_web emcmake cmake \
+    -DTROCHOID_DEVELOPER=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+}
+
+# trochoid.exe.
+compile_windows() {
+  compile_elsewhere "$root/build/windows" "the program for Windows" trochoid_cli cmake \
+    --toolchain "$root/cmake/windows/toolchain.cmake"
+}
+
+# pack FOLDER_OF_BUILD KIND...: packages of these kinds (of CPack), instead of older ones.
+pack() {
+  local from=$1 kind packages=$root/build/packages
+  local -A ending=([DEB]=deb [TXZ]=tar.xz [ZIP]=zip)
+  shift
+  mkdir -p "$packages"
+  for kind in "$@"; do
+    rm -f "$packages"/*."${ending[$kind]}"
+    if ! cpack -G "$kind" --config "$from/CPackConfig.cmake" -B "$packages" </dev/null >>"$log" 2>&1; then
+      tail -n 15 "$log" >&2
+      stop "CPack did not succeed; above is the end of $log."
+    fi
+  done
+  rm -rf "$packages/_CPack_Packages"
+  (cd "$packages" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%f\0' | sort -z | xargs -0 sha256sum -- >SHA256SUMS)
 }
 
 # One at a time in one clone; the lock goes when the program ends, however it ends.

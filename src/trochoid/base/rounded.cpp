@@ -33,6 +33,18 @@ std::string with_error(double value, double half) {
                      scale * std::round(half / scale));
 }
 
+std::string as_known(double value, double error) {
+  constexpr int digits_of_error = 4;
+  if (!std::isfinite(value) || !std::isfinite(error) || !(error > 0.0)) {
+    return fmt::format("{}", value);
+  }
+  const int places =
+      digits_of_error - 1 - static_cast<int>(std::floor(std::log10(error)));
+  const std::string all = fmt::format("{}", value);
+  const std::string known = fmt::format("{:.{}f}", value, std::clamp(places, 0, 17));
+  return known.size() < all.size() ? known : all;
+}
+
 std::string percent(double part) {
   if (!(part >= 0.0 && part <= 1.0)) {
     return "not known";

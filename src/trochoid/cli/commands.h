@@ -17,6 +17,8 @@ struct Options {
   bool from_input = false;       ///< the case is read from the standard input
   bool json = false;
   bool quiet = false;
+  bool verbose = false;  ///< say of every step how long it took
+  int threads = 0;       ///< at most; 0: as many as there are
   bool no_report = false;
   bool anyway = false;               ///< more work than usual is meant
   std::optional<double> time_limit;  ///< of the work [s]
@@ -26,6 +28,10 @@ struct Options {
 
   std::string command;            ///< of sweep, and that check is for
   std::vector<std::string> take;  ///< of sweep: paths in the answers
+
+  std::filesystem::path tool;  ///< of new: a file of another program; empty: none
+  std::optional<int> tool_number;
+  bool tool_inches = false;
 
   // Of a bare data file, which has no case to say them.
   std::string kind;               ///< of a frequency response; empty: the file says it
@@ -55,8 +61,8 @@ int plan(const Options& options);
 int sweep(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted
-/// @param file     where to write it; empty: to the standard output
-int new_case(base::Command command, const std::filesystem::path& file);
+/// @param options  where to write it, empty: to the standard output; the tool it is for
+int new_case(base::Command command, const Options& options);
 int report(const Options& options);
 
 }  // namespace trochoid::cli

@@ -36,8 +36,7 @@ int deliver(const results::Answer& answer, const Options& options) {
   const std::filesystem::path folder = result_folder(options, answer.command);
   const std::string summary = results::summary_json(answer);
   try {
-    ProgressLine progress(options.quiet);
-    progress("Writing the results");
+    const ProgressLine progress(talk_of(options), "Writing the results");
     results::write_folder(folder, answer,
                           options.no_report ? "" : report::html(answer, summary));
   } catch (const std::runtime_error& error) {  // the place is wrong, not the program

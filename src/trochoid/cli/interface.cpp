@@ -3,6 +3,7 @@
 #include <trochoid/base/command.h>
 #include <trochoid/base/names.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/numerics/thread_count.h>
 #include <trochoid/results/provenance.h>
 
 #include <CLI/CLI.hpp>
@@ -56,9 +57,22 @@ std::vector<Command> all_commands() {
   return all;
 }
 
-void add_common(CLI::App& app, Options& options) {
+/// What stands on the command line without a name: the case, or a bare data file.
+constexpr const char* file_of(Command command) {
+  switch (command) {
+    case Command::modes:
+      return "FRF";
+    case Command::actuator:
+      return "STEP";
+    default:
+      return "CASE.toml";
+  }
+}
+
+/// @param file  what help calls it
+void add_common(CLI::App& app, Options& options, const char* file = "CASE.toml") {
   app.add_option(
-         "CASE.toml", options.file,
+         file, options.file,
          "The case file (docs/formats/case.md; `trochoid new` writes one); -: the "
          "standard input")
       ->required()
@@ -69,6 +83,11 @@ void add_common(CLI::App& app, Options& options) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  app.add_flag("--verbose", options.verbose, "Tell of every step how long it took");
+  app.add_option("--threads", options.threads,
+                 "Work on at most so many threads (default: all there are, or what "
+                 "TROCHOID_THREADS says)")
+      ->check(CLI::Range(1, numerics::most_threads));
 }
 
 void add_output(CLI::App& app, Options& options) {
@@ -83,8 +102,8 @@ void add_output(CLI::App& app, Options& options) {
 }
 
 /// What is told to all that take one case.
-void add_case(CLI::App& app, Options& options) {
-  add_common(app, options);
+void add_case(CLI::App& app, Options& options, const char* file = "CASE.toml") {
+  add_common(app, options, file);
   add_output(app, options);
   app.add_flag("--anyway", options.anyway,
                "Compute even what will take more than 1e9 evaluations or 1 GB");
@@ -93,7 +112,7 @@ void add_case(CLI::App& app, Options& options) {
 /// What a bare data file does not say by itself.
 void add_data_options(CLI::App& app, Command command, Options& options) {
   if (command == Command::modes) {
-    app.get_option("CASE.toml")
+    app.get_option(file_of(command))
         ->description(
             "The measured frequency response function (UFF58, or a "
             "table), or a case with [frf]")
@@ -121,7 +140,7 @@ void add_data_options(CLI::App& app, Command command, Options& options) {
                  "Run the real-time controller in the loop ([controller])");
   }
   if (command == Command::actuator) {
-    app.get_option("CASE.toml")
+    app.get_option(file_of(command))
         ->description("The record of the step (CSV), or a case with [step]")
         ->type_name(std::string(types::data));
     app.add_option("--step-um", options.step_um,
@@ -159,6 +178,15 @@ CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
       ->check(CLI::IsMember(names));
   fresh->add_option("FILE", options.file, "Where (default: print it)")
       ->type_name(std::string(types::file));
+  fresh
+      ->add_option("--tool", options.tool,
+                   "A FreeCAD tool bit (.fctb) or a LinuxCNC tool table: its tool in "
+                   "place of the example's")
+      ->type_name(std::string(types::file));
+  fresh->add_option("--tool-number", options.tool_number,
+                    "Which of a table of several tools (its T)");
+  fresh->add_flag("--tool-inches", options.tool_inches,
+                  "The table of tools is in inches");
   fresh->add_flag_callback(
       "--schema",
       [] {
@@ -198,7 +226,7 @@ void add_interface(CLI::App& app, Chosen& chosen) {
   for (const Command command : all_commands()) {
     CLI::App* sub = app.add_subcommand(std::string(name_of(command)),
                                        std::string(purpose_of(command)));
-    add_case(*sub, options);
+    add_case(*sub, options, file_of(command));
     add_data_options(*sub, command, options);
     sub->callback([&chosen, command] {
       take_input(chosen.options);
@@ -225,7 +253,7 @@ void add_interface(CLI::App& app, Chosen& chosen) {
   CLI::App* fresh = add_new(app, chosen.wanted, options);
   fresh->callback([&chosen] {
     chosen.command = [&chosen] {
-      return new_case(*base::named<Command>(chosen.wanted), chosen.options.file);
+      return new_case(*base::named<Command>(chosen.wanted), chosen.options);
     };
   });
   CLI::App* report = app.add_subcommand(

@@ -1,5 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/commands.h>
+#include <trochoid/cli/console.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/interface.h>
 #include <trochoid/cli/manual.h>
@@ -19,6 +20,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -72,7 +74,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? trochoid::cli::answered : trochoid::cli::wrong_input;
   }
-  const auto limit = trochoid::numerics::thread_limit_of_environment();
+  namespace numerics = trochoid::numerics;
+  const int threads = chosen.options.threads;
+  const auto limit = threads > 0 ? std::make_unique<numerics::ThreadLimit>(threads)
+                                 : numerics::thread_limit_of_environment();
   return chosen.command();
 }
 
@@ -80,6 +85,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    trochoid::cli::prepare_console();
     keep_freed_memory();
     report_full_disks();
     trochoid::cli::say_no_memory_at_the_end_of(argc > 1 ? argv[1] : "");

@@ -5,12 +5,18 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <optional>
 #include <system_error>
 
 namespace trochoid::cli {
 
-int new_case(base::Command command, const std::filesystem::path& file) {
-  const std::string text = inputs::new_case(command);
+int new_case(base::Command command, const Options& options) {
+  const std::filesystem::path& file = options.file;
+  std::optional<inputs::ToolChoice> tool;
+  if (!options.tool.empty()) {
+    tool = {options.tool, options.tool_number, options.tool_inches};
+  }
+  const std::string text = inputs::new_case(command, tool);
   if (file.empty()) {
     fmt::print("{}", text);
     return answered;

@@ -1,10 +1,10 @@
+#include <trochoid/cli/console.h>
 #include <trochoid/cli/progress_line.h>
-
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 namespace trochoid::cli {
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto first = 2s;
+constexpr auto first_word = 2s;
 constexpr auto on_terminal = 1s;
 constexpr auto plain_lines = 3s;
 
@@ -24,14 +24,14 @@ double seconds() {
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet)
-    : quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
+ProgressLine::ProgressLine(Talk talk, run::Step first)
+    : talk_(talk),
+      terminal_(clears_lines()),
       started_(seconds()),
       step_started_(started_),
       told_(started_),
-      step_("Reading") {
-  if (!quiet) {
+      step_(std::move(first)) {
+  if (talk != Talk::nothing) {
     try {
       teller_ = std::thread([this] { tell_until_done(); });
     } catch (
@@ -49,6 +49,7 @@ ProgressLine::~ProgressLine() {
   if (teller_.joinable()) {
     teller_.join();
   }
+  tell_end_of_step();
   if (shown_ && terminal_) {
     std::fputs("\r\033[K", stderr);
   }
@@ -57,12 +58,13 @@ ProgressLine::~ProgressLine() {
 void ProgressLine::operator()(const run::Step& step) {
   const std::lock_guard lock(mutex_);
   if (step.what != step_.what) {
+    tell_end_of_step();
     step_started_ = seconds();
   }
   step_ = step;
   // Where there are no threads, in a browser say, the work speaks up by itself.
   constexpr double pause = 0.3;  // [s]
-  if (!quiet_ && !teller_.joinable() && seconds() - told_ > pause) {
+  if (talk_ != Talk::nothing && !teller_.joinable() && seconds() - told_ > pause) {
     tell();
   }
 }
@@ -75,7 +77,7 @@ std::string ProgressLine::doing() {
 
 void ProgressLine::tell_until_done() {
   std::unique_lock lock(mutex_);
-  std::chrono::seconds wait = first;
+  std::chrono::seconds wait = first_word;
   while (!ended_.wait_for(lock, wait, [this] { return done_; })) {
     try {
       tell();
@@ -93,6 +95,15 @@ void ProgressLine::tell() {
   std::fflush(stderr);
   shown_ = true;
   told_ = now;
+}
+
+void ProgressLine::tell_end_of_step() {
+  if (talk_ != Talk::every_step) {
+    return;
+  }
+  std::fprintf(stderr, "%s%8.2f s  %s\n", shown_ && terminal_ ? "\r\033[K" : "",
+               seconds() - step_started_, step_.what.c_str());
+  shown_ = false;
 }
 
 }  // namespace trochoid::cli

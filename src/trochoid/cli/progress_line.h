@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/cli/commands.h>
 #include <trochoid/run/shared/progress.h>
 
 #include <condition_variable>
@@ -9,14 +10,22 @@
 
 namespace trochoid::cli {
 
+/// What is told.
+enum class Talk { nothing, slow_work, every_step };
+
+inline Talk talk_of(const Options& options) {
+  if (options.quiet) return Talk::nothing;
+  return options.verbose ? Talk::every_step : Talk::slow_work;
+}
+
 /// @brief Tells a person what takes longer than two seconds, on the standard error.
 ///
-/// On a terminal one line that is written over every second; elsewhere, a file or a
+/// Of every step, too, how long it took, where that is asked for. On a terminal one line that is written over every second; elsewhere, a file or a
 /// pipe, a plain line every three.
 class ProgressLine {
  public:
-  /// @param quiet  say nothing
-  explicit ProgressLine(bool quiet);
+  /// @param first  what is done till something else is told
+  explicit ProgressLine(Talk talk, run::Step first = "Reading");
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -29,8 +38,9 @@ class ProgressLine {
  private:
   void tell_until_done();
   void tell();
+  void tell_end_of_step();
 
-  bool quiet_;
+  Talk talk_;
   bool terminal_;
   bool shown_ = false;
   bool done_ = false;

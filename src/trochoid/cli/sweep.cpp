@@ -43,7 +43,7 @@ int sweep(const Options& options) {
   check_place(folder);
   const std::filesystem::path part = sweep::part_file_of(folder);
   const auto result = [&] {
-    ProgressLine progress(options.quiet);
+    ProgressLine progress(talk_of(options));
     const TimeLimit limit(options.time_limit, true, give_up);
     const inputs::Node root = document_of(options);
     return sweep::sweep({root, options.file, {}},

@@ -57,7 +57,7 @@ results::Answer no_answer_in_time(const inputs::Case& given, const Options& opti
 int work_on(const inputs::Case& given, const Options& options, base::Command name,
             const CaseWork& work) {
   const auto answer = [&] {
-    ProgressLine progress(options.quiet);
+    ProgressLine progress(talk_of(options));
     const TimeLimit limit(options.time_limit, ends_by_itself(name), [&] {
       end_with(no_answer_in_time(given, options, name, progress.doing()), options);
     });

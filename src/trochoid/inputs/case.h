@@ -188,8 +188,17 @@ Case read_case(const std::filesystem::path& file, std::optional<Command> command
 Case bare_case(const MachineTables& machine, Command command,
                const std::filesystem::path& result_folder = {});
 
+/// Which tool of another program's file is meant.
+struct ToolChoice {
+  std::filesystem::path file;      ///< a FreeCAD tool bit, or a tool table of LinuxCNC
+  std::optional<int> number = {};  ///< of a table of tools; none: it has one only
+  bool inches = false;             ///< of a table of tools, which names no unit
+};
+
 /// @brief A commented case file to start from.
-std::string new_case(Command command);
+/// @param tool  in place of the example's
+/// @throws base::InputError where there is no such tool
+std::string new_case(Command command, const std::optional<ToolChoice>& tool = {});
 
 /// @brief The page docs/formats/case.md, made from the schema.
 std::string describe_case_file();

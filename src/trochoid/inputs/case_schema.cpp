@@ -1,4 +1,5 @@
 #include <trochoid/inputs/case.h>
+#include <trochoid/inputs/inches.h>
 #include <trochoid/inputs/tables.h>
 
 #include <fmt/core.h>
@@ -54,8 +55,29 @@ struct TableSchema {
 template <class Table>
 TableSchema schema_of(Table&& table);
 
+/// Inches may stand for millimetres: such keys are known by their pattern only.
 Json closed(const Json& keys) {
-  return {{"type", "object"}, {"properties", keys}, {"additionalProperties", false}};
+  std::string inches;
+  for (const auto& [key, value] : keys.items()) {
+    if (const std::string other = key_in_inches(key); !other.empty()) {
+      inches += (inches.empty() ? "" : "|") + other;
+    }
+  }
+  Json out{{"type", "object"}, {"properties", keys}, {"additionalProperties", false}};
+  if (!inches.empty()) {
+    out["patternProperties"] = {
+        {"^(" + inches + ")$", {{"type", {"number", "array"}}}}};
+  }
+  return out;
+}
+
+/// The key, or the same in inches.
+Json asked(std::string_view key) {
+  const Json one{{"required", {key}}};
+  const std::string inches = key_in_inches(key);
+  if (inches.empty()) return one;
+  // In words of a checker better than anyOf: the key of millimetres is what it misses.
+  return {{"if", {{"required", {inches}}}}, {"then", true}, {"else", one}};
 }
 
 /// What a value may be; `together` becomes the rules of a table within.
@@ -160,14 +182,14 @@ struct TableVisitor {
   void ask_for(const Key& key) {
     Json needed = Json::object();
     if (key.need == Need::always) {
-      needed["required"] = {key.name};
+      needed = asked(key.name);
       if (!key.rival.empty()) {
-        needed = {{"anyOf", {needed, Json{{"required", {key.rival}}}}}};
+        needed = {{"anyOf", {needed, asked(key.rival)}}};
       }
     }
     if (!key.only.selector.empty()) {
       all_of.push_back(only_for(key, needed));
-    } else if (key.need == Need::always && key.rival.empty()) {
+    } else if (needed.contains("required")) {
       required.push_back(key.name);
     } else if (!needed.empty()) {
       all_of.push_back(needed);

@@ -23,6 +23,8 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
 * The unit is the end of the name of every key: `_mm`, `_um`, `_deg`, `_rpm`, `_MPa`,
   `_GPa`, `_N_per_mm`, `_N_per_mm3`, `_Hz`, `_s`. A key without such an ending is a plain number, a text
   or a choice.
+* A key that ends with `_mm` or `_mm_per_min` may be given in inches, `diameter_in`,
+  `feed_rate_in_per_min`: one of the two. What is written has millimetres.
 * A mistake is told as `file:line:column: key = value: why; what is right (what it means)`,
   all mistakes at once. Unknown keys are mistakes.
 * Relative file names count from the file in which they stand.

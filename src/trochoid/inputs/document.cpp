@@ -3,6 +3,7 @@
 #include <trochoid/base/printable.h>
 #include <trochoid/base/read_text.h>
 #include <trochoid/inputs/document.h>
+#include <trochoid/inputs/inches.h>
 #include <trochoid/inputs/number_text.h>
 
 #include <fmt/core.h>
@@ -174,6 +175,7 @@ Node parse_text(const std::string& text, const std::string& name) {
     const toml::table table = toml::parse(text, name);
     Node root = converted_table(name, table);
     root.where = {name};
+    take_inches(root);
     return root;
   } catch (const toml::parse_error& error) {
     const std::string_view why = error.description();

@@ -1,7 +1,9 @@
+#include <trochoid/base/printable.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/number_text.h>
 #include <trochoid/inputs/tables.h>
+#include <trochoid/inputs/tool_file.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -253,6 +255,23 @@ std::string_view example_of(const Key& key) {
   return key.example.empty() ? "0" : key.example;
 }
 
+/// A tool of a file in place of the example's.
+/// @return where it is from and what is not, as comments
+std::string put_tool(const ToolChoice& choice, CaseTables& t) {
+  const FoundTool found = read_tool(choice);
+  const std::vector<std::string> stay = take_tool(found, t.tool);
+  if (!found.name.empty()) t.title = found.name;
+  if (!t.runout.radial_offsets.empty()) {
+    t.runout.radial_offsets.resize(static_cast<std::size_t>(t.tool.teeth));
+  }
+  return fmt::format(
+      "# The tool is that of {}{}. Not said there, and to be looked\n"
+      "# after: {}\n",
+      base::one_line(choice.file.filename().string()),
+      found.name.empty() ? "" : fmt::format(" ({})", base::one_line(found.name)),
+      fmt::join(stay, ", "));
+}
+
 constexpr std::string_view second_record =
     "\n# [[measurement]]                 # a second "
     "record of the same tool and material,\n"
@@ -261,13 +280,14 @@ constexpr std::string_view second_record =
 
 }  // namespace
 
-std::string new_case(Command command) {
+std::string new_case(Command command, const std::optional<ToolChoice>& tool) {
   Template fresh = template_for(command);
+  const std::string about = tool ? put_tool(*tool, fresh.tables) : "";
   std::string text = fmt::format(
       "# A case for `trochoid {}`: write your own numbers in place of these.\n"
       "# Every key ends in its unit. A key behind a # may be left out. All keys, with\n"
-      "# their ranges: docs/formats/case.md\n\n",
-      name_of(command));
+      "# their ranges: docs/formats/case.md\n{}\n",
+      name_of(command), about);
   const auto line = [&text](std::string_view left, std::string_view right) {
     text += fmt::format("{:<33} # {}\n", left, right);
   };

@@ -254,9 +254,9 @@ std::string renamed(const std::string& name, const fs::path& file,
   }
   const fs::path whole = fs::absolute(file).lexically_normal();
   return folder.empty()
-             ? whole.string()
+             ? whole.generic_string()
              : whole.lexically_relative(fs::absolute(folder).lexically_normal())
-                   .string();
+                   .generic_string();
 }
 
 Findings findings_of(const CaseSource& source) {

@@ -1,5 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/inches.h>
 #include <trochoid/inputs/set_beside.h>
 #include <trochoid/inputs/sweep.h>
 
@@ -61,8 +62,9 @@ void set_key(Node& root, const KeyToSet& key, const Node& value) {
   if (key.key.empty() || key.key.ends_with('.')) {
     refuse(key, "must be a path such as cut.spindle_rpm");
   }
+  const std::string mm = key_in_mm(key.key);
   Node* at = &root;
-  for (std::string_view rest = key.key; !rest.empty();) {
+  for (std::string_view rest = mm.empty() ? key.key : mm; !rest.empty();) {
     const std::size_t end = rest.find('.');
     const Part part = part_of(rest.substr(0, end), key);
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
@@ -76,7 +78,7 @@ void set_key(Node& root, const KeyToSet& key, const Node& value) {
       at = &(*list)[part.entry - 1];
     }
   }
-  *at = value;
+  *at = mm.empty() ? value : value_in_mm(value);
   at->where = key.where;
 }
 

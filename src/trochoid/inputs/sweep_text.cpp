@@ -54,7 +54,7 @@ std::string sweep_toml(const Sweep& sweep) {
   if (!sweep.covariance.empty()) {
     std::vector<std::string> files;
     for (const DrawnFile& drawn : sweep.covariance) {
-      const std::string file = toml_string(drawn.path.string());
+      const std::string file = toml_string(drawn.path.generic_string());
       files.push_back(drawn.group.empty()
                           ? file
                           : fmt::format("{{ file = {}, group = {} }}", file,

@@ -20,9 +20,10 @@ std::unique_ptr<ThreadLimit> thread_limit_of_environment() {
   const auto read =
       std::from_chars(wanted.data(), wanted.data() + wanted.size(), threads);
   if (read.ec != std::errc{} || read.ptr != wanted.data() + wanted.size() ||
-      threads < 1 || threads > 4096) {
+      threads < 1 || threads > most_threads) {
     throw base::InputError({"TROCHOID_THREADS = \"" + std::string(wanted) +
-                            "\": not a number of threads, from 1 to 4096"});
+                            "\": not a number of threads, from 1 to " +
+                            std::to_string(most_threads)});
   }
   return std::make_unique<ThreadLimit>(threads);
 }

@@ -1,5 +1,6 @@
 #include <trochoid/results/calibrate_text.h>
 
+#include <trochoid/base/rounded.h>
 #include <trochoid/base/units.h>
 #include <trochoid/results/material.h>
 
@@ -127,9 +128,9 @@ std::string calibrated_material(const CalibrateResult& r) {
   const std::vector<double> given = force::coefficients(r.law);
   for (std::size_t q = 0; q < names.size(); ++q) {
     if (q < std::size(found)) {
-      text +=
-          fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
-                      found[q]->value / names[q].unit, found[q]->se / names[q].unit);
+      const double se = found[q]->se / names[q].unit;
+      text += fmt::format("{} = {}  # standard error {:.3g}\n", names[q].key,
+                          base::as_known(found[q]->value / names[q].unit, se), se);
     } else {
       text += fmt::format("{} = {}  # as given: a wall does not show it\n",
                           names[q].key, unit::in(given[q], names[q].unit));

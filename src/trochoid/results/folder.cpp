@@ -1,7 +1,6 @@
 #include <trochoid/results/folder.h>
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "disk.h"
 #include "file_names.h"
 #include "staged_folder.h"
 
@@ -179,7 +179,8 @@ void write_report(const fs::path& folder, const std::string& report_html) {
   const PlaceLock lock(place_of(folder));
   remove_unfinished_reports(folder, lock);
   const fs::path report = folder / "report.html";
-  const fs::path fresh = folder / fmt::format("{}{}", unfinished_report, ::getpid());
+  const fs::path fresh =
+      folder / fmt::format("{}{}", unfinished_report, process_number());
   std::error_code error;
   try {
     write_file(fresh, report, report_html);

@@ -1,5 +1,6 @@
 #include <trochoid/results/material.h>
 
+#include <trochoid/base/rounded.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/groups.h>
 #include <trochoid/identification/reliability.h>
@@ -21,8 +22,11 @@ std::string runout_toml(const Fit& fit) {
   }
   std::string text = "\n[runout]\nradial_offsets_mm = [";
   for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    const double se =
+        k < fit.radial_offsets_se.size() ? fit.radial_offsets_se[k].value_or(0.0) : 0.0;
     text += fmt::format("{}{}", k > 0 ? ", " : "",
-                        unit::in(fit.runout.radial_offsets[k], unit::mm));
+                        base::as_known(unit::in(fit.runout.radial_offsets[k], unit::mm),
+                                       se / unit::mm));
   }
   text += fmt::format("]\neccentricity_mm = {}\nangle_deg = {}\n",
                       unit::in(fit.runout.eccentricity, unit::mm),
@@ -75,9 +79,9 @@ std::string material_toml(const Fit& fit, const identification::Group& group,
   for (std::size_t q = 0; q < names.size(); ++q) {
     if (group.coefficients[q]) {
       const auto& K = *group.coefficients[q];
-      text +=
-          fmt::format("{} = {}  # 95 %: +- {:.2g}\n", names[q].key,
-                      K.value / names[q].unit, 0.5 * (K.high - K.low) / names[q].unit);
+      const double half = 0.5 * (K.high - K.low) / names[q].unit;
+      text += fmt::format("{} = {}  # 95 %: +- {:.2g}\n", names[q].key,
+                          base::as_known(K.value / names[q].unit, half), half);
     } else {
       text += fmt::format("# {} is not identifiable from this record\n", names[q].key);
     }

@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "disk.h"
 #include "file_names.h"
-#include "staged_folder.h"
 
 namespace trochoid::results {
 

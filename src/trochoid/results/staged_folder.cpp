@@ -2,15 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <dirent.h>
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -31,14 +23,6 @@ constexpr std::string_view being_filled = ".new-";
 constexpr std::string_view set_aside = ".old-";
 /// Chosen at random, behind these.
 constexpr std::size_t letters = 6;
-
-std::string reason_of(int error) {
-  return std::generic_category().message(error);
-}
-
-int open_folder(const fs::path& folder) {
-  return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-}
 
 /// Of this folder and kind, all but its last letters.
 std::string hidden_name(const fs::path& place, std::string_view kind) {
@@ -85,99 +69,45 @@ bool holds_only_ours(const fs::path& folder) {
 
 /// Its writer is no more: nobody holds the lock on it.
 bool is_abandoned(const fs::path& folder) {
-  const int descriptor = open_folder(folder);
-  const bool free = descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-  if (descriptor >= 0) {
-    ::close(descriptor);
-  }
-  return free;
+  return FolderLock(folder, Patience::none).held();
 }
 
-enum class Swap { done, no_such_place, unknown };
-
-/// In one step, where system and file system know how.
-Swap exchange(const fs::path& a, const fs::path& b) {
-#if defined(RENAME_EXCHANGE)
-  if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) {
-    return Swap::done;
-  }
-  if (errno == ENOENT) {
-    return Swap::no_such_place;
-  }
-#else
-  static_cast<void>(a);
-  static_cast<void>(b);
-#endif
-  return Swap::unknown;
+/// Of a step that failed, with what most often stands in its way.
+std::string reason_of(const std::error_code& error) {
+  const bool open =
+      open_files_keep_their_folder && error == std::errc::permission_denied;
+  return error.message() + (open ? " (is a file of it open in another program?)" : "");
 }
 
 /// The old folder aside, then the fresh one to its place; back again if that fails.
 void put_in_two_steps(const fs::path& fresh, const fs::path& place) {
   const fs::path aside = make_beside(place, set_aside);
   std::error_code error;
-  fs::rename(place, aside, error);
-  const bool replaces = !error;
-  if (error && error != std::errc::no_such_file_or_directory) {
-    const std::error_code reason = error;
-    fs::remove(aside, error);
-    cannot_write(place, reason.message());
+  fs::remove(aside, error);  // not every system renames to a folder that is there
+  // Asked first: of a rename some systems tell only that it failed.
+  const bool replaces = !is_of_type(place, fs::file_type::not_found);
+  if (replaces) {
+    fs::rename(place, aside, error);
+    if (error) cannot_write(place, reason_of(error));
   }
   fs::rename(fresh, place, error);
   if (error) {
-    const std::error_code reason = error;
+    const std::string reason = reason_of(error);
     if (replaces) fs::rename(aside, place, error);
-    cannot_write(place, reason.message());
+    cannot_write(place, reason);
   }
   fs::remove_all(aside, error);
 }
 
 }  // namespace
 
-std::optional<std::vector<std::string>> names_in(const fs::path& folder) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
-  if (!open) {
-    return std::nullopt;
-  }
-  std::vector<std::string> names;
-  errno = 0;
-  while (const dirent* entry = ::readdir(open.get())) {
-    const std::string_view name = entry->d_name;
-    if (name != "." && name != "..") {
-      names.emplace_back(name);
-    }
-    errno = 0;
-  }
-  return errno == 0 ? std::optional(std::move(names)) : std::nullopt;
-}
-
 void cannot_write(const fs::path& path, const std::string& reason) {
   throw std::runtime_error("cannot write " + path.string() + ": " + reason);
 }
 
 void flush_to_disk(const fs::path& path, const fs::path& shown) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) {
-    cannot_write(shown, reason_of(errno));
-  }
-  const int failed = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
-  // A file system that cannot be asked is not one that has failed.
-  if (failed != 0 && failed != EINVAL && failed != ENOTSUP && failed != EROFS) {
-    cannot_write(shown, reason_of(failed));
-  }
-}
-
-PlaceLock::PlaceLock(const fs::path& place)
-    : descriptor_(open_folder(place.parent_path())) {
-  while (descriptor_ >= 0 && !held_) {
-    held_ = ::flock(descriptor_, LOCK_EX) == 0;
-    if (!held_ && errno != EINTR) break;
-  }
-}
-
-PlaceLock::~PlaceLock() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
+  if (const std::error_code failed = flush(path)) {
+    cannot_write(shown, failed.message());
   }
 }
 
@@ -185,18 +115,12 @@ StagedFolder::StagedFolder(fs::path place) : place_(std::move(place)) {
   const PlaceLock lock(place_);
   mend(place_, lock);
   path_ = make_beside(place_, being_filled);
-  descriptor_ = open_folder(path_);
-  if (descriptor_ >= 0) {
-    ::flock(descriptor_, LOCK_EX | LOCK_NB);
-  }
+  lock_.emplace(path_, Patience::none);
 }
 
 StagedFolder::~StagedFolder() {
   std::error_code error;
   fs::remove_all(path_, error);
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
 }
 
 void StagedFolder::put_in_place(const PlaceLock& /*lock*/) {
@@ -207,7 +131,7 @@ void StagedFolder::put_in_place(const PlaceLock& /*lock*/) {
     case Swap::no_such_place: {
       std::error_code error;
       fs::rename(path_, place_, error);
-      if (error) cannot_write(place_, error.message());
+      if (error) cannot_write(place_, reason_of(error));
       break;
     }
     case Swap::unknown:

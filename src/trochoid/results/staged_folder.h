@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
+
+#include "disk.h"
 
 namespace trochoid::results {
 
@@ -12,15 +13,12 @@ namespace trochoid::results {
 /// A lock on the parent of the folder; where the file system knows none, there is none.
 class PlaceLock {
  public:
-  explicit PlaceLock(const std::filesystem::path& place);
-  ~PlaceLock();
-  PlaceLock(const PlaceLock&) = delete;
-  PlaceLock& operator=(const PlaceLock&) = delete;
-  [[nodiscard]] bool held() const noexcept { return held_; }
+  explicit PlaceLock(const std::filesystem::path& place)
+      : lock_(place.parent_path(), Patience::endless) {}
+  [[nodiscard]] bool held() const noexcept { return lock_.held(); }
 
  private:
-  int descriptor_ = -1;
-  bool held_ = false;
+  FolderLock lock_;
 };
 
 /// @brief A folder that is filled beside its place, and then put there whole.
@@ -48,13 +46,8 @@ class StagedFolder {
  private:
   std::filesystem::path place_;
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  std::optional<FolderLock> lock_;
 };
-
-/// @brief The names in a folder, in no order; none where it cannot be looked into.
-///
-/// Not by std::filesystem, which ends the program where there is no memory for it.
-std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder);
 
 /// @brief Put back or remove what a killed program left beside `place`.
 ///

@@ -70,10 +70,18 @@ class CaseSchema(InFolder):
             refused += 1
         self.assertGreater(refused, 80)
 
+    def test_inches_are_taken_and_one_of_the_two_is_asked_for(self):
+        text = self.run_program("new", "simulate").stdout
+        inches = re.sub(r"(?m)^diameter_mm = 8 ", "diameter_in = 0.3 ", text)
+        self.assertNotEqual(inches, text)
+        self.assertEqual(self.faults(inches), [])
+        self.assertEqual(len(self.faults(inches.replace("diameter_in", "# diameter_in"))), 1)
+        self.assertEqual(len(self.faults(inches.replace("diameter_in", "teeth_in"))), 2)
+
     def test_a_misspelt_key_and_its_place_are_told(self):
         faults = self.faults("[tool]\nteeth = 2\ndiamter_mm = 8\nhelix_deg = 30\n")
         self.assertEqual(len(faults), 2, faults)
-        self.assertIn("'diamter_mm' was unexpected", faults[0])
+        self.assertIn("'diamter_mm' ", faults[0])
         self.assertIn("'diameter_mm' is a required property", faults[1])
 
     def test_what_may_stand_in_another_file_is_not_asked_for(self):

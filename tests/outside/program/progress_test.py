@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from in_folder import InFolder, ROOT, main, program
+from in_folder import InFolder, ROOT, main, program, simulation
 
 
 def processor_time(pid):
@@ -43,6 +43,24 @@ class Progress(InFolder):
 
     def test_quiet_says_nothing(self):
         self.assertEqual(self.said("--quiet"), "")
+
+    def test_verbose_tells_of_every_step(self):
+        self.write("cut.toml", simulation())
+        for options, told in (((), False), (("--verbose",), True), (("--verbose", "-q"), False)):
+            # Not by run_program, which takes what is told of the progress away.
+            done = subprocess.run([program.PROGRAM, "simulate", "cut.toml", *options],
+                                  cwd=self.folder, capture_output=True, text=True, check=True)
+            lines = done.stderr.splitlines()
+            for line in lines:
+                self.assertRegex(line, r"^ +\d+\.\d\d s  [A-Z][a-z ]+$")
+            self.assertEqual([line for line in lines if line.endswith("Writing the results")]
+                             != [], told, options)
+
+    def test_threads_come_before_the_environment(self):
+        self.write("cut.toml", simulation())
+        self.run_program("simulate", "cut.toml", code=2, TROCHOID_THREADS="many")
+        self.run_program("simulate", "cut.toml", "--threads", 2, TROCHOID_THREADS="many")
+        self.run_program("simulate", "cut.toml", "--threads", 0, code=2)
 
 
 if __name__ == "__main__":

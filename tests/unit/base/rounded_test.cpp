@@ -20,6 +20,14 @@ TEST(Rounded, ValuesHaveTheDigitsOfTheirError) {
   EXPECT_EQ(with_error(37.123456, 0.0), "37.123");
 }
 
+TEST(Rounded, FilesHaveTwoDigitsMoreThanAreKnown) {
+  EXPECT_EQ(as_known(2596.3149265, 57.2), "2596.31");
+  EXPECT_EQ(as_known(-0.0079012345, 0.00019), "-0.0079012");
+  EXPECT_EQ(as_known(0.25, 0.001), "0.25");
+  EXPECT_EQ(as_known(1234567.89, 40000.0), "1234568");
+  EXPECT_EQ(as_known(1.0 / 3, 0.0), "0.3333333333333333");
+}
+
 TEST(Rounded, AbsurdPartsAreNotKnown) {
   EXPECT_EQ(percent(0.4), "40 %");
   EXPECT_EQ(percent(0.0123), "1.2 %");

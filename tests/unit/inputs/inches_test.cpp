@@ -1,0 +1,81 @@
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/inches.h>
+#include <trochoid/inputs/set_beside.h>
+#include <trochoid/inputs/sweep.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace trochoid::inputs {
+namespace {
+
+const Node& at(const Node& root, const char* table, const char* key) {
+  return *find(*find(root, table), key);
+}
+
+double number_at(const Node& root, const char* table, const char* key) {
+  return std::get<double>(at(root, table, key).value);
+}
+
+TEST(Inches, StandForMillimetres) {
+  const Node root = parse_text(
+      "[tool]\ndiameter_in = 0.5\n[cut]\nfeed_rate_in_per_min = 10\naxial_depth_in = 0.3\n"
+      "[runout]\nradial_offsets_in = [0, 0.0003]\n[[pass]]\ncut.radial_depth_in = 1\n",
+      "a.toml");
+  EXPECT_EQ(number_at(root, "tool", "diameter_mm"), 12.7);
+  EXPECT_EQ(number_at(root, "cut", "feed_rate_mm_per_min"), 254);
+  EXPECT_EQ(number_at(root, "cut", "axial_depth_mm"),
+            7.62);  // 0.3 x 25.4 is a bit less
+  const auto& offsets = std::get<Array>(at(root, "runout", "radial_offsets_mm").value);
+  EXPECT_EQ(std::get<double>(offsets[1].value), 0.00762);
+  const Node& pass = std::get<Array>(find(root, "pass")->value).front();
+  EXPECT_EQ(number_at(pass, "cut", "radial_depth_mm"), 25.4);
+  EXPECT_EQ(find(*find(root, "tool"), "diameter_in"), nullptr);
+  EXPECT_EQ(to_string(at(root, "tool", "diameter_mm").where), "a.toml:2:15");
+}
+
+TEST(Inches, OnlyAtTheEndOfALength) {
+  EXPECT_EQ(key_in_mm("K_te_N_per_in"), "");
+  EXPECT_EQ(key_in_inches("K_te_N_per_mm"), "");
+  EXPECT_EQ(key_in_inches("edge_load_N_per_mm3"), "");
+  EXPECT_EQ(key_in_mm("_in"), "");
+  EXPECT_EQ(key_in_mm("begin"), "");
+  EXPECT_EQ(key_in_inches("feed_rate_mm_per_min"), "feed_rate_in_per_min");
+}
+
+TEST(Inches, NotBothOfOneLength) {
+  try {
+    parse_text("[tool]\ndiameter_mm = 12\nlag_diameter_in = 1\ndiameter_in = 0.5\n",
+               "a.toml");
+    FAIL();
+  } catch (const base::InputError& error) {
+    EXPECT_EQ(error.problems(), std::vector<std::string>{
+                                    "a.toml:4:1: diameter_in: diameter_mm is given as "
+                                    "well; give one of them"});
+  }
+}
+
+TEST(Inches, AnIncludingFileWinsInEitherUnit) {
+  const Node base = parse_text("[tool]\ndiameter_mm = 12\n", "base.toml");
+  const Node root = merged(base, parse_text("[tool]\ndiameter_in = 1\n", "a.toml"));
+  EXPECT_EQ(number_at(root, "tool", "diameter_mm"), 25.4);
+}
+
+TEST(Inches, AreSetBesideTheCaseAndSwept) {
+  Node root = parse_text(
+      "[tool]\ndiameter_mm = 12\n[sweep.over]\n\"cut.a_in\" = "
+      "{ from = 1, to = 2, count = 3 }\n",
+      "a.toml");
+  const std::vector<std::string> settings = {"tool.diameter_in=0.25"};
+  root = with_settings(root, settings, "a.toml");
+  EXPECT_EQ(number_at(root, "tool", "diameter_mm"), 6.35);
+  EXPECT_NE(find(at(root, "sweep", "over"), "cut.a_in"), nullptr);
+  set_key(root, {.key = "cut.axial_depth_in", .where = {}, .values = {}},
+          Node{.value = 0.1, .where = {}});
+  EXPECT_EQ(number_at(root, "cut", "axial_depth_mm"), 2.54);
+}
+
+}  // namespace
+}  // namespace trochoid::inputs
