@@ -259,6 +259,27 @@ std::string short_table(const SweepResult& r) {
 
 }  // namespace
 
+std::string ranges_of(const SweepResult& r) {
+  constexpr std::size_t most_named = 3;
+  std::string text;
+  for (std::size_t i = 0; i < r.take.size(); ++i) {
+    const auto spread = spread_in(r, i, r.rows);
+    if (!spread) continue;
+    if (i >= most_named) {
+      text += ", ...";
+      break;
+    }
+    const std::string name = column_name(r.take[i]);
+    text += text.empty() ? " " : "; ";
+    text += r.by_chance ? fmt::format("{} is {} (95 %: {} to {})", name,
+                                      cell_text(spread->median), cell_text(spread->low),
+                                      cell_text(spread->high))
+                        : fmt::format("{} goes from {} to {}", name,
+                                      cell_text(spread->min), cell_text(spread->max));
+  }
+  return text.empty() ? text : text + '.';
+}
+
 Answer answer_of(const SweepResult& r) {
   Array quantities;
   for (std::size_t i = 0; i < r.take.size(); ++i) {

@@ -35,4 +35,8 @@ struct SweepResult {
 
 Answer answer_of(const SweepResult& result);
 
+/// @brief Within what the first quantities lie, as a sentence: of rows by chance their
+/// 95 %, of others all. Begins with a blank; empty where there are no numbers.
+std::string ranges_of(const SweepResult& result);
+
 }  // namespace trochoid::results

@@ -55,7 +55,8 @@ void conclude(SweepResult& r, std::size_t wanted) {
                                     r.rows.size(), r.rows.front().message);
     return;
   }
-  r.heading.message = fmt::format("{} cases answered.", answered);
+  r.heading.message =
+      fmt::format("{} cases answered.{}", answered, results::ranges_of(r));
   if (failed > 0) {
     const auto& why = *std::ranges::find_if(
         r.rows, [](const SweepRow& row) { return row.status != "ok"; });

@@ -76,6 +76,19 @@ TEST_F(WorkOfACase, KeepsItsRowsWhereProgressThrows) {
   EXPECT_EQ(cut.done(), cut.rows());
 }
 
+TEST(Ranges, AreToldOfTheFirstQuantities) {
+  results::SweepResult r;
+  r.take = {"result.a", "message", "result.b"};
+  r.rows = {{.cells = {1.5, "x", 4.0}, .status = "ok", .message = {}},
+            {.cells = {0.5, "y", 3.0}, .status = "ok", .message = {}},
+            {.cells = {9.0, "z", 9.0}, .status = "failed", .message = {}}};
+  EXPECT_EQ(results::ranges_of(r), " a goes from 0.5 to 1.5; b goes from 3 to 4.");
+  r.by_chance = true;
+  EXPECT_EQ(results::ranges_of(r).substr(0, 15), " a is 1 (95 %: ");
+  r.rows.clear();
+  EXPECT_EQ(results::ranges_of(r), "");
+}
+
 TEST(Part, OfOtherRowsOrCutShortIsNone) {
   const std::string text = part_text(
       3,

@@ -20,6 +20,22 @@ std::string headline(const correction::BeforeAfter& cuts) {
       100 * dynamics::peak_difference(cuts.before.motion));
 }
 
+/// The limit that the command comes nearest to; empty: none is known.
+std::string nearest_limit(const correction::LimitReport& report) {
+  const correction::Limit* nearest = nullptr;
+  const auto share = [](const correction::Limit& l) { return l.value / l.limit; };
+  for (const correction::Limit& limit : report.limits) {
+    const bool counts = limit.known && limit.limit > 0;
+    if (counts && (nearest == nullptr || share(limit) > share(*nearest))) {
+      nearest = &limit;
+    }
+  }
+  if (nearest == nullptr) return {};
+  return fmt::format(" {}: {}.",
+                     report.ok ? "Nearest to its limit" : "Beyond its limit",
+                     nearest->reason);
+}
+
 }  // namespace
 
 results::CorrectResult correct(const inputs::Case& given, bool controller,
@@ -42,7 +58,8 @@ results::CorrectResult correct(const inputs::Case& given, bool controller,
   }
   add_correction_warnings(c, r.heading.warnings);
   r.heading.ok = !c.controller || c.controller->ok;
-  r.heading.message = r.heading.ok ? headline(c.cuts) : c.controller->reason;
+  r.heading.message = r.heading.ok ? headline(c.cuts) + nearest_limit(c.plan.limits)
+                                   : c.controller->reason;
   return r;
 }
 

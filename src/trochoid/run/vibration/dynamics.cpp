@@ -2,12 +2,15 @@
 #include <trochoid/run/shared/machine.h>
 #include <trochoid/run/vibration/dynamics.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/run/vibration/problem.h>
 #include <trochoid/run/vibration/warnings.h>
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace trochoid::run {
@@ -55,6 +58,25 @@ SteadyState followed(MotionProblem problem, const Progress& progress) {
   });
 }
 
+/// What the motion does to the forces and the walls.
+std::string effect_of(const MotionResult& r) {
+  const dynamics::Motion& motion = r.steady->motion;
+  std::string text =
+      fmt::format(" The force in the plane of the table reaches {:.3g} N", motion.peak);
+  if (motion.flutes.size() > 1) {
+    text += fmt::format("; the flutes' peaks of Fy differ by {:.2f} %",
+                        100 * dynamics::peak_difference(motion));
+  }
+  const auto farthest = std::ranges::max_element(
+      r.walls, {}, [](const auto& wall) { return std::abs(wall.remains); });
+  if (farthest != r.walls.end()) {
+    text += fmt::format("; the wall is off by up to {:.3g} um (material {})",
+                        std::abs(farthest->remains) / unit::um,
+                        farthest->remains < 0 ? "missing" : "left");
+  }
+  return text + '.';
+}
+
 }  // namespace
 
 MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
@@ -81,7 +103,7 @@ MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
     r.walls = dynamics::surface_location(problem, r.steady->motion,
                                          dynamics::wall_heights(problem.setup));
   }
-  r.heading.message = motion_message(*r.steady);
+  r.heading.message = motion_message(*r.steady) + effect_of(r);
   return r;
 }
 

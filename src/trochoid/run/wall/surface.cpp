@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -79,11 +81,18 @@ results::SurfaceResult surface(const inputs::Case& given, const Progress& progre
     r.loads = structure::loaded_walls(*r.wall, loads);
   }
   add_surface_warnings(given, r, r.heading.warnings);
+  const surface::MeanAndExtremes& error = r.map.error;
+  const double largest = std::max(std::abs(error.min), std::abs(error.max));
+  const auto um = [largest](double e) {  // what is nothing beside the largest is none
+    constexpr double nothing = 1e-4;
+    return std::abs(e) < nothing * largest ? 0.0 : e / unit::um;
+  };
   r.heading.message = fmt::format(
-      "The error of the wall{} is {:.3g} um on average and {:.3g} um at most (positive: "
-      "material left).",
+      "The error of the wall{} is {:.3g} um on average, and from {:.3g} to {:.3g} um over "
+      "it (positive: material left). The force across it reaches {:.3g} N.",
       r.passes.empty() ? "" : fmt::format(" after {} passes", r.passes.size()),
-      r.map.error.mean / unit::um, r.map.error.max / unit::um);
+      um(error.mean), um(error.min), um(error.max),
+      std::max(std::abs(r.map.F_normal.min), std::abs(r.map.F_normal.max)));
   return r;
 }
 

@@ -26,6 +26,7 @@ TEST(Surface, AnswersWithTheMapAndItsBodies) {
               [&](const std::string& what) { told.push_back(what); });
   EXPECT_TRUE(r.heading.ok);
   EXPECT_TRUE(r.heading.message.starts_with("The error of the wall is"));
+  EXPECT_NE(r.heading.message.find("The force across it reaches "), std::string::npos);
   EXPECT_FALSE(r.heading.case_toml.empty());
   EXPECT_EQ(r.map.rows.size(), 2U);
   EXPECT_TRUE(r.map.shape);
