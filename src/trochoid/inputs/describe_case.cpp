@@ -53,8 +53,9 @@ std::string default_of(const Key& key, const Field& field) {
   std::string text;
   if (key.need == Need::always) {
     text = key.rival.empty() ? "needed" : fmt::format("needed, or `{}`", key.rival);
-  } else if (key.need == Need::coefficient) {
+  } else if (key.need == Need::coefficient || key.need == Need::cutting) {
     text = "`simulate` and `surface` need it";
+    text += key.need == Need::cutting ? ", or `[orthogonal]`" : "";
   } else if (key.standard.empty()) {
     const auto value = toml_text(key, field);
     text = value ? fmt::format("`{}`", *value) : "left out";

@@ -294,7 +294,7 @@ std::string new_case(Command command, const std::optional<ToolChoice>& tool) {
   const Visitor key_line = [&](const Key& key, const Field& field) {
     const auto value = toml_text(key, field);
     const bool found = command == Command::identify || command == Command::plan;
-    if (found && key.need == Need::coefficient) {
+    if (found && (key.need == Need::coefficient || key.need == Need::cutting)) {
       return;  // this is what will be found
     }
     line(value ? fmt::format("{} = {}", key.name, *value)

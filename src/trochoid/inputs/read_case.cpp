@@ -123,7 +123,8 @@ std::vector<std::string> report_unknown(const Node& root,
 /// What a command needs of a case.
 Reading reading_for(Command purpose, const Node& root) {
   const bool fitted = find(root, "measurement") != nullptr;
-  return {.coefficients_needed =
+  return {.cutting_needed = find(root, "orthogonal") == nullptr,
+          .coefficients_needed =
               purpose == Command::simulate || purpose == Command::surface ||
               purpose == Command::stability || purpose == Command::dynamics ||
               (purpose == Command::correct && !fitted) ||
@@ -175,6 +176,14 @@ void settle_order(CaseTables& t, Command purpose, const Findings& findings) {
   }
 }
 
+/// Motion in time is followed until it settles.
+void settle_turns(CaseTables& t, bool in_time, const Findings& findings) {
+  constexpr double until_it_settles = 20;
+  if (in_time && findings.places.count("sampling.revolutions") == 0) {
+    t.sampling.revolutions = until_it_settles;
+  }
+}
+
 Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   Case c;
   c.title = t.title;
@@ -186,13 +195,11 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   check_chip(t.chip, findings);
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
+  settle_orthogonal(t, c.setup, findings);
   c.setup.process_damping = damping_of(t.force, purpose, findings);
   c.gauge_length = t.tool.gauge_length;
   const bool in_time = purpose == Command::dynamics || purpose == Command::correct;
-  if (in_time && findings.places.count("sampling.revolutions") == 0) {
-    constexpr double until_it_settles = 20;
-    t.sampling.revolutions = until_it_settles;
-  }
+  settle_turns(t, in_time, findings);
   check_sampling(t.sampling, findings);
   c.sampling = t.sampling;
   const bool to_fit = purpose == Command::identify || !t.measurements.empty();

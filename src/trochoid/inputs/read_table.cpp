@@ -154,8 +154,11 @@ struct TableReader {
   }
 
   [[nodiscard]] bool lacks(const Key& key) const {
-    const bool needed = key.need == Need::always ||
-                        (key.need == Need::coefficient && reading.coefficients_needed);
+    const bool needed =
+        key.need == Need::always ||
+        (key.need == Need::coefficient && reading.coefficients_needed) ||
+        (key.need == Need::cutting && reading.coefficients_needed &&
+         reading.cutting_needed);
     const bool replaced = !key.rival.empty() && find(table, key.rival) != nullptr;
     const bool said_before = reading.only_own && any_below(findings.wrong, "cut");
     return needed && !replaced && !said_before && belongs(key) == 1;

@@ -11,6 +11,7 @@ namespace trochoid::inputs {
 
 /// What the reading of a table depends on besides the table.
 struct Reading {
+  bool cutting_needed = true;        ///< so does Need::cutting
   bool coefficients_needed = false;  ///< Need::coefficient counts
   const Node* cut = nullptr;         ///< [cut], which a measurement may override
   bool only_own = false;             ///< inherited values have been judged before

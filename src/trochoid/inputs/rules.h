@@ -21,6 +21,9 @@ void check_chip(const chip::ChipModel& chip, Findings& findings);
 /// @param purpose  by others than stability, dynamics and correct it is not felt: a note
 force::ProcessDamping damping_of(ForceTable& force, Command purpose,
                                  Findings& findings);
+/// @brief The coefficients that [orthogonal] stands for; afterwards [force] has them.
+void settle_orthogonal(CaseTables& tables, const force::Setup& setup,
+                       Findings& findings);
 force::Law law_of(ForceTable& force, bool exponents_default);
 void check_sampling(Sampling& sampling, Findings& findings);
 

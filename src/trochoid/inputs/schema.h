@@ -50,6 +50,7 @@ enum class Need {
   optional,
   always,
   coefficient,  ///< only where forces are computed from given coefficients
+  cutting,      ///< the same, unless [orthogonal] tells them
 };
 
 /// A key that has a meaning only for some values of another key of its table.

@@ -194,12 +194,17 @@ std::vector<std::string_view> laws_with(std::string_view key) {
   return laws;
 }
 
+/// What [orthogonal] may tell instead.
+bool is_of_orthogonal(std::string_view key) {
+  return key == "K_tc_MPa" || key == "K_rc_MPa" || key == "K_ac_MPa";
+}
+
 void describe_number(const Visitor& v, const force::Quantity& quantity, ForceTable& t) {
   const bool is_exponent = quantity.role == force::Role::exponent;
   v({.name = quantity.key,
      .meaning = quantity.meaning,
      .range = is_exponent ? exponent : (quantity.signed_value ? either_sign : pressing),
-     .need = Need::coefficient,
+     .need = is_of_orthogonal(quantity.key) ? Need::cutting : Need::coefficient,
      .only = {"law", laws_with(quantity.key)},
      .standard = is_exponent ? "0.25 for identify" : ""},
     &t.numbers[quantity.key]);

@@ -1,6 +1,8 @@
 #include <trochoid/inputs/schema_machine.h>
 #include <trochoid/inputs/tables.h>
 
+#include <utility>
+
 namespace trochoid::inputs {
 
 namespace {
@@ -42,9 +44,8 @@ TableEntry several(std::string_view name, std::string_view meaning,
           .describe = [&all](std::size_t i, const Visitor& v) { describe(v, all[i]); }};
 }
 
-}  // namespace
-
-std::vector<TableEntry> tables_of(CaseTables& t) {
+/// The tool, its cut, its forces, and what was measured of them.
+std::vector<TableEntry> tables_of_cut(CaseTables& t) {
   const Commands all_commands{Command::simulate,  Command::identify,  Command::surface,
                               Command::calibrate, Command::stability, Command::dynamics,
                               Command::correct,   Command::plan};
@@ -55,6 +56,11 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       one("chip", "the model of the uncut chip thickness", t.chip),
       one("force", "the force law and its coefficients, as forces on the tool", t.force,
           {Command::simulate, Command::surface, Command::stability, Command::dynamics}),
+      perhaps(
+          "orthogonal",
+          "what orthogonal cutting told of the material, in place of K_tc, K_rc and "
+          "K_ac of [force]: they are computed by F-19",
+          t.orthogonal),
       one("sampling", "where a simulation is evaluated, and how exactly", t.sampling),
       perhaps("dynamometer", "what the channels read; left out: x, y, z",
               t.dynamometer),
@@ -66,6 +72,12 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
           "among which cuts the one to be measured next is chosen; or how a wall is "
           "measured and cut",
           t.plan),
+  };
+}
+
+/// What bends, vibrates and moves.
+std::vector<TableEntry> tables_of_machine(CaseTables& t) {
+  return {
       perhaps("cutter_body", "the cutter as an elastic beam", t.machine.cutter_body),
       perhaps("wall",
               "the workpiece as an elastic plate, clamped below and, unless said "
@@ -103,6 +115,14 @@ std::vector<TableEntry> tables_of(CaseTables& t) {
       perhaps("stability", "where stability is looked at, and how exactly",
               t.machine.stability),
   };
+}
+
+}  // namespace
+
+std::vector<TableEntry> tables_of(CaseTables& t) {
+  std::vector<TableEntry> tables = tables_of_cut(t);
+  for (TableEntry& table : tables_of_machine(t)) tables.push_back(std::move(table));
+  return tables;
 }
 
 }  // namespace trochoid::inputs

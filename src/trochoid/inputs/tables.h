@@ -84,6 +84,19 @@ struct ForceTable {
   std::optional<double> flank_friction;  ///< absent: as usual, where a flank rubs
 };
 
+/// What cutting across the edge told of the material: each list holds the value, by how much
+/// it grows with a degree of the rake, and with a millimetre of the chip.
+struct OrthogonalTable {
+  std::vector<double> shear_stress;    ///< [N/m^2]
+  std::vector<double> friction_angle;  ///< [rad]
+  std::vector<double> shear_angle;     ///< [rad]; empty: by the ratio
+  std::vector<double> chip_ratio;      ///< at a chip of 1 mm
+  std::vector<double> chip_ratio_exponent;
+  double rake = 0.0;                  ///< [rad]
+  std::optional<double> inclination;  ///< [rad]
+  std::optional<double> chip;         ///< [m]
+};
+
 /// What is done about a dynamometer that rings.
 enum class Resonance { automatic, none };
 
@@ -141,6 +154,7 @@ struct CaseTables {
   CutTable cut;
   chip::ChipModel chip;
   ForceTable force;
+  std::optional<OrthogonalTable> orthogonal;
   Sampling sampling;
   std::optional<DynamometerTable> dynamometer;
   std::vector<MeasurementTable> measurements;
@@ -154,6 +168,7 @@ void describe(const Visitor& v, geometry::Runout& t);
 void describe(const Visitor& v, CutTable& t);
 void describe(const Visitor& v, chip::ChipModel& t);
 void describe(const Visitor& v, ForceTable& t);
+void describe(const Visitor& v, OrthogonalTable& t);
 void describe(const Visitor& v, Sampling& t);
 void describe(const Visitor& v, DynamometerTable& t);
 void describe(const Visitor& v, MeasurementTable& t);
