@@ -14,8 +14,21 @@ namespace trochoid::cli {
 
 #if defined(_WIN32)
 
+namespace {
+
+/// A console outlives the program, and has its letters back then.
+struct Utf8Output {
+  UINT before = ::GetConsoleOutputCP();
+  Utf8Output() { ::SetConsoleOutputCP(CP_UTF8); }
+  ~Utf8Output() { ::SetConsoleOutputCP(before); }
+  Utf8Output(const Utf8Output&) = delete;
+  Utf8Output& operator=(const Utf8Output&) = delete;
+};
+
+}  // namespace
+
 void prepare_console() {
-  ::SetConsoleOutputCP(CP_UTF8);
+  static const Utf8Output till_the_end;
   ::_setmode(::_fileno(stdin), _O_BINARY);
   ::_setmode(::_fileno(stdout), _O_BINARY);
   ::_setmode(::_fileno(stderr), _O_BINARY);
