@@ -40,7 +40,7 @@ std::string fault_text(NumberFault fault, std::string_view row) {
 
 std::ifstream open_table(const std::filesystem::path& file, const std::string& location,
                          const TableKind& kind) {
-  const auto name = file.string();
+  const auto name = file.generic_string();
   const auto where = location.empty() ? name + ":1:1" : location;
   const auto refuse = [&](const std::string& why) {
     throw base::InputError({fmt::format("{}: file = {}: {}", where, name, why)});

@@ -219,15 +219,16 @@ std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source) {
   auto in = open_table(source.file, source.location, frf_kind);
   const std::string text{std::istreambuf_iterator<char>(in),
                          std::istreambuf_iterator<char>()};
-  return is_uff(text) ? directed_frfs_from_uff(text, source.file.string(), source)
-                      : std::vector<DirectedFrf>();
+  return is_uff(text)
+             ? directed_frfs_from_uff(text, source.file.generic_string(), source)
+             : std::vector<DirectedFrf>();
 }
 
 FrfFile read_frf(const FrfSource& source) {
   auto in = open_table(source.file, source.location, frf_kind);
   const std::string text{std::istreambuf_iterator<char>(in),
                          std::istreambuf_iterator<char>()};
-  return read_frf(text, source.file.string(), source);
+  return read_frf(text, source.file.generic_string(), source);
 }
 
 }  // namespace trochoid::inputs

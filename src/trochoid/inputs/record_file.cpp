@@ -107,10 +107,11 @@ signal::Record read_record(std::istream& in, const std::string& name,
 
 signal::Record read_record(const Measurement& measurement) {
   if (measurement.in_memory) {
-    return record_of(*measurement.in_memory, measurement.file.string(), measurement);
+    return record_of(*measurement.in_memory, measurement.file.generic_string(),
+                     measurement);
   }
   auto in = open_table(measurement.file, measurement.location, record_kind);
-  return read_record(in, measurement.file.string(), measurement);
+  return read_record(in, measurement.file.generic_string(), measurement);
 }
 
 }  // namespace trochoid::inputs

@@ -96,7 +96,7 @@ void settle_file(const std::string& key, std::string_view what, std::string& fil
   if (sound(findings, {key})) {
     check_file(whole, key, shown, what, findings);
   }
-  file = whole.string();
+  file = whole.generic_string();
   location = to_string(named_at);
 }
 

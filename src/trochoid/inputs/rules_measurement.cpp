@@ -115,7 +115,7 @@ void check_file(const std::filesystem::path& file, const std::string& key,
   const auto status = std::filesystem::status(file, error);
   std::string why;
   if (!std::filesystem::exists(status)) {
-    const std::string path = file.string();
+    const std::string path = file.generic_string();
     const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
       return static_cast<unsigned char>(c) < 0x20;
     });

@@ -162,7 +162,7 @@ void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
   if (sound(findings, {key})) {
     check_file(file, key, shown, "a measured surface (csv, x3p or sdf)", findings);
   }
-  measurement.file = file.string();
+  measurement.file = file.generic_string();
   measurement.location = to_string(named_at);
   if (measurement.frame) {
     settle_frame(*measurement.frame, number, findings);

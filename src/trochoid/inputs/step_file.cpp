@@ -175,7 +175,7 @@ StepFile read_step(std::istream& in, const std::string& name,
 
 StepFile read_step(const StepSource& source) {
   auto in = open_table(source.file, source.location, step_kind);
-  return read_step(in, source.file.string(), source);
+  return read_step(in, source.file.generic_string(), source);
 }
 
 }  // namespace trochoid::inputs

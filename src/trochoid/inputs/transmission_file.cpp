@@ -236,7 +236,7 @@ TransmissionFile read_transmission(const std::filesystem::path& file,
                                    const std::string& location) {
   auto in = open_table(file, location, transmission_kind);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return transmission_of(text, file.string());
+  return transmission_of(text, file.generic_string());
 }
 
 }  // namespace trochoid::inputs
