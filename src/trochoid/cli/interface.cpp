@@ -178,15 +178,21 @@ CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
       ->check(CLI::IsMember(names));
   fresh->add_option("FILE", options.file, "Where (default: print it)")
       ->type_name(std::string(types::file));
+  CLI::Option* tool =
+      fresh
+          ->add_option(
+              "--tool", options.tool,
+              "A FreeCAD tool bit (.fctb) or a LinuxCNC tool table: its tool in "
+              "place of the example's")
+          ->type_name(std::string(types::file));
   fresh
-      ->add_option("--tool", options.tool,
-                   "A FreeCAD tool bit (.fctb) or a LinuxCNC tool table: its tool in "
-                   "place of the example's")
-      ->type_name(std::string(types::file));
-  fresh->add_option("--tool-number", options.tool_number,
-                    "Which of a table of several tools (its T)");
-  fresh->add_flag("--tool-inches", options.tool_inches,
-                  "The table of tools is in inches");
+      ->add_option("--tool-number", options.tool_number,
+                   "Which of a table of several tools (its T)")
+      ->needs(tool);
+  fresh
+      ->add_flag("--tool-inches", options.tool_inches,
+                 "The table of tools is in inches")
+      ->needs(tool);
   fresh->add_flag_callback(
       "--schema",
       [] {

@@ -98,7 +98,8 @@ void ProgressLine::tell() {
 }
 
 void ProgressLine::tell_end_of_step() {
-  if (talk_ != Talk::every_step) {
+  constexpr double nothing = 1e-3;  // [s]
+  if (talk_ != Talk::every_step || seconds() - step_started_ < nothing) {
     return;
   }
   std::fprintf(stderr, "%s%8.2f s  %s\n", shown_ && terminal_ ? "\r\033[K" : "",

@@ -1,3 +1,4 @@
+#include <trochoid/base/error.h>
 #include <trochoid/base/printable.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
@@ -261,6 +262,9 @@ std::string put_tool(const ToolChoice& choice, CaseTables& t) {
   const FoundTool found = read_tool(choice);
   const std::vector<std::string> stay = take_tool(found, t.tool);
   if (!found.name.empty()) t.title = found.name;
+  if (t.cut.radial_depth) {
+    t.cut.radial_depth = std::min(*t.cut.radial_depth, t.tool.diameter);
+  }
   if (!t.runout.radial_offsets.empty()) {
     t.runout.radial_offsets.resize(static_cast<std::size_t>(t.tool.teeth));
   }
@@ -282,6 +286,10 @@ constexpr std::string_view second_record =
 
 std::string new_case(Command command, const std::optional<ToolChoice>& tool) {
   Template fresh = template_for(command);
+  const auto& parts = fresh.shown;
+  if (tool && std::find(parts.begin(), parts.end(), "tool") == parts.end()) {
+    throw base::InputError({fmt::format("--tool: {} has no tool", name_of(command))});
+  }
   const std::string about = tool ? put_tool(*tool, fresh.tables) : "";
   std::string text = fmt::format(
       "# A case for `trochoid {}`: write your own numbers in place of these.\n"

@@ -133,9 +133,10 @@ Reading reading_for(Command purpose, const Node& root) {
 }
 
 /// @param purpose  none: nothing is missing
-CaseTables read_tables(const Node& root, std::optional<Command> purpose,
+CaseTables read_tables(const Node& given, std::optional<Command> purpose,
                        Findings& findings) {
   CaseTables tables;
+  const Node root = without_outvoted_coefficients(given);
   const Node* cut = find(root, "cut");
   Reading reading = purpose ? reading_for(*purpose, root) : Reading{};
   reading.cut =
@@ -195,7 +196,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   check_chip(t.chip, findings);
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
-  settle_orthogonal(t, c.setup, findings);
+  settle_orthogonal(t, c.setup, purpose, findings);
   c.setup.process_damping = damping_of(t.force, purpose, findings);
   c.gauge_length = t.tool.gauge_length;
   const bool in_time = purpose == Command::dynamics || purpose == Command::correct;

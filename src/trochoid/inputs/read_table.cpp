@@ -1,3 +1,4 @@
+#include <trochoid/inputs/inches.h>
 #include <trochoid/inputs/read_table.h>
 #include <trochoid/inputs/read_value.h>
 #include <trochoid/inputs/tables.h>
@@ -182,6 +183,12 @@ struct TableReader {
   void report_unknown(const Member& member) {
     const std::string shown = path_of(shown_key(member.key));
     std::string hint;
+    if (const std::string mm = key_in_mm(member.key); find(table, mm) != nullptr) {
+      report(findings, shown, member.where,
+             fmt::format("{} = {}: {} is given as well; give one of them", shown,
+                         shown_value(member.key, member.node), mm));
+      return;
+    }
     if (findings.problems.size() < most_hints) {
       hint = home_of(member.key);
       const std::string near = hint.empty() ? nearest(member.key, known) : "";

@@ -21,8 +21,12 @@ void check_chip(const chip::ChipModel& chip, Findings& findings);
 /// @param purpose  by others than stability, dynamics and correct it is not felt: a note
 force::ProcessDamping damping_of(ForceTable& force, Command purpose,
                                  Findings& findings);
+/// @brief Of [orthogonal] and the coefficients in its place, what is inherited gives way to
+/// what is not.
+Node without_outvoted_coefficients(Node root);
 /// @brief The coefficients that [orthogonal] stands for; afterwards [force] has them.
-void settle_orthogonal(CaseTables& tables, const force::Setup& setup,
+/// @param purpose  one that finds coefficients is not told of these
+void settle_orthogonal(CaseTables& tables, const force::Setup& setup, Command purpose,
                        Findings& findings);
 force::Law law_of(ForceTable& force, bool exponents_default);
 void check_sampling(Sampling& sampling, Findings& findings);

@@ -76,6 +76,9 @@ constexpr std::initializer_list<const char*> needed_keys = {
     "orthogonal.chip_mm",
     "orthogonal.inclination_deg",
     "orthogonal.chip_ratio_exponent",
+    "cut.feed_rate_mm_per_min",
+    "cut.spindle_rpm",
+    "tool.teeth",
     "tool.diameter_mm",
     "tool.helix_deg",
     "cut.engagement",
@@ -88,9 +91,34 @@ double usual_chip(const geometry::Cut& cut, double D) {
   return arc.to > arc.from ? force::mean_chip(cut.f_z, arc.from, arc.to) : 0.0;
 }
 
+bool is_coefficient(const Member& member) {
+  return std::ranges::any_of(coefficients,
+                             [&](const auto& c) { return c.first == member.key; });
+}
+
 }  // namespace
 
-void settle_orthogonal(CaseTables& t, const force::Setup& setup, Findings& findings) {
+Node without_outvoted_coefficients(Node root) {
+  auto& tables = std::get<Members>(root.value);
+  const auto orthogonal = std::ranges::find(tables, "orthogonal", &Member::key);
+  const auto force = std::ranges::find(tables, "force", &Member::key);
+  if (orthogonal == tables.end() || force == tables.end()) return root;
+  auto* numbers = std::get_if<Members>(&force->node.value);
+  if (numbers == nullptr) return root;
+  const bool own = std::ranges::any_of(
+      *numbers, [](const Member& m) { return is_coefficient(m) && !m.node.inherited; });
+  if (!orthogonal->node.inherited) {
+    std::erase_if(*numbers, [](const Member& m) {
+      return is_coefficient(m) && m.node.inherited;
+    });
+  } else if (own) {
+    tables.erase(orthogonal);
+  }
+  return root;
+}
+
+void settle_orthogonal(CaseTables& t, const force::Setup& setup, Command purpose,
+                       Findings& findings) {
   if (!t.orthogonal) return;
   const OrthogonalTable o = *t.orthogonal;
   check_length("shear_stress_MPa", o.shear_stress.size(), 3, findings);
@@ -110,6 +138,13 @@ void settle_orthogonal(CaseTables& t, const force::Setup& setup, Findings& findi
   const double rake = o.rake / unit::deg;
   const double chip =
       o.chip.value_or(usual_chip(setup.cut, setup.cutter.profile.D)) / unit::mm;
+  if (!(chip > 0)) {
+    report(
+        findings, "orthogonal",
+        "[orthogonal]: nothing is cut, and so there is no mean chip to take it at; give "
+        "chip_mm, or a feed above 0");
+    return;
+  }
   const double ratio = value_at(o.chip_ratio, rake, 0) *
                        std::pow(chip, value_at(o.chip_ratio_exponent, rake, 0));
   const force::OrthogonalCut cut{.tau_s = value_at(o.shear_stress, rake, chip),
@@ -123,7 +158,7 @@ void settle_orthogonal(CaseTables& t, const force::Setup& setup, Findings& findi
       "shear angle {:.4g} deg and the friction angle {:.4g} deg",
       rake, chip, cut.tau_s / unit::MPa, cut.phi_c / unit::deg, cut.beta_a / unit::deg);
   constexpr double right = std::numbers::pi / 2;
-  const bool possible = chip > 0 && cut.tau_s > 0 && cut.phi_c > 0 && cut.beta_a > 0 &&
+  const bool possible = cut.tau_s > 0 && cut.phi_c > 0 && cut.beta_a > 0 &&
                         cut.beta_a < right && cut.phi_c + cut.beta_a - o.rake < right;
   if (!possible) {
     report(findings, "orthogonal",
@@ -138,13 +173,14 @@ void settle_orthogonal(CaseTables& t, const force::Setup& setup, Findings& findi
   for (const auto& [key, member] : coefficients) {
     t.force.numbers[key] = as_written(K.*member, unit::MPa);
   }
+  t.orthogonal.reset();
+  if (purpose == Command::identify || purpose == Command::calibrate) return;
   findings.notes.push_back(
       {"orthogonal_cutting",
        fmt::format(
            "K_tc = {:.4g}, K_rc = {:.4g} and K_ac = {:.4g} MPa are computed from "
            "[orthogonal] (F-19): {}. A measured cut tells better.",
            K.K_tc / unit::MPa, K.K_rc / unit::MPa, K.K_ac / unit::MPa, said)});
-  t.orthogonal.reset();
 }
 
 }  // namespace trochoid::inputs

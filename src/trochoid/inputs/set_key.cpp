@@ -62,9 +62,9 @@ void set_key(Node& root, const KeyToSet& key, const Node& value) {
   if (key.key.empty() || key.key.ends_with('.')) {
     refuse(key, "must be a path such as cut.spindle_rpm");
   }
-  const std::string mm = key_in_mm(key.key);
+  const std::string path = path_in_mm(key.key);
   Node* at = &root;
-  for (std::string_view rest = mm.empty() ? key.key : mm; !rest.empty();) {
+  for (std::string_view rest = path; !rest.empty();) {
     const std::size_t end = rest.find('.');
     const Part part = part_of(rest.substr(0, end), key);
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
@@ -78,7 +78,7 @@ void set_key(Node& root, const KeyToSet& key, const Node& value) {
       at = &(*list)[part.entry - 1];
     }
   }
-  *at = mm.empty() ? value : value_in_mm(value);
+  *at = value_in_mm(key.key, value);
   at->where = key.where;
 }
 

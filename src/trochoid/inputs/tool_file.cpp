@@ -56,6 +56,24 @@ std::optional<double> length_of(std::string_view text) {
   return std::nullopt;
 }
 
+/// A text of the bit itself; empty: it has none of that name.
+std::string text_of(const Json& bit, const char* key) {
+  const auto found = bit.find(key);
+  return found != bit.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// Without what is no UTF-8, which no case file may hold.
+std::string readable(const std::string& text) {
+  return Json::parse(
+             Json(text).dump(-1, ' ', false, nlohmann::detail::error_handler_t::ignore))
+      .get<std::string>();
+}
+
+/// What a tool may measure [m]: no tool is wider, none that cuts thinner.
+bool is_possible(double diameter) {
+  return diameter > 1e-6 && diameter <= 10.0;
+}
+
 /// A text of the bit, of its parameters or, in older files, its attributes.
 std::string text_in(const Json& bit, const char* key) {
   for (const char* group : {"parameter", "attribute"}) {
@@ -70,7 +88,8 @@ std::string text_in(const Json& bit, const char* key) {
 
 /// `endmill.fcstd` and `Endmill` are one shape.
 Shape shape_of(const Json& bit, const std::string& file) {
-  std::string shape = bit.value("shape-type", bit.value("shape", std::string()));
+  std::string shape = text_of(bit, "shape-type");
+  if (shape.empty()) shape = text_of(bit, "shape");
   shape = std::filesystem::path(shape).stem().string();
   std::ranges::transform(shape, shape.begin(), [](unsigned char c) {
     return static_cast<char>(std::tolower(c));
@@ -88,24 +107,18 @@ FoundTool tool_of_bit(const std::string& text, const std::string& file) {
   if (!bit.is_object() || !bit.contains("shape")) {
     refuse(file, "this is no tool bit of FreeCAD, which is JSON with a \"shape\"");
   }
-  FoundTool tool{.name = bit.value("name", std::string()),
-                 .shape = shape_of(bit, file)};
+  FoundTool tool{.name = readable(text_of(bit, "name")), .shape = shape_of(bit, file)};
   const std::string diameter = text_in(bit, "Diameter");
   const auto length = length_of(diameter);
-  if (!length || !(*length > 0)) {
+  if (!length || !is_possible(*length)) {
     refuse(file,
            fmt::format("\"Diameter\" = \"{}\": must be a length such as \"6.0 mm\" "
                        "or \"0.25 in\"",
                        diameter));
   }
   tool.diameter = *length;
-  // Older files give what is flat of the bottom.
-  const auto corner = length_of(text_in(bit, "CornerRadius"));
-  const auto flat = length_of(text_in(bit, "FlatRadius"));
   if (tool.shape == Shape::bull_nose) {
-    tool.corner_radius = corner ? corner
-                         : flat ? std::optional(tool.diameter / 2 - *flat)
-                                : std::nullopt;
+    tool.corner_radius = length_of(text_in(bit, "CornerRadius"));
   }
   const std::string flutes = text_in(bit, "Flutes");
   std::string_view rest = trimmed(flutes);
@@ -126,7 +139,7 @@ TableLine line_of_table(std::string_view line) {
   TableLine found;
   const std::size_t semicolon = line.find(';');
   if (semicolon != std::string_view::npos) {
-    found.comment = trimmed(line.substr(semicolon + 1));
+    found.comment = readable(std::string(trimmed(line.substr(semicolon + 1))));
   }
   line = trimmed(line.substr(0, semicolon));
   while (!line.empty()) {
@@ -146,12 +159,14 @@ TableLine line_of_table(std::string_view line) {
 
 FoundTool tool_of_table(std::string_view text, const ToolChoice& choice) {
   const std::string file = choice.file.string();
+  const double one = choice.inches ? unit::inch : unit::mm;
   std::vector<TableLine> tools;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     TableLine line = line_of_table(text.substr(0, end));
-    if (line.number && line.diameter && *line.diameter > 0)
-      tools.push_back(std::move(line));
+    const bool usable =
+        line.number && line.diameter && is_possible(*line.diameter * one);
+    if (usable) tools.push_back(std::move(line));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   if (tools.empty()) {
@@ -168,8 +183,7 @@ FoundTool tool_of_table(std::string_view text, const ToolChoice& choice) {
                              fmt::join(numbers, ", ")));
   }
   const TableLine& line = tools[static_cast<std::size_t>(wanted - numbers.begin())];
-  return {.name = line.comment,
-          .diameter = *line.diameter * (choice.inches ? unit::inch : unit::mm)};
+  return {.name = line.comment, .diameter = *line.diameter * one};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <trochoid/python/document.h>
 
 #include <trochoid/base/overloaded.h>
+#include <trochoid/inputs/inches.h>
 
 #include <pybind11/pybind11.h>
 
@@ -111,7 +112,9 @@ inputs::Node converted(const py::handle& from, const Place& place) {
 }  // namespace
 
 inputs::Node node_of(const py::dict& tables, const std::filesystem::path& file) {
-  return converted(tables, {.key = "", .where = {file.string(), 0, 0}});
+  inputs::Node node = converted(tables, {.key = "", .where = {file.string(), 0, 0}});
+  inputs::take_inches(node);
+  return node;
 }
 
 py::object object_of(const inputs::Node& node) {

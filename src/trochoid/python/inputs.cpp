@@ -1,5 +1,6 @@
 #include <trochoid/base/names.h>
 #include <trochoid/base/units.h>
+#include <trochoid/inputs/inches.h>
 #include <trochoid/python/bindings.h>
 #include <trochoid/python/document.h>
 #include <trochoid/python/state.h>
@@ -29,7 +30,8 @@ void remove(inputs::Node& table, const std::vector<std::string>& path,
   auto* members = std::get_if<inputs::Members>(&table.value);
   if (members == nullptr) return;
   if (depth + 1 == path.size()) {
-    std::erase_if(*members, [&](const auto& m) { return m.key == path[depth]; });
+    const std::string key = inputs::path_in_mm(path[depth]);
+    std::erase_if(*members, [&](const auto& m) { return m.key == key; });
     return;
   }
   for (inputs::Member& member : *members) {

@@ -262,13 +262,11 @@ std::string short_table(const SweepResult& r) {
 std::string ranges_of(const SweepResult& r) {
   constexpr std::size_t most_named = 3;
   std::string text;
+  std::size_t named = 0;
   for (std::size_t i = 0; i < r.take.size(); ++i) {
     const auto spread = spread_in(r, i, r.rows);
     if (!spread) continue;
-    if (i >= most_named) {
-      text += ", ...";
-      break;
-    }
+    if (++named > most_named) return text + "; and more.";
     const std::string name = column_name(r.take[i]);
     text += text.empty() ? " " : "; ";
     text += r.by_chance ? fmt::format("{} is {} (95 %: {} to {})", name,

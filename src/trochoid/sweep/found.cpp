@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/chip/model.h>
+#include <trochoid/inputs/inches.h>
 #include <trochoid/inputs/read_value.h>
 #include <trochoid/results/joint.h>
 #include <trochoid/results/json.h>
@@ -90,7 +91,7 @@ class Putting {
   Found done(const std::vector<SweptKey>& over) {
     for (const SweptKey& key : over) {
       for (const SweptKey& other : found_.keys) {
-        if (whole_of(key.key) == whole_of(other.key)) {
+        if (whole_of(inputs::path_in_mm(key.key)) == whole_of(other.key)) {
           problems_.push_back(fmt::format(
               "{}: sweep.over.{}: {} is drawn from `covariance`; either of them",
               to_string(key.where), key.key, other.key));

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
 #include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/inches.h>
 #include <trochoid/results/hdf5_table.h>
 #include <trochoid/results/provenance.h>
 #include <trochoid/sweep/answer.h>
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 namespace trochoid::sweep {
 
@@ -52,6 +54,19 @@ void check_keys(const Study& study, const std::vector<Node>& first) {
     std::ranges::sort(problems);
     problems.erase(std::ranges::unique(problems).begin(), problems.end());
     throw base::InputError(problems);
+  }
+}
+
+/// The same key in inches and in millimetres is one key.
+void check_once(const std::vector<inputs::SweptKey>& over) {
+  std::map<std::string, std::string> seen;
+  for (const inputs::SweptKey& key : over) {
+    const auto [before, fresh] = seen.emplace(inputs::path_in_mm(key.key), key.key);
+    if (!fresh) {
+      throw base::InputError(
+          {fmt::format("{}: sweep.over.{}: {} is swept as well; either of them",
+                       to_string(key.where), key.key, before->second)});
+    }
   }
 }
 
@@ -148,6 +163,7 @@ Prepared prepare(const inputs::CaseSource& source, const Request& request,
         {source.file.string() +
          ": sweep.hdf5 = true: this program was built without HDF5"});
   }
+  check_once(plan.over);
   const Found found = find_all(plan, inputs::without_sweep(source.root));
   for (inputs::DrawnFile& drawn : plan.covariance) {
     drawn.path = std::filesystem::absolute(drawn.path).lexically_normal();

@@ -60,7 +60,8 @@ def without_commit(text):
     return re.sub(r'"(commit|version)": "[^"]*"|\(?commit [0-9a-f]+\)?', "", text)
 
 
-@unittest.skipUnless(EXE and os.path.exists(EXE), "no trochoid.exe was built")
+@unittest.skipUnless(EXE and os.path.exists(EXE) and shutil.which("wine"),
+                     "no trochoid.exe was built, or wine is not here")
 class Exe(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

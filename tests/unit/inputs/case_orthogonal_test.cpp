@@ -66,6 +66,28 @@ TEST(CaseOrthogonal, IsTakenAtTheRakeAndTheMeanChip) {
   EXPECT_GT(law_of(thin).K_tc, law_of(c).K_tc) << "a thinner chip is pressed more";
 }
 
+TEST(CaseOrthogonal, TheIncludingFileDecides) {
+  const CaseFolder folder;
+  folder.write("measured.toml", test::force);
+  folder.write("tube.toml", edge + plain);
+  const std::string rest = test::tool + test::cut;
+  const Case computed = folder.read("include = \"measured.toml\"\n" + rest + plain);
+  EXPECT_LT(law_of(computed).K_tc, 2500 * unit::MPa);
+  EXPECT_EQ(law_of(computed).K_te, 7 * unit::N_per_mm);
+  const Case measured = folder.read("include = \"tube.toml\"\n" + rest + test::force);
+  EXPECT_EQ(law_of(measured).K_tc, 2620 * unit::MPa);
+  EXPECT_TRUE(measured.notes.empty());
+}
+
+TEST(CaseOrthogonal, WhoeverFindsCoefficientsIsNotToldOfThese) {
+  const CaseFolder folder;
+  folder.write("run.csv", "time_s,Fx_N,Fy_N,Fz_N\n0,1,1,1\n1,1,1,1\n");
+  const Case c = folder.read(
+      test::tool + test::cut + edge + plain + "[[measurement]]\nfile = \"run.csv\"\n",
+      Command::identify);
+  EXPECT_TRUE(c.notes.empty());
+}
+
 TEST(CaseOrthogonal, MistakesAreTold) {
   const CaseFolder folder;
   const auto problems = [&](const std::string& text) {
@@ -86,6 +108,15 @@ TEST(CaseOrthogonal, MistakesAreTold) {
                             "friction_angle_deg = [75]\nshear_angle_deg = [30]\n"
                             "rake_deg = 5\n")
                 .find("no chip flows so"),
+            std::string::npos);
+  EXPECT_EQ(folder
+                .problems(test::tool + R"([cut]
+engagement = "slot"
+axial_depth_mm = 2.0
+feed_rate_mm_per_min = -5
+spindle_rpm = 875
+)" + edge + plain)
+                .find("no chip"),
             std::string::npos);
   EXPECT_NE(problems(edge + "[orthogonal]\nshear_stress_MPa = [600, 1, 2, 3]\n"
                             "friction_angle_deg = [25]\nshear_angle_deg = [30]\n"

@@ -1,3 +1,5 @@
+#include "case_text.h"
+
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/inches.h>
 #include <trochoid/inputs/set_beside.h>
@@ -46,15 +48,22 @@ TEST(Inches, OnlyAtTheEndOfALength) {
 }
 
 TEST(Inches, NotBothOfOneLength) {
-  try {
-    parse_text("[tool]\ndiameter_mm = 12\nlag_diameter_in = 1\ndiameter_in = 0.5\n",
-               "a.toml");
-    FAIL();
-  } catch (const base::InputError& error) {
-    EXPECT_EQ(error.problems(), std::vector<std::string>{
-                                    "a.toml:4:1: diameter_in: diameter_mm is given as "
-                                    "well; give one of them"});
-  }
+  const test::CaseFolder folder;
+  EXPECT_EQ(
+      folder.problems("[tool]\nteeth = 2\nhelix_deg = 30\ndiameter_mm = 12\n"
+                      "diameter_in = 0.5\nteeth_in = 3\n" +
+                      test::cut + test::force),
+      "case.toml:5:15: tool.diameter_in = 0.5: diameter_mm is given as well; give one "
+      "of them\n"
+      "case.toml:6:12: tool.teeth_in = 3: no such key; did you mean teeth?\n");
+}
+
+TEST(Inches, ACountIsNone) {
+  const Node root =
+      parse_text("[stability]\naxial_depth_in = [0.1, 1, 50]\n", "a.toml");
+  const auto& steps = std::get<Array>(at(root, "stability", "axial_depth_mm").value);
+  EXPECT_EQ(std::get<double>(steps[1].value), 25.4);
+  EXPECT_EQ(std::get<std::int64_t>(steps[2].value), 50);
 }
 
 TEST(Inches, AnIncludingFileWinsInEitherUnit) {
@@ -65,13 +74,15 @@ TEST(Inches, AnIncludingFileWinsInEitherUnit) {
 
 TEST(Inches, AreSetBesideTheCaseAndSwept) {
   Node root = parse_text(
-      "[tool]\ndiameter_mm = 12\n[sweep.over]\n\"cut.a_in\" = "
+      "[tool]\ndiameter_mm = 12\n[sweep.over]\n\"cut.axial_depth_in\" = "
       "{ from = 1, to = 2, count = 3 }\n",
       "a.toml");
   const std::vector<std::string> settings = {"tool.diameter_in=0.25"};
   root = with_settings(root, settings, "a.toml");
   EXPECT_EQ(number_at(root, "tool", "diameter_mm"), 6.35);
-  EXPECT_NE(find(at(root, "sweep", "over"), "cut.a_in"), nullptr);
+  EXPECT_EQ(path_in_mm("runout.radial_offsets_in[2]"), "runout.radial_offsets_mm[2]");
+  EXPECT_EQ(path_in_mm("cut.spindle_rpm"), "cut.spindle_rpm");
+  EXPECT_NE(find(at(root, "sweep", "over"), "cut.axial_depth_in"), nullptr);
   set_key(root, {.key = "cut.axial_depth_in", .where = {}, .values = {}},
           Node{.value = 0.1, .where = {}});
   EXPECT_EQ(number_at(root, "cut", "axial_depth_mm"), 2.54);

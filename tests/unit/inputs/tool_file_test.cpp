@@ -59,10 +59,6 @@ TEST_F(ToolFile, CornersAndInches) {
   EXPECT_DOUBLE_EQ(bull.diameter, 6.35 * unit::mm);
   EXPECT_DOUBLE_EQ(bull.corner_radius.value(), 1.5875 * unit::mm);
   EXPECT_EQ(bull.teeth, std::nullopt);
-  const FoundTool flat = read(
-      R"({"shape": "bullnose.fcstd",
-          "parameter": {"Diameter": "6 mm", "FlatRadius": "1.5 mm"}})");
-  EXPECT_DOUBLE_EQ(flat.corner_radius.value(), 1.5 * unit::mm);
 }
 
 TEST_F(ToolFile, OfLinuxCnc) {
@@ -77,6 +73,7 @@ TEST_F(ToolFile, OfLinuxCnc) {
   EXPECT_EQ(refused(table), ": which tool? --tool-number, one of 1, 3");
   EXPECT_EQ(refused(table, 99), ": which tool? --tool-number, one of 1, 3");
   EXPECT_DOUBLE_EQ(read("T7 D2\n").diameter, 2 * unit::mm);
+  EXPECT_EQ(read("T7 D2 ;Fr\xe4ser 2\n").name, "Frser 2") << "what is no UTF-8";
 }
 
 TEST_F(ToolFile, WhatIsNoEndMillIsRefused) {
@@ -89,9 +86,13 @@ TEST_F(ToolFile, WhatIsNoEndMillIsRefused) {
       ": \"Diameter\" = \"5\": must be a length such as \"6.0 mm\" or \"0.25 in\"");
   EXPECT_EQ(refused("{\"tool\": 1"),
             ": this is no tool bit of FreeCAD, which is JSON with a \"shape\"");
+  EXPECT_EQ(refused(R"({"shape": 3, "name": null})"),
+            ": the tool is of the shape \"\"; must be an end mill: endmill, ballend or "
+            "bullnose");
   EXPECT_EQ(refused("time_s,Fx_N\n0,1\n").substr(0, 29),
             ": no tool with a diameter is ");
-  EXPECT_EQ(refused("T1 D1e400\nT2 Dnan\nT1e30 D1\n").substr(0, 9), ": no tool");
+  EXPECT_EQ(refused("T1 D1e400\nT2 Dnan\nT1e30 D1\nT3 Dinf\nT4 D1e-300\n").substr(0, 9),
+            ": no tool");
 }
 
 TEST_F(ToolFile, SaysWhatStays) {
