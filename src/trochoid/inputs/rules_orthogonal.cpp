@@ -96,6 +96,41 @@ bool is_coefficient(const Member& member) {
                              [&](const auto& c) { return c.first == member.key; });
 }
 
+/// Its keys against one another and against [force].
+/// @return whether anything can be computed from them
+bool check_keys(const OrthogonalTable& o, const ForceTable& force, Findings& findings) {
+  check_length("shear_stress_MPa", o.shear_stress.size(), 3, findings);
+  check_length("friction_angle_deg", o.friction_angle.size(), 3, findings);
+  check_length("shear_angle_deg", o.shear_angle.size(), 3, findings);
+  check_length("chip_ratio", o.chip_ratio.size(), 2, findings);
+  check_length("chip_ratio_exponent", o.chip_ratio_exponent.size(), 2, findings);
+  if (!o.shear_angle.empty() && !o.chip_ratio.empty()) {
+    report(findings, "orthogonal.chip_ratio",
+           "orthogonal.chip_ratio: shear_angle_deg says it as well; give one of them");
+  }
+  check_beside(force, findings);
+  return std::ranges::all_of(needed_keys,
+                             [&](const char* key) { return sound(findings, {key}); });
+}
+
+/// What the tables say at the rake of the teeth and a chip [mm].
+force::OrthogonalCut cut_at(const OrthogonalTable& o, double chip) {
+  const double rake = o.rake / unit::deg;
+  const double ratio = value_at(o.chip_ratio, rake, 0) *
+                       std::pow(chip, value_at(o.chip_ratio_exponent, rake, 0));
+  return {.tau_s = value_at(o.shear_stress, rake, chip),
+          .phi_c = o.shear_angle.empty() ? force::shear_angle(ratio, o.rake)
+                                         : value_at(o.shear_angle, rake, chip),
+          .beta_a = value_at(o.friction_angle, rake, chip),
+          .alpha_n = o.rake};
+}
+
+bool is_possible(const force::OrthogonalCut& cut) {
+  constexpr double right = std::numbers::pi / 2;
+  return cut.tau_s > 0 && cut.phi_c > 0 && cut.beta_a > 0 && cut.beta_a < right &&
+         cut.phi_c + cut.beta_a - cut.alpha_n < right;
+}
+
 }  // namespace
 
 Node without_outvoted_coefficients(Node root) {
@@ -121,21 +156,7 @@ void settle_orthogonal(CaseTables& t, const force::Setup& setup, Command purpose
                        Findings& findings) {
   if (!t.orthogonal) return;
   const OrthogonalTable o = *t.orthogonal;
-  check_length("shear_stress_MPa", o.shear_stress.size(), 3, findings);
-  check_length("friction_angle_deg", o.friction_angle.size(), 3, findings);
-  check_length("shear_angle_deg", o.shear_angle.size(), 3, findings);
-  check_length("chip_ratio", o.chip_ratio.size(), 2, findings);
-  check_length("chip_ratio_exponent", o.chip_ratio_exponent.size(), 2, findings);
-  if (!o.shear_angle.empty() && !o.chip_ratio.empty()) {
-    report(findings, "orthogonal.chip_ratio",
-           "orthogonal.chip_ratio: shear_angle_deg says it as well; give one of them");
-  }
-  check_beside(t.force, findings);
-  if (!std::ranges::all_of(needed_keys,
-                           [&](const char* key) { return sound(findings, {key}); })) {
-    return;
-  }
-  const double rake = o.rake / unit::deg;
+  if (!check_keys(o, t.force, findings)) return;
   const double chip =
       o.chip.value_or(usual_chip(setup.cut, setup.cutter.profile.D)) / unit::mm;
   if (!(chip > 0)) {
@@ -145,22 +166,13 @@ void settle_orthogonal(CaseTables& t, const force::Setup& setup, Command purpose
         "chip_mm, or a feed above 0");
     return;
   }
-  const double ratio = value_at(o.chip_ratio, rake, 0) *
-                       std::pow(chip, value_at(o.chip_ratio_exponent, rake, 0));
-  const force::OrthogonalCut cut{.tau_s = value_at(o.shear_stress, rake, chip),
-                                 .phi_c = o.shear_angle.empty()
-                                              ? force::shear_angle(ratio, o.rake)
-                                              : value_at(o.shear_angle, rake, chip),
-                                 .beta_a = value_at(o.friction_angle, rake, chip),
-                                 .alpha_n = o.rake};
+  const force::OrthogonalCut cut = cut_at(o, chip);
   const std::string said = fmt::format(
       "at a rake of {:.4g} deg and a chip of {:.4g} mm the shear stress is {:.4g} MPa, the "
       "shear angle {:.4g} deg and the friction angle {:.4g} deg",
-      rake, chip, cut.tau_s / unit::MPa, cut.phi_c / unit::deg, cut.beta_a / unit::deg);
-  constexpr double right = std::numbers::pi / 2;
-  const bool possible = cut.tau_s > 0 && cut.phi_c > 0 && cut.beta_a > 0 &&
-                        cut.beta_a < right && cut.phi_c + cut.beta_a - o.rake < right;
-  if (!possible) {
+      o.rake / unit::deg, chip, cut.tau_s / unit::MPa, cut.phi_c / unit::deg,
+      cut.beta_a / unit::deg);
+  if (!is_possible(cut)) {
     report(findings, "orthogonal",
            fmt::format(
                "[orthogonal]: {}: no chip flows so; each must be above 0, and shear "
