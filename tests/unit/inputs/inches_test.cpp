@@ -53,9 +53,10 @@ TEST(Inches, NotBothOfOneLength) {
       folder.problems("[tool]\nteeth = 2\nhelix_deg = 30\ndiameter_mm = 12\n"
                       "diameter_in = 0.5\nteeth_in = 3\n" +
                       test::cut + test::force),
-      "case.toml:5:15: tool.diameter_in = 0.5: diameter_mm is given as well; give one "
+      "case.toml:5:1: tool.diameter_in = 0.5: diameter_mm is given as well; give one "
       "of them\n"
-      "case.toml:6:12: tool.teeth_in = 3: no such key; did you mean teeth?\n");
+      "case.toml:6:1: tool.teeth_in = 3: no such key; did you mean teeth? must be a "
+      "whole number from 1 to 64 (number of teeth)\n");
 }
 
 TEST(Inches, ACountIsNone) {
