@@ -17,4 +17,4 @@ add_library(trochoid_utf8 OBJECT ${PROJECT_SOURCE_DIR}/cmake/windows/utf8.cpp
   ${PROJECT_SOURCE_DIR}/cmake/windows/utf8.rc)
 target_compile_features(trochoid_utf8 PRIVATE cxx_std_20)
 # In its archive, documents and examples lie beside it.
-set(CMAKE_INSTALL_DOCDIR . CACHE PATH "")
+set(CMAKE_INSTALL_DOCDIR .)

@@ -222,7 +222,7 @@ compile_elsewhere() {
   if [ ! -f "$folder/build.ninja" ]; then
     say "Configuring $what"
     (cd "$root" && "$@" --fresh -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-      -DTROCHOID_BUILD_TESTS=OFF -DTROCHOID_BUILD_PYTHON=OFF) </dev/null >>"$log" 2>&1 ||
+      -DTROCHOID_BUILD_TESTS=OFF -DTROCHOID_BUILD_PYTHON=OFF -DTROCHOID_DEVELOPER=OFF) </dev/null >>"$log" 2>&1 ||
       { rm -f "$folder/build.ninja"; tail -n 25 "$log" >&2; stop "CMake did not succeed; above is the end of $log."; }
   fi
   build=$folder compile "$target"
@@ -231,7 +231,7 @@ compile_elsewhere() {
 # The page that runs in a browser.
 compile_web() {
   compile_elsewhere "$root/build/web" "the page" trochoid_web emcmake cmake \
-    -DTROCHOID_DEVELOPER=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 }
 
 # trochoid.exe.

@@ -74,11 +74,15 @@ struct Path {
 };
 
 Path parts_of(std::string_view path) {
-  const std::size_t dot = path.rfind('.');
-  const std::size_t first = dot == std::string_view::npos ? 0 : dot + 1;
-  const std::string_view last = path.substr(first);
-  const std::size_t bracket = std::min(last.find('['), last.size());
-  return {path.substr(0, first), last.substr(0, bracket), last.substr(bracket)};
+  const std::size_t first = path.rfind('.') + 1;  // 0 where there is none
+  Path parts{path.substr(0, first), path, {}};
+  parts.key.remove_prefix(first);
+  if (const std::size_t bracket = parts.key.find('[');
+      bracket != std::string_view::npos) {
+    parts.entry = parts.key.substr(bracket);
+    parts.key.remove_suffix(parts.entry.size());
+  }
+  return parts;
 }
 
 /// Without the digits that only the multiplication brings.
