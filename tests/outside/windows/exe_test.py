@@ -175,7 +175,7 @@ class Exe(unittest.TestCase):
         echo = (self.folder / "stdin.stability/case.toml").read_bytes().decode()
         self.assertIn('title = "ü"', echo)
 
-    def test_a_sweep_over_threads(self):
+    def test_a_sweep(self):
         shutil.copytree(ROOT / "examples/uncertain_force", self.folder / "sweep",
                         ignore=shutil.ignore_patterns("*.sweep"))
         case = next(f for f in sorted((self.folder / "sweep").glob("*.toml"))
