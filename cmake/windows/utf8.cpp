@@ -50,7 +50,8 @@ std::size_t mbrtowc(wchar_t* to, const char* from, std::size_t size, mbstate_t* 
     if ((bytes[i] & 0xC0U) != 0x80U) return refuse();
     letter = letter << 6U | (bytes[i] & 0x3FU);
   }
-  const bool longer_than_needed = (count == 3 && letter < 0x800) || (count == 4 && letter < first_pair);
+  const bool longer_than_needed =
+      (count == 3 && letter < 0x800) || (count == 4 && letter < first_pair);
   const bool half_of_pair = letter >= first_high && letter < behind_low;
   if (longer_than_needed || half_of_pair || letter >= behind_last) return refuse();
   if (letter < first_pair) {
@@ -75,12 +76,16 @@ std::size_t wcrtomb(char* to, wchar_t unit, mbstate_t* state) {
   }
   if (letter >= first_low && letter < behind_low) {
     if (state == nullptr || *state == 0) return refuse();
-    letter = first_pair + ((static_cast<unsigned>(*state) - first_high) << 10U) + (letter - first_low);
+    letter = first_pair + ((static_cast<unsigned>(*state) - first_high) << 10U) +
+             (letter - first_low);
     *state = 0;
   } else if (state != nullptr && *state != 0) {
     return refuse();
   }
-  const std::size_t count = letter < 0x80 ? 1 : letter < 0x800 ? 2 : letter < first_pair ? 3 : 4;
+  const std::size_t count = letter < 0x80         ? 1
+                            : letter < 0x800      ? 2
+                            : letter < first_pair ? 3
+                                                  : 4;
   for (std::size_t i = count; i-- > 1; letter >>= 6U) {
     to[i] = static_cast<char>(0x80U | (letter & 0x3FU));
   }

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/gauss_kronrod.h>
+#include <trochoid/numerics/smooth_samples.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,14 @@ namespace trochoid::force {
 
 namespace {
 
-/// Break points are found to this part of the edge.
-constexpr double relative_resolution = 1e-12;
+/// Break points are found to this part of the edge, or of the tolerance: where a chip
+/// jumps they are the ends of a quadrature that errs no less.
+constexpr double finest_resolution = 1e-12;
+constexpr double resolution_by_tolerance = 1e-3;
+/// Errors allowed on a piece, in parts of the tolerance.
+constexpr double share_of_piece = 0.02;
+/// The same between angles that are computed, of that on a piece.
+constexpr double share_between = 0.2;
 
 /// A direction and its three components.
 using Frame = std::array<std::array<double, 3>, 3>;
@@ -51,19 +58,20 @@ AxialForce::AxialForce(const Setup& setup, const Law& law, double tolerance)
   const double length = edges_.ends.back();
   if (h > 0) {
     const ColumnWeights w = column_weights(terms_.form, h, 1.0, 1.0);
-    allowed_cutting_ = 0.02 * tolerance * length *
+    allowed_cutting_ = share_of_piece * tolerance * length *
                        std::max({w.cutting[0], w.cutting[1], w.cutting[2]});
   }
-  allowed_edge_ = 0.02 * tolerance * length;
+  allowed_edge_ = share_of_piece * tolerance * length;
   smallest_ = 0.1 * tolerance * length;
+  resolution_ =
+      std::max(finest_resolution, resolution_by_tolerance * tolerance) * length;
 }
 
 template <std::size_t M, class Element>
 void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
                            const Element& element, std::array<double, M>& sum) const {
   EdgeCurve curve(edges_);
-  numerics::PieceFinder<EdgeCurve> finder(curve,
-                                          relative_resolution * edges_.ends.back());
+  numerics::PieceFinder<EdgeCurve> finder(curve, resolution_);
   std::vector<numerics::Piece<EdgeState>> pieces;
   std::vector<double> grid;
   const auto add = [&](double s, double weight, std::array<double, M>& out) {
@@ -91,15 +99,10 @@ void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
   }
 }
 
-void AxialForce::matrix(double phi, std::span<double> C) const {
-  const std::size_t columns = terms_.form.columns();
-  std::array<double, 18> allowed{};
-  for (std::size_t q = 0; q < allowed.size(); ++q) {
-    allowed[q] = q % 6 < 3 ? allowed_cutting_ : allowed_edge_;
-  }
-  std::array<double, 18> sum{};
+AxialForce::Matrix AxialForce::matrix(double phi, const Matrix& allowed) const {
+  Matrix sum{};
   const auto element = [&](const EdgePoint& point, const EdgeState& state,
-                           double weight, std::array<double, 18>& out) {
+                           double weight, Matrix& out) {
     const Frame B = frame(state.theta, point.meridian);
     const ColumnWeights w =
         column_weights(terms_.form, state.chip.h, point.meridian.sin_kappa, point.dS);
@@ -111,14 +114,28 @@ void AxialForce::matrix(double phi, std::span<double> C) const {
     }
   };
   integrate(phi, allowed, element, sum);
+  const std::size_t columns = terms_.form.columns();
+  Matrix C{};
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t q = 0; q < columns; ++q) {
-      C[row * columns + q] = sum[6 * row + q];
-    }
+    std::copy_n(&sum[6 * row], columns, &C[columns * row]);
   }
+  return C;
 }
 
-SixLoads AxialForce::loads(double phi, double gauge_length) const {
+void AxialForce::matrices(std::span<const double> phi, std::span<Matrix> C) const {
+  const std::size_t columns = terms_.form.columns();
+  Matrix allowed{};  // as they are summed, six columns
+  Matrix between{};  // as they are given
+  for (std::size_t q = 0; q < allowed.size(); ++q) {
+    allowed[q] = q % 6 < 3 ? allowed_cutting_ : allowed_edge_;
+    between[q] = share_between * (q % columns < 3 ? allowed_cutting_ : allowed_edge_);
+  }
+  numerics::sample_smooth(
+      phi, between, [&](double angle) { return matrix(angle, allowed); }, C);
+}
+
+void AxialForce::loads(std::span<const double> phi, double gauge_length,
+                       std::span<SixLoads> all) const {
   const auto largest = [](const std::array<double, 3>& v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   };
@@ -128,6 +145,15 @@ SixLoads AxialForce::loads(double phi, double gauge_length) const {
   const double reach = std::max({arm, edges_.setup.cut.a_p, gauge_length});
   const SixLoads allowed{force,       force,         force,
                          force * arm, force * reach, force * reach};
+  SixLoads between = allowed;
+  for (double& x : between) x *= share_between;
+  numerics::sample_smooth(
+      phi, between, [&](double angle) { return loads(angle, gauge_length, allowed); },
+      all);
+}
+
+SixLoads AxialForce::loads(double phi, double gauge_length,
+                           const SixLoads& allowed) const {
   SixLoads sum{};
   const auto element = [&](const EdgePoint& point, const EdgeState& state,
                            double weight, SixLoads& out) {

@@ -144,9 +144,7 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
   const AxialForce axial(setup, law, tolerance);
   over_turns(phi, std::span(out),
              [&](std::span<const double> some, std::span<SixLoads> all) {
-               for (std::size_t i = 0; i < some.size(); ++i) {
-                 all[i] = axial.loads(some[i], gauge_length);
-               }
+               axial.loads(some, gauge_length, all);
              });
   return out;
 }
@@ -266,10 +264,7 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
                  nodes->matrices(some, out);
                  return;
                }
-               const auto& axial = std::get<AxialForce>(parts_->method);
-               for (std::size_t i = 0; i < some.size(); ++i) {
-                 axial.matrix(some[i], std::span(out[i]).first(3 * columns));
-               }
+               std::get<AxialForce>(parts_->method).matrices(some, out);
              });
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     std::copy_n(matrices[i].begin(), 3 * columns, &C[i * 3 * columns]);

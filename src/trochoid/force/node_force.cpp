@@ -119,12 +119,12 @@ void NodeForce::matrices(std::span<const double> phi,
                          std::span<std::array<double, 18>> C) const {
   Walk walk(panels_);
   const std::size_t columns = terms_.form.columns();
+  std::ranges::fill(C, std::array<double, 18>{});
+  if (tip_) {
+    tip_->matrices(phi, C);
+  }
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const std::array<double, 18> all = to_matrix(moments_at(walk, phi[i]));
-    C[i] = {};
-    if (tip_) {
-      tip_->matrix(phi[i], std::span(C[i]).first(3 * columns));
-    }
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t q = 0; q < columns; ++q) {
         C[i][row * columns + q] += all[6 * row + q];
@@ -136,13 +136,13 @@ void NodeForce::matrices(std::span<const double> phi,
 void NodeForce::forces(std::span<const double> phi,
                        std::span<std::array<double, 3>> F) const {
   Walk walk(panels_);
+  std::vector<SixLoads> at_tip(phi.size());
+  if (tip_) {
+    tip_->loads(phi, 0.0, at_tip);
+  }
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const std::array<double, 18> C = to_matrix(moments_at(walk, phi[i]));
-    F[i] = {};
-    if (tip_) {
-      const SixLoads at_tip = tip_->loads(phi[i], 0.0);
-      std::copy_n(at_tip.begin(), 3, F[i].begin());
-    }
+    std::copy_n(at_tip[i].begin(), 3, F[i].begin());
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t q = 0; q < 3; ++q) {
         F[i][row] += C[6 * row + q] * terms_.K[q] + C[6 * row + 3 + q] * terms_.K_e[q];
@@ -154,8 +154,12 @@ void NodeForce::forces(std::span<const double> phi,
 void NodeForce::loads(std::span<const double> phi, double gauge_length,
                       std::span<SixLoads> all) const {
   Walk walk(panels_);
+  std::ranges::fill(all, SixLoads{});
+  if (tip_) {
+    tip_->loads(phi, gauge_length, all);
+  }
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    SixLoads sum = tip_ ? tip_->loads(phi[i], gauge_length) : SixLoads{};
+    SixLoads& sum = all[i];
     walk.at(phi[i], [&](const NodePanel& panel, const NodeTooth& tooth,
                         const NodeChips& chips, const NodeWeights& weights) {
       const double* R = &tooth.rows[NodeTooth::radius * panels_.rule->width];
@@ -174,7 +178,6 @@ void NodeForce::loads(std::span<const double> phi, double gauge_length,
                   sum);
       }
     });
-    all[i] = sum;
   }
 }
 

@@ -25,9 +25,11 @@ DifferentAngles different_angles(std::span<const double> phi);
 template <class Value, class Evaluate>
 void over_turns(std::span<const double> phi, std::span<Value> values,
                 const Evaluate& evaluate) {
-  constexpr std::size_t few = 8;
+  constexpr std::size_t fewest = 8;
+  constexpr std::size_t parts = 360;  // of a turn whose angles are close together
   const DifferentAngles different = different_angles(phi);
   const std::span<const double> angles = different.phi;
+  const std::size_t few = std::max(fewest, angles.size() / parts);
   std::vector<Value> once(angles.size());
   numerics::for_each_index((angles.size() + few - 1) / few, [&](std::size_t k) {
     const std::size_t from = k * few;

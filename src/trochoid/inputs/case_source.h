@@ -13,14 +13,18 @@
 /// Cases that are in no file, or not as a whole.
 namespace trochoid::inputs {
 
-/// Records in memory, by the names that [[measurement]] has in `file`.
-using RecordsInMemory = std::map<std::string, std::shared_ptr<const NumericTable>>;
+/// Measured data in memory, by the names that a case has in `file`.
+struct DataInMemory {
+  std::map<std::string, std::shared_ptr<const NumericTable>> records;
+  /// Responses, steps and walls: what their files would hold.
+  std::map<std::string, std::shared_ptr<const std::string>> texts;
+};
 
 /// @brief What a case file would say, from wherever it comes.
 struct CaseSource {
   const Node& root;            ///< with what it includes
   std::filesystem::path file;  ///< its folder is what names of files count from
-  RecordsInMemory records;
+  DataInMemory data;
   /// What relative names of case files count from, where that is not the folder in which
   /// the process runs: names of files are found from anywhere.
   std::filesystem::path base = {};

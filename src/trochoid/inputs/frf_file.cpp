@@ -31,6 +31,12 @@ constexpr TableKind frf_kind{.noun = "a frequency response",
                              .row = "line",
                              .example = "freq_Hz,re_m/N,im_m/N"};
 
+std::string text_of(const FrfSource& source) {
+  if (source.content) return *source.content;
+  auto in = open_table(source.file, source.location, frf_kind);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 /// One column of a table, by what its name begins with.
 struct Found {
   std::size_t index = 0;
@@ -216,19 +222,14 @@ FrfFile read_frf(const std::string& text, const std::string& name,
 }
 
 std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source) {
-  auto in = open_table(source.file, source.location, frf_kind);
-  const std::string text{std::istreambuf_iterator<char>(in),
-                         std::istreambuf_iterator<char>()};
+  const std::string text = text_of(source);
   return is_uff(text)
              ? directed_frfs_from_uff(text, source.file.generic_string(), source)
              : std::vector<DirectedFrf>();
 }
 
 FrfFile read_frf(const FrfSource& source) {
-  auto in = open_table(source.file, source.location, frf_kind);
-  const std::string text{std::istreambuf_iterator<char>(in),
-                         std::istreambuf_iterator<char>()};
-  return read_frf(text, source.file.generic_string(), source);
+  return read_frf(text_of(source), source.file.generic_string(), source);
 }
 
 }  // namespace trochoid::inputs

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct FrfSource {
   std::optional<structure::ResponseKind> kind;
   int dataset = 0;  ///< of the frequency responses of a universal file, from 1; 0: the
                     ///< only one
+  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
 struct FrfFile {

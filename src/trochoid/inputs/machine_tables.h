@@ -6,16 +6,15 @@
 #include <trochoid/dynamics/imposed_command.h>
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/identification/identify.h>
+#include <trochoid/inputs/response_tables.h>
 #include <trochoid/inputs/surface_frame.h>
-#include <trochoid/signal/tap_test.h>
-#include <trochoid/structure/frequency_response.h>
-#include <trochoid/structure/mode.h>
 #include <trochoid/structure/plate.h>
 #include <trochoid/surface/also_bends.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,41 +96,8 @@ struct SurfaceMeasurement {
   std::optional<double> height;       ///< above the tip, of a trace along the feed [m]
   std::optional<SurfaceFrame> frame;  ///< of coordinates X, Y, Z, or of a map
   std::string location;               ///< file:line:col of its `file` key
+  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
-
-enum class ResidualTerms { choose, yes, no };
-
-/// Names of files.
-constexpr std::string_view name_of(ResidualTerms terms) noexcept {
-  switch (terms) {
-    case ResidualTerms::choose:
-      return "choose";
-    case ResidualTerms::yes:
-      return "yes";
-    case ResidualTerms::no:
-      return "no";
-  }
-  return {};
-}
-
-/// Whether modes may move all directions in step only.
-enum class Shapes { choose, real, complex };
-
-/// Names of files.
-constexpr std::string_view name_of(Shapes shapes) noexcept {
-  switch (shapes) {
-    case Shapes::choose:
-      return "choose";
-    case Shapes::real:
-      return "real";
-    case Shapes::complex:
-      return "complex";
-  }
-  return {};
-}
-
-using structure::Axis;
-using structure::ModeBody;
 
 /// One [[mode]]: two of mass, stiffness and frequency, one of the dampings.
 struct Mode {
@@ -189,42 +155,6 @@ struct Stability {
   std::optional<base::Steps> axial_depth;    ///< [m]
   int harmonics = 4;                         ///< of the multi-frequency solution
   dynamics::StabilityOptions options;
-};
-
-/// [frf]: a measured frequency response.
-struct FrfTables {
-  std::string file;      ///< absolute, or relative to where we run; empty: the
-                         ///< [[measured_frf]] together
-  std::string location;  ///< file:line:col of its `file` key
-  std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
-  int dataset = 0;           ///< of a universal file, from 1; 0: the only one
-  int modes = 0;             ///< 0: their number is chosen
-  std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
-  ResidualTerms residual_terms = ResidualTerms::choose;
-  Shapes shapes = Shapes::choose;
-  signal::TapOptions tap;  ///< for hammer blows in time
-  ModeBody body = ModeBody::tool;
-  Axis axis = Axis::x;
-};
-
-/// One [[measured_frf]]: how tool point or work answers, for stability without modes.
-struct MeasuredFrf {
-  std::string file;      ///< absolute, or relative to where we run
-  std::string location;  ///< file:line:col of its `file` key
-  std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
-  int dataset = 0;           ///< of a universal file, from 1; 0: the only one
-  std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
-  ModeBody body = ModeBody::tool;
-  Axis axis = Axis::x;             ///< of the motion
-  std::optional<Axis> force_axis;  ///< of the force; absent: the same
-};
-
-/// [step]: a measured step of the actuator.
-struct StepTables {
-  std::string file;             ///< absolute, or relative to where we run
-  std::string location;         ///< file:line:col of its `file` key
-  std::optional<double> step;   ///< height of the commanded step [m]
-  std::optional<double> start;  ///< when it was commanded [s]
 };
 
 struct MachineTables {

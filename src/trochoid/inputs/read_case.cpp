@@ -273,28 +273,38 @@ Findings findings_of(const CaseSource& source) {
           .base = source.base};
 }
 
-void take_from_memory(const RecordsInMemory& records, CaseTables& tables) {
+void take_from_memory(const DataInMemory& data, CaseTables& tables) {
   for (MeasurementTable& measurement : tables.measurements) {
-    const auto found = records.find(measurement.file);
-    if (found != records.end()) {
+    const auto found = data.records.find(measurement.file);
+    if (found != data.records.end()) {
       measurement.in_memory = found->second;
     }
   }
+  const auto take = [&](auto& table) {
+    const auto found = data.texts.find(table.file);
+    if (found != data.texts.end()) {
+      table.content = found->second;
+    }
+  };
+  MachineTables& machine = tables.machine;
+  if (machine.frf) take(*machine.frf);
+  if (machine.step) take(*machine.step);
+  std::ranges::for_each(machine.measured_frfs, take);
+  std::ranges::for_each(machine.surface_measurements, take);
 }
 
 void rename_machine_files(MachineTables& machine, const fs::path& folder) {
-  if (machine.frf && !machine.frf->file.empty()) {
-    machine.frf->file = renamed(machine.frf->file, machine.frf->file, folder);
-  }
-  for (MeasuredFrf& frf : machine.measured_frfs) {
-    frf.file = renamed(frf.file, frf.file, folder);
-  }
+  const auto rename = [&](auto& table) {
+    if (!table.content && !table.file.empty()) {
+      table.file = renamed(table.file, table.file, folder);
+    }
+  };
+  if (machine.frf) rename(*machine.frf);
+  if (machine.step) rename(*machine.step);
+  std::ranges::for_each(machine.measured_frfs, rename);
   if (machine.command && !machine.command->file.empty()) {
     machine.command->file =
         renamed(machine.command->file, machine.command->file, folder);
-  }
-  if (machine.step) {
-    machine.step->file = renamed(machine.step->file, machine.step->file, folder);
   }
 }
 
@@ -320,7 +330,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   Findings findings = findings_of(source);
   const Command purpose = purpose_of(command, root);
   CaseTables tables = read_tables(root, purpose, findings);
-  take_from_memory(source.records, tables);
+  take_from_memory(source.data, tables);
   if (purpose == Command::modes && !tables.machine.measured_frfs.empty() &&
       !tables.machine.frf) {
     tables.machine.frf.emplace();  // its defaults stand in the echo
@@ -343,6 +353,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
     name = renamed(name, c.measurements[i].file, result_folder);
   }
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
+    if (c.machine.surface_measurements[i].content) continue;
     auto& name = tables.machine.surface_measurements[i].file;
     name = renamed(name, c.machine.surface_measurements[i].file, result_folder);
   }

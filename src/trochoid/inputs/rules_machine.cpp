@@ -88,16 +88,21 @@ void settle_body(CutterBody& body, const ToolTable& tool, Findings& findings) {
   }
 }
 
-void settle_file(const std::string& key, std::string_view what, std::string& file,
-                 std::string& location, Findings& findings) {
+/// @param table  with `file` and `location`, and perhaps what the file would hold
+template <class Table>
+void settle_file(const std::string& key, std::string_view what, Table& table,
+                 Findings& findings) {
   const Location named_at = place_of(findings, key);
-  const std::string shown = file;
+  table.location = to_string(named_at);
+  if constexpr (requires { table.content; }) {
+    if (table.content) return;
+  }
+  const std::string shown = table.file;
   const auto whole = resolved(shown, named_at, findings);
   if (sound(findings, {key})) {
     check_file(whole, key, shown, what, findings);
   }
-  file = whole.generic_string();
-  location = to_string(named_at);
+  table.file = whole.generic_string();
 }
 
 void check_band(const FrfTables& frf, Findings& findings) {
@@ -122,22 +127,20 @@ void check_step(const StepTables& step, Findings& findings) {
 
 void settle_machine_files(MachineTables& machine, Findings& findings) {
   if (machine.frf && !machine.frf->file.empty()) {
-    settle_file("frf.file", "a frequency response (csv, text or uff)",
-                machine.frf->file, machine.frf->location, findings);
+    settle_file("frf.file", "a frequency response (csv, text or uff)", *machine.frf,
+                findings);
   }
   for (std::size_t i = 0; i < machine.measured_frfs.size(); ++i) {
     MeasuredFrf& frf = machine.measured_frfs[i];
     settle_file(fmt::format("measured_frf[{}].file", i + 1),
-                "a frequency response (csv, text or uff)", frf.file, frf.location,
-                findings);
+                "a frequency response (csv, text or uff)", frf, findings);
   }
   if (machine.command && machine.command->shape == CommandShape::table) {
-    settle_file("command.file", "a command over the angle (csv)", machine.command->file,
-                machine.command->location, findings);
+    settle_file("command.file", "a command over the angle (csv)", *machine.command,
+                findings);
   }
   if (machine.step) {
-    settle_file("step.file", "the record of a step (csv)", machine.step->file,
-                machine.step->location, findings);
+    settle_file("step.file", "the record of a step (csv)", *machine.step, findings);
   }
 }
 

@@ -157,13 +157,15 @@ void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
                          Findings& findings) {
   const std::string key = fmt::format("surface_measurement[{}].file", number);
   const Location named_at = place_of(findings, key);
-  const std::string shown = measurement.file;
-  const auto file = resolved(shown, named_at, findings);
-  if (sound(findings, {key})) {
-    check_file(file, key, shown, "a measured surface (csv, x3p or sdf)", findings);
-  }
-  measurement.file = file.generic_string();
   measurement.location = to_string(named_at);
+  if (!measurement.content) {
+    const std::string shown = measurement.file;
+    const auto file = resolved(shown, named_at, findings);
+    if (sound(findings, {key})) {
+      check_file(file, key, shown, "a measured surface (csv, x3p or sdf)", findings);
+    }
+    measurement.file = file.generic_string();
+  }
   if (measurement.frame) {
     settle_frame(*measurement.frame, number, findings);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace trochoid::inputs {
 
@@ -174,8 +175,13 @@ StepFile read_step(std::istream& in, const std::string& name,
 }
 
 StepFile read_step(const StepSource& source) {
+  const std::string name = source.file.generic_string();
+  if (source.content) {
+    std::istringstream in(*source.content);
+    return read_step(in, name, source);
+  }
   auto in = open_table(source.file, source.location, step_kind);
-  return read_step(in, source.file.generic_string(), source);
+  return read_step(in, name, source);
 }
 
 }  // namespace trochoid::inputs

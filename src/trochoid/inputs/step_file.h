@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct StepSource {
   std::string location;         ///< file:line:col of its name in a case; empty: none
   std::optional<double> step;   ///< height of the commanded step [m]
   std::optional<double> start;  ///< when it was commanded [s]
+  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
 struct StepFile {

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace trochoid::inputs {
@@ -175,6 +176,10 @@ SurfaceFile read_surface_file(std::istream& in, const SurfaceMeasurement& measur
 }
 
 SurfaceFile read_surface_file(const SurfaceMeasurement& measurement, int teeth) {
+  if (measurement.content) {
+    std::istringstream in(*measurement.content);
+    return read_surface_file(in, measurement, teeth);
+  }
   auto in = open_table(measurement.file, measurement.location, surface_kind);
   return read_surface_file(in, measurement, teeth);
 }

@@ -12,13 +12,13 @@ class object;
 namespace trochoid::python {
 
 /// @brief A case as it was given, unchecked: tables of a file or of a program, and
-/// records that are in memory.
+/// data that are in memory.
 struct Document {
   inputs::Node root;
   std::filesystem::path file;  ///< its folder is what names of files count from
-  inputs::RecordsInMemory records;
+  inputs::DataInMemory data;
 
-  [[nodiscard]] inputs::CaseSource source() const { return {root, file, records}; }
+  [[nodiscard]] inputs::CaseSource source() const { return {root, file, data}; }
 };
 
 /// @brief What a Python mapping says; keys whose value is None are left out.

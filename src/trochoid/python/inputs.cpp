@@ -71,18 +71,25 @@ void bind_document(py::module_& m) {
            [](const Document& self, const std::string& name,
               const std::vector<GivenColumn>& columns) {
              Document changed = self;
-             changed.records[name] = record_in_memory(columns);
+             changed.data.records[name] = record_in_memory(columns);
+             return changed;
+           })
+      .def("with_text",
+           [](const Document& self, const std::string& name, std::string text) {
+             Document changed = self;
+             changed.data.texts[name] =
+                 std::make_shared<const std::string>(std::move(text));
              return changed;
            })
       .def(py::pickle(
           [](const Document& self) {
             return py::make_tuple(state_of(self.root), self.file.string(),
-                                  state_of(self.records));
+                                  state_of(self.data));
           },
           [](const py::tuple& state) {
             return Document{node_of_state(state[0]),
                             fs::path(state[1].cast<std::string>()),
-                            records_of_state(state[2])};
+                            data_of_state(state[2])};
           }))
       .def("check_keys",
            [](const Document& self) { inputs::check_keys(self.source()); })

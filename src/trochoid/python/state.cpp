@@ -102,9 +102,9 @@ inputs::Node node_of_state(const py::handle& state) {
   return node;
 }
 
-py::dict state_of(const inputs::RecordsInMemory& records) {
-  py::dict state;
-  for (const auto& [name, table] : records) {
+py::tuple state_of(const inputs::DataInMemory& data) {
+  py::dict records;
+  for (const auto& [name, table] : data.records) {
     py::list columns;
     for (std::size_t i = 0; i < table->columns.size(); ++i) {
       const std::vector<double> samples = table->values(i);
@@ -113,18 +113,25 @@ py::dict state_of(const inputs::RecordsInMemory& records) {
                          py::array_t<double>(static_cast<py::ssize_t>(samples.size()),
                                              samples.data())));
     }
-    state[py::str(name)] = columns;
+    records[py::str(name)] = columns;
   }
-  return state;
+  py::dict texts;
+  for (const auto& [name, text] : data.texts) texts[py::str(name)] = py::str(*text);
+  return py::make_tuple(records, texts);
 }
 
-inputs::RecordsInMemory records_of_state(const py::handle& state) {
-  inputs::RecordsInMemory records;
-  for (const auto& [name, columns] : state.cast<py::dict>()) {
-    records[name.cast<std::string>()] =
+inputs::DataInMemory data_of_state(const py::handle& state) {
+  const auto parts = state.cast<py::tuple>();
+  inputs::DataInMemory data;
+  for (const auto& [name, columns] : parts[0].cast<py::dict>()) {
+    data.records[name.cast<std::string>()] =
         record_in_memory(columns.cast<std::vector<GivenColumn>>());
   }
-  return records;
+  for (const auto& [name, text] : parts[1].cast<py::dict>()) {
+    data.texts[name.cast<std::string>()] =
+        std::make_shared<const std::string>(text.cast<std::string>());
+  }
+  return data;
 }
 
 }  // namespace trochoid::python

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-/// Cases as plain Python values, to be pickled: places in files and records in memory
+/// Cases as plain Python values, to be pickled: places in files and data in memory
 /// travel with them.
 namespace trochoid::python {
 
@@ -27,7 +27,7 @@ inputs::Location location_of_state(const pybind11::handle& state);
 pybind11::tuple state_of(const inputs::Node& node);
 inputs::Node node_of_state(const pybind11::handle& state);
 
-pybind11::dict state_of(const inputs::RecordsInMemory& records);
-inputs::RecordsInMemory records_of_state(const pybind11::handle& state);
+pybind11::tuple state_of(const inputs::DataInMemory& data);
+inputs::DataInMemory data_of_state(const pybind11::handle& state);
 
 }  // namespace trochoid::python

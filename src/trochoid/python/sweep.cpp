@@ -40,7 +40,7 @@ py::tuple state_of_study(const Study& study) {
     over.append(py::make_tuple(key.key, state_of(key.where)));
   }
   return py::make_tuple(std::string(name_of(study.command)), state_of(study.root),
-                        study.file.string(), over, study.take, state_of(study.records),
+                        study.file.string(), over, study.take, state_of(study.data),
                         study.base.string());
 }
 
@@ -50,7 +50,7 @@ Study study_of_state(const py::tuple& state) {
               .file = state[2].cast<std::string>(),
               .over = {},
               .take = state[4].cast<std::vector<std::string>>(),
-              .records = records_of_state(state[5]),
+              .data = data_of_state(state[5]),
               .base = state[6].cast<std::string>()};
   for (const py::handle one : state[3]) {
     const auto key = one.cast<py::tuple>();

@@ -22,7 +22,7 @@
 namespace trochoid::sweep {
 
 results::Answer answer(base::Command command, const inputs::Case& given,
-                       const AnswerOptions& options) {
+                       const AnswerOptions& options, const run::Progress& progress) {
   using base::Command;
   using results::answer_of;
   switch (command) {
@@ -35,29 +35,29 @@ results::Answer answer(base::Command command, const inputs::Case& given,
         stop.left = std::make_shared<std::atomic<std::int64_t>>(
             std::numeric_limits<std::int64_t>::max());
       }
-      results::IdentifyResult result = run::identify(given, {}, stop);
+      results::IdentifyResult result = run::identify(given, progress, stop);
       result.whole_curves = options.curves;
       return answer_of(result);
     }
     case Command::surface:
-      return answer_of(run::surface(given, {}));
+      return answer_of(run::surface(given, progress));
     case Command::calibrate:
-      return answer_of(run::calibrate(given, {}));
+      return answer_of(run::calibrate(given, progress));
     case Command::stability:
-      return answer_of(run::stability(given, {}));
+      return answer_of(run::stability(given, progress));
     case Command::modes:
       return run::modes_are_shared(given) ? answer_of(run::shared_modes(given))
                                           : answer_of(run::modes(given));
     case Command::actuator:
       return answer_of(run::actuator(given));
     case Command::dynamics:
-      return answer_of(run::dynamics(given, {}));
+      return answer_of(run::dynamics(given, progress));
     case Command::correct:
-      return answer_of(run::correct(given, options.simulate_controller, {}));
+      return answer_of(run::correct(given, options.simulate_controller, progress));
     case Command::plan:
       return given.plan.of == inputs::PlanOf::wall
-                 ? answer_of(run::plan_wall(given, {}))
-                 : answer_of(run::plan(given, {}));
+                 ? answer_of(run::plan_wall(given, progress))
+                 : answer_of(run::plan(given, progress));
   }
   throw std::logic_error("a command without an answer");
 }

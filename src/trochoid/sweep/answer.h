@@ -3,6 +3,7 @@
 #include <trochoid/base/command.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/results/answer.h>
+#include <trochoid/run/shared/progress.h>
 
 namespace trochoid::sweep {
 
@@ -14,9 +15,11 @@ struct AnswerOptions {
   bool tables = true;                ///< of simulate
 };
 
-/// @brief The answer of any command, without files and without progress.
+/// @brief The answer of any command, without files.
+/// @param progress  told what is done; what it throws ends the work
 /// @throws base::InputError when a measurement cannot be read
 results::Answer answer(base::Command command, const inputs::Case& given,
-                       const AnswerOptions& options = {});
+                       const AnswerOptions& options = {},
+                       const run::Progress& progress = {});
 
 }  // namespace trochoid::sweep

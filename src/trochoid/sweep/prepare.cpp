@@ -143,7 +143,7 @@ Study study_of(const inputs::CaseSource& source, const Request& request,
               .file = source.file,
               .over = {},
               .take = request.take.empty() ? plan.take : request.take,
-              .records = source.records,
+              .data = source.data,
               .base = source.base};
   for (const std::vector<inputs::SweptKey>* keys : {&plan.over, &found.keys}) {
     for (const inputs::SweptKey& key : *keys) {
@@ -204,7 +204,7 @@ std::string meaning_of(const Prepared& prepared) {
   std::string meaning =
       fmt::format("{} {}\n{}\n{}{}", results::version(), results::commit(),
                   prepared.as_understood, inputs::sweep_toml(plan), prepared.meaning);
-  for (const auto& [name, table] : prepared.study.records) {
+  for (const auto& [name, table] : prepared.study.data.records) {
     for (std::size_t i = 0; i < table->columns.size(); ++i) {
       const std::vector<double> samples = table->values(i);
       meaning += table->columns[i].path;
@@ -212,6 +212,7 @@ std::string meaning_of(const Prepared& prepared) {
                      samples.size() * sizeof(double));
     }
   }
+  for (const auto& [name, text] : prepared.study.data.texts) meaning += name + *text;
   return meaning;
 }
 

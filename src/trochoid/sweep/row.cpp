@@ -149,7 +149,7 @@ inputs::Node root_of(const Study& study, std::span<const inputs::Node> values) {
 }
 
 inputs::CaseSource source_of(const Study& study, const inputs::Node& root) {
-  return {root, study.file, study.records, study.base};
+  return {root, study.file, study.data, study.base};
 }
 
 results::SweepRow row_of(const Study& study, std::span<const inputs::Node> values) {

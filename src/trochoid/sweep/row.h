@@ -23,7 +23,7 @@ struct Study {
   std::filesystem::path file;          ///< of the case
   std::vector<inputs::SweptKey> over;  ///< without their values
   std::vector<std::string> take;
-  inputs::RecordsInMemory records = {};
+  inputs::DataInMemory data = {};
   std::filesystem::path base = {};  ///< as in CaseSource
 };
 

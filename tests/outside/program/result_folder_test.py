@@ -181,6 +181,17 @@ class NewCase(InFolder):
         self.write("wall.csv", "x_mm,height_mm,error_mm\n30,0.5,0.05\n30,1.5,0.03\n")
         self.run_program("check", "fresh.toml")
 
+    def test_a_tool_of_another_program(self):
+        self.write("thin.fctb", '{"shape": "endmill.fcstd", "name": "thin", '
+                                '"parameter": {"Diameter": "0.5 mm"}}')
+        self.run_program("new", "surface", "thin.toml", "--tool", "thin.fctb")
+        text = (self.folder / "thin.toml").read_text()
+        for line in (r"diameter_mm = 0\.5", r"radial_depth_mm = 0\.5"):
+            self.assertRegex(text, f"(?m)^{line}\\b")
+        done = self.run_program("new", "modes", "--tool", "thin.fctb", code=2)
+        self.assertIn("tool", done.stderr)
+        self.assertEqual(done.stdout, "")
+
     def test_it_is_printed_where_no_file_is_named(self):
         for command in ("simulate", "identify", "surface", "calibrate", "stability",
                         "dynamics", "modes", "actuator"):

@@ -127,6 +127,8 @@ class Sweep(InFolder):
                  ["gird", "latin_hypercube"]),
                 ('over = { "cut.spindle_rpm" = { file = "none.csv", column = "a" } }',
                  ["none.csv"]),
+                ('over = { "tool.diameter_mm" = { values = [8] }, '
+                 '"tool.diameter_in" = { values = [0.3] } }', ["is swept as well"]),
                 ('over = { "mode[1].mass_kg" = { values = [3] } }', ["[[mode]]"])):
             self.case(sweep)
             done = self.run_program("sweep", "cut.toml", *TAKE, code=2)

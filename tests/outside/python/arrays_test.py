@@ -71,8 +71,9 @@ class Records(unittest.TestCase):
 
     def test_the_case_keeps_its_own_copy(self):
         columns = {name: values.copy() for name, values in self.columns.items()}
-        document = trochoid._record.with_records(
-            self.case._document, [trochoid.Record(columns, **self.keys)]
+        record = trochoid.Record(columns, **self.keys)
+        document = trochoid._measured.with_measured(
+            self.case._document, "identify", records=[record]
         )
         case = trochoid.Case._of(document, None)
         for values in columns.values():

@@ -142,6 +142,16 @@ class With(unittest.TestCase):
         without = self.case.with_({"tool.helix_deg": 0, "sampling": None})
         self.assertNotIn("sampling", without.to_dict())
 
+    def test_inches_take_the_place_of_millimetres(self):
+        wider = self.case.with_({"tool.diameter_in": 0.5}).to_dict()["tool"]
+        self.assertNotIn("diameter_in", wider)
+        self.assertAlmostEqual(wider["diameter_mm"], 12.7)
+        error = problems_of(self.case.with_, {"tool.teeth_in": 2})
+        self.assertEqual([problem.key for problem in error.problems], ["tool.teeth_in"])
+        offsets = {"runout.radial_offsets_mm": [0, 0.01], "runout.eccentricity_mm": None}
+        without = self.case.with_(offsets).with_({"runout.radial_offsets_in": None})
+        self.assertNotIn("radial_offsets_mm", without.to_dict()["runout"])
+
     def test_what_is_changed_wrongly_is_told_at_once(self):
         error = problems_of(self.case.with_, {"cut.spindle_rpm": -1, "tool.teth": 2})
         keys = {problem.key for problem in error.problems}

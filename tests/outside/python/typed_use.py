@@ -11,6 +11,11 @@ answer: trochoid.Answer = trochoid.identify(
     case, records=[trochoid.Record(np.zeros((9, 3)), sample_rate_Hz=1e4)]
 )
 good: bool = answer.ok
+response = trochoid.Response(np.arange(9.0), np.zeros(9, complex), unit="m/N", axis="x")
+lobes: trochoid.Answer = trochoid.stability(case, responses=[response])
+tip: trochoid.Answer = trochoid.modes(response)
+drive: trochoid.Answer = trochoid.actuator(trochoid.Step([0, 1], [0, 1], step_um=1.0))
+wall: trochoid.Answer = trochoid.calibrate(case, readings=trochoid.Readings([1], [1], [0.1]))
 codes: list[str] = [warning.code for warning in answer.warnings]
 force: np.ndarray = trochoid.forces({"tool": {"teeth": 2}}, [0, 15.5])
 over = {"cut.spindle_rpm": np.linspace(800, 900, 3), "tool.teeth": [2, 3]}

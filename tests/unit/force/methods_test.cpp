@@ -40,10 +40,10 @@ MadeCut random_setup(std::mt19937& random) {
 
 std::vector<Vector3> along_the_edge(const MadeCut& setup, const Law& law,
                                     std::span<const double> phi) {
-  const AxialForce axial(setup, law, 1e-11);
+  std::vector<SixLoads> loads(phi.size());
+  AxialForce(setup, law, 1e-11).loads(phi, 0.0, loads);
   std::vector<Vector3> out;
-  for (const double angle : phi) {
-    const auto v = axial.loads(angle, 0.0);
+  for (const SixLoads& v : loads) {
     out.push_back({v[0], v[1], v[2]});
   }
   return out;
@@ -58,6 +58,34 @@ TEST(Methods, SummingOverAnglesIsSummingAlongTheEdge) {  // [F-4] [F-5]
     const auto phi = turn(48);
     const auto F = forces(setup, law, phi, 1e-10);
     EXPECT_LE(difference(F, along_the_edge(setup, law, phi)), 1e-8 * peak(F)) << n;
+  }
+}
+
+TEST(Methods, AnglesCloseTogetherAreFollowedByPolynomials) {  // [F-4]
+  MadeCut ball = slot(geometry::ball(10e-3), 2, 30);
+  ball.runout.eccentricity = 10e-6;
+  ball.cut.a_p = 2e-3;
+  ball.cut.f_z = 80e-6;
+  const Law law = LinearEdge{.K_tc = 1.8e9, .K_rc = 8e8, .K_ac = 4e8, .K_te = 12e3};
+  constexpr double tolerance = 1e-5;
+  const AxialForce force(ball, law, tolerance);
+  for (const double from : {0.2, 4.5, 5.3}) {
+    std::vector<double> phi;
+    for (int i = 0; i < 400; ++i) phi.push_back(from + 1e-4 * i);
+    std::vector<SixLoads> together(phi.size());
+    force.loads(phi, 0.0, together);
+    double peak = 0.0;
+    for (const SixLoads& F : together) peak = std::max(peak, std::abs(F[0]));
+    int same = 0;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      SixLoads alone{};
+      force.loads(std::span(&phi[i], 1), 0.0, std::span(&alone, 1));
+      same += together[i] == alone ? 1 : 0;
+      for (std::size_t q = 0; q < 3; ++q) {
+        ASSERT_NEAR(together[i][q], alone[q], tolerance * peak) << phi[i];
+      }
+    }
+    EXPECT_LT(same, 300) << from;
   }
 }
 

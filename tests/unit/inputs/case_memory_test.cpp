@@ -1,6 +1,8 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/case_source.h>
+#include <trochoid/inputs/frf_file.h>
 #include <trochoid/inputs/record_file.h>
+#include <trochoid/inputs/step_file.h>
 
 #include <gtest/gtest.h>
 
@@ -91,12 +93,40 @@ TEST(CaseInMemory, ARecordInMemoryStandsForItsFile) {
   EXPECT_NE(missing[0].find("there is no such file (folder/plate)"), std::string::npos);
 
   const Case c =
-      read_case({root, "folder/case", {{"plate", three_samples()}}}, Command::identify);
+      read_case({root, "folder/case", {.records = {{"plate", three_samples()}}}},
+                Command::identify);
   const signal::Record record = read_record(c.measurements.at(0));
   EXPECT_EQ(record.file, "plate");
   EXPECT_EQ(record.channel[2], std::vector<double>(3, 2000.0));
   EXPECT_EQ(record.sample_rate, 1000.0);
   EXPECT_NE(c.as_understood.find("file = \"plate\""), std::string::npos);
+}
+
+TEST(CaseInMemory, ATextStandsForTheFileThatItWouldBe) {
+  const Node frf = given(table({{"file", given(std::string("tip"))}}));
+  const Node step = given(table({{"file", given(std::string("step"))}}));
+  const Node root = given(table({{"frf", frf}, {"step", step}}));
+  EXPECT_EQ(problems_of({root, "folder/case", {}}, Command::modes).size(), 2U);
+  const auto text = [](const char* content) {
+    return std::make_shared<const std::string>(content);
+  };
+  const Case c = read_case(
+      {root,
+       "folder/case",
+       {.records = {},
+        .texts = {{"tip", text("freq_Hz,re_m/N,im_m/N\n10,1e-6,0\n20,2e-6,0\n")},
+                  {"step", text("time_s,position_um\n0,0\n1,3\n")}}}},
+      Command::modes);
+  const FrfFile response = read_frf(
+      {.file = c.machine.frf->file, .location = "", .content = c.machine.frf->content});
+  EXPECT_EQ(response.response.H.at(1).real(), 2e-6);
+  const StepFile read = read_step({.file = c.machine.step->file,
+                                   .location = "",
+                                   .step = 1e-6,
+                                   .start = 0.0,
+                                   .content = c.machine.step->content});
+  EXPECT_EQ(read.record.position.at(1), 3e-6);
+  EXPECT_NE(c.as_understood.find("file = \"tip\""), std::string::npos);
 }
 
 }  // namespace trochoid::inputs

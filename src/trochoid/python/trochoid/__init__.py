@@ -31,6 +31,7 @@ from ._commands import (
 from ._errors import AnswerWarning, InputError, Problem
 from ._executor import SweepUnfinished
 from ._kernels import chip, force_matrix, forces, multiplier
+from ._measured import Readings, Response, Step
 from ._record import Record
 from ._sweep import sweep
 
@@ -48,7 +49,10 @@ __all__ = [
     "Case",
     "InputError",
     "Problem",
+    "Readings",
     "Record",
+    "Response",
+    "Step",
     "SweepUnfinished",
     "Values",
     "Warned",

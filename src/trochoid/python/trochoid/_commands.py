@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,9 +13,7 @@ from . import _core
 from ._answer import Answer
 from ._case import Case, CaseLike, as_case
 from ._errors import AnswerWarning
-from ._record import Record, with_records
-
-Records = Union[Record, Sequence[Record], None]
+from ._measured import ReadingsLike, Records, Response, Responses, Step, with_measured
 
 
 def _told(answer: Answer) -> Answer:
@@ -23,15 +22,46 @@ def _told(answer: Answer) -> Answer:
     return answer
 
 
-def _run(command: str, case: CaseLike, records: Records = None, **options: bool) -> Answer:
+def _answered(command: str, case: _core.CheckedCase, **options: bool) -> _core.Answer:
+    """The answer, of a thread beside the main one: that hears Ctrl-C at once.
+
+    After Ctrl-C the work ends where it next tells how far it is, and Python not before.
+    """
+    wanted = _core.Wanted()
+    if threading.current_thread() is not threading.main_thread():
+        return _core.run(command, case, wanted, **options)
+    answers: list[_core.Answer] = []
+    errors: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            answers.append(_core.run(command, case, wanted, **options))
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=work, name=f"trochoid.{command}")
+    thread.start()
+    try:
+        thread.join()
+    except BaseException:
+        wanted.end()
+        raise
+    if errors:
+        raise errors.pop()
+    return answers[0]
+
+
+def _run(command: str, case: CaseLike, measured: Mapping[str, Any], **options: bool) -> Answer:
+    """measured: data in memory, by the names of with_measured."""
     given = as_case(case)
-    if records is not None:
-        given = Case._of(with_records(given._document, records), given.file)
+    if any(data is not None for data in measured.values()):
+        document = with_measured(given._document, command, **measured)
+        given = Case._of(document, given.file)
 
     def placed(folder: Path) -> str:
         return _core.read_case(given._document, command, folder).as_understood
 
-    core = _core.run(command, given._for(command), **options)
+    core = _answered(command, given._for(command), **options)
     default = None if given.file is None else given.file.with_suffix("." + command)
     return _told(Answer(core, placed, default))
 
@@ -46,7 +76,7 @@ def _bare(command: str, file: Union[str, os.PathLike], options: Mapping[str, Any
     def placed(folder: Path) -> str:
         return _core.bare_case(name, command, bare, folder).as_understood
 
-    core = _core.run(command, _core.bare_case(name, command, bare, ""))
+    core = _answered(command, _core.bare_case(name, command, bare, ""))
     return _told(Answer(core, placed, Path(name).with_suffix("." + command)))
 
 
@@ -78,7 +108,7 @@ def simulate(case: CaseLike, *, records: Records = None) -> Answer:
     InputError
         With every problem of the case.
     """
-    return _run("simulate", case, records)
+    return _run("simulate", case, {"records": records})
 
 
 def identify(
@@ -121,7 +151,7 @@ def identify(
     >>> found = trochoid.identify("case.toml", records=[record])
     >>> found.fits[-1].coefficients.K_tc_MPa.value
     """
-    return _run("identify", case, records, curves=curves, anyway=anyway)
+    return _run("identify", case, {"records": records}, curves=curves, anyway=anyway)
 
 
 def surface(case: CaseLike) -> Answer:
@@ -131,27 +161,30 @@ def surface(case: CaseLike) -> Answer:
     perhaps ``[surface]``. Answers ``mean_error_mm``, ``peak_error_mm`` (positive where
     material is left), ``forces``; table ``surface`` (x_mm, height_mm, error_mm).
     """
-    return _run("surface", case)
+    return _run("surface", case, {})
 
 
-def calibrate(case: CaseLike) -> Answer:
+def calibrate(case: CaseLike, *, readings: ReadingsLike = None) -> Answer:
     """Cutting coefficients and runout from a measured wall, without a dynamometer.
 
-    case: as for :func:`surface`, with ``[[surface_measurement]]``. Answers
+    case: as for :func:`surface`, with ``[[surface_measurement]]``, or ``readings`` as
+    arrays in its place: ``[trochoid.Readings(x_mm, height_mm, error_mm)]``. Answers
     ``coefficients`` (MPa, each with ``value``, ``se``, ``low``, ``high``), ``runout``,
     ``correlation``, ``rank``, ``condition``, ``rms_mm``.
     """
-    return _run("calibrate", case)
+    return _run("calibrate", case, {"readings": readings})
 
 
-def stability(case: CaseLike) -> Answer:
+def stability(case: CaseLike, *, responses: Responses = None) -> Answer:
     """Floquet multiplier, limit depth and stability lobe diagram of a cut.
 
     case: with ``[tool]``, ``[cut]``, ``[force]``, ``[[mode]]`` (or ``[[measured_frf]]``)
-    and ``[stability]``. Answers the multiplier at the case and the limit depth; table
-    ``lobes`` (spindle_rpm, axial_depth_mm, multiplier). Equations D-8, D-9, D-14.
+    and ``[stability]``; ``responses`` as arrays in place of ``[[measured_frf]]``:
+    ``[trochoid.Response(f, H, unit="m/N", axis="x")]``. Answers the multiplier at the case
+    and the limit depth; table ``lobes`` (spindle_rpm, axial_depth_mm, multiplier).
+    Equations D-8, D-9, D-14.
     """
-    return _run("stability", case)
+    return _run("stability", case, {"responses": responses})
 
 
 def dynamics(case: CaseLike) -> Answer:
@@ -161,7 +194,7 @@ def dynamics(case: CaseLike) -> Answer:
     and ``[command]``. Answers peaks and chip areas per flute and whether the motion is
     periodic; tables ``motion`` and ``forces`` of the last revolutions.
     """
-    return _run("dynamics", case)
+    return _run("dynamics", case, {})
 
 
 def correct(
@@ -173,22 +206,24 @@ def correct(
     ``records``), ``[[mode]]`` of the table and ``[actuator]``; perhaps ``[correct]``.
     simulate_controller: run the real-time controller in the loop (``[controller]``).
     """
-    return _run("correct", case, records, simulate_controller=simulate_controller)
+    options = {"simulate_controller": simulate_controller}
+    return _run("correct", case, {"records": records}, **options)
 
 
-def plan(case: CaseLike, *, records: Records = None) -> Answer:
+def plan(case: CaseLike, *, records: Records = None, readings: ReadingsLike = None) -> Answer:
     """Which cut to measure next, or how to measure a wall and how to cut it.
 
-    case: with ``[plan]``; what was measured (``[[measurement]]`` or ``records``), or
-    coefficients as if nothing had been. Answers ``cuts``, best first, with the interval
+    case: with ``[plan]``; what was measured (``[[measurement]]`` or ``records``, of walls
+    ``[[surface_measurement]]`` or ``readings``), or coefficients as if nothing had been. Answers ``cuts``, best first, with the interval
     of each quantity that it would leave. Equations I-20, I-21, E-60.
     """
-    return _run("plan", case, records)
+    return _run("plan", case, {"records": records, "readings": readings})
 
 
 def modes(
-    case: Union[CaseLike, str, os.PathLike],
+    case: Union[CaseLike, Response],
     *,
+    responses: Responses = None,
     kind: str = "",
     modes: int = 0,
     band: Sequence[float] = (),
@@ -198,8 +233,11 @@ def modes(
 
     Parameters
     ----------
-    case : Case, dict, path of a case file (.toml), or of a measured response
-        A case needs ``[frf]``. The others go with a bare data file:
+    case : Case, dict, path of a case file (.toml) or of a measured response, Response
+        A case needs ``[frf]``.
+    responses : Response or list of Response, optional
+        Arrays in place of the files of the case: one is that of ``[frf]``, several are
+        those of ``[[measured_frf]]``. The others go with a bare data file:
     kind : {"receptance", "mobility", "accelerance"}
         What was measured, if the file does not say it by its unit.
     modes : int
@@ -216,31 +254,39 @@ def modes(
         ``stiffness_N_per_m``, ``damping_Ns_per_m``. Table ``fitted``.
     """
     options = {"kind": kind, "modes": modes, "band": list(band), "dataset": dataset}
+    if isinstance(case, Response):
+        _only_bare(options, "[frf]: an argument of Response")
+        return _run("modes", {}, {"responses": case})
     if _is_bare(case):
         if kind not in ("", "receptance", "mobility", "accelerance"):
             raise ValueError(f"kind = {kind!r}: must be receptance, mobility or accelerance")
         return _bare("modes", case, options)  # type: ignore[arg-type]
     _only_bare(options, "[frf]")
-    return _run("modes", case)
+    return _run("modes", case, {"responses": responses})
 
 
 def actuator(
-    case: Union[CaseLike, str, os.PathLike],
+    case: Union[CaseLike, Step],
     *,
+    step: Optional[Step] = None,
     step_um: Optional[float] = None,
     start_s: Optional[float] = None,
 ) -> Answer:
     """Transfer function (gain and two poles) of an actuator from a measured step.
 
-    case: a case with ``[step]``, or the record of the step itself (CSV) with the height
-    of the commanded step [um] and its time [s]. Answers ``gain``, ``frequency_Hz``,
+    case: a case with ``[step]``, a :class:`Step`, or the record of the step itself (CSV)
+    with the height of the commanded step [um] and its time [s]. step: arrays in place of
+    the file of the case. Answers ``gain``, ``frequency_Hz``,
     ``damping_ratio``, ``time_constants_s``.
     """
     options = {"step_um": step_um, "start_s": start_s}
+    if isinstance(case, Step):
+        _only_bare(options, "[step]: an argument of Step")
+        return _run("actuator", {}, {"step": case})
     if _is_bare(case):
         return _bare("actuator", case, options)  # type: ignore[arg-type]
     _only_bare(options, "[step]")
-    return _run("actuator", case)
+    return _run("actuator", case, {"step": step})
 
 
 def _only_bare(options: Mapping[str, Any], table: str) -> None:

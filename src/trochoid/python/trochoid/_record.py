@@ -1,4 +1,4 @@
-"""Measurements that are arrays."""
+"""Measured forces that are arrays."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ from typing import Any, Optional
 
 import numpy as np
 
-from . import _core
-
 _FORCES = ("Fx", "Fy", "Fz")
 
 
-def _samples(values: Any, what: str) -> np.ndarray:
+def samples(values: Any, what: str) -> np.ndarray:
     """One column of real numbers, float64 and contiguous."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
@@ -22,17 +20,25 @@ def _samples(values: Any, what: str) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def named_columns(data: Any) -> Optional[list[tuple[str, np.ndarray]]]:
+    """Columns of numbers of a mapping, DataFrame or structured array; None: it is none."""
+    names = getattr(getattr(data, "dtype", None), "names", None)
+    if not (hasattr(data, "columns") or isinstance(data, Mapping) or names):
+        return None
+    keys = names or (data.columns if hasattr(data, "columns") else data)
+    found = [(str(key), np.asarray(data[key])) for key in keys]
+    # A column of text, a comment for example, is not used; nor is it in a CSV file.
+    return [
+        (key, samples(values, f"column {key!r}"))
+        for key, values in found
+        if values.dtype.kind in "fiu"
+    ]
+
+
 def _columns_of(forces: Any, unit: str) -> list[tuple[str, str, np.ndarray]]:
-    names = getattr(getattr(forces, "dtype", None), "names", None)
-    if hasattr(forces, "columns") or isinstance(forces, Mapping) or names:
-        keys = names or (forces.columns if hasattr(forces, "columns") else forces)
-        found = [(str(key), np.asarray(forces[key])) for key in keys]
-        # A column of text, a comment for example, is not used; nor is it in a CSV file.
-        return [
-            (key, "", _samples(values, f"column {key!r}"))
-            for key, values in found
-            if values.dtype.kind in "fiu"
-        ]
+    named = named_columns(forces)
+    if named is not None:
+        return [(name, "", values) for name, values in named]
     array = np.asarray(forces)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(
@@ -41,7 +47,7 @@ def _columns_of(forces: Any, unit: str) -> list[tuple[str, str, np.ndarray]]:
             + ("; transpose it" if array.ndim == 2 and array.shape[0] == 3 else "")
         )
     return [
-        (name, unit, _samples(array[:, i], f"forces[:, {i}]"))
+        (name, unit, samples(array[:, i], f"forces[:, {i}]"))
         for i, name in enumerate(_FORCES)
     ]
 
@@ -87,9 +93,9 @@ class Record:
                 raise TypeError(f"{forbidden} goes with a record in a file, not in memory")
         columns = _columns_of(forces, "" if "scale" in keys else "N")
         if time_s is not None:
-            columns.append(("time", "s", _samples(time_s, "time_s")))
+            columns.append(("time", "s", samples(time_s, "time_s")))
         if angle_deg is not None:
-            columns.append(("angle", "deg", _samples(angle_deg, "angle_deg")))
+            columns.append(("angle", "deg", samples(angle_deg, "angle_deg")))
         self.name = name
         self._columns = columns
         self._keys = dict(keys)
@@ -100,23 +106,3 @@ class Record:
         count = len(self._columns[0][2]) if self._columns else 0
         names = ", ".join(name for name, _, _ in self._columns)
         return f"<trochoid.Record {self.name or ''}: {count} samples of {names}>"
-
-
-def with_records(document: _core.Document, records: Any) -> _core.Document:
-    """The records in place of all that ``[[measurement]]`` names."""
-    if isinstance(records, Record):
-        records = [records]
-    tables = []
-    taken: set[str] = set()
-    for number, record in enumerate(records, 1):
-        if not isinstance(record, Record):
-            raise TypeError(f"records: trochoid.Record is needed, not {type(record).__name__}")
-        name = record.name or f"record {number}"
-        if name in taken:
-            raise ValueError(f"records: two are called {name!r}; give each its own name")
-        taken.add(name)
-        tables.append({"file": name, **record._keys})
-        document = document.with_record(name, record._columns)
-    if not tables:
-        raise ValueError("records: none given")
-    return document.without(["measurement"]).with_tables({"measurement": tables})

@@ -14,9 +14,9 @@ from typing import Any, Optional, Union
 from . import _core
 from ._answer import Answer
 from ._case import CaseLike, as_case
-from ._commands import Records, _told
+from ._commands import _told
 from ._executor import answer_rows
-from ._record import with_records
+from ._measured import ReadingsLike, Records, Responses, with_measured
 
 
 def _values(values: Any) -> Any:
@@ -74,6 +74,8 @@ def sweep(
     covariance: Union[Found, Sequence[Found], None] = None,
     draws: Optional[int] = None,
     records: Records = None,
+    responses: Responses = None,
+    readings: ReadingsLike = None,
     executor: Optional[Executor] = None,
     in_flight: Optional[int] = None,
     folder: Union[str, os.PathLike, None] = None,
@@ -108,8 +110,9 @@ def sweep(
     draws : int
         How many draws (200); of a grid or list each point has all of them. Intervals are
         in ``quantities``, over a grid in table ``bands``.
-    records : list of Record, optional
-        Measurements as arrays, in place of ``[[measurement]]``; they travel to workers.
+    records, responses, readings : list of Record, Response, Readings, optional
+        Measurements as arrays, in place of ``[[measurement]]``, ``[[measured_frf]]``,
+        ``[[surface_measurement]]``; they travel to workers.
     executor : concurrent.futures.Executor, optional
         Who answers the rows, in parts of about a second and each part on one thread:
         processes, Dask's ``client.get_executor()``, ``MPIPoolExecutor``
@@ -148,8 +151,9 @@ def sweep(
     """
     given = as_case(case)
     document = given._document
-    if records is not None:
-        document = with_records(document, records)
+    document = with_measured(
+        document, command, records=records, responses=responses, readings=readings
+    )
     table = {
         "method": method,
         "count": count,

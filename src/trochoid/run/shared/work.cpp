@@ -57,6 +57,11 @@ double windings(const force::Setup& setup) {
   return 2 * setup.cut.a_p * std::tan(setup.cutter.helix) / (lag * unit::turn);
 }
 
+double law_factor(const force::Law& law) {
+  constexpr double power_law = 3;
+  return force::form(law).power ? power_law : 1;
+}
+
 }  // namespace
 
 std::string too_much(std::span<const Work> parts) {
@@ -86,18 +91,21 @@ std::string too_much(std::span<const Work> parts) {
       most.what, most_evaluations, most_bytes / gigabyte);
 }
 
+double evaluations_at_tip(const force::Setup& setup, const force::Law& law) {
+  constexpr double pair_to_axis = 130;
+  const geometry::Profile& profile = setup.cutter.profile;
+  const bool to_axis = profile.Rr == 0 && (profile.R > 0 || profile.alpha != 0);
+  const double teeth = setup.cutter.teeth();
+  return to_axis ? teeth * teeth * pair_to_axis * law_factor(law) : 0.0;
+}
+
 double evaluations_per_angle(const force::Setup& setup, const force::Law& law) {
   // Measured: each tooth asks which of all the others cut before it.
   constexpr double pair = 7;
   constexpr double pair_and_winding = 13;
-  constexpr double pair_to_axis = 130;
-  constexpr double power_law = 3;
-  const geometry::Profile& profile = setup.cutter.profile;
-  const bool to_axis = profile.Rr == 0 && (profile.R > 0 || profile.alpha != 0);
   const double teeth = setup.cutter.teeth();
-  const double one =
-      (to_axis ? pair_to_axis : pair) + pair_and_winding * windings(setup);
-  return teeth * teeth * one * (force::form(law).power ? power_law : 1);
+  const double one = pair + pair_and_winding * windings(setup);
+  return teeth * teeth * one * law_factor(law) + evaluations_at_tip(setup, law);
 }
 
 double size_of_file(const std::filesystem::path& file) {

@@ -42,6 +42,11 @@ std::string too_much(std::span<const Work> parts);
 /// @brief Evaluations of the force on all teeth at one angle of the spindle.
 double evaluations_per_angle(const force::Setup& setup, const force::Law& law);
 
+/// @brief Of these, what the edge near the axis takes, or all edges under a power law where
+/// the tool has such a tip: of a turn no more than about `most_angles_at_tip` are computed.
+double evaluations_at_tip(const force::Setup& setup, const force::Law& law);
+inline constexpr double most_angles_at_tip = 7000;
+
 /// @brief Size of a file [bytes]; 0 where there is none: reading it tells that better.
 double size_of_file(const std::filesystem::path& file);
 

@@ -15,7 +15,8 @@ inputs::StepSource step_source(const inputs::StepTables& step) {
   return {.file = step.file,
           .location = step.location,
           .step = step.step,
-          .start = step.start};
+          .start = step.start,
+          .content = step.content};
 }
 
 results::ActuatorResult actuator(const inputs::Case& given) {

@@ -39,7 +39,16 @@ inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
   return {.file = frf.file,
           .location = frf.location,
           .kind = frf.kind,
-          .dataset = frf.dataset};
+          .dataset = frf.dataset,
+          .content = frf.content};
+}
+
+inputs::FrfSource frf_source(const inputs::MeasuredFrf& frf) {
+  return {.file = frf.file,
+          .location = frf.location,
+          .kind = frf.kind,
+          .dataset = frf.dataset,
+          .content = frf.content};
 }
 
 results::ModesResult modes(const inputs::Case& given) {

@@ -8,6 +8,7 @@ namespace trochoid::run {
 
 /// @brief Which response [frf] means.
 inputs::FrfSource frf_source(const inputs::FrfTables& frf);
+inputs::FrfSource frf_source(const inputs::MeasuredFrf& frf);
 
 /// @brief Modal parameters from the frequency response of a case.
 /// @param given  with [frf]

@@ -44,10 +44,7 @@ std::vector<Source> sources_of(const inputs::Case& given,
   }
   for (const inputs::MeasuredFrf& one : given.machine.measured_frfs) {
     out.push_back({{one.axis, one.force_axis.value_or(one.axis),
-                    inputs::read_frf({.file = one.file,
-                                      .location = one.location,
-                                      .kind = one.kind,
-                                      .dataset = one.dataset})},
+                    inputs::read_frf(frf_source(one))},
                    one.band.empty() ? frf.band : one.band});
   }
   return out;

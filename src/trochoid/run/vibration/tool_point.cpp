@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/frf_file.h>
+#include <trochoid/run/vibration/modes.h>
 #include <trochoid/structure/coupled_modes.h>
 #include <trochoid/structure/identify_modes.h>
 
@@ -230,10 +231,7 @@ ToolPoint tool_point(const inputs::Case& given, Warnings& warnings) {
   ToolPoint point;
   std::vector<Measured> all;
   for (const inputs::MeasuredFrf& frf : given.machine.measured_frfs) {
-    inputs::FrfFile file = inputs::read_frf({.file = frf.file,
-                                             .location = frf.location,
-                                             .kind = frf.kind,
-                                             .dataset = frf.dataset});
+    inputs::FrfFile file = inputs::read_frf(frf_source(frf));
     warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
     all.push_back({frf, in_band(frf, std::move(file.response))});
     MeasuredReceptance part = lines_of(frf, all.back().response);
