@@ -22,8 +22,9 @@ constexpr double bend_of_one_step = 0.005;
 constexpr double bend_of_two_steps = 0.025;
 constexpr int most_steps = 4;
 /// Chips over marks are as large as the runout: no rule follows them better than to this
-/// part of it.
+/// part of it, nor than radii are rounded, of which they are differences.
 constexpr double rounding = 1e-11;
+constexpr double rounding_of_radius = 1e-15;
 
 /// How far behind the side of the tool, as a sine, a chip may still be found.
 double rear_sine(const Edges& edges, double r, double runout) {
@@ -79,8 +80,9 @@ class Resolution {
       : all_(all), marks_(static_cast<std::size_t>(edges.passage.marks)) {
     const double gap = *std::max_element(edges.setup.cutter.pitch.begin(),
                                          edges.setup.cutter.pitch.end());
-    allowed_ = std::max(tolerance * (edges.passage.feed * gap),
-                        rounding * reach_of(edges.setup.runout));
+    allowed_ = std::max({tolerance * (edges.passage.feed * gap),
+                         rounding * reach_of(edges.setup.runout),
+                         rounding_of_radius * edges.setup.cutter.profile.D / 2});
     allowed_edge_ = tolerance;
   }
 

@@ -89,6 +89,18 @@ TEST(Methods, AnglesCloseTogetherAreFollowedByPolynomials) {  // [F-4]
   }
 }
 
+/// Chips are differences of radii: no panel follows them below their rounding.
+TEST(Methods, AFeedNextToNothingIsFollowedInFewPanels) {  // [F-15]
+  MadeCut cut = slot(geometry::cylinder(12e-3), 4, 30);
+  cut.runout.eccentricity = 2.65e-10;
+  cut.cut.a_p = 4e-3;
+  cut.cut.f_z = 50e-6;
+  const double usual = ForceMatrix(cut, steel(), 1e-10).work(100);
+  EXPECT_GT(usual, 0);
+  cut.cut.f_z = 1e-9;
+  EXPECT_LT(ForceMatrix(cut, steel(), 1e-10).work(100), 10 * usual);
+}
+
 TEST(Methods, OneServesOnlyWhereRadiiStayTheSameAlongTheEdge) {  // [F-5]
   MadeCut s = slot(geometry::cylinder(8e-3), 2, 30);
   EXPECT_TRUE(keeps_radius(s));
