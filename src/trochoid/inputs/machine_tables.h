@@ -99,6 +99,10 @@ struct SurfaceMeasurement {
   std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
+/// Natural frequencies that a mode or an actuator may have [Hz].
+inline constexpr double slowest_Hz = 0.01;
+inline constexpr double fastest_Hz = 1e5;
+
 /// One [[mode]]: two of mass, stiffness and frequency, one of the dampings.
 struct Mode {
   ModeBody body = ModeBody::tool;

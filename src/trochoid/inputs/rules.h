@@ -105,6 +105,9 @@ void check_shared_modes(const MachineTables& machine, Findings& findings);
 /// @brief The same for [frf] and [step].
 void settle_machine_files(MachineTables& machine, Findings& findings);
 
+/// @brief As given, or as mass and stiffness make it [Hz]; 0: it is not said, or wrongly.
+double natural_frequency(const Mode& mode);
+
 /// @brief Report a file that is not there or that cannot be a measurement.
 /// @param shown  its name as the case has it
 /// @param what   it must be, in words

@@ -5,7 +5,18 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace trochoid::inputs {
+
+double natural_frequency(const Mode& mode) {
+  if (mode.frequency) {
+    return *mode.frequency;
+  }
+  return mode.mass && mode.stiffness && *mode.mass > 0
+             ? std::sqrt(*mode.stiffness / *mode.mass) / unit::turn
+             : 0.0;
+}
 
 namespace {
 
@@ -23,6 +34,14 @@ void check_mode(const Mode& mode, const std::string& path, Findings& findings) {
         fmt::format("{}: {} of mass_kg, stiffness_N_per_m and frequency_Hz are given; "
                     "must be 2, the third follows",
                     path, given));
+  }
+  const double frequency = natural_frequency(mode);
+  if (given == 2 && !mode.frequency &&
+      !(frequency >= slowest_Hz && frequency <= fastest_Hz)) {
+    report(findings, path + ".stiffness_N_per_m",
+           fmt::format("{}.stiffness_N_per_m and mass_kg make a natural frequency of "
+                       "{:g} Hz; must be from {:g} to {:g} Hz",
+                       path, frequency, slowest_Hz, fastest_Hz));
   }
   if (mode.damping.has_value() == mode.damping_ratio.has_value()) {
     report(

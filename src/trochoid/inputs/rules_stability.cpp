@@ -20,16 +20,6 @@ bool is_one_value(const std::optional<base::Steps>& steps) {
   return steps && steps->count == 1 && steps->first == steps->last;
 }
 
-/// [Hz]; 0: it is not said, or wrongly.
-double frequency_of(const Mode& mode) {
-  if (mode.frequency) {
-    return *mode.frequency;
-  }
-  return mode.mass && mode.stiffness && *mode.mass > 0
-             ? std::sqrt(*mode.stiffness / *mode.mass) / unit::turn
-             : 0.0;
-}
-
 /// So many vibrations between two teeth, or in a turn where they differ, take all memory
 /// there is; the lobes have long become one line.
 void check_slowest(const CaseTables& t, double Omega, const std::string& key,
@@ -37,7 +27,7 @@ void check_slowest(const CaseTables& t, double Omega, const std::string& key,
   constexpr double most_vibrations = 4000;
   double fastest = 0.0;
   for (const Mode& mode : t.machine.modes) {
-    fastest = std::max(fastest, frequency_of(mode));
+    fastest = std::max(fastest, natural_frequency(mode));
   }
   const double vibrations = fastest * unit::turn / (Omega * std::max(1, t.tool.teeth));
   if (sound(findings, {key, "mode", "tool.teeth"}) && vibrations > most_vibrations) {

@@ -6,8 +6,6 @@ namespace trochoid::inputs {
 namespace {
 
 /// Ultrasonic machines stay below the one, all that swings on a machine above the other.
-constexpr double fastest_Hz = 1e5;
-constexpr double slowest_Hz = 0.01;
 constexpr double longest_mm = 10000;
 
 /// Where a frequency response is: of [frf] and of [[measured_frf]].
