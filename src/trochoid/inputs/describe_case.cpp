@@ -75,7 +75,10 @@ std::string usual_table() {
     text += fmt::format("| `{}` | {:g} | {:g} |\n", usual.key, usual.range.low,
                         usual.range.high);
   }
-  return text;
+  return text + fmt::format(
+                    "\nNor are a feed per tooth above {:g} or an axial depth above "
+                    "{:g} times the diameter ordinary.\n",
+                    usual_feed_per_diameter, usual_depth_per_diameter);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <trochoid/geometry/meridian.h>
 #include <trochoid/inputs/number_text.h>
 #include <trochoid/inputs/rules.h>
+#include <trochoid/inputs/usual_values.h>
 
 #include <fmt/core.h>
 
@@ -150,6 +151,29 @@ void check_windings(const CutTable& cut, const std::string& path,
   }
 }
 
+/// What each by itself may well be, but not on this tool.
+void note_proportions(const CutTable& cut, const std::string& path, double D,
+                      Findings& findings) {
+  const auto note = [&](std::string_view name, double value, double most) {
+    const std::string key = fmt::format("{}.{}", path, name);
+    const std::string start = fmt::format(": {} = ", key);
+    const bool noted = std::ranges::any_of(findings.notes, [&](const auto& known) {
+      return known.message.find(start) != std::string::npos;
+    });
+    if (value <= most * D || noted || !sound(findings, {"tool.diameter_mm", key})) {
+      return;
+    }
+    findings.notes.push_back(
+        {"unusual_value",
+         fmt::format(
+             "{}{}{} mm: {:.3g} diameters of the tool; ordinary are up to {:g}; "
+             "is the unit right?",
+             to_string(place_of(findings, key)), start, mm(value), value / D, most)});
+  };
+  note("feed_per_tooth_mm", cut.feed_per_tooth.value_or(0.0), usual_feed_per_diameter);
+  note("axial_depth_mm", cut.axial_depth, usual_depth_per_diameter);
+}
+
 }  // namespace
 
 geometry::Cut cut_of(CutTable& cut, const std::string& path,
@@ -158,6 +182,7 @@ geometry::Cut cut_of(CutTable& cut, const std::string& path,
   check_feed(cut, path, cutter, findings);
   check_height(cut, path, cutter.profile, findings);
   check_windings(cut, path, cutter, findings);
+  note_proportions(cut, path, cutter.profile.D, findings);
   return {.engagement = engagement_of(cut, path, cutter.profile.D, findings),
           .a_p = cut.axial_depth,
           .f_z = cut.feed_per_tooth.value_or(0.0),

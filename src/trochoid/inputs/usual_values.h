@@ -16,6 +16,10 @@ struct UsualValue {
 /// @brief The one list of them, in the order of the case file.
 std::span<const UsualValue> usual_values();
 
+/// The same of a cut in proportion to the diameter.
+inline constexpr double usual_feed_per_diameter = 0.08;  ///< feed per tooth, at most
+inline constexpr double usual_depth_per_diameter = 5.0;  ///< axial depth, at most
+
 /// @brief Of a path like `tool.teeth` or `measurement[1].cut.spindle_rpm`; null: none.
 const Range* usual_range(std::string_view path);
 

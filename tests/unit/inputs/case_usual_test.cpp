@@ -60,6 +60,25 @@ TEST(CaseUsual, AFeedOfThreeMillimetresIsNamedOnce) {
       << c.notes[0].message;
 }
 
+TEST(CaseUsual, AFeedAndADepthAreSeenAgainstTheDiameter) {
+  const CaseFolder folder;
+  const std::string most = cut("feed_per_tooth_mm = 0.96\n");
+  EXPECT_TRUE(folder.read(most).notes.empty());
+  const Case c = folder.read(cut("feed_per_tooth_mm = 0.97\n"));
+  ASSERT_EQ(c.notes.size(), 1);
+  EXPECT_EQ(c.notes[0].code, "unusual_value");
+  EXPECT_NE(c.notes[0].message.find("case.toml:10:21: cut.feed_per_tooth_mm = 0.97 mm: "
+                                    "0.0808 diameters of the tool; ordinary are up to "
+                                    "0.08"),
+            std::string::npos)
+      << c.notes[0].message;
+  const auto deep = most.find("axial_depth_mm = 4.0");
+  const Case d =
+      folder.read(std::string(most).replace(deep, 20, "axial_depth_mm = 61"));
+  ASSERT_EQ(d.notes.size(), 1);
+  EXPECT_NE(d.notes[0].message.find("5.08 diameters"), std::string::npos);
+}
+
 TEST(CaseUsual, AListIsNamedOnceAndEntriesOfTablesAreSeen) {
   const CaseFolder folder;
   const Case c = folder.read(cut("feed_per_tooth_mm = 0.1\n") +
