@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/base/texts.h>
+
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -12,7 +14,7 @@ struct Table {
   struct Column {
     std::string name;            ///< for example `Fx_N`
     std::vector<double> values;  ///< in the unit of the name; all columns equally long
-    std::vector<std::string> texts = {};  ///< of a column of texts, in place of numbers
+    Texts texts = {};            ///< of a column of texts, in place of numbers
   };
   std::string file;  ///< for example `forces.csv`
   std::vector<Column> columns;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace py = pybind11;
@@ -50,13 +51,12 @@ py::object object_of(const results::Value& value) {
       value.data);
 }
 
-/// A column of texts; texts that follow on one like them are one object.
-py::object texts_of(const std::vector<std::string>& texts) {
+/// A column of texts; like ones are one object.
+py::object texts_of(const base::Texts& texts) {
+  std::unordered_map<const std::string*, py::str> objects;
+  for (const std::string& word : texts.words()) objects.emplace(&word, word);
   py::list list(texts.size());
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const bool again = i > 0 && texts[i] == texts[i - 1];
-    list[i] = again ? py::object(list[i - 1]) : py::object(py::str(texts[i]));
-  }
+  for (std::size_t i = 0; i < texts.size(); ++i) list[i] = objects.at(&texts[i]);
   return py::module_::import("numpy").attr("array")(list, py::arg("dtype") = "O");
 }
 

@@ -151,7 +151,7 @@ void add(Work& work, std::size_t count, const std::string& text) {
   if (!part || part->size() != count) {
     throw std::invalid_argument("a part of the sweep did not come whole");
   }
-  work.add(*std::move(part));
+  work.add(*part);
 }
 
 }  // namespace

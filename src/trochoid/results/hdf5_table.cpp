@@ -82,7 +82,8 @@ void add_dataset(hid_t file, const std::string& column, std::size_t rows, hid_t 
 
 void add_texts(hid_t file, const base::Table::Column& column) {
   std::size_t longest = 1;
-  for (const std::string& text : column.texts) longest = std::max(longest, text.size());
+  for (const std::string& text : column.texts.words())
+    longest = std::max(longest, text.size());
   std::vector<char> padded(longest * column.texts.size());
   for (std::size_t i = 0; i < column.texts.size(); ++i) {
     std::ranges::copy(column.texts[i],

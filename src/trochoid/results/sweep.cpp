@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace trochoid::results {
 
@@ -22,85 +23,57 @@ std::string column_name(const std::string& path) {
   return path.starts_with(common) ? path.substr(common.size()) : path;
 }
 
-bool is_text(const SweepResult& r, std::size_t column) {
-  return std::ranges::any_of(r.rows, [&](const SweepRow& row) {
-    return std::holds_alternative<std::string>(row.cells[column]);
-  });
-}
-
-std::string text_of(const Cell& cell) {
-  const auto* text = std::get_if<std::string>(&cell);
-  const auto* value = std::get_if<double>(&cell);
-  return text != nullptr ? *text : std::isnan(*value) ? "" : fmt::format("{}", *value);
-}
-
 /// Where what was taken stands in a row.
 std::size_t place_of_take(const SweepResult& r, std::size_t i) {
   return r.keys.size() + r.drawn.size() + i;
 }
 
-void add_cells(const SweepResult& r, std::string name, std::size_t cell,
-               std::span<const SweepRow* const> rows, base::Table& table) {
-  auto& column = table.columns.emplace_back();
-  column.name = std::move(name);
-  const bool text = is_text(r, cell);
-  for (const SweepRow* row : rows) {
-    if (text) {
-      column.texts.push_back(text_of(row->cells[cell]));
-    } else {
-      column.values.push_back(std::get<double>(row->cells[cell]));
-    }
-  }
-}
-
 base::Table table_of(const SweepResult& r) {
   base::Table table{"sweep.csv", {}};
-  std::vector<const SweepRow*> rows;
-  for (const SweepRow& row : r.rows) {
-    rows.push_back(&row);
-  }
-  for (std::size_t c = 0; c < r.keys.size(); ++c) {
-    add_cells(r, r.keys[c], c, rows, table);
-  }
+  const auto add = [&](std::string name, std::size_t cell) {
+    table.columns.push_back(r.rows.column(std::move(name), cell, 1));
+  };
+  for (std::size_t c = 0; c < r.keys.size(); ++c) add(r.keys[c], c);
   if (r.draws > 0) {
-    base::add_column(table, "draw", rows.size(),
+    base::add_column(table, "draw", r.rows.size(),
                      [&](std::size_t i) { return i % r.draws + 1; });
   }
   for (std::size_t c = 0; c < r.drawn.size(); ++c) {
-    add_cells(r, r.drawn[c], r.keys.size() + c, rows, table);
+    add(r.drawn[c], r.keys.size() + c);
   }
   for (std::size_t c = 0; c < r.take.size(); ++c) {
-    add_cells(r, column_name(r.take[c]), place_of_take(r, c), rows, table);
+    add(column_name(r.take[c]), place_of_take(r, c));
   }
-  auto& status = table.columns.emplace_back();
-  status.name = "status";
-  for (const SweepRow& row : r.rows) {
-    status.texts.push_back(row.status);
-  }
-  auto& message = table.columns.emplace_back();
-  message.name = "message";
-  for (const SweepRow& row : r.rows) {
-    message.texts.push_back(row.message);
-  }
+  table.columns.push_back({.name = "status", .values = {}, .texts = r.rows.statuses()});
+  table.columns.push_back(
+      {.name = "message", .values = {}, .texts = r.rows.messages()});
   return table;
 }
 
+/// Some rows.
+struct Part {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+Part all_of(const SweepResult& r) {
+  return {0, r.rows.size()};
+}
+
 /// Numbers of some rows that answered; none: there are none.
-std::optional<Spread> spread_in(const SweepResult& r, std::size_t take,
-                                std::span<const SweepRow> rows) {
+std::optional<Spread> spread_in(const SweepResult& r, std::size_t take, Part part) {
   std::vector<double> values;
-  for (const SweepRow& row : rows) {
-    const auto* value = std::get_if<double>(&row.cells[place_of_take(r, take)]);
-    if (row.status == "ok" && value != nullptr && !std::isnan(*value)) {
-      values.push_back(*value);
-    }
+  const std::size_t cell = place_of_take(r, take);
+  for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+    const double value = r.rows.number(i, cell);
+    if (r.rows.status(i) == "ok" && !std::isnan(value)) values.push_back(value);
   }
   return values.empty() ? std::optional<Spread>() : spread_of(std::move(values));
 }
 
 /// What is said of one quantity: of rows drawn by chance its 95 % interval.
 Value quantity(const SweepResult& r, std::size_t i) {
-  const auto spread = spread_in(r, i, r.rows);
+  const auto spread = spread_in(r, i, all_of(r));
   Object object = {{"take", r.take[i]}, {"answers", spread ? spread->count : 0}};
   if (!spread) {
     return object;
@@ -121,9 +94,12 @@ Value quantity(const SweepResult& r, std::size_t i) {
   return object;
 }
 
-std::size_t count_of(const SweepResult& r, std::string_view status) {
-  return static_cast<std::size_t>(
-      std::ranges::count(r.rows, status, &SweepRow::status));
+std::size_t answered(const SweepResult& r) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < r.rows.size(); ++i) {
+    if (r.rows.status(i) == "ok") ++count;
+  }
+  return count;
 }
 
 /// Whether every point has an interval of its own.
@@ -132,11 +108,10 @@ bool has_bands(const SweepResult& r) {
 }
 
 /// The rows of each point, one after the other; the last may be cut short.
-std::vector<std::span<const SweepRow>> points_of(const SweepResult& r) {
-  std::vector<std::span<const SweepRow>> points;
+std::vector<Part> points_of(const SweepResult& r) {
+  std::vector<Part> points;
   for (std::size_t i = 0; i < r.rows.size(); i += r.draws) {
-    points.push_back(
-        std::span(r.rows).subspan(i, std::min(r.draws, r.rows.size() - i)));
+    points.push_back({i, std::min(r.draws, r.rows.size() - i)});
   }
   return points;
 }
@@ -145,16 +120,12 @@ std::vector<std::span<const SweepRow>> points_of(const SweepResult& r) {
 base::Table bands_table(const SweepResult& r) {
   base::Table table{"bands.csv", {}};
   const auto points = points_of(r);
-  std::vector<const SweepRow*> first;
-  for (const auto& point : points) {
-    first.push_back(&point.front());
-  }
   for (std::size_t c = 0; c < r.keys.size(); ++c) {
-    add_cells(r, r.keys[c], c, first, table);
+    table.columns.push_back(r.rows.column(r.keys[c], c, r.draws));
   }
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t t = 0; t < r.take.size(); ++t) {
-    if (is_text(r, place_of_take(r, t))) continue;
+    if (r.rows.has_texts(place_of_take(r, t))) continue;
     std::vector<std::optional<Spread>> spread;
     for (const auto& point : points) {
       spread.push_back(spread_in(r, t, point));
@@ -170,7 +141,7 @@ base::Table bands_table(const SweepResult& r) {
     add("sd", &Spread::sd);
     base::add_column(table, fmt::format("failed_{}", column_name(r.take[t])),
                      points.size(), [&](std::size_t p) {
-                       return points[p].size() - (spread[p] ? spread[p]->count : 0);
+                       return points[p].count - (spread[p] ? spread[p]->count : 0);
                      });
   }
   return table;
@@ -193,7 +164,7 @@ std::string points_table(const SweepResult& r) {
        std::span(points).first(std::min(points.size(), most_shown))) {
     auto& row = rows.emplace_back();
     for (std::size_t k = 0; k < r.keys.size(); ++k) {
-      row.push_back(text_of(point.front().cells[k]));
+      row.push_back(r.rows.text(point.first, k));
     }
     for (std::size_t t = 0; t < r.take.size(); ++t) {
       const auto spread = spread_in(r, t, point);
@@ -222,7 +193,7 @@ std::string ends_line(const SweepResult& r) {
         "well)\n",
         each, least_for_bounds);
   }
-  const auto spread = r.by_chance ? spread_in(r, 0, r.rows) : std::nullopt;
+  const auto spread = r.by_chance ? spread_in(r, 0, all_of(r)) : std::nullopt;
   if (!spread || !spread->low_between) {
     return {};
   }
@@ -243,7 +214,7 @@ std::string short_table(const SweepResult& r) {
                              : std::vector<std::string>{"", "least", "median", "most"});
   for (std::size_t i = 0; i < r.take.size(); ++i) {
     const std::string name = column_name(r.take[i]);
-    const auto spread = spread_in(r, i, r.rows);
+    const auto spread = spread_in(r, i, all_of(r));
     if (!spread) {
       rows.push_back({name, "no number", "", ""});
     } else if (r.by_chance) {
@@ -264,7 +235,7 @@ std::string ranges_of(const SweepResult& r) {
   std::string text;
   std::size_t named = 0;
   for (std::size_t i = 0; i < r.take.size(); ++i) {
-    const auto spread = spread_in(r, i, r.rows);
+    const auto spread = spread_in(r, i, all_of(r));
     if (!spread) continue;
     if (++named > most_named) return text + "; and more.";
     const std::string name = column_name(r.take[i]);
@@ -288,7 +259,7 @@ Answer answer_of(const SweepResult& r) {
                 .result = Object{{"command", r.command},
                                  {"method", r.method},
                                  {"rows", r.rows.size()},
-                                 {"failed", r.rows.size() - count_of(r, "ok")},
+                                 {"failed", r.rows.size() - answered(r)},
                                  {"keys", r.keys},
                                  {"draws", r.draws},
                                  {"drawn", r.drawn},

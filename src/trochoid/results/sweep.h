@@ -1,22 +1,12 @@
 #pragma once
 
 #include <trochoid/results/answer.h>
+#include <trochoid/results/sweep_rows.h>
 
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace trochoid::results {
-
-/// A number or a text; a number that is none where there is no value.
-using Cell = std::variant<double, std::string>;
-
-/// One row of a sweep.
-struct SweepRow {
-  std::vector<Cell> cells;  ///< values of the swept keys, drawn ones, what was taken
-  std::string status;       ///< `ok`, `failed`, `wrong_input`
-  std::string message;      ///< why, where it is not ok
-};
 
 /// @brief What `sweep` answers: a table, one row a case.
 struct SweepResult {
@@ -29,7 +19,7 @@ struct SweepResult {
   std::vector<std::string> keys;   ///< that were swept
   std::vector<std::string> drawn;  ///< keys that were drawn
   std::vector<std::string> take;   ///< paths in the answers
-  std::vector<SweepRow> rows;
+  SweepRows rows;
   bool hdf5 = false;  ///< the table as HDF5 too
 };
 

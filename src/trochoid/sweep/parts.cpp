@@ -39,7 +39,7 @@ Parts::Parts(fs::path file, std::string_view meaning, std::size_t cells)
     if (whole_line(in, line) && line + '\n' == head) {
       whole = head.size();
       while (const auto part = read_part(in, done_.size(), cells)) {
-        done_.insert(done_.end(), part->begin(), part->end());
+        for (const SweepRow& row : *part) done_.add(row);
         whole = static_cast<std::size_t>(in.tellg());
       }
     }

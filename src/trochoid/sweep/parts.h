@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 namespace trochoid::sweep {
 
@@ -28,7 +28,7 @@ class Parts {
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
 
   /// Rows of an earlier run of the same sweep, from the first on.
-  [[nodiscard]] std::vector<results::SweepRow> take_done() { return std::move(done_); }
+  [[nodiscard]] results::SweepRows take_done() { return std::move(done_); }
 
   /// @throws base::InputError when it cannot be written
   void add(std::size_t first, std::span<const results::SweepRow> rows);
@@ -36,7 +36,7 @@ class Parts {
  private:
   std::filesystem::path file_;
   std::ofstream out_;
-  std::vector<results::SweepRow> done_;
+  results::SweepRows done_;
 };
 
 }  // namespace trochoid::sweep

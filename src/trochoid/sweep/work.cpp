@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace trochoid::sweep {
@@ -22,10 +21,10 @@ constexpr std::size_t most_part = 1 << 16;
 void warn_of_missing_numbers(SweepResult& r) {
   for (std::size_t t = 0; r.draws > 0 && t < r.take.size(); ++t) {
     const std::size_t cell = r.keys.size() + r.drawn.size() + t;
-    const auto missing = std::ranges::count_if(r.rows, [&](const SweepRow& row) {
-      const auto* value = std::get_if<double>(&row.cells[cell]);
-      return row.status == "ok" && value != nullptr && std::isnan(*value);
-    });
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < r.rows.size() && !r.rows.has_texts(cell); ++i) {
+      if (r.rows.status(i) == "ok" && std::isnan(r.rows.number(i, cell))) ++missing;
+    }
     if (missing > 0) {
       r.heading.warnings.push_back(
           {"draws_without_number",
@@ -46,24 +45,27 @@ void conclude(SweepResult& r, std::size_t wanted) {
         r.rows.size(), wanted);
     return;
   }
-  const auto answered = static_cast<std::size_t>(
-      std::ranges::count(r.rows, std::string("ok"), &SweepRow::status));
-  const std::size_t failed = r.rows.size() - answered;
+  std::size_t failed = 0;
+  std::size_t first = 0;
+  for (std::size_t i = r.rows.size(); i-- > 0;) {
+    if (r.rows.status(i) == "ok") continue;
+    ++failed;
+    first = i;
+  }
+  const std::size_t answered = r.rows.size() - failed;
   r.heading.ok = answered > 0;
   if (answered == 0) {
     r.heading.message = fmt::format("None of {} cases has an answer; the first: {}",
-                                    r.rows.size(), r.rows.front().message);
+                                    r.rows.size(), r.rows.messages()[0]);
     return;
   }
   r.heading.message =
       fmt::format("{} cases answered.{}", answered, results::ranges_of(r));
   if (failed > 0) {
-    const auto& why = *std::ranges::find_if(
-        r.rows, [](const SweepRow& row) { return row.status != "ok"; });
     r.heading.warnings.push_back(
         {"rows_without_answer",
          fmt::format("{} of {} cases have no answer; the first of them: {}", failed,
-                     r.rows.size(), why.message)});
+                     r.rows.size(), r.rows.messages()[first])});
   }
   warn_of_missing_numbers(r);
 }
@@ -76,12 +78,12 @@ Work::Work(const inputs::CaseSource& source, const Request& request,
       parts_(request.part_file, meaning_of(prepared_),
              prepared_.study.over.size() + prepared_.study.take.size()),
       rows_(parts_.take_done()) {
-  rows_.resize(std::min(rows_.size(), rows()));
+  rows_.cut(rows());
 }
 
-void Work::add(std::vector<SweepRow> part) {
+void Work::add(std::span<const SweepRow> part) {
   parts_.add(rows_.size(), part);
-  std::ranges::move(part, std::back_inserter(rows_));
+  for (const SweepRow& row : part) rows_.add(row);
 }
 
 void Work::go_on(const run::Progress& progress, base::Stop stop,
@@ -108,8 +110,7 @@ void Work::go_on(const run::Progress& progress, base::Stop stop,
 
 SweepResult Work::take_result() {
   SweepResult result = prepared_.result;
-  result.rows = std::move(rows_);
-  rows_.clear();
+  result.rows = std::exchange(rows_, {});
   conclude(result, rows());
   return result;
 }

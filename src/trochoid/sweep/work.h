@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <vector>
+#include <span>
 
 namespace trochoid::sweep {
 
@@ -32,7 +32,7 @@ class Work {
 
   /// @brief Keep the next rows, answered elsewhere.
   /// @throws base::InputError when the file of parts cannot be written
-  void add(std::vector<results::SweepRow> part);
+  void add(std::span<const results::SweepRow> part);
 
   /// @brief Answer what is left, on all threads.
   /// @param progress   told between parts; what it throws ends the work, rows are kept
@@ -47,7 +47,7 @@ class Work {
  private:
   Prepared prepared_;
   Parts parts_;
-  std::vector<results::SweepRow> rows_;
+  results::SweepRows rows_;
 };
 
 }  // namespace trochoid::sweep

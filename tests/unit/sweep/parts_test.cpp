@@ -60,12 +60,12 @@ struct PartsFile : testing::Test {
 TEST_F(PartsFile, GivesBackTheSameBits) {
   const auto rows = Parts(file(), "same", 3).take_done();
   ASSERT_EQ(rows.size(), 7U);
-  EXPECT_EQ(std::get<double>(rows[3].cells[0]), 1 + 0.1 * 3);
-  EXPECT_EQ(std::get<double>(rows[6].cells[0]), 2 + 0.1 * 2);
-  EXPECT_TRUE(std::isnan(std::get<double>(rows[6].cells[1])));
-  EXPECT_EQ(std::get<std::string>(rows[0].cells[2]), "a \"b\", c");
-  EXPECT_EQ(rows[0].status, "failed");
-  EXPECT_EQ(rows[0].message, "why, \"so\"");
+  EXPECT_EQ(rows.number(3, 0), 1 + 0.1 * 3);
+  EXPECT_EQ(rows.number(6, 0), 2 + 0.1 * 2);
+  EXPECT_TRUE(std::isnan(rows.number(6, 1)));
+  EXPECT_EQ(std::get<std::string>(rows.row(0).cells[2]), "a \"b\", c");
+  EXPECT_EQ(rows.row(0).status, "failed");
+  EXPECT_EQ(rows.row(0).message, "why, \"so\"");
 }
 
 TEST_F(PartsFile, OfAnotherSweepIsBegunAnew) {

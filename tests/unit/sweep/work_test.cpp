@@ -43,8 +43,12 @@ struct WorkOfACase : testing::Test {
   inputs::Node root;
 };
 
-std::string all_of(results::SweepResult result) {
-  return part_text(0, result.rows);
+std::string all_of(const results::SweepResult& result) {
+  std::vector<results::SweepRow> rows;
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    rows.push_back(result.rows.row(i));
+  }
+  return part_text(0, rows);
 }
 
 TEST_F(WorkOfACase, IsTheSameWhoeverAnswers) {
@@ -79,19 +83,21 @@ TEST_F(WorkOfACase, KeepsItsRowsWhereProgressThrows) {
 TEST(Ranges, AreToldOfTheFirstQuantities) {
   results::SweepResult r;
   r.take = {"result.a", "message", "result.b"};
-  r.rows = {{.cells = {1.5, "x", 4.0}, .status = "ok", .message = {}},
-            {.cells = {0.5, "y", 3.0}, .status = "ok", .message = {}},
-            {.cells = {9.0, "z", 9.0}, .status = "failed", .message = {}}};
+  r.rows = results::SweepRows(
+      {{.cells = {1.5, "x", 4.0}, .status = "ok", .message = {}},
+       {.cells = {0.5, "y", 3.0}, .status = "ok", .message = {}},
+       {.cells = {9.0, "z", 9.0}, .status = "failed", .message = {}}});
   EXPECT_EQ(results::ranges_of(r), " a goes from 0.5 to 1.5; b goes from 3 to 4.");
   r.take = {"message", "a", "b", "c", "d"};
-  r.rows = {{.cells = {"x", 1.0, 2.0, 3.0, 4.0}, .status = "ok", .message = {}}};
+  r.rows = results::SweepRows(
+      {{.cells = {"x", 1.0, 2.0, 3.0, 4.0}, .status = "ok", .message = {}}});
   EXPECT_TRUE(results::ranges_of(r).ends_with("; c goes from 3 to 3; and more."));
   r.take = {"a"};
-  r.rows = {{.cells = {1.5}, .status = "ok", .message = {}},
-            {.cells = {0.5}, .status = "ok", .message = {}}};
+  r.rows = results::SweepRows({{.cells = {1.5}, .status = "ok", .message = {}},
+                               {.cells = {0.5}, .status = "ok", .message = {}}});
   r.by_chance = true;
   EXPECT_EQ(results::ranges_of(r).substr(0, 15), " a is 1 (95 %: ");
-  r.rows.clear();
+  r.rows = {};
   EXPECT_EQ(results::ranges_of(r), "");
 }
 
