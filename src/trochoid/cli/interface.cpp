@@ -193,6 +193,12 @@ CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
       ->add_flag("--tool-inches", options.tool_inches,
                  "The table of tools is in inches")
       ->needs(tool);
+  fresh
+      ->add_option(
+          "--material", options.material,
+          "A file with a [force], of examples/materials or written by identify: "
+          "it is included")
+      ->type_name(std::string(types::file));
   fresh->add_flag_callback(
       "--schema",
       [] {

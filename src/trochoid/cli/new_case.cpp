@@ -12,11 +12,12 @@ namespace trochoid::cli {
 
 int new_case(base::Command command, const Options& options) {
   const std::filesystem::path& file = options.file;
-  std::optional<inputs::ToolChoice> tool;
+  inputs::NewCaseOptions given{.material = options.material,
+                               .folder = file.parent_path()};
   if (!options.tool.empty()) {
-    tool = {options.tool, options.tool_number, options.tool_inches};
+    given.tool = {options.tool, options.tool_number, options.tool_inches};
   }
-  const std::string text = inputs::new_case(command, tool);
+  const std::string text = inputs::new_case(command, given);
   if (file.empty()) {
     fmt::print("{}", text);
     return answered;

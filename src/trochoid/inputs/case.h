@@ -195,10 +195,16 @@ struct ToolChoice {
   bool inches = false;             ///< of a table of tools, which names no unit
 };
 
+/// @brief What a case to start from takes from other files.
+struct NewCaseOptions {
+  std::optional<ToolChoice> tool = {};  ///< in place of the example's
+  std::filesystem::path material = {};  ///< a file with a [force]; empty: the example's
+  std::filesystem::path folder = {};    ///< of the new case; empty: where we run
+};
+
 /// @brief A commented case file to start from.
-/// @param tool  in place of the example's
-/// @throws base::InputError where there is no such tool
-std::string new_case(Command command, const std::optional<ToolChoice>& tool = {});
+/// @throws base::InputError where there is no such tool or material
+std::string new_case(Command command, const NewCaseOptions& options = {});
 
 /// @brief The page docs/formats/case.md, made from the schema.
 std::string describe_case_file();

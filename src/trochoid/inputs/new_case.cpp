@@ -2,6 +2,7 @@
 #include <trochoid/base/printable.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
+#include <trochoid/inputs/document.h>
 #include <trochoid/inputs/number_text.h>
 #include <trochoid/inputs/tables.h>
 #include <trochoid/inputs/tool_file.h>
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace trochoid::inputs {
 
@@ -282,14 +284,41 @@ constexpr std::string_view second_record =
     "# file = \"record2.csv\"            # best at another feed: fitted together\n"
     "# cut = { feed_per_tooth_mm = 0.08 } # what is different from [cut]\n";
 
+bool shows(const Template& fresh, std::string_view table) {
+  return std::ranges::find(fresh.shown, table) != fresh.shown.end();
+}
+
+/// The [force] of a file, which the case includes, in place of the example's.
+/// @return the name by which the case finds the file
+std::string put_material(Command command, const NewCaseOptions& options,
+                         Template& fresh) {
+  const bool found = command == Command::identify || command == Command::plan;
+  if (found || !shows(fresh, "force")) {
+    throw base::InputError(
+        {fmt::format("--material: {} takes no coefficients", name_of(command))});
+  }
+  if (find(load_document(options.material), "force") == nullptr) {
+    throw base::InputError({fmt::format("{}: it has no [force] to be included",
+                                        options.material.string())});
+  }
+  std::erase(fresh.shown, "force");
+  const auto here = std::filesystem::current_path();
+  const auto from = (here / options.folder).lexically_normal();
+  const auto file = (here / options.material).lexically_normal();
+  const auto name = file.lexically_relative(from);
+  return (name.empty() ? file : name).generic_string();
+}
+
 }  // namespace
 
-std::string new_case(Command command, const std::optional<ToolChoice>& tool) {
+std::string new_case(Command command, const NewCaseOptions& options) {
   Template fresh = template_for(command);
-  const auto& parts = fresh.shown;
-  if (tool && std::find(parts.begin(), parts.end(), "tool") == parts.end()) {
+  const std::optional<ToolChoice>& tool = options.tool;
+  if (tool && !shows(fresh, "tool")) {
     throw base::InputError({fmt::format("--tool: {} has no tool", name_of(command))});
   }
+  const std::string material =
+      options.material.empty() ? "" : put_material(command, options, fresh);
   const std::string about = tool ? put_tool(*tool, fresh.tables) : "";
   std::string text = fmt::format(
       "# A case for `trochoid {}`: write your own numbers in place of these.\n"
@@ -318,6 +347,10 @@ std::string new_case(Command command, const std::optional<ToolChoice>& tool) {
       key_line(key, field);
     }
   };
+  if (!material.empty()) {
+    line(fmt::format("include = {}", toml_string(material)),
+         "the [force] of a material");
+  }
   describe(key_line, fresh.tables);
   const auto& shown = fresh.shown;
   for (const TableEntry& table : tables_of(fresh.tables)) {

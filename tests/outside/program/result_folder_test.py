@@ -192,6 +192,38 @@ class NewCase(InFolder):
         self.assertIn("tool", done.stderr)
         self.assertEqual(done.stdout, "")
 
+    def test_every_material_is_taken_and_names_its_source(self):
+        listed = set(re.findall(r"(?m)^\*\*\[(\w+)\]\*\*", (ROOT / "docs/references.md").read_text()))
+        materials = sorted((ROOT / "examples/materials").glob("*.toml"))
+        self.assertGreater(len(materials), 5)
+        page = (ROOT / "examples/materials/README.md").read_text()
+        for file in materials:
+            named = set(re.findall(r"\[([a-z]+\d{4})\]", file.read_text()))
+            self.assertTrue(named and named <= listed, file.name)
+            self.assertIn(f"]({file.name})", page)
+            self.run_program("new", "simulate", "its.toml", "--material", file)
+            done = self.run_program("check", "its.toml", "--for", "simulate")
+            self.assertNotIn("warning", done.stdout + done.stderr, file.name)
+            (self.folder / "its.toml").unlink()
+
+    def test_a_material_is_found_from_the_new_case(self):
+        (self.folder / "cases").mkdir()
+        self.write("steel.toml", "[force]\nK_tc_MPa = 1234\nK_rc_MPa = 500\nK_ac_MPa = 100\n"
+                                 "K_te_N_per_mm = 9\nK_re_N_per_mm = 8\nK_ae_N_per_mm = 1\n")
+        self.run_program("new", "simulate", "cases/its.toml", "--material", "steel.toml")
+        text = (self.folder / "cases/its.toml").read_text()
+        self.assertIn('include = "../steel.toml"', text)
+        self.assertNotIn("[force]  ", text)
+        self.run_program("simulate", "cases/its.toml", "-q")
+        self.assertIn("K_tc_MPa = 1234", (self.folder / "cases/its.simulate/case.toml").read_text())
+        self.write("none.toml", "[tool]\nteeth = 2\n")
+        for command, file, says in (("simulate", "none.toml", "[force]"),
+                                    ("simulate", "gone.toml", "gone.toml"),
+                                    ("identify", "steel.toml", "--material")):
+            done = self.run_program("new", command, "no.toml", "--material", file, code=2)
+            self.assertIn(says, done.stderr)
+            self.assertFalse((self.folder / "no.toml").exists())
+
     def test_it_is_printed_where_no_file_is_named(self):
         for command in ("simulate", "identify", "surface", "calibrate", "stability",
                         "dynamics", "modes", "actuator"):

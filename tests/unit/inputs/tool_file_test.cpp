@@ -108,7 +108,8 @@ TEST_F(ToolFile, SaysWhatStays) {
 
 TEST_F(ToolFile, ANewCaseWithItIsOne) {
   std::ofstream(file_) << "T4 P1 D10 ;new, 3 flutes\n";
-  const std::string text = new_case(Command::simulate, ToolChoice{.file = file_});
+  const std::string text =
+      new_case(Command::simulate, {.tool = ToolChoice{.file = file_}});
   EXPECT_NE(text.find("diameter_mm = 10 "), std::string::npos) << text;
   EXPECT_NE(
       text.find("(new, 3 flutes). Not said there, and to be looked\n# after: shape, "
