@@ -32,6 +32,7 @@ struct Options {
   std::filesystem::path tool;  ///< of new: a file of another program; empty: none
   std::optional<int> tool_number;
   bool tool_inches = false;
+  std::filesystem::path other;     ///< of report: a second folder; empty: none
   std::filesystem::path material;  ///< of new: a file with a [force]; empty: none
 
   // Of a bare data file, which has no case to say them.

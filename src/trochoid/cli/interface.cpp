@@ -269,10 +269,18 @@ void add_interface(CLI::App& app, Chosen& chosen) {
     };
   });
   CLI::App* report = app.add_subcommand(
-      "report", "Make report.html of a result folder again from its files");
+      "report",
+      "Make report.html of a result folder again from its files, or a page that compares "
+      "two of them");
   report->add_option("FOLDER", options.file, "The result folder")
       ->required()
       ->type_name(std::string(types::folder));
+  report->add_option("OTHER", options.other, "Another folder, to be compared with it")
+      ->type_name(std::string(types::folder));
+  report
+      ->add_option("-o,--output", options.folder,
+                   "File for the comparison (default: compare.html)")
+      ->type_name(std::string(types::file));
   report->add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
   report->callback([&chosen] {
     chosen.command = [&chosen] { return cli::report(chosen.options); };

@@ -1,16 +1,61 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/report/report.h>
+#include <trochoid/results/compared.h>
 #include <trochoid/results/folder.h>
 
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 
 namespace trochoid::cli {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a file is one of our pages: nothing else is overwritten.
+bool is_page(const fs::path& file) {
+  std::string head(64'000, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find("\xC2\xB7 Trochoid</title>") != head.npos;
+}
+
+int compare(const Options& options) {
+  const fs::path file = options.folder.empty() ? "compare.html" : options.folder;
+  const auto named = [](const fs::path& folder) {
+    const fs::path name = folder.has_filename() ? folder : folder.parent_path();
+    return results::NamedAnswer{name.generic_string(), results::read_folder(folder)};
+  };
+  const results::Answer both =
+      results::compared(named(options.file), named(options.other));
+  if (fs::exists(fs::symlink_status(file)) && !is_page(file)) {
+    throw base::InputError({file.string() + ": it exists already and is no page of "
+                                            "trochoid; name another file (-o)"});
+  }
+  const std::string page = report::html(both, results::summary_json(both));
+  std::ofstream out(file, std::ios::binary);
+  out << page;
+  out.close();
+  if (!out) throw base::InputError({file.string() + ": it cannot be written"});
+  if (!options.quiet) {
+    fmt::print("{}\nreport: {}\n", both.heading.message, file.string());
+  }
+  return answered;
+}
+
+}  // namespace
+
 int report(const Options& options) {
-  const std::filesystem::path& folder = options.file;
+  if (!options.other.empty()) return compare(options);
+  if (!options.folder.empty()) {
+    throw base::InputError({"-o: goes with two folders that are compared"});
+  }
+  const fs::path& folder = options.file;
   const results::Answer answer = results::read_folder(folder);
   // As it stands: the numbers keep the version that made them.
   const std::string summary = results::read_summary(folder);

@@ -81,7 +81,7 @@ std::string pages_js() {
   for (const std::string_view name : base::names<base::Command>) {
     text += fmt::format("{0}: {0}Page, ", name);
   }
-  return text + "sweep: sweepPage};\n";
+  return text + "sweep: sweepPage, compare: comparePage};\n";
 }
 
 std::string page_scripts() {
@@ -114,7 +114,8 @@ std::string page_scripts() {
                           plan_js(),
                           plan_wall_js(),
                           sweep_js(),
-                          any_js()}) {
+                          any_js(),
+                          compare_js()}) {
     text += part;
   }
   return "\n(() => {\n'use strict';\n" + text + pages_js() + std::string(main_js()) +

@@ -282,6 +282,27 @@ class Report(InFolder):
         self.assertEqual(self.page("cut.simulate"), page)
         self.unchanged_but_the_report(before)
 
+    def test_two_results_on_one_page(self):
+        self.write("cut.toml", simulation())
+        self.run_program("simulate", "cut.toml", "-q", "-o", "slow")
+        self.run_program("simulate", "cut.toml", "-q", "-o", "fast", "--set",
+                         "cut.spindle_rpm=9000")
+        done = self.run_program("report", "slow", "fast/")
+        self.assertIn("power_W", done.stdout)
+        text = (self.folder / "compare.html").read_text()
+        data = json.loads(re.search('<script[^>]*id="data"[^>]*>(.*?)</script>', text,
+                                    flags=re.S)[1])
+        self.assertEqual([one["key"] for one in data["summary"]["result"]["inputs"]],
+                         ["cut.spindle_rpm"])
+        self.assertEqual(data["summary"]["result"]["b"]["name"], "fast")
+        self.run_program("report", "slow", "slow", "-o", "compare.html", "-q")
+        self.write("mine.html", "mine")
+        before = self.everything()
+        self.run_program("report", "slow", "fast", "-o", "mine.html", code=2)
+        self.run_program("report", "slow", "-o", "mine.html", code=2)
+        self.run_program("report", "slow", "nowhere", code=2)
+        self.assertEqual(self.everything(), before)
+
     def test_what_is_no_result_is_refused(self):
         self.write("mine/summary.json", "{\"result\": 1}")
         self.write("rubbish/summary.json", bytes(range(256)) * 4096)

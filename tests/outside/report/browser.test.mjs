@@ -30,7 +30,7 @@ async function check(name, options, plots) {
   return { page, canvases, close };
 }
 
-const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, failed: 0, other: 2,
+const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, compared: 1, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2, tool_point: 4,
   modes: 6, shared_modes: 16, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
   wall_plan: 6 };
@@ -250,6 +250,15 @@ test('numbers too large for the usual margin are not cut', async () => {
   const { page, close } = await open('simulate');
   const left = await page.$$eval('.u-over', (all) => all.map((over) => over.offsetLeft));
   assert.ok(left.every((x) => x >= 60), `margins: ${left}`);
+  await close();
+});
+
+test('two answers lie in one picture, and what they say stands side by side', async () => {
+  const { page, close } = await open('compared', {});
+  assert.match(await page.locator('#both').textContent(), /slow,.*fast, faster:/s);
+  assert.match(await page.locator('#different').textContent(), /The two cases say the same/);
+  const legend = await page.locator('#table1').textContent();
+  for (const word of ['slow', 'fast', 'Dashed: fast']) assert.ok(legend.includes(word), legend);
   await close();
 });
 

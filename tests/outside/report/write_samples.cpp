@@ -1,5 +1,6 @@
 // Writes a result folder with its report for each kind of page: write_samples DIR
 #include <trochoid/report/report.h>
+#include <trochoid/results/compared.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/results/json.h>
 
@@ -304,6 +305,17 @@ Answer other() {
   return answer;
 }
 
+/// Of two feeds.
+Answer two_cuts() {
+  Answer faster = simulate();
+  faster.heading.title = "faster";
+  for (auto& column : faster.tables.at(0).columns) {
+    const bool force = column.name.starts_with("F");
+    for (double& value : column.values) value *= force ? 1.25 : 1.0;
+  }
+  return trochoid::results::compared({"slow", simulate()}, {"fast", faster});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -339,6 +351,10 @@ int main(int argc, char** argv) {
       trochoid::results::write_folder(root / name, answer,
                                       trochoid::report::html(answer, summary));
     }
+    const Answer both = two_cuts();  // a page alone
+    std::filesystem::create_directories(root / "compared");
+    std::ofstream(root / "compared/report.html")
+        << trochoid::report::html(both, trochoid::results::summary_json(both));
   } catch (const std::exception& error) {
     std::fputs(error.what(), stderr);
     return 1;

@@ -1,0 +1,79 @@
+// The page of two answers of one command beside one another (`report A B`).
+
+function comparePage(report) {
+  const { result, tables } = report;
+  const names = [result.a.name, result.b.name];
+  const both = tables.filter((t) => t.file.startsWith('a: ')).map((t) =>
+    [t, tables.find((other) => other.file === `b: ${t.file.slice(3)}`)]).filter(([, b]) => b);
+  return [
+    { lead: section('both', 'What they say', 'Both', ...[result.a, result.b].map(({ name, title, message }) =>
+      prose(el('strong', {}, title ? `${name}, ${title}: ` : `${name}: `), message))) },
+    { part: differentInputs(result, names) },
+    ...both.map(([a, b], i) => curvesOfBoth(a, b, names, i)),
+    { part: differentNumbers(result, names) },
+  ];
+}
+
+function differentInputs({ inputs }, names) {
+  const text = inputs.length ? 'Keys of the two cases as they were understood, where they differ.'
+    : 'The two cases say the same.';
+  return section('different', 'What was asked differently', 'Inputs that differ', prose(text), inputs.length ?
+    table(['', ...names], inputs.map(({ key, a, b }) => [key, a || missing, b || missing])) : null);
+}
+
+/** Those that differ first; with a standard error it decides. */
+function differentNumbers({ numbers }, names) {
+  const known = numbers.some((n) => isNumber(n.standard_errors));
+  const row = ({ path, a, b, standard_errors: errors }) => [breakable(path), number(a, 5), number(b, 5),
+    a ? `${number(100 * (b / a - 1), 3)}\u00a0%` : missing,
+    ...(known ? [isNumber(errors) ? number(errors, 2) : missing] : [])];
+  const head = ['', ...names, 'change', ...(known ? ['in standard errors'] : [])];
+  const different = numbers.filter((n) => n.differs);
+  const alike = numbers.filter((n) => !n.differs);
+  return section('numbers', 'What came out differently', 'Numbers',
+    prose('Numbers of the two results that differ by more than 0.1 %.', known ? ' Those that are known with a ' +
+      'standard error are apart by so many of the standard errors of the difference: up to 2 is chance.' : null),
+    different.length ? table(head, different.map(row)) : prose('None does.'),
+    alike.length ? el('details', {}, el('summary', {}, `Show the ${alike.length} that are alike`),
+      table(head, alike.map(row))) : null);
+}
+
+/** A path that may go on in the next line. */
+const breakable = (path) => path.split(/(?<=[.\]])/).flatMap((part) => [part, el('wbr')]);
+
+/** Values over x at other places, by straight lines; none outside. */
+function sampledAt(x, values, places) {
+  let i = 0;
+  return places.map((at) => {
+    while (i + 2 < x.length && x[i + 1] < at) ++i;
+    const t = (at - x[i]) / (x[i + 1] - x[i]);
+    const known = t >= -1e-9 && t <= 1 + 1e-9 && isNumber(values[i]) && isNumber(values[i + 1]);
+    return known ? values[i] + t * (values[i + 1] - values[i]) : null;
+  });
+}
+
+/** Columns of both over their first one, one panel a unit; the second dashed. */
+function curvesOfBoth(a, b, names, i) {
+  const [first, ...rest] = a.columns;
+  const other = b.columns[0];
+  if (!first || !increases(first.values) || other?.name !== first.name || !increases(other.values)) return null;
+  const byUnit = new Map();
+  for (const column of rest) {
+    const twin = columnNamed(b, column.name);
+    const same = twin && column.values.every((v, k) => v === twin[k]);
+    if (!twin || same || !column.values.some(isNumber)) continue;
+    const { name, unit } = nameAndUnit(column.name);
+    if (!byUnit.has(unit)) byUnit.set(unit, []);
+    const of = byUnit.get(unit);
+    const color = seriesColor(of.length / 2);
+    of.push({ name: [symbol(name), `, ${names[0]}`], values: column.values, color },
+      { name: [symbol(name), `, ${names[1]}`], values: sampledAt(other.values, twin, first.values), color, dash: [6, 3] });
+  }
+  const file = a.file.slice(3);
+  const x = nameAndUnit(first.name);
+  const chart = figure({ key: first.name, x: first.values, label: words(x.name), unit: x.unit,
+    caption: `Dashed: ${names[1]}, at the places of ${names[0]}. ${zoomHint}` });
+  const panels = [...byUnit].map(([unit, series]) => ({ label: '', unit, height: 200, series }));
+  if (!panels.length) return null;
+  return { part: section(`table${i + 1}`, file, file, chart.element), draw: () => chart.draw(panels) };
+}
