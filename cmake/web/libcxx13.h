@@ -69,6 +69,11 @@ bool none_of(R&& r, P predicate, Proj of = {}) {
   return std::none_of(ranges::begin(r), ranges::end(r), web::holds_for(predicate, of));
 }
 
+template <class R, class C>
+auto adjacent_find(R&& r, C compare) {
+  return std::adjacent_find(ranges::begin(r), ranges::end(r), std::move(compare));
+}
+
 template <class R, class T, class Proj = identity>
 auto find(R&& r, const T& value, Proj of = {}) {
   return std::find_if(ranges::begin(r), ranges::end(r), [&](auto&& x) {
