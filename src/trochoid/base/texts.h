@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -11,6 +12,11 @@ namespace trochoid::base {
 /// @brief A long list of texts of which few are different: each of these is kept once.
 class Texts {
  public:
+  Texts() = default;
+  Texts(std::initializer_list<std::string> texts) {
+    for (const std::string& text : texts) push_back(text);
+  }
+
   void push_back(const std::string& text) {
     const auto fresh = static_cast<std::uint32_t>(words_.size());
     const auto [known, added] = numbers_.try_emplace(text, fresh);

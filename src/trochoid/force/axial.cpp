@@ -152,6 +152,12 @@ void AxialForce::loads(std::span<const double> phi, double gauge_length,
       all);
 }
 
+SixLoads AxialForce::loads(double phi, double gauge_length) const {
+  SixLoads one{};
+  loads(std::span(&phi, 1), gauge_length, std::span(&one, 1));
+  return one;
+}
+
 SixLoads AxialForce::loads(double phi, double gauge_length,
                            const SixLoads& allowed) const {
   SixLoads sum{};

@@ -35,6 +35,7 @@ class AxialForce {
   /// @param[out] all  shape (angles)
   void loads(std::span<const double> phi, double gauge_length,
              std::span<SixLoads> all) const;
+  [[nodiscard]] SixLoads loads(double phi, double gauge_length) const;
 
  private:
   [[nodiscard]] Matrix matrix(double phi, const Matrix& allowed) const;

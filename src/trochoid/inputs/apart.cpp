@@ -4,6 +4,7 @@
 #include <trochoid/inputs/numeric_table.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 
@@ -109,6 +110,10 @@ std::string answer_of(const std::function<signal::Record()>& read) {
 }
 
 [[noreturn]] void answer_and_end(int to, const std::function<signal::Record()>& read) {
+  // What the program does when it breaks down itself is not for this process.
+  for (const int fatal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) {
+    std::signal(fatal, SIG_DFL);
+  }
   const rlimit limit{longest, longest};
   setrlimit(RLIMIT_CPU, &limit);
   const int nowhere = ::open("/dev/null", O_WRONLY);

@@ -131,7 +131,8 @@ Array inputs_of(const Answer& a, const Answer& b) {
   auto all = first;
   all.insert(second.begin(), second.end());
   Array inputs;
-  for (const auto& [key, value] : all) {
+  for (const auto& entry : all) {
+    const std::string& key = entry.first;
     const auto text = [&](const std::map<std::string, std::string>& keys) {
       const auto found = keys.find(key);
       return found == keys.end() ? std::string() : found->second;

@@ -2,9 +2,15 @@
 #include "hdf5_made.h"
 
 #include <gtest/gtest.h>
+#include <trochoid/base/error.h>
+#include <trochoid/inputs/apart.h>
 #include <trochoid/inputs/record_format.h>
 
 #include <array>
+#include <csignal>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace trochoid::inputs {
 namespace {
@@ -153,6 +159,29 @@ TEST(RecordHdf5, NeverBreaksOnASingleWrongByte) {
       EXPECT_FALSE(error.problems().empty());
     }
   }
+}
+
+int told_by[2] = {-1, -1};
+
+void tell(int /*signal*/) {
+  static_cast<void>(::write(told_by[1], "x", 1));
+  _exit(1);
+}
+
+TEST(ReadApart, BreaksDownWithoutWhatTheProgramDoesThen) {
+  ASSERT_EQ(pipe2(told_by, O_NONBLOCK), 0);
+  const auto before = std::signal(SIGSEGV, tell);
+  EXPECT_THROW(read_apart("record",
+                          [] {
+                            std::raise(SIGSEGV);
+                            return signal::Record{};
+                          }),
+               base::InputError);
+  std::signal(SIGSEGV, before);
+  char nothing = 0;
+  EXPECT_LT(::read(told_by[0], &nothing, 1), 0);
+  ::close(told_by[0]);
+  ::close(told_by[1]);
 }
 
 }  // namespace
