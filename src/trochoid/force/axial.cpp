@@ -19,6 +19,8 @@ constexpr double resolution_by_tolerance = 1e-3;
 constexpr double share_of_piece = 0.02;
 /// The same between angles that are computed, of that on a piece.
 constexpr double share_between = 0.2;
+/// What a tooth does near the axis takes more than this angle.
+constexpr double widest_between = 1.5 * unit::deg;
 
 /// A direction and its three components.
 using Frame = std::array<std::array<double, 3>, 3>;
@@ -131,7 +133,8 @@ void AxialForce::matrices(std::span<const double> phi, std::span<Matrix> C) cons
     between[q] = share_between * (q % columns < 3 ? allowed_cutting_ : allowed_edge_);
   }
   numerics::sample_smooth(
-      phi, between, [&](double angle) { return matrix(angle, allowed); }, C);
+      phi, widest_between, between,
+      [&](double angle) { return matrix(angle, allowed); }, C);
 }
 
 void AxialForce::loads(std::span<const double> phi, double gauge_length,
@@ -148,8 +151,8 @@ void AxialForce::loads(std::span<const double> phi, double gauge_length,
   SixLoads between = allowed;
   for (double& x : between) x *= share_between;
   numerics::sample_smooth(
-      phi, between, [&](double angle) { return loads(angle, gauge_length, allowed); },
-      all);
+      phi, widest_between, between,
+      [&](double angle) { return loads(angle, gauge_length, allowed); }, all);
 }
 
 SixLoads AxialForce::loads(double phi, double gauge_length) const {

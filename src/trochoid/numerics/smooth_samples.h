@@ -14,17 +14,20 @@ namespace trochoid::numerics {
 ///
 /// A part of the places is answered by the polynomial through seven of them when it meets
 /// the function at six places between; else it is halved, and short parts are computed
-/// place by place. Where a kink is, parts become short.
+/// place by place. Where a kink is, parts become short. What happens between two places
+/// that are computed is seen only where parts are narrower than it.
 template <std::size_t M>
 class SmoothSamples {
  public:
   using Value = std::array<double, M>;
 
   /// @param x        ascending
+  /// @param widest   of a part, in units of x
   /// @param allowed  error allowed in each component
   /// @param out      shape (x)
-  SmoothSamples(std::span<const double> x, const Value& allowed, std::span<Value> out)
-      : x_(x), allowed_(allowed), out_(out), known_(x.size(), false) {}
+  SmoothSamples(std::span<const double> x, double widest, const Value& allowed,
+                std::span<Value> out)
+      : x_(x), widest_(widest), allowed_(allowed), out_(out), known_(x.size(), false) {}
 
   /// @param f  callable as f(x), gives a Value
   template <class Function>
@@ -53,6 +56,16 @@ class SmoothSamples {
       for (std::size_t i = first; i <= last; ++i) value(i, f);
       return;
     }
+    if (x_[last] - x_[first] > widest_ || !fits(first, last, f)) {
+      const std::size_t middle = (first + last) / 2;
+      fill(first, middle, f);
+      fill(middle + 1, last, f);
+    }
+  }
+
+  /// @return whether the polynomial does, and has filled what was not known
+  template <class Function>
+  bool fits(std::size_t first, std::size_t last, const Function& f) {
     Places at;
     for (std::size_t k = 0; k < nodes; ++k) {
       constexpr std::array<double, nodes> lobatto = {
@@ -68,17 +81,13 @@ class SmoothSamples {
       const Value told = between(at, weights, x_[i]);
       const Value& true_value = value(i, f);
       for (std::size_t q = 0; q < M; ++q) {
-        if (!(std::abs(told[q] - true_value[q]) <= allowed_[q])) {
-          const std::size_t middle = (first + last) / 2;
-          fill(first, middle, f);
-          fill(middle + 1, last, f);
-          return;
-        }
+        if (!(std::abs(told[q] - true_value[q]) <= allowed_[q])) return false;
       }
     }
     for (std::size_t i = first; i <= last; ++i) {
       if (!known_[i]) out_[i] = between(at, weights, x_[i]);
     }
+    return true;
   }
 
   std::array<double, nodes> barycentric(const Places& at) const {
@@ -109,6 +118,7 @@ class SmoothSamples {
   }
 
   std::span<const double> x_;
+  double widest_;
   Value allowed_;
   std::span<Value> out_;
   std::vector<bool> known_;
@@ -116,14 +126,15 @@ class SmoothSamples {
 
 /// @brief The same, place by place where the places do not ascend.
 template <std::size_t M, class Function>
-void sample_smooth(std::span<const double> x, const std::array<double, M>& allowed,
-                   const Function& f, std::span<std::array<double, M>> out) {
+void sample_smooth(std::span<const double> x, double widest,
+                   const std::array<double, M>& allowed, const Function& f,
+                   std::span<std::array<double, M>> out) {
   const auto descends = [](double a, double b) { return !(a < b); };
   if (std::ranges::adjacent_find(x, descends) != x.end()) {
     std::ranges::transform(x, out.begin(), f);
     return;
   }
-  SmoothSamples<M>(x, allowed, out).fill(f);
+  SmoothSamples<M>(x, widest, allowed, out).fill(f);
 }
 
 }  // namespace trochoid::numerics

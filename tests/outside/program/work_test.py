@@ -33,10 +33,10 @@ class Work(InFolder):
     def test_the_key_and_the_value_that_would_do(self):
         self.write("cut.toml", simulation(
             tool={"shape": "ball", "teeth": 20}, runout={"radial_offsets_mm": [0.0] * 20},
-            sampling={"samples_per_rev": 100000}))
+            sampling={"samples_per_rev": 500000}))
         said = self.refused("simulate")
-        self.assertIn("sampling.samples_per_rev = 100000: up to 19000 would do.", said)
-        self.assertIn("most of it for 100000 angles of the forces", said)
+        self.assertIn("sampling.samples_per_rev = 500000: up to 200000 would do.", said)
+        self.assertIn("most of it for 500000 angles of the forces", said)
 
     def test_memory(self):
         with open(self.folder / "record.csv", "r+b") as record:

@@ -22,14 +22,15 @@ std::vector<double> places(std::size_t n, double from, double to) {
 
 /// @return how often f was asked; the values agree with it
 template <class Function>
-int asked(const std::vector<double>& x, double allowed, const Function& f) {
+int asked(const std::vector<double>& x, double allowed, const Function& f,
+          double widest = 10.0) {
   int count = 0;
   std::vector<Value> out(x.size(), Value{7, 7});
   const auto counted = [&](double at) {
     ++count;
     return f(at);
   };
-  sample_smooth(std::span<const double>(x), Value{allowed, 1.0}, counted,
+  sample_smooth(std::span<const double>(x), widest, Value{allowed, 1.0}, counted,
                 std::span(out));
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_NEAR(out[i][0], f(x[i])[0], 2 * allowed) << x[i];
@@ -54,6 +55,11 @@ TEST(SmoothSamples, MoreAroundKinksAndJumps) {
   const int count = asked(places(5000, 0, 1), 1e-6, kink);
   EXPECT_GT(count, 50);
   EXPECT_LT(count, 500);
+}
+
+TEST(SmoothSamples, NoPartIsWiderThanItMayBe) {
+  const auto spike = [](double x) { return Value{std::exp(-1e4 * x * x), 0.0}; };
+  EXPECT_GT(asked(places(4000, -1.1, 1), 1e-6, spike, 0.05), 13 * 40);
 }
 
 TEST(SmoothSamples, UnevenPlaces) {
