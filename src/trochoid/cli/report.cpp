@@ -28,7 +28,8 @@ bool is_page(const fs::path& file) {
 int compare(const Options& options) {
   const fs::path file = options.folder.empty() ? "compare.html" : options.folder;
   const auto named = [](const fs::path& folder) {
-    const fs::path name = folder.has_filename() ? folder : folder.parent_path();
+    const fs::path whole = folder.lexically_normal();
+    const fs::path name = whole.has_filename() ? whole : whole.parent_path();
     return results::NamedAnswer{name.generic_string(), results::read_folder(folder)};
   };
   const results::Answer both =

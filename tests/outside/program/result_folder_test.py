@@ -287,7 +287,7 @@ class Report(InFolder):
         self.run_program("simulate", "cut.toml", "-q", "-o", "slow")
         self.run_program("simulate", "cut.toml", "-q", "-o", "fast", "--set",
                          "cut.spindle_rpm=9000")
-        done = self.run_program("report", "slow", "fast/")
+        done = self.run_program("report", "slow", "fast/.")
         self.assertIn("power_W", done.stdout)
         text = (self.folder / "compare.html").read_text()
         data = json.loads(re.search('<script[^>]*id="data"[^>]*>(.*?)</script>', text,
