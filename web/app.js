@@ -13,7 +13,15 @@ const tasks = {
   correct: ['Runout correction', 'the motion of a table that undoes runout'],
   actuator: ['Actuator', 'its transfer function from a step'],
   plan: ['Plan', 'the cut to measure next'],
+  sweep: ['Sweep', 'one case over many values of its keys'],
 };
+const sweepTemplate = `
+[sweep]                           # one case over many values
+command = "simulate"              # what answers each row
+take = ["result.peak_xy_N"]       # what is taken from each answer
+[sweep.over]
+"cut.spindle_rpm" = { from = 500, to = 1500, count = 21 }
+`;
 
 const $ = (id) => document.getElementById(id);
 const utf8 = new TextEncoder();
@@ -32,7 +40,14 @@ function given() {
 }
 
 function keep() {
-  kept.write({ task: page.task, text: page.text, name: page.name, example: page.example });
+  kept.write({ task: page.task, text: page.text, name: page.name, example: page.example, options: $('options').value });
+}
+
+/** The command that the case is checked for. */
+function commandOfTask() {
+  if (page.task !== 'sweep') return page.task;
+  const wanted = given()?.sweep?.command;
+  return tasks[wanted] && wanted !== 'sweep' ? wanted : 'simulate';
 }
 
 /** All files as the program meets them. */
@@ -44,8 +59,17 @@ function tablesOfTask() {
   return [...new Set(tablesOf(page.templates[page.task] ?? '').map((t) => t.name).filter((n) => n !== ''))];
 }
 
-function change(path, key, value) {
-  take(withKey(page.text, path, key, value));
+/** @param instead the key whose place it takes, if any */
+function change(path, key, value, instead) {
+  const text = instead === undefined ? page.text : withKey(page.text, path, instead, null);
+  take(withKey(text, path, key, value));
+}
+
+/** A swept key under its name, which may be a new one. */
+function sweep(before, key, values) {
+  let text = page.text;
+  if (before !== '' && before !== key) text = withSwept(text, given(), before, null);
+  take(withSwept(text, toml.parse(text), key, values));
 }
 
 /** The case is this text now. */
@@ -64,7 +88,7 @@ function showForm() {
   const open = new Set([...document.querySelectorAll('#form details[open][data-table]')].map((d) => d.dataset.table));
   const focused = document.activeElement?.id;
   $('form').replaceChildren(caseForm({
-    schema: page.schema, given: read, tables: tablesOfTask(), opened: page.opened ?? open, files: page.files, change,
+    schema: page.schema, given: read, tables: tablesOfTask(), opened: page.opened ?? open, files: page.files, change, sweep,
     add: (name) => take(`${page.text.replace(/\n*$/, '\n')}\n[[${name}]]\n`),
     remove: (path) => take(withoutTable(page.text, path)),
   }));
@@ -77,7 +101,7 @@ function showFiles() {
   const names = [...page.files.keys()].filter((n) => n !== page.name).sort();
   $('files').replaceChildren(...names.map((name) => element('li', {}, name, ' ',
     element('button', { type: 'button', class: 'quiet', title: `Forget ${name}`,
-                        onclick: () => { page.files.delete(name); showFiles(); check(); } }, '×'))));
+                        onclick: () => { page.files.delete(name); keptFiles.forget(name); showFiles(); check(); } }, '×'))));
   $('files-dropped').replaceChildren(...names.map((value) => element('option', { value })));
 }
 
@@ -89,7 +113,7 @@ async function check() {
   let answer;
   try {
     answer = await page.program.run('check', {
-      args: ['check', page.name, '--for', page.task], files: allFiles(), folder: 'none' });
+      args: ['check', page.name, '--for', commandOfTask()], files: allFiles(), folder: 'none' });
   } catch (error) {
     $('state').textContent = `The program broke while it checked the case: ${error.message}`;
     return;
@@ -137,7 +161,7 @@ function show(answer, folder, seconds) {
   $('printed').textContent = told;
   $('downloads').replaceChildren(...names.map((name) => element('li', {},
     element('a', { href: '#', onclick: (e) => { e.preventDefault(); saveAs(new Blob([answer.files[name]]), name); } }, name))));
-  $('all').hidden = names.length === 0;
+  for (const id of ['all', 'use']) $(id).hidden = names.length === 0;
   const report = answer.files['report.html'];
   $('report').hidden = report === undefined;
   if (report) $('report').srcdoc = new TextDecoder().decode(report);
@@ -156,6 +180,7 @@ async function dropped(list) {
       continue;
     }
     page.files.set(file.name, bytes);
+    keptFiles.put(file.name, bytes);
     nameFile(file.name);
   }
   showFiles();
@@ -188,15 +213,37 @@ function choose(task, text) {
   if (text !== undefined) take(text);
 }
 
-function startExample(name) {
-  const { file, files } = page.examples[name];
+async function startExample(name) {
+  const { file, files, first } = page.examples[name];
   page.example = name;
+  keptFiles.forgetAll();
   page.files = new Map(Object.entries(files).map(([path, base64]) => [path, Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
   page.name = file;
   const bytes = page.files.get(file);
   page.files.delete(file);
+  await answerFirst(first ?? []);
   showFiles();
   choose(name.split(' ')[0], new TextDecoder().decode(bytes));
+}
+
+/** What an example takes from the answers of others: those, among its files. */
+async function answerFirst(runs) {
+  for (const { command, file, folder } of runs) {
+    say(`Answering ${command} ${file}, which it needs …`);
+    const { files } = await page.program.run('check', { args: [command, file, '-o', folder], files: allFiles(), folder });
+    for (const [name, bytes] of Object.entries(files)) page.files.set(`${folder}/${name}`, bytes);
+  }
+  if (runs.length > 0) say('Ready.');
+}
+
+/** What the next command may take from an answer, among the files: numbers, not pictures. */
+function useAnswer() {
+  for (const [name, bytes] of Object.entries(page.answer.files).filter(([one]) => /\.(toml|json)$/.test(one))) {
+    page.files.set(`${page.answer.folder}/${name}`, bytes);
+    keptFiles.put(`${page.answer.folder}/${name}`, bytes);
+  }
+  showFiles();
+  check();
 }
 
 function fresh(task) {
@@ -215,11 +262,19 @@ async function begin() {
   const [wasm, examples] = await Promise.all(['wasm', 'examples'].map((id) => inflated($(id).textContent.trim())));
   page.examples = JSON.parse(new TextDecoder().decode(examples));
   page.program = new Program(`${$('glue').textContent}\n${$('engine').textContent}`, await WebAssembly.compile(wasm));
-  for (const task of Object.keys(tasks)) {
+  for (const task of Object.keys(tasks).filter((one) => one !== 'sweep')) {
     page.templates[task] = (await page.program.run('check', { args: ['new', task], files: {}, folder: 'none' })).out;
   }
+  page.templates.sweep = page.templates.simulate + sweepTemplate;
   const before = kept.read();
-  if (before?.example && page.examples[before.example]) startExample(before.example);
+  const dropped = await keptFiles.read();
+  if (before?.example && page.examples[before.example]) await startExample(before.example);
+  for (const [name, bytes] of dropped) {
+    page.files.set(name, bytes);
+    keptFiles.put(name, bytes);  // the example forgot it
+  }
+  $('options').value = before?.options ?? '';
+  showFiles();
   if (before?.text && tasks[before.task]) {
     page.name = before.name ?? 'case.toml';
     choose(before.task, before.text);
@@ -239,6 +294,9 @@ $('run').addEventListener('click', run);
 $('stop').addEventListener('click', () => page.program.stop('work'));
 $('pick').addEventListener('change', (e) => dropped(e.target.files));
 $('all').addEventListener('click', () => saveAs(zipOf(page.answer.files), `${page.answer.folder}.zip`));
+$('use').addEventListener('click', useAnswer);
+$('options').addEventListener('change', keep);
+addEventListener('pagehide', () => document.activeElement?.blur());  // what is typed is taken when it is left
 $('save-case').addEventListener('click', () => saveAs(new Blob([page.text], { type: 'application/toml' }), page.name));
 for (const name of ['dragover', 'drop']) {
   document.addEventListener(name, (e) => {

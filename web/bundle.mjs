@@ -24,29 +24,36 @@ function filesOf(folder, prefix = '') {
 function filesOfExample(folder) {
   const files = filesOf(folder);
   for (const name of Object.keys(files).filter((one) => one.endsWith('.toml'))) {
-    for (const [, other] of text(folder, name).matchAll(/^include = "\.\.\/(\w+)\/\w+\.toml"/gm)) {
+    for (const [, other] of text(folder, name).matchAll(/^include = "\.\.\/(\w+)\/.*\.toml"/gm)) {
       Object.assign(files, filesOf(path.join(root, 'examples', other), `../${other}/`));
     }
   }
   return files;
 }
 
+/** The commands whose answers a case includes: `include = "tip.modes/modes.toml"  # written by: trochoid modes tip.toml`. */
+function needed(text) {
+  return [...text.matchAll(/^include = "(.*)\/\w+\.toml" +# written by: trochoid (\w+) (\S+)$/gm)]
+    .map(([, folder, command, file]) => ({ command, file, folder }));
+}
+
 /** What the pages of the examples run, `command folder/file` -> its files. */
 function examples() {
   const all = {};
-  const commands = 'simulate|identify|surface|calibrate|stability|modes|actuator|dynamics|correct|plan';
+  const commands = 'simulate|identify|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|sweep';
   for (const name of fs.readdirSync(path.join(root, 'examples'))) {
     const folder = path.join(root, 'examples', name);
     if (!fs.existsSync(path.join(folder, 'README.md'))) continue;
     const runs = text(folder, 'README.md').matchAll(new RegExp(`(?:trochoid|run) (${commands}) (?:examples/${name}/)?(\\S+\\.toml)`, 'g'));
     for (const [, command, file] of runs) {
-      if (fs.existsSync(path.join(folder, file))) all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder) };
+      if (command === 'sweep') all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder), first: needed(text(folder, file)) };
+      else if (fs.existsSync(path.join(folder, file))) all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder) };
     }
   }
   return all;
 }
 
-const scripts = ['files.js', 'case_text.js', 'drawing.js', 'form.js', 'program.js', 'app.js'].map((file) => text(here, file));
+const scripts = ['files.js', 'kept_files.js', 'case_text.js', 'lengths.js', 'drawing.js', 'swept.js', 'form.js', 'program.js', 'app.js'].map((file) => text(here, file));
 const smol = `/*!\n${text(root, 'node_modules/smol-toml/LICENSE')}*/\nconst smolToml = (() => { const module = { exports: {} };\n${text(root, 'node_modules/smol-toml/dist/index.cjs')}\nreturn module.exports; })();`;
 const inScript = (script) => script.replaceAll('</script', '<\\/script');
 const parts = {

@@ -31,8 +31,9 @@ function linesOfValue(lines, i) {
   return 1;
 }
 
-const keyLine = (key) => new RegExp(`^(\\s*)${key}(\\s*)=`);
-const keyComment = (key) => new RegExp(`^#\\s*${key}(\\s*)=`);
+const literally = (text) => text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
+const keyLine = (key) => new RegExp(`^(\\s*)${literally(key)}(\\s*)=`);
+const keyComment = (key) => new RegExp(`^#\\s*${literally(key)}(\\s*)=`);
 
 /** The comment behind a value on one line, with what is before it. */
 function commentOf(line) {
@@ -97,16 +98,19 @@ function withoutTable(text, path) {
   return lines.join('\n');
 }
 
+/** A key as TOML writes it: `teeth`, `"cut.spindle_rpm"`. */
+const keyOf = (key) => (/^[\w-]+$/.test(key) ? key : JSON.stringify(key));
+
 /** A value as TOML writes it. */
 function tomlOf(value) {
   if (typeof value === 'string') return JSON.stringify(value);
   if (Array.isArray(value)) return `[${value.map(tomlOf).join(', ')}]`;
   if (value !== null && typeof value === 'object') {
-    return `{ ${Object.entries(value).map(([key, of]) => `${key} = ${tomlOf(of)}`).join(', ')} }`;
+    return `{ ${Object.entries(value).map(([key, of]) => `${keyOf(key)} = ${tomlOf(of)}`).join(', ')} }`;
   }
   return String(value);
 }
 
 if (typeof module !== 'undefined') {
-  module.exports = { tablesOf, withKey, withoutTable, tomlOf };
+  module.exports = { tablesOf, withKey, withoutTable, tomlOf, keyOf };
 }

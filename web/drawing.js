@@ -21,9 +21,9 @@ function stockOf(cut, radius) {
 
 /** @param given a case, as read @returns a picture, or null without a tool */
 function drawCut(given) {
-  const tool = given.tool;
-  const cut = given.cut ?? {};
-  if (!(tool?.diameter_mm > 0) || !(tool.teeth >= 1)) return null;
+  const tool = inMm(given.tool);
+  const cut = inMm(given.cut);
+  if (!(tool.diameter_mm > 0) || !(tool.teeth >= 1)) return null;
   const radius = tool.diameter_mm / 2;
   const R = 62;
   const [low, high] = stockOf(cut, radius).map((y) => Math.max(-1.25, Math.min(1.25, y)));

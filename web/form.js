@@ -52,43 +52,58 @@ function typed(text, schema) {
 const shownValue = (value) =>
   value === undefined ? '' : typeof value === 'string' ? value : tomlOf(value);
 
-/** One key: label, input, unit and help. */
-function field({ path, key, schema, value, needed, files, change }) {
+/**
+ * One key: label, input, unit and help.
+ * @param twin the same key in the other of mm and inches, where there is one
+ */
+function field({ path, key, twin, schema, value, needed, files, change }) {
   const id = `${path}.${key}`;
   const choices = formsOf(schema).length === 1 ? schema.enum : undefined;
-  const set = (text) => change(path, key, text);
+  const inInches = twin !== undefined && /_mm(?=$|_)/.test(twin);
+  const set = (entered) => {
+    const { text, unit } = twin === undefined ? { text: entered } : withUnit(entered);
+    const other = unit !== undefined && (unit === 'in') !== inInches;
+    change(path, other ? twin : key, typed(text, schema), other ? key : undefined);
+  };
   let input;
   if (choices) {
-    input = element('select', { id, onchange: (e) => set(e.target.value === '' ? null : JSON.stringify(e.target.value)) },
+    input = element('select', { id, onchange: (e) => change(path, key, e.target.value === '' ? null : JSON.stringify(e.target.value)) },
       element('option', { value: '' }, schema.default === undefined ? '' : `${schema.default} (usual)`),
       ...choices.map((c) => element('option', { value: c, selected: c === value }, c)));
   } else if (schema.type === 'boolean') {
     input = element('input', { id, type: 'checkbox', checked: value === true,
-                               onchange: (e) => set(String(e.target.checked)) });
+                               onchange: (e) => change(path, key, String(e.target.checked)) });
   } else {
     const list = isFile(key) ? 'files-dropped' : undefined;
     const usual = schema.default === undefined ? '' : shownValue(schema.default);
     input = element('input', { id, type: 'text', list, spellcheck: 'false', value: shownValue(value),
-                               inputmode: schema.type === 'number' || schema.type === 'integer' ? 'decimal' : undefined,
-                               placeholder: usual, onchange: (e) => set(typed(e.target.value, schema)) });
+                               inputmode: (schema.type === 'number' && !twin) || schema.type === 'integer' ? 'decimal' : undefined,
+                               placeholder: usual, onchange: (e) => set(e.target.value) });
     if (isFile(key) && value !== undefined && !files.has(value)) input.classList.add('no-file');
   }
-  const range = rangeOf(schema);
+  const range = inInches ? '' : rangeOf(schema);
+  const unit = inInches ? unitOf(schema).replace('mm', 'in') : unitOf(schema);
+  const inches = twin === undefined ? '' : inInches ? '; "8 mm" is mm' : '; "0.5 in" is inches';
   input.setAttribute('aria-describedby', `${id}.help`);
   return element('div', { class: `field${needed ? ' needed' : ''}${value === undefined ? ' unset' : ''}`, 'data-key': id },
     element('label', { for: id }, key),
-    element('span', { class: 'input' }, input, element('span', { class: 'unit' }, unitOf(schema))),
-    element('p', { class: 'help', id: `${id}.help` }, helpOf(schema) + (range ? ` (${range})` : '')),
+    element('span', { class: 'input' }, input, element('span', { class: 'unit' }, unit)),
+    element('p', { class: 'help', id: `${id}.help` }, helpOf(schema) + (range ? ` (${range})` : '') + inches),
     element('p', { class: 'mistake', role: 'alert', hidden: true }));
 }
 
 /** A table of the case, or one entry of a list of them. */
 function tablePart({ name, path, schema, values, open, listed, ...rest }) {
-  const keys = Object.entries(schema.properties).filter(([, s]) => s.type !== 'object' || s.description);
+  const keys = Object.entries(schema.properties)
+    .filter(([, s]) => s.type !== 'object' || (s.description && s.properties))
+    .map(([key, s]) => {
+      const inches = inchKeyOf(key, schema);
+      const usesInches = inches !== undefined && values[inches] !== undefined;
+      return usesInches ? [inches, s, key] : [key, s, inches];
+    });
   const needed = new Set(schema.required ?? []);
-  const isSet = ([key]) => values[key] !== undefined || needed.has(key);
-  const make = ([key, s]) =>
-    field({ path, key, schema: s, value: values[key], needed: needed.has(key), ...rest });
+  const isSet = ([key, , twin]) => values[key] !== undefined || needed.has(key) || needed.has(twin);
+  const make = ([key, s, twin]) => field({ path, key, twin, schema: s, value: values[key], needed: needed.has(key) || needed.has(twin), ...rest });
   const others = keys.filter((k) => !isSet(k));
   return element('details', { class: 'table', open, 'data-table': path },
     element('summary', {}, element('code', {}, listed ? `[[${name}]]` : `[${name}]`), ' ',
@@ -96,6 +111,7 @@ function tablePart({ name, path, schema, values, open, listed, ...rest }) {
       listed ? element('button', { type: 'button', class: 'quiet', title: 'Leave this entry out',
                                    onclick: (e) => { e.preventDefault(); rest.remove(path); } }, 'remove') : null),
     ...keys.filter(isSet).map(make),
+    name === 'sweep' ? sweptPart(rest) : null,
     others.length === 0 ? null
       : element('details', { class: 'more' }, element('summary', {}, `${others.length} more keys`), ...others.map(make)));
 }
@@ -114,7 +130,7 @@ function caseForm({ schema, given, tables, opened, ...rest }) {
     const value = given[name];
     const list = s.type === 'array' && s.items?.properties;
     if (s.properties && (value !== undefined || tables.includes(name))) {
-      form.append(tablePart({ name, path: name, schema: s, values: value ?? {}, open: isOpen(name), ...rest }));
+      form.append(tablePart({ name, path: name, schema: s, values: value ?? {}, open: isOpen(name), given, ...rest }));
     } else if (list && (value !== undefined || tables.includes(name))) {
       (Array.isArray(value) ? value : []).forEach((entry, i) => {
         const path = `${name}[${i + 1}]`;
