@@ -216,6 +216,7 @@ function choose(task, text) {
 async function startExample(name) {
   const { file, files, first } = page.examples[name];
   page.example = name;
+  page.started = null;
   keptFiles.forgetAll();
   page.files = new Map(Object.entries(files).map(([path, base64]) => [path, Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
   page.name = file;
@@ -224,6 +225,7 @@ async function startExample(name) {
   await answerFirst(first ?? []);
   showFiles();
   choose(name.split(' ')[0], new TextDecoder().decode(bytes));
+  page.started = name;
 }
 
 /** What an example takes from the answers of others: those, among its files. */
@@ -231,7 +233,7 @@ async function answerFirst(runs) {
   for (const { command, file, folder } of runs) {
     say(`Answering ${command} ${file}, which it needs …`);
     const { files } = await page.program.run('check', { args: [command, file, '-o', folder], files: allFiles(), folder });
-    for (const [name, bytes] of Object.entries(files)) page.files.set(`${folder}/${name}`, bytes);
+    for (const [name, bytes] of Object.entries(files).filter(([one]) => one !== 'report.html')) page.files.set(`${folder}/${name}`, bytes);
   }
   if (runs.length > 0) say('Ready.');
 }

@@ -91,9 +91,13 @@ test('every example answers as the program does', { skip }, async () => {
     const [command, place] = name.split(' ');
     const [folder, ...rest] = place.split('/');
     const out = `${rest.join('/').replace(/\.toml$/, '')}.${command}`;
+    for (const needed of await page.evaluate((one) => window.trochoidPage.examples[one].first ?? [], name)) {
+      execFileSync(program, [needed.command, needed.file, '-o', needed.folder, '-q'], { cwd: path.join(temporary, folder) });
+    }
     const native = spawnSync(program, [command, rest.join('/'), '-o', out], { cwd: path.join(temporary, folder), encoding: 'utf8' });
     await page.check(`#tasks input[value=${command}]`);
     await page.selectOption('#example', name);
+    await page.waitForFunction((one) => window.trochoidPage.started === one, name);
     const begun = Date.now();
     const answer = await answerOf(page);
     const seconds = (Date.now() - begun) / 1000;
@@ -144,6 +148,58 @@ test('what was typed survives a reload', { skip }, async () => {
   await page.reload();
   await page.waitForSelector('body.ready');
   assert.equal(await page.inputValue('[id="cut.axial_depth_mm"]'), '3.25');
+  await context.close();
+});
+
+test('what is being typed and what was dropped survive it too', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.setInputFiles('#pick', { name: 'mine.csv', mimeType: 'text/csv', buffer: Buffer.from('t,Fx\n0,1\n') });
+  await page.waitForFunction(() => /file = "mine.csv"/.test(document.getElementById('text').value));
+  await page.focus('[id="cut.axial_depth_mm"]');
+  await page.keyboard.press('Control+A');
+  await page.keyboard.type('1.75');
+  await page.reload();
+  await page.waitForSelector('body.ready');
+  assert.equal(await page.inputValue('[id="cut.axial_depth_mm"]'), '1.75');
+  assert.equal(await page.evaluate(() => new TextDecoder().decode(window.trochoidPage.files.get('mine.csv'))), 't,Fx\n0,1\n');
+  await page.click('button[title="Forget mine.csv"]');
+  await page.reload();
+  await page.waitForSelector('body.ready');
+  assert.equal(await page.evaluate(() => window.trochoidPage.files.has('mine.csv')), false);
+  await context.close();
+});
+
+test('lengths in inches stand in their field and turn the drawing', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.fill('[id="tool.diameter_mm"]', '1/2"');
+  await page.press('[id="tool.diameter_mm"]', 'Tab');
+  assert.equal(await page.inputValue('[id="tool.diameter_in"]'), '0.5');
+  assert.match(await page.textContent('#drawing'), /12\.7 mm/);
+  await page.fill('[id="tool.diameter_in"]', '-1');
+  await page.press('[id="tool.diameter_in"]', 'Tab');
+  await page.locator('[data-key="tool.diameter_in"] .mistake').waitFor({ state: 'visible' });
+  await page.fill('[id="tool.diameter_in"]', '8 mm');
+  await page.press('[id="tool.diameter_in"]', 'Tab');
+  assert.equal(await page.inputValue('[id="tool.diameter_mm"]'), '8');
+  assert.ok(!/^diameter_in/m.test(await page.inputValue('#text')));
+  await context.close();
+});
+
+test('a sweep of keys that were typed', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.check('#tasks input[value=sweep]');
+  await page.evaluate(() => { document.querySelector('[data-table=sweep]').open = true; });
+  await page.fill('[id="swept[1].values"]', '800 .. 1000, 3');
+  await page.press('[id="swept[1].values"]', 'Tab');
+  await page.fill('[id="swept[2].key"]', 'cut.feed_per_tooth_mm');
+  await page.press('[id="swept[2].key"]', 'Tab');
+  await page.fill('[id="swept[2].values"]', '0,03; 0,04');
+  await page.press('[id="swept[2].values"]', 'Tab');
+  const answer = await answerOf(page);
+  assert.match(answer.said, /Answered/);
+  assert.equal(answer.files['sweep.csv'].trim().split('\n').filter((line) => /^\d/.test(line)).length, 6);
+  await page.evaluate(() => document.getElementById('use').click());
+  assert.ok(await page.evaluate(() => window.trochoidPage.files.has('case.sweep/summary.json')));
   await context.close();
 });
 

@@ -9,8 +9,10 @@ import { parse } from 'smol-toml';
 
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../..');
 const need = createRequire(import.meta.url);
-globalThis.tomlOf = need(`${root}/web/case_text.js`).tomlOf;
-const { tablesOf, withKey, withoutTable, tomlOf } = need(`${root}/web/case_text.js`);
+const { tablesOf, withKey, withoutTable, tomlOf, keyOf } = need(`${root}/web/case_text.js`);
+Object.assign(globalThis, { tablesOf, withKey, tomlOf, keyOf });  // the page has one scope
+const { inchKeyOf, withUnit, inMm } = need(`${root}/web/lengths.js`);
+const { valuesTyped, valuesShown, numbersOf, withSwept } = need(`${root}/web/swept.js`);
 const { typed, mistakesOf, rangeOf, unitOf } = need(`${root}/web/form.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
@@ -109,4 +111,48 @@ test('a zip file is one', async () => {
   const said = execFileSync('/usr/bin/python3', ['-c', code, `${folder}/all.zip`], { encoding: 'utf8' });
   assert.equal(said.trim(), "['forces.csv', 'ü.json'] b'a,b\\n1,2\\n'");
   fs.rmSync(folder, { recursive: true });
+});
+
+test('values of a swept key are written as a person writes them', () => {
+  const read = (text) => parse(`a = ${valuesTyped(text)}`).a;
+  assert.deepEqual(read('500 .. 1500, 21'), { from: 500, to: 1500, count: 21 });
+  assert.deepEqual(read('0,1 … 0,5'), { from: 0.1, to: 0.5 });
+  assert.deepEqual(read('-2 to 3 in 6'), { from: -2, to: 3, count: 6 });
+  assert.deepEqual(read('922 ± 9,5'), { mean: 922, sd: 9.5 });
+  assert.deepEqual(read('1, 2.5, 1e3'), { values: [1, 2.5, 1e3] });
+  assert.deepEqual(read('0,1; 0,2'), { values: [0.1, 0.2] });
+  assert.deepEqual(read('up, down'), { values: ['up', 'down'] });
+  assert.deepEqual(read('[1, 2]'), { values: [1, 2] });
+  assert.deepEqual(read('{ file = "a.csv", column = "b" }'), { file: 'a.csv', column: 'b' });
+  assert.equal(valuesTyped(' '), null);
+  for (const text of ['500 .. 1500, 21', '0.1 .. 0.5', '922 ± 9', '1, 2, 3', 'up, down']) assert.equal(valuesShown(read(text)), text);
+});
+
+test('swept keys are added, changed and left out, in either form of the table', () => {
+  const as = '[cut]\nspindle_rpm = 900 # rpm\n[sweep]\ncommand = "simulate"\n';
+  for (const text of [`${as}over = { "cut.spindle_rpm" = { from = 1, to = 2 } } # of it\n`,
+                      `${as}[sweep.over]\n"cut.spindle_rpm" = { from = 1, to = 2 } # of it\n`, as]) {
+    const set = withSwept(text, parse(text), 'cut.spindle_rpm', '{ values = [7] }');
+    assert.deepEqual(parse(set).sweep.over, { 'cut.spindle_rpm': { values: [7] } });
+    const two = withSwept(set, parse(set), 'mode[1].frequency_Hz', '{ mean = 9, sd = 1 }');
+    assert.deepEqual(Object.keys(parse(two).sweep.over), ['cut.spindle_rpm', 'mode[1].frequency_Hz']);
+    const one = withSwept(two, parse(two), 'cut.spindle_rpm', null);
+    assert.deepEqual(parse(one).sweep.over, { 'mode[1].frequency_Hz': { mean: 9, sd: 1 } });
+    assert.equal(parse(one).cut.spindle_rpm, 900);
+  }
+  assert.deepEqual(numbersOf({ title: 'a', cut: { spindle_rpm: 1, engagement: 'up' }, mode: [{ mass_kg: 2 }], sweep: { seed: 1 } }),
+                   ['cut.spindle_rpm', 'mode[1].mass_kg']);
+});
+
+test('a length may be typed in inches', () => {
+  const { tool, cut } = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8')).properties;
+  assert.equal(inchKeyOf('diameter_mm', tool), 'diameter_in');
+  assert.equal(inchKeyOf('feed_rate_mm_per_min', cut), 'feed_rate_in_per_min');
+  assert.equal(inchKeyOf('helix_deg', tool), undefined);
+  assert.deepEqual(withUnit('0.5 in'), { text: '0.5', unit: 'in' });
+  assert.deepEqual(withUnit('3/8"'), { text: '0.375', unit: 'in' });
+  assert.deepEqual(withUnit('1 1/4 inch'), { text: '1.25', unit: 'in' });
+  assert.deepEqual(withUnit('8 mm'), { text: '8', unit: 'mm' });
+  assert.deepEqual(withUnit('"free"'), { text: '"free"' });
+  assert.deepEqual(inMm({ diameter_in: 0.5, stock_y_in: [-1, 1], teeth: 2 }), { diameter_mm: 12.7, stock_y_mm: [-25.4, 25.4], teeth: 2 });
 });
