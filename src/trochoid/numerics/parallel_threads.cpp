@@ -1,5 +1,5 @@
-// parallel.h without TBB, of which Debian has no static library: for the program that
-// needs nothing of its system (cmake/Alone.cmake).
+// parallel.h without TBB, of which Debian has no static library: for the programs that
+// need nothing of their system (cmake/Alone.cmake, cmake/Windows.cmake).
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ struct Job {
 
 /// Threads that help with the jobs that are open, the innermost first. Who opened a job
 /// works on it until nothing is left to take, so that no job waits for a helper to come,
-/// and jobs may be opened within jobs.
+/// and jobs may be opened within jobs. The threads are never ended: the C library for
+/// Windows holds a lock while the program exits, and a thread that ends may ask for it.
 class Pool {
  public:
   Pool() {
@@ -37,7 +38,8 @@ class Pool {
     const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
     try {
       for (unsigned i = 1; i < threads; ++i) {
-        workers_.emplace_back([this, i](const std::stop_token& end) { help(end, i); });
+        std::thread([this, i] { help(i); }).detach();
+        ++workers_;
       }
     } catch (const std::system_error&) {  // the system gives no more
     }
@@ -76,7 +78,7 @@ class Pool {
 
  private:
   std::size_t allowed_now() const {
-    const std::size_t all = workers_.size() + 1;
+    const std::size_t all = workers_ + 1;
     return limits_.empty() ? all : std::min(all, *limits_.begin());
   }
 
@@ -108,17 +110,14 @@ class Pool {
   }
 
   /// @param number  of this thread, from 1: the first ones stay when fewer are allowed
-  void help(const std::stop_token& end, std::size_t number) {
+  [[noreturn]] void help(std::size_t number) {
     std::unique_lock lock(mutex_);
     for (;;) {
       Job* job = nullptr;
-      work_.wait(lock, end, [&] {
+      work_.wait(lock, [&] {
         job = number < allowed_now() ? unfinished() : nullptr;
         return job != nullptr;
       });
-      if (job == nullptr) {
-        return;  // the end
-      }
       ++job->helpers;
       lock.unlock();
       take(*job);
@@ -129,15 +128,15 @@ class Pool {
   }
 
   std::mutex mutex_;
-  std::condition_variable_any work_;
+  std::condition_variable work_;
   std::condition_variable done_;
   std::vector<Job*> open_;
   std::multiset<std::size_t> limits_;
-  std::vector<std::jthread> workers_;  // last, so that they end first
+  std::size_t workers_ = 0;
 };
 
 Pool& pool() {
-  static Pool threads;
+  static Pool& threads = *new Pool;
   return threads;
 }
 

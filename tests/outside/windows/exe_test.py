@@ -189,6 +189,14 @@ class Exe(unittest.TestCase):
         ours, theirs = ((self.folder / side / "sweep.csv").read_text() for side in ("ours", "theirs"))
         self.assertLess(difference(ours, theirs)[0], SAME)
 
+    def test_its_threads_change_nothing_and_let_it_end(self):
+        shutil.copytree(ROOT / "examples/stability_922Hz", self.folder / "slot")
+        self.run_exe("stability", "slot/case.toml", "-q", "-o", "alone", "--threads", "1")
+        alone = (self.folder / "alone/lobes.csv").read_bytes()
+        for _ in range(40):  # one in ten did not end while threads ended as the program did
+            self.run_exe("stability", "slot/case.toml", "-q", "-o", "all")
+            self.assertEqual((self.folder / "all/lobes.csv").read_bytes(), alone)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=1, argv=sys.argv)
