@@ -8,8 +8,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace trochoid::cli {
 
@@ -25,24 +27,45 @@ bool is_page(const fs::path& file) {
   return head.find("\xC2\xB7 Trochoid</title>") != head.npos;
 }
 
+/// A folder without what stands before its name and means itself.
+fs::path plain(const fs::path& folder) {
+  const fs::path whole = folder.lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// Names of two folders: their paths from where they part.
+std::pair<std::string, std::string> names_of(const fs::path& a, const fs::path& b) {
+  auto first = a.begin();
+  auto second = b.begin();
+  while (std::next(first) != a.end() && std::next(second) != b.end() &&
+         *first == *second) {
+    ++first;
+    ++second;
+  }
+  const auto rest = [](fs::path::iterator from, const fs::path& whole) {
+    fs::path path;
+    for (; from != whole.end(); ++from) path /= *from;
+    return path.generic_string();
+  };
+  return {rest(first, a), rest(second, b)};
+}
+
 int compare(const Options& options) {
   const fs::path file = options.folder.empty() ? "compare.html" : options.folder;
-  const auto named = [](const fs::path& folder) {
-    const fs::path whole = folder.lexically_normal();
-    const fs::path name = whole.has_filename() ? whole : whole.parent_path();
-    return results::NamedAnswer{name.generic_string(), results::read_folder(folder)};
-  };
+  const auto [a, b] = names_of(plain(options.file), plain(options.other));
   const results::Answer both =
-      results::compared(named(options.file), named(options.other));
+      results::compared({a, results::read_folder(options.file)},
+                        {b, results::read_folder(options.other)});
   if (fs::exists(fs::symlink_status(file)) && !is_page(file)) {
     throw base::InputError({file.string() + ": it exists already and is no page of "
                                             "trochoid; name another file (-o)"});
   }
   const std::string page = report::html(both, results::summary_json(both));
-  std::ofstream out(file, std::ios::binary);
-  out << page;
-  out.close();
-  if (!out) throw base::InputError({file.string() + ": it cannot be written"});
+  try {
+    results::write_page(file, page);
+  } catch (const std::runtime_error& error) {  // the place is wrong, not the program
+    throw base::InputError({error.what()});
+  }
   if (!options.quiet) {
     fmt::print("{}\nreport: {}\n", both.heading.message, file.string());
   }

@@ -178,19 +178,23 @@ void write_report(const fs::path& folder, const std::string& report_html) {
   static_cast<void>(read_summary(folder));
   const PlaceLock lock(place_of(folder));
   remove_unfinished_reports(folder, lock);
-  const fs::path report = folder / "report.html";
+  write_page(folder / "report.html", report_html);
+}
+
+void write_page(const fs::path& file, const std::string& html) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const fs::path fresh =
-      folder / fmt::format("{}{}", unfinished_report, process_number());
+      folder / fmt::format(".{}.new-{}", file.filename().string(), process_number());
   std::error_code error;
   try {
-    write_file(fresh, report, report_html);
-    fs::rename(fresh, report, error);
-    if (error) fail(report, error);
+    write_file(fresh, file, html);
+    fs::rename(fresh, file, error);
+    if (error) fail(file, error);
   } catch (...) {
     fs::remove(fresh, error);
     throw;
   }
-  flush_to_disk(folder, report);
+  flush_to_disk(folder, file);
 }
 
 }  // namespace trochoid::results

@@ -46,6 +46,10 @@ void mend_folder(const std::filesystem::path& folder);
 /// @throws std::runtime_error when it cannot be written
 void write_report(const std::filesystem::path& folder, const std::string& report_html);
 
+/// @brief Write a page by itself, whole or not at all (a sibling, then a rename).
+/// @throws std::runtime_error when it cannot be written
+void write_page(const std::filesystem::path& file, const std::string& html);
+
 /// @brief Text of the summary.json of a folder, with the provenance of whoever made it.
 /// @throws base::InputError when it is not a folder of ours
 std::string read_summary(const std::filesystem::path& folder);

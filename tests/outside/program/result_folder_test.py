@@ -296,11 +296,14 @@ class Report(InFolder):
                          ["cut.spindle_rpm"])
         self.assertEqual(data["summary"]["result"]["b"]["name"], "fast")
         self.run_program("report", "slow", "slow", "-o", "compare.html", "-q")
+        self.run_program("report", self.folder / "slow", self.folder / "fast", "-q")
+        self.assertIn('"name":"slow"', (self.folder / "compare.html").read_text().replace(": ", ":"))
         self.write("mine.html", "mine")
         before = self.everything()
         self.run_program("report", "slow", "fast", "-o", "mine.html", code=2)
         self.run_program("report", "slow", "-o", "mine.html", code=2)
         self.run_program("report", "slow", "nowhere", code=2)
+        self.run_program("report", "slow", "fast", "-o", "nowhere/compare.html", code=2)
         self.assertEqual(self.everything(), before)
 
     def test_what_is_no_result_is_refused(self):

@@ -261,3 +261,26 @@ function watchPage() {
     charts.forEach((chart) => { chart.resize(); chart.redraw(); });
   });
 }
+
+/** Places after which a frequency goes on in another branch: the step there is far above the usual ones. */
+function jumpsOf(values) {
+  const steps = values.slice(1).map((v, i) => Math.abs(v - values[i]) / Math.abs(values[i] || 1));
+  const usual = [...steps].sort((a, b) => a - b)[Math.floor(steps.length / 2)] || 0;
+  return steps.map((step, i) => (step > Math.max(0.04, 6 * usual) ? i : -1)).filter((i) => i >= 0);
+}
+
+/** Values over x at other places of it, which increase; null outside, and between two branches. */
+function sampledAt(x, values, places, jumps = []) {
+  let i = 0;
+  return places.map((at) => {
+    while (i + 2 < x.length && x[i + 1] < at) ++i;
+    const t = (at - x[i]) / (x[i + 1] - x[i]);
+    if (Math.abs(t) < 1e-9) return values[i] ?? null;
+    if (Math.abs(t - 1) < 1e-9) return values[i + 1] ?? null;
+    const known = t > 0 && t < 1 && !jumps.includes(i) && isNumber(values[i]) && isNumber(values[i + 1]);
+    return known ? values[i] + t * (values[i + 1] - values[i]) : null;
+  });
+}
+
+/** Index of the last place before x. */
+const placeBefore = (places, x) => Math.max(0, places.findIndex((p) => p >= x) - 1);

@@ -41,17 +41,6 @@ function differentNumbers({ numbers }, names) {
 /** A path that may go on in the next line. */
 const breakable = (path) => path.split(/(?<=[.\]])/).flatMap((part) => [part, el('wbr')]);
 
-/** Values over x at other places, by straight lines; none outside. */
-function sampledAt(x, values, places) {
-  let i = 0;
-  return places.map((at) => {
-    while (i + 2 < x.length && x[i + 1] < at) ++i;
-    const t = (at - x[i]) / (x[i + 1] - x[i]);
-    const known = t >= -1e-9 && t <= 1 + 1e-9 && isNumber(values[i]) && isNumber(values[i + 1]);
-    return known ? values[i] + t * (values[i + 1] - values[i]) : null;
-  });
-}
-
 /** Columns of both over their first one, one panel a unit; the second dashed. */
 function curvesOfBoth(a, b, names, i) {
   const [first, ...rest] = a.columns;
@@ -66,8 +55,10 @@ function curvesOfBoth(a, b, names, i) {
     if (!byUnit.has(unit)) byUnit.set(unit, []);
     const of = byUnit.get(unit);
     const color = seriesColor(of.length / 2);
-    of.push({ name: [symbol(name), `, ${names[0]}`], values: column.values, color },
-      { name: [symbol(name), `, ${names[1]}`], values: sampledAt(other.values, twin, first.values), color, dash: [6, 3] });
+    const [jumps, theirs] = [column.values, twin].map((values) => (/^(chatter_frequency|argument)/.test(name) ? jumpsOf(values) : []));
+    of.push({ name: [symbol(name), `, ${names[0]}`], values: column.values, jumps, color },
+      { name: [symbol(name), `, ${names[1]}`], values: sampledAt(other.values, twin, first.values, theirs),
+        jumps: theirs.map((k) => placeBefore(first.values, other.values[k + 1])), color, dash: [6, 3] });
   }
   const file = a.file.slice(3);
   const x = nameAndUnit(first.name);

@@ -38,27 +38,6 @@ function dampingProse({ process_damping: damping }) {
     ...(isNumber(without) ? ['Without it this cut would chatter from ', el('b', {}, `${number(without)} mm`), ' on.'] : []));
 }
 
-/** Places after which a frequency goes on in another branch: the step there is far above the usual ones. */
-function jumpsOf(values) {
-  const steps = values.slice(1).map((v, i) => Math.abs(v - values[i]) / Math.abs(values[i] || 1));
-  const usual = [...steps].sort((a, b) => a - b)[Math.floor(steps.length / 2)] || 0;
-  return steps.map((step, i) => (step > Math.max(0.04, 6 * usual) ? i : -1)).filter((i) => i >= 0);
-}
-
-/** Values over x at other places of it; null outside, and between two branches. */
-function valuesAt(places, x, values, jumps = []) {
-  return places.map((p) => {
-    const i = x.findIndex((v) => v >= p);
-    if (i < 0 || (i === 0 && x[0] > p)) return null;
-    if (x[i] === p || i === 0) return values[i];
-    if (jumps.includes(i - 1)) return null;
-    return values[i - 1] + (values[i] - values[i - 1]) * (p - x[i - 1]) / (x[i] - x[i - 1]);
-  });
-}
-
-/** Index of the last place before x. */
-const placeBefore = (places, x) => Math.max(0, places.findIndex((p) => p >= x) - 1);
-
 /** The limit by the measured response beside that of the multiplier. */
 function measuredSection(report) {
   const measured = report.result.measured_frf;
@@ -101,7 +80,7 @@ function measuredSection(report) {
   const markers = [{ x: result.spindle_rpm, text: 'the case' }];
   const series = (what) => curves.map((curve) => {
     const jumps = what === 'hertz' ? jumpsOf(curve.hertz) : [];
-    const values = valuesAt(places, curve.x, curve[what], jumps);
+    const values = sampledAt(curve.x, curve[what], places, jumps);
     return { name: curve.name, color: curve.color, width: curve.width, values,
       jumps: jumps.map((i) => placeBefore(places, curve.x[i + 1])) };
   });
