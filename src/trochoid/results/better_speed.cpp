@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 namespace trochoid::results {
@@ -14,18 +15,11 @@ using dynamics::Stability;
 
 /// Speeds up to this fraction off that of the case are near.
 constexpr double near_speed = 0.3;
-/// A spindle does not keep a speed better than this, nor is the peak of a lobe known.
-constexpr double speed_slack = 0.02;
 /// Worth a change of speed: so many times the limit.
 constexpr double worth_it = 1.2;
 
-}  // namespace
-
-std::optional<BetterSpeed> better_speed(const StabilityResult& r) {
-  const Stability& s = r.stability;
-  if (!s.limit || !s.whole) {
-    return std::nullopt;
-  }
+/// Limits of the diagram by speed; where every depth is stable, its greatest.
+std::vector<BetterSpeed> limits_by_speed(const Stability& s) {
   std::vector<BetterSpeed> curve;
   for (const dynamics::LimitPoint& point : s.limit_curve) {
     curve.push_back({point.limit.Omega, point.limit.depth});
@@ -41,21 +35,77 @@ std::optional<BetterSpeed> better_speed(const StabilityResult& r) {
       curve.push_back({s.lobes.Omega[i], s.lobes.depth.back()});
     }
   }
+  std::ranges::sort(curve, {}, &BetterSpeed::Omega);
+  return curve;
+}
+
+/// The limit at a speed of the diagram, straight between two of its points.
+double limit_at(const std::vector<BetterSpeed>& curve, double Omega) {
+  const auto after = std::ranges::lower_bound(curve, Omega, {}, &BetterSpeed::Omega);
+  if (after == curve.begin()) return curve.front().depth;
+  if (after == curve.end()) return curve.back().depth;
+  const BetterSpeed& before = *std::prev(after);
+  const double part = (Omega - before.Omega) / (after->Omega - before.Omega);
+  return before.depth + part * (after->depth - before.depth);
+}
+
+/// The least limit while the spindle is off by up to speed_slack.
+double least_near(const std::vector<BetterSpeed>& curve, double Omega) {
+  const double slowest = (1 - speed_slack) * Omega;
+  const double fastest = (1 + speed_slack) * Omega;
+  double least = std::min(limit_at(curve, slowest), limit_at(curve, fastest));
+  for (const BetterSpeed& one : curve) {
+    if (one.Omega >= slowest && one.Omega <= fastest) {
+      least = std::min(least, one.depth);
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+std::optional<double> limit_of_a_spindle(const StabilityResult& r) {
+  const Stability& s = r.stability;
+  const auto curve = limits_by_speed(s);
+  const double here = r.problem.setup.cut.Omega;
+  if (!s.limit || !s.whole || curve.size() < 2 || here < curve.front().Omega ||
+      here > curve.back().Omega) {
+    return std::nullopt;
+  }
+  return std::min(least_near(curve, here), s.limit->limit.depth);
+}
+
+std::optional<BetterSpeed> better_speed(const StabilityResult& r) {
+  const Stability& s = r.stability;
+  if (!s.limit || !s.whole) {
+    return std::nullopt;
+  }
+  const auto curve = limits_by_speed(s);
   const double here = r.problem.setup.cut.Omega;
   std::optional<BetterSpeed> best;
   for (const BetterSpeed& one : curve) {
-    double worst = one.depth;
-    for (const BetterSpeed& other : curve) {
-      if (std::abs(other.Omega / one.Omega - 1) <= speed_slack) {
-        worst = std::min(worst, other.depth);
-      }
-    }
-    const double off = std::abs(one.Omega / here - 1);
-    if (off <= near_speed && (!best || worst > best->depth)) {
+    const bool known = (1 - speed_slack) * one.Omega >= curve.front().Omega &&
+                       (1 + speed_slack) * one.Omega <= curve.back().Omega;
+    if (!known || std::abs(one.Omega / here - 1) > near_speed) continue;
+    const double worst = least_near(curve, one.Omega);
+    if (!best || worst > best->depth) {
       best = {one.Omega, worst};
     }
   }
-  return best && best->depth > worth_it * s.limit->limit.depth ? best : std::nullopt;
+  const double now = limit_of_a_spindle(r).value_or(s.limit->limit.depth);
+  return best && best->depth > worth_it * now ? best : std::nullopt;
+}
+
+std::optional<SpeedRange> speeds_looked_at(const StabilityResult& r) {
+  const auto curve = limits_by_speed(r.stability);
+  if (curve.size() < 2) {
+    return std::nullopt;
+  }
+  const double here = r.problem.setup.cut.Omega;
+  const SpeedRange range{
+      std::max(curve.front().Omega / (1 - speed_slack), (1 - near_speed) * here),
+      std::min(curve.back().Omega / (1 + speed_slack), (1 + near_speed) * here)};
+  return range.from < range.to ? std::optional(range) : std::nullopt;
 }
 
 }  // namespace trochoid::results

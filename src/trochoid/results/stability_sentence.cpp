@@ -67,18 +67,39 @@ std::string verdict_of(StabilityVerdict verdict, const Asked& asked,
   return unstable(asked, limit.value_or(asked.depth));
 }
 
+/// Whether a spindle that does not keep its speed makes a stable cut chatter.
+std::string off_speed(const StabilityResult& r) {
+  const auto limit = limit_of_a_spindle(r);
+  if (!limit || r.stability.verdict != StabilityVerdict::stable ||
+      *limit >= r.problem.setup.cut.a_p ||
+      r.stability.limit->limit.depth < r.problem.setup.cut.a_p) {
+    return {};
+  }
+  return fmt::format(" With the spindle 2 % off it may chatter from {:.2g} mm on.",
+                     *limit / unit::mm);
+}
+
 /// Which speed near it allows more; empty where no lobes were asked for, or not all done.
 std::string speeds_near(const StabilityResult& r) {
   const dynamics::Stability& s = r.stability;
-  if (!s.limit || !s.whole || s.limit_curve.size() < 2) {
+  const auto range = speeds_looked_at(r);
+  if (!s.limit || !s.whole || s.limit_curve.size() < 2 || !range) {
     return {};
   }
+  const geometry::Cut& cut = r.problem.setup.cut;
   const auto better = better_speed(r);
-  return better ? fmt::format(
-                      " Near it {:.5g} rpm allows {:.3g} mm, also when the "
-                      "spindle is 2 % off.",
-                      better->Omega / unit::rpm, better->depth / unit::mm)
-                : " No speed of the diagram within 30 % allows much more.";
+  if (!better) {
+    return fmt::format(
+        " No speed from {:.4g} to {:.4g} rpm allows much more that the spindle keeps "
+        "within 2 %.",
+        range->from / unit::rpm, range->to / unit::rpm);
+  }
+  const double change = better->Omega / cut.Omega - 1;
+  return fmt::format(
+      " {:.5g} rpm, {:.2g} % {}, allows {:.3g} mm, also with the spindle 2 % off{}.",
+      better->Omega / unit::rpm, 100 * std::abs(change),
+      change < 0 ? "slower" : "faster", better->depth / unit::mm,
+      better->depth < cut.a_p ? "; less than the cut asks for" : "");
 }
 
 /// What the measured response says by itself, beside the modes.
@@ -107,7 +128,7 @@ std::string stability_sentence(const StabilityResult& r) {
       verdict_of(s.verdict, asked,
                  s.limit ? std::optional(s.limit->limit.depth) : std::nullopt,
                  s.greatest_depth) +
-      speeds_near(r);
+      off_speed(r) + speeds_near(r);
   return text + (r.measured ? by_response(r)
                             : " This is as sure as the modes and coefficients of the "
                               "case.");

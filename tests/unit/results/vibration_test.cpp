@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <string>
 
 namespace trochoid::results {
 namespace {
@@ -46,13 +47,45 @@ TEST(StabilitySentence, SaysHowDeepAndAtWhichSpeedDeeper) {
       stability_sentence(r),
       "Unstable: the cut at 0.5 mm and 5000 rpm chatters; at this speed it is stable "
       "to 0.3 mm. This is as sure as the modes and coefficients of the case.");
-  r.stability.limit_curve.push_back(
-      {{.Omega = 5500 * unit::rpm, .depth = 1.2e-3, .multiplier = {-1.0, 0.0}}, 850.0});
-  EXPECT_NE(stability_sentence(r).find(" Near it 5500 rpm allows 1.2 mm, also when "),
+  const auto add = [&](double rpm, double depth) {
+    r.stability.limit_curve.push_back(
+        {{.Omega = rpm * unit::rpm, .depth = depth, .multiplier = {-1.0, 0.0}}, 850.0});
+  };
+  add(5500, 1.2e-3);
+  add(5390, 1.2e-3);
+  add(5700, 0.4e-3);
+  EXPECT_NE(stability_sentence(r).find(
+                "to 0.3 mm. 5390 rpm, 7.8 % faster, allows 0.951 mm, also with the "
+                "spindle 2 % off. This"),
+            std::string::npos)
+      << stability_sentence(r);
+  r.problem.setup.cut.a_p = 1e-3;
+  EXPECT_NE(stability_sentence(r).find("2 % off; less than the cut asks for."),
+            std::string::npos);
+  r.stability.limit_curve[1].limit.depth = 0.3e-3;
+  r.stability.limit_curve[2].limit.depth = 0.3e-3;
+  EXPECT_NE(stability_sentence(r).find("No speed from 5102 to 5588 rpm allows"),
             std::string::npos)
       << stability_sentence(r);
   r.stability.whole = false;
-  EXPECT_EQ(stability_sentence(r).find("Near it"), std::string::npos);
+  EXPECT_EQ(stability_sentence(r).find("rpm allows"), std::string::npos);
+}
+
+TEST(StabilitySentence, SaysWhenASpindleThatDriftsMakesAStableCutChatter) {
+  StabilityResult r = stability_result();
+  r.stability.verdict = dynamics::StabilityVerdict::stable;
+  r.stability.limit->limit.depth = 1.2e-3;
+  const auto point = [](double rpm, double depth) {
+    return dynamics::LimitPoint{{.Omega = rpm * unit::rpm, .depth = depth}, 850.0};
+  };
+  r.stability.limit_curve = {point(4900, 1.2e-3), point(5000, 1.2e-3),
+                             point(5050, 0.4e-3), point(5200, 0.3e-3)};
+  EXPECT_NE(stability_sentence(r).find(
+                "With the spindle 2 % off it may chatter from 0.37 mm on."),
+            std::string::npos)
+      << stability_sentence(r);
+  r.problem.setup.cut.a_p = 0.3e-3;
+  EXPECT_EQ(stability_sentence(r).find("2 % off it"), std::string::npos);
 }
 
 TEST(StabilitySentence, SaysHowFarBelowTheLimitAStableCutIs) {
@@ -122,8 +155,14 @@ TEST(StabilityAnswer, NamesABetterSpeedNearBy) {
   EXPECT_EQ(json_at(answer, "better_speed", "limit_depth_mm"), "0.6");
   EXPECT_NE(answer.short_table.find("near it, 5500 rpm allows 0.6 mm"),
             std::string::npos);
+  // Between its points the limit is straight: 0.5 mm at 5390, 2 % below 5500.
+  r.stability.limit_curve[0] = point(5280, 0.3e-3);
+  EXPECT_NEAR(std::stod(json_at(answer_of(r), "better_speed", "limit_depth_mm")), 0.5,
+              1e-9);
+  r.stability.limit_curve[0] = point(5000, 0.3e-3);
   // A speed of the diagram at which every depth is stable is as good as its deepest.
-  r.stability.lobes.multiplier[3] = {0.5, 0.0};
+  r.stability.lobes.Omega = {5870 * unit::rpm, 6000 * unit::rpm, 6130 * unit::rpm};
+  r.stability.lobes.multiplier.assign(6, {0.5, 0.0});
   EXPECT_EQ(json_at(answer_of(r), "better_speed", "limit_depth_mm"), "2");
 }
 
