@@ -75,9 +75,12 @@ void read_bin(const Bin& bin, std::size_t k, OneRevolution& out) {
   // A line needs angles that really differ.
   const bool line = bin.count >= 4 && bin.xx > 1e-4 * bin.count;
   const int free = bin.count - (line ? 2 : 1);
+  // Beyond its samples a line foretells noise: at most a standard deviation of them away.
+  const double reach = std::sqrt(bin.xx / bin.count);
+  const double away = std::clamp(-bin.x, -reach, reach);
   for (std::size_t c = 0; c < 3; ++c) {
     const double slope = line ? bin.xy[c] / bin.xx : 0.0;
-    out.mean[c][k] = bin.y[c] - slope * bin.x;
+    out.mean[c][k] = bin.y[c] + slope * away;
     const double rest = bin.yy[c] - slope * bin.xy[c];
     if (free > 0) out.scatter[c][k] = std::sqrt(std::max(0.0, rest) / free);
   }

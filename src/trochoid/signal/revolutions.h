@@ -27,7 +27,9 @@ struct OneRevolution {
 ///
 /// Where the angles of a bin differ from turn to turn, a straight
 /// line is taken through its samples and read in the middle of
-/// the bin: the slope of the force is not scatter.
+/// the bin, or as near to it as a standard deviation of their
+/// angles from their mean: the slope of the force is not scatter,
+/// and a line is not to be trusted beyond its samples.
 /// @param channels  [N], shape (n) each
 /// @param angle     [rad], shape (n), increasing (see `unwrapped`)
 /// @param bins      at least 1

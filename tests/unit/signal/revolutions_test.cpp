@@ -75,6 +75,23 @@ TEST(Fold, CountsTheMeanAndTheLineAsUsed) {
   EXPECT_NEAR(fold({y, y, y}, angle, 1).scatter[0][0], std::sqrt(2.0), 1e-12);
 }
 
+TEST(Fold, DoesNotCarryNoiseBeyondTheSamplesOfABin) {
+  // A sample a turn for each bin, all in its first tenth: a line read in the middle would
+  // be ten times as far out as their mean.
+  std::vector<double> angle;
+  std::vector<double> y;
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < 8; ++k) {
+      angle.push_back(turn * (i + (k + 0.018 * i) / 8));
+      y.push_back(i % 2 == 0 ? 1.0 + 0.1 * i : -1.0 + 0.1 * i);
+    }
+  }
+  const auto one = fold({y, y, y}, angle, 8);
+  for (std::size_t k = 0; k + 1 < 8; ++k) {
+    EXPECT_LT(std::abs(one.mean[0][k]), 0.5) << k;
+  }
+}
+
 TEST(Fold, LeavesOutThePartOfATurnAtTheEnd) {
   auto s = make(250, 100.0);
   for (std::size_t i = 200; i < 250; ++i) s.channel[0][i] = 1e6;
