@@ -41,7 +41,7 @@ std::vector<BetterSpeed> limits_by_speed(const Stability& s) {
 
 /// The limit at a speed of the diagram, straight between two of its points.
 double limit_at(const std::vector<BetterSpeed>& curve, double Omega) {
-  const auto after = std::ranges::lower_bound(curve, Omega, {}, &BetterSpeed::Omega);
+  const auto after = std::ranges::upper_bound(curve, Omega, {}, &BetterSpeed::Omega);
   if (after == curve.begin()) return curve.front().depth;
   if (after == curve.end()) return curve.back().depth;
   const BetterSpeed& before = *std::prev(after);
