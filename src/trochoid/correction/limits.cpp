@@ -67,7 +67,7 @@ LimitReport check_limits(const Command& command, const Plant& plant, double Omeg
   const double stroke = limits.stroke_high - limits.stroke_low;
   report.limits.push_back(
       limit_of(LimitKind::stroke, range.peak_to_peak(), stroke,
-               fmt::format("the command goes over {:.2f} um of a stroke of {:.2f} um",
+               fmt::format("the command takes {:.2f} um of a stroke of {:.2f} um",
                            range.peak_to_peak() / unit::um, stroke / unit::um)));
   const double slew = Omega * range.slope;
   const std::string fast = std::isfinite(slew)

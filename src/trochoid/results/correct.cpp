@@ -111,6 +111,7 @@ Object optimum_value(const correction::Optimum& optimum) {
 Object command_value(const Correction& c) {
   const Plan& plan = c.plan;
   Object command{
+      {"spindle_rpm", unit::in(c.setting.cut.setup.cut.Omega, unit::rpm)},
       {"peak_to_peak_um",
        correction::range_of(plan.command.wave).peak_to_peak() / unit::um},
       {"offset_um", plan.limits.offset / unit::um},

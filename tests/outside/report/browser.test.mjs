@@ -468,16 +468,16 @@ test('the cut from above stands still until it is asked, and goes with keys and 
   const readout = page.locator('#moving .readout');
   const start = await readout.innerText();
   await shown(page);
-  assert.match(start, /^φ = 0°: force on the tool/);
+  assert.match(start, /^φ = 82\.5°: force on the tool −24\.0, 47\.6 N/);  // where it is largest
   assert.equal(await readout.innerText(), start, 'it moves by itself');
   const before = await page.$eval('#moving canvas', (canvas) => canvas.toDataURL());
   await page.focus('#moving input');
-  for (let i = 0; i < 90; ++i) await page.keyboard.press('ArrowRight');
-  assert.match(await readout.innerText(), /^φ = 45°/);
+  for (let i = 0; i < 90; ++i) await page.keyboard.press('ArrowLeft');
+  assert.match(await readout.innerText(), /^φ = 37\.5°/);
   assert.notEqual(await page.$eval('#moving canvas', (canvas) => canvas.toDataURL()), before);
   await page.focus('#moving .moments button');
   await page.keyboard.press('Enter');
-  await page.waitForFunction(() => !/^φ = 45°/.test(document.querySelector('#moving .readout').textContent));
+  await page.waitForFunction(() => !/^φ = 37\.5°/.test(document.querySelector('#moving .readout').textContent));
   assert.equal(await page.locator('#moving .moments button').innerText(), 'Pause');
   await page.keyboard.press('Enter');
   await shown(page);

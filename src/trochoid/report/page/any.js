@@ -38,12 +38,19 @@ function anyTable(t, i) {
     draw: () => chart.draw(panels) };
 }
 
-function firstRows(t) {
-  const count = Math.min(rowsShown, t.drawn);
+/** A name of a file that may go on in the next line. */
+const breakable = (name) => name.split(/(?<=[.\]_])/).flatMap((part) => [part, el('wbr')]);
+
+/** Columns of texts that are all the same, or nothing, tell nothing of a row. */
+const tellsRows = ({ values }) => typeof values[0] !== 'string' || values.some((v) => v !== values[0]);
+
+function firstRows(t, { most = rowsShown, digits = 6 } = {}) {
+  const count = Math.min(most, t.drawn);
+  const columns = t.columns.filter(tellsRows);
   const rows = Array.from({ length: count }, (_, i) =>
-    t.columns.map((column) => (typeof column.values[i] === 'string' ? column.values[i] :
-      number(column.values[i], 6))));
-  return [table(t.columns.map((column) => column.name), rows, { class: 'rows' }),
+    columns.map((column) => (typeof column.values[i] === 'string' ? column.values[i] :
+      number(column.values[i], digits))));
+  return [table(columns.map((column) => breakable(column.name)), rows, { class: 'rows' }),
     t.rows > count ? el('p', { class: 'small' },
       `The first ${count} of ${t.rows} rows; all are in ${t.file}.`) : null];
 }

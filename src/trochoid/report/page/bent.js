@@ -71,7 +71,7 @@ function bentSection(report) {
   const how = bodies.map((body) => `${body.name} ${number(1000 * body.largest, 3)} µm ${body.place}`);
   const part = section('bent', 'Deflected shapes of cutter and wall', 'Deflection',
     prose('Seen along the feed, at the spindle angle of the largest force across the wall: ',
-      el('b', {}, `${number(bent.F_normal_N, 4)}\u00a0N at ${number(bent.angle_deg, 4)}°`),
+      el('b', {}, `${number(bent.F_normal_N, 4)}\u00a0N at ${number(((bent.angle_deg % 360) + 360) % 360, 4)}°`),
       `. ${sentence(how.join(', '))}. Bodies to scale, their deflection enlarged; broken lines: undeflected.`),
     chart.element);
   return { part, draw: () => chart.resize() };

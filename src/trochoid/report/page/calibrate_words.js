@@ -16,8 +16,8 @@ function explanationsPart(result, keys) {
   }), isNumber(one.eccentricity_mm) ? fixed(micro(one.eccentricity_mm), 3) : missing, fixed(micro(one.rms_mm), 3)]);
   const { own_mm: own, shared_mm: shared } = result.scatter || {};
   return section('explanations', 'How the readings may have come about', 'Explanations',
-    list.length > 1 ? prose('Form errors of the wall and feedback as the readings weigh them, likeliest first. The answer is the ' +
-      'mean over all of them; datum and residuals on this page are those of the likeliest.') : null,
+    list.length > 1 ? prose('What besides the cutting may be in the readings, likeliest first: a constant offset of them all, a tilt or a curvature over the height, ' +
+      'and a deflection that changes the chip (feedback). The answer is the mean over all of them; datum and residuals on this page are those of the likeliest.') : null,
     list.length > 1 ? table(['form', 'probability', ...keys.map((key) => [symbol(nameAndUnit(key).name),
       el('small', {}, nameAndUnit(key).unit)]), 'runout, µm', 'left, µm rms'], rows, { class: 'fits' }) : null,
     isNumber(own) ? prose(`A reading scatters by ${fixed(micro(own), 2)} µm by itself`, isNumber(shared) && shared > 0 ?
@@ -43,12 +43,12 @@ function runoutPart(result) {
   return section('runout', 'Runout', 'Runout',
     prose(runoutSeen(runout) ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
       el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
-      ' off its centre, at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
-      ' from the tip of tooth 1 towards tooth 2 (eccentricity, 95 %).', isNumber(pitch) ?
+      ' off its centre', turn < 180 ? [', at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
+        ' from the tip of tooth 1 towards tooth 2'] : ', at an angle that is not known', ' (eccentricity, 95 %).', isNumber(pitch) && turn < 180 ?
         ` As the teeth of the readings are not numbered, the angle may as well be any multiple of ${
           number(pitch)}° further.` : ''),
-    prose(`All readings are left with ${fixed(micro(runout.rms_mm), 3)} µm rms with runout and ${
-      fixed(micro(runout.rms_without_mm), 3)} µm without: ${number(less, 2)} % less.`));
+    prose(`The fit leaves ${fixed(micro(runout.rms_mm), 3)} µm rms of all readings with runout and ${
+      fixed(micro(runout.rms_without_mm), 3)} µm without`, less >= 1 ? `: ${number(less, 2)} % less.` : '.'));
 }
 
 /** What ten more readings at each height would give. */

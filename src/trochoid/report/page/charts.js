@@ -114,8 +114,10 @@ function broken({ jumps, color }) {
     }
     return { stroke, fill: null, clip: null, band: null, gaps: null, flags: 3 };
   };
+  const alone = (values, i) => isNumber(values[i]) && (ends.has(i - 1) || !isNumber(values[i - 1])) &&
+    (ends.has(i) || !isNumber(values[i + 1]));
   return { paths, points: { show: true, size: 4, width: 0, fill: () => css(color),
-    filter: () => jumps.filter((i) => ends.has(i - 1)) } };
+    filter: (u, k) => u.data[k].map((_, i) => i).filter((i) => alone(u.data[k], i)) } };
 }
 
 function curve(series) {
@@ -262,12 +264,20 @@ function watchPage() {
   });
 }
 
-/** Places after which a frequency goes on in another branch: the step there is far above the usual ones. */
+/**
+ * Places after which a frequency goes on in another branch: the step there is far above the usual ones, or above
+ * those before and after it, the more so where it goes the same way.
+ */
 function jumpsOf(values) {
-  const steps = values.slice(1).map((v, i) => Math.abs(v - values[i]) / Math.abs(values[i] || 1));
-  const usual = [...steps].sort((a, b) => a - b)[Math.floor(steps.length / 2)] || 0;
-  return steps.map((step, i) => (step > Math.max(0.04, 6 * usual) ? i : -1)).filter((i) => i >= 0);
+  const steps = values.slice(1).map((v, i) => (v - values[i]) / Math.abs(values[i] || 1));
+  const usual = steps.map(Math.abs).sort((a, b) => a - b)[Math.floor(steps.length / 2)] || 0;
+  const against = (step, other) => other === undefined || Math.abs(other) < Math.abs(step) / (other * step < 0 ? 1 : 3);
+  return steps.map((step, i) => (Math.abs(step) > Math.max(0.04, 6 * usual) ||
+    (Math.abs(step) > 0.002 && against(step, steps[i - 1]) && against(step, steps[i + 1])) ? i : -1)).filter((i) => i >= 0);
 }
+
+/** Places after which an angle goes on at the other end of its turn. */
+const turnsOver = (degrees) => degrees.slice(1).map((v, i) => (Math.abs(v - degrees[i]) > 90 ? i : -1)).filter((i) => i >= 0);
 
 /** Values over x at other places of it, which increase; null outside, and between two branches. */
 function sampledAt(x, values, places, jumps = []) {

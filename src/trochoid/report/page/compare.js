@@ -38,9 +38,6 @@ function differentNumbers({ numbers }, names) {
       table(head, alike.map(row))) : null);
 }
 
-/** A path that may go on in the next line. */
-const breakable = (path) => path.split(/(?<=[.\]])/).flatMap((part) => [part, el('wbr')]);
-
 /** Columns of both over their first one, one panel a unit; the second dashed. */
 function curvesOfBoth(a, b, names, i) {
   const [first, ...rest] = a.columns;
@@ -55,7 +52,8 @@ function curvesOfBoth(a, b, names, i) {
     if (!byUnit.has(unit)) byUnit.set(unit, []);
     const of = byUnit.get(unit);
     const color = seriesColor(of.length / 2);
-    const [jumps, theirs] = [column.values, twin].map((values) => (/^(chatter_frequency|argument)/.test(name) ? jumpsOf(values) : []));
+    const [jumps, theirs] = [column.values, twin].map((values) => (name === 'chatter_frequency' ? jumpsOf(values) :
+      name === 'argument' ? turnsOver(values) : []));
     of.push({ name: [symbol(name), `, ${names[0]}`], values: column.values, jumps, color },
       { name: [symbol(name), `, ${names[1]}`], values: sampledAt(other.values, twin, first.values, theirs),
         jumps: theirs.map((k) => placeBefore(first.values, other.values[k + 1])), color, dash: [6, 3] });

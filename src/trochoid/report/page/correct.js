@@ -29,14 +29,15 @@ const inPercent = (x) => (isNumber(x) ? (100 * x).toFixed(2) : null);
 
 function correctLead({ before, after, command, reduction, controller }) {
   if (!after) return null;
+  const rpm = command.spindle_rpm;
   return [tiles([
     { label: 'Difference of the flutes, before', value: inPercent(before.difference), unit: '%',
       note: 'of the larger peak of |Fy|' },
     { label: 'With the command', value: inPercent(after.difference), unit: '%',
       note: isNumber(reduction) && `${(100 * reduction).toFixed(1)} % less` },
     { label: 'Command, peak to peak', value: number(command.peak_to_peak_um, 4), unit: 'µm',
-      note: isNumber(command.stroke_margin_um) &&
-        `${number(command.stroke_margin_um, 3)} µm of the stroke to spare` },
+      note: [isNumber(command.stroke_margin_um) && `${number(command.stroke_margin_um, 3)} µm of the stroke to spare`,
+        isNumber(rpm) && `at ${number(rpm)} rpm`].filter(Boolean).join('; ') },
     controller && { label: 'Under the controller', value: inPercent(controller.difference_running),
       unit: '%', note: controller.fault ? `fault: ${controller.fault}` :
         isNumber(controller.turns_to_3_percent) &&
@@ -156,9 +157,14 @@ function commandSection(report) {
     { name: 'table wanted', values: columnNamed(t, 'table_wanted_um'), color: '--s3',
       dash: [6, 3] },
     there && { name: 'table', values: there, color: '--s2' }].filter(Boolean) }];
+  const { table_deviation_um: deviation, spindle_rpm: rpm } = report.result.command;
+  const shift = report.result.runout?.angle_offset_deg;
   const part = section('command', 'Command and table over a turn', 'Command',
-    prose('What the actuator is told (feedforward), what the table should do, and what it does while it is cut ' +
-      'upon, cutting force and all. command.csv and command.h hold the command.'), chart.element);
+    prose('What the actuator is told (feedforward), what the table should do, and what it does under the cutting force',
+      isNumber(deviation) ? `: up to ${number(deviation, 2)} µm from what it should. ` : '. ',
+      'command.csv and command.h hold the command', isNumber(rpm) ? `, which is made for ${number(rpm)} rpm: at another speed it is wrong` : '', '.',
+      isNumber(shift) && shift !== 0 ? [' A recorded angle plus ', el('b', {}, `${number(shift, 3)}°`),
+        ' is φ; command.h has that as trochoid_command_offset_deg.'] : null), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -216,15 +222,18 @@ function speedsSection(report) {
     prose('What is left of the difference at other spindle speeds, ' +
       (report.result.max_rpm_cut === 'moving' ? 'simulated with tool, table and actuator'
         : 'for a rigid tool') + ': each motion is ' +
-      'sized to make the peaks equal when the table follows it exactly. Where the command would ' +
-      'leave the stroke it is cut off.'), chart.element,
+      'sized to make the peaks equal when the table follows it exactly. The command is drawn as it would have to be; ' +
+      'beyond the stroke it is cut off, and the difference is what is left then.'), chart.element,
     table(['strategy', `highest speed for ${number(100 * allowed, 3)} %, rpm`],
-      names.map((name) => [strategyNames[name], highest[name] > 0 ? number(highest[name], 5) :
-        'none'])));
+      names.map((name) => [strategyNames[name], !(highest[name] > 0) ? 'none' :
+        highest[name] >= x[x.length - 1] ? `${number(x[x.length - 1])} or more` : number(highest[name], 3)])));
+  const { limits = [] } = report.result.command;
+  const stroke = limits.find((limit_) => limit_.what === 'stroke_um')?.limit;
   return { part, draw: () => chart.draw([
     { label: 'difference of the peaks', unit: '%', height: 230,
       series: [...curves('difference', 100), limit] },
-    { label: 'command, peak to peak', unit: 'µm', height: 150, series: curves('command_um', 1) }]) };
+    { label: 'command, peak to peak', unit: 'µm', height: 190, series: [...curves('command_um', 1),
+      isNumber(stroke) && { name: 'stroke', values: x.map(() => stroke), color: '--soft', dash: [2, 4] }].filter(Boolean) }]) };
 }
 
 /** The alternative without a table: a spindle speed that changes within the turn. */
@@ -250,10 +259,10 @@ function spindleSection(report) {
 
 function limitsSection(command) {
   if (!command?.limits?.length) return null;
-  const rows = command.limits.map((l) => [el('span', {}, l.reason),
+  const rows = command.limits.map((l) => [el('span', {}, inPrint(l.reason)),
     l.ok === null ? 'not known' : l.ok ? 'within' : el('b', {}, 'beyond')]);
   return section('limits', 'Limits of the actuator', 'Limits',
-    table(['what', 'limit'], rows),
+    table(['what', 'against its limit'], rows),
     command.optimum ? prose(optimumOf(command.optimum)) : null,
     command.learning ? prose(`Iterative learning control: ${command.learning.iterations} iterations, ` +
       `${command.learning.converged ? 'converged' : 'not converged'}.`) : null);
@@ -268,23 +277,23 @@ function wallsSection({ before, after }) {
   number(after.walls[i].peak_to_valley_um, 3), shares(wall), shares(after.walls[i])]);
   return section('walls', 'Feed marks on the walls', 'Walls',
     prose('Marks of the teeth on the walls beside the cutter, for a rigid tool. A table that moves ' +
-      'along the feed shifts the marks; how deep they lie is up to the longest tooth.'),
+      'along the feed shifts the marks; how deep they reach is decided by the longest tooth.'),
     table(['wall', 'marks before, µm', 'after', 'made by each flute before, %', 'after'], rows));
 }
 
 function correctRunoutSection({ runout, axes }) {
   if (!runout) return null;
   const list = (values) => values?.map((v) => number(v, 4)).join(', ');
+  const nothing = (um) => (um < 1e-3 ? '0' : number(um, 3));
   const rows = [
     ['stands out by, µm (mean 0)', list(runout.radial_offsets_um)],
-    ['chip of each tooth above the feed, µm', list(runout.chip_difference_um)],
+    ['chip of each tooth above the feed per tooth, µm', list(runout.chip_difference_um)],
     ['the command is made for, µm', list(runout.designed_for_um)],
     runout.static_fit && ['a rigid model reads from the forces, µm',
       runout.static_fit.chip_difference_um.map((v) => measured(v.value, 1.96 * v.se)).join(', ')],
     runout.ratio_um && ['from the ratio of the peaks, µm', list(runout.ratio_um)],
-    axes && ['chip differences over the cut, µm (root mean square)',
-      `${number(axes.uncorrected_um, 3)} as it is, ${number(axes.one_axis_um, 3)} with this axis ` +
-      `at best, ${number(axes.two_axes_um, 3)} with a second one`],
   ].filter(Boolean);
-  return section('runout', 'Runout', 'Runout', table(['', ''], rows));
+  return section('runout', 'Runout', 'Runout', table(['', ''], rows), axes ?
+    prose(`Over the cut the chips of the teeth differ by ${number(axes.uncorrected_um, 3)} µm (root mean square) as it is, ` +
+      `by ${nothing(axes.one_axis_um)} µm with this axis at best, by ${nothing(axes.two_axes_um)} µm with a second one.`) : null);
 }

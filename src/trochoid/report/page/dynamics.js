@@ -43,8 +43,8 @@ function dynamicsLead(result) {
         ? `${result.period ? `it repeats ${periodText(result)}: ` : ''}the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
         : `${result.turns} turns; amplitudes would be those of the moment, so none are given` },
     isNumber(result.linear_growth_per_turn) && { label: 'Floquet multiplier of a turn', value: `× ${number(result.linear_growth_per_turn, 4)}`,
-      note: isNumber(seen) ? `linearised cut; × ${number(seen, 4)} seen in the motion`
-        : 'linearised cut; below 1 a small vibration fades' },
+      note: `of the linearised cut; below 1 a small vibration fades${
+        isNumber(seen) ? `. The last turns of the motion: ×\u00a0${number(seen, 2)}` : ''}` },
     result.vibration && { label: 'It stays within', value: [result.vibration.x_um, result.vibration.y_um]
       .filter((v) => v > 0).map((v) => `± ${number(v, 3)}`).join(' · '), unit: 'µm',
       note: `along ${[['x', result.vibration.x_um], ['y', result.vibration.y_um]].filter(([, v]) => v > 0)
@@ -54,10 +54,10 @@ function dynamicsLead(result) {
       note: 'the strongest line that is no harmonic of the spindle' },
     forces.length && { label: forces.length > 1 ? 'Peak |Fy| of each flute' : 'Peak |Fy|',
       value: forces.slice(0, 4).join(' · ') + (forces.length > 4 ? ' …' : ''), unit: 'N',
-      note: forces.length > 1 && `they differ by ${number(100 * result.difference, 3)} % of the largest` },
-    { label: 'Peak force across the tool', value: result.peak_xy_N, unit: 'N' },
-    result.process_damping && { label: 'Process damping', value: result.process_damping.wear_land_um, unit: 'µm',
-      note: 'wear land of the flanks; right for small vibrations' },
+      note: forces.length > 1 && `they differ by ${(100 * result.difference).toFixed(2)} % of the largest` },
+    { label: 'Peak force in the plane of the table', value: fixed(result.peak_xy_N, 3), unit: 'N' },
+    result.process_damping && { label: 'Wear land of the flanks', value: result.process_damping.wear_land_um, unit: 'µm',
+      note: 'its process damping is in; right for small vibrations' },
   ].filter(Boolean));
 }
 
@@ -113,7 +113,7 @@ function motionForces(report) {
   const chart = figure({ key: 'angle', x, label: 'spindle angle, last turns', unit: '°',
     caption: zoomHint + thinned(t) });
   const part = section('forces', 'Force while it moves', 'Forces',
-    prose('Force on the tool in the last turns. Dashed: where the tip of a tooth enters the stock.'),
+    prose('Force on the tool in the last turns. Dashed: where the tip of a tooth passes the nominal entry angle; a tooth that is shorter, or bent away, meets its chip later.'),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -163,11 +163,12 @@ function motionSection(report) {
       ['x_table_um', 'x', '--s3'], ['y_table_um', 'y', '--s4']]) },
   ].filter((panel) => panel.series.length);
   if (!panels.length) return null;
+  const told = columnNamed(t, 'command_um')?.some((value) => value !== 0);
   const chart = figure({ key: 'angle', x, label: 'spindle angle, last turns', unit: '°',
     caption: zoomHint + thinned(t) });
   const part = section('motion', 'How tool and table move', 'Motion',
-    prose('Displacements from where each would rest without forces, along x (the feed) and y. The ' +
-      'table is compliant: under the cut it does not stand exactly where its actuator stands.'),
+    prose('Displacements from where each would rest without forces', told ? ' and without a command' : '', ', along x (the feed) and y. The ' +
+      'table is compliant: under the cut it does not stand exactly where its actuator stands.', told ? ' The command is about its middle.' : ''),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -267,11 +268,11 @@ function surfaceLocationSection(result) {
   const walls = result.surface_location;
   if (!walls?.length) return null;
   const rows = walls.map((wall) => [`${wall.wall} wall`, ...wall.flutes.map((flute) =>
-    number(flute.surface_location_error_um, 4)), number(wall.surface_location_error_um, 4)]);
+    hundredths(flute.surface_location_error_um)), hundredths(wall.surface_location_error_um)]);
   const teeth = walls[0].flutes.map((flute) => `tooth ${flute.tooth}`);
   return section('surface', 'Surface location error', 'Surface',
     prose('By how much each tooth leaves the wall off its place, in µm, from where tool, work and tooth ' +
-      'stand at the moment the wall is made; positive where material is left. The tooth that reaches ' +
-      'deepest makes the wall that remains.'),
+      'stand at the moment the wall is made; positive where material is left. A tooth that is longer by its runout cuts so much ' +
+      'deeper, whatever moves. The tooth that reaches deepest makes the wall that remains.'),
     table(['error, µm', ...teeth, 'remains'], rows, { class: 'fits' }));
 }

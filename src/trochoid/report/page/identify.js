@@ -65,13 +65,20 @@ function headline(fit, fits, trust) {
         value: measured(main.value, half(main)),
         unit: nameAndUnit(key).unit, note: known(main, trust).text },
       { label: 'Runout between teeth', value: spread && fixed(spread, 3), unit: 'µm',
-        note: spread && !trust ? 'do not use' : fit.runout?.eccentricity_mm ? 'off centre' : null },
+        note: spread && !trust ? 'do not use' : [fit.runout?.eccentricity_mm && 'off centre', runoutWidth(fit)].filter(Boolean).join('; ') },
       residualTile(fit, fits),
       phases.length && { label: 'Phase', value: phases.map((p) => number(p)).join('°, ') + '°',
         note: 'tip of tooth 1 ahead of the recorded angle' },
     ]),
     trust && runout ? prose('Runout: ', runout, '.') : null,
   ];
+}
+
+/** The interval of a runout of two teeth or of an eccentricity alone, in words. */
+function runoutWidth({ runout, interval_factor: factor = 1.96 }) {
+  const offsets = runout?.radial_offsets_mm || [];
+  const se = offsets.some((r) => r !== offsets[0]) ? offsets.length === 2 && runout.radial_offsets_se_mm?.[1] : runout?.eccentricity_se_mm;
+  return isNumber(se) && se > 0 ? `± ${number(1000 * factor * se, 2)} µm` : '';
 }
 
 /** Largest difference of the radii in micrometres, or the eccentricity. */
@@ -137,8 +144,8 @@ function coefficientSection(fit, trust, group) {
       'From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
-      fit.interval_widening > 1.2 ? 'What the fit leaves is not white noise: the confidence intervals are ' +
-        `${number(fit.interval_widening, 2)} times as wide for it.` : null),
+      fit.interval_widening > 1.2 ? `The intervals are ${number(fit.interval_widening, 2)} times as wide as white noise ` +
+        'alone would make them: what the fit leaves holds more.' : null),
     table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
     offsetTable(fit));
 }
@@ -222,7 +229,8 @@ function fitsSection(fits, best) {
       { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }) : null,
     noted.length ? el('ul', { class: 'reasons' }, noted.map(reasonsOf)) : null,
     answered ? el('p', { class: 'small' }, '± is the half width of the 95 % confidence interval. Residual: ' +
-      'square root of the mean of |ΔF|² over all samples, ΔF taken as a vector.') : null);
+      'square root of the mean of |ΔF|², ΔF taken as a vector', fits.some((fit) => fit.band_harmonics > 0) ?
+      ', of the harmonics that are fitted; unexplained: of those of the force.' : ' over all samples.') : null);
 }
 
 /** Why a fit has no answer, and which quantities it could not tell apart, by reason. */
@@ -249,7 +257,7 @@ function formSection(form) {
   const tried = [form.tried ?? []].flat().filter((one) => isNumber(one.rms_N));
   const by = form.decided_by === 'record' ? 'Decided by the record: ' : 'As the case asks. ';
   return section('form', 'Which form of runout', 'Runout form',
-    prose(by, sentence(form.why), '.'),
+    prose(by, form.decided_by === 'record' ? form.why : sentence(form.why), '.'),
     tried.length > 1 ? table(['form', 'residual, N rms', 'evidence against it'],
       tried.map((one) => [formNames[one.form] || one.form, fixed(one.rms_N, 4),
         one.form === form.better ? 'none' : number(one.excess, 3)]), { class: 'forms' }) : null,
@@ -264,9 +272,9 @@ function viewsSection(views, best) {
   const found = Object.entries(best?.resonances || {}).filter(([, one]) => isNumber(one?.frequency_Hz))
     .map(([axis, one]) => `${number(one.frequency_Hz, 3)} Hz in ${axis} (damping ratio ${number(one.damping_ratio, 2)})`);
   return section('views', 'How far the answer depends on the dynamometer', 'Dynamometer',
-    prose('What the fit leaves repeats turn by turn. ', found.length ?
+    prose(found.length ?
       `The dynamometer rings at ${found.join(', ')}: this is in the model of the first row, which counts.` :
-      'No resonance explains it, so every harmonic is fitted, with the intervals that this deserves.'),
+      'What the fit leaves repeats turn by turn, and no resonance explains it: so every harmonic is fitted, with the intervals that this deserves.'),
     table(['harmonics', symbol(nameAndUnit(key).name), '95 % interval', 'unexplained of all'],
       views.map((view) => {
         const width = half(view[key]);

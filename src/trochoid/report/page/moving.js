@@ -70,9 +70,10 @@ function paintMoment(c, width, height, moments, i) {
 }
 
 function momentText({ angle, tool, table, force }, i) {
-  const pair = ([x, y], digits) => `${fixed(x[i], digits)}, ${fixed(y[i], digits)}`;
-  return `φ = ${number(((angle[i] % 360) + 360) % 360, 4)}°: force on the tool ${pair(force, 3)} N, ` +
-    `tool ${pair(tool, 3)} µm, table ${pair(table, 3)} µm (x, y)`;
+  const tenth = (v) => v.toFixed(1).replace(/^-(0\.0)$/, '$1').replace('-', '−');
+  const pair = ([x, y]) => `${tenth(x[i])}, ${tenth(y[i])}`;
+  return `φ = ${number(((angle[i] % 360) + 360) % 360, 4)}°: force on the tool ${pair(force)} N, ` +
+    `tool ${pair(tool)} µm, table ${pair(table)} µm (x, y)`;
 }
 
 /** Paused until somebody asks; a slider for every moment, by mouse or keys. */
@@ -80,13 +81,14 @@ function movingSection(report) {
   const moments = momentsOf(report);
   if (!moments) return null;
   const count = moments.angle.length;
-  let at = 0;
+  const sizes = moments.force[0].map((F, i) => Math.hypot(F, moments.force[1][i]));
+  let at = sizes.indexOf(Math.max(...sizes));
   let started = null;
   const chart = drawing({ label: 'The cut from above at one moment: stock, tool with its teeth, and the force on it',
-    paint: (c, width, height) => paintMoment(c, width, height, moments, at),
+    lowOnPaper: true, paint: (c, width, height) => paintMoment(c, width, height, moments, at),
     height: (width) => Math.round(Math.min(430, Math.max(260, 0.62 * width))) });
-  const readout = el('div', { class: 'readout', 'aria-live': 'off' }, momentText(moments, 0));
-  const slider = el('input', { type: 'range', min: 0, max: count - 1, step: 1, value: 0,
+  const readout = el('div', { class: 'readout moment', 'aria-live': 'off' }, momentText(moments, at));
+  const slider = el('input', { type: 'range', min: 0, max: count - 1, step: 1, value: at,
     'aria-label': 'moment of the last turns', input: () => show(Number(slider.value)) });
   const show = (i) => {
     at = i;
@@ -109,13 +111,13 @@ function movingSection(report) {
     if (started) requestAnimationFrame(frame);
   } }, 'Play');
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
-  chart.controls.append(el('div', { class: 'moments' },
+  chart.controls.append(el('div', { class: 'moments screen' },
     still ? null : el('div', { class: 'choice' }, el('div', {}, button)), slider));
   chart.canvas.parentElement.after(readout);
   const part = section('moving', 'The cut from above', 'From above',
-    prose('Stock, tool and the force on it (arrow) at one moment of the last turns; a tooth with a black tip is ' +
-      'where it may cut. Thin: the path of the middle of the tool. ' +
-      (still ? 'Move along with the slider.' : 'Play goes slowly; the slider, also with the arrow keys, to any moment.')),
+    prose('Stock, tool and the force on it (arrow) at one moment of the last turns; a tooth with a bar at its tip is ' +
+      'where it may cut. Thin: the path of the middle of the tool. ', el('span', { class: 'screen' },
+      still ? 'Move along with the slider.' : 'Play goes slowly; the slider, also with the arrow keys, to any moment.')),
     chart.element);
   return { part, draw: () => chart.resize() };
 }

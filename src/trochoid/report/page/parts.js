@@ -57,6 +57,8 @@ const forcePanels = (curves) => axesOfForce.map((axis) => ({
 
 const zoomHint = 'Drag or pinch to zoom; double-click or double-tap to see all.';
 
+const placeOf = (height) => (height > 0 ? `${number(height)} mm above the tip` : 'at the tip');
+
 /** h over theta, one curve a tooth; from chip_curve.csv, else from chip.csv. */
 function chipSection(report, note) {
   const drawn = chipCurves(report);
@@ -67,7 +69,7 @@ function chipSection(report, note) {
     caption: zoomHint + thinned(drawn.table),
   });
   const part = section('chip', 'Uncut chip thickness of each tooth', 'Chip',
-    prose('The thickness ', el('i', {}, 'h'), ' at the tip, along the immersion angle ',
+    prose('The thickness ', el('i', {}, 'h'), ` ${placeOf(report.result.teeth_height_mm)}, along the immersion angle `,
       el('i', {}, 'θ'), ' of the tooth. With runout the teeth take unequal chip loads.', note),
     chart.element);
   const series = drawn.curves.map((curve, i) => ({
@@ -131,7 +133,7 @@ function engagementSection(teeth, height) {
     return tick;
   });
   return section('engagement', 'Engagement: where each tooth cuts', 'Engagement',
-    prose('From entry to exit angle: immersion angles with a chip', isNumber(height) ? ` ${number(height)} mm above the tip` : '',
+    prose('From entry to exit angle: immersion angles with a chip', isNumber(height) ? ` ${placeOf(height)}` : '',
       '; 0° is +y, 90° the direction of feed.'),
     el('ol', { class: 'engagement' }, rows,
       el('li', { class: 'ticks' }, el('b', {}), el('span', { class: 'track' }, ticks))));

@@ -63,8 +63,8 @@ function bestSection(result, cuts, keys) {
   const counted = isNumber(cuts[0].narrows);
   return section('best', 'The best cuts', 'Best cuts',
     prose(`What ${number(result.turns)} turns of each cut, added to what is known, make of the 95 % intervals. `,
-      'The first has the smallest joint region of the quantities',
-      counted ? '; "narrower" is the mean factor over them.' : '.'),
+      'The first leaves the smallest joint region of all the quantities',
+      counted ? '; "narrower" is the geometric mean of how much the standard errors shrink; intervals from few turns shrink more.' : '.'),
     table(['cut', 'feed per tooth', 'axial depth', 'radial depth', 'peak force',
       ...(counted ? ['narrower'] : []), ...keys.map(quantityName)],
     [['so far', '', '', '', '', ...(counted ? [''] : []),
@@ -86,10 +86,10 @@ function allCutsSection(report, keys) {
   if (!kinds?.length) return null;
   const values = report.result.cuts[0].predicted;
   const place = el('div', {});
-  const panelsFor = (order) => keys.map((key) => {
+  const panelsFor = (order, xs) => keys.map((key) => {
     const width = columnNamed(t, `half_width_${key}`);
     const shown = order.map((i) => spreadIn(key, width[i], values[key].value));
-    return { label: quantityName(key), unit: `± ${spreadUnit(key)}`, height: 150,
+    return { label: quantityName(key), unit: `± ${spreadUnit(key)}`, height: 150, markers: [{ x: xs[0], text: 'best' }],
       series: cutKinds.map((name, kind) => ({ name, line: false, points: 7, color: seriesColors[kind],
         values: order.map((i, n) => (kinds[i] === kind ? shown[n] : null)) }))
         .filter((series) => series.values.some(isNumber)) };
@@ -98,15 +98,15 @@ function allCutsSection(report, keys) {
     const x = columnNamed(t, axis.column);
     const order = x.map((_, i) => i).sort((a, b) => x[a] - x[b]);
     const chart = figure({ key: 'plan', x: order.map((i) => x[i]), points: true, label: axis.text,
-      unit: axis.unit });
+      unit: axis.unit, caption: zoomHint });
     place.replaceChildren(chart.element);
-    chart.draw(panelsFor(order));
+    chart.draw(panelsFor(order, x));
   };
   const varied = planAxes.filter(({ column }) => new Set(columnNamed(t, column)).size > 1);
   const chosen = varied[0] || planAxes[0];
   const part = section('cuts', 'All cuts compared', 'All cuts',
-    prose('Each point is a cut: the half width of the 95 % interval after it. Low and far left is ' +
-      'much knowledge for little force.'),
+    prose('Each point is a cut: the half width of the 95 % interval after it. Low is well known; over the peak force, low and ' +
+      'far left is much knowledge for little force.'),
     choice('Over', varied.map((axis) => ({ value: axis, text: axis.text })), chosen, show), place);
   return { part, draw: () => show(chosen) };
 }

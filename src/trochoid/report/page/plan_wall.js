@@ -37,7 +37,8 @@ function wallPlanLead(result, keys) {
     thin && { label: 'Thinnest wall, cut as stated', value: isNumber(thin.thickness_mm) ?
       fixed(thin.thickness_mm, 3) : 'none', unit: isNumber(thin.thickness_mm) ? 'mm' : '',
     note: isNumber(thin.thickness_mm) ? (thin.thinner_too ? 'thinner ones as well' :
-      `now ${number(cutting.thickness_mm)} mm`) : `${fixed(thin.error_um, 3)} µm stay` },
+      `now ${number(cutting.thickness_mm)} mm${isNumber(cutting.stated?.peak_error_um) && cutting.limited === 'peak' ?
+        `, which leaves ${fixed(cutting.stated.peak_error_um, 3)} µm` : ''}`) : `${fixed(thin.error_um, 3)} µm stay` },
   ])];
 }
 
@@ -65,8 +66,8 @@ function designsSection(report, keys) {
   const part = section('designs', 'How to measure', 'Measure',
     prose('Measure at ', el('b', {}, `${result.chosen.heights} heights`), ` from ${number(at[0], 3)} to ${
       number(at[at.length - 1], 3)} mm above the tip, `, el('b', {}, `${result.chosen.readings_per_height} readings`),
-    ' at each, at the same places, over whole turns of the feed. Intervals are 95 %, with an unknown ',
-    el('b', {}, result.form === 'none' ? 'form of none' : result.form), ' of the readings found along.'),
+    ' at each, at the same places, over whole turns of the feed. Spread is the part of the axial depth that the heights take. ' +
+      'Intervals are 95 %', result.form === 'none' ? '.' : [', with an unknown ', el('b', {}, result.form), ' of the readings found as well.']),
     table(['', 'heights', 'at each', 'readings', ...keys.map(quantityName)], rows), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -231,8 +232,8 @@ function changesSection(result, keys) {
         series: seriesOf(lengths) }].filter(Boolean));
   };
   const part = section('changes', 'Other cuts and walls', 'Other cuts',
-    prose('The same readings, the heights in proportion to the axial depth, of a cut or a wall of which one ' +
-      'thing is another. What does not change the force where the wall is finished tells nothing more.'),
+    prose('The same readings, the heights in proportion to the axial depth, of a cut or a wall that differs in one ' +
+      'thing.'),
     choice('Over', kinds.map((kind) => ({ value: kind, text: changeWords[kind] || kind })), kinds[0], show), place);
   return { part, draw: () => show(kinds[0]) };
 }
@@ -243,11 +244,11 @@ function wallBasis(result) {
   return section('basis', 'What this rests on', 'Basis', table(['', ''], [
     ['measured so far', files.length ? `${files.join(', ')} (${result.readings_so_far} readings)` : 'nothing'],
     ['noise of a reading', `${number(result.noise_um, 3)} µm (${from[result.noise_from] || ''})`],
-    ['unknown of the form of the readings', result.form],
+    ['unknown form of the readings', result.form],
     ['wanted', `± ${number(result.wanted_percent)} % of the coefficients, ± ${number(result.wanted_um)} µm of ` +
       'the eccentricity'],
     ['expected', Object.entries(result.chosen.predicted).filter(([, entry]) => isNumber(entry?.value))
-      .map(([key, entry]) => `${nameAndUnit(key).name.replaceAll('_', ' ')} ${number(inMicrometres(key) ?
+      .map(([key, entry]) => `${nameAndUnit(key).name.replace(/^(?!K_)(.*)$/, (name) => name.replaceAll('_', ' '))} ${number(inMicrometres(key) ?
         1000 * entry.value : entry.value)} ${inMicrometres(key) ? 'µm' : nameAndUnit(key).unit}`).join(', ')],
   ]));
 }

@@ -126,11 +126,15 @@ function paintPanel(c, panel, frame, x) {
   c.restore();
 }
 
+/** A point by itself, as a small square. */
+const dotAt = ([x, y]) => [[x - 2, y - 2], [x + 2, y - 2], [x + 2, y + 2], [x - 2, y + 2]];
+
 /** A curve in pieces: it ends where a value is missing and where it goes on in another branch. */
 function paintSeries(c, series, points) {
   let piece = [];
   const end = () => {
     if (piece.length > 1 && series.line !== false) line(c, piece, css(series.color), series.width || 1.5, series.dash);
+    if (piece.length === 1 && series.jumps?.length) filled(c, dotAt(piece[0]), css(series.color));
     piece = [];
   };
   points.forEach((point, i) => {

@@ -42,7 +42,7 @@ function comparisonParts(report) {
   const rows = list.map((run) => [run.file || '', number(run.rms_N, 3), number(run.measured_rms_N, 3),
     number(run.phase_deg)]);
   parts.push({ part: section('comparison', 'The comparison in numbers', 'Difference',
-    table(['', 'difference, N rms', 'measured, N rms', 'phase, °'], rows, { class: 'fits' })) });
+    table(['record', 'difference, N rms', 'measured, N rms', 'phase of the record, °'], rows, { class: 'fits' })) });
   return parts;
 }
 

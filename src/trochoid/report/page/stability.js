@@ -101,7 +101,7 @@ function stabilityLead(result) {
     tiles([
       { label: 'The cut is', value: result.verdict,
         note: `${number(result.spindle_rpm, 6)} rpm, ${number(result.axial_depth_mm)} mm deep` },
-      result.multiplier && { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 6),
+      result.multiplier && { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 4),
         note: mu.absolute < 1 ? 'below 1: a small vibration fades' : 'above 1: a small vibration grows' },
       !result.multiplier && { label: 'Floquet multiplier', value: 'none', note: 'no modes: by the measured response' },
       { label: 'Limit depth at this speed', value: isNumber(result.limit_depth_mm) ?
@@ -203,7 +203,7 @@ function limitSection(report) {
   const chart = figure({ key: 'limit', x, label: 'spindle speed', unit: 'rpm',
     caption: zoomHint + thinned(t) });
   const panels = [
-    { label: 'limit depth, the least unstable one', unit: 'mm', height: 200, markers, series: [
+    { label: 'limit depth: from here on unstable', unit: 'mm', height: 200, markers, series: [
       { name: 'limit depth', values: depths, color: '--s1', width: 1.8 },
       doubled.some(isNumber) && { name: 'period doubling there', values: doubled, color: '--s4', width: 3.2 },
       { name: 'depth of the case', values: x.map(() => result.axial_depth_mm), color: '--s2',
@@ -214,8 +214,8 @@ function limitSection(report) {
   const part = section('limit', 'Limit depth and chatter frequency', 'Limit',
     prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
       'The frequency is the strongest of the chatter that appears at the limit; where it jumps, another branch ' +
-      'is the first to chatter. Almost everywhere that ' +
-      'has a frequency of its own (Hopf); at a period doubling (flip) it repeats after two periods.' +
+      'is the first to chatter. Chatter has a frequency of its own (Hopf), or repeats after two periods (period doubling, flip), ' +
+      'or, with runout, after each.' +
       (result.process_damping ? ` Process damping of a ${dampingWords(result.process_damping)} lifts it where the spindle is slow.` : '')),
     chart.element);
   return { part, draw: () => chart.draw(panels) };

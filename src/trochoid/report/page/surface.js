@@ -12,7 +12,7 @@ const errorModels = {
     'laid along the feed, not a profile that a probe could find' },
 };
 const feedbackWords = {
-  none: 'the deflection does not change the chip',
+  none: 'what the deflection takes from the chip is left out',
   entry: 'the deflection shifts where teeth enter',
   regenerative: 'the deflection changes entry and chip, and earlier cuts are remembered',
   direct: 'the deflection changes entry and chip',
@@ -35,8 +35,8 @@ function surfacePage(report) {
     profileSection(report, rows, section, pick),
     heightSection(report, heights),
     bentSection(report),
-    wallForces(report, section),
-    { part: marksTable(heights) },
+    wallForces(report, section, rows.length),
+    { part: marksTable(heights, report.result.model === 'quasi_static') },
     { part: restSection(report.result, surfaceKnown) },
   ];
 }
@@ -61,6 +61,13 @@ function wallRows(t) {
   });
 }
 
+/** Words where the largest error stands at the edge of what was computed. */
+function atTheEnd(top, heights) {
+  const all = heights.map((h) => h.height_mm);
+  const ends = all.length > 2 && (top.height_mm === Math.min(...all) || top.height_mm === Math.max(...all));
+  return ends && Math.min(...all) > 0 ? ', the end of the heights that were computed' : '';
+}
+
 function surfaceLead(result, heights) {
   if (!heights.length) return null;
   const top = heights.reduce((a, b) => (b.max_error_mm > a.max_error_mm ? b : a));
@@ -71,15 +78,16 @@ function surfaceLead(result, heights) {
   return [
     tiles([
       { label: 'Mean surface location error', value: fixed(micro(result.mean_error_mm), 3), unit: 'µm',
-        note: result.mean_error_mm < 0 ? 'negative: cut too deep' : 'positive: material is left' },
+        note: `${result.mean_error_mm < 0 ? 'negative: cut too deep' : 'positive: material is left'}; mean over ${
+          heights.length > 1 ? `${heights.length} heights` : 'one height'}` },
       { label: 'Largest error', value: fixed(micro(result.peak_error_mm), 3), unit: 'µm',
-        note: `${number(top.height_mm, 3)} mm above the tip` },
+        note: `${number(top.height_mm, 3)} mm above the tip${atTheEnd(top, heights)}` },
       { label: 'Smallest error', value: fixed(micro(least), 3), unit: 'µm',
-        note: least < 0 ? 'negative: cut too deep' : 'nowhere cut too deep' },
-      result.model !== 'quasi_static' && { label: 'Roughness along the feed, Ra',
+        note: least < 0 ? 'negative: cut too deep' : 'at these heights nowhere cut too deep' },
+      result.model !== 'quasi_static' && { label: 'Roughness along the feed, Ra up to',
         value: fixed(rough.Ra_um, 3), unit: 'µm', note: `Rt up to ${fixed(Math.max(
           ...heights.map((h) => h.Rt_um)), 3)} µm` },
-      { label: 'Force across the wall', value: F.F_normal_max_N, unit: 'N',
+      { label: 'Force across the wall', value: fixed(F.F_normal_max_N, 3), unit: 'N',
         note: `peak; mean ${number(F.F_normal_mean_N, 3)} N` },
     ]),
     prose('Read as ', el('b', {}, model.name), `: ${model.what}. ${sentence(
@@ -169,13 +177,13 @@ function heightSlider(rows, section_, pick) {
   return el('label', { class: 'slider' }, el('span', {}, 'Height above the tip'), input, text);
 }
 
-/** One curve for every tooth; each reaches to the first point of the next, save marks. */
+/** One curve for every tooth; each begins at the last point of the one before, save marks. */
 function byTooth(row, marks) {
   const teeth = [...new Set(row.tooth)].sort((a, b) => a - b);
   return teeth.map((tooth) => ({
     name: `tooth ${tooth}`, color: seriesColor(tooth - 1), dash: dashOf(tooth - 1), width: 2.2,
     points: row.x.length < 60 ? 5 : false,
-    values: row.error.map((e, i) => (row.tooth[i] === tooth || (!marks && i && row.tooth[i - 1] === tooth) ? e : null)),
+    values: row.error.map((e, i) => (row.tooth[i] === tooth || (!marks && row.tooth[i + 1] === tooth) ? e : null)),
   }));
 }
 
@@ -200,8 +208,8 @@ function profileSection(report, rows, section_, pick) {
   section_.listeners.push(draw);
   chart.controls.append(...[heightSlider(rows, section_, pick)].filter(Boolean));
   const part = section('profile', 'Profile along the feed', 'Profile',
-    prose('At one height; the colour tells which tooth ', report.result.model === 'quasi_static' ?
-      'entered last.' : 'made each point.'), chart.element, words_);
+    prose(rows.length > 1 ? 'At one height; the colour tells which tooth ' : 'The colour tells which tooth ', report.result.model === 'quasi_static' ?
+      'entered last.' : 'made each point.'), words_, chart.element);
   return { part, draw };
 }
 
@@ -217,9 +225,7 @@ function heightSection(report, heights) {
   const [low, high] = [of('min_error_mm', 1000), of('max_error_mm', 1000)];
   const panels = [
     { label: 'error', unit: 'µm', height: 210, band: { low, high, name: 'smallest to largest' },
-      series: [{ name: 'mean', values: of('mean_error_mm', 1000), color: '--s1', width: 2 },
-        { name: 'smallest', values: low, color: '--s6', width: 1 },
-        { name: 'largest', values: high, color: '--s6', width: 1, dash: [6, 3] }] },
+      series: [{ name: 'mean', values: of('mean_error_mm', 1000), color: '--s1', width: 2 }].filter(Boolean) },
     report.result.model !== 'quasi_static' && { label: 'roughness', unit: 'µm', height: 120, range: fromZero, series: [
       { name: 'Ra', values: of('Ra_um'), color: '--s2', width: 1.8 },
       { name: 'Rt', values: of('Rt_um'), color: '--s4', width: 1.8, dash: [6, 3] }] },
@@ -236,7 +242,7 @@ function heightSection(report, heights) {
 }
 
 /** Forces over the angle, with the deflection at the chosen height. */
-function wallForces(report, section_) {
+function wallForces(report, section_, rows) {
   const forces = tableNamed(report, 'forces.csv');
   const x = columnNamed(forces, 'angle_deg');
   if (!x?.length || !increases(x)) return null;
@@ -260,7 +266,7 @@ function wallForces(report, section_) {
   ].filter(Boolean);
   const part = section('forces', 'Forces over the spindle angle', 'Forces',
     prose('Force on the tool. Across the wall, positive pushes cutter and wall apart and leaves material; ' +
-      'the deflection is that of both together, at the height chosen above.'), chart.element);
+      'the deflection is that of both together', rows > 1 ? ', at the height chosen above.' : '.'), chart.element);
   const draw = () => chart.draw(panels());
   if (whole) section_.listeners.push(draw);
   return { part, draw };
@@ -268,21 +274,22 @@ function wallForces(report, section_) {
 
 const hundredths = (um) => (isNumber(um) ? um.toFixed(2).replace(/^-(0\.00)$/, '$1').replace('-', '−') : missing);
 
-function marksTable(heights) {
+function marksTable(heights, quasiStatic) {
   if (!heights.length) return null;
   const teeth = heights[0].share?.length || 0;
   const marks = heights.some((h) => isNumber(h.once_per_turn_um));
-  const head = ['height, mm', 'mean', 'smallest', 'largest', 'Ra', 'Rt',
+  const rough = quasiStatic ? [] : ['Ra', 'Rt'];
+  const head = ['height, mm', 'mean', 'smallest', 'largest', ...rough,
     ...(marks ? ['once a turn', 'once a tooth'] : []),
-    ...(teeth > 1 ? [`teeth 1 to ${teeth}, %`] : []), 'µm/N'];
+    ...(teeth > 1 ? [`teeth 1 to ${teeth}, %`] : []), 'compliance, µm/N'];
   const rows = heights.map((h) => [number(h.height_mm, 4),
     ...['mean_error_mm', 'min_error_mm', 'max_error_mm'].map((key) => hundredths(micro(h[key]))),
-    hundredths(h.Ra_um), hundredths(h.Rt_um),
+    ...rough.map((name) => hundredths(h[`${name}_um`])),
     ...(marks ? [hundredths(h.once_per_turn_um), hundredths(h.once_per_tooth_um)] : []),
     ...(teeth > 1 ? [h.share.map((s) => Math.round(100 * s)).join(' · ')] : []),
     fixed(micro(h.compliance_mm_per_N), 3)]);
   return section('numbers', 'Every height in numbers', 'Numbers',
-    prose('Errors, roughness and amplitudes of the marks in µm; how much of the profile each tooth made; the ' +
-      'compliance of cutter and wall, for each newton of the whole force.'),
+    prose(quasiStatic ? 'Errors in µm' : 'Errors and roughness in µm', marks ? ', amplitudes of the marks that repeat once a turn and once a tooth' : '',
+      teeth > 1 ? '; how much of the profile each tooth made' : '', '; the compliance of cutter and wall, for each newton of the whole force.'),
     table(head, rows, { class: 'rows' }));
 }

@@ -7,7 +7,15 @@ const shortPath = (path) => path.replace(/^result\./, '');
 function taken(path) {
   const [, whole, entry] = /^(.*?)((?:\[\d+\])?)$/.exec(shortPath(path).split('.').pop());
   const { name, unit } = nameAndUnit(whole);
-  return { name: words(name) + entry.replace(/[[\]]/g, ' ').trimEnd(), unit };
+  return { name: axisWords(name, entry) ?? words(name) + entry.replace(/[[\]]/g, ' ').trimEnd(), unit };
+}
+
+/** Three numbers of a force are those along x, y and z. */
+function axisWords(name, entry) {
+  const statistic = { mean: 'mean', min: 'smallest', max: 'largest', rms: 'rms of' }[name];
+  const axis = axesOfForce[Number(entry.slice(1, -1)) - 1];
+  if (name === 'peak_xy') return 'peak force in the plane of the table';
+  return statistic && axis ? `${statistic} F${axis}` : undefined;
 }
 
 function sweepPage(report) {
@@ -25,8 +33,9 @@ function sweepPage(report) {
       keys.map((_, i) => sweptSection(t, keys, i, quantities))),
     { part: quantities.length > 0 && all.length > 1 ?
       tornadoSection(t, all, quantities, bands ? keys : []) : null },
-    { part: bands ? section('bands', 'The intervals', 'Intervals', firstRows(bands)) : null },
-    { part: t ? section('rows', 'The table', 'Table', firstRows(t)) : null },
+    { part: bands ? section('bands', 'The intervals', 'Intervals',
+      prose('Median, 95 % from low to high, and standard deviation (sd) over the draws.'), firstRows(bands, { most: 40, digits: 4 })) : null },
+    { part: t ? section('rows', 'The table', 'Table', firstRows(t, { digits: 5 })) : null },
     { part: restSection(result, sweepKnown) },
   ];
 }
@@ -80,9 +89,9 @@ function bandSection(t, keys, quantities, draws) {
   const panels = shown.map((q, n) => ({ label: taken(q.take).name, unit: taken(q.take).unit,
     height: 260, band: { name: '95 % of the draws', low: sorted(column('low', q)),
       high: sorted(column('high', q)) },
-    series: [{ name: 'median', color: seriesColor(n), width: 2, values: sorted(column('median', q)) }] }));
+    series: [{ name: 'median', points: 5, color: seriesColor(n), width: 2, values: sorted(column('median', q)) }] }));
   return { part: section('band', `Over ${keys[0]}, with what is uncertain`, keys[0],
-    prose(`Of ${draws} draws, the same at every value.`), chart.element),
+    prose(`Median and 95 % of ${draws} draws, the same draws at every value. Computed where the dots stand, straight between them.`), chart.element),
   draw: () => chart.draw(panels) };
 }
 
@@ -132,11 +141,11 @@ function tornadoSection(t, keys, quantities, apart) {
     shortPath(q.take), ...swept.map((key) => {
       const [a, b] = [columnNamed(t, key), columnNamed(t, shortPath(q.take))];
       const value = points ? correlationInPoints(points, a, b) : rankCorrelation(a, b);
-      return isNumber(value) ? value.toFixed(2) : missing;
+      return isNumber(value) ? value.toFixed(2).replace(/^-(0\.00)$/, '$1').replace('-', '−') : missing;
     })]);
   if (!rows.length || !swept.length) return null;
   return section('matters', 'What matters', 'What matters',
-    prose(points ? 'Correlation of the ranks of the draws, without its sign: 1 decides, 0 does not matter. Root mean square over the points.' :
-      'Correlation of the ranks: 1 goes up together, -1 one up and the other down, 0: one does not tell the other.'),
-    table(['', ...swept], rows));
+    prose(points ? 'How the answer goes with each uncertain number among the draws (correlation of their ranks, without its sign, root mean square over the points): 1 decides alone, 0 does not matter.' :
+      'How the answer goes with each number (correlation of their ranks): 1 rises with it, −1 falls with it, 0 does not follow it.'),
+    table(['', ...swept.map(breakable)], rows, { class: 'rows' }));
 }

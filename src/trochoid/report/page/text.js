@@ -139,11 +139,11 @@ function table(head, rows, options = {}) {
   const cell = (tag, content, i) => {
     const chosen = options.chosen === i ? 'chosen' : undefined;
     const scope = tag === 'th' ? (i === 0 ? 'row' : 'col') : undefined;
-    return el(tag, { class: chosen, scope, 'data-label': many && tag === 'td' ? names[i] : undefined }, content);
+    return el(tag, { class: chosen, scope, 'data-label': many ? names[i] || undefined : undefined }, content);
   };
   const kinds = [options.class, many ? 'many' : null].filter(Boolean).join(' ');
   return el('div', { class: 'scroll' }, el('table', { class: kinds || undefined },
-    el('thead', {}, el('tr', {}, head.map((content, i) => cell('th', content, i)))),
+    names.some((name) => name !== '') ? el('thead', {}, el('tr', {}, head.map((content, i) => cell('th', content, i)))) : null,
     el('tbody', {}, rows.map((row) => el('tr', {},
       row.map((content, i) => cell(i === 0 ? 'th' : 'td', content, i)))))));
 }

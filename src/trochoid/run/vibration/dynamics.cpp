@@ -58,6 +58,9 @@ SteadyState followed(MotionProblem problem, const Progress& progress) {
   });
 }
 
+/// Below it an error of a wall is none [m].
+constexpr double least_error = 0.05 * unit::um;
+
 /// What the motion does to the forces and the walls.
 std::string effect_of(const MotionResult& r) {
   const dynamics::Motion& motion = r.steady->motion;
@@ -70,9 +73,12 @@ std::string effect_of(const MotionResult& r) {
   const auto farthest = std::ranges::max_element(
       r.walls, {}, [](const auto& wall) { return std::abs(wall.remains); });
   if (farthest != r.walls.end()) {
-    text += fmt::format("; the wall is off by up to {:.3g} um (material {})",
-                        std::abs(farthest->remains) / unit::um,
-                        farthest->remains < 0 ? "missing" : "left");
+    const double off = std::abs(farthest->remains);
+    text += off < least_error
+                ? fmt::format("; the wall is off by less than {:g} um",
+                              least_error / unit::um)
+                : fmt::format("; the wall is off by up to {:.3g} um (material {})",
+                              off / unit::um, farthest->remains < 0 ? "missing" : "left");
   }
   return text + '.';
 }

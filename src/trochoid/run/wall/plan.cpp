@@ -292,11 +292,16 @@ struct WallPlanning {
     return std::move(r);
   }
 
-  /// More of something might be cut.
-  [[nodiscard]] bool best_at_the_edge() const {
+  /// Of what more might be cut; empty: nothing.
+  [[nodiscard]] std::string at_the_edge() const {
     const results::PlannedCutting& c = r.cutting;
-    return c.best && (c.cells[*c.best].f_z == c.feeds.back() ||
-                      c.cells[*c.best].a_e == c.radial_depths.back());
+    if (!c.best) return {};
+    const bool feed = c.cells[*c.best].f_z == c.feeds.back();
+    const bool depth = c.cells[*c.best].a_e == c.radial_depths.back();
+    return feed && depth ? "larger feeds or radial depths"
+           : feed        ? "larger feeds"
+           : depth       ? "larger radial depths"
+                         : "";
   }
 
   void warn() {
@@ -322,10 +327,10 @@ struct WallPlanning {
       add("no_error_limit",
           "[plan] has no largest_error_um: the map has no limit, and no cut is named.");
     }
-    if (best_at_the_edge()) {
+    if (const std::string more = at_the_edge(); !more.empty()) {
       add("edge_of_map",
-          "The best cut lies at the edge of the map: larger feeds or radial depths may "
-          "keep the error as well.");
+          "The best cut lies at the edge of the map: " + more +
+              " may keep the error as well.");
     }
     const auto left_out = std::count_if(r.cutting.cells.begin(), r.cutting.cells.end(),
                                         [](const auto& cell) { return !cell.ok; });

@@ -30,7 +30,7 @@ TEST(Correct, ReproducesTheCaseOfThePaper) {
   ASSERT_TRUE(r.heading.ok) << r.heading.message;
   EXPECT_EQ(r.heading.message.find("The flutes' peaks differ by 0.0"), 0U)
       << r.heading.message;
-  EXPECT_NE(r.heading.message.find(" Nearest to its limit: the command goes over 30."),
+  EXPECT_NE(r.heading.message.find(" Nearest to its limit: the command takes 30."),
             std::string::npos)
       << r.heading.message;
   EXPECT_EQ(r.heading.title, "Runout corrected by the table: 8 mm, 2 flutes");
