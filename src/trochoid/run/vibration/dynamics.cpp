@@ -74,11 +74,12 @@ std::string effect_of(const MotionResult& r) {
       r.walls, {}, [](const auto& wall) { return std::abs(wall.remains); });
   if (farthest != r.walls.end()) {
     const double off = std::abs(farthest->remains);
-    text += off < least_error
-                ? fmt::format("; the wall is off by less than {:g} um",
-                              least_error / unit::um)
-                : fmt::format("; the wall is off by up to {:.3g} um (material {})",
-                              off / unit::um, farthest->remains < 0 ? "missing" : "left");
+    text +=
+        off < least_error
+            ? fmt::format("; the wall is off by less than {:g} um",
+                          least_error / unit::um)
+            : fmt::format("; the wall is off by up to {:.3g} um (material {})",
+                          off / unit::um, farthest->remains < 0 ? "missing" : "left");
   }
   return text + '.';
 }

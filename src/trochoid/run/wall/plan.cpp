@@ -328,9 +328,8 @@ struct WallPlanning {
           "[plan] has no largest_error_um: the map has no limit, and no cut is named.");
     }
     if (const std::string more = at_the_edge(); !more.empty()) {
-      add("edge_of_map",
-          "The best cut lies at the edge of the map: " + more +
-              " may keep the error as well.");
+      add("edge_of_map", "The best cut lies at the edge of the map: " + more +
+                             " may keep the error as well.");
     }
     const auto left_out = std::count_if(r.cutting.cells.begin(), r.cutting.cells.end(),
                                         [](const auto& cell) { return !cell.ok; });
