@@ -25,9 +25,10 @@ take = ["result.peak_xy_N"]       # what is taken from each answer
 
 const $ = (id) => document.getElementById(id);
 const utf8 = new TextEncoder();
+const utf8Text = new TextDecoder();
 const page = {
-  task: 'identify', text: '', name: 'case.toml', files: new Map(), opened: null,
-  program: null, schema: null, examples: {}, templates: {}, answer: null, checks: 0,
+  task: 'identify', text: '', name: 'case.toml', files: new Map(), opened: null, drafts: {},
+  turns: 0, program: null, schema: null, examples: {}, templates: {}, answer: null, checks: 0,
 };
 window.trochoidPage = page;  // for tests, and for who looks into it
 
@@ -40,7 +41,7 @@ function given() {
 }
 
 function keep() {
-  kept.write({ task: page.task, text: page.text, name: page.name, example: page.example, options: $('options').value });
+  kept.write({ task: page.task, ...draft(), drafts: page.drafts, loaded: page.loaded, options: $('options').value });
 }
 
 /** The command that the case is checked for. */
@@ -93,7 +94,7 @@ function showForm() {
     remove: (path) => take(withoutTable(page.text, path)),
   }));
   page.opened = null;
-  $('drawing').replaceChildren(...[drawCut(read)].filter(Boolean));
+  $('drawing').replaceChildren(...[drawCut(read), drawSide(read)].filter(Boolean));
   if (focused) $(focused)?.focus();
 }
 
@@ -164,7 +165,7 @@ function show(answer, folder, seconds) {
   for (const id of ['all', 'use']) $(id).hidden = names.length === 0;
   const report = answer.files['report.html'];
   $('report').hidden = report === undefined;
-  if (report) $('report').srcdoc = new TextDecoder().decode(report);
+  if (report) $('report').srcdoc = utf8Text.decode(report);
   $('answer').hidden = false;
   $('answer').scrollIntoView({ behavior: 'smooth', block: 'start' });
 }
@@ -176,7 +177,7 @@ async function dropped(list) {
       page.name = file.name;
       page.example = undefined;
       page.opened = new Set(['tool', 'cut']);
-      take(new TextDecoder().decode(bytes));
+      take(utf8Text.decode(bytes));
       continue;
     }
     page.files.set(file.name, bytes);
@@ -203,41 +204,6 @@ function nameFile(name) {
   return undefined;
 }
 
-function choose(task, text) {
-  page.task = task;
-  page.opened = new Set(['tool', 'cut', 'measurement[1]']);
-  document.querySelectorAll('#tasks input').forEach((input) => { input.checked = input.value === task; });
-  const mine = Object.keys(page.examples).filter((name) => name.startsWith(`${task} `));
-  $('example').replaceChildren(element('option', { value: '' }, 'an example …'),
-    ...mine.map((name) => element('option', { value: name, selected: name === page.example }, name.slice(task.length + 1))));
-  if (text !== undefined) take(text);
-}
-
-async function startExample(name) {
-  const { file, files, first } = page.examples[name];
-  page.example = name;
-  page.started = null;
-  keptFiles.forgetAll();
-  page.files = new Map(Object.entries(files).map(([path, base64]) => [path, Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
-  page.name = file;
-  const bytes = page.files.get(file);
-  page.files.delete(file);
-  await answerFirst(first ?? []);
-  showFiles();
-  choose(name.split(' ')[0], new TextDecoder().decode(bytes));
-  page.started = name;
-}
-
-/** What an example takes from the answers of others: those, among its files. */
-async function answerFirst(runs) {
-  for (const { command, file, folder } of runs) {
-    say(`Answering ${command} ${file}, which it needs …`);
-    const { files } = await page.program.run('check', { args: [command, file, '-o', folder], files: allFiles(), folder });
-    for (const [name, bytes] of Object.entries(files).filter(([one]) => one !== 'report.html')) page.files.set(`${folder}/${name}`, bytes);
-  }
-  if (runs.length > 0) say('Ready.');
-}
-
 /** What the next command may take from an answer, among the files: numbers, not pictures. */
 function useAnswer() {
   for (const [name, bytes] of Object.entries(page.answer.files).filter(([one]) => /\.(toml|json)$/.test(one))) {
@@ -248,12 +214,6 @@ function useAnswer() {
   check();
 }
 
-function fresh(task) {
-  page.name = 'case.toml';
-  page.example = undefined;
-  choose(task, page.templates[task]);
-}
-
 async function begin() {
   const missing = whatIsMissing();
   if (missing !== '') {
@@ -262,7 +222,7 @@ async function begin() {
   }
   page.schema = JSON.parse($('schema').textContent);
   const [wasm, examples] = await Promise.all(['wasm', 'examples'].map((id) => inflated($(id).textContent.trim())));
-  page.examples = JSON.parse(new TextDecoder().decode(examples));
+  page.examples = JSON.parse(utf8Text.decode(examples));
   page.program = new Program(`${$('glue').textContent}\n${$('engine').textContent}`, await WebAssembly.compile(wasm));
   for (const task of Object.keys(tasks).filter((one) => one !== 'sweep')) {
     page.templates[task] = (await page.program.run('check', { args: ['new', task], files: {}, folder: 'none' })).out;
@@ -270,7 +230,9 @@ async function begin() {
   page.templates.sweep = page.templates.simulate + sweepTemplate;
   const before = kept.read();
   const dropped = await keptFiles.read();
-  if (before?.example && page.examples[before.example]) await startExample(before.example);
+  const loaded = before?.loaded ?? before?.example;
+  if (page.examples[loaded]) await startExample(loaded);
+  page.drafts = before?.drafts ?? {};
   for (const [name, bytes] of dropped) {
     page.files.set(name, bytes);
     keptFiles.put(name, bytes);  // the example forgot it
@@ -279,6 +241,7 @@ async function begin() {
   showFiles();
   if (before?.text && tasks[before.task]) {
     page.name = before.name ?? 'case.toml';
+    page.example = before.example;
     choose(before.task, before.text);
   } else {
     fresh('identify');
@@ -288,8 +251,9 @@ async function begin() {
 }
 
 $('tasks').replaceChildren(...Object.entries(tasks).map(([task, [title, about]]) => element('label', { class: 'task' },
-  element('input', { type: 'radio', name: 'task', value: task, onchange: () => fresh(task) }),
+  element('input', { type: 'radio', name: 'task', value: task, onchange: () => turnTo(task) }),
   element('strong', {}, title), element('span', {}, about))));
+$('anew').addEventListener('click', () => fresh(page.task));
 $('text').addEventListener('change', () => take($('text').value));
 $('example').addEventListener('change', (e) => { if (e.target.value !== '') startExample(e.target.value); });
 $('run').addEventListener('click', run);

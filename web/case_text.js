@@ -98,6 +98,19 @@ function withoutTable(text, path) {
   return lines.join('\n');
 }
 
+/** A text with the table [tool] of another one, where both have it. */
+function withToolOf(text, other) {
+  const [mine, theirs] = [text, other].map((one) => tablesOf(one).find(({ name }) => name === 'tool'));
+  if (mine === undefined || theirs === undefined) return text;
+  const lines = other.split('\n').slice(theirs.from, theirs.to);
+  while (/^\s*(#.*)?$/.test(lines.at(-1))) lines.pop();  // words about the next table
+  const all = text.split('\n');
+  let end = mine.to;
+  while (/^\s*(#.*)?$/.test(all[end - 1])) --end;
+  all.splice(mine.from, end - mine.from, ...lines);
+  return all.join('\n');
+}
+
 /** A key as TOML writes it: `teeth`, `"cut.spindle_rpm"`. */
 const keyOf = (key) => (/^[\w-]+$/.test(key) ? key : JSON.stringify(key));
 
@@ -112,5 +125,5 @@ function tomlOf(value) {
 }
 
 if (typeof module !== 'undefined') {
-  module.exports = { tablesOf, withKey, withoutTable, tomlOf, keyOf };
+  module.exports = { tablesOf, withKey, withoutTable, withToolOf, tomlOf, keyOf };
 }

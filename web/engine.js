@@ -8,12 +8,14 @@ const place = '/work';
 function lines(tell) {
   let bytes = [];
   const decoder = new TextDecoder();
-  const end = () => {
-    if (bytes.length > 0) tell(decoder.decode(new Uint8Array(bytes)));
+  const line = () => {
+    tell(decoder.decode(new Uint8Array(bytes)));
     bytes = [];
   };
+  const end = () => { if (bytes.length > 0) line(); };
   const put = (code) => {
-    if (code === null || code === 10 || code === 13) end();
+    if (code === 10) line();
+    else if (code === null || code === 13) end();
     else bytes.push(code < 0 ? code + 256 : code);
   };
   return { put, end };

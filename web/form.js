@@ -157,8 +157,9 @@ function mistakesOf(text) {
 function showMistakes(form, mistakes) {
   for (const node of form.querySelectorAll('.mistake')) { node.hidden = true; node.textContent = ''; }
   form.querySelectorAll('.wrong').forEach((node) => node.classList.remove('wrong'));
+  const placeOf = (path) => form.querySelector(`[data-key="${CSS.escape(path)}"], [data-key="${path}"]`);
   return mistakes.filter(({ path, text }) => {
-    const place = path && form.querySelector(`[data-key="${CSS.escape(path)}"], [data-key="${path}"]`);
+    const place = path && (placeOf(path) ?? placeOf(path.replace(/_mm(?=$|_)/, '_in')));  // the program speaks of mm
     if (!place) return true;
     const said = place.querySelector('.mistake');
     said.textContent = text;

@@ -103,6 +103,7 @@ test('every example answers as the program does', { skip }, async () => {
     const seconds = (Date.now() - begun) / 1000;
     assert.equal(native.status, 0, `${name}: ${native.stderr}`);
     assert.equal(/Answered/.test(answer.said), native.status === 0, `${name}: ${answer.said} ${answer.printed}`);
+    assert.equal(answer.printed.split('\n').length, native.stdout.trim().split('\n').length, `${name}: ${answer.printed}`);
     const written = fs.existsSync(path.join(temporary, folder, out)) ? fs.readdirSync(path.join(temporary, folder, out)) : [];
     assert.deepEqual(Object.keys(answer.files).sort(), written.sort(), name);
     let worst = 0;
@@ -166,6 +167,29 @@ test('what is being typed and what was dropped survive it too', { skip }, async 
   await page.reload();
   await page.waitForSelector('body.ready');
   assert.equal(await page.evaluate(() => window.trochoidPage.files.has('mine.csv')), false);
+  await context.close();
+});
+
+test('each task keeps its case, and a new one takes the tool along', { skip }, async () => {
+  const { page, context } = await opened();
+  const turnTo = (task) => page.check(`#tasks input[value=${task}]`);
+  const teeth = () => page.inputValue('[id="tool.teeth"]');
+  await page.fill('[id="tool.teeth"]', '5');
+  await page.press('[id="tool.teeth"]', 'Tab');
+  await turnTo('simulate');
+  assert.equal(await teeth(), '5');
+  await page.fill('[id="tool.teeth"]', '6');
+  await page.press('[id="tool.teeth"]', 'Tab');
+  await turnTo('identify');
+  assert.equal(await teeth(), '5');
+  await page.reload();
+  await page.waitForSelector('body.ready');
+  assert.equal(await teeth(), '5');
+  await turnTo('simulate');
+  assert.equal(await teeth(), '6');
+  await page.click('#anew');
+  assert.notEqual(await teeth(), '6');
+  assert.equal(await page.locator('#drawing svg').count(), 2);
   await context.close();
 });
 

@@ -9,10 +9,11 @@ import { parse } from 'smol-toml';
 
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../..');
 const need = createRequire(import.meta.url);
-const { tablesOf, withKey, withoutTable, tomlOf, keyOf } = need(`${root}/web/case_text.js`);
+const { tablesOf, withKey, withoutTable, withToolOf, tomlOf, keyOf } = need(`${root}/web/case_text.js`);
 Object.assign(globalThis, { tablesOf, withKey, tomlOf, keyOf });  // the page has one scope
 const { inchKeyOf, withUnit, inMm } = need(`${root}/web/lengths.js`);
 const { valuesTyped, valuesShown, numbersOf, withSwept } = need(`${root}/web/swept.js`);
+const { profileOf, radiusAt, edgesSeen } = need(`${root}/web/side_view.js`);
 const { typed, mistakesOf, rangeOf, unitOf } = need(`${root}/web/form.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
@@ -155,4 +156,24 @@ test('a length may be typed in inches', () => {
   assert.deepEqual(withUnit('8 mm'), { text: '8', unit: 'mm' });
   assert.deepEqual(withUnit('"free"'), { text: '"free"' });
   assert.deepEqual(inMm({ diameter_in: 0.5, stock_y_in: [-1, 1], teeth: 2 }), { diameter_mm: 12.7, stock_y_mm: [-25.4, 25.4], teeth: 2 });
+});
+
+test('a cutter has its profile, and a right-hand helix leans as the tool turns', () => {
+  const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-3, `${a} is not ${b}`);
+  const at = (tool, z) => radiusAt(profileOf({ diameter_mm: 8, teeth: 2, ...tool }, 10), z);
+  near(at({}, 0), 4);
+  near(at({ shape: 'ball' }, 9), 4);
+  assert.ok(Math.abs(at({ shape: 'ball' }, 2) - Math.sqrt(12)) < 0.02);
+  near(at({ shape: 'bull_nose', corner_radius_mm: 1 }, 0), 3);
+  near(at({ shape: 'taper', taper_deg: 10 }, 5), 4 + 5 * Math.tan(Math.PI / 18));
+  near(at({ shape: 'apt', corner_radius_mm: 1, corner_center_radius_mm: 3, corner_center_height_mm: 1 }, 10), 4);
+  const [[first, ...rest]] = edgesSeen({ diameter_mm: 8, teeth: 2, helix_deg: 30 }, profileOf({ diameter_mm: 8 }, 6), 6);
+  near(first[0], 4);  // tip of tooth 1 at +y, the left of the picture
+  near(rest.at(-1)[0], 4 * Math.cos((2 * 6 * Math.tan(Math.PI / 6)) / 8));
+});
+
+test('a new case takes the tool of another along', () => {
+  const text = withToolOf('# a\n[tool]\nteeth = 2 # of it\n\n# the cut\n[cut]\nspindle_rpm = 1\n', 'title = "b"\n[tool]\nteeth = 4\npitch_deg = [80,\n100, 90, 90]\n\n# more\n[cut]\n');
+  assert.equal(text, '# a\n[tool]\nteeth = 4\npitch_deg = [80,\n100, 90, 90]\n\n# the cut\n[cut]\nspindle_rpm = 1\n');
+  assert.equal(withToolOf('[step]\n', '[tool]\n'), '[step]\n');
 });
