@@ -3,7 +3,8 @@
 /**
  * A canvas that follows its width, the colours and the paper, like a figure. options:
  * {label, height (of the width), paint(c, width, height), caption, data() -> {head, rows},
- * lowOnPaper}; paint works in CSS pixels, data are what a table of it holds, lowOnPaper: any height will do.
+ * lowOnPaper}; paint works in CSS pixels, data are what a table of it holds, lowOnPaper: any height will do, so much
+ * of it (true: 0.78).
  */
 function drawing(options) {
   const canvas = el('canvas', { role: 'img', 'aria-label': options.label });
@@ -25,7 +26,7 @@ function drawing(options) {
   chart.resize = (width = place.clientWidth, tall = 1) => {
     if (width < 40) return;
     chart.width = width;
-    chart.height = Math.round(options.height(width) * (tall < 1 && options.lowOnPaper ? 0.78 : 1));
+    chart.height = Math.round(options.height(width) * (tall < 1 && options.lowOnPaper ? (options.lowOnPaper === true ? 0.78 : options.lowOnPaper) : 1));
     canvas.style.width = `${width}px`;
     chart.redraw();
   };

@@ -230,7 +230,7 @@ function scatterOf(turn, x, y) {
   };
   let places = null;
   const chart = drawing({ label: 'Tool minus work at the start of each turn, y over x',
-    height: (width) => Math.round(Math.min(420, Math.max(260, 0.6 * width))),
+    height: (width) => Math.round(Math.min(420, Math.max(260, 0.6 * width))), lowOnPaper: 0.6,
     data: () => ({ head: ['turn', 'x [µm]', 'y [µm]'], rows: turn.map((n, i) => [n, x[i], y[i]]) }),
     paint: (c, width, height) => { places = paintScatter(c, width, height, { x, y, view: chart.view }); } });
   zoomable(chart, () => places.frame, { x: ends(x), y: ends(y) });

@@ -85,7 +85,7 @@ function movingSection(report) {
   let at = sizes.indexOf(Math.max(...sizes));
   let started = null;
   const chart = drawing({ label: 'The cut from above at one moment: stock, tool with its teeth, and the force on it',
-    lowOnPaper: true, paint: (c, width, height) => paintMoment(c, width, height, moments, at),
+    lowOnPaper: 0.62, paint: (c, width, height) => paintMoment(c, width, height, moments, at),
     height: (width) => Math.round(Math.min(430, Math.max(260, 0.62 * width))) });
   const readout = el('div', { class: 'readout moment', 'aria-live': 'off' }, momentText(moments, at));
   const slider = el('input', { type: 'range', min: 0, max: count - 1, step: 1, value: at,
