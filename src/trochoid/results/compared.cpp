@@ -165,6 +165,14 @@ std::vector<Pair> worth_naming(const std::vector<Pair>& pairs) {
   return most;
 }
 
+/// Whether a result only repeats an input that differs: `spindle_rpm`, cut.spindle_rpm.
+bool repeats(const std::string& path, const Array& inputs) {
+  return std::ranges::any_of(inputs, [&](const Value& input) {
+    const auto& key = std::get<std::string>(find(input, "key")->data);
+    return key == path || key.ends_with("." + path);
+  });
+}
+
 std::string sentence(const std::vector<Pair>& pairs) {
   const auto count =
       static_cast<std::size_t>(std::ranges::count_if(pairs, &Pair::differs));
@@ -205,7 +213,9 @@ Answer compared(const NamedAnswer& a, const NamedAnswer& b) {
         "{} is of {}, {} of {}: only answers of one command can be compared", a.name,
         a.answer.command, b.name, b.answer.command)});
   }
-  const std::vector<Pair> pairs = pairs_of(a.answer, b.answer);
+  Array inputs = inputs_of(a.answer, b.answer);
+  std::vector<Pair> pairs = pairs_of(a.answer, b.answer);
+  std::erase_if(pairs, [&](const Pair& pair) { return repeats(pair.path, inputs); });
   Array numbers;
   for (const Pair& pair : pairs) {
     numbers.emplace_back(Object{{"path", pair.path},
@@ -221,7 +231,7 @@ Answer compared(const NamedAnswer& a, const NamedAnswer& b) {
                               {"a", about(a)},
                               {"b", about(b)},
                               {"numbers", std::move(numbers)},
-                              {"inputs", inputs_of(a.answer, b.answer)}}};
+                              {"inputs", std::move(inputs)}}};
   out.heading.case_toml =
       fmt::format("# {}\n{}\n# {}\n{}", a.name, a.answer.heading.case_toml, b.name,
                   b.answer.heading.case_toml);

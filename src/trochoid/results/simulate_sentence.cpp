@@ -28,7 +28,9 @@ std::string idle_teeth(const SimulateResult& r) {
     return {};
   }
   const std::string where =
-      fmt::format("{:g} mm above the tip", r.engagement.height / unit::mm);
+      r.engagement.height == 0
+          ? "at the tip"
+          : fmt::format("{:g} mm above the tip", r.engagement.height / unit::mm);
   return idle.size() == 1
              ? fmt::format(" Tooth {} cuts nothing {}.", idle.front(), where)
              : fmt::format(" {} of {} teeth cut nothing {}.", idle.size(),
@@ -44,8 +46,10 @@ std::string measured_beside(const SimulateResult& r) {
   std::string text;
   for (const Comparison& c : r.comparison) {
     text += c.match.measured_rms > 0
-                ? fmt::format(" It misses {:.2g} % of the force measured in {} (rms).",
-                              100 * c.match.rms / c.match.measured_rms, c.file)
+                ? fmt::format(
+                      " From the force measured in {} it differs by {:.2g} % of that "
+                      "(rms, noise and offsets of the record included).",
+                      c.file, 100 * c.match.rms / c.match.measured_rms)
                 : fmt::format(" The record {} holds no force.", c.file);
   }
   return text;

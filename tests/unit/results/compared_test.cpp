@@ -93,5 +93,15 @@ TEST(Compared, AnswersOfTwoCommandsAreNot) {
   EXPECT_THROW(compared(made("1", 1, 1), other), base::InputError);
 }
 
+TEST(Compared, LeavesOutWhatOnlyRepeatsAnInput) {
+  NamedAnswer a = made("1", 100, 500);
+  NamedAnswer b = made("1", 100, 500);
+  b.answer.heading.case_toml.replace(b.answer.heading.case_toml.find("800"), 3, "900");
+  std::get<Object>(a.answer.result.data).push_back({"spindle_rpm", 800.0});
+  std::get<Object>(b.answer.result.data).push_back({"spindle_rpm", 900.0});
+  EXPECT_EQ(compared(a, b).heading.message,
+            "All 4 numbers of the two are the same within 0.1 %.");
+}
+
 }  // namespace
 }  // namespace trochoid::results

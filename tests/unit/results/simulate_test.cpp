@@ -66,8 +66,9 @@ TEST(SimulateSentence, SaysHowMuchOfARecordIsMissed) {
   r.heading.warnings = {{"volume", "..."}};
   const std::string said = simulation_sentence(r);
   EXPECT_TRUE(said.ends_with(
-      " Take it with care: the chips do not add up to the material there is. It misses "
-      "30 % of the force measured in record.csv (rms)."))
+      " Take it with care: the chips do not add up to the material there is. From "
+      "the force measured in record.csv it differs by 30 % of that (rms, noise and "
+      "offsets of the record included)."))
       << said;
   EXPECT_EQ(said.find("cuts nothing"), std::string::npos) << said;
   r.heading.warnings = {{"no_cut", "..."}};
