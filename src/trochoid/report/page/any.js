@@ -41,8 +41,8 @@ function anyTable(t, i) {
 /** A name of a file that may go on in the next line. */
 const breakable = (name) => name.split(/(?<=[.\]_])/).flatMap((part) => [part, el('wbr')]);
 
-/** Columns of texts that are all the same, or nothing, tell nothing of a row. */
-const tellsRows = ({ values }) => typeof values[0] !== 'string' || values.some((v) => v !== values[0]);
+/** A column in which all is well tells nothing of a row. */
+const tellsRows = ({ values }) => values.some((v) => v !== '' && v !== 'ok');
 
 function firstRows(t, { most = rowsShown, digits = 6 } = {}) {
   const count = Math.min(most, t.drawn);

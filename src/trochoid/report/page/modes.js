@@ -24,7 +24,8 @@ function modesPage(report) {
     { part: null, lead: tiles([
       ...modes.slice(0, 4).map((mode, i) => ({ label: `Mode ${i + 1}`,
         value: mode.frequency_Hz, unit: 'Hz',
-        note: `damping ratio ${number(mode.damping_ratio, 3)}` })),
+        note: [halfWords(mode.se?.frequency_Hz, 'Hz'), `damping ratio ${number(mode.damping_ratio, 3)}`,
+          halfWords(mode.se?.damping_ratio)].filter(Boolean).join('; ').replace(/; (?=±[^;]*$)/, ' ') })),
       isNumber(result.explained) && { label: 'Explained by the fit',
         value: `${number(100 * result.explained, 4)}`, unit: '%',
         note: rms && `it leaves ${number(rms[1], 3)} ${unitOfKind[result.kind]} (rms)` },
@@ -37,6 +38,9 @@ function modesPage(report) {
     { part: restSection(result, [...modesKnown, rms?.[0]]) },
   ];
 }
+
+/** Half of a 95 % interval in words; empty where there is none. */
+const halfWords = (se, unit = '') => (se > 0 ? `±\u00a0${number(1.96 * se, 2)}${unit && ` ${unit}`}` : '');
 
 function modesTable({ modes: found, noise, unresolved }) {
   const modes = Array.isArray(found) ? found : [];
@@ -206,10 +210,11 @@ function actuatorPage(report) {
   const T = result.time_constants_s;
   return [
     { part: null, lead: tiles([
-      { label: 'Gain', value: result.gain },
-      { label: 'Natural frequency', value: result.frequency_Hz, unit: 'Hz' },
+      { label: 'Gain', value: result.gain, note: halfWords(result.se?.gain) },
+      { label: 'Natural frequency', value: result.frequency_Hz, unit: 'Hz', note: halfWords(result.se?.frequency_Hz, 'Hz') },
       { label: 'Damping ratio', value: result.damping_ratio,
-        note: Array.isArray(T) ? `time constants ${T.map((t) => number(1000 * t, 4)).join(' and ')} ms` : '' },
+        note: [halfWords(result.se?.damping_ratio), Array.isArray(T) && `time constants ${T.map((t) => number(1000 * t, 4)).join(' and ')} ms`]
+          .filter(Boolean).join('; ') },
       { label: 'Bandwidth, −3 dB', value: result.half_power_frequency_Hz, unit: 'Hz' },
       { label: 'Explained by the fit', value: isNumber(result.explained) ?
         number(100 * result.explained, 4) : null, unit: '%',
