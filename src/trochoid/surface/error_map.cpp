@@ -226,12 +226,18 @@ void add_per_K(const Pass& pass, ErrorMap& map) {
   }
 }
 
+/// The first of those that are largest but for rounding: equal teeth make equal peaks.
+const ForceSample& largest_of(const std::vector<ForceSample>& forces) {
+  constexpr double rounding = 1e-9;
+  const auto size = [](const ForceSample& one) { return std::abs(one.F_y); };
+  const double most = size(*std::ranges::max_element(forces, {}, size));
+  return *std::ranges::find_if(forces, [&](const ForceSample& one) {
+    return size(one) >= (1 - rounding) * most;
+  });
+}
+
 DeflectedShape shape_at_largest_force(const Pass& pass, const ErrorMap& map) {
-  const ForceSample& peak =
-      *std::max_element(map.forces.begin(), map.forces.end(),
-                        [](const ForceSample& a, const ForceSample& b) {
-                          return std::abs(a.F_y) < std::abs(b.F_y);
-                        });
+  const ForceSample& peak = largest_of(map.forces);
   std::vector<double> moments(pass.moments.functions());
   pass.moments.value(peak.phi, moments);
   DeflectedShape shape = deflected_shape(pass.compliance, moments, pass.side.sigma);
