@@ -225,7 +225,7 @@ function heightSection(report, heights) {
   const [low, high] = [of('min_error_mm', 1000), of('max_error_mm', 1000)];
   const panels = [
     { label: 'error', unit: 'µm', height: 210, band: { low, high, name: 'smallest to largest' },
-      series: [{ name: 'mean', values: of('mean_error_mm', 1000), color: '--s1', width: 2 }].filter(Boolean) },
+      series: [{ name: 'mean', values: of('mean_error_mm', 1000), color: '--s1', width: 2 }] },
     report.result.model !== 'quasi_static' && { label: 'roughness', unit: 'µm', height: 120, range: fromZero, series: [
       { name: 'Ra', values: of('Ra_um'), color: '--s2', width: 1.8 },
       { name: 'Rt', values: of('Rt_um'), color: '--s4', width: 1.8, dash: [6, 3] }] },
