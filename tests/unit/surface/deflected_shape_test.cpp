@@ -34,8 +34,14 @@ TEST(DeflectedShape, OfBothAddsUpToTheDeflectionUnderEitherLoad) {  // [E-5] [E-
           std::find_if(map.forces.begin(), map.forces.end(),
                        [&](const ForceSample& f) { return f.phi == map.shape->phi; });
       ASSERT_NE(peak, map.forces.end());
+      // The first of the peaks that are equal but for rounding, as those of equal teeth.
+      constexpr double rounding = 1e-9;
+      const double most = std::abs(peak->F_y);
       for (const ForceSample& f : map.forces) {
-        EXPECT_LE(std::abs(f.F_y), std::abs(peak->F_y));
+        if (f.phi < peak->phi) {
+          EXPECT_LT(std::abs(f.F_y), (1 - rounding) * most);
+        }
+        EXPECT_LE(std::abs(f.F_y), (1 + rounding) * most);
       }
       EXPECT_NEAR(map.shape->F_normal, peak->F_normal, 1e-9);
       for (const ErrorRow& row : map.rows) {
