@@ -230,14 +230,13 @@ test('no word of the script stands on a page', async () => {
   }
 });
 
-test('a frequency is drawn in its branches', async () => {
-  const { page, close } = await open('stability');
-  const jumps = (values) => page.evaluate((v) => jumpsOf(v), values);
-  assert.deepEqual(await jumps([900, 905, 911, 918, 926]), []);
-  assert.deepEqual(await jumps([900, 905, 911, 897, 902, 908]), [2], 'back to the next lobe');
-  assert.deepEqual(await jumps([900, 905, 911, 940, 944, 949]), [2], 'up to a branch above');
-  assert.deepEqual(await jumps([900, 905, 400, 402, 404]), [1]);
-  assert.deepEqual(await page.evaluate(() => turnsOver([170, 178, -176, -170])), [1]);
-  assert.deepEqual(await page.evaluate(() => sampledAt([0, 1, 2], [0, 10, 0], [0, 0.5, 1, 1.5, 3], [1])), [0, 5, 10, null, null]);
-  await close();
+test('a frequency is drawn in its branches', () => {
+  const source = ['text.js', 'charts.js'].map((file) => readFileSync(new URL(`../../../src/trochoid/report/page/${file}`, import.meta.url), 'utf8'));
+  const { jumpsOf, turnsOver, sampledAt } = new Function(`${source.join('\n')}\nreturn { jumpsOf, turnsOver, sampledAt };`)();
+  assert.deepEqual(jumpsOf([900, 905, 911, 918, 926]), []);
+  assert.deepEqual(jumpsOf([900, 905, 911, 897, 902, 908]), [2], 'back to the next lobe');
+  assert.deepEqual(jumpsOf([900, 905, 911, 940, 944, 949]), [2], 'up to a branch above');
+  assert.deepEqual(jumpsOf([900, 905, 400, 402, 404]), [1]);
+  assert.deepEqual(turnsOver([170, 178, -176, -170]), [1]);
+  assert.deepEqual(sampledAt([0, 1, 2], [0, 10, 0], [0, 0.5, 1, 1.5, 3], [1]), [0, 5, 10, null, null]);
 });
