@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Write the binary files of this folder, each wrong in one way, and sound ones for fuzzing.
 
+What is text stands in the tables of this folder.
 /usr/bin/python3 tests/broken/record/make.py writes them again, bit by bit the same.
 """
 import io
@@ -60,41 +61,6 @@ for name, content in files.items():
     (here / name).write_bytes(content)
 
 
-
-def lvm(rows=((0, 1, 2, 3), (1e-4, 4, 5, 6)), samples=None, decimal=".", unit="N",
-        more="", head=True):
-    t = (f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n"
-         f"Decimal_Separator\t{decimal}\nX_Columns\tOne\n***End_of_Header***\t\n\t\n")
-    count = len(rows) if samples is None else samples
-    t += f"Channels\t3\nSamples\t{count}\t{count}\t{count}\n"
-    t += f"Y_Unit_Label\t{unit}\t{unit}\t{unit}\nX_Dimension\tTime\tTime\tTime\n"
-    t += "X0\t0.5\t0.5\t0.5\nDelta_X\t1E-4\t1E-4\t1E-4\n"
-    if head:
-        t += "***End_of_Header***\t\t\t\n"
-    t += "X_Value\tFx\tFy\tFz\tComment\n"
-    for row in rows:
-        t += "\t".join(str(x).replace(".", decimal) for x in row) + "\n"
-    return (t + more).encode()
-
-
-texts = {
-    "lvm_cut_off.lvm": lvm()[:-9],
-    "lvm_head_cut_off.lvm": lvm()[:90],
-    "lvm_head_without_end.lvm": lvm(head=False),
-    "lvm_more_samples_than_rows.lvm": lvm(samples=500),
-    "lvm_text_for_number.lvm": lvm(rows=((0, 1, "x", 3), (1, 4, 5, 6))),
-    "lvm_wrong_decimals.lvm": lvm().replace(b"Separator\t.", b"Separator\t,").replace(
-        b"\t6\n", b"\t6.5\n"),
-    "lvm_wrong_unit.lvm": lvm(unit="Volts"),
-    "lvm_over_frequency.lvm": lvm().replace(b"Time", b"Frequency"),
-    "lvm_gap_in_a_channel.lvm": lvm(rows=((0, 1, "", 3), (1, 4, 5, 6))),
-    "lvm_of_nothing.lvm": lvm(rows=()),
-}
-for name, content in texts.items():
-    (here / name).write_bytes(content)
-
-
-
 def mat(variables, compress=False):
     out = io.BytesIO()
     scipy.io.savemat(out, variables, do_compression=compress, oned_as="column")
@@ -144,7 +110,6 @@ for name, content in mats.items():
     (here / name).write_bytes(content)
 
 
-
 def npy(array, version=None):
     out = io.BytesIO()
     np.lib.format.write_array(out, array, version=version)
@@ -173,43 +138,10 @@ arrays = {
 for name, content in arrays.items():
     (here / name).write_bytes(content)
 
-
-
-def uff(directions=(1, 2, 3), kind=13, unit="N", function=1, points=4, promised=None):
-    t = ""
-    for direction in directions:
-        t += "    -1\n    58\n" + "NONE\n" * 5
-        t += f"{function:5}{1:10}{0:5}{0:10} {'NONE':10}{1:10}{direction:4} "
-        t += f"{'NONE':10}{0:10}{0:4}\n"
-        t += f"{4:10}{points if promised is None else promised:10}{1:10}"
-        t += f"{0.5:13.5E}{1e-4:13.5E}{0:13.5E}\n"
-        for code, label, u in ((17, "Time", "s"), (kind, "Force", unit), (0, "NONE", "NONE"),
-                               (0, "NONE", "NONE")):
-            t += f"{code:10}{0:5}{0:5}{0:5} {label:20} {u:20}\n"
-        t += "".join(f"{x + direction:20.11E}" for x in range(points)) + "\n    -1\n"
-    return t.encode()
-
-
-universal = {
-    "uff58_cut_off.uff": uff()[:-100],
-    "uff58_head_cut_off.uff": uff()[:300],
-    "uff58_promises_more.uff": uff(promised=400000000),
-    "uff58_two_of_one_direction.uff": uff((1, 2, 3, 3)),
-    "uff58_frequency_responses.uff": uff(function=4),
-    "uff58_accelerations.uff": uff(kind=12),
-    "uff58_volts.uff": uff(unit="V"),
-    "uff58_no_number.uff": uff().replace(b"2.0", b"2.x", 1),
-    "uff58_of_nothing.uff": b"    -1\n   151\nmodel\n    -1\n",
-}
-for name, content in universal.items():
-    (here / name).write_bytes(content)
-
 # The first byte says what the case file says of the record (fuzz_record.cpp).
 seeds = {
     "tdms": b"\0" + whole,
-    "lvm": b"\0" + lvm(),
     "mat": b"\0" + sound,
-    "uff58": b"\0" + uff(),
     "npy": b"\0" + npy(samples),
     "npy_fields": b"\0" + npy(rows, (2, 0)),
     "mat_packed": b"\0" + packed,
