@@ -16,7 +16,7 @@ function filesOf(folder, prefix = '') {
   return Object.fromEntries(fs.readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
     const file = path.join(folder, entry.name);
     if (entry.isDirectory()) return /\.\w+$/.test(entry.name) ? [] : Object.entries(filesOf(file, `${prefix}${entry.name}/`));
-    return entry.name === 'README.md' ? [] : [[prefix + entry.name, fs.readFileSync(file).toString('base64')]];
+    return ['README.md', 'make.py'].includes(entry.name) ? [] : [[prefix + entry.name, fs.readFileSync(file).toString('base64')]];
   }));
 }
 

@@ -33,7 +33,7 @@ RPM, PHASE_DEG = 874.3, 37.5
 
 
 def added(seed, offsets):
-    """RMS [N] of what tools/make_st52_records.py adds to the forces: noise, a sine on two
+    """RMS [N] of what examples/st52_slot/make.py adds to the forces: noise, a sine on two
     channels and, if wanted, channels that do not start at zero and drift."""
     t = np.arange(2000) / 5000
     out = 18.0 * np.random.default_rng(seed).standard_normal((2000, 3))

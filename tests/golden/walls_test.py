@@ -51,10 +51,8 @@ class Calibrated(Example):
 
     def measure(self, seed):
         """The profile anew, by the script that made it."""
-        tools = self.folder / "tools"
-        tools.mkdir(exist_ok=True)
-        script = shutil.copy(ROOT / "tools/make_wall_profile.py", tools)
-        subprocess.run([sys.executable, script, program.PROGRAM, str(seed)], check=True)
+        subprocess.run([sys.executable, self.example / "make.py", program.PROGRAM, str(seed)],
+                       check=True)
         return readings(self.example / "profile.csv")
 
     def distances(self):

@@ -45,7 +45,7 @@ class Compared(unittest.TestCase):
         ours = result["noise"]
         self.near(ours["floor_m_per_s2_N"], noise[0], 1e-4)
         self.near(ours["magnitude_percent"], 100 * noise[1], 1e-4)
-        # 0.3 and 1 % of the magnitude made it: tools/make_tap_test.py
+        # 0.3 and 1 % of the magnitude made it: examples/tap_test/make.py
         self.near(noise[0], 0.3, 0.1)
         self.near(noise[1], 0.01, 0.1)
         self.near([m["stiffness_N_per_m"] for m in found], [t[1] for t in truth], 0.03)

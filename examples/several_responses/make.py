@@ -2,14 +2,14 @@
 
 Two modes at right angles and a damper that acts along one line only, so that the shapes are
 complex. All four responses of x and y stand in one universal file, as sets 58.
-Usage: make_several_responses.py
+Usage: make.py
 """
 import pathlib
 import tomllib
 
 import numpy as np
 
-EXAMPLE = pathlib.Path(__file__).resolve().parent.parent / "examples/several_responses"
+HERE = pathlib.Path(__file__).resolve().parent
 
 
 def along(angle_deg):
@@ -44,7 +44,7 @@ def data_set(name, response, reference, f, H):
 
 
 def main():
-    truth = tomllib.loads((EXAMPLE / "truth.toml").read_text())
+    truth = tomllib.loads((HERE / "truth.toml").read_text())
     random = np.random.default_rng(11)
     f = np.arange(400.0, 2000.1, 4.0)
     H = accelerance(truth, f)
@@ -53,7 +53,7 @@ def main():
         noise = random.standard_normal((2, f.size)) * truth["noise"]["fraction"]
         text += data_set("xy"[i] + " for a blow along " + "xy"[k], i + 1, k + 1, f,
                          H[:, i, k] * (1 + noise[0] + 1j * noise[1]))
-    (EXAMPLE / "tool.uff").write_text(text)
+    (HERE / "tool.uff").write_text(text)
 
 
 if __name__ == "__main__":

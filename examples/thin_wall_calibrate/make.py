@@ -1,6 +1,6 @@
-"""Make the simulated profile of examples/thin_wall_calibrate.
+"""Make the simulated profile of this example.
 
-Usage: make_wall_profile.py PROGRAM [SEED]. The same seed gives the same bytes. A measuring
+Usage: make.py PROGRAM [SEED]. The same seed gives the same bytes. A measuring
 machine reads the wall that the program computes from truth.toml: at some heights, a few
 times in each tooth feed, with noise and a datum that is a little off; it does not know
 which tooth left what.
@@ -42,7 +42,7 @@ def measured(rows, seed):
 
 def write(path, read):
     with path.open("w", newline="\n") as file:
-        file.write("# simulated: tools/make_wall_profile.py\n")
+        file.write("# simulated: examples/thin_wall_calibrate/make.py\n")
         file.write("x_mm,height_mm,error_mm\n")
         for x, height, error in read:
             file.write(f"{x:.3f},{height:.1f},{error:.4f}\n")
@@ -50,7 +50,7 @@ def write(path, read):
 
 def main():
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 2015
-    example = pathlib.Path(__file__).resolve().parent.parent / "examples/thin_wall_calibrate"
+    example = pathlib.Path(__file__).resolve().parent
     write(example / "profile.csv", measured(wall(sys.argv[1], example / "truth.toml"), seed))
 
 

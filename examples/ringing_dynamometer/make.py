@@ -1,6 +1,6 @@
-"""Make the simulated records of examples/ringing_dynamometer.
+"""Make the simulated records of this example.
 
-Usage: make_ringing_records.py PROGRAM. The same seed gives the same bytes.
+Usage: make.py PROGRAM. The same seed gives the same bytes.
 """
 
 import csv
@@ -19,7 +19,7 @@ RESONANCE_HZ = (880.0, 1040.0, 1310.0)
 DAMPING = (0.03, 0.025, 0.04)
 NOISE_N = 8.0
 OFFSET_N = (14.0, -9.0, 5.0)
-HERE = pathlib.Path(__file__).resolve().parents[1] / "examples/ringing_dynamometer"
+HERE = pathlib.Path(__file__).resolve().parent
 
 
 def turn_of_forces(program, feed):
@@ -69,7 +69,7 @@ def main():
     for name, feed, phase, seed in (("slow", 0.05, 23.0, 1), ("fast", 0.1, 141.0, 2)):
         time, channels = record(sys.argv[1], feed, phase, seed)
         with (HERE / f"{name}.csv").open("w", newline="\n") as file:
-            file.write("# simulated: tools/make_ringing_records.py\n")
+            file.write("# simulated: examples/ringing_dynamometer/make.py\n")
             file.write("time_s,Fx_N,Fy_N,Fz_N\n")
             for t, values in zip(time, channels):
                 file.write(f"{t:.4f}," + ",".join(f"{v:.1f}" for v in values) + "\n")

@@ -1,8 +1,8 @@
-"""Make the simulated tap test, hammer record and step of examples/tap_test.
+"""Make the simulated tap test, hammer record and step of this example.
 
 The response is that of two modes with noise, as a hammer and an accelerometer would give it;
 the step that of a second-order actuator with the noise of a capacitive sensor.
-Usage: make_tap_test.py
+Usage: make.py
 """
 import pathlib
 import tomllib
@@ -10,7 +10,7 @@ import tomllib
 import numpy as np
 from scipy import linalg, signal
 
-EXAMPLE = pathlib.Path(__file__).resolve().parent.parent / "examples/tap_test"
+HERE = pathlib.Path(__file__).resolve().parent
 
 
 def response(truth, f):
@@ -61,29 +61,29 @@ def hammer(truth, rate=16000, finer=16):
 
 
 def main():
-    truth = tomllib.loads((EXAMPLE / "truth.toml").read_text())
+    truth = tomllib.loads((HERE / "truth.toml").read_text())
     random = np.random.default_rng(20)
     f = np.arange(100.0, 4000.1, 5.0)
     H = response(truth, f)
     noise = random.standard_normal((2, f.size))
     H = H * (1 + 0.01 * noise[0]) + 0.3 * (noise[1] + 1j * random.standard_normal(f.size))
     rows = [f"{x:g},{h.real:.6g},{h.imag:.6g}" for x, h in zip(f, H)]
-    (EXAMPLE / "tip_x.csv").write_text("\n".join(
-        ["# simulated: two modes and noise (tools/make_tap_test.py)",
+    (HERE / "tip_x.csv").write_text("\n".join(
+        ["# simulated: two modes and noise (examples/tap_test/make.py)",
          "freq_Hz,re_(m/s^2)/N,im_(m/s^2)/N", *rows]) + "\n")
     t = np.arange(0, 0.03, 5e-5)
     y = step(truth, t) + 0.02 * random.standard_normal(t.size)
     command = np.where(t < truth["step"]["start_s"] - 1e-12, 0, truth["step"]["step_um"])
     rows = [f"{x:.6g},{u:g},{p:.5f}" for x, u, p in zip(t, command, y)]
-    (EXAMPLE / "step.csv").write_text("\n".join(
-        ["# simulated: two poles and noise (tools/make_tap_test.py)",
+    (HERE / "step.csv").write_text("\n".join(
+        ["# simulated: two poles and noise (examples/tap_test/make.py)",
          "time_s,command_um,position_um", *rows]) + "\n")
     t, force, a = hammer(truth)
     force = force + 0.05 * random.standard_normal(t.size)
     a = a + 1.0 * random.standard_normal(t.size)
     rows = [f"{x:.7g},{f:.2f},{y:.2f}" for x, f, y in zip(t, force, a)]
-    (EXAMPLE / "hammer.csv").write_text("\n".join(
-        ["# simulated: four blows, the third a double hit (tools/make_tap_test.py)",
+    (HERE / "hammer.csv").write_text("\n".join(
+        ["# simulated: four blows, the third a double hit (examples/tap_test/make.py)",
          "time_s,force_N,acceleration_m/s2", *rows]) + "\n")
 
 

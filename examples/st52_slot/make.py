@@ -1,6 +1,6 @@
-"""Make the simulated records of examples/st52_slot and examples/st52_predict.
+"""Make the simulated records of this example and of examples/st52_predict.
 
-Usage: make_st52_records.py PROGRAM. The same seed gives the same bytes.
+Usage: make.py PROGRAM. The same seed gives the same bytes.
 """
 
 import csv
@@ -51,7 +51,7 @@ def record(angle, force, rpm, phase_deg, seed):
 
 def write(path, time, channels):
     with path.open("w", newline="\n") as file:
-        file.write("# simulated: tools/make_st52_records.py\n")
+        file.write("# simulated: examples/st52_slot/make.py\n")
         file.write("time_s,Fx_N,Fy_N,Fz_N\n")
         for t, values in zip(time, channels):
             file.write(f"{t:.4f}," + ",".join(f"{v:.2f}" for v in values) + "\n")
@@ -59,7 +59,7 @@ def write(path, time, channels):
 
 def main():
     program = sys.argv[1]
-    examples = pathlib.Path(__file__).resolve().parent.parent / "examples"
+    examples = pathlib.Path(__file__).resolve().parents[1]
     for name, rpm, phase_deg, seed in (("st52_slot", RPM, 37.5, 875),
                                        ("st52_predict", 1049.2, -71.0, 1050)):
         angle, force = turn_of_forces(program, examples / name / "truth.toml")

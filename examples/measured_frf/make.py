@@ -1,15 +1,15 @@
-"""Make the simulated tap tests of examples/measured_frf.
+"""Make the simulated tap tests of this example.
 
 Two modes that lie askew to the machine's axes, so that a force along x moves the tool along
 y as well, with the noise of a hammer and an accelerometer.
-Usage: make_tool_point.py
+Usage: make.py
 """
 import pathlib
 import tomllib
 
 import numpy as np
 
-EXAMPLE = pathlib.Path(__file__).resolve().parent.parent / "examples/measured_frf"
+HERE = pathlib.Path(__file__).resolve().parent
 
 
 def direction(mode):
@@ -29,7 +29,7 @@ def response(truth, f, motion, force):
 
 
 def main():
-    truth = tomllib.loads((EXAMPLE / "truth.toml").read_text())
+    truth = tomllib.loads((HERE / "truth.toml").read_text())
     random = np.random.default_rng(7)
     f = np.arange(200.0, 4000.1, 4.0)
     for motion, force in ("xx", "yy", "xy"):
@@ -37,8 +37,8 @@ def main():
         noise = random.standard_normal((2, f.size))
         H = H + 0.2 * (noise[0] + 1j * noise[1])
         rows = [f"{x:g},{h.real:.6g},{h.imag:.6g}" for x, h in zip(f, H)]
-        (EXAMPLE / f"motion_{motion}_force_{force}.csv").write_text("\n".join(
-            ["# simulated: two modes and noise (tools/make_tool_point.py)",
+        (HERE / f"motion_{motion}_force_{force}.csv").write_text("\n".join(
+            ["# simulated: two modes and noise (examples/measured_frf/make.py)",
              "freq_Hz,re_(m/s^2)/N,im_(m/s^2)/N", *rows]) + "\n")
 
 
