@@ -4,7 +4,7 @@
 
 namespace trochoid::results {
 
-/// Version of the project, for example `0.1.0`.
+/// Version of the project, for example `0.2.0`.
 std::string_view version();
 
 /// Git commit that was built, with `-dirty` after changes; `unknown` outside git.

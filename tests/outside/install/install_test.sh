@@ -17,7 +17,8 @@ echo "installed program: $said"
 
 # project NAME [CMAKE OPTION...]: build and run it
 project() {
-  cmake -G Ninja -S "$here/$1" -B "$scratch/build" --fresh -DCMAKE_PREFIX_PATH="$prefix" "${@:2}"
+  cmake -G Ninja -S "$here/$1" -B "$scratch/build" --fresh -DCMAKE_PREFIX_PATH="$prefix" \
+    -DVERSION="${version%.*}" "${@:2}"
   cmake --build "$scratch/build"
   "$scratch/build/$1"
 }
