@@ -23,6 +23,10 @@ struct BrokenFile {
   std::string file;
 };
 
+void PrintTo(const BrokenFile& broken, std::ostream* out) {
+  *out << broken.file;
+}
+
 std::string content(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
