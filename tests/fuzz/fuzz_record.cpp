@@ -15,11 +15,11 @@
 namespace {
 
 using trochoid::fuzz::demand;
-using trochoid::inputs::Measurement;
+using trochoid::inputs::RecordSource;
 
 /// The first byte chooses what the case file says about the record.
-Measurement said_by(std::uint8_t byte) {
-  Measurement m;
+RecordSource said_by(std::uint8_t byte) {
+  RecordSource m;
   if ((byte & 1) != 0) m.sample_rate = 1e4;
   if ((byte & 2) != 0) m.columns = {"a", "Fx", "b"};
   if ((byte & 4) != 0) m.angle_column = "angle_deg";

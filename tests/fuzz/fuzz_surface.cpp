@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/surface_file.h>
+#include <trochoid/inputs/wall_readings.h>
 
 #include <cmath>
 #include <cstdint>
@@ -45,8 +45,8 @@ void use(const SurfaceFile& surface, int teeth) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const int teeth = data[0] % 65;
-  trochoid::inputs::SurfaceMeasurement measurement;
-  measurement.file = "wall";
+  trochoid::inputs::SurfaceSource measurement;
+  measurement.file = trochoid::inputs::file_at("wall");
   if (data[0] >= 128) {
     using trochoid::inputs::Direction;
     measurement.unit = trochoid::inputs::LengthUnit::mm;

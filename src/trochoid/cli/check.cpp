@@ -5,11 +5,9 @@
 #include <trochoid/inputs/frf_file.h>
 #include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/step_file.h>
-#include <trochoid/inputs/surface_file.h>
+#include <trochoid/inputs/wall_readings.h>
 #include <trochoid/run/identify/describe_record.h>
 #include <trochoid/run/shared/records.h>
-#include <trochoid/run/vibration/actuator.h>
-#include <trochoid/run/vibration/modes.h>
 
 #include <fmt/core.h>
 
@@ -28,10 +26,10 @@ void check_machine_files(const inputs::Case& given,
     }
   };
   if (given.machine.frf) {
-    look([&] { inputs::read_frf(run::frf_source(*given.machine.frf)); });
+    look([&] { inputs::read_frf(given.machine.frf->source); });
   }
   if (given.machine.step) {
-    look([&] { inputs::read_step(run::step_source(*given.machine.step)); });
+    look([&] { inputs::read_step(*given.machine.step); });
   }
 }
 
@@ -48,7 +46,7 @@ int check(const Options& options) {
   }
   for (const inputs::Measurement& measurement : given.measurements) {
     try {
-      const signal::Record record = inputs::read_record(measurement);
+      const signal::Record record = inputs::read_record(measurement.source);
       found += run::describe_record(record, measurement);
       if (const auto why = run::missing_channel(record, given); !why.empty()) {
         problems.push_back(why);
@@ -66,7 +64,7 @@ int check(const Options& options) {
     try {
       const inputs::SurfaceFile surface = inputs::read_surface_of(given, measurement);
       for (const base::Warning& note : surface.notes) {
-        found += fmt::format("warning [{}]: {}: {}\n", note.code, measurement.file,
+        found += fmt::format("warning [{}]: {}: {}\n", note.code, measurement.source.file.path,
                              note.message);
       }
     } catch (const base::InputError& error) {

@@ -43,9 +43,10 @@ int modes(const Options& options) {
   refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
   inputs::MachineTables machine;
   machine.frf =
-      inputs::FrfTables{.file = options.file.string(),
-                        .kind = base::named<structure::ResponseKind>(options.kind),
-                        .dataset = options.dataset,
+      inputs::FrfTables{
+          .source = {.file = inputs::file_at(options.file.string()),
+                     .kind = base::named<structure::ResponseKind>(options.kind),
+                     .dataset = options.dataset},
                         .modes = options.modes,
                         .band = options.band};
   const inputs::Case given = case_of(options, machine, base::Command::modes);
@@ -63,7 +64,7 @@ int actuator(const Options& options) {
                   "--step-um and --start-s", "[step]");
   inputs::MachineTables machine;
   machine.step =
-      inputs::StepTables{.file = options.file.string(), .start = options.start_s};
+      inputs::StepSource{.file = inputs::file_at(options.file.string()), .start = options.start_s};
   if (options.step_um) {
     machine.step->step = *options.step_um * 1e-6;
   }

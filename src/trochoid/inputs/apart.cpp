@@ -19,10 +19,10 @@ namespace {
 
 /// Nothing that is read takes so long [s].
 constexpr rlim_t longest = 300;
-constexpr std::string_view whole = "whole";
+constexpr std::string_view arrived_whole = "whole";
 
 /// Writes what the other process reads with the same calls in the same order.
-struct Writer {
+struct PipeWriter {
   std::string bytes;
 
   void raw(const void* data, std::size_t size) {
@@ -39,7 +39,7 @@ struct Writer {
   }
 };
 
-struct Reader {
+struct PipeReader {
   std::string_view left;
 
   std::string_view take(std::uint64_t count) {
@@ -62,7 +62,7 @@ struct Reader {
   }
 };
 
-void write_record(const signal::Record& record, Writer& out) {
+void write_record(const signal::Record& record, PipeWriter& out) {
   for (const auto& channel : record.channel) out.values(channel);
   out.values(record.angle);
   out.values(record.time);
@@ -77,7 +77,7 @@ void write_record(const signal::Record& record, Writer& out) {
   }
 }
 
-signal::Record record_in(Reader& in) {
+signal::Record record_in(PipeReader& in) {
   signal::Record record;
   for (auto& channel : record.channel) channel = in.values();
   record.angle = in.values();
@@ -95,7 +95,7 @@ signal::Record record_in(Reader& in) {
 
 /// What the process of its own says: problems or a record, and that this is all.
 std::string answer_of(const std::function<signal::Record()>& read) {
-  Writer out;
+  PipeWriter out;
   try {
     const auto record = read();
     out.number(0);
@@ -105,7 +105,7 @@ std::string answer_of(const std::function<signal::Record()>& read) {
     out.number(error.problems().size());
     for (const auto& problem : error.problems()) out.text(problem);
   }
-  out.bytes += whole;
+  out.bytes += arrived_whole;
   return std::move(out.bytes);
 }
 
@@ -159,12 +159,12 @@ signal::Record read_apart(const std::string& name,
   if (child < 0) refuse(name, "no process can be started to read it");
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  if (!answer.ends_with(whole)) {
+  if (!answer.ends_with(arrived_whole)) {
     refuse(name,
            "the library that reads this format broke down over it, or ran out of "
            "memory: the file is damaged");
   }
-  Reader in{.left = answer};
+  PipeReader in{.left = answer};
   std::vector<std::string> problems(static_cast<std::size_t>(in.number()));
   for (auto& problem : problems) problem = in.text();
   if (!problems.empty()) throw base::InputError(problems);

@@ -7,11 +7,11 @@
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/machine_tables.h>
 #include <trochoid/inputs/previous_clamping.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/wall_plan.h>
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,34 +35,17 @@ struct Sampling {
 struct Dynamometer {
   bool automatic = false;     ///< axes = "auto": find the signed permutation
   bool rigid = false;         ///< resonance = "none": none is looked for
-  std::filesystem::path frf;  ///< measured response, channel over force; empty: none
-  std::string frf_location;   ///< file:line:col of its name
+  FileRef frf;                ///< measured response, channel over force; or none
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
-/// Of a force record; its values stand in record_format.h.
-enum class RecordFormat : int;
-
-struct NumericTable;
-
 /// One [[measurement]].
 struct Measurement {
-  std::filesystem::path file;          ///< absolute, or relative to where we run
-  std::optional<RecordFormat> format;  ///< absent: by its content
-  /// Three names, an empty one for a channel that is not there; empty: found by name.
-  std::vector<std::string> columns;
-  std::string angle_column;           ///< empty: found by name
-  std::string time_column;            ///< empty: found by name
-  std::string pulse_column;           ///< one pulse a turn; empty: none
-  std::optional<double> sample_rate;  ///< [Hz]
-  std::vector<double> scale;          ///< [N] per unit of each channel; empty: by unit
-  std::optional<double> from;         ///< what is before it is not used [s]
-  std::optional<double> to;           ///< what is after it is not used [s]
-  std::string group;                  ///< those of one name share coefficients
-  geometry::Cut cut;                  ///< [cut] with this run's overrides
-  std::string location;               ///< file:line:col of its `file` key
-  /// Of a record that is in no file but in memory; `file` is its name then.
-  std::shared_ptr<const NumericTable> in_memory;
+  RecordSource source;
+  std::optional<double> from;  ///< what is before it is not used [s]
+  std::optional<double> to;    ///< what is after it is not used [s]
+  std::string group;           ///< those of one name share coefficients
+  geometry::Cut cut;           ///< [cut] with this run's overrides
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <trochoid/inputs/machine_tables.h>
+#include <trochoid/dynamics/imposed_command.h>
+#include <trochoid/inputs/file_ref.h>
 
 #include <istream>
 #include <string>
@@ -12,7 +13,7 @@ using dynamics::CommandTable;
 /// @brief Read the file of `[command]`: CSV with columns `angle` and `command`, units
 /// in the names, as `correct` writes it.
 /// @throws base::InputError with every problem of the file
-CommandTable read_command(const ImposedCommand& command);
+CommandTable read_command(const FileRef& file);
 
 /// @brief The same from an open stream.
 /// @param name  of the file, for messages

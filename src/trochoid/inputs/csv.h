@@ -21,6 +21,15 @@ struct Problems {
   [[nodiscard]] bool full() const noexcept { return lines.size() >= 1000; }
 };
 
+/// @brief A text without the blanks around it.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
+
+/// @brief The same text in small letters, those of ASCII.
+std::string small_letters(std::string_view text);
+
+/// @return the first bytes of a file, which then stands at its beginning again
+std::string first_bytes(std::istream& in, std::size_t count);
+
 /// @brief Text of a file for a message: at most 40 bytes, all of them printable ASCII.
 std::string excerpt(std::string_view text);
 

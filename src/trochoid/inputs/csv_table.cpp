@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 namespace trochoid::inputs {
 
@@ -38,23 +42,23 @@ std::string fault_text(NumberFault fault, std::string_view row) {
 
 }  // namespace
 
-std::ifstream open_table(const std::filesystem::path& file, const std::string& location,
-                         const TableKind& kind) {
-  const auto name = file.generic_string();
-  const auto where = location.empty() ? name + ":1:1" : location;
+std::unique_ptr<std::istream> open_table(const FileRef& file, const TableKind& kind) {
+  if (file.bytes) return std::make_unique<std::istringstream>(*file.bytes);
+  const std::string& name = file.path;
+  const auto where = file.location.empty() ? name + ":1:1" : file.location;
   const auto refuse = [&](const std::string& why) {
     throw base::InputError({fmt::format("{}: file = {}: {}", where, name, why)});
   };
   std::error_code error;
-  const auto status = std::filesystem::status(file, error);
+  const auto status = std::filesystem::status(name, error);
   if (!std::filesystem::exists(status)) refuse("there is no such file");
   if (!std::filesystem::is_regular_file(status)) {
     refuse(fmt::format("this is no regular file: name {}", kind.files));
   }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse("the file cannot be opened for reading");
-  const bool empty = in.peek() == std::ifstream::traits_type::eof();
-  if (in.bad()) refuse("the file cannot be read");
+  auto in = std::make_unique<std::ifstream>(name, std::ios::binary);
+  if (!*in) refuse("the file cannot be opened for reading");
+  const bool empty = in->peek() == std::ifstream::traits_type::eof();
+  if (in->bad()) refuse("the file cannot be read");
   if (empty) {
     throw base::InputError({fmt::format(
         "{}:1:1: the file is empty: a row of names, for example {}, and rows of "
@@ -62,6 +66,11 @@ std::ifstream open_table(const std::filesystem::path& file, const std::string& l
         name, kind.example)});
   }
   return in;
+}
+
+std::string bytes_of(const FileRef& file, const TableKind& kind) {
+  if (file.bytes) return *file.bytes;
+  return {std::istreambuf_iterator<char>(*open_table(file, kind)), {}};
 }
 
 std::optional<std::string_view> next_line(TableText& table) {

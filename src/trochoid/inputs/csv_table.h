@@ -1,9 +1,10 @@
 #pragma once
 
 #include <trochoid/inputs/csv.h>
+#include <trochoid/inputs/file_ref.h>
 
-#include <filesystem>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -54,10 +55,11 @@ struct TableHead {
 };
 
 /// @brief Open a file that a case names.
-/// @param location  `file:line:col` of its name in the case; empty: the file itself
 /// @throws base::InputError when it is absent, no regular file, or empty
-std::ifstream open_table(const std::filesystem::path& file, const std::string& location,
-                         const TableKind& kind);
+std::unique_ptr<std::istream> open_table(const FileRef& file, const TableKind& kind);
+
+/// @brief All bytes of such a file.
+std::string bytes_of(const FileRef& file, const TableKind& kind);
 
 /// @brief The next line that holds something, comments too; none at the end or after a
 /// problem.

@@ -11,8 +11,8 @@
 namespace trochoid::inputs {
 
 DiskFile::DiskFile(std::istream& in, const std::string& name,
-                   const Measurement& measurement)
-    : path_(measurement.file) {
+                   const RecordSource& source)
+    : path_(source.file.path) {
   if (!path_.empty()) return;
   std::error_code error;
   std::string made = (std::filesystem::temp_directory_path(error) / "trochoid-XXXXXX");

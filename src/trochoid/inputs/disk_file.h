@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 
 #include <filesystem>
 #include <istream>
@@ -10,12 +10,12 @@ namespace trochoid::inputs {
 
 /// @brief A record as a file with a name, which libraries of other formats ask for.
 ///
-/// The file of the measurement where it has one; else the stream is written to a temporary
+/// The file of the record where it has one; else the stream is written to a temporary
 /// file, which goes with this object.
 class DiskFile {
  public:
   /// @throws base::InputError  when no temporary file can be written
-  DiskFile(std::istream& in, const std::string& name, const Measurement& measurement);
+  DiskFile(std::istream& in, const std::string& name, const RecordSource& source);
   ~DiskFile();
   DiskFile(const DiskFile&) = delete;
   DiskFile& operator=(const DiskFile&) = delete;

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <sstream>
 
@@ -31,21 +30,11 @@ constexpr TableKind frf_kind{.noun = "a frequency response",
                              .row = "line",
                              .example = "freq_Hz,re_m/N,im_m/N"};
 
-std::string text_of(const FrfSource& source) {
-  if (source.content) return *source.content;
-  auto in = open_table(source.file, source.location, frf_kind);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// One column of a table, by what its name begins with.
 struct Found {
   std::size_t index = 0;
   std::string unit;  ///< the rest of the name
 };
-
-char small(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
 
 /// The column whose name is one of these, alone or before a unit.
 std::optional<Found> column(const FrfTable& table,
@@ -53,23 +42,16 @@ std::optional<Found> column(const FrfTable& table,
                             Problems& problems) {
   std::optional<Found> found;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
-    std::string text = table.names[i];
-    std::transform(text.begin(), text.end(), text.begin(), small);
-    for (const std::string_view name : names) {
-      if (text.substr(0, name.size()) != name) continue;
-      const bool ends = text.size() == name.size() ||
-                        " _[(/"sv.find(text[name.size()]) != std::string_view::npos;
-      if (!ends) continue;
-      if (found) {
-        problems.add(table.names_line, table.name_columns[i],
-                     fmt::format("columns {} and {} could both be {}: leave out, or "
-                                 "rename, the one that is not meant",
-                                 found->index + 1, i + 1, names.front()));
-        return found;
-      }
-      found = {i, table.names[i].substr(std::min(name.size() + 1, text.size()))};
-      break;
+    const auto unit = unit_after(table.names[i], names);
+    if (!unit) continue;
+    if (found) {
+      problems.add(table.names_line, table.name_columns[i],
+                   fmt::format("columns {} and {} could both be {}: leave out, or "
+                               "rename, the one that is not meant",
+                               found->index + 1, i + 1, names.front()));
+      return found;
     }
+    found = {i, *unit};
   }
   return found;
 }
@@ -81,7 +63,7 @@ constexpr std::array magnitude_names = {"mag"sv, "magnitude"sv, "abs"sv, "amplit
 constexpr std::array phase_names = {"phase"sv, "angle"sv, "arg"sv};
 
 /// Where the three numbers of a line stand, and in which units.
-struct Columns {
+struct FrfColumns {
   std::size_t frequency = 0;
   std::size_t first = 1;
   std::size_t second = 2;
@@ -110,8 +92,8 @@ bool positional(const FrfTable& table, Problems& problems) {
   return true;
 }
 
-Columns find_columns(const FrfTable& table, Problems& problems) {
-  Columns out;
+FrfColumns find_columns(const FrfTable& table, Problems& problems) {
+  FrfColumns out;
   if (positional(table, problems)) return out;
   const auto f = column(table, frequency_names, problems);
   const auto re = column(table, real_names, problems);
@@ -162,7 +144,7 @@ FrfFile from_table(const std::string& text, const std::string& name,
     stop();
     return tap;
   }
-  const Columns columns = find_columns(table, problems);
+  const FrfColumns columns = find_columns(table, problems);
   stop();
   const double factor = settle_unit(
       {columns.unit, table.names_line, columns.unit_column}, source, out, problems);
@@ -202,34 +184,34 @@ FrfFile from_mat(const std::string& text, const std::string& name,
 }
 
 /// A format that a response may have.
-struct Reader {
+struct FrfReader {
   bool (*recognises)(std::string_view);  ///< the beginning of a file
   decltype(&from_table) read;
 };
 
 /// All of them: the first that recognises a file reads it, and the last takes any text.
-constexpr std::array readers{Reader{is_uff, frf_from_uff}, Reader{is_tdms, from_tdms},
-                             Reader{is_mat, from_mat},
-                             Reader{[](std::string_view) { return true; }, from_table}};
+constexpr std::array frf_readers{FrfReader{is_uff, frf_from_uff}, FrfReader{is_tdms, from_tdms},
+                             FrfReader{is_mat, from_mat},
+                             FrfReader{[](std::string_view) { return true; }, from_table}};
 
 }  // namespace
 
 FrfFile read_frf(const std::string& text, const std::string& name,
                  const FrfSource& source) {
-  return std::find_if(readers.begin(), readers.end(),
-                      [&](const Reader& reader) { return reader.recognises(text); })
+  return std::find_if(frf_readers.begin(), frf_readers.end(),
+                      [&](const FrfReader& reader) { return reader.recognises(text); })
       ->read(text, name, source);
 }
 
 std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source) {
-  const std::string text = text_of(source);
+  const std::string text = bytes_of(source.file, frf_kind);
   return is_uff(text)
-             ? directed_frfs_from_uff(text, source.file.generic_string(), source)
+             ? directed_frfs_from_uff(text, source.file.path, source)
              : std::vector<DirectedFrf>();
 }
 
 FrfFile read_frf(const FrfSource& source) {
-  return read_frf(text_of(source), source.file.generic_string(), source);
+  return read_frf(bytes_of(source.file, frf_kind), source.file.path, source);
 }
 
 }  // namespace trochoid::inputs

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
+#include <trochoid/inputs/file_ref.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
 
-#include <filesystem>
-#include <istream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,13 +14,11 @@ namespace trochoid::inputs {
 
 /// Which frequency response is meant.
 struct FrfSource {
-  std::filesystem::path file;  ///< absolute, or relative to where we run
-  std::string location;        ///< file:line:col of its name in a case; empty: none
+  FileRef file;
   /// Needed where the file does not say it.
   std::optional<structure::ResponseKind> kind;
   int dataset = 0;  ///< of the frequency responses of a universal file, from 1; 0: the
                     ///< only one
-  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
 struct FrfFile {

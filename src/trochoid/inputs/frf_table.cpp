@@ -11,7 +11,7 @@ namespace trochoid::inputs {
 
 namespace {
 
-constexpr TableKind frf_kind{.noun = "a frequency response",
+constexpr TableKind frf_rows{.noun = "a frequency response",
                              .files = "a universal file (sets 58) or a table",
                              .row = "line",
                              .example = "freq_Hz,re_m/N,im_m/N",
@@ -76,7 +76,7 @@ void take_names(const TableText& text, const std::string& line, std::size_t colu
 
 FrfTable read_frf_table(const std::string& content, Problems& problems) {
   std::istringstream in(content);
-  TableText text(in, problems.file, frf_kind);
+  TableText text(in, problems.file, frf_rows);
   FrfTable table;
   std::vector<Field> fields;
   std::string above;
@@ -103,6 +103,20 @@ FrfTable read_frf_table(const std::string& content, Problems& problems) {
                  "a table with, for example, freq_Hz,re_m/N,im_m/N is needed");
   }
   return table;
+}
+
+std::optional<std::string> unit_after(std::string_view name,
+                                      std::span<const std::string_view> words) {
+  const std::string text = small_letters(name);
+  for (const std::string_view word : words) {
+    if (!text.starts_with(word)) continue;
+    const auto rest = name.substr(word.size());
+    if (rest.empty()) return std::string();
+    if (std::string_view(" _[(/").find(rest.front()) != std::string_view::npos) {
+      return std::string(rest.substr(1));
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace trochoid::inputs

@@ -3,6 +3,8 @@
 #include <trochoid/inputs/csv.h>
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,5 +27,10 @@ struct FrfTable {
 
 /// @brief Read all rows; what is wrong with them goes to the problems.
 FrfTable read_frf_table(const std::string& text, Problems& problems);
+
+/// @brief What follows one of these words in a name, without what separates them; none:
+/// the name does not begin with one.
+std::optional<std::string> unit_after(std::string_view name,
+                                      std::span<const std::string_view> words);
 
 }  // namespace trochoid::inputs

@@ -170,7 +170,7 @@ void note_others(const UffFile& file, FrfFile& out) {
 }
 
 /// x or y, from the number of a direction; none: another one.
-std::optional<structure::Axis> axis_of(int direction) {
+std::optional<structure::Axis> direction_of(int direction) {
   switch (std::abs(direction)) {
     case 1:
       return structure::Axis::x;
@@ -188,18 +188,18 @@ bool belong_together(const std::vector<const Uff58*>& sets) {
   bool both = false;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const Uff58& a = *sets[i];
-    const auto motion = axis_of(a.response_direction);
-    const auto force = axis_of(a.reference_direction);
+    const auto motion = direction_of(a.response_direction);
+    const auto force = direction_of(a.reference_direction);
     if (!motion || !force || a.response_node != sets[0]->response_node ||
         a.reference_node != sets[0]->response_node) {
       return false;
     }
     direct = direct || *motion == *force;
     cross = cross || *motion != *force;
-    both = both || *motion != axis_of(sets[0]->response_direction);
+    both = both || *motion != direction_of(sets[0]->response_direction);
     for (std::size_t k = 0; k < i; ++k) {
-      if (motion == axis_of(sets[k]->response_direction) &&
-          force == axis_of(sets[k]->reference_direction)) {
+      if (motion == direction_of(sets[k]->response_direction) &&
+          force == direction_of(sets[k]->reference_direction)) {
         return false;
       }
     }
@@ -225,8 +225,8 @@ std::vector<DirectedFrf> directed_frfs_from_uff(const std::string& text,
   }
   std::vector<DirectedFrf> out;
   for (const Uff58* set : sets) {
-    out.push_back({.motion = *axis_of(set->response_direction),
-                   .force = *axis_of(set->reference_direction),
+    out.push_back({.motion = *direction_of(set->response_direction),
+                   .force = *direction_of(set->reference_direction),
                    .file = taken(*set, source, problems)});
     if ((set->response_direction < 0) != (set->reference_direction < 0)) {
       for (auto& H : out.back().file.response.H) {

@@ -4,7 +4,7 @@
 namespace trochoid::inputs {
 
 signal::Record read_hdf5_columns(std::istream& /*in*/, const std::string& name,
-                                 const Measurement& /*measurement*/,
+                                 const RecordSource& /*source*/,
                                  Hdf5Kind /*kind*/) {
   refuse(name,
          "this is an HDF5 file, as MATLAB writes them from version 7.3 on, and this "

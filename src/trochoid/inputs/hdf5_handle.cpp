@@ -14,7 +14,7 @@ static_assert(std::is_same_v<Hdf5Id, hid_t> && std::is_same_v<int, herr_t>);
 namespace {
 
 /// Longer texts are no unit.
-constexpr std::size_t longest_text = 256;
+constexpr std::size_t longest_read = 256;
 
 Hdf5Handle attribute_of(hid_t object, const char* name) {
   if (H5Aexists(object, name) <= 0) return {-1, H5Aclose};
@@ -49,12 +49,12 @@ std::optional<std::string> hdf5_text(hid_t object, const char* attribute) {
         text == nullptr) {
       return std::nullopt;
     }
-    std::string copy(text, strnlen(text, longest_text));
+    std::string copy(text, strnlen(text, longest_read));
     H5free_memory(text);
     return copy;
   }
   const std::size_t size = H5Tget_size(type.id());
-  if (size == 0 || size > longest_text) return std::nullopt;
+  if (size == 0 || size > longest_read) return std::nullopt;
   std::string text(size, '\0');
   if (H5Aread(found.id(), type.id(), text.data()) < 0) return std::nullopt;
   text.resize(std::min(text.find('\0'), text.size()));

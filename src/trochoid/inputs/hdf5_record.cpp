@@ -24,7 +24,7 @@ constexpr std::size_t most_objects = 10000;
 constexpr std::size_t longest_name = 1024;
 constexpr int most_members = 1000;
 /// Deflate packs at most 1032 to 1.
-constexpr double densest = 1100.0;
+constexpr double densest_set = 1100.0;
 
 /// What holds for all that a group holds.
 struct Facts {
@@ -33,18 +33,18 @@ struct Facts {
 };
 
 /// Where a column is found.
-struct Source {
+struct Hdf5Source {
   std::string path;
   std::string member;  ///< of a compound; empty: the data set is of numbers
   MatrixPart part;     ///< as the library counts rows and columns
   bool flat = false;   ///< of one dimension
 };
 
-struct Reading {
+struct Hdf5Reading {
   const std::string& name;
   hid_t file = -1;
   NumericTable table;
-  std::vector<Source> sources;
+  std::vector<Hdf5Source> sources;
   std::size_t objects = 0;
   bool matlab = false;  ///< rows and columns are swapped, and classes are stated
   bool tables = false;  ///< there are objects of MATLAB, tables perhaps
@@ -77,7 +77,7 @@ std::string hidden_size(hid_t set, double count) {
         count, largest_record);
   }
   const auto stored = static_cast<double>(H5Dget_storage_size(set));
-  if (count * each > densest * std::max(stored, 64.0)) {
+  if (count * each > densest_set * std::max(stored, 64.0)) {
     return fmt::format(
         "{:.3g} bytes of it are to come out of {:.3g}, which no packing "
         "does: it was never written, or the file is damaged",
@@ -94,7 +94,7 @@ std::string hidden_size(hid_t set, double count) {
 }
 
 /// A data set of compounds: each member that is a number is a column.
-void add_members(Reading& reading, hid_t type, const Source& whole,
+void add_members(Hdf5Reading& reading, hid_t type, const Hdf5Source& whole,
                  const Facts& facts) {
   const int members = std::min(H5Tget_nmembers(type), most_members);
   for (int i = 0; i < members; ++i) {
@@ -103,7 +103,7 @@ void add_members(Reading& reading, hid_t type, const Source& whole,
     if (kind != H5T_INTEGER && kind != H5T_FLOAT) continue;
     char* text = H5Tget_member_name(type, at);
     if (text == nullptr) continue;
-    Source source = whole;
+    Hdf5Source source = whole;
     source.member = text;
     H5free_memory(text);
     // Members are of different kinds: the unit of all is none of theirs.
@@ -117,14 +117,14 @@ void add_members(Reading& reading, hid_t type, const Source& whole,
 }
 
 /// Whether a data set of MATLAB is an array of numbers; notes its objects.
-bool is_matlab_array(Reading& reading, hid_t set) {
+bool is_matlab_array(Hdf5Reading& reading, hid_t set) {
   const auto stated = hdf5_text(set, "MATLAB_class");
   if (H5Aexists(set, "MATLAB_object_decode") > 0) reading.tables = true;
   return stated && *stated != "char" && *stated != "cell" && !reading.tables &&
          H5Aexists(set, "MATLAB_empty") <= 0;
 }
 
-void add_set(Reading& reading, hid_t set, const NumericColumn& named,
+void add_set(Hdf5Reading& reading, hid_t set, const NumericColumn& named,
              const Facts& around) {
   const Hdf5Handle space(H5Dget_space(set), H5Sclose);
   const Hdf5Handle type(H5Dget_type(set), H5Tclose);
@@ -139,7 +139,7 @@ void add_set(Reading& reading, hid_t set, const NumericColumn& named,
   const auto rows = static_cast<std::size_t>(size[0]);
   const auto columns = static_cast<std::size_t>(size[1]);
   const Facts facts = facts_of(set, around);
-  Source source{.path = named.path, .member = {}, .part = {}, .flat = rank == 1};
+  Hdf5Source source{.path = named.path, .member = {}, .part = {}, .flat = rank == 1};
   if (kind == H5T_COMPOUND && rank == 1 && rows > 1) {
     source.part = {.rows = rows, .columns = 1};
     add_members(reading, type.id(), source, facts);
@@ -163,7 +163,7 @@ void add_set(Reading& reading, hid_t set, const NumericColumn& named,
 }
 
 /// All data sets of a group and of those in it. Links into other files are not followed.
-void add_group(Reading& reading, hid_t group, const std::string& path,
+void add_group(Hdf5Reading& reading, hid_t group, const std::string& path,
                const Facts& around, int depth) {
   H5G_info_t info;
   if (depth > deepest_group || H5Gget_info(group, &info) < 0) return;
@@ -196,7 +196,7 @@ void add_group(Reading& reading, hid_t group, const std::string& path,
 }
 
 /// What is selected of a data set: all of it, or one column or row of a matrix.
-bool select(hid_t space, const Source& source) {
+bool select(hid_t space, const Hdf5Source& source) {
   if (source.flat) return H5Sselect_all(space) >= 0;
   const MatrixPart& part = source.part;
   std::array<hsize_t, 2> start{part.row.value_or(0), part.column.value_or(0)};
@@ -207,7 +207,7 @@ bool select(hid_t space, const Source& source) {
 }
 
 std::vector<double> values_of(hid_t file, const std::string& name,
-                              const Source& source) {
+                              const Hdf5Source& source) {
   const auto refuse_set = [&](const std::string& why) {
     refuse(name, fmt::format("the data set {}: {}", excerpt(source.path), why));
   };
@@ -238,7 +238,7 @@ std::vector<double> values_of(hid_t file, const std::string& name,
 
 NumericTable hdf5_table(std::shared_ptr<Hdf5Handle> file, const std::string& name,
                         Hdf5Kind kind) {
-  Reading reading{.name = name, .file = file->id(), .matlab = kind == Hdf5Kind::matlab};
+  Hdf5Reading reading{.name = name, .file = file->id(), .matlab = kind == Hdf5Kind::matlab};
   const Hdf5Handle root(H5Gopen2(file->id(), "/", H5P_DEFAULT), H5Gclose);
   if (root.open()) add_group(reading, root.id(), "", {}, 0);
   if (reading.tables && reading.table.columns.size() < 3) refuse_matlab_object(name);
@@ -252,8 +252,8 @@ NumericTable hdf5_table(std::shared_ptr<Hdf5Handle> file, const std::string& nam
 }  // namespace
 
 signal::Record read_hdf5_columns(std::istream& in, const std::string& name,
-                                 const Measurement& measurement, Hdf5Kind kind) {
-  const DiskFile disk(in, name, measurement);
+                                 const RecordSource& source, Hdf5Kind kind) {
+  const DiskFile disk(in, name, source);
   return read_apart(name, [&] {
     const Hdf5Silence silence;
     const auto file = std::make_shared<Hdf5Handle>(
@@ -264,8 +264,8 @@ signal::Record read_hdf5_columns(std::istream& in, const std::string& name,
              "program still writes it");
     }
     auto table = hdf5_table(file, name, kind);
-    name_only_matrix(table, name, measurement);
-    return record_of(table, name, measurement);
+    name_only_matrix(table, name, source);
+    return record_of(table, name, source);
   });
 }
 

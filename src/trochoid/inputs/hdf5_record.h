@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <istream>
@@ -23,10 +23,10 @@ enum class Hdf5Kind { plain, matlab };
 /// dt [s] of a data set, or of a group around it, are heeded. Where the library was built
 /// without HDF5, the file is refused.
 signal::Record read_hdf5_columns(std::istream& in, const std::string& name,
-                                 const Measurement& measurement, Hdf5Kind kind);
+                                 const RecordSource& source, Hdf5Kind kind);
 
 /// @brief The same of a plain file.
 signal::Record read_hdf5_record(std::istream& in, const std::string& name,
-                                const Measurement& measurement);
+                                const RecordSource& source);
 
 }  // namespace trochoid::inputs

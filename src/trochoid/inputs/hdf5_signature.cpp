@@ -11,8 +11,8 @@ bool is_hdf5(std::string_view head) {
 }
 
 signal::Record read_hdf5_record(std::istream& in, const std::string& name,
-                                const Measurement& measurement) {
-  return read_hdf5_columns(in, name, measurement, Hdf5Kind::plain);
+                                const RecordSource& source) {
+  return read_hdf5_columns(in, name, source, Hdf5Kind::plain);
 }
 
 }  // namespace trochoid::inputs

@@ -86,7 +86,7 @@ Path parts_of(std::string_view path) {
 }
 
 /// Without the digits that only the multiplication brings.
-double in_mm(double inches) {
+double millimetres(double inches) {
   const std::string text = fmt::format("{:.15g}", inches * mm_per_inch);
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -100,9 +100,9 @@ void convert(Node& value, bool counted) {
       if (!counted || i != count) convert((*list)[i], false);
     }
   } else if (const auto* number = std::get_if<double>(&value.value)) {
-    value.value = in_mm(*number);
+    value.value = millimetres(*number);
   } else if (const auto* whole = std::get_if<std::int64_t>(&value.value)) {
-    value.value = in_mm(static_cast<double>(*whole));
+    value.value = millimetres(static_cast<double>(*whole));
   }
 }
 

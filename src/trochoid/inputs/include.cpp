@@ -23,7 +23,7 @@ constexpr std::size_t longest_chain = 16;
 constexpr std::size_t most_files = 256;
 
 /// What has been read so far.
-struct Reading {
+struct Including {
   std::vector<fs::path> open;  ///< outermost first: one of them again is a cycle
   std::size_t files = 0;       ///< included, in all
 };
@@ -66,10 +66,10 @@ Node joined(Node first, const Node& second) {
   return both;
 }
 
-Node complete(Node root, const fs::path& file, Reading& reading);
+Node complete(Node root, const fs::path& file, Including& reading);
 
 /// @param include  one name, as the file that includes has it
-Node load_included(const Node& include, const fs::path& file, Reading& reading) {
+Node load_included(const Node& include, const fs::path& file, Including& reading) {
   auto& open = reading.open;
   const auto* name = std::get_if<std::string>(&include.value);
   if (name == nullptr || name->empty()) {
@@ -121,7 +121,7 @@ void refuse_other_versions(const Node& root) {
   }
 }
 
-Node complete(Node root, const fs::path& file, Reading& reading) {
+Node complete(Node root, const fs::path& file, Including& reading) {
   refuse_other_versions(root);
   const Node* include = find(root, "include");
   if (include == nullptr) {
@@ -170,7 +170,7 @@ Node load_document(const fs::path& file) {
 
 Node with_includes(Node root, const fs::path& file) {
   std::error_code error;
-  Reading reading{.open = {fs::weakly_canonical(file, error)}};
+  Including reading{.open = {fs::weakly_canonical(file, error)}};
   return complete(std::move(root), file, reading);
 }
 

@@ -31,7 +31,7 @@ struct Entry {
 };
 using Head = std::map<std::string, Entry, std::less<>>;
 
-struct Reading {
+struct LvmReading {
   TableText text;
   char decimal = '.';
   std::string x_columns = "One";  ///< One, Multi or No
@@ -41,13 +41,13 @@ struct Reading {
 };
 
 /// A column of the table, by its place in a row.
-struct Place {
+struct SegmentPlace {
   std::size_t field = 0;
   std::size_t channel = 0;
 };
 
 /// Lines up to the end of a head.
-Head read_head(Reading& reading) {
+Head read_head(LvmReading& reading) {
   Head head;
   std::vector<Field> fields;
   bool special = false;
@@ -87,7 +87,7 @@ std::string value_of(const Head& head, std::string_view key, std::size_t i,
 }
 
 /// A number of a head; 0 where there is none.
-double number_of(Reading& reading, std::string_view key, std::size_t i) {
+double number_of(LvmReading& reading, std::string_view key, std::size_t i) {
   const auto text = value_of(reading.segment, key, i, "");
   if (text.empty()) return 0.0;
   const Number number = parse_number(text);
@@ -98,7 +98,7 @@ double number_of(Reading& reading, std::string_view key, std::size_t i) {
   return 0.0;
 }
 
-void read_heads(Reading& reading) {
+void read_heads(LvmReading& reading) {
   const auto first = next_line(reading.text);
   // What stands behind the first words separates the fields, unless the head says more.
   if (first && first->find(',') != std::string_view::npos) reading.text.separator = ',';
@@ -120,8 +120,8 @@ void read_heads(Reading& reading) {
 }
 
 /// The channels of the row of names; the times stand before one or each of them.
-std::vector<Place> places_of(const Reading& reading, const std::vector<Field>& names) {
-  std::vector<Place> places;
+std::vector<SegmentPlace> places_of(const LvmReading& reading, const std::vector<Field>& names) {
+  std::vector<SegmentPlace> places;
   const auto stated = parse_number(value_of(reading.segment, "Channels", 0, ""));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto name = names[i].text;
@@ -133,7 +133,7 @@ std::vector<Place> places_of(const Reading& reading, const std::vector<Field>& n
   return places;
 }
 
-std::optional<double> number_at(Reading& reading, const Field& field,
+std::optional<double> number_at(LvmReading& reading, const Field& field,
                                 const NumericColumn& column) {
   if (field.text.find(reading.decimal == '.' ? ',' : '.') == std::string_view::npos) {
     const Number number = parse_number(field.text);
@@ -147,15 +147,15 @@ std::optional<double> number_at(Reading& reading, const Field& field,
   return std::nullopt;
 }
 
-struct Columns {
-  std::vector<Place> places;
+struct LvmColumns {
+  std::vector<SegmentPlace> places;
   NumericTable table;
   std::vector<std::vector<double>> values;
   std::size_t rows = 0;
 };
 
-Columns read_names(Reading& reading) {
-  Columns columns;
+LvmColumns read_names(LvmReading& reading) {
+  LvmColumns columns;
   std::vector<Field> names;
   if (const auto line = next_line(reading.text)) {
     split(*line, reading.text.separator, names);
@@ -191,7 +191,7 @@ Columns read_names(Reading& reading) {
   return columns;
 }
 
-void read_row(Reading& reading, const std::vector<Field>& fields, Columns& columns) {
+void read_row(LvmReading& reading, const std::vector<Field>& fields, LvmColumns& columns) {
   const std::size_t line = reading.text.lines.number();
   for (std::size_t i = 0; i < columns.places.size(); ++i) {
     const std::size_t at = columns.places[i].field;
@@ -213,7 +213,7 @@ void read_row(Reading& reading, const std::vector<Field>& fields, Columns& colum
   ++columns.rows;
 }
 
-void read_rows(Reading& reading, Columns& columns) {
+void read_rows(LvmReading& reading, LvmColumns& columns) {
   std::vector<Field> fields;
   while (const auto line = next_line(reading.text)) {
     split(*line, reading.text.separator, fields);
@@ -253,11 +253,11 @@ bool is_lvm(std::string_view head) {
 }
 
 signal::Record read_lvm_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement) {
-  Reading reading{.text = TableText(in, name, lvm_kind)};
+                               const RecordSource& source) {
+  LvmReading reading{.text = TableText(in, name, lvm_kind)};
   reading.text.separator = '\t';
   read_heads(reading);
-  Columns columns = read_names(reading);
+  LvmColumns columns = read_names(reading);
   read_rows(reading, columns);
   for (std::size_t i = 0; i < columns.values.size(); ++i) {
     columns.table.columns[i].count = columns.values[i].size();
@@ -270,7 +270,7 @@ signal::Record read_lvm_record(std::istream& in, const std::string& name,
                      columns.rows)});
   }
   columns.table.values = [&columns](std::size_t i) { return columns.values[i]; };
-  return record_of(columns.table, name, measurement);
+  return record_of(columns.table, name, source);
 }
 
 }  // namespace trochoid::inputs

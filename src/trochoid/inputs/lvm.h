@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <istream>
@@ -15,6 +15,6 @@ bool is_lvm(std::string_view head);
 
 /// @brief Read the first segment; as read_record.
 signal::Record read_lvm_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement);
+                               const RecordSource& source);
 
 }  // namespace trochoid::inputs

@@ -7,14 +7,14 @@
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/inputs/response_tables.h>
-#include <trochoid/inputs/surface_frame.h>
+#include <trochoid/inputs/step_file.h>
+#include <trochoid/inputs/surface_file.h>
 #include <trochoid/structure/plate.h>
 #include <trochoid/surface/also_bends.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -88,15 +88,10 @@ struct Surface {
 
 /// One [[surface_measurement]].
 struct SurfaceMeasurement {
-  std::string file;                   ///< absolute, or relative to where we run
+  SurfaceSource source;
   bool datum_offset = false;          ///< a constant shift of the readings is estimated
   bool datum_tilt = false;            ///< as are tilts along and across the feed
   std::optional<surface::Form> form;  ///< none: as the readings decide
-  std::optional<LengthUnit> unit;     ///< of columns that name none
-  std::optional<double> height;       ///< above the tip, of a trace along the feed [m]
-  std::optional<SurfaceFrame> frame;  ///< of coordinates X, Y, Z, or of a map
-  std::string location;               ///< file:line:col of its `file` key
-  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
 /// Natural frequencies that a mode or an actuator may have [Hz].
@@ -136,9 +131,8 @@ using dynamics::CommandShape;
 struct ImposedCommand {
   CommandShape shape = CommandShape::sine;
   std::optional<double> peak_to_peak;  ///< [m]; not of a table
-  std::string file;      ///< of a table: absolute, or relative to where we run
-  std::string location;  ///< file:line:col of its `file` key
-  double lead = 0.0;     ///< [s]
+  FileRef file;                        ///< of a table
+  double lead = 0.0;                   ///< [s]
 };
 
 /// [correct]
@@ -171,7 +165,7 @@ struct MachineTables {
   std::optional<Actuator> actuator;
   std::optional<FrfTables> frf;
   std::vector<MeasuredFrf> measured_frfs;
-  std::optional<StepTables> step;
+  std::optional<StepSource> step;  ///< [step]: of the actuator
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
   std::optional<Spindle> spindle;

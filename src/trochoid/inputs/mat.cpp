@@ -11,14 +11,14 @@ bool is_mat(std::string_view head) {
 }
 
 signal::Record read_mat_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement) {
+                               const RecordSource& source) {
   std::string head(4096, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
-  if (is_hdf5(head)) return read_hdf5_columns(in, name, measurement, Hdf5Kind::matlab);
+  if (is_hdf5(head)) return read_hdf5_columns(in, name, source, Hdf5Kind::matlab);
   auto table = mat5_table(in, name);
-  name_only_matrix(table, name, measurement);
-  return record_of(table, name, measurement);
+  name_only_matrix(table, name, source);
+  return record_of(table, name, source);
 }
 
 void refuse_matlab_object(const std::string& name) {

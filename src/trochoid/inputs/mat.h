@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/numeric_table.h>
 #include <trochoid/signal/record.h>
 
@@ -20,7 +20,7 @@ bool is_mat(std::string_view head);
 /// A matrix of 3 or 4 columns alone in the file is taken for Fx, Fy, Fz, with the time
 /// before them.
 signal::Record read_mat_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement);
+                               const RecordSource& source);
 
 /// @brief Every array of numbers of a file of version 5, packed or not.
 /// @param in  must outlive the table

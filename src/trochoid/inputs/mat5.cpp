@@ -36,7 +36,7 @@ struct Variable {
 };
 
 /// An array of numbers within a variable.
-struct Array {
+struct MatArray {
   std::vector<std::string> path;  ///< the variable, then fields
   std::size_t rows = 0;
   std::size_t columns = 0;
@@ -44,11 +44,11 @@ struct Array {
   std::string_view numbers;
 };
 
-struct Reading {
+struct MatReading {
   std::istream& in;
   std::string name;
   std::endian order = std::endian::little;
-  std::vector<Array> arrays;  ///< of the variable that is read
+  std::vector<MatArray> arrays;  ///< of the variable that is read
   bool objects = false;       ///< there are tables perhaps
 };
 
@@ -58,7 +58,7 @@ struct Element {
 };
 
 /// What a column is taken from.
-struct Source {
+struct MatSource {
   Variable variable;
   std::vector<std::string> path;
   MatrixPart part;
@@ -84,7 +84,7 @@ Element next_element(ByteCursor& cursor) {
   return element;
 }
 
-std::optional<NumberKind> kind_of(std::uint32_t type) {
+std::optional<NumberKind> kind_of_number(std::uint32_t type) {
   switch (type) {
     case 1:
       return NumberKind::i8;
@@ -111,15 +111,15 @@ std::optional<NumberKind> kind_of(std::uint32_t type) {
   }
 }
 
-[[noreturn]] void refuse_damaged(const Reading& reading, const std::string& what) {
+[[noreturn]] void refuse_damaged(const MatReading& reading, const std::string& what) {
   refuse(reading.name, fmt::format("{}: the file is cut off or damaged", what));
 }
 
-bool read_matrix(Reading& reading, std::string_view body, std::vector<std::string> path,
+bool read_matrix(MatReading& reading, std::string_view body, std::vector<std::string> path,
                  bool is_field);
 
 /// The fields of a struct that stands alone.
-bool read_fields(Reading& reading, ByteCursor& cursor,
+bool read_fields(MatReading& reading, ByteCursor& cursor,
                  const std::vector<std::string>& path) {
   ByteCursor length{.left = next_element(cursor).data, .order = reading.order};
   const auto each = length.take<std::uint32_t>();
@@ -139,9 +139,9 @@ bool read_fields(Reading& reading, ByteCursor& cursor,
   return true;
 }
 
-bool read_numbers(Reading& reading, ByteCursor& cursor, Array array) {
+bool read_numbers(MatReading& reading, ByteCursor& cursor, MatArray array) {
   const Element element = next_element(cursor);
-  const auto kind = kind_of(element.type);
+  const auto kind = kind_of_number(element.type);
   if (cursor.short_of || !kind) return false;
   const std::uint64_t count = element.data.size() / size_of(*kind);
   // Neither product nor division of what may be anything overflows.
@@ -156,7 +156,7 @@ bool read_numbers(Reading& reading, ByteCursor& cursor, Array array) {
 }
 
 /// @return false: sizes contradict one another
-bool read_matrix(Reading& reading, std::string_view body, std::vector<std::string> path,
+bool read_matrix(MatReading& reading, std::string_view body, std::vector<std::string> path,
                  bool is_field) {
   ByteCursor cursor{.left = body, .order = reading.order};
   ByteCursor flags{.left = next_element(cursor).data, .order = reading.order};
@@ -187,7 +187,7 @@ bool read_matrix(Reading& reading, std::string_view body, std::vector<std::strin
 }
 
 /// The bytes of a variable, unpacked; a view of its matrix begins behind the tag.
-std::string bytes_of(const Reading& reading, const Variable& variable) {
+std::string bytes_of(const MatReading& reading, const Variable& variable) {
   auto bytes = bytes_at(reading.in, variable.offset, variable.bytes);
   if (!bytes) refuse_damaged(reading, "the file ends within a variable");
   if (!variable.packed) return std::move(*bytes);
@@ -222,7 +222,7 @@ std::string bytes_of(const Reading& reading, const Variable& variable) {
 }
 
 /// The variables of the file, their sizes compared with its bytes.
-std::vector<Variable> variables_of(Reading& reading) {
+std::vector<Variable> variables_of(MatReading& reading) {
   const std::uint64_t size = size_of(reading.in);
   const auto head = bytes_at(reading.in, 0, head_bytes);
   const bool big = head && head->ends_with("MI");
@@ -257,7 +257,7 @@ std::vector<Variable> variables_of(Reading& reading) {
   return variables;
 }
 
-void read_arrays(Reading& reading, const Variable& variable, std::string_view bytes) {
+void read_arrays(MatReading& reading, const Variable& variable, std::string_view bytes) {
   reading.arrays.clear();
   if (!read_matrix(reading, bytes, {}, false)) {
     refuse_damaged(reading,
@@ -273,12 +273,12 @@ std::string joined(const std::vector<std::string>& path) {
   return text;
 }
 
-std::vector<double> values_of(Reading& reading, const Source& source) {
+std::vector<double> values_of(MatReading& reading, const MatSource& source) {
   const auto bytes = bytes_of(reading, source.variable);
   read_arrays(reading, source.variable, bytes);
   const auto array =
       std::find_if(reading.arrays.begin(), reading.arrays.end(),
-                   [&](const Array& other) { return other.path == source.path; });
+                   [&](const MatArray& other) { return other.path == source.path; });
   const auto& part = source.part;
   const std::size_t first =
       part.column ? *part.column * part.rows : part.row.value_or(0);
@@ -296,15 +296,15 @@ std::vector<double> values_of(Reading& reading, const Source& source) {
 }  // namespace
 
 NumericTable mat5_table(std::istream& in, const std::string& name) {
-  const auto reading = std::make_shared<Reading>(Reading{.in = in, .name = name});
+  const auto reading = std::make_shared<MatReading>(MatReading{.in = in, .name = name});
   NumericTable table;
-  std::vector<Source> sources;
+  std::vector<MatSource> sources;
   for (const Variable& variable : variables_of(*reading)) {
     const auto bytes = bytes_of(*reading, variable);
     read_arrays(*reading, variable, bytes);
-    for (const Array& array : reading->arrays) {
+    for (const MatArray& array : reading->arrays) {
       const NumericColumn like{.name = array.path.back(), .path = joined(array.path)};
-      const auto taken = [&](const Source& other) { return other.path == array.path; };
+      const auto taken = [&](const MatSource& other) { return other.path == array.path; };
       if (std::any_of(sources.begin(), sources.end(), taken)) continue;  // named twice
       for (auto& [column, part] : matrix_columns(like, array.rows, array.columns)) {
         table.columns.push_back(std::move(column));

@@ -63,7 +63,7 @@ CaseTables identify_example() {
   CaseTables t;
   add_slot(t);
   t.dynamometer.emplace().axes = {"auto"};
-  t.measurements.emplace_back().file = "record.csv";
+  t.measurements.emplace_back().source.file.name = "record.csv";
   t.identify.emplace();
   return t;
 }
@@ -96,7 +96,7 @@ CaseTables calibrate_example() {
   add_thin_wall(t);
   t.machine.surface->probe_diameter = 1 * unit::mm;
   SurfaceMeasurement& measurement = t.machine.surface_measurements.emplace_back();
-  measurement.file = "wall.csv";
+  measurement.source.file.name = "wall.csv";
   measurement.datum_offset = true;
   return t;
 }
@@ -173,14 +173,14 @@ CaseTables correct_example() {
 CaseTables modes_example() {
   CaseTables t;
   t.title = "Tip of the tool, along x";
-  t.machine.frf.emplace().file = "tip_x.csv";
+  t.machine.frf.emplace().source.file.name = "tip_x.csv";
   return t;
 }
 
 CaseTables actuator_example() {
   CaseTables t;
   t.title = "Step of the actuator";
-  t.machine.step.emplace().file = "step.csv";
+  t.machine.step.emplace().file.name = "step.csv";
   return t;
 }
 

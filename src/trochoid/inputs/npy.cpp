@@ -12,10 +12,10 @@ namespace trochoid::inputs {
 namespace {
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::uint64_t longest_head = 1U << 20U;
+constexpr std::uint64_t longest_npy_head = 1U << 20U;
 
 /// The array of a file: what it says of itself, and where its items begin.
-struct Array {
+struct NpyArray {
   NpyHead head;
   std::uint64_t data = 0;
   std::size_t rows = 0;
@@ -31,7 +31,7 @@ NpyHead read_head(std::istream& in, const std::string& name, std::uint64_t& data
   const std::uint64_t length =
       major == 1 ? cursor.take<std::uint16_t>() : cursor.take<std::uint32_t>();
   const std::uint64_t at = major == 1 ? 10 : 12;
-  const auto text = cursor.short_of || length > longest_head
+  const auto text = cursor.short_of || length > longest_npy_head
                         ? std::optional<std::string>()
                         : bytes_at(in, at, length);
   if (!text || major < 1 || major > 3) {
@@ -43,8 +43,8 @@ NpyHead read_head(std::istream& in, const std::string& name, std::uint64_t& data
   return npy_head(*text, name);
 }
 
-Array array_of(std::istream& in, const std::string& name) {
-  Array array;
+NpyArray array_of(std::istream& in, const std::string& name) {
+  NpyArray array;
   array.head = read_head(in, name, array.data);
   const auto& shape = array.head.shape;
   const bool structured = !array.head.fields.front().name.empty();
@@ -73,7 +73,7 @@ Array array_of(std::istream& in, const std::string& name) {
 }
 
 /// Where the numbers of a field lie, in a part of the matrix.
-NumberRun run_of(const Array& array, const NpyField& field, const MatrixPart& part) {
+NumberRun run_of(const NpyArray& array, const NpyField& field, const MatrixPart& part) {
   const std::uint64_t item = array.head.item_bytes;
   std::uint64_t down = item * array.columns;
   std::uint64_t across = item;
@@ -96,8 +96,8 @@ bool is_npy(std::string_view head) {
 }
 
 signal::Record read_npy_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement) {
-  const Array array = array_of(in, name);
+                               const RecordSource& source) {
+  const NpyArray array = array_of(in, name);
   NumericTable table;
   std::vector<NumberRun> runs;
   for (const NpyField& field : array.head.fields) {
@@ -109,7 +109,7 @@ signal::Record read_npy_record(std::istream& in, const std::string& name,
       runs.push_back(run_of(array, field, part));
     }
   }
-  name_only_matrix(table, name, measurement);
+  name_only_matrix(table, name, source);
   table.values = [&](std::size_t i) {
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(runs[i].count));
@@ -117,7 +117,7 @@ signal::Record read_npy_record(std::istream& in, const std::string& name,
       refuse(name, "the file cannot be read to its end");
     return values;
   };
-  return record_of(table, name, measurement);
+  return record_of(table, name, source);
 }
 
 }  // namespace trochoid::inputs

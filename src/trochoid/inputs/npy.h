@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <istream>
@@ -18,6 +18,6 @@ bool is_npy(std::string_view head);
 /// Columns are the fields of a structured array of one dimension, or those of a matrix: 3
 /// are Fx, Fy, Fz and 4 a time and these, with a note.
 signal::Record read_npy_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement);
+                               const RecordSource& source);
 
 }  // namespace trochoid::inputs

@@ -35,6 +35,10 @@ std::string number_text(double si, double unit) {
   return number_text(file_number(si, unit));
 }
 
+std::string mm(double length) {
+  return number_text(length, unit::mm);
+}
+
 double as_written(double si, double unit) {
   return file_number(si, unit) * unit;
 }

@@ -13,6 +13,9 @@ std::string number_text(double value);
 /// @param unit  factor from the file's unit to SI
 std::string number_text(double si, double unit);
 
+/// @brief A length in mm.
+std::string mm(double length);
+
 /// @brief The SI value of the file number nearest to an SI value.
 ///
 /// A computed default passes through this, so that writing it to a file and reading it

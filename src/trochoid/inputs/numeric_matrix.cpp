@@ -49,9 +49,9 @@ std::vector<MatrixColumn> matrix_columns(const NumericColumn& like, std::size_t 
 }
 
 void name_only_matrix(NumericTable& table, const std::string& name,
-                      const Measurement& measurement) {
+                      const RecordSource& source) {
   auto& columns = table.columns;
-  if (!measurement.columns.empty() ||
+  if (!source.columns.empty() ||
       std::any_of(columns.begin(), columns.end(), [](const NumericColumn& column) {
         return column.matrix.empty() && names_force(column.name);
       })) {

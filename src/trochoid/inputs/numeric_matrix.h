@@ -38,6 +38,6 @@ std::vector<MatrixColumn> matrix_columns(const NumericColumn& like, std::size_t 
 /// Does nothing where the case file names columns.
 /// @throws base::InputError where several matrices would do
 void name_only_matrix(NumericTable& table, const std::string& name,
-                      const Measurement& measurement);
+                      const RecordSource& source);
 
 }  // namespace trochoid::inputs

@@ -17,8 +17,8 @@ namespace trochoid::inputs {
 namespace {
 
 /// Sampling rates that are possible [Hz].
-constexpr double lowest_rate = 1e-3;
-constexpr double highest_rate = 1e9;
+constexpr double lowest_stated = 1e-3;
+constexpr double highest_stated = 1e9;
 
 /// What each column is found by: its name, or its path where others have that name.
 std::vector<std::string> searched_names(const NumericTable& table) {
@@ -34,10 +34,10 @@ std::vector<std::string> searched_names(const NumericTable& table) {
 }
 
 /// The case file may name a column by its path, too.
-Measurement by_searched_names(const NumericTable& table,
+RecordSource by_searched_names(const NumericTable& table,
                               const std::vector<std::string>& names,
-                              const Measurement& measurement) {
-  Measurement wanted = measurement;
+                              const RecordSource& source) {
+  RecordSource wanted = source;
   const auto replace = [&](std::string& text) {
     for (std::size_t i = 0; i < names.size() && !text.empty(); ++i) {
       if (text != table.columns[i].path) continue;
@@ -100,13 +100,13 @@ void check_lengths(const NumericTable& table, const Used& used, Problems& proble
 
 /// Rate and begin of the samples, on which all columns must agree.
 SampleRates rates_of(const NumericTable& table, const Used& used,
-                     const Measurement& measurement, Problems& problems) {
-  SampleRates rates{.given = measurement.sample_rate.value_or(0.0)};
+                     const RecordSource& source, Problems& problems) {
+  SampleRates rates{.given = source.sample_rate.value_or(0.0)};
   const auto& first = table.columns[used.first().index];
-  if (!measurement.time_column.empty()) return rates;
+  if (!source.time_column.empty()) return rates;
   if (!std::isfinite(first.first_time) || !std::isfinite(first.sample_rate) ||
       (first.sample_rate != 0.0 &&
-       !(first.sample_rate >= lowest_rate && first.sample_rate <= highest_rate))) {
+       !(first.sample_rate >= lowest_stated && first.sample_rate <= highest_stated))) {
     problems.add(
         0, 0,
         fmt::format("column {} begins at {} s and has {} samples a second: a "
@@ -183,7 +183,7 @@ void refuse(const std::string& name, const std::string& why) {
 }
 
 signal::Record record_of(const NumericTable& table, const std::string& name,
-                         const Measurement& measurement) {
+                         const RecordSource& source) {
   if (table.columns.empty()) refuse(name, "the file holds no column of numbers");
   const auto names = searched_names(table);
   TableHead head{.paths = true};
@@ -195,12 +195,12 @@ signal::Record record_of(const NumericTable& table, const std::string& name,
   record.file = name;
   record.notes = table.notes;
   Problems problems{name, {}};
-  const auto found = find_columns(head, by_searched_names(table, names, measurement),
+  const auto found = find_columns(head, by_searched_names(table, names, source),
                                   problems, record.notes);
   throw_if_any(problems);
   const auto used = used_of(found);
   check_lengths(table, used, problems);
-  const auto rates = rates_of(table, used, measurement, problems);
+  const auto rates = rates_of(table, used, source, problems);
   throw_if_any(problems);
   read_columns(table, found, record, problems);
   throw_if_any(problems);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <cstddef>
@@ -47,6 +47,6 @@ inline constexpr double largest_record = 2e9;
 /// @param name  of the file, for messages
 /// @throws base::InputError with every problem
 signal::Record record_of(const NumericTable& table, const std::string& name,
-                         const Measurement& measurement);
+                         const RecordSource& source);
 
 }  // namespace trochoid::inputs

@@ -226,7 +226,6 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   if (purpose == Command::stability) {
     check_stability(t, findings);
   }
-  settle_machine_files(t.machine, findings);
   if (in_time) {
     check_dynamics(t, findings);
   }
@@ -239,7 +238,8 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   c.plan = t.plan.value_or(Plan{});
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
-    settle_surface_file(c.machine.surface_measurements[i], i + 1, findings);
+    auto& frame = c.machine.surface_measurements[i].source.frame;
+    if (frame) settle_frame(*frame, i + 1, findings);
   }
   return c;
 }
@@ -249,63 +249,14 @@ Case assemble_machine(CaseTables& t, Findings& findings) {
   Case c;
   c.title = t.title;
   check_machine(t.machine, t.tool, findings);
-  settle_machine_files(t.machine, findings);
   c.machine = t.machine;
   return c;
-}
-
-/// A file name as the echo in the result folder must have it.
-std::string renamed(const std::string& name, const fs::path& file,
-                    const fs::path& folder) {
-  if (fs::path(name).is_absolute()) {
-    return name;
-  }
-  const fs::path whole = fs::absolute(file).lexically_normal();
-  return folder.empty()
-             ? whole.generic_string()
-             : whole.lexically_relative(fs::absolute(folder).lexically_normal())
-                   .generic_string();
 }
 
 Findings findings_of(const CaseSource& source) {
   return {.file = source.file.string(),
           .first_line = std::min(1, source.root.where.line),
           .base = source.base};
-}
-
-void take_from_memory(const DataInMemory& data, CaseTables& tables) {
-  for (MeasurementTable& measurement : tables.measurements) {
-    const auto found = data.records.find(measurement.file);
-    if (found != data.records.end()) {
-      measurement.in_memory = found->second;
-    }
-  }
-  const auto take = [&](auto& table) {
-    const auto found = data.texts.find(table.file);
-    if (found != data.texts.end()) {
-      table.content = found->second;
-    }
-  };
-  MachineTables& machine = tables.machine;
-  if (machine.frf) take(*machine.frf);
-  if (machine.step) take(*machine.step);
-  std::ranges::for_each(machine.measured_frfs, take);
-  std::ranges::for_each(machine.surface_measurements, take);
-}
-
-void rename_machine_files(MachineTables& machine, const fs::path& folder) {
-  const auto rename = [&](auto& table) {
-    if (!table.content && !table.file.empty()) {
-      table.file = renamed(table.file, table.file, folder);
-    }
-  };
-  if (machine.frf) rename(*machine.frf);
-  if (machine.step) rename(*machine.step);
-  std::ranges::for_each(machine.measured_frfs, rename);
-  if (machine.command && !machine.command->file.empty()) {
-    machine.command->file =
-        renamed(machine.command->file, machine.command->file, folder);
-  }
 }
 
 }  // namespace
@@ -330,7 +281,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   Findings findings = findings_of(source);
   const Command purpose = purpose_of(command, root);
   CaseTables tables = read_tables(root, purpose, findings);
-  take_from_memory(source.data, tables);
+  settle_files(tables, source.data, findings);
   if (purpose == Command::modes && !tables.machine.measured_frfs.empty() &&
       !tables.machine.frf) {
     tables.machine.frf.emplace();  // its defaults stand in the echo
@@ -347,17 +298,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   }
   c.file = source.file;
   c.notes = std::move(findings.notes);
-  for (std::size_t i = 0; i < c.measurements.size(); ++i) {
-    if (c.measurements[i].in_memory) continue;
-    auto& name = tables.measurements[i].file;
-    name = renamed(name, c.measurements[i].file, result_folder);
-  }
-  for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
-    if (c.machine.surface_measurements[i].content) continue;
-    auto& name = tables.machine.surface_measurements[i].file;
-    name = renamed(name, c.machine.surface_measurements[i].file, result_folder);
-  }
-  rename_machine_files(tables.machine, result_folder);
+  name_files_from(result_folder, tables);
   c.as_understood = no_cut ? write_machine_case(tables) : write_case(tables);
   return c;
 }
@@ -365,7 +306,8 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
 Case bare_case(const MachineTables& machine, Command command,
                const fs::path& result_folder) {
   const bool modes = command == Command::modes;
-  Findings findings{.file = modes ? machine.frf->file : machine.step->file};
+  Findings findings{.file = modes ? machine.frf->source.file.path
+                                  : machine.step->file.path};
   CaseTables tables;
   tables.machine = machine;
   tables.title = fs::path(findings.file).filename().string();
@@ -377,7 +319,7 @@ Case bare_case(const MachineTables& machine, Command command,
   c.file = findings.file;
   c.title = tables.title;
   c.machine = tables.machine;
-  rename_machine_files(tables.machine, result_folder);
+  name_files_from(result_folder, tables);
   c.as_understood = write_machine_case(tables);
   return c;
 }

@@ -26,7 +26,7 @@ std::optional<Direction> axis_named(std::string_view text) {
   return direction;
 }
 
-struct Reader {
+struct ValueReader {
   const Node& node;
   const std::string& path;
   const Key& key;
@@ -145,6 +145,7 @@ struct Reader {
       *target = *value;
     }
   }
+  void operator()(FileRef* target) const { (*this)(&target->name); }
   void operator()(std::vector<double>* target) const {
     target->clear();
     const Array* entries = list(key.count);
@@ -264,7 +265,7 @@ std::string shown_value(std::string_view key, const Node& node) {
 
 void read_value(const Node& node, const std::string& path, const Key& key,
                 const Field& field, Findings& findings) {
-  std::visit(Reader{node, path, key, field, findings}, field);
+  std::visit(ValueReader{node, path, key, field, findings}, field);
 }
 
 }  // namespace trochoid::inputs

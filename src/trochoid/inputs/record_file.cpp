@@ -8,7 +8,6 @@
 #include <trochoid/inputs/mat.h>
 #include <trochoid/inputs/npy.h>
 #include <trochoid/inputs/numeric_table.h>
-#include <trochoid/inputs/record_format.h>
 #include <trochoid/inputs/record_table.h>
 #include <trochoid/inputs/tdms.h>
 #include <trochoid/inputs/uff58.h>
@@ -26,7 +25,7 @@ namespace trochoid::inputs {
 namespace {
 
 /// A format that a record may have.
-struct Reader {
+struct RecordReader {
   RecordFormat format;
   std::string_view title;                ///< `a DynoWare export`
   std::string_view sign;                 ///< what tells it from others, for a message
@@ -35,51 +34,39 @@ struct Reader {
 };
 
 /// All of them: the first that recognises a file reads it, and the last takes any text.
-constexpr std::array readers{
-    Reader{RecordFormat::dynoware, "a DynoWare export",
+constexpr std::array record_readers{
+    RecordReader{RecordFormat::dynoware, "a DynoWare export",
            "begins with `DynoWare,Version ...`", is_dynoware, read_dynoware_record},
-    Reader{RecordFormat::lvm, "a LabVIEW measurement file",
+    RecordReader{RecordFormat::lvm, "a LabVIEW measurement file",
            "begins with `LabVIEW Measurement`", is_lvm, read_lvm_record},
-    Reader{RecordFormat::mat, "a MATLAB file", "begins with `MATLAB ... MAT-file`",
+    RecordReader{RecordFormat::mat, "a MATLAB file", "begins with `MATLAB ... MAT-file`",
            is_mat, read_mat_record},
-    Reader{RecordFormat::tdms, "a TDMS file", "begins with `TDSm`", is_tdms,
+    RecordReader{RecordFormat::tdms, "a TDMS file", "begins with `TDSm`", is_tdms,
            read_tdms_record},
-    Reader{RecordFormat::hdf5, "an HDF5 file", "begins with the byte 0x89 and `HDF`",
+    RecordReader{RecordFormat::hdf5, "an HDF5 file", "begins with the byte 0x89 and `HDF`",
            is_hdf5, read_hdf5_record},
-    Reader{RecordFormat::npy, "a NumPy array", "begins with the byte 0x93 and `NUMPY`",
+    RecordReader{RecordFormat::npy, "a NumPy array", "begins with the byte 0x93 and `NUMPY`",
            is_npy, read_npy_record},
-    Reader{RecordFormat::uff58, "a universal file",
+    RecordReader{RecordFormat::uff58, "a universal file",
            "begins with a line that holds only -1", is_uff, read_uff58_record},
-    Reader{RecordFormat::csv, "a CSV file", "is text",
+    RecordReader{RecordFormat::csv, "a CSV file", "is text",
            [](std::string_view) { return true; }, read_csv_record}};
 
 /// Enough to recognise a format by.
 constexpr std::size_t longest_head = 4096;
 
-/// @return the first bytes of a file, which then stands at its beginning again
-std::string first_bytes(std::istream& in) {
-  std::string head(longest_head, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  in.clear();
-  if (!in.seekg(0)) {
-    throw std::invalid_argument("read_record: the stream cannot be set back");
-  }
-  return head;
-}
-
-const Reader& reader_of(RecordFormat format) {
-  return *std::find_if(readers.begin(), readers.end(),
-                       [&](const Reader& reader) { return reader.format == format; });
+const RecordReader& reader_of(RecordFormat format) {
+  return *std::find_if(record_readers.begin(), record_readers.end(),
+                       [&](const RecordReader& reader) { return reader.format == format; });
 }
 
 /// @throws base::InputError where the case file says another format
-void check_stated(const Reader& found, const std::optional<RecordFormat>& stated,
+void check_stated(const RecordReader& found, const std::optional<RecordFormat>& stated,
                   const std::string& name) {
   if (!stated || *stated == found.format) {
     return;
   }
-  const bool by_content = &found != &readers.back();
+  const bool by_content = &found != &record_readers.back();
   throw base::InputError(
       {name + ":1:1: " +
        (by_content ? fmt::format("this is {}, but the case file says format = \"{}\": "
@@ -93,25 +80,22 @@ void check_stated(const Reader& found, const std::optional<RecordFormat>& stated
 }  // namespace
 
 signal::Record read_record(std::istream& in, const std::string& name,
-                           const Measurement& measurement) {
-  if (!measurement.columns.empty() && measurement.columns.size() != 3) {
+                           const RecordSource& source) {
+  if (!source.columns.empty() && source.columns.size() != 3) {
     throw std::invalid_argument("read_record: columns must hold 3 names or none");
   }
-  const std::string head = first_bytes(in);
-  const Reader& found =
-      *std::find_if(readers.begin(), readers.end(),
-                    [&](const Reader& reader) { return reader.recognises(head); });
-  check_stated(found, measurement.format, name);
-  return found.read(in, name, measurement);
+  const std::string head = first_bytes(in, longest_head);
+  const RecordReader& found =
+      *std::find_if(record_readers.begin(), record_readers.end(),
+                    [&](const RecordReader& reader) { return reader.recognises(head); });
+  check_stated(found, source.format, name);
+  return found.read(in, name, source);
 }
 
-signal::Record read_record(const Measurement& measurement) {
-  if (measurement.in_memory) {
-    return record_of(*measurement.in_memory, measurement.file.generic_string(),
-                     measurement);
-  }
-  auto in = open_table(measurement.file, measurement.location, record_kind);
-  return read_record(in, measurement.file.generic_string(), measurement);
+signal::Record read_record(const RecordSource& source) {
+  const FileRef& file = source.file;
+  if (file.numbers) return record_of(*file.numbers, file.path, source);
+  return read_record(*open_table(file, record_kind), file.path, source);
 }
 
 }  // namespace trochoid::inputs

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <istream>
@@ -15,12 +15,12 @@ namespace trochoid::inputs {
 /// file, or of a DynoWare header) the times are rebuilt from it; a time column then
 /// gives the first time and must agree. Without one, the times must increase.
 /// @throws base::InputError with every problem of the file; reading stops after 1000
-signal::Record read_record(const Measurement& measurement);
+signal::Record read_record(const RecordSource& source);
 
 /// @brief The same from an open stream.
 /// @param in    stands at its beginning and can be set back to it
 /// @param name  of the file, for messages
 signal::Record read_record(std::istream& in, const std::string& name,
-                           const Measurement& measurement);
+                           const RecordSource& source);
 
 }  // namespace trochoid::inputs

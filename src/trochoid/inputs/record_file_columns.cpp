@@ -58,10 +58,10 @@ std::optional<TableColumn> find_axis(const ColumnSearch& search,
 }
 
 /// @param channel  from 0
-TableColumn force_column(const ColumnSearch& search, const Measurement& measurement,
+TableColumn force_column(const ColumnSearch& search, const RecordSource& source,
                          std::size_t at, std::size_t channel) {
-  if (measurement.scale.empty()) return column_at(search, at, Quantity::force);
-  return {at, measurement.scale[channel], std::string(search.head.names[at].text)};
+  if (source.scale.empty()) return column_at(search, at, Quantity::force);
+  return {at, source.scale[channel], std::string(search.head.names[at].text)};
 }
 
 /// Whether a force may be there by another name, such as `Fz at 1`, `Fz1` or `run/Fz`.
@@ -128,18 +128,18 @@ bool names_force(std::string_view name) {
   });
 }
 
-RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
+RecordColumns find_columns(const TableHead& head, const RecordSource& source,
                            Problems& problems, std::vector<base::Warning>& notes) {
   const ColumnSearch search{head, problems, notes, is_known_name, advice};
   RecordColumns columns;
   columns.count = head.names.size();
   std::array<std::optional<std::size_t>, 3> forces;
-  if (measurement.columns.empty()) {
+  if (source.columns.empty()) {
     forces = usual_forces(search);
   } else {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (measurement.columns[i].empty()) continue;  // not measured
-      forces[i] = named_column(search, measurement.columns[i]);
+      if (source.columns[i].empty()) continue;  // not measured
+      forces[i] = named_column(search, source.columns[i]);
     }
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -151,20 +151,20 @@ RecordColumns find_columns(const TableHead& head, const Measurement& measurement
                    "three different ones are needed");
       continue;
     }
-    columns.force[i] = force_column(search, measurement, *forces[i], i);
+    columns.force[i] = force_column(search, source, *forces[i], i);
   }
-  columns.time = find_axis(search, measurement.time_column, time_names, Quantity::time);
-  if (!measurement.pulse_column.empty()) {
-    const auto at = named_column(search, measurement.pulse_column);
+  columns.time = find_axis(search, source.time_column, time_names, Quantity::time);
+  if (!source.pulse_column.empty()) {
+    const auto at = named_column(search, source.pulse_column);
     if (at) columns.pulse = TableColumn{*at, 1.0, std::string(head.names[*at].text)};
     return columns;  // the angle follows from it
   }
   // Who names a time wants the angle from it, whatever else the file holds.
   const bool by_time =
-      !measurement.time_column.empty() || measurement.sample_rate.has_value();
-  if (!by_time || !measurement.angle_column.empty()) {
+      !source.time_column.empty() || source.sample_rate.has_value();
+  if (!by_time || !source.angle_column.empty()) {
     columns.angle =
-        find_axis(search, measurement.angle_column, angle_names, Quantity::angle);
+        find_axis(search, source.angle_column, angle_names, Quantity::angle);
   }
   return columns;
 }

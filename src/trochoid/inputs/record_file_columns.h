@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/signal/record.h>
 
@@ -31,7 +31,7 @@ bool names_force(std::string_view name);
 /// `scale`, the unit of a force is not looked at. A force that no column is named after was
 /// not measured, with a note; one that the case file leaves empty, without.
 /// @param[out] notes  what had to be assumed
-RecordColumns find_columns(const TableHead& head, const Measurement& measurement,
+RecordColumns find_columns(const TableHead& head, const RecordSource& source,
                            Problems& problems, std::vector<base::Warning>& notes);
 
 }  // namespace trochoid::inputs

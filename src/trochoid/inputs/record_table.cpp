@@ -17,13 +17,13 @@ namespace trochoid::inputs {
 namespace {
 
 /// Everything that is known while the rows are read.
-struct Reading {
-  Reading(std::istream& in, const std::string& name, const Measurement& m)
-      : measurement(m), text(in, name, record_kind) {
+struct RecordReading {
+  RecordReading(std::istream& in, const std::string& name, const RecordSource& m)
+      : source(m), text(in, name, record_kind) {
     record.file = name;
   }
 
-  const Measurement& measurement;
+  const RecordSource& source;
   TableText text;
   signal::Record record;
   std::optional<DynoWareHeader> header;  ///< of a DynoWare export
@@ -35,7 +35,7 @@ struct Reading {
 };
 
 /// The first line that holds something; none, with a problem, in an empty file.
-std::optional<std::string> first_content(Reading& reading) {
+std::optional<std::string> first_content(RecordReading& reading) {
   const auto line = next_content(reading.text);
   if (line) {
     return std::string(*line);
@@ -49,7 +49,7 @@ std::optional<std::string> first_content(Reading& reading) {
   return std::nullopt;
 }
 
-void read_row(Reading& reading, std::vector<Field>& fields) {
+void read_row(RecordReading& reading, std::vector<Field>& fields) {
   auto& columns = reading.columns;
   if (!complete_row(reading.text, fields, columns.count)) return;
   auto& record = reading.record;
@@ -84,7 +84,7 @@ void keep_names(const RecordColumns& columns, signal::Record& record) {
 }
 
 /// Columns of text, a comment for example, are no mistake as long as nobody needs them.
-void note_text_columns(Reading& reading, const TableHead& head,
+void note_text_columns(RecordReading& reading, const TableHead& head,
                        const std::vector<Field>& row) {
   const auto& columns = reading.columns;
   const auto used = [&](std::size_t i) {
@@ -101,7 +101,7 @@ void note_text_columns(Reading& reading, const TableHead& head,
   }
 }
 
-void read_rows(Reading& reading, TableHead& head) {
+void read_rows(RecordReading& reading, TableHead& head) {
   std::vector<Field> fields;
   auto line = next_content(reading.text);
   if (line) {
@@ -109,7 +109,7 @@ void read_rows(Reading& reading, TableHead& head) {
     take_units(reading.text, fields, head);
   }
   // The texts of the unit row end with the next line.
-  reading.columns = find_columns(head, reading.measurement, reading.text.problems,
+  reading.columns = find_columns(head, reading.source, reading.text.problems,
                                  reading.record.notes);
   keep_names(reading.columns, reading.record);
   if (!head.units.empty()) line = next_content(reading.text);
@@ -124,7 +124,7 @@ void read_rows(Reading& reading, TableHead& head) {
 
 /// The last row of an export that ends without a line end may be cut off inside its
 /// last number.
-void drop_last_row(Reading& reading) {
+void drop_last_row(RecordReading& reading) {
   auto& record = reading.record;
   for (auto& values : record.channel) values.pop_back();
   if (!record.angle.empty()) record.angle.pop_back();
@@ -137,7 +137,7 @@ void drop_last_row(Reading& reading) {
        "left out."});
 }
 
-void check_whole(Reading& reading) {
+void check_record(RecordReading& reading) {
   reading.text.style.check(reading.text.problems);
   throw_problems(reading.text);
   const bool in_part =
@@ -159,7 +159,7 @@ void check_whole(Reading& reading) {
   const auto& time = reading.record.time;
   const auto first = time.empty() ? std::nullopt : std::optional(time.front());
   const SampleRates rates{
-      .given = reading.measurement.sample_rate.value_or(0.0),
+      .given = reading.source.sample_rate.value_or(0.0),
       .stated = reading.header ? reading.header->sample_rate : 0.0,
       .stated_line = reading.header ? reading.header->rate_line : 0};
   settle_time(reading.record,
@@ -182,10 +182,10 @@ void check_whole(Reading& reading) {
 }
 
 /// @param names  the row of names
-signal::Record read_table(Reading& reading, const std::string& names) {
+signal::Record read_table(RecordReading& reading, const std::string& names) {
   throw_problems(reading.text);
   TableHead head = head_of(reading.text, names);
-  const std::size_t fewest = reading.measurement.columns.empty() ? 2 : 1;
+  const std::size_t fewest = reading.source.columns.empty() ? 2 : 1;
   if (head.names.size() < fewest) {
     reading.text.problems.add(
         head.names_line, 1,
@@ -195,22 +195,22 @@ signal::Record read_table(Reading& reading, const std::string& names) {
     throw_problems(reading.text);
   }
   read_rows(reading, head);
-  check_whole(reading);
+  check_record(reading);
   return std::move(reading.record);
 }
 
 }  // namespace
 
 signal::Record read_csv_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement) {
-  Reading reading(in, name, measurement);
+                               const RecordSource& source) {
+  RecordReading reading(in, name, source);
   const auto line = first_content(reading);
   return read_table(reading, line ? names_row(reading.text, *line) : std::string());
 }
 
 signal::Record read_dynoware_record(std::istream& in, const std::string& name,
-                                    const Measurement& measurement) {
-  Reading reading(in, name, measurement);
+                                    const RecordSource& source) {
+  RecordReading reading(in, name, source);
   if (const auto line = first_content(reading)) {
     reading.header =
         read_dynoware_header(*line, reading.text.lines, reading.text.problems);

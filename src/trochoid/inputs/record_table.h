@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/csv_table.h>
 #include <trochoid/signal/record.h>
 
@@ -17,10 +17,10 @@ inline constexpr TableKind record_kind{.noun = "a record",
 
 /// @brief Read a CSV file; as read_record.
 signal::Record read_csv_record(std::istream& in, const std::string& name,
-                               const Measurement& measurement);
+                               const RecordSource& source);
 
 /// @brief Read an export of DynoWare, whose head comes before the table; as read_record.
 signal::Record read_dynoware_record(std::istream& in, const std::string& name,
-                                    const Measurement& measurement);
+                                    const RecordSource& source);
 
 }  // namespace trochoid::inputs

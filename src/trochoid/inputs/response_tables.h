@@ -1,10 +1,10 @@
 #pragma once
 
+#include <trochoid/inputs/frf_file.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,11 +49,7 @@ using structure::ModeBody;
 
 /// [frf]: a measured frequency response.
 struct FrfTables {
-  std::string file;      ///< absolute, or relative to where we run; empty: the
-                         ///< [[measured_frf]] together
-  std::string location;  ///< file:line:col of its `file` key
-  std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
-  int dataset = 0;           ///< of a universal file, from 1; 0: the only one
+  FrfSource source;  ///< no file: the [[measured_frf]] together
   int modes = 0;             ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ResidualTerms residual_terms = ResidualTerms::choose;
@@ -61,29 +57,15 @@ struct FrfTables {
   signal::TapOptions tap;  ///< for hammer blows in time
   ModeBody body = ModeBody::tool;
   Axis axis = Axis::x;
-  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
 /// One [[measured_frf]]: how tool point or work answers, for stability without modes.
 struct MeasuredFrf {
-  std::string file;      ///< absolute, or relative to where we run
-  std::string location;  ///< file:line:col of its `file` key
-  std::optional<structure::ResponseKind> kind;  ///< absent: the file says it
-  int dataset = 0;           ///< of a universal file, from 1; 0: the only one
+  FrfSource source;
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ModeBody body = ModeBody::tool;
-  Axis axis = Axis::x;                              ///< of the motion
-  std::optional<Axis> force_axis;                   ///< of the force; absent: the same
-  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
-};
-
-/// [step]: a measured step of the actuator.
-struct StepTables {
-  std::string file;             ///< absolute, or relative to where we run
-  std::string location;         ///< file:line:col of its `file` key
-  std::optional<double> step;   ///< height of the commanded step [m]
-  std::optional<double> start;  ///< when it was commanded [s]
-  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
+  Axis axis = Axis::x;             ///< of the motion
+  std::optional<Axis> force_axis;  ///< of the force; absent: the same
 };
 
 }  // namespace trochoid::inputs

@@ -9,6 +9,8 @@
 /// that follows from a problem reported before.
 namespace trochoid::inputs {
 
+struct DataInMemory;
+
 geometry::Cutter cutter_of(ToolTable& tool, Findings& findings);
 void check_runout(geometry::Runout& runout, const ToolTable& tool, Findings& findings);
 
@@ -88,10 +90,6 @@ std::string_view plain_name(std::string_view key);
 void check_steps(const std::optional<base::Steps>& steps, const std::string& key,
                  std::string_view what, double most, Findings& findings);
 
-/// @param number  1, 2 ... of the [[surface_measurement]]
-void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
-                         Findings& findings);
-
 /// @brief Its frame: perpendicular directions, which become unit vectors.
 /// @param number  1, 2 ... of the [[surface_measurement]]
 void settle_frame(SurfaceFrame& frame, std::size_t number, Findings& findings);
@@ -102,22 +100,13 @@ void check_measured_frfs(const std::vector<MeasuredFrf>& all, Findings& findings
 /// @brief What `modes` needs: a file in [frf], or [[measured_frf]] of one structure.
 void check_shared_modes(const MachineTables& machine, Findings& findings);
 
-/// @brief The same for [frf] and [step].
-void settle_machine_files(MachineTables& machine, Findings& findings);
+/// @brief Find every file that a case names, on the disk or in memory.
+void settle_files(CaseTables& tables, const DataInMemory& data, Findings& findings);
+
+/// @brief Names of files as a case in that folder must have them; none: absolute.
+void name_files_from(const std::filesystem::path& folder, CaseTables& tables);
 
 /// @brief As given, or as mass and stiffness make it [Hz]; 0: it is not said, or wrongly.
 double natural_frequency(const Mode& mode);
-
-/// @brief Report a file that is not there or that cannot be a measurement.
-/// @param shown  its name as the case has it
-/// @param what   it must be, in words
-void check_file(const std::filesystem::path& file, const std::string& key,
-                const std::string& shown, std::string_view what, Findings& findings);
-
-/// @brief A file that a case names, seen from where we run.
-/// @param named_at  the place of the name: the path is relative to that file, and that
-///                  file to Findings::base
-std::filesystem::path resolved(const std::string& file, const Location& named_at,
-                               const Findings& findings);
 
 }  // namespace trochoid::inputs

@@ -21,10 +21,6 @@ constexpr double feed_slack = 1e-3;
 
 constexpr double most_samples = 1e7;
 
-std::string mm(double length) {
-  return number_text(length, unit::mm);
-}
-
 /// Feed per tooth is kept, feed rate is dropped once it has been used.
 void settle_feed(CutTable& cut, const std::string& path, int teeth,
                  Findings& findings) {

@@ -32,12 +32,12 @@ Direction unit_vector(const Direction& a) {
 /// Numbers with three digits are perpendicular up to this; it is taken out afterwards.
 constexpr double roundoff = 2e-3;
 
-struct Axis {
+struct FrameAxis {
   std::string_view name;
   const std::optional<Direction>& direction;
 };
 
-void check_perpendicular(const std::string& path, const Axis& a, const Axis& b,
+void check_perpendicular(const std::string& path, const FrameAxis& a, const FrameAxis& b,
                          Findings& findings) {
   const std::string key = fmt::format("{}.{}", path, b.name);
   if (!a.direction || !b.direction ||

@@ -107,23 +107,6 @@ void settle_body(CutterBody& body, const ToolTable& tool, Findings& findings) {
   }
 }
 
-/// @param table  with `file` and `location`, and perhaps what the file would hold
-template <class Table>
-void settle_file(const std::string& key, std::string_view what, Table& table,
-                 Findings& findings) {
-  const Location named_at = place_of(findings, key);
-  table.location = to_string(named_at);
-  if constexpr (requires { table.content; }) {
-    if (table.content) return;
-  }
-  const std::string shown = table.file;
-  const auto whole = resolved(shown, named_at, findings);
-  if (sound(findings, {key})) {
-    check_file(whole, key, shown, what, findings);
-  }
-  table.file = whole.generic_string();
-}
-
 void check_band(const FrfTables& frf, Findings& findings) {
   if (frf.band.size() == 2 && sound(findings, {"frf.band_Hz"}) &&
       frf.band[0] >= frf.band[1]) {
@@ -134,7 +117,7 @@ void check_band(const FrfTables& frf, Findings& findings) {
   }
 }
 
-void check_step(const StepTables& step, Findings& findings) {
+void check_step(const StepSource& step, Findings& findings) {
   if (step.step && *step.step == 0 && sound(findings, {"step.step_um"})) {
     report(findings, "step.step_um",
            "step.step_um = 0: no step at all; must not "
@@ -143,25 +126,6 @@ void check_step(const StepTables& step, Findings& findings) {
 }
 
 }  // namespace
-
-void settle_machine_files(MachineTables& machine, Findings& findings) {
-  if (machine.frf && !machine.frf->file.empty()) {
-    settle_file("frf.file", "a frequency response (csv, text or uff)", *machine.frf,
-                findings);
-  }
-  for (std::size_t i = 0; i < machine.measured_frfs.size(); ++i) {
-    MeasuredFrf& frf = machine.measured_frfs[i];
-    settle_file(fmt::format("measured_frf[{}].file", i + 1),
-                "a frequency response (csv, text or uff)", frf, findings);
-  }
-  if (machine.command && machine.command->shape == CommandShape::table) {
-    settle_file("command.file", "a command over the angle (csv)", *machine.command,
-                findings);
-  }
-  if (machine.step) {
-    settle_file("step.file", "the record of a step (csv)", *machine.step, findings);
-  }
-}
 
 void check_machine(MachineTables& machine, const ToolTable& tool, Findings& findings) {
   if (machine.cutter_body) {

@@ -86,7 +86,7 @@ void check_measured_frfs(const std::vector<MeasuredFrf>& all, Findings& findings
 
 void check_shared_modes(const MachineTables& machine, Findings& findings) {
   const std::vector<MeasuredFrf>& all = machine.measured_frfs;
-  const bool file = machine.frf && !machine.frf->file.empty();
+  const bool file = machine.frf && !machine.frf->source.file.name.empty();
   if (file || !sound(findings, {"frf", "frf.file", "measured_frf"})) {
     return;
   }

@@ -102,49 +102,13 @@ void check_columns(const std::vector<std::string>& columns, const std::string& k
 
 }  // namespace
 
-std::filesystem::path resolved(const std::string& file, const Location& named_at,
-                               const Findings& findings) {
-  const std::filesystem::path folder =
-      findings.base / std::filesystem::path(named_at.file).parent_path();
-  return (folder / file).lexically_normal();
-}
-
-void check_file(const std::filesystem::path& file, const std::string& key,
-                const std::string& shown, std::string_view what, Findings& findings) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  std::string why;
-  if (!std::filesystem::exists(status)) {
-    const std::string path = file.generic_string();
-    const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
-      return static_cast<unsigned char>(c) < 0x20;
-    });
-    why = fmt::format("there is no such file ({})", plain ? path : toml_string(path));
-  } else if (std::filesystem::is_directory(status)) {
-    why = "this is a folder";
-  } else if (!std::filesystem::is_regular_file(status)) {
-    why = "this is not a regular file";
-  }
-  if (!why.empty()) {
-    report(findings, key,
-           fmt::format("{} = {}: {}; must be {}, relative to the file that names it",
-                       key, toml_string(shown), why, what));
-  }
-}
-
 Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   Dynamometer result;
   if (!sound(findings, {"dynamometer.axes", "dynamometer.matrix"})) {
     return result;
   }
   result.rigid = table.resonance == Resonance::none;
-  if (!table.frf.empty()) {
-    const Location named_at = place_of(findings, "dynamometer.frf");
-    result.frf = resolved(table.frf, named_at, findings);
-    result.frf_location = to_string(named_at);
-    check_file(result.frf, "dynamometer.frf", table.frf,
-               "the response of the dynamometer (UFF58 or a table)", findings);
-  }
+  result.frf = table.frf;
   if (!table.axes.empty() && !table.matrix.empty()) {
     report(
         findings, "dynamometer.matrix",
@@ -161,39 +125,15 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   return result;
 }
 
-namespace {
-
-/// In a file that is there, or in memory.
-void settle_record(const MeasurementTable& table, const std::string& key,
-                   Measurement& measurement, Findings& findings) {
-  if (table.in_memory) {
-    measurement.file = table.file;
-    measurement.in_memory = table.in_memory;
-  } else if (sound(findings, {key})) {
-    check_file(measurement.file, key, table.file, "a force record", findings);
-  }
-}
-
-}  // namespace
-
 Measurement measurement_of(MeasurementTable& table, std::size_t number,
                            const geometry::Cutter& cutter, Findings& findings) {
   const std::string path = fmt::format("measurement[{}]", number);
-  const Location named_at = place_of(findings, path + ".file");
-  Measurement m{.file = resolved(table.file, named_at, findings),
-                .format = table.format,
-                .columns = table.columns,
-                .angle_column = table.angle_column,
-                .time_column = table.time_column,
-                .pulse_column = table.pulse_column,
-                .sample_rate = table.sample_rate,
-                .scale = table.scale,
+  const RecordSource& source = table.source;
+  Measurement m{.source = source,
                 .from = table.from,
                 .to = table.to,
                 .group = table.group,
-                .cut = cut_of(table.cut, path + ".cut", cutter, findings),
-                .location = to_string(named_at)};
-  settle_record(table, path + ".file", m, findings);
+                .cut = cut_of(table.cut, path + ".cut", cutter, findings)};
   if (std::any_of(table.group.begin(), table.group.end(),
                   [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
     report(findings, path + ".group",
@@ -201,25 +141,25 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                        "group share coefficients)",
                        path, toml_string(table.group)));
   }
-  if (!table.time_column.empty() && table.sample_rate) {
+  if (!source.time_column.empty() && source.sample_rate) {
     report(
         findings, path + ".sample_rate_Hz",
         fmt::format("{}.sample_rate_Hz = {} Hz: time_column is given as well; must be "
                     "one of the two",
-                    path, number_text(*table.sample_rate)));
+                    path, number_text(*source.sample_rate)));
   }
-  if (!table.angle_column.empty() && !table.pulse_column.empty()) {
+  if (!source.angle_column.empty() && !source.pulse_column.empty()) {
     report(
         findings, path + ".pulse_column",
         fmt::format("{}.pulse_column = {}: angle_column is given as well; must be one "
                     "of the two",
-                    path, toml_string(table.pulse_column)));
+                    path, toml_string(source.pulse_column)));
   }
-  if (!table.columns.empty()) {
-    m.columns.resize(3);
-    check_columns(table.columns, path + ".columns", findings);
+  if (!source.columns.empty()) {
+    m.source.columns.resize(3);
+    check_columns(source.columns, path + ".columns", findings);
   }
-  if (std::find(table.scale.begin(), table.scale.end(), 0.0) != table.scale.end()) {
+  if (std::find(source.scale.begin(), source.scale.end(), 0.0) != source.scale.end()) {
     report(findings, path + ".scale",
            fmt::format("{}.scale: an entry is 0, so that its channel would read no "
                        "force; must be newtons per unit of each channel",

@@ -10,10 +10,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-std::string mm(double length) {
-  return number_text(length, unit::mm);
-}
-
 /// The value of a key as the file would have it.
 template <class Table>
 std::string shown_choice(Table& table, std::string_view key) {
@@ -150,24 +146,6 @@ void check_surface(CaseTables& tables, Findings& findings) {
                    m.cutter_body->overhang, "overhang_mm",
                    "heights above the tip for influence.csv"},
                   findings);
-  }
-}
-
-void settle_surface_file(SurfaceMeasurement& measurement, std::size_t number,
-                         Findings& findings) {
-  const std::string key = fmt::format("surface_measurement[{}].file", number);
-  const Location named_at = place_of(findings, key);
-  measurement.location = to_string(named_at);
-  if (!measurement.content) {
-    const std::string shown = measurement.file;
-    const auto file = resolved(shown, named_at, findings);
-    if (sound(findings, {key})) {
-      check_file(file, key, shown, "a measured surface (csv, x3p or sdf)", findings);
-    }
-    measurement.file = file.generic_string();
-  }
-  if (measurement.frame) {
-    settle_frame(*measurement.frame, number, findings);
   }
 }
 

@@ -17,10 +17,6 @@ namespace {
 /// Pitches of a file are rounded; what is missing within this is spread evenly.
 constexpr double pitch_slack_deg = 1e-4;
 
-std::string mm(double length) {
-  return number_text(length, unit::mm);
-}
-
 void settle_pitch(ToolTable& tool, Findings& findings) {
   const auto teeth = static_cast<std::size_t>(tool.teeth);
   if (!sound(findings, {"tool.teeth", "tool.pitch_deg"})) {

@@ -15,10 +15,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-std::string mm(double length) {
-  return number_text(length, unit::mm);
-}
-
 /// Places where the loads of a wall are told, and how far they may lie.
 struct Places {
   const std::vector<double>& values;

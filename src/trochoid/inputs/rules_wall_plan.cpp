@@ -43,7 +43,7 @@ void fill(std::vector<double>& list, std::initializer_list<double> values) {
   }
 }
 
-void check_whole(const std::vector<double>& list, const std::string& key,
+void check_counts(const std::vector<double>& list, const std::string& key,
                  Findings& findings) {
   for (std::size_t i = 0; sound(findings, {key}) && i < list.size(); ++i) {
     if (list[i] != std::round(list[i])) {
@@ -129,8 +129,8 @@ void settle_plan(CaseTables& t, Findings& findings) {
 void check_wall_plan(CaseTables& t, Findings& findings) {
   check_wall_cut(t, "plan", findings);
   const WallPlan& wall = t.plan->wall;
-  check_whole(wall.heights, "plan.heights", findings);
-  check_whole(wall.per_height, "plan.readings_per_height", findings);
+  check_counts(wall.heights, "plan.heights", findings);
+  check_counts(wall.per_height, "plan.readings_per_height", findings);
   fill_defaults(t);
   check_ascending(t.plan->feeds, "plan.feed_per_tooth_mm", findings);
   check_ascending(t.plan->radial_depths, "plan.radial_depth_mm", findings);

@@ -98,6 +98,7 @@ struct Expectation {
     return "a number" + limits();
   }
   std::string operator()(const std::string*) const { return "text"; }
+  std::string operator()(const FileRef*) const { return "text"; }
   std::string operator()(const std::vector<double>*) const {
     return list("numbers") + limits();
   }
@@ -128,7 +129,7 @@ struct Expectation {
   }
 };
 
-struct Writer {
+struct ValueWriter {
   using Text = std::optional<std::string>;
   const Key& key;
   double factor = unit_of(key.name).factor;
@@ -145,6 +146,7 @@ struct Writer {
   Text operator()(const std::string* v) const {
     return v->empty() ? Text{} : toml_string(*v);
   }
+  Text operator()(const FileRef* v) const { return (*this)(&v->name); }
   Text operator()(const std::vector<double>* v) const {
     std::vector<std::string> entries;
     entries.reserve(v->size());
@@ -225,7 +227,7 @@ std::string expectation(const Key& key, const Field& field) {
 }
 
 std::optional<std::string> toml_text(const Key& key, const Field& field) {
-  return std::visit(Writer{key}, field);
+  return std::visit(ValueWriter{key}, field);
 }
 
 }  // namespace trochoid::inputs

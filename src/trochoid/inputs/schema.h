@@ -2,6 +2,7 @@
 
 #include <trochoid/base/command.h>
 #include <trochoid/base/steps.h>
+#include <trochoid/inputs/file_ref.h>
 #include <trochoid/inputs/previous_clamping.h>
 #include <trochoid/inputs/surface_frame.h>
 
@@ -73,6 +74,7 @@ struct Key {
   std::string_view rival = {};         ///< key that may stand instead of this one
   std::string_view standard = {};      ///< the default in words, where it is computed
   std::string_view example = {};       ///< TOML, where there is no default to show
+  std::string_view file = {};          ///< of a file: what it must be
 };
 
 /// A closed choice; enumerators and names are in the same order.
@@ -92,7 +94,7 @@ using Rows = std::vector<std::array<double, 3>>;
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
+using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*, FileRef*,
                            std::vector<double>*, std::optional<base::Steps>*,
                            std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
                            std::optional<PreviousClamping>*,

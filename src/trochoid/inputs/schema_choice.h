@@ -8,6 +8,9 @@
 
 namespace trochoid::inputs {
 
+/// Ultrasonic machines stay below the one, all that swings on a machine above the other.
+inline constexpr double longest_mm = 10000;
+
 /// @brief A closed choice by its place among the names: an int, or an enumeration whose
 /// enumerators are 0, 1, 2 ...
 template <class Value>

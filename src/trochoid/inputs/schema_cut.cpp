@@ -7,7 +7,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-constexpr double longest_mm = 10000;
 
 void describe_profile(const Visitor& v, ToolTable& t) {
   v({.name = "corner_radius_mm",

@@ -5,7 +5,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-constexpr double longest_mm = 10000;
 constexpr Range length = above_up_to(0, longest_mm);
 /// From soft foam to twice diamond: below, everything is a hinge.
 constexpr Range modulus = between(0.01, 10000);

@@ -1,4 +1,4 @@
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/schema_choice.h>
 #include <trochoid/inputs/tables.h>
 
@@ -62,7 +62,8 @@ void describe(const Visitor& v, DynamometerTable& t) {
          "freq_Hz and H11_re, H11_im, H12_re ...; relative to the file that names "
          "it",
      .standard = "none",
-     .example = "\"plate.uff\""},
+     .example = "\"plate.uff\"",
+     .file = "the response of the dynamometer (UFF58 or a table)"},
     &t.frf);
   v({.name = "resonance",
      .meaning = "of the dynamometer, in each axis; auto: found with the rest where the "
@@ -73,7 +74,7 @@ void describe(const Visitor& v, DynamometerTable& t) {
 namespace {
 
 /// What the columns of a record are called.
-void describe_columns(const Visitor& v, MeasurementTable& t) {
+void describe_columns(const Visitor& v, RecordSource& t) {
   v({.name = "columns",
      .meaning = "names of the columns of channels 1 to 3; \"\": this channel was not "
                 "measured",
@@ -104,17 +105,18 @@ void describe_columns(const Visitor& v, MeasurementTable& t) {
 void describe(const Visitor& v, MeasurementTable& t) {
   v({.name = "file",
      .meaning = "the force record, relative to the file that names it",
-     .need = Need::always},
-    &t.file);
+     .need = Need::always,
+     .file = "a force record"},
+    &t.source.file);
   v({.name = "format", .meaning = "format of the record; detect: from its content"},
-    choice(t.format, "detect"));
-  describe_columns(v, t);
+    choice(t.source.format, "detect"));
+  describe_columns(v, t.source);
   v({.name = "sample_rate_Hz",
      .meaning = "samples a second, when the record has no time",
      .range = above_up_to(0, 1e9),
      .rival = "time_column",
      .example = "10000"},
-    &t.sample_rate);
+    &t.source.sample_rate);
   v({.name = "scale",
      .meaning = "newtons per unit of channels 1 to 3, whatever unit the record names: "
                 "of volts, the range of the charge amplifier by its full output",
@@ -122,7 +124,7 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .count = 3,
      .standard = "by the unit of each column",
      .example = "[500, 500, 1000]"},
-    &t.scale);
+    &t.source.scale);
   v({.name = "from_s",
      .meaning = "what was recorded before this time is not fitted",
      .range = between(-1e9, 1e9),

@@ -7,8 +7,9 @@ namespace trochoid::inputs {
 void describe(const Visitor& v, SurfaceMeasurement& t) {
   v({.name = "file",
      .meaning = "the measured surface, relative to the file that names it",
-     .need = Need::always},
-    &t.file);
+     .need = Need::always,
+     .file = "a measured surface (csv, x3p or sdf)"},
+    &t.source.file);
   v({.name = "datum_offset", .meaning = "estimate a constant shift of the readings"},
     &t.datum_offset);
   v({.name = "datum_tilt",
@@ -22,20 +23,20 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
     choice(t.form, "auto"));
   v({.name = "unit",
      .meaning = "unit of lengths whose column names none; as_named: every column must"},
-    choice(t.unit, "as_named"));
+    choice(t.source.unit, "as_named"));
   v({.name = "height_mm",
      .meaning = "height above the tip of a trace along the feed, whose file has no "
                 "column of heights; its column Z is the error",
      .range = between(0, 10000),
      .example = "1.5"},
-    &t.height);
+    &t.source.height);
   v({.name = "frame",
      .meaning = "how the wall lies in the coordinates X, Y, Z of the file: feed, where "
                 "the tool goes; normal, out of the material; up, towards the shank; "
                 "origin_mm, the start of the wall at the tip of the tool",
      .example = "{ origin_mm = [12, -5, 40], feed = \"+x\", normal = \"-y\", "
                 "up = \"+z\" }"},
-    &t.frame);
+    &t.source.frame);
 }
 
 void describe(const Visitor& v, SurfaceFrame& t) {

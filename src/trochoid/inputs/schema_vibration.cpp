@@ -6,18 +6,17 @@ namespace trochoid::inputs {
 namespace {
 
 /// Ultrasonic machines stay below the one, all that swings on a machine above the other.
-constexpr double longest_mm = 10000;
 
 /// Where a frequency response is: of [frf] and of [[measured_frf]].
-template <class Table>
-void describe_response_file(const Visitor& v, Table& t, Need need) {
+void describe_response_file(const Visitor& v, FrfSource& t, Need need) {
   v({.name = "file",
      .meaning =
          need == Need::always
              ? "the measured frequency response, relative to the file that names it"
              : "the measured frequency response, relative to the file that names it; "
                "left out: all [[measured_frf]], which share their modes",
-     .need = need},
+     .need = need,
+     .file = "a frequency response (csv, text or uff)"},
     &t.file);
   v({.name = "kind",
      .meaning = "displacement, velocity or acceleration over force; needed where the "
@@ -136,7 +135,7 @@ void describe(const Visitor& v, Actuator& t) {
 }
 
 void describe(const Visitor& v, FrfTables& t) {
-  describe_response_file(v, t, Need::optional);
+  describe_response_file(v, t.source, Need::optional);
   v({.name = "modes",
      .meaning = "how many modes are fitted; 0: their number is chosen",
      .range = between(0, 20)},
@@ -173,7 +172,7 @@ void describe(const Visitor& v, FrfTables& t) {
 }
 
 void describe(const Visitor& v, MeasuredFrf& t) {
-  describe_response_file(v, t, Need::always);
+  describe_response_file(v, t.source, Need::always);
   describe_band(v, t);
   v({.name = "body", .meaning = "what was hit and measured"}, choice(t.body));
   v({.name = "axis", .meaning = "in which direction the motion was measured"},
@@ -184,10 +183,11 @@ void describe(const Visitor& v, MeasuredFrf& t) {
     choice(t.force_axis, "same"));
 }
 
-void describe(const Visitor& v, StepTables& t) {
+void describe(const Visitor& v, StepSource& t) {
   v({.name = "file",
      .meaning = "the record of the step, relative to the file that names it",
-     .need = Need::always},
+     .need = Need::always,
+     .file = "the record of a step (csv)"},
     &t.file);
   v({.name = "step_um",
      .meaning = "height of the commanded step",
@@ -215,7 +215,8 @@ void describe(const Visitor& v, ImposedCommand& t) {
                 "relative to the file that names it; its mean is left out",
      .need = Need::always,
      .only = {"shape", {"table"}},
-     .example = "\"command.csv\""},
+     .example = "\"command.csv\"",
+     .file = "a command over the angle (csv)"},
     &t.file);
   v({.name = "lead_s", .meaning = "phase lead: by how much the command comes early"},
     &t.lead);

@@ -116,16 +116,10 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 void take_key(std::string_view line, const std::string& name, SdfHead& head) {
   const auto equal = line.find('=');
   if (equal == std::string_view::npos) return;
-  const auto key = trimmed(line.substr(0, equal));
+  const auto key = trimmed(line.substr(0, equal), " \t\r");
   double* target = key == "NumPoints"     ? &head.points
                    : key == "NumProfiles" ? &head.profiles
                    : key == "Xscale"      ? &head.scale[0]
@@ -135,7 +129,7 @@ void take_key(std::string_view line, const std::string& name, SdfHead& head) {
                    : key == "DataType"    ? &head.type
                                           : nullptr;
   if (target == nullptr) return;
-  const auto value = trimmed(line.substr(equal + 1));
+  const auto value = trimmed(line.substr(equal + 1), " \t\r");
   const Number number = parse_number(value);
   if (number.fault != NumberFault::none) {
     refuse(name, fmt::format("{} = {} of this SDF file: a number is needed", key,
@@ -153,7 +147,7 @@ SurfaceMap read_text(std::istream& in, const std::string& name) {
   std::string_view text = bytes ? std::string_view(*bytes) : std::string_view();
   SdfHead head;
   while (!text.empty()) {
-    const auto line = trimmed(text.substr(0, text.find('\n')));
+    const auto line = trimmed(text.substr(0, text.find('\n')), " \t\r");
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
     if (line.starts_with('*')) break;
     take_key(line, name, head);

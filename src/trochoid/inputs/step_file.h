@@ -1,11 +1,10 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
+#include <trochoid/inputs/file_ref.h>
 #include <trochoid/structure/identify_actuator.h>
 
-#include <filesystem>
 #include <istream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,11 +13,9 @@ namespace trochoid::inputs {
 
 /// Which step is meant, and what the file need not say.
 struct StepSource {
-  std::filesystem::path file;   ///< absolute, or relative to where we run
-  std::string location;         ///< file:line:col of its name in a case; empty: none
+  FileRef file;
   std::optional<double> step;   ///< height of the commanded step [m]
   std::optional<double> start;  ///< when it was commanded [s]
-  std::shared_ptr<const std::string> content = {};  ///< in memory; none: in the file
 };
 
 struct StepFile {

@@ -55,7 +55,7 @@ bool among(std::string_view name, NameList list) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-bool is_known_name(std::string_view name) {
+bool is_surface_name(std::string_view name) {
   return std::any_of(all_lists.begin(), all_lists.end(),
                      [&](NameList list) { return among(name, list); });
 }
@@ -63,24 +63,24 @@ bool is_known_name(std::string_view name) {
 /// A search with its own problems, for heads that may not be one.
 struct Trial {
   explicit Trial(const TableHead& head)
-      : search{head, problems, notes, is_known_name} {}
+      : search{head, problems, notes, is_surface_name} {}
   Problems problems;
   std::vector<base::Warning> notes;
   ColumnSearch search;
 };
 
 /// Whether a coordinate changes where a reading lies, or what it is.
-bool matters(const SurfaceMeasurement& measurement, std::size_t axis,
+bool matters(const SurfaceSource& source, std::size_t axis,
              bool error_known) {
-  const SurfaceFrame& frame = *measurement.frame;
+  const SurfaceFrame& frame = *source.frame;
   return (*frame.feed)[axis] != 0.0 ||
-         (!measurement.height && (*frame.up)[axis] != 0.0) ||
+         (!source.height && (*frame.up)[axis] != 0.0) ||
          (!error_known && (*frame.normal)[axis] != 0.0);
 }
 
 struct Finder {
   const ColumnSearch& search;
-  const SurfaceMeasurement& measurement;
+  const SurfaceSource& source;
   SurfaceColumns columns = {};
 
   [[nodiscard]] std::optional<TableColumn> found(NameList names,
@@ -108,7 +108,7 @@ struct Finder {
     const bool error_known = this->error_known();
     if (!error_known) columns.actual.reset();
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!matters(measurement, i, error_known)) continue;
+      if (!matters(source, i, error_known)) continue;
       columns.coordinate[i] = found(coordinate_names[i], Quantity::length);
       if (!columns.coordinate[i]) {
         lacks(fmt::format("{0}, for example {0}_mm, which the frame of the case needs",
@@ -141,7 +141,7 @@ struct Finder {
                 : "");
     }
     const auto height = found(height_names, Quantity::length);
-    if (!measurement.height) {
+    if (!source.height) {
       columns.height = height;
       if (!height) {
         lacks("height or z, for example height_mm",
@@ -163,7 +163,7 @@ struct Finder {
             columns.actual || columns.nominal
                 ? "; measured values need nominal ones beside them"
             : points ? frame
-            : has(coordinate_names[2]) && !measurement.height
+            : has(coordinate_names[2]) && !source.height
                 ? "; of a trace at one height, whose z is the error, the case says "
                   "height_mm = ..."
                 : "");
@@ -181,11 +181,11 @@ struct Finder {
 };
 
 SurfaceColumns find_with(const ColumnSearch& search,
-                         const SurfaceMeasurement& measurement) {
-  Finder finder{search, measurement};
+                         const SurfaceSource& source) {
+  Finder finder{search, source};
   finder.find_values();
-  if (measurement.frame) {
-    finder.find_coordinates(*measurement.frame);
+  if (source.frame) {
+    finder.find_coordinates(*source.frame);
   } else {
     finder.find_place();
   }
@@ -195,35 +195,35 @@ SurfaceColumns find_with(const ColumnSearch& search,
 }  // namespace
 
 SurfaceColumns find_surface_columns(const TableHead& head,
-                                    const SurfaceMeasurement& measurement,
+                                    const SurfaceSource& source,
                                     Problems& problems) {
   std::vector<base::Warning> notes;  // lengths without a unit are refused: none come
   const ColumnSearch search{head,
                             problems,
                             notes,
-                            is_known_name,
+                            is_surface_name,
                             "leave out, or rename, the one that is not meant",
-                            measurement.unit ? factor_of(*measurement.unit) : 0.0};
+                            source.unit ? factor_of(*source.unit) : 0.0};
   if (lacks_names(search, surface_kind.example)) {
     return {};
   }
-  return find_with(search, measurement);
+  return find_with(search, source);
 }
 
-bool names_surface(const TableHead& head, const SurfaceMeasurement& measurement) {
+bool names_surface(const TableHead& head, const SurfaceSource& source) {
   Trial trial(head);
-  const SurfaceMeasurement none;
+  const SurfaceSource none;
   const Finder finder{trial.search, none};
   const auto has = [&](NameList names) { return finder.has(names); };
   const bool error = has(error_names) || (has(actual_names) && has(nominal_names));
-  if (!measurement.frame) {
+  if (!source.frame) {
     const bool place = has(x_names) || has(step_names);
     // Of a trace at one height Z is the error.
-    return place && (measurement.height ? error || has(height_names)
+    return place && (source.height ? error || has(height_names)
                                         : error && has(height_names));
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (matters(measurement, i, error) && !has(coordinate_names[i])) return false;
+    if (matters(source, i, error) && !has(coordinate_names[i])) return false;
   }
   return true;
 }
@@ -232,7 +232,7 @@ std::size_t known_names(const TableHead& head) {
   Trial trial(head);
   return static_cast<std::size_t>(
       std::count_if(head.names.begin(), head.names.end(), [&](const Field& name) {
-        return is_known_name(base_name(trial.search, name.text));
+        return is_surface_name(base_name(trial.search, name.text));
       }));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
 #include <trochoid/inputs/csv_table.h>
+#include <trochoid/inputs/surface_file.h>
 
 #include <array>
 #include <optional>
@@ -27,11 +27,11 @@ inline constexpr TableKind surface_kind{
 
 /// @brief Find the columns that say where a reading lies and what it is.
 SurfaceColumns find_surface_columns(const TableHead& head,
-                                    const SurfaceMeasurement& measurement,
+                                    const SurfaceSource& source,
                                     Problems& problems);
 
 /// @brief Whether a row of names has all that is needed; units are not looked at.
-bool names_surface(const TableHead& head, const SurfaceMeasurement& measurement);
+bool names_surface(const TableHead& head, const SurfaceSource& source);
 
 /// @brief How many columns have a name that means something here.
 std::size_t known_names(const TableHead& head);

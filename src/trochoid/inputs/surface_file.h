@@ -1,7 +1,8 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/file_ref.h>
+#include <trochoid/inputs/surface_frame.h>
 
 #include <cstddef>
 #include <istream>
@@ -10,6 +11,14 @@
 #include <vector>
 
 namespace trochoid::inputs {
+
+/// Which measured surface is meant, and what its file need not say.
+struct SurfaceSource {
+  FileRef file;
+  std::optional<LengthUnit> unit = {};     ///< of columns that name none
+  std::optional<double> height = {};       ///< above the tip, of a trace along the feed [m]
+  std::optional<SurfaceFrame> frame = {};  ///< of coordinates X, Y, Z, or of a map
+};
 
 /// One reading of a measuring machine, in SI.
 struct SurfaceReading {
@@ -53,35 +62,20 @@ struct SurfaceFile {
 /// in X3P or SDF. docs/formats/surface.md says what is understood.
 /// @param teeth  of the cutter; 0: a tooth may have any number
 /// @throws base::InputError with every problem of the file; reading stops after 1000
-SurfaceFile read_surface_file(const SurfaceMeasurement& measurement, int teeth = 0);
+SurfaceFile read_surface_file(const SurfaceSource& source, int teeth = 0);
 
 /// @brief The same from an open stream, which can be set back.
-/// @param measurement  its `file` names the stream in messages
-SurfaceFile read_surface_file(std::istream& in, const SurfaceMeasurement& measurement,
+/// @param source  its `file` names the stream in messages
+SurfaceFile read_surface_file(std::istream& in, const SurfaceSource& source,
                               int teeth = 0);
 
 /// @brief Only the readings of read_surface_file.
-std::vector<SurfaceReading> read_surface(const SurfaceMeasurement& measurement,
+std::vector<SurfaceReading> read_surface(const SurfaceSource& source,
                                          int teeth = 0);
 
 /// @brief The same from an open stream.
 /// @param name  of the file, for messages
 std::vector<SurfaceReading> read_surface(std::istream& in, const std::string& name,
                                          int teeth = 0);
-
-/// @brief A measurement of a case, with all that is wrong with it there (see
-/// check_readings); of a map the points inside the cut.
-/// @throws base::InputError
-SurfaceFile read_surface_of(const Case& given, const SurfaceMeasurement& measurement);
-
-/// @brief What is wrong with readings at the places where they were taken: heights
-/// outside the cut, and, unless the surface is quasi_static, x outside the wall.
-/// @return finished lines `file:line:col: ...`
-std::vector<std::string> check_readings(const std::vector<SurfaceReading>& readings,
-                                        const std::string& file, const Case& given);
-
-/// @brief The same; names the unit in which all of them would fit, if there is one.
-std::vector<std::string> check_readings(const SurfaceFile& surface,
-                                        const std::string& file, const Case& given);
 
 }  // namespace trochoid::inputs

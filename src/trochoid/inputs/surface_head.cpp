@@ -82,13 +82,13 @@ char of_rows(char separator) {
 
 /// Whether a line is the row of names, by one separator or another.
 bool settle(TableText& table, std::string_view line,
-            const SurfaceMeasurement& measurement, SurfaceHead& head) {
+            const SurfaceSource& source, SurfaceHead& head) {
   std::vector<char> marks(separators.begin(), separators.end());
   if (head.stated != 0) marks.assign(1, head.stated);
   for (const char separator : marks) {
     if (separator != 'w' && line.find(separator) == std::string_view::npos) continue;
     take_line(line, separator, table.lines.number(), head);
-    if (names_surface(head.head, measurement)) {
+    if (names_surface(head.head, source)) {
       table.separator = of_rows(separator);
       return true;
     }
@@ -122,7 +122,7 @@ struct Nearest {
   }
 };
 
-[[noreturn]] void refuse(TableText& table, const SurfaceMeasurement& measurement,
+[[noreturn]] void refuse_head(TableText& table, const SurfaceSource& source,
                          const Nearest& nearest, SurfaceHead& head) {
   if (table.problems.lines.empty() && nearest.number == 0) {
     table.problems.add(
@@ -148,7 +148,7 @@ struct Nearest {
     throw_problems(table);
   }
   take_line(nearest.line, nearest.separator, nearest.number, head);
-  static_cast<void>(find_surface_columns(head.head, measurement, table.problems));
+  static_cast<void>(find_surface_columns(head.head, source, table.problems));
   throw_problems(table);
   table.problems.add(nearest.number, 1,
                      "no row of names is found: place, height and error are needed");
@@ -162,11 +162,11 @@ void count_above(std::size_t line, SurfaceHead& head) {
 
 /// The names may stand in the last comment before the numbers.
 bool take_comment(TableText& table, const std::string& comment,
-                  const SurfaceMeasurement& measurement, SurfaceHead& head) {
+                  const SurfaceSource& source, SurfaceHead& head) {
   std::string line = comment;  // its marks become blanks, so that places stay
   const std::size_t end = std::min(line.find_first_not_of("#%! \t"), line.size());
   std::fill(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-  return settle(table, line, measurement, head);
+  return settle(table, line, source, head);
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ void split_names(std::string_view line, char separator, std::vector<Field>& fiel
   }
 }
 
-void find_head(TableText& table, const SurfaceMeasurement& measurement,
+void find_head(TableText& table, const SurfaceSource& source,
                SurfaceHead& head) {
   Nearest nearest;
   std::vector<Field> fields;
@@ -208,10 +208,10 @@ void find_head(TableText& table, const SurfaceMeasurement& measurement,
       head.stated = line->back();
       continue;
     }
-    if (settle(table, *line, measurement, head)) return;
+    if (settle(table, *line, source, head)) return;
     if (const auto mark = separator_of_numbers(*line, fields)) {
       head.row = std::string(*line);
-      if (comment_line > 0 && take_comment(table, comment, measurement, head)) {
+      if (comment_line > 0 && take_comment(table, comment, source, head)) {
         head.head.names_line = comment_line;
         return;
       }
@@ -226,7 +226,7 @@ void find_head(TableText& table, const SurfaceMeasurement& measurement,
     }
     count_above(number, head);
   }
-  refuse(table, measurement, nearest, head);
+  refuse_head(table, source, nearest, head);
 }
 
 }  // namespace trochoid::inputs

@@ -35,12 +35,12 @@ std::string wrong_size(double columns, double rows) {
   return {};
 }
 
-SurfaceFile readings_of(const SurfaceMap& map, const SurfaceMeasurement& measurement) {
+SurfaceFile readings_of(const SurfaceMap& map, const SurfaceSource& source) {
   const SurfaceFrame frame =
-      measurement.frame.value_or(SurfaceFrame{{0, 0, 0}, along_x, along_z, along_y});
-  if (measurement.height && map.rows > 1) {
+      source.frame.value_or(SurfaceFrame{{0, 0, 0}, along_x, along_z, along_y});
+  if (source.height && map.rows > 1) {
     refuse(
-        measurement.file,
+        source.file.path,
         "height_mm of the [[surface_measurement]]: a map has heights of its own; leave "
         "it out");
   }
@@ -55,7 +55,7 @@ SurfaceFile readings_of(const SurfaceMap& map, const SurfaceMeasurement& measure
                           map.z[k]};
     SurfaceReading reading;
     place_in_frame(frame, point, {}, reading);
-    if (measurement.height) reading.height = *measurement.height;
+    if (source.height) reading.height = *source.height;
     if (!std::isfinite(*reading.x + reading.height + reading.error)) {
       ++surface.counts.skipped;
       continue;
@@ -65,7 +65,7 @@ SurfaceFile readings_of(const SurfaceMap& map, const SurfaceMeasurement& measure
   }
   const std::size_t gaps = surface.counts.skipped;
   if (gaps > surface.readings.size()) {
-    refuse(measurement.file,
+    refuse(source.file.path,
            fmt::format("{} of {} points of the map were not measured: at most half may",
                        gaps, map.z.size()));
   }

@@ -43,6 +43,6 @@ SurfaceMap read_x3p(std::istream& in, const std::string& name);
 /// @brief Readings of a map. Without a frame X is along the feed, Y above the tip and Z
 /// the error.
 /// @throws base::InputError  more than half of the points were not measured
-SurfaceFile readings_of(const SurfaceMap& map, const SurfaceMeasurement& measurement);
+SurfaceFile readings_of(const SurfaceMap& map, const SurfaceSource& source);
 
 }  // namespace trochoid::inputs

@@ -40,10 +40,10 @@ std::uint64_t hash_of(const SurfaceReading& r) {
   return hash;
 }
 
-struct Place {
+struct ReadingPlace {
   std::uint64_t hash = 0;
   std::uint32_t reading = 0;
-  friend auto operator<=>(const Place&, const Place&) = default;
+  friend auto operator<=>(const ReadingPlace&, const ReadingPlace&) = default;
 };
 
 /// One place: its readings, in the order of the file, become their mean in the first.
@@ -66,7 +66,7 @@ void average(std::vector<SurfaceReading>& readings,
 
 void average_repeats(SurfaceFile& surface) {
   auto& readings = surface.readings;
-  std::vector<Place> places(readings.size());
+  std::vector<ReadingPlace> places(readings.size());
   for (std::size_t i = 0; i < readings.size(); ++i) {
     places[i] = {hash_of(readings[i]), static_cast<std::uint32_t>(i)};
   }

@@ -28,11 +28,11 @@ struct TextBelow {
 };
 
 /// Everything that is known while the rows are read.
-struct Reading {
-  Reading(std::istream& in, const SurfaceMeasurement& m, int of_teeth)
-      : measurement(m), teeth(of_teeth), table(in, m.file, surface_kind) {}
+struct SurfaceReadings {
+  SurfaceReadings(std::istream& in, const SurfaceSource& m, int of_teeth)
+      : source(m), teeth(of_teeth), table(in, m.file.path, surface_kind) {}
 
-  const SurfaceMeasurement& measurement;
+  const SurfaceSource& source;
   int teeth;
   TableText table;
   SurfaceHead head;
@@ -44,7 +44,7 @@ struct Reading {
   std::size_t first_skipped = 0;
 };
 
-int tooth_in_row(Reading& reading, const std::vector<Field>& fields,
+int tooth_in_row(SurfaceReadings& reading, const std::vector<Field>& fields,
                  const TableColumn& column) {
   auto& table = reading.table;
   const auto before = table.problems.lines.size();
@@ -65,7 +65,7 @@ int tooth_in_row(Reading& reading, const std::vector<Field>& fields,
 }
 
 /// Three columns for one thing: the deviation must be what the other two make.
-void check_deviation(Reading& reading, const std::vector<Field>& fields,
+void check_deviation(SurfaceReadings& reading, const std::vector<Field>& fields,
                      const SurfaceValues& values) {
   const auto& columns = reading.columns;
   double rounded = 0.0;  // a number without decimals beside others is exact
@@ -86,7 +86,7 @@ void check_deviation(Reading& reading, const std::vector<Field>& fields,
                   in_mm(difference)));
 }
 
-void read_row(Reading& reading, const std::vector<Field>& fields) {
+void read_row(SurfaceReadings& reading, const std::vector<Field>& fields) {
   auto& table = reading.table;
   const auto& columns = reading.columns;
   const auto before = table.problems.lines.size();
@@ -102,16 +102,16 @@ void read_row(Reading& reading, const std::vector<Field>& fields) {
                        number(columns.nominal)};
   if (columns.tooth) one.tooth = tooth_in_row(reading, fields, *columns.tooth);
   one.line = table.lines.number();
-  if (reading.measurement.frame) {
+  if (reading.source.frame) {
     Direction point{};
     for (std::size_t i = 0; i < 3; ++i) {
       point[i] = number(columns.coordinate[i]).value_or(0.0);
     }
-    place_in_frame(*reading.measurement.frame, point, values, one);
+    place_in_frame(*reading.source.frame, point, values, one);
   } else {
     one.error = error_of(values).value_or(0.0);
   }
-  if (reading.measurement.height) one.height = *reading.measurement.height;
+  if (reading.source.height) one.height = *reading.source.height;
   if (table.problems.lines.size() > before) return;
   if (values.error && values.actual && values.nominal) {
     check_deviation(reading, fields, values);
@@ -122,7 +122,7 @@ void read_row(Reading& reading, const std::vector<Field>& fields) {
   reading.surface.readings.push_back(one);
 }
 
-void count_gap(Reading& reading, std::size_t line) {
+void count_gap(SurfaceReadings& reading, std::size_t line) {
   if (reading.surface.counts.skipped++ == 0) reading.first_skipped = line;
 }
 
@@ -132,7 +132,7 @@ void count_text_at(TextBelow& text, std::size_t line) {
 }
 
 /// `Statistics;;;` and, below it, `Mean;;;0.05`; or else points that failed.
-bool may_be_statistics(const Reading& reading, const std::vector<Field>& fields) {
+bool may_be_statistics(const SurfaceReadings& reading, const std::vector<Field>& fields) {
   const auto& used = reading.used;
   return is_text(fields.front()) && used.front() != 0 &&
          (!reading.text.open.empty() || !reading.text.perhaps.empty() ||
@@ -141,7 +141,7 @@ bool may_be_statistics(const Reading& reading, const std::vector<Field>& fields)
 }
 
 /// Text was at the end, or else there is a row that cannot be read.
-void refuse_open_text(Reading& reading) {
+void refuse_open_text(SurfaceReadings& reading) {
   for (const std::size_t line : reading.text.perhaps) {
     count_gap(reading, line);
   }
@@ -154,7 +154,7 @@ void refuse_open_text(Reading& reading) {
   reading.text.open.clear();
 }
 
-void count_text(Reading& reading, std::string_view line) {
+void count_text(SurfaceReadings& reading, std::string_view line) {
   auto& text = reading.text;
   const std::size_t at = reading.table.lines.number();
   if (line == reading.head.names || (!reading.units.empty() && line == reading.units)) {
@@ -166,7 +166,7 @@ void count_text(Reading& reading, std::string_view line) {
   count_text_at(text, at);
 }
 
-void take_line(Reading& reading, std::string_view line, std::vector<Field>& fields) {
+void take_line(SurfaceReadings& reading, std::string_view line, std::vector<Field>& fields) {
   auto& table = reading.table;
   split_row(table, line, fields);
   const std::size_t count = reading.head.head.names.size();
@@ -198,7 +198,7 @@ void take_line(Reading& reading, std::string_view line, std::vector<Field>& fiel
 }
 
 /// The names may have commas where the rows have blanks.
-void settle_rows(Reading& reading, std::string_view line, std::vector<Field>& fields) {
+void settle_rows(SurfaceReadings& reading, std::string_view line, std::vector<Field>& fields) {
   const std::size_t count = reading.head.head.names.size();
   split_row(reading.table, line, fields);
   if (fields.size() > 1) return;
@@ -212,7 +212,7 @@ void settle_rows(Reading& reading, std::string_view line, std::vector<Field>& fi
   split_row(reading.table, line, fields);
 }
 
-void read_rows(Reading& reading) {
+void read_rows(SurfaceReadings& reading) {
   auto& table = reading.table;
   std::vector<Field> fields;
   std::optional<std::string_view> line;
@@ -226,7 +226,7 @@ void read_rows(Reading& reading) {
     take_units(table, fields, reading.head.head);
   }
   reading.columns =
-      find_surface_columns(reading.head.head, reading.measurement, table.problems);
+      find_surface_columns(reading.head.head, reading.source, table.problems);
   throw_problems(table);
   reading.used = used_columns(reading.columns);
   if (reading.head.head.units.empty()) {
@@ -248,7 +248,7 @@ std::string span(std::size_t count, std::size_t first, std::size_t last) {
                     : fmt::format("lines {} to {}", first, last);
 }
 
-void add_notes(Reading& reading) {
+void add_notes(SurfaceReadings& reading) {
   auto& notes = reading.surface.notes;
   const auto& head = reading.head;
   const auto& text = reading.text;
@@ -278,7 +278,7 @@ void add_notes(Reading& reading) {
   }
 }
 
-void check_whole(Reading& reading) {
+void check_surface_rows(SurfaceReadings& reading) {
   auto& table = reading.table;
   table.style.check(table.problems);
   const std::size_t gaps = reading.surface.counts.skipped;
@@ -313,12 +313,12 @@ std::string unit_text(const std::optional<TableColumn>& column) {
 
 }  // namespace
 
-SurfaceFile read_surface_table(std::istream& in, const SurfaceMeasurement& measurement,
+SurfaceFile read_surface_table(std::istream& in, const SurfaceSource& source,
                                int teeth) {
-  Reading reading(in, measurement, teeth);
-  find_head(reading.table, measurement, reading.head);
+  SurfaceReadings reading(in, source, teeth);
+  find_head(reading.table, source, reading.head);
   read_rows(reading);
-  check_whole(reading);
+  check_surface_rows(reading);
   add_notes(reading);
   reading.surface.x_unit = unit_text(reading.columns.x);
   reading.surface.height_unit = unit_text(reading.columns.height);

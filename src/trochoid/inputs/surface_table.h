@@ -8,7 +8,7 @@
 namespace trochoid::inputs {
 
 /// @brief Read a table; as read_surface_file, without the averages.
-SurfaceFile read_surface_table(std::istream& in, const SurfaceMeasurement& measurement,
+SurfaceFile read_surface_table(std::istream& in, const SurfaceSource& source,
                                int teeth);
 
 }  // namespace trochoid::inputs

@@ -17,7 +17,7 @@ Json form(const Json& keys, const Json& needed) {
 }
 
 /// What one key of `over` may be set to, as read_values reads it.
-Json forms() {
+Json value_forms() {
   const Json number{{"type", "number"}};
   const Json text{{"type", "string"}};
   const Json count{{"type", "integer"}, {"minimum", 1}, {"maximum", most_sweep_rows}};
@@ -47,7 +47,7 @@ Json drawn() {
 std::string sweep_schema() {
   const Json text{{"type", "string"}};
   Json out = form(
-      {{"over", {{"type", "object"}, {"additionalProperties", forms()}}},
+      {{"over", {{"type", "object"}, {"additionalProperties", value_forms()}}},
        {"method", {{"enum", base::names<SweepMethod>}, {"default", "grid"}}},
        {"seed", {{"type", "integer"}, {"minimum", 0}, {"default", 1}}},
        {"count", {{"type", "integer"}, {"minimum", 1}, {"maximum", most_sweep_rows}}},

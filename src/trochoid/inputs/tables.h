@@ -114,24 +114,16 @@ constexpr std::string_view name_of(Resonance resonance) noexcept {
 struct DynamometerTable {
   std::vector<std::string> axes;
   Rows matrix;
-  std::string frf;
+  FileRef frf;
   Resonance resonance = Resonance::automatic;
 };
 
 struct MeasurementTable {
-  std::string file;
-  std::optional<RecordFormat> format;
-  std::vector<std::string> columns;
-  std::string angle_column;
-  std::string time_column;
-  std::string pulse_column;
-  std::optional<double> sample_rate;
-  std::vector<double> scale;
+  RecordSource source;
   std::optional<double> from;
   std::optional<double> to;
   std::string group;
   CutTable cut;  ///< complete: [cut] with the overrides of this run
-  std::shared_ptr<const NumericTable> in_memory;  ///< its record; none: in a file
 };
 
 struct IdentifyTable {

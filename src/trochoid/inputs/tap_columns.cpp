@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array time_names = {"time"sv, "t"sv};
-constexpr std::array force_names = {"force"sv, "hammer"sv, "f"sv,     "fx"sv,
+constexpr std::array tap_time_names = {"time"sv, "t"sv};
+constexpr std::array hammer_names = {"force"sv, "hammer"sv, "f"sv,     "fx"sv,
                                     "fy"sv,    "fz"sv,     "impact"sv};
 constexpr std::array response_names = {
     "acceleration"sv, "accelerometer"sv, "acc"sv,          "accel"sv, "a"sv,
@@ -25,27 +25,6 @@ constexpr std::array response_names = {
 constexpr double slack = 0.6;
 constexpr std::size_t least_samples = 64;
 constexpr int time_record = 1;  ///< function type of a set 58
-
-char small(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-/// What follows one of these words in a name, without what separates them; none: the
-/// name does not begin with one.
-std::optional<std::string> after(std::string_view name,
-                                 std::span<const std::string_view> words) {
-  std::string text(name);
-  std::transform(text.begin(), text.end(), text.begin(), small);
-  for (const std::string_view word : words) {
-    if (!text.starts_with(word)) continue;
-    const auto rest = name.substr(word.size());
-    if (rest.empty()) return std::string();
-    if (" _[(/"sv.find(rest.front()) != std::string_view::npos) {
-      return std::string(rest.substr(1));
-    }
-  }
-  return std::nullopt;
-}
 
 std::string unit_of(const TapColumn& column, const std::string& rest) {
   std::string unit = column.unit.empty() ? rest : column.unit;
@@ -77,7 +56,7 @@ double force_factor(const TapColumn& column, const std::string& unit, FrfFile& o
 /// Rate of a column of times, which must be evenly spaced.
 double rate_of(const TapColumn& time, Problems& problems) {
   const std::vector<double>& t = time.values;
-  const std::string unit = unit_of(time, after(time.name, time_names).value_or(""));
+  const std::string unit = unit_of(time, unit_after(time.name, tap_time_names).value_or(""));
   const double factor = unit == "ms" ? 1e-3 : (unit == "us" ? 1e-6 : 1.0);
   if (factor == 1.0 && !unit.empty() && unit != "s") {
     problems.add(time.line, time.at,
@@ -137,9 +116,9 @@ struct Roles {
 Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
   Roles roles;
   for (const TapColumn& column : columns) {
-    if (after(column.name, time_names)) {
+    if (unit_after(column.name, tap_time_names)) {
       roles.time = roles.time == nullptr ? &column : roles.time;
-    } else if (after(column.name, force_names)) {
+    } else if (unit_after(column.name, hammer_names)) {
       if (roles.force != nullptr) {
         problems.add(
             column.line, column.at,
@@ -148,7 +127,7 @@ Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
                         excerpt(roles.force->name), excerpt(column.name)));
       }
       roles.force = &column;
-    } else if (after(column.name, response_names)) {
+    } else if (unit_after(column.name, response_names)) {
       roles.responses.push_back(&column);
     }
   }
@@ -159,7 +138,7 @@ Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
 double settle_response(const TapColumn& column, const FrfSource& source, FrfFile& out,
                        Problems& problems) {
   const std::string text =
-      unit_of(column, after(column.name, response_names).value_or(""));
+      unit_of(column, unit_after(column.name, response_names).value_or(""));
   const auto unit = response_unit("(" + text + ")/N");
   if (unit && source.kind && *source.kind != unit->kind) {
     problems.add(column.line, column.at,
@@ -188,10 +167,10 @@ double settle_response(const TapColumn& column, const FrfSource& source, FrfFile
 bool is_tap(const std::vector<std::string>& names) {
   const auto any = [&](std::span<const std::string_view> words) {
     return std::any_of(names.begin(), names.end(), [&](const auto& name) {
-      return after(name, words).has_value();
+      return unit_after(name, words).has_value();
     });
   };
-  return any(time_names) && any(force_names);
+  return any(tap_time_names) && any(hammer_names);
 }
 
 std::vector<TapColumn> tap_columns(const FrfTable& table) {
@@ -209,9 +188,9 @@ std::vector<TapColumn> tap_columns(const NumericTable& table) {
   std::vector<TapColumn> out;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const NumericColumn& column = table.columns[k];
-    const bool wanted = after(column.name, time_names) ||
-                        after(column.name, force_names) ||
-                        after(column.name, response_names);
+    const bool wanted = unit_after(column.name, tap_time_names) ||
+                        unit_after(column.name, hammer_names) ||
+                        unit_after(column.name, response_names);
     if (wanted && column.count >= least_samples) {
       out.push_back({.name = column.name,
                      .unit = column.unit,
@@ -282,7 +261,7 @@ FrfFile tap_file(std::vector<TapColumn> columns, const FrfSource& source,
   }
   const double newtons = force_factor(
       *roles.force,
-      unit_of(*roles.force, after(roles.force->name, force_names).value_or("")), out,
+      unit_of(*roles.force, unit_after(roles.force->name, hammer_names).value_or("")), out,
       problems);
   const double factor = settle_response(*response, source, out, problems);
   for (std::size_t i = 0; i < n; ++i) {

@@ -156,8 +156,8 @@ NumericTable tdms_table(std::istream& in, const std::string& name) {
 }
 
 signal::Record read_tdms_record(std::istream& in, const std::string& name,
-                                const Measurement& measurement) {
-  return record_of(tdms_table(in, name), name, measurement);
+                                const RecordSource& source) {
+  return record_of(tdms_table(in, name), name, source);
 }
 
 }  // namespace trochoid::inputs

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/numeric_table.h>
 
 #include <istream>
@@ -20,6 +20,6 @@ NumericTable tdms_table(std::istream& in, const std::string& name);
 
 /// @brief Read a record; as read_record.
 signal::Record read_tdms_record(std::istream& in, const std::string& name,
-                                const Measurement& measurement);
+                                const RecordSource& source);
 
 }  // namespace trochoid::inputs

@@ -17,10 +17,10 @@ constexpr std::uint32_t daqmx_line = 0x0000126A;
 constexpr std::uint32_t text_type = 0x20;
 constexpr std::uint32_t bool_type = 0x21;
 constexpr std::uint32_t time_type = 0x44;
-constexpr std::size_t most_objects = 10000;
+constexpr std::size_t most_tdms_objects = 10000;
 
 /// Numbers by their codes; `with unit` is the same number.
-std::optional<NumberKind> kind_of(std::uint32_t type) {
+std::optional<NumberKind> kind_of_type(std::uint32_t type) {
   switch (type) {
     case 1:
       return NumberKind::i8;
@@ -94,7 +94,7 @@ void split_path(std::string_view path, TdmsObject& object) {
 TdmsProperty property_of(ByteCursor& cursor, const std::string& name) {
   const auto type = cursor.take<std::uint32_t>();
   if (type == text_type) return std::string(text_of(cursor));
-  if (const auto kind = kind_of(type)) return cursor.number(*kind);
+  if (const auto kind = kind_of_type(type)) return cursor.number(*kind);
   const std::uint64_t bytes = bytes_of_foreign(type);
   if (bytes == 0 && !cursor.short_of) {
     refuse(name, fmt::format("a property has the type 0x{:X}, which is not read: the "
@@ -164,7 +164,7 @@ TdmsLayout plain_layout(ByteCursor& cursor, const TdmsObject& object,
     layout.bytes = cursor.take<std::uint64_t>();
     return layout;
   }
-  layout.kind = kind_of(type);
+  layout.kind = kind_of_type(type);
   if (layout.kind || cursor.short_of) return layout;
   const std::uint64_t each = bytes_of_foreign(type);
   if (each == 0 || layout.values > std::uint64_t{1} << 56U) {
@@ -202,11 +202,11 @@ std::vector<std::size_t> read_tdms_metadata(
     const auto path = std::string(text_of(metadata));
     const auto [at, is_new] = places.try_emplace(path, known.size());
     if (is_new) split_path(path, known.emplace_back());
-    if (known.size() > most_objects) {
+    if (known.size() > most_tdms_objects) {
       refuse(name,
              fmt::format("the file has more than {} channels and groups: save the "
                          "forces alone",
-                         most_objects));
+                         most_tdms_objects));
     }
     TdmsObject& object = known[at->second];
     read_layout(metadata, object, name);

@@ -35,7 +35,7 @@ struct Segment {
   }
 };
 
-struct Reading {
+struct TdmsReading {
   std::istream& in;
   const std::string& name;
   std::uint64_t size = 0;
@@ -44,7 +44,7 @@ struct Reading {
   std::vector<std::size_t> active;  ///< objects of the segment, in their order
 };
 
-Segment lead_in(Reading& reading, std::uint64_t begin) {
+Segment lead_in(TdmsReading& reading, std::uint64_t begin) {
   const auto bytes = bytes_at(reading.in, begin, lead_in_bytes);
   if (!bytes || !bytes->starts_with("TDSm")) {
     refuse(
@@ -75,7 +75,7 @@ Segment lead_in(Reading& reading, std::uint64_t begin) {
   return segment;
 }
 
-void take_metadata(Reading& reading, const Segment& segment) {
+void take_metadata(TdmsReading& reading, const Segment& segment) {
   if (!segment.has(has_metadata)) return;
   const std::uint64_t begin = segment.begin + lead_in_bytes;
   const auto bytes = bytes_at(reading.in, begin, segment.data - begin);
@@ -92,7 +92,7 @@ void take_metadata(Reading& reading, const Segment& segment) {
 }
 
 /// Objects that have data in this segment.
-std::vector<TdmsObject*> with_data(Reading& reading) {
+std::vector<TdmsObject*> with_data(TdmsReading& reading) {
   std::vector<TdmsObject*> objects;
   for (const std::size_t at : reading.active) {
     TdmsObject& object = reading.file.objects[at];
@@ -101,7 +101,7 @@ std::vector<TdmsObject*> with_data(Reading& reading) {
   return objects;
 }
 
-[[noreturn]] void refuse_data(const Reading& reading, const Segment& segment,
+[[noreturn]] void refuse_data(const TdmsReading& reading, const Segment& segment,
                               std::string_view why) {
   refuse(reading.name,
          fmt::format("the {} bytes of data of the segment at byte {} {}: the "
@@ -110,7 +110,7 @@ std::vector<TdmsObject*> with_data(Reading& reading) {
 }
 
 /// How many whole chunks there are.
-std::uint64_t chunks(const Reading& reading, const Segment& segment,
+std::uint64_t chunks(const TdmsReading& reading, const Segment& segment,
                      std::uint64_t chunk_bytes) {
   const std::uint64_t there = segment.end - segment.data;
   if (chunk_bytes == 0) refuse_data(reading, segment, "belong to no channel");
@@ -125,20 +125,20 @@ std::uint64_t chunks(const Reading& reading, const Segment& segment,
 }
 
 /// A sum of sizes; beyond the size of the file its value does not matter.
-std::uint64_t added(const Reading& reading, std::uint64_t sum, std::uint64_t count,
+std::uint64_t added(const TdmsReading& reading, std::uint64_t sum, std::uint64_t count,
                     std::uint64_t each) {
   const std::uint64_t most = reading.size + 1;
   if (each != 0 && count > most / each) return most;
   return std::min(sum + count * each, most);
 }
 
-std::uint64_t chunk_bytes(const Reading& reading, const TdmsLayout& layout) {
+std::uint64_t chunk_bytes(const TdmsReading& reading, const TdmsLayout& layout) {
   return layout.kind ? added(reading, 0, layout.values, size_of(*layout.kind))
                      : std::min(layout.bytes, reading.size + 1);
 }
 
 /// Each channel's block, one after another.
-void take_contiguous(Reading& reading, const Segment& segment,
+void take_contiguous(TdmsReading& reading, const Segment& segment,
                      const std::vector<TdmsObject*>& objects) {
   std::uint64_t all = 0;
   for (const auto* object : objects) {
@@ -162,7 +162,7 @@ void take_contiguous(Reading& reading, const Segment& segment,
 }
 
 /// One number of each channel, then the next of each.
-void take_interleaved(Reading& reading, const Segment& segment,
+void take_interleaved(TdmsReading& reading, const Segment& segment,
                       const std::vector<TdmsObject*>& objects) {
   std::uint64_t row = 0;
   for (const auto* object : objects) {
@@ -184,7 +184,7 @@ void take_interleaved(Reading& reading, const Segment& segment,
 }
 
 /// Scans of one or several buffers; in each buffer all channels have equally many.
-void take_daqmx(Reading& reading, const Segment& segment,
+void take_daqmx(TdmsReading& reading, const Segment& segment,
                 const std::vector<TdmsObject*>& objects) {
   if (objects.empty() || !objects.front()->layout->daqmx) {
     refuse_data(reading, segment, "belong to no channel");
@@ -225,7 +225,7 @@ void take_daqmx(Reading& reading, const Segment& segment,
   }
 }
 
-void take_data(Reading& reading, const Segment& segment) {
+void take_data(TdmsReading& reading, const Segment& segment) {
   if (!segment.has(has_raw_data) || segment.end == segment.data) return;
   const auto objects = with_data(reading);
   if (segment.has(is_daqmx)) {
@@ -251,7 +251,7 @@ std::uint64_t TdmsObject::count() const {
 }
 
 TdmsFile read_tdms_segments(std::istream& in, const std::string& name) {
-  Reading reading{.in = in, .name = name, .size = size_of(in)};
+  TdmsReading reading{.in = in, .name = name, .size = size_of(in)};
   std::uint64_t at = 0;
   while (at < reading.size) {
     const Segment segment = lead_in(reading, at);

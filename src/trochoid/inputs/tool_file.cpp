@@ -19,13 +19,13 @@ namespace trochoid::inputs {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-[[noreturn]] void refuse(const std::string& file, std::string_view why) {
+[[noreturn]] void refuse_tool(const std::string& file, std::string_view why) {
   throw base::InputError({fmt::format("{}: {}", file, why)});
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_space(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0) {
     text.remove_prefix(1);
   }
@@ -46,10 +46,10 @@ std::optional<double> number_before(std::string_view& text) {
 }
 
 /// `5.0000 mm`, `0.25 in`, `0.25"` [m].
-std::optional<double> length_of(std::string_view text) {
-  text = trimmed(text);
+std::optional<double> length_in(std::string_view text) {
+  text = without_space(text);
   const auto value = number_before(text);
-  const std::string_view symbol = trimmed(text);
+  const std::string_view symbol = without_space(text);
   if (!value) return std::nullopt;
   if (symbol == "mm") return *value * unit::mm;
   if (symbol == "in" || symbol == "\"") return *value * unit::inch;
@@ -97,7 +97,7 @@ Shape shape_of(const Json& bit, const std::string& file) {
   if (shape == "endmill") return Shape::cylinder;
   if (shape == "ballend") return Shape::ball;
   if (shape == "bullnose") return Shape::bull_nose;
-  refuse(file, fmt::format("the tool is of the shape \"{}\"; must be an end mill: "
+  refuse_tool(file, fmt::format("the tool is of the shape \"{}\"; must be an end mill: "
                            "endmill, ballend or bullnose",
                            shape));
 }
@@ -105,23 +105,23 @@ Shape shape_of(const Json& bit, const std::string& file) {
 FoundTool tool_of_bit(const std::string& text, const std::string& file) {
   const Json bit = Json::parse(text, nullptr, false);
   if (!bit.is_object() || !bit.contains("shape")) {
-    refuse(file, "this is no tool bit of FreeCAD, which is JSON with a \"shape\"");
+    refuse_tool(file, "this is no tool bit of FreeCAD, which is JSON with a \"shape\"");
   }
   FoundTool tool{.name = readable(text_of(bit, "name")), .shape = shape_of(bit, file)};
   const std::string diameter = text_in(bit, "Diameter");
-  const auto length = length_of(diameter);
+  const auto length = length_in(diameter);
   if (!length || !is_possible(*length)) {
-    refuse(file,
+    refuse_tool(file,
            fmt::format("\"Diameter\" = \"{}\": must be a length such as \"6.0 mm\" "
                        "or \"0.25 in\"",
                        diameter));
   }
   tool.diameter = *length;
   if (tool.shape == Shape::bull_nose) {
-    tool.corner_radius = length_of(text_in(bit, "CornerRadius"));
+    tool.corner_radius = length_in(text_in(bit, "CornerRadius"));
   }
   const std::string flutes = text_in(bit, "Flutes");
-  std::string_view rest = trimmed(flutes);
+  std::string_view rest = without_space(flutes);
   const auto teeth = number_before(rest);
   if (teeth && *teeth >= 1 && *teeth <= 64) tool.teeth = static_cast<int>(*teeth);
   return tool;
@@ -139,9 +139,9 @@ TableLine line_of_table(std::string_view line) {
   TableLine found;
   const std::size_t semicolon = line.find(';');
   if (semicolon != std::string_view::npos) {
-    found.comment = readable(std::string(trimmed(line.substr(semicolon + 1))));
+    found.comment = readable(std::string(without_space(line.substr(semicolon + 1))));
   }
-  line = trimmed(line.substr(0, semicolon));
+  line = without_space(line.substr(0, semicolon));
   while (!line.empty()) {
     const char letter =
         static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
@@ -152,7 +152,7 @@ TableLine line_of_table(std::string_view line) {
       found.number = static_cast<int>(*value);
     }
     if (letter == 'D') found.diameter = *value;
-    line = trimmed(line);
+    line = without_space(line);
   }
   return found;
 }
@@ -170,7 +170,7 @@ FoundTool tool_of_table(std::string_view text, const ToolChoice& choice) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   if (tools.empty()) {
-    refuse(file,
+    refuse_tool(file,
            "no tool with a diameter is in it; must be a tool bit of FreeCAD (.fctb) "
            "or a tool table of LinuxCNC, with lines such as `T1 P1 D6.0 ;6 mm end "
            "mill`");
@@ -179,7 +179,7 @@ FoundTool tool_of_table(std::string_view text, const ToolChoice& choice) {
   for (const TableLine& line : tools) numbers.push_back(*line.number);
   const auto wanted = std::ranges::find(numbers, choice.number.value_or(numbers[0]));
   if ((!choice.number && tools.size() > 1) || wanted == numbers.end()) {
-    refuse(file, fmt::format("which tool? --tool-number, one of {}",
+    refuse_tool(file, fmt::format("which tool? --tool-number, one of {}",
                              fmt::join(numbers, ", ")));
   }
   const TableLine& line = tools[static_cast<std::size_t>(wanted - numbers.begin())];
@@ -191,9 +191,9 @@ FoundTool tool_of_table(std::string_view text, const ToolChoice& choice) {
 FoundTool read_tool(const ToolChoice& choice) {
   const std::string file = choice.file.string();
   const auto text = base::read_text(choice.file);
-  if (!text) refuse(file, "there is no such file, or it cannot be read");
-  if (!trimmed(*text).starts_with('{')) return tool_of_table(*text, choice);
-  if (base::too_deep(*text)) refuse(file, "it nests deeper than any tool bit");
+  if (!text) refuse_tool(file, "there is no such file, or it cannot be read");
+  if (!without_space(*text).starts_with('{')) return tool_of_table(*text, choice);
+  if (base::too_deep(*text)) refuse_tool(file, "it nests deeper than any tool bit");
   return tool_of_bit(*text, file);
 }
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 namespace trochoid::inputs {
@@ -24,7 +23,7 @@ constexpr TableKind transmission_kind{.noun = "the response of a dynamometer",
                                       .row = "line",
                                       .example = "freq_Hz,H11_re,H11_im"};
 
-constexpr int frequency_response = 4;  ///< function type of a set 58
+constexpr int response_type = 4;  ///< function type of a set 58
 constexpr int force = 13;              ///< type of an axis of a set 58
 /// A static response that differs more than this from 1 is worth a word.
 constexpr double calibrated = 0.1;
@@ -36,17 +35,10 @@ Transmission::Matrix rigid() {
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};
 }
 
-std::string small(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
-
 /// The column of that name, whatever the case of its letters.
 std::optional<std::size_t> column(const FrfTable& table, const std::string& name) {
   for (std::size_t i = 0; i < table.names.size(); ++i) {
-    if (small(table.names[i]) == name) return i;
+    if (small_letters(table.names[i]) == name) return i;
   }
   return std::nullopt;
 }
@@ -190,7 +182,7 @@ Given from_uff(const std::string& text, const std::string& name, Transmission& o
   const UffFile file = read_uff(text, name);
   bool any = false;
   for (const Uff58& set : file.sets) {
-    if (set.function_type != frequency_response) continue;
+    if (set.function_type != response_type) continue;
     any = true;
     add_set(set, out, given, problems);
   }
@@ -232,11 +224,8 @@ TransmissionFile transmission_of(const std::string& text, const std::string& nam
   return out;
 }
 
-TransmissionFile read_transmission(const std::filesystem::path& file,
-                                   const std::string& location) {
-  auto in = open_table(file, location, transmission_kind);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return transmission_of(text, file.generic_string());
+TransmissionFile read_transmission(const FileRef& file) {
+  return transmission_of(bytes_of(file, transmission_kind), file.path);
 }
 
 }  // namespace trochoid::inputs

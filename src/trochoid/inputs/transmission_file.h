@@ -1,9 +1,9 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
+#include <trochoid/inputs/file_ref.h>
 #include <trochoid/signal/transmission.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,10 +21,8 @@ struct TransmissionFile {
 /// table: `freq_Hz`, and for channel i and a force along channel j `Hij_re` and `Hij_im`,
 /// or `Hij_mag` and `Hij_phase_deg`; without a number (`re`, `im`) all channels alike.
 /// A channel that is not there is rigid, a cross response zero.
-/// @param location  file:line:col of its name in a case, for messages
 /// @throws base::InputError with every problem
-TransmissionFile read_transmission(const std::filesystem::path& file,
-                                   const std::string& location);
+TransmissionFile read_transmission(const FileRef& file);
 
 /// @brief The same from text.
 /// @param name  of the file, for messages

@@ -16,13 +16,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// Lines of a text that may hold binary data in between.
 struct Cursor {
   std::string_view text;
@@ -43,12 +36,12 @@ struct Cursor {
 };
 
 bool is_delimiter(std::string_view line) {
-  return trimmed(line) == "-1";
+  return trimmed(line, " \t\r") == "-1";
 }
 
 /// Columns [from, from + width) of a line, without blanks around.
 std::string_view cell(std::string_view line, std::size_t from, std::size_t width) {
-  return from < line.size() ? trimmed(line.substr(from, width)) : std::string_view();
+  return from < line.size() ? trimmed(line.substr(from, width), " \t\r") : std::string_view();
 }
 
 std::optional<long long> whole(std::string_view text) {
@@ -60,7 +53,7 @@ std::optional<long long> whole(std::string_view text) {
   return value;
 }
 
-int small(std::string_view text) {
+int small_whole(std::string_view text) {
   const auto value = whole(text);
   return value && std::abs(*value) < 1000000000 ? static_cast<int>(*value) : 0;
 }
@@ -82,18 +75,18 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-UffAxis axis_of(std::string_view line) {
-  return {.type = small(cell(line, 0, 10)),
+UffAxis axis_in(std::string_view line) {
+  return {.type = small_whole(cell(line, 0, 10)),
           .label = std::string(cell(line, 26, 20)),
           .unit = std::string(cell(line, 47, 20))};
 }
 
 void read_record_6(std::string_view line, Uff58& set) {
-  set.function_type = small(cell(line, 0, 5));
-  set.response_node = small(cell(line, 41, 10));
-  set.response_direction = small(cell(line, 51, 4));
-  set.reference_node = small(cell(line, 66, 10));
-  set.reference_direction = small(cell(line, 76, 4));
+  set.function_type = small_whole(cell(line, 0, 5));
+  set.response_node = small_whole(cell(line, 41, 10));
+  set.response_direction = small_whole(cell(line, 51, 4));
+  set.reference_node = small_whole(cell(line, 66, 10));
+  set.reference_direction = small_whole(cell(line, 76, 4));
 }
 
 void read_record_7(std::string_view line, Cursor& cursor, Uff58& set) {
@@ -143,12 +136,12 @@ bool read_head(Cursor& cursor, Uff58& set) {
     }
   }
   for (std::size_t i = 0; i < set.id.size(); ++i) {
-    set.id[i] = std::string(trimmed(lines[i]));
+    set.id[i] = std::string(trimmed(lines[i], " \t\r"));
   }
   read_record_6(lines[5], set);
-  set.abscissa = axis_of(lines[7]);
-  set.ordinate = axis_of(lines[8]);
-  set.denominator = axis_of(lines[9]);
+  set.abscissa = axis_in(lines[7]);
+  set.ordinate = axis_in(lines[8]);
+  set.denominator = axis_in(lines[9]);
   return true;
 }
 
@@ -175,7 +168,7 @@ void read_text_data(Cursor& cursor, Uff58& set) {
     const auto line = cursor.next();
     if (is_delimiter(line)) break;
     std::string_view rest = line;
-    while (!trimmed(rest).empty()) {
+    while (!trimmed(rest, " \t\r").empty()) {
       const auto number = take_number(rest);
       if (!number) {
         const auto column = static_cast<std::size_t>(rest.data() - line.data()) + 1;
@@ -265,14 +258,14 @@ void skip_set(Cursor& cursor) {
 void read_set(Cursor& cursor, std::string_view line, UffFile& file) {
   const auto kind = cell(line, 0, 7);
   if (kind != "58" && kind != "58b") {
-    if (small(cell(line, 0, 6)) <= 0) {
+    if (small_whole(cell(line, 0, 6)) <= 0) {
       cursor.problems.add(cursor.line, 1,
                           fmt::format("{}: must be the number of a data set, 58 or 58b "
                                       "for a function",
                                       excerpt(line)));
       return;
     }
-    file.others.push_back(small(cell(line, 0, 6)));
+    file.others.push_back(small_whole(cell(line, 0, 6)));
     skip_set(cursor);
     return;
   }
@@ -310,7 +303,7 @@ UffFile read_uff(std::string_view text, const std::string& name) {
   UffFile file;
   while (!cursor.done() && !cursor.problems.full()) {
     const auto line = cursor.next();
-    if (trimmed(line).empty()) continue;
+    if (trimmed(line, " \t\r").empty()) continue;
     if (!is_delimiter(line)) {
       cursor.problems.add(
           cursor.line, 1,

@@ -67,7 +67,7 @@ NumericColumn column_of(const Uff58& set, std::size_t number) {
   return column;
 }
 
-void check_whole(const Uff58& set, const std::string& name) {
+void check_set(const Uff58& set, const std::string& name) {
   if (set.y.size() >= set.promised) return;
   refuse(name,
          fmt::format("the data set in line {} is to have {} points and has {}: the "
@@ -92,7 +92,7 @@ std::vector<Uff58> histories_of(UffFile file, const std::string& name) {
                        "function type 1, real numbers){}{}",
                        others.empty() ? "" : "; its functions are of type", others));
   }
-  for (const auto& set : file.sets) check_whole(set, name);
+  for (const auto& set : file.sets) check_set(set, name);
   return std::move(file.sets);
 }
 
@@ -126,7 +126,7 @@ void note_directions(const std::vector<Uff58>& sets, NumericTable& table) {
 }  // namespace
 
 signal::Record read_uff58_record(std::istream& in, const std::string& name,
-                                 const Measurement& measurement) {
+                                 const RecordSource& source) {
   const std::uint64_t bytes = size_of(in);
   if (static_cast<double>(bytes) > largest_record) {
     refuse(name, fmt::format("the file has {} bytes: at most {:.2g} are read", bytes,
@@ -154,7 +154,7 @@ signal::Record read_uff58_record(std::istream& in, const std::string& name,
     for (const auto& y : set.y) values.push_back(turned ? -y.real() : y.real());
     return values;
   };
-  return record_of(table, name, measurement);
+  return record_of(table, name, source);
 }
 
 }  // namespace trochoid::inputs

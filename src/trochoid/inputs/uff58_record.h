@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <istream>
@@ -14,6 +14,6 @@ namespace trochoid::inputs {
 /// A set of a force is Fx, Fy or Fz by the direction of its response, else of its
 /// reference; of a direction against its axis the sign is turned, with a note.
 signal::Record read_uff58_record(std::istream& in, const std::string& name,
-                                 const Measurement& measurement);
+                                 const RecordSource& source);
 
 }  // namespace trochoid::inputs

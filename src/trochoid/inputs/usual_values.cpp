@@ -49,7 +49,7 @@ constexpr std::array values = {
     UsualValue{"command.peak_to_peak_um", between(0, 500)},
 };
 
-bool is_digit(char c) noexcept {
+bool is_digit_of_place(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
@@ -57,7 +57,7 @@ bool is_digit(char c) noexcept {
 std::string table_and_key(std::string_view path) {
   std::string plain;
   for (const char c : path) {
-    if (c != '[' && c != ']' && !(is_digit(c) && plain.find('.') == plain.npos)) {
+    if (c != '[' && c != ']' && !(is_digit_of_place(c) && plain.find('.') == plain.npos)) {
       plain += c;
     }
   }

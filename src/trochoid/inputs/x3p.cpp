@@ -18,12 +18,6 @@ namespace {
 
 constexpr std::uint64_t largest_description = 1U << 20U;
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 /// A tag: `Axes`, `/Axes` or `Axes/`, its prefix and attributes apart.
 struct Tag {
   std::string_view name;
@@ -84,7 +78,7 @@ struct Description {
     for (const auto part : path) {
       if (inner) inner = element(*inner, part);
     }
-    return inner ? std::optional(trimmed(*inner)) : std::nullopt;
+    return inner ? std::optional(trimmed(*inner, " \t\r\n")) : std::nullopt;
   }
   [[nodiscard]] double number(std::initializer_list<std::string_view> path,
                               std::optional<double> otherwise) const {
@@ -100,7 +94,7 @@ struct Description {
   }
 };
 
-NumberKind kind_of(const Description& main) {
+NumberKind kind_of_points(const Description& main) {
   const auto type = main.text({"Record1", "Axes", "CZ", "DataType"}).value_or("");
   if (type == "I") return NumberKind::i16;
   if (type == "L") return NumberKind::i32;
@@ -180,7 +174,7 @@ struct Archive {
 };
 
 void take_numbers(const Archive& archive, const Description& main, SurfaceMap& map) {
-  const NumberKind kind = kind_of(main);
+  const NumberKind kind = kind_of_points(main);
   const double factor = main.number({"Record1", "Axes", "CZ", "Increment"}, 1.0);
   const double offset = main.number({"Record1", "Axes", "CZ", "Offset"}, 0.0);
   const auto link = main.text({"Record3", "DataLink", "PointDataLink"});

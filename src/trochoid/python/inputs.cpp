@@ -111,13 +111,14 @@ inputs::Case bare_case(const std::string& file, base::Command command,
   inputs::MachineTables machine;
   if (command == base::Command::modes) {
     machine.frf =
-        inputs::FrfTables{.file = file,
-                          .kind = base::named<structure::ResponseKind>(options.kind),
-                          .dataset = options.dataset,
+        inputs::FrfTables{
+            .source = {.file = inputs::file_at(file),
+                       .kind = base::named<structure::ResponseKind>(options.kind),
+                       .dataset = options.dataset},
                           .modes = options.modes,
                           .band = options.band};
   } else {
-    machine.step = inputs::StepTables{.file = file, .start = options.start_s};
+    machine.step = inputs::StepSource{.file = inputs::file_at(file), .start = options.start_s};
     if (options.step_um) machine.step->step = *options.step_um * unit::um;
   }
   return inputs::bare_case(machine, command, folder);

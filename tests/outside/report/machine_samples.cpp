@@ -28,7 +28,7 @@ Answer modes() {
 Answer shared_modes() {
   inputs::MachineTables machine;
   machine.frf = inputs::FrfTables{
-      .file = (examples / "several_responses/tool.uff").string(), .modes = 2};
+      .source = {.file = inputs::file_at((examples / "several_responses/tool.uff").string())}, .modes = 2};
   return answer_of(trochoid::run::shared_modes(
       inputs::bare_case(machine, inputs::Command::modes, {})));
 }

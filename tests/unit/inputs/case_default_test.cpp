@@ -73,13 +73,13 @@ TEST(CaseDefaults, IdentifyNeedsNoCoefficients) {
   EXPECT_EQ(law.K_tc, 0.0);
   ASSERT_EQ(c.measurements.size(), 1U);
   const Measurement& m = c.measurements[0];
-  EXPECT_EQ(m.file, record);
-  EXPECT_FALSE(m.format.has_value());
-  EXPECT_TRUE(m.columns.empty());
-  EXPECT_EQ(m.angle_column + m.time_column, "");
-  EXPECT_FALSE(m.sample_rate.has_value());
+  EXPECT_EQ(m.source.file.path, record);
+  EXPECT_FALSE(m.source.format.has_value());
+  EXPECT_TRUE(m.source.columns.empty());
+  EXPECT_EQ(m.source.angle_column + m.source.time_column, "");
+  EXPECT_FALSE(m.source.sample_rate.has_value());
   EXPECT_EQ(m.cut.f_z, c.setup.cut.f_z);
-  EXPECT_EQ(m.location, (folder.path() / "case.toml").string() + ":11:8");
+  EXPECT_EQ(m.source.file.location, (folder.path() / "case.toml").string() + ":11:8");
   const Identify& i = c.identify;
   EXPECT_EQ(i.chip_models, (std::vector{chip::Model::none, chip::Model::feed,
                                         chip::Model::trochoidal}));

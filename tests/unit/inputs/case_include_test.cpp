@@ -36,8 +36,8 @@ TEST(CaseInclude, MeasurementsOfAnIncludedFileAreFoundBesideIt) {
   const Case c = folder.read("include = \"data/runs.toml\"\n" + test::tool + test::cut,
                              Command::identify);
   ASSERT_EQ(c.measurements.size(), 1U);
-  EXPECT_EQ(c.measurements[0].file, record);
-  EXPECT_EQ(c.measurements[0].location,
+  EXPECT_EQ(c.measurements[0].source.file.path, record);
+  EXPECT_EQ(c.measurements[0].source.file.location,
             (folder.path() / "data/runs.toml").string() + ":2:8");
 }
 

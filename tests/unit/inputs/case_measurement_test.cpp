@@ -78,7 +78,7 @@ TEST_F(CaseMeasurement, AxesBecomeAMatrix) {
 TEST_F(CaseMeasurement, ColumnsMayLeaveChannelsOut) {
   const std::string run = "[[measurement]]\nfile = \"run.csv\"\ncolumns = ";
   const auto columns = [&](const std::string& list) {
-    return read(run + list).measurements.at(0).columns;
+    return read(run + list).measurements.at(0).source.columns;
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(columns("[\"a\", \"b\"]\n"), (Names{"a", "b", ""}));

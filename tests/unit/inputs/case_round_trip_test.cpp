@@ -77,14 +77,14 @@ void expect_equal(const Identify& a, const Identify& b) {
 }
 
 void expect_equal(const Measurement& a, const Measurement& b) {
-  EXPECT_EQ(a.file, b.file);
-  EXPECT_EQ(a.format, b.format);
-  EXPECT_EQ(a.columns, b.columns);
-  EXPECT_EQ(a.angle_column, b.angle_column);
-  EXPECT_EQ(a.time_column, b.time_column);
-  EXPECT_EQ(a.sample_rate, b.sample_rate);
-  EXPECT_EQ(a.scale, b.scale);
-  EXPECT_EQ(a.pulse_column, b.pulse_column);
+  EXPECT_EQ(a.source.file.path, b.source.file.path);
+  EXPECT_EQ(a.source.format, b.source.format);
+  EXPECT_EQ(a.source.columns, b.source.columns);
+  EXPECT_EQ(a.source.angle_column, b.source.angle_column);
+  EXPECT_EQ(a.source.time_column, b.source.time_column);
+  EXPECT_EQ(a.source.sample_rate, b.source.sample_rate);
+  EXPECT_EQ(a.source.scale, b.source.scale);
+  EXPECT_EQ(a.source.pulse_column, b.source.pulse_column);
   expect_equal(a.cut, b.cut);
 }
 
@@ -108,7 +108,7 @@ void expect_equal(const MachineTables& a, const MachineTables& b) {
   for (std::size_t i = 0; i < a.surface_measurements.size(); ++i) {
     const auto& m = a.surface_measurements[i];
     const auto& n = b.surface_measurements[i];
-    EXPECT_EQ(m.file, n.file);
+    EXPECT_EQ(m.source.file.path, n.source.file.path);
     EXPECT_EQ(m.datum_offset, n.datum_offset);
     EXPECT_EQ(m.datum_tilt, n.datum_tilt);
   }

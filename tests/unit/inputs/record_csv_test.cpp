@@ -2,7 +2,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/record_file.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 
 #include <algorithm>
 #include <array>
@@ -14,12 +14,12 @@
 namespace trochoid::inputs {
 namespace {
 
-signal::Record read(const std::string& text, const Measurement& measurement = {}) {
+signal::Record read(const std::string& text, const RecordSource& measurement = {}) {
   std::istringstream in(text);
   return read_record(in, "r.csv", measurement);
 }
 
-std::string refusal(const std::string& text, const Measurement& measurement = {}) {
+std::string refusal(const std::string& text, const RecordSource& measurement = {}) {
   try {
     read(text, measurement);
   } catch (const base::InputError& error) {
@@ -89,7 +89,7 @@ TEST(RecordCsv, FindsColumnsByNameWhateverTheirCaseAndOrder) {
 }
 
 TEST(RecordCsv, TakesNewtonsPerUnitOfTheCaseFile) {
-  Measurement m;
+  RecordSource m;
   m.scale = {500, 500, -1000};
   const auto record = read("time_s,Fx_V,Fy,Fz\ns,V,V,mV\n0,1,2,3\n1,4,5,6\n", m);
   EXPECT_EQ(record.channel[0], (std::vector{500.0, 2000.0}));
@@ -98,7 +98,7 @@ TEST(RecordCsv, TakesNewtonsPerUnitOfTheCaseFile) {
 }
 
 TEST(RecordCsv, TakesTheNamesOfTheCaseFile) {
-  Measurement m;
+  RecordSource m;
   m.columns = {"F2_N", "f1", "Third [N]"};
   m.angle_column = "theta_deg";
   const auto record =
@@ -141,7 +141,7 @@ TEST(RecordCsv, DoesNotTakeAForceOfAnotherNameForAMissingOne) {
 }
 
 TEST(RecordCsv, LeavesOutAChannelThatTheCaseFileNamesByNothing) {
-  Measurement m;
+  RecordSource m;
   m.columns = {"Fx_N", "", "Fz_N"};
   const auto record = read("angle_deg,Fx_N,Fy_N,Fz_N\n0,1,2,3\n1,1,2,3\n", m);
   EXPECT_EQ(record.measured, (std::array{true, false, true}));
@@ -160,7 +160,7 @@ TEST(RecordCsv, PrefersTheForceToTheChannelsOfASimulation) {
 }
 
 TEST(RecordCsv, TakesTheAngleFromPulses) {
-  Measurement m;
+  RecordSource m;
   m.pulse_column = "index";
   std::string text = "time_s,Fx_N,Fy_N,Fz_N,index_V,angle_deg\n";
   for (int i = 0; i < 100; ++i) {
@@ -185,7 +185,7 @@ TEST(RecordCsv, TakesTheAngleFromPulses) {
 }
 
 TEST(RecordCsv, LeavesTheAngleToWhomNamesATime) {
-  Measurement m;
+  RecordSource m;
   m.time_column = "time_s";
   const auto record =
       read("angle_deg,time_s,Fx_N,Fy_N,Fz_N\n0,0,1,2,3\n1,1,1,2,3\n", m);
@@ -225,7 +225,7 @@ TEST(RecordCsv, TakesDecimalCommasOnlyWhereNothingElseCanBeMeant) {
 }
 
 TEST(RecordCsv, RebuildsTheTimeFromTheSamplingRate) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 12800.0;
   std::string text = "time_s,Fx_N,Fy_N,Fz_N\n";
   for (int i = 0; i < 300; ++i) {  // printed to a tenth of a millisecond
@@ -241,7 +241,7 @@ TEST(RecordCsv, RebuildsTheTimeFromTheSamplingRate) {
 }
 
 TEST(RecordCsv, RefusesADroppedRow) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1000.0;
   EXPECT_EQ(
       refusal("time_s,Fx_N,Fy_N,Fz_N\n0.000,1,2,3\n0.001,1,2,3\n0.003,1,2,3\n", m),
@@ -338,10 +338,10 @@ TEST(RecordCsv, RefusesAnEndlessLineWithoutReadingIt) {
 }
 
 TEST(RecordCsv, OpensRegularFilesOnly) {
-  Measurement m;
+  RecordSource m;
   m.location = "case.toml:7:8";
   for (const char* name : {"/dev/zero", "/", "/no/such/file"}) {
-    m.file = name;
+    m.file.path = name;
     try {
       read_record(m);
       ADD_FAILURE() << name;
@@ -352,7 +352,7 @@ TEST(RecordCsv, OpensRegularFilesOnly) {
 }
 
 TEST(RecordCsv, RefusesAnotherFormatThanTheCaseFileSays) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::dynoware;
   EXPECT_NE(refusal("angle_deg,Fx_N,Fy_N,Fz_N\n0,1,2,3\n1,1,2,3\n", m), "");
   m.format = RecordFormat::csv;

@@ -33,12 +33,12 @@ std::string text(const Export& e) {
   return s;
 }
 
-signal::Record read(const std::string& content, const Measurement& m = {}) {
+signal::Record read(const std::string& content, const RecordSource& m = {}) {
   std::istringstream in(content);
   return read_record(in, "d.csv", m);
 }
 
-std::string refusal(const std::string& content, const Measurement& m = {}) {
+std::string refusal(const std::string& content, const RecordSource& m = {}) {
   try {
     read(content, m);
   } catch (const base::InputError& error) {
@@ -109,7 +109,7 @@ TEST(RecordDynoWare, TakesOtherSeparatorsAndNoTimes) {
 }
 
 TEST(RecordDynoWare, TakesTheRateOfTheCaseFileOnlyIfItAgrees) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1e4;
   EXPECT_EQ(refusal(text({}), m), "");
   m.sample_rate = 2e4;

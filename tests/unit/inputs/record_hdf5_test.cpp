@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/apart.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 
 #include <array>
 #include <csignal>
@@ -44,7 +44,7 @@ TEST(RecordHdf5, TakesPathsAndWhatGroupsSay) {
       made::hdf5_file(sets, [](hid_t file) { made::put_number(file, "dt", 0.5); });
   EXPECT_NE(refusal(bytes).find("\"other/Fx\", \"run/Fx\", \"Fy\""), std::string::npos)
       << refusal(bytes);
-  Measurement m;
+  RecordSource m;
   m.columns = {"other/Fx", "run/deep/Fy", "Fz"};
   const auto record = read(bytes, m);
   EXPECT_EQ(record.channel[0][2], 9.0);
@@ -52,7 +52,7 @@ TEST(RecordHdf5, TakesPathsAndWhatGroupsSay) {
 }
 
 TEST(RecordHdf5, TakesTheOnlyMatrix) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 10.0;
   const auto record =
       read(made::hdf5_file({{.path = "F",
@@ -109,7 +109,7 @@ TEST(RecordHdf5, RefusesWhatWouldFillTheMemory) {
       H5Pclose(how);
     }
   };
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1e4;
   EXPECT_NE(refusal(made::hdf5_file({}, vast), m).find("at most 2e+09 bytes"),
             std::string::npos);
@@ -136,7 +136,7 @@ TEST(RecordHdf5, IsCutOffNowhereWithoutAWord) {
 }
 
 TEST(RecordHdf5, IsRefusedUnderAnotherName) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::mat;
   EXPECT_EQ(refusal(made::hdf5_file(forces), m),
             "r.h5:1:1: this is an HDF5 file, but the case file says format = \"mat\": "

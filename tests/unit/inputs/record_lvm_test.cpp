@@ -1,7 +1,7 @@
 #include "from_bytes.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 
 namespace trochoid::inputs {
 namespace {
@@ -86,7 +86,7 @@ TEST(RecordLvm, IsCutOffNowhereWithoutAWord) {
 }
 
 TEST(RecordLvm, IsRefusedUnderAnotherName) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::tdms;
   EXPECT_EQ(refusal(head() + segment(), m),
             "r.lvm:1:1: this is a LabVIEW measurement file, but the case file says "

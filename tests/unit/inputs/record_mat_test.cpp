@@ -2,7 +2,7 @@
 #include "mat_made.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 
 namespace trochoid::inputs {
 namespace {
@@ -40,7 +40,7 @@ TEST(RecordMat, FindsAndNamesFieldsOfAStruct) {
     SCOPED_TRACE(version);
     const auto bytes = made::mat_file(forces, version, packed, "data");
     EXPECT_EQ(read(bytes).channel[1][2], 30.0);
-    Measurement m;
+    RecordSource m;
     m.columns = {"data.Fy", "data.Fx", "Fz_kN"};
     EXPECT_EQ(read(bytes, m).channel[0][2], 30.0);
     m.columns = {"data.Fq", "data.Fx", "Fz_kN"};
@@ -51,7 +51,7 @@ TEST(RecordMat, FindsAndNamesFieldsOfAStruct) {
 }
 
 TEST(RecordMat, TakesTheOnlyMatrixAndSaysInWhichOrder) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 10.0;
   for (const auto& [version, packed] : kinds) {
     SCOPED_TRACE(version);
@@ -70,7 +70,7 @@ TEST(RecordMat, TakesTheOnlyMatrixAndSaysInWhichOrder) {
     const auto four = read(made::mat_file({lying}, version, packed));
     EXPECT_DOUBLE_EQ(four.time[4], 0.4);
     EXPECT_EQ(four.channel[1], (std::vector<double>{2, 2, 2, 2, 5}));
-    Measurement by_column = m;
+    RecordSource by_column = m;
     by_column.columns = {"F(:,3)", "F(:,1)", "F(:,2)"};
     EXPECT_EQ(read(made::mat_file({upright}, version, packed), by_column).channel[0][0],
               6.0);
@@ -89,7 +89,7 @@ TEST(RecordMat, IsCutOffNowhereWithoutAWord) {
 }
 
 TEST(RecordMat, IsRefusedUnderAnotherName) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::tdms;
   EXPECT_EQ(
       refusal(made::mat_file(forces, MAT_FT_MAT5), m),

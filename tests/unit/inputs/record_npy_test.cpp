@@ -1,7 +1,7 @@
 #include "from_bytes.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 
 #include <bit>
 #include <cstdint>
@@ -53,7 +53,7 @@ std::string plain(const std::string& kind, bool fortran, const std::string& shap
 }
 
 TEST(RecordNpy, ReadsEveryKindAndOrder) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1e4;
   for (const std::string kind :
        {"<f8", ">f8", "<f4", ">f4", "<i4", ">i4", "<i2", ">i2"}) {
@@ -113,7 +113,7 @@ TEST(RecordNpy, TakesFieldsByTheirNames) {
 }
 
 TEST(RecordNpy, ReadsMoreThanIsFetchedAtOnce) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1e4;
   std::vector<double> values;
   for (int i = 0; i < 100000; ++i) {
@@ -137,7 +137,7 @@ TEST(RecordNpy, ReadsMoreThanIsFetchedAtOnce) {
 }
 
 TEST(RecordNpy, IsCutOffNowhereWithoutAWord) {
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1e4;
   const auto bytes = plain("<f8", false, "(4, 3)", std::vector<double>(12, 1.0));
   EXPECT_EQ(refusal(bytes, m), "");
@@ -159,7 +159,7 @@ TEST(RecordNpy, PromisesNoMoreThanItHolds) {
 }
 
 TEST(RecordNpy, IsRefusedUnderAnotherName) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::csv;
   EXPECT_EQ(
       refusal(plain("<f8", false, "(4, 3)", std::vector<double>(12, 1.0)), m),

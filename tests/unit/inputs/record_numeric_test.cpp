@@ -23,7 +23,7 @@ NumericTable table_of(const std::vector<Made>& made) {
   return table;
 }
 
-std::string refusal(const std::vector<Made>& made, const Measurement& m = {}) {
+std::string refusal(const std::vector<Made>& made, const RecordSource& m = {}) {
   try {
     record_of(table_of(made), "r.bin", m);
   } catch (const base::InputError& error) {
@@ -60,7 +60,7 @@ TEST(RecordNumeric, TakesTheRateThatTheColumnsState) {
   const auto record = record_of(table_of(made), "r.bin", {});
   EXPECT_EQ(record.sample_rate, 1e4);
   EXPECT_DOUBLE_EQ(record.time[2], 0.5002);
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 2e4;
   EXPECT_EQ(refusal(made, m),
             "r.bin: the sampling rate here is 10000 Hz, the case file says 20000 Hz: "
@@ -75,7 +75,7 @@ TEST(RecordNumeric, TakesTheRateThatTheColumnsState) {
 
 TEST(RecordNumeric, GoesWithoutAChannelThatIsNotThere) {
   auto made = std::vector{column("Fx", "N", {1, 2, 5}), column("Fy", "N", {3, 4, 6})};
-  Measurement m;
+  RecordSource m;
   m.sample_rate = 1e4;
   const auto record = record_of(table_of(made), "r.bin", m);
   EXPECT_EQ(record.measured, (std::array{true, true, false}));
@@ -98,7 +98,7 @@ TEST(RecordNumeric, TellsColumnsOfOneNameByTheirPaths) {
             "r.bin: no column is named Fx, for example Fx_N: the columns are "
             "\"first/Fx\", \"Fy\", \"Fz\", \"second/Fx\", \"time_s\"; columns = [...] "
             "in the case file names the three forces\n");
-  Measurement m;
+  RecordSource m;
   m.columns = {"second/Fx", "first/Fy", "Fz"};
   const auto record = record_of(table_of(made), "r.bin", m);
   EXPECT_EQ(record.channel[0][0], 7.0);
@@ -155,7 +155,7 @@ TEST(RecordNumeric, TakesTheAngleFromPulses) {
                    column("index", "V", {0, 5, 0, 0, 0, 5, 0, 0, 0, 5, 0, 0})};
   made[3].column.path = "encoder/index";
   for (const char* name : {"index", "encoder/index"}) {
-    Measurement m;
+    RecordSource m;
     m.pulse_column = name;
     const auto record = record_of(table_of(made), "r.bin", m);
     ASSERT_EQ(record.angle.size(), 12u);
@@ -171,7 +171,7 @@ TEST(RecordNumeric, ScalesVoltsToNewtons) {
       refusal(made).find("the unit \"V\" of column \"Fx\" is not one of force: N, "
                          "kN, mN, daN or lbf is right, or scale = [...]"),
       std::string::npos);
-  Measurement m;
+  RecordSource m;
   m.scale = {500, -500, 1000};
   const auto record = record_of(table_of(made), "r.bin", m);
   EXPECT_EQ(record.channel[0], (std::vector{500.0, 1000.0}));

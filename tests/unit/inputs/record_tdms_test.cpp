@@ -2,7 +2,7 @@
 #include "tdms_made.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/tdms.h>
 
 #include <sstream>
@@ -83,7 +83,7 @@ TEST(RecordTdms, TellsChannelsOfOneNameByTheirGroups) {
   auto bytes = made::tdms_record();
   std::istringstream in(bytes);
   EXPECT_EQ(tdms_table(in, "r").columns[1].path, "Cut/Fy");
-  Measurement m;
+  RecordSource m;
   m.columns = {"Cut/Fz", "Cut/Fy", "Fx"};
   EXPECT_EQ(read(bytes, m).channel[0][0], 100.0);
 }
@@ -117,7 +117,7 @@ TEST(RecordTdms, PromisesNoMoreThanItHolds) {
 }
 
 TEST(RecordTdms, IsRefusedUnderAnotherName) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::csv;
   EXPECT_EQ(refusal(made::tdms_record(), m),
             "r.tdms:1:1: this is a TDMS file, but the case file says format = \"csv\": "

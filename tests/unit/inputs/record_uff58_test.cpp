@@ -2,7 +2,7 @@
 #include "uff58_made.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/inputs/record_format.h>
+#include <trochoid/inputs/record_source.h>
 
 namespace trochoid::inputs {
 namespace {
@@ -94,7 +94,7 @@ TEST(RecordUff58, IsCutOffNowhereWithoutAWord) {
 }
 
 TEST(RecordUff58, IsRefusedUnderAnotherName) {
-  Measurement m;
+  RecordSource m;
   m.format = RecordFormat::csv;
   EXPECT_EQ(refusal(as_text(force(1, {1, 2})), m),
             "r.uff:1:1: this is a universal file, but the case file says format = "

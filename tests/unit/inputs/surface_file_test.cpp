@@ -1,7 +1,7 @@
 #include "case_text.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/inputs/surface_file.h>
+#include <trochoid/inputs/wall_readings.h>
 
 #include <sstream>
 
@@ -105,7 +105,7 @@ TEST(SurfaceFile, ReportsEveryBadRowAtOnce) {
 
 TEST(SurfaceFile, AFileThatIsGoneIsToldWhereTheCaseNamesIt) {
   try {
-    static_cast<void>(read_surface({.file = "/no/wall.csv", .location = "c.toml:9:8"}));
+    static_cast<void>(read_surface({.file = {.name = "wall.csv", .path = "/no/wall.csv", .location = "c.toml:9:8"}}));
     FAIL();
   } catch (const base::InputError& error) {
     EXPECT_STREQ(error.what(),

@@ -14,14 +14,14 @@ constexpr double mm = 1e-3;
 constexpr double um = 1e-6;
 constexpr double inch = 25.4e-3;
 
-SurfaceFile read(const std::string& text, SurfaceMeasurement measurement = {}) {
+SurfaceFile read(const std::string& text, SurfaceSource measurement = {}) {
   std::istringstream in(text);
-  measurement.file = "wall.csv";
+  measurement.file.path = "wall.csv";
   return read_surface_file(in, measurement, 3);
 }
 
 std::string refusal(const std::string& text,
-                    const SurfaceMeasurement& measurement = {}) {
+                    const SurfaceSource& measurement = {}) {
   try {
     static_cast<void>(read(text, measurement));
   } catch (const base::InputError& error) {
@@ -64,7 +64,7 @@ TEST(SurfaceUnits, StandInNamesInARowOrInTheCase) {
   for (const std::string unit : {"um", "micron", "\xC2\xB5m", "\xCE\xBCm", "\xB5m"}) {
     expect_the_reading(read("x_mm;height_mm;error [" + unit + "]\n10;0.5;48\n"), unit);
   }
-  SurfaceMeasurement in_inches;
+  SurfaceSource in_inches;
   in_inches.unit = LengthUnit::in;
   expect_the_reading(read("x,height,error\n" + inches, in_inches), "of the case");
   expect_the_reading(
@@ -160,7 +160,7 @@ TEST(SurfaceText, WithoutNamesOrNumbersIsRefusedInWords) {
 
 /// A roughness instrument traces along the feed at one height.
 TEST(SurfaceTraces, LieAtTheHeightThatTheCaseSays) {
-  SurfaceMeasurement trace;
+  SurfaceSource trace;
   trace.height = 0.5 * mm;
   expect_the_reading(read("No.,X(mm),Z(um)\n1,10,48\n", trace), "x, z");
   expect_the_reading(read("x_mm,dev_um\n10,48\n", trace), "x, deviation");
@@ -180,7 +180,7 @@ TEST(SurfaceNames, AreThoseOfMeasuringMachines) {
     expect_the_reading(read(names + "\n10;0,5;0,048\n"), names);
   }
   for (const std::string names : {"Soll;Ist", "Nominal;Actual", "NOM;MEAS"}) {
-    SurfaceMeasurement measurement;
+    SurfaceSource measurement;
     measurement.unit = LengthUnit::mm;
     expect_the_reading(read("x;z;" + names + "\n10;0.5;-5.000;-4.952\n", measurement),
                        names);
@@ -243,7 +243,7 @@ SurfaceFrame frame_of(Direction feed, Direction normal, Direction up) {
 }
 
 TEST(SurfaceFrames, TurnCoordinatesIntoPlaceAndError) {
-  SurfaceMeasurement m;
+  SurfaceSource m;
   m.frame = frame_of({1, 0, 0}, {0, -1, 0}, {0, 0, 1});
   expect_the_reading(read("X_mm,Y_mm,Z_mm\n22,-5.048,40.5\n", m), "by Y");
   expect_the_reading(read("X_mm,Z_mm,dev_um\n22,40.5,48\n", m), "by deviation");

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/surface_file.h>
+#include <trochoid/inputs/wall_readings.h>
 
 #include <cmath>
 #include <fstream>
@@ -19,14 +19,14 @@ constexpr double mm = 1e-3;
 constexpr double um = 1e-6;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
-SurfaceFile read(const std::string& bytes, SurfaceMeasurement measurement = {}) {
+SurfaceFile read(const std::string& bytes, SurfaceSource measurement = {}) {
   std::istringstream in(bytes);
-  measurement.file = "wall.x3p";
+  measurement.file.path = "wall.x3p";
   return read_surface_file(in, measurement, 3);
 }
 
 std::string refusal(const std::string& bytes,
-                    const SurfaceMeasurement& measurement = {}) {
+                    const SurfaceSource& measurement = {}) {
   try {
     static_cast<void>(read(bytes, measurement));
   } catch (const base::InputError& error) {
@@ -95,7 +95,7 @@ TEST(SurfaceX3p, SaysWhatIsWrong) {
   std::string damaged = x3p_file({}, points);
   damaged[60] = static_cast<char>(damaged[60] ^ 1);
   EXPECT_TRUE(says(refusal(damaged), "is damaged"));
-  SurfaceMeasurement in_mm;
+  SurfaceSource in_mm;
   in_mm.unit = LengthUnit::mm;
   EXPECT_TRUE(says(refusal(x3p_file({}, points), in_mm), "are in metres"));
   const std::vector<double> gaps{gap, gap, gap, gap, 1e-6, 2e-6};
@@ -103,7 +103,7 @@ TEST(SurfaceX3p, SaysWhatIsWrong) {
 }
 
 TEST(SurfaceX3p, LiesAsTheFrameSays) {
-  SurfaceMeasurement m;
+  SurfaceSource m;
   m.frame = SurfaceFrame{{1 * mm, 1 * mm, 0},
                          Direction{-1, 0, 0},
                          Direction{0, 0, -1},
@@ -116,7 +116,7 @@ TEST(SurfaceX3p, LiesAsTheFrameSays) {
 }
 
 TEST(SurfaceX3p, AProfileLiesAtTheHeightThatTheCaseSays) {
-  SurfaceMeasurement trace;
+  SurfaceSource trace;
   trace.height = 0.5 * mm;
   const std::string profile =
       x3p_file({.size = "<SizeX>2</SizeX><SizeY>1</SizeY>", .feature = "PRF"},
@@ -161,7 +161,7 @@ TEST(SurfaceMaps, KeepWhatLiesInsideTheCut) {
     out << x3p_file({}, all_little(heights));
   }
   SurfaceMeasurement m;
-  m.file = file;
+  m.source.file = file_at(file);
   const auto surface = read_surface_of(c, m);
   EXPECT_EQ(surface.readings.size(), 2U);
   EXPECT_EQ(surface.counts.skipped, 4U);

@@ -107,7 +107,7 @@ TEST(WorkOf, RecordsAreTheirBytes) {
   EXPECT_EQ(identify_work(given).at(0).count, 1234);
   EXPECT_EQ(size_of_file(folder.path() / "none.csv"), 0);
   inputs::MachineTables machine;
-  machine.frf.emplace().file = (folder.path() / "record.csv").string();
+  machine.frf.emplace().source.file.path = (folder.path() / "record.csv").string();
   EXPECT_EQ(measured_work(machine).at(0).count, 1234);
 }
 

@@ -48,9 +48,9 @@ std::vector<Response> measured_responses(const inputs::Case& given,
                                          std::span<const identification::Run> runs,
                                          const signal::Matrix3& channels,
                                          std::vector<base::Warning>& warnings) {
-  if (!given.dynamometer || given.dynamometer->frf.empty()) return {};
-  const inputs::TransmissionFile file = inputs::read_transmission(
-      given.dynamometer->frf, given.dynamometer->frf_location);
+  if (!given.dynamometer || given.dynamometer->frf.name.empty()) return {};
+  const inputs::TransmissionFile file =
+      inputs::read_transmission(given.dynamometer->frf);
   warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
   const signal::Matrix3 inverse = inverse_of(channels);
   std::vector<Response> out;
@@ -62,7 +62,7 @@ std::vector<Response> measured_responses(const inputs::Case& given,
       throw base::InputError({fmt::format(
           "{}: the response ends at {:g} Hz; must reach the passing of the teeth at least, "
           "{:g} Hz",
-          given.dynamometer->frf.string(), file.transmission.omega.back() / unit::Hz,
+          given.dynamometer->frf.path, file.transmission.omega.back() / unit::Hz,
           given.setup.cutter.teeth() * run.cut.Omega / unit::Hz)});
     }
     Response& response = out.emplace_back();

@@ -24,7 +24,7 @@ std::vector<Work> identify_work(const inputs::Case& given) {
   std::vector<Work> parts;
   for (std::size_t i = 0; i < given.measurements.size(); ++i) {
     constexpr double megabyte = 1e6;
-    const double size = size_of_file(given.measurements[i].file);
+    const double size = size_of_file(given.measurements[i].source.file.path);
     parts.push_back({.what = "bytes of records",
                      .count = size,
                      .evaluations = size * byte_evaluations,

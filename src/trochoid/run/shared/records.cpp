@@ -53,7 +53,7 @@ std::vector<signal::Record> read_all(const inputs::Case& given) {
   std::vector<std::string> problems;
   for (const inputs::Measurement& m : given.measurements) {
     try {
-      records.push_back(inputs::read_record(m));
+      records.push_back(inputs::read_record(m.source));
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

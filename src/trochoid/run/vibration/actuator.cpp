@@ -11,16 +11,8 @@
 
 namespace trochoid::run {
 
-inputs::StepSource step_source(const inputs::StepTables& step) {
-  return {.file = step.file,
-          .location = step.location,
-          .step = step.step,
-          .start = step.start,
-          .content = step.content};
-}
-
 results::ActuatorResult actuator(const inputs::Case& given) {
-  inputs::StepFile file = inputs::read_step(step_source(*given.machine.step));
+  inputs::StepFile file = inputs::read_step(*given.machine.step);
   results::ActuatorResult r{.heading = heading_of(given),
                             .record = std::move(file.record),
                             .command = std::move(file.command)};

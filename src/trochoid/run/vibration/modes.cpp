@@ -35,25 +35,9 @@ structure::ModesOptions options_of(const inputs::FrfTables& frf) {
 
 }  // namespace
 
-inputs::FrfSource frf_source(const inputs::FrfTables& frf) {
-  return {.file = frf.file,
-          .location = frf.location,
-          .kind = frf.kind,
-          .dataset = frf.dataset,
-          .content = frf.content};
-}
-
-inputs::FrfSource frf_source(const inputs::MeasuredFrf& frf) {
-  return {.file = frf.file,
-          .location = frf.location,
-          .kind = frf.kind,
-          .dataset = frf.dataset,
-          .content = frf.content};
-}
-
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
-  inputs::FrfFile file = inputs::read_frf(frf_source(frf));
+  inputs::FrfFile file = inputs::read_frf(frf.source);
   results::ModesResult r{.heading = heading_of(given),
                          .kind = file.response.kind,
                          .description = std::move(file.description),

@@ -1,14 +1,9 @@
 #pragma once
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/inputs/frf_file.h>
 #include <trochoid/results/modes.h>
 
 namespace trochoid::run {
-
-/// @brief Which response [frf] means.
-inputs::FrfSource frf_source(const inputs::FrfTables& frf);
-inputs::FrfSource frf_source(const inputs::MeasuredFrf& frf);
 
 /// @brief Modal parameters from the frequency response of a case.
 /// @param given  with [frf]

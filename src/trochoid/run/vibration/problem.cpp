@@ -26,7 +26,7 @@ dynamics::ImposedCommand imposed(const inputs::ImposedCommand& command) {
                                .peak_to_peak = command.peak_to_peak.value_or(0.0),
                                .lead = command.lead};
   if (command.shape == dynamics::CommandShape::table) {
-    out.table = inputs::read_command(command);
+    out.table = inputs::read_command(command.file);
   }
   return out;
 }

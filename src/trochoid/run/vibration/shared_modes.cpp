@@ -30,21 +30,21 @@ struct Source {
 std::vector<Source> sources_of(const inputs::Case& given,
                                const inputs::FrfTables& frf) {
   std::vector<Source> out;
-  if (!frf.file.empty()) {
-    if (frf.dataset == 0) {
-      for (inputs::DirectedFrf& one : inputs::read_directed_frfs(frf_source(frf))) {
+  if (!frf.source.file.name.empty()) {
+    if (frf.source.dataset == 0) {
+      for (inputs::DirectedFrf& one : inputs::read_directed_frfs(frf.source)) {
         out.push_back({std::move(one), frf.band});
       }
     }
     if (out.empty()) {
       out.push_back(
-          {{frf.axis, frf.axis, inputs::read_frf(frf_source(frf))}, frf.band});
+          {{frf.axis, frf.axis, inputs::read_frf(frf.source)}, frf.band});
     }
     return out;
   }
   for (const inputs::MeasuredFrf& one : given.machine.measured_frfs) {
     out.push_back({{one.axis, one.force_axis.value_or(one.axis),
-                    inputs::read_frf(frf_source(one))},
+                    inputs::read_frf(one.source)},
                    one.band.empty() ? frf.band : one.band});
   }
   return out;
@@ -134,16 +134,16 @@ structure::ShapesOptions options_of(const inputs::FrfTables& frf) {
 
 bool modes_are_shared(const inputs::Case& given) {
   const auto& frf = given.machine.frf;
-  if (!frf || frf->file.empty() || frf->shapes == inputs::Shapes::complex) {
+  if (!frf || frf->source.file.name.empty() || frf->shapes == inputs::Shapes::complex) {
     return true;
   }
-  return frf->dataset == 0 && !inputs::read_directed_frfs(frf_source(*frf)).empty();
+  return frf->source.dataset == 0 && !inputs::read_directed_frfs(frf->source).empty();
 }
 
 results::SharedModesResult shared_modes(const inputs::Case& given) {
   const inputs::FrfTables frf = given.machine.frf.value_or(inputs::FrfTables{});
   results::SharedModesResult r{.heading = heading_of(given)};
-  r.body = frf.file.empty() ? given.machine.measured_frfs.front().body : frf.body;
+  r.body = frf.source.file.name.empty() ? given.machine.measured_frfs.front().body : frf.body;
   std::vector<DirectedResponse> all;
   std::string fault;
   for (Source& source : sources_of(given, frf)) {

@@ -58,7 +58,7 @@ MeasuredReceptance lines_of(const inputs::MeasuredFrf& frf,
   if (part.omega.size() < fewest_lines) {
     throw base::InputError(
         {fmt::format("{}: {} has {} lines above 0 Hz{}; must have at least {}",
-                     frf.location, frf.file, part.omega.size(),
+                     frf.source.file.location, frf.source.file.path, part.omega.size(),
                      frf.band.empty() ? "" : " in band_Hz", fewest_lines)});
   }
   return part;
@@ -83,7 +83,7 @@ void check_sign(const inputs::MeasuredFrf& frf, const MeasuredReceptance& part) 
         "{}: {}: the tool point would move against the force (the imaginary part of "
         "the receptance is positive at its peaks): the sensor points against the "
         "hammer, or kind is wrong; change the sign of the response, or `kind`",
-        frf.location, frf.file)});
+        frf.source.file.location, frf.source.file.path)});
   }
 }
 
@@ -190,7 +190,7 @@ std::vector<FittedMode> along(inputs::ModeBody body, inputs::Axis axis,
     }
     structure::ModesFit fit = structure::identify_modes(one.response, {});
     if (!fit.ok && point.no_modes.empty()) {
-      point.no_modes = fmt::format("{}: {}", one.frf.file, fit.reason);
+      point.no_modes = fmt::format("{}: {}", one.frf.source.file.path, fit.reason);
     }
     return std::move(fit.modes);
   }
@@ -231,7 +231,7 @@ ToolPoint tool_point(const inputs::Case& given, Warnings& warnings) {
   ToolPoint point;
   std::vector<Measured> all;
   for (const inputs::MeasuredFrf& frf : given.machine.measured_frfs) {
-    inputs::FrfFile file = inputs::read_frf(frf_source(frf));
+    inputs::FrfFile file = inputs::read_frf(frf.source);
     warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
     all.push_back({frf, in_band(frf, std::move(file.response))});
     MeasuredReceptance part = lines_of(frf, all.back().response);

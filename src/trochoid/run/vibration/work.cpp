@@ -125,8 +125,8 @@ std::vector<Work> measured_work(const inputs::MachineTables& machine) {
                              .value = size / megabyte,
                              .of = " MB"}});
   };
-  if (machine.frf) add("frf", machine.frf->file);
-  if (machine.step) add("step", machine.step->file);
+  if (machine.frf) add("frf", machine.frf->source.file.path);
+  if (machine.step) add("step", machine.step->file.path);
   return parts;
 }
 

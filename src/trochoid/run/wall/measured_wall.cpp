@@ -1,7 +1,7 @@
 #include <trochoid/run/wall/measured_wall.h>
 
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/surface_file.h>
+#include <trochoid/inputs/wall_readings.h>
 #include <trochoid/run/wall/setting.h>
 
 #include <string>
@@ -48,7 +48,7 @@ MeasuredWall measured_wall(const inputs::Case& given) {
       continue;
     }
     for (const base::Warning& note : file.notes) {
-      wall.notes.push_back({note.code, m.file + ": " + note.message});
+      wall.notes.push_back({note.code, m.source.file.path + ": " + note.message});
     }
     wall.counts.add(file.counts);
     for (const inputs::SurfaceReading& read : file.readings) {

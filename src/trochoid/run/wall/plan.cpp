@@ -122,7 +122,7 @@ struct WallPlanning {
     measured = std::move(wall.readings);
     r.measured = measured.size();
     for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
-      r.files.push_back(m.file);
+      r.files.push_back(m.source.file.path);
     }
     return "";
   }

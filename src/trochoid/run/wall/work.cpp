@@ -61,7 +61,7 @@ std::vector<Work> calibrate_work(const inputs::Case& given) {
   std::vector<Work> parts;
   const auto& all = given.machine.surface_measurements;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double size = size_of_file(all[i].file);
+    const double size = size_of_file(all[i].source.file.path);
     parts.push_back({.what = "bytes of the surface",
                      .count = size,
                      .evaluations = size * byte_evaluations,

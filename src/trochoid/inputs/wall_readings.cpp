@@ -1,0 +1,169 @@
+#include <trochoid/inputs/wall_readings.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/base/names.h>
+#include <trochoid/inputs/csv.h>
+#include <trochoid/inputs/numeric_table.h>
+#include <trochoid/inputs/surface_place.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace trochoid::inputs {
+
+namespace {
+
+/// Where readings may lie.
+struct Limits {
+  double height = 0.0;             ///< from 0 to this [m]
+  std::optional<double> length{};  ///< x from 0 to this [m]; none: anywhere
+
+  /// Numbers in um and in mm differ in the last bit.
+  static constexpr double slack = 1e-9;
+  static bool beyond(double value, double most) {
+    return value < -slack * most || value > most * (1 + slack);
+  }
+  [[nodiscard]] bool misses_height(const SurfaceReading& r) const {
+    return beyond(r.height, height);
+  }
+  [[nodiscard]] bool misses_length(const SurfaceReading& r) const {
+    return length && r.x && beyond(*r.x, *length);
+  }
+};
+
+Limits limits_of(const Case& given) {
+  const auto& wall = given.machine.wall;
+  const bool along_wall = wall && given.machine.surface.value_or(Surface{}).model !=
+                                      surface::Model::quasi_static;
+  Limits limits{.height = given.setup.cut.a_p};
+  if (along_wall) limits.length = wall->length;
+  return limits;
+}
+
+/// Smallest and largest of a length over all readings.
+struct Extent {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// What would bring all values of a column inside, in words; empty: nothing would.
+/// @param unit  of its column; none: they were placed by a frame
+std::string likely_cause(const Extent& extent, double most,
+                         const std::optional<std::string>& unit) {
+  const auto fits = [&](double factor) {
+    const double low = std::min(extent.low * factor, extent.high * factor);
+    const double high = std::max(extent.low * factor, extent.high * factor);
+    return !Limits::beyond(low, most) && !Limits::beyond(high, most) &&
+           high >= 0.02 * most;
+  };
+  if (extent.high <= 0.0 && fits(-1.0)) {
+    return "; with the other sign all readings would lie inside";
+  }
+  if (!unit) return "; frame in the case says how the wall lies";
+  if (extent.high < 3.0 * most) return {};  // a reading or two too far
+  const std::string said = unit->empty() ? "mm" : *unit;
+  const auto known = base::named<LengthUnit>(said).value_or(LengthUnit::mm);
+  for (const auto other : {LengthUnit::um, LengthUnit::mm, LengthUnit::m,
+                           LengthUnit::in, LengthUnit::thou}) {
+    if (other != known && fits(factor_of(other) / factor_of(known))) {
+      return fmt::format("; in {} instead of {} all readings would lie inside",
+                         name_of(other), said);
+    }
+  }
+  return {};
+}
+
+template <class Value>
+Extent extent_of(const std::vector<SurfaceReading>& readings, const Value& value) {
+  Extent extent{std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity()};
+  for (const SurfaceReading& reading : readings) {
+    extent.low = std::min(extent.low, value(reading));
+    extent.high = std::max(extent.high, value(reading));
+  }
+  return extent;
+}
+
+/// Leave out what a map shows beside the wall.
+void keep_inside(SurfaceFile& surface, const Limits& limits, const std::string& file) {
+  const std::size_t before = surface.readings.size();
+  std::erase_if(surface.readings, [&](const SurfaceReading& reading) {
+    return limits.misses_height(reading) || limits.misses_length(reading);
+  });
+  const std::size_t outside = before - surface.readings.size();
+  if (surface.readings.empty()) {
+    refuse(file,
+           "no point of the map lies inside the cut: x from 0 to the length of the "
+           "wall, height from 0 to the axial depth; frame = { origin_mm = [...], "
+           "feed = ..., normal = ..., up = ... } says how it lies");
+  }
+  if (outside > 0) {
+    surface.counts.skipped += outside;
+    surface.notes.push_back(
+        {"points_outside",
+         fmt::format(
+             "{} of {} points of the map were left out because they lie outside "
+             "the cut.",
+             outside, before)});
+  }
+}
+
+}  // namespace
+
+SurfaceFile read_surface_of(const Case& given, const SurfaceMeasurement& measurement) {
+  SurfaceFile surface = read_surface_file(measurement.source, given.setup.cutter.teeth());
+  if (surface.map) {
+    keep_inside(surface, limits_of(given), measurement.source.file.path);
+  }
+  auto misplaced = check_readings(surface, measurement.source.file.path, given);
+  if (!misplaced.empty()) {
+    throw base::InputError(std::move(misplaced));
+  }
+  return surface;
+}
+
+std::vector<std::string> check_readings(const SurfaceFile& surface,
+                                        const std::string& file, const Case& given) {
+  const Limits limits = limits_of(given);
+  const auto& readings = surface.readings;
+  Problems problems{file, {}};
+  const auto hint = [&](const Extent& extent, double most, const std::string& unit) {
+    return likely_cause(extent, most,
+                        surface.framed ? std::nullopt : std::optional(unit));
+  };
+  const std::string height_hint =
+      hint(extent_of(readings, [](const SurfaceReading& r) { return r.height; }),
+           limits.height, surface.height_unit);
+  const auto x_of = [](const SurfaceReading& r) { return r.x.value_or(0.0); };
+  const std::string x_hint =
+      limits.length ? hint(extent_of(readings, x_of), *limits.length, surface.x_unit)
+                    : std::string();
+  for (const SurfaceReading& reading : readings) {
+    if (problems.full()) break;
+    if (limits.misses_height(reading)) {
+      problems.add(
+          reading.line, 1,
+          fmt::format("the height of {} mm is outside the cut: must be from 0 "
+                      "to axial_depth_mm = {} mm, above the tip of the cutter{}",
+                      in_mm(reading.height), in_mm(limits.height), height_hint));
+    }
+    if (limits.misses_length(reading)) {
+      problems.add(reading.line, 1,
+                   fmt::format("x = {} mm is outside the wall: must be from 0 to "
+                               "length_mm = {} mm{}",
+                               in_mm(*reading.x), in_mm(*limits.length), x_hint));
+    }
+  }
+  return problems.lines;
+}
+
+std::vector<std::string> check_readings(const std::vector<SurfaceReading>& readings,
+                                        const std::string& file, const Case& given) {
+  SurfaceFile surface;
+  surface.readings = readings;
+  return check_readings(surface, file, given);
+}
+
+}  // namespace trochoid::inputs
