@@ -36,7 +36,7 @@ void use(const SurfaceFile& surface, int teeth) {
   trochoid::inputs::Case given;
   given.setup.cut.a_p = 3e-3;
   given.machine.wall.emplace().length = 0.06;
-  trochoid::inputs::check_readings(surface, "wall", given);
+  trochoid::inputs::check_readings(surface, "wall", trochoid::inputs::wall_of(given));
 }
 
 }  // namespace

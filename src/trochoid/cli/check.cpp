@@ -2,10 +2,6 @@
 #include <trochoid/base/names.h>
 #include <trochoid/cli/given_case.h>
 #include <trochoid/inputs/case_source.h>
-#include <trochoid/inputs/frf_file.h>
-#include <trochoid/inputs/record_file.h>
-#include <trochoid/inputs/step_file.h>
-#include <trochoid/inputs/wall_readings.h>
 #include <trochoid/run/identify/describe_record.h>
 #include <trochoid/run/shared/records.h>
 
@@ -26,10 +22,10 @@ void check_machine_files(const inputs::Case& given,
     }
   };
   if (given.machine.frf) {
-    look([&] { inputs::read_frf(given.machine.frf->source); });
+    look([&] { given.machine.frf->response.get(); });
   }
   if (given.machine.step) {
-    look([&] { inputs::read_step(*given.machine.step); });
+    look([&] { given.machine.step->step.get(); });
   }
 }
 
@@ -46,7 +42,7 @@ int check(const Options& options) {
   }
   for (const inputs::Measurement& measurement : given.measurements) {
     try {
-      const signal::Record record = inputs::read_record(measurement.source);
+      const signal::Record& record = measurement.record.get();
       found += run::describe_record(record, measurement);
       if (const auto why = run::missing_channel(record, given); !why.empty()) {
         problems.push_back(why);
@@ -62,7 +58,7 @@ int check(const Options& options) {
   const auto& surfaces = given.machine.surface_measurements;
   for (const inputs::SurfaceMeasurement& measurement : surfaces) {
     try {
-      const inputs::SurfaceFile surface = inputs::read_surface_of(given, measurement);
+      const inputs::SurfaceFile& surface = measurement.surface.get();
       for (const base::Warning& note : surface.notes) {
         found += fmt::format("warning [{}]: {}: {}\n", note.code, measurement.source.file.path,
                              note.message);

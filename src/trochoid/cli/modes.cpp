@@ -64,9 +64,9 @@ int actuator(const Options& options) {
                   "--step-um and --start-s", "[step]");
   inputs::MachineTables machine;
   machine.step =
-      inputs::StepSource{.file = inputs::file_at(options.file.string()), .start = options.start_s};
+      inputs::StepTables{.source = {.file = inputs::file_at(options.file.string()), .start = options.start_s}};
   if (options.step_um) {
-    machine.step->step = *options.step_um * 1e-6;
+    machine.step->source.step = *options.step_um * 1e-6;
   }
   const inputs::Case given = case_of(options, machine, base::Command::actuator);
   return work_on(given, options, base::Command::actuator,

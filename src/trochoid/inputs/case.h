@@ -5,10 +5,13 @@
 #include <trochoid/force/law.h>
 #include <trochoid/force/setup.h>
 #include <trochoid/identification/identify.h>
+#include <trochoid/inputs/held.h>
 #include <trochoid/inputs/machine_tables.h>
 #include <trochoid/inputs/previous_clamping.h>
 #include <trochoid/inputs/record_source.h>
+#include <trochoid/inputs/transmission_file.h>
 #include <trochoid/inputs/wall_plan.h>
+#include <trochoid/signal/record.h>
 
 #include <array>
 #include <filesystem>
@@ -36,12 +39,14 @@ struct Dynamometer {
   bool automatic = false;     ///< axes = "auto": find the signed permutation
   bool rigid = false;         ///< resonance = "none": none is looked for
   FileRef frf;                ///< measured response, channel over force; or none
+  Held<TransmissionFile> response;  ///< what it holds
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
 /// One [[measurement]].
 struct Measurement {
   RecordSource source;
+  Held<signal::Record> record;
   std::optional<double> from;  ///< what is before it is not used [s]
   std::optional<double> to;    ///< what is after it is not used [s]
   std::string group;           ///< those of one name share coefficients

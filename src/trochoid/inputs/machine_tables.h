@@ -89,9 +89,16 @@ struct Surface {
 /// One [[surface_measurement]].
 struct SurfaceMeasurement {
   SurfaceSource source;
+  Held<SurfaceFile> surface;
   bool datum_offset = false;          ///< a constant shift of the readings is estimated
   bool datum_tilt = false;            ///< as are tilts along and across the feed
   std::optional<surface::Form> form;  ///< none: as the readings decide
+};
+
+/// [step]: a measured step of the actuator.
+struct StepTables {
+  StepSource source;
+  Held<StepFile> step;
 };
 
 /// Natural frequencies that a mode or an actuator may have [Hz].
@@ -132,6 +139,7 @@ struct ImposedCommand {
   CommandShape shape = CommandShape::sine;
   std::optional<double> peak_to_peak;  ///< [m]; not of a table
   FileRef file;                        ///< of a table
+  Held<dynamics::CommandTable> table;  ///< what it holds
   double lead = 0.0;                   ///< [s]
 };
 
@@ -165,7 +173,7 @@ struct MachineTables {
   std::optional<Actuator> actuator;
   std::optional<FrfTables> frf;
   std::vector<MeasuredFrf> measured_frfs;
-  std::optional<StepSource> step;  ///< [step]: of the actuator
+  std::optional<StepTables> step;
   std::optional<ImposedCommand> command;
   std::optional<Correction> correct;
   std::optional<Spindle> spindle;

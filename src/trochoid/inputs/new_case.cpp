@@ -180,7 +180,7 @@ CaseTables modes_example() {
 CaseTables actuator_example() {
   CaseTables t;
   t.title = "Step of the actuator";
-  t.machine.step.emplace().file.name = "step.csv";
+  t.machine.step.emplace().source.file.name = "step.csv";
   return t;
 }
 

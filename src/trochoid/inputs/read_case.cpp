@@ -1,8 +1,11 @@
 #include <trochoid/base/error.h>
 #include <trochoid/inputs/case_source.h>
+#include <trochoid/inputs/command_file.h>
 #include <trochoid/inputs/read_table.h>
+#include <trochoid/inputs/record_file.h>
 #include <trochoid/inputs/rules.h>
 #include <trochoid/inputs/tables.h>
+#include <trochoid/inputs/wall_readings.h>
 #include <trochoid/inputs/write_case.h>
 
 #include <fmt/core.h>
@@ -259,6 +262,40 @@ Findings findings_of(const CaseSource& source) {
           .base = source.base};
 }
 
+/// Every file that the case names is read when its data are asked for.
+void hold_data(Case& c) {
+  for (Measurement& m : c.measurements) {
+    m.record = Held<signal::Record>::by([source = m.source] { return read_record(source); });
+  }
+  if (c.dynamometer && !c.dynamometer->frf.name.empty()) {
+    c.dynamometer->response = Held<TransmissionFile>::by(
+        [file = c.dynamometer->frf] { return read_transmission(file); });
+  }
+  MachineTables& machine = c.machine;
+  for (SurfaceMeasurement& m : machine.surface_measurements) {
+    m.surface = Held<SurfaceFile>::by([wall = wall_of(c), source = m.source] {
+      return read_wall(source, wall);
+    });
+  }
+  const auto response = [](const FrfSource& source) {
+    return Held<FrfFile>::by([source] { return read_frf(source); });
+  };
+  if (machine.frf) {
+    machine.frf->response = response(machine.frf->source);
+    machine.frf->directed = Held<std::vector<DirectedFrf>>::by(
+        [source = machine.frf->source] { return read_directed_frfs(source); });
+  }
+  for (MeasuredFrf& frf : machine.measured_frfs) frf.response = response(frf.source);
+  if (machine.step) {
+    machine.step->step = Held<StepFile>::by(
+        [source = machine.step->source] { return read_step(source); });
+  }
+  if (machine.command && machine.command->shape == CommandShape::table) {
+    machine.command->table = Held<dynamics::CommandTable>::by(
+        [file = machine.command->file] { return read_command(file); });
+  }
+}
+
 }  // namespace
 
 Case read_case(const fs::path& file, std::optional<Command> command,
@@ -297,6 +334,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
     throw base::InputError(lines(findings));
   }
   c.file = source.file;
+  hold_data(c);
   c.notes = std::move(findings.notes);
   name_files_from(result_folder, tables);
   c.as_understood = no_cut ? write_machine_case(tables) : write_case(tables);
@@ -307,7 +345,7 @@ Case bare_case(const MachineTables& machine, Command command,
                const fs::path& result_folder) {
   const bool modes = command == Command::modes;
   Findings findings{.file = modes ? machine.frf->source.file.path
-                                  : machine.step->file.path};
+                                  : machine.step->source.file.path};
   CaseTables tables;
   tables.machine = machine;
   tables.title = fs::path(findings.file).filename().string();
@@ -319,6 +357,7 @@ Case bare_case(const MachineTables& machine, Command command,
   c.file = findings.file;
   c.title = tables.title;
   c.machine = tables.machine;
+  hold_data(c);
   name_files_from(result_folder, tables);
   c.as_understood = write_machine_case(tables);
   return c;

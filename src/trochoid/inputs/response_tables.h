@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/inputs/frf_file.h>
+#include <trochoid/inputs/held.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
@@ -50,6 +51,8 @@ using structure::ModeBody;
 /// [frf]: a measured frequency response.
 struct FrfTables {
   FrfSource source;  ///< no file: the [[measured_frf]] together
+  Held<FrfFile> response;
+  Held<std::vector<DirectedFrf>> directed;  ///< where the file says directions
   int modes = 0;             ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ResidualTerms residual_terms = ResidualTerms::choose;
@@ -62,6 +65,7 @@ struct FrfTables {
 /// One [[measured_frf]]: how tool point or work answers, for stability without modes.
 struct MeasuredFrf {
   FrfSource source;
+  Held<FrfFile> response;
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ModeBody body = ModeBody::tool;
   Axis axis = Axis::x;             ///< of the motion

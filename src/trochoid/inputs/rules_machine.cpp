@@ -141,7 +141,7 @@ void check_machine(MachineTables& machine, const ToolTable& tool, Findings& find
     check_band(*machine.frf, findings);
   }
   if (machine.step) {
-    check_step(*machine.step, findings);
+    check_step(machine.step->source, findings);
   }
   if (machine.wall) {
     settle_wall(*machine.wall, findings);

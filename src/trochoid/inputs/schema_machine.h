@@ -14,7 +14,7 @@ void describe(const Visitor& v, Mode& t);
 void describe(const Visitor& v, Actuator& t);
 void describe(const Visitor& v, FrfTables& t);
 void describe(const Visitor& v, MeasuredFrf& t);
-void describe(const Visitor& v, StepSource& t);
+void describe(const Visitor& v, StepTables& t);
 void describe(const Visitor& v, ImposedCommand& t);
 void describe(const Visitor& v, Correction& t);
 void describe(const Visitor& v, Spindle& t);

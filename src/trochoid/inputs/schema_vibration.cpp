@@ -183,22 +183,22 @@ void describe(const Visitor& v, MeasuredFrf& t) {
     choice(t.force_axis, "same"));
 }
 
-void describe(const Visitor& v, StepSource& t) {
+void describe(const Visitor& v, StepTables& t) {
   v({.name = "file",
      .meaning = "the record of the step, relative to the file that names it",
      .need = Need::always,
      .file = "the record of a step (csv)"},
-    &t.file);
+    &t.source.file);
   v({.name = "step_um",
      .meaning = "height of the commanded step",
      .standard = "from the column command",
      .example = "6"},
-    &t.step);
+    &t.source.step);
   v({.name = "start_s",
      .meaning = "when the step was commanded",
      .standard = "fitted",
      .example = "0.001"},
-    &t.start);
+    &t.source.start);
 }
 
 void describe(const Visitor& v, ImposedCommand& t) {

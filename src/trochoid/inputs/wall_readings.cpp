@@ -15,31 +15,18 @@ namespace trochoid::inputs {
 
 namespace {
 
-/// Where readings may lie.
-struct Limits {
-  double height = 0.0;             ///< from 0 to this [m]
-  std::optional<double> length{};  ///< x from 0 to this [m]; none: anywhere
+/// Numbers in um and in mm differ in the last bit.
+bool beyond(double value, double most) {
+  constexpr double slack = 1e-9;
+  return value < -slack * most || value > most * (1 + slack);
+}
 
-  /// Numbers in um and in mm differ in the last bit.
-  static constexpr double slack = 1e-9;
-  static bool beyond(double value, double most) {
-    return value < -slack * most || value > most * (1 + slack);
-  }
-  [[nodiscard]] bool misses_height(const SurfaceReading& r) const {
-    return beyond(r.height, height);
-  }
-  [[nodiscard]] bool misses_length(const SurfaceReading& r) const {
-    return length && r.x && beyond(*r.x, *length);
-  }
-};
+bool misses_height(const WallLimits& limits, const SurfaceReading& r) {
+  return beyond(r.height, limits.height);
+}
 
-Limits limits_of(const Case& given) {
-  const auto& wall = given.machine.wall;
-  const bool along_wall = wall && given.machine.surface.value_or(Surface{}).model !=
-                                      surface::Model::quasi_static;
-  Limits limits{.height = given.setup.cut.a_p};
-  if (along_wall) limits.length = wall->length;
-  return limits;
+bool misses_length(const WallLimits& limits, const SurfaceReading& r) {
+  return limits.length && r.x && beyond(*r.x, *limits.length);
 }
 
 /// Smallest and largest of a length over all readings.
@@ -55,7 +42,7 @@ std::string likely_cause(const Extent& extent, double most,
   const auto fits = [&](double factor) {
     const double low = std::min(extent.low * factor, extent.high * factor);
     const double high = std::max(extent.low * factor, extent.high * factor);
-    return !Limits::beyond(low, most) && !Limits::beyond(high, most) &&
+    return !beyond(low, most) && !beyond(high, most) &&
            high >= 0.02 * most;
   };
   if (extent.high <= 0.0 && fits(-1.0)) {
@@ -87,10 +74,10 @@ Extent extent_of(const std::vector<SurfaceReading>& readings, const Value& value
 }
 
 /// Leave out what a map shows beside the wall.
-void keep_inside(SurfaceFile& surface, const Limits& limits, const std::string& file) {
+void keep_inside(SurfaceFile& surface, const WallLimits& limits, const std::string& file) {
   const std::size_t before = surface.readings.size();
   std::erase_if(surface.readings, [&](const SurfaceReading& reading) {
-    return limits.misses_height(reading) || limits.misses_length(reading);
+    return misses_height(limits, reading) || misses_length(limits, reading);
   });
   const std::size_t outside = before - surface.readings.size();
   if (surface.readings.empty()) {
@@ -112,21 +99,25 @@ void keep_inside(SurfaceFile& surface, const Limits& limits, const std::string& 
 
 }  // namespace
 
-SurfaceFile read_surface_of(const Case& given, const SurfaceMeasurement& measurement) {
-  SurfaceFile surface = read_surface_file(measurement.source, given.setup.cutter.teeth());
-  if (surface.map) {
-    keep_inside(surface, limits_of(given), measurement.source.file.path);
-  }
-  auto misplaced = check_readings(surface, measurement.source.file.path, given);
-  if (!misplaced.empty()) {
-    throw base::InputError(std::move(misplaced));
-  }
+WallLimits wall_of(const Case& given) {
+  const auto& wall = given.machine.wall;
+  const bool along_wall = wall && given.machine.surface.value_or(Surface{}).model !=
+                                      surface::Model::quasi_static;
+  WallLimits limits{.height = given.setup.cut.a_p, .teeth = given.setup.cutter.teeth()};
+  if (along_wall) limits.length = wall->length;
+  return limits;
+}
+
+SurfaceFile read_wall(const SurfaceSource& source, const WallLimits& limits) {
+  SurfaceFile surface = read_surface_file(source, limits.teeth);
+  if (surface.map) keep_inside(surface, limits, source.file.path);
+  auto misplaced = check_readings(surface, source.file.path, limits);
+  if (!misplaced.empty()) throw base::InputError(std::move(misplaced));
   return surface;
 }
 
 std::vector<std::string> check_readings(const SurfaceFile& surface,
-                                        const std::string& file, const Case& given) {
-  const Limits limits = limits_of(given);
+                                        const std::string& file, const WallLimits& limits) {
   const auto& readings = surface.readings;
   Problems problems{file, {}};
   const auto hint = [&](const Extent& extent, double most, const std::string& unit) {
@@ -142,14 +133,14 @@ std::vector<std::string> check_readings(const SurfaceFile& surface,
                     : std::string();
   for (const SurfaceReading& reading : readings) {
     if (problems.full()) break;
-    if (limits.misses_height(reading)) {
+    if (misses_height(limits, reading)) {
       problems.add(
           reading.line, 1,
           fmt::format("the height of {} mm is outside the cut: must be from 0 "
                       "to axial_depth_mm = {} mm, above the tip of the cutter{}",
                       in_mm(reading.height), in_mm(limits.height), height_hint));
     }
-    if (limits.misses_length(reading)) {
+    if (misses_length(limits, reading)) {
       problems.add(reading.line, 1,
                    fmt::format("x = {} mm is outside the wall: must be from 0 to "
                                "length_mm = {} mm{}",
@@ -157,13 +148,6 @@ std::vector<std::string> check_readings(const SurfaceFile& surface,
     }
   }
   return problems.lines;
-}
-
-std::vector<std::string> check_readings(const std::vector<SurfaceReading>& readings,
-                                        const std::string& file, const Case& given) {
-  SurfaceFile surface;
-  surface.readings = readings;
-  return check_readings(surface, file, given);
 }
 
 }  // namespace trochoid::inputs

@@ -2,25 +2,33 @@
 
 #include <trochoid/inputs/case.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 /// Readings of a wall against the cut of their case.
 namespace trochoid::inputs {
 
-/// @brief A measurement of a case, with all that is wrong with it there (see
-/// check_readings); of a map the points inside the cut.
+/// Where readings of the wall of a case may lie.
+struct WallLimits {
+  double height = 0.0;             ///< from 0 to this [m]
+  std::optional<double> length{};  ///< x from 0 to this [m]; none: anywhere
+  int teeth = 0;                   ///< of the cutter
+};
+
+WallLimits wall_of(const Case& given);
+
+/// @brief A measured surface, with all that is wrong with it there (see check_readings);
+/// of a map the points inside the cut.
 /// @throws base::InputError
-SurfaceFile read_surface_of(const Case& given, const SurfaceMeasurement& measurement);
+SurfaceFile read_wall(const SurfaceSource& source, const WallLimits& limits);
 
 /// @brief What is wrong with readings at the places where they were taken: heights
-/// outside the cut, and, unless the surface is quasi_static, x outside the wall.
+/// outside the cut, and, unless the surface is quasi_static, x outside the wall; names the
+/// unit in which all of them would fit, if there is one.
 /// @return finished lines `file:line:col: ...`
-std::vector<std::string> check_readings(const std::vector<SurfaceReading>& readings,
-                                        const std::string& file, const Case& given);
-
-/// @brief The same; names the unit in which all of them would fit, if there is one.
 std::vector<std::string> check_readings(const SurfaceFile& surface,
-                                        const std::string& file, const Case& given);
+                                        const std::string& file,
+                                        const WallLimits& limits);
 
 }  // namespace trochoid::inputs

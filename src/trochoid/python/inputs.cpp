@@ -118,8 +118,8 @@ inputs::Case bare_case(const std::string& file, base::Command command,
                           .modes = options.modes,
                           .band = options.band};
   } else {
-    machine.step = inputs::StepSource{.file = inputs::file_at(file), .start = options.start_s};
-    if (options.step_um) machine.step->step = *options.step_um * unit::um;
+    machine.step = inputs::StepTables{.source = {.file = inputs::file_at(file), .start = options.start_s}};
+    if (options.step_um) machine.step->source.step = *options.step_um * unit::um;
   }
   return inputs::bare_case(machine, command, folder);
 }

@@ -95,7 +95,7 @@ TEST(CaseInMemory, ARecordInMemoryStandsForItsFile) {
   const Case c =
       read_case({root, "folder/case", {.records = {{"plate", three_samples()}}}},
                 Command::identify);
-  const signal::Record record = read_record(c.measurements.at(0).source);
+  const signal::Record& record = c.measurements.at(0).record.get();
   EXPECT_EQ(record.file, "plate");
   EXPECT_EQ(record.channel[2], std::vector<double>(3, 2000.0));
   EXPECT_EQ(record.sample_rate, 1000.0);
@@ -117,9 +117,9 @@ TEST(CaseInMemory, ATextStandsForTheFileThatItWouldBe) {
         .texts = {{"tip", text("freq_Hz,re_m/N,im_m/N\n10,1e-6,0\n20,2e-6,0\n")},
                   {"step", text("time_s,position_um\n0,0\n1,3\n")}}}},
       Command::modes);
-  const FrfFile response = read_frf(c.machine.frf->source);
+  const FrfFile& response = c.machine.frf->response.get();
   EXPECT_EQ(response.response.H.at(1).real(), 2e-6);
-  StepSource step_source = *c.machine.step;
+  StepSource step_source = c.machine.step->source;
   step_source.step = 1e-6;
   const StepFile read = read_step(step_source);
   EXPECT_EQ(read.record.position.at(1), 3e-6);

@@ -339,7 +339,7 @@ TEST(RecordCsv, RefusesAnEndlessLineWithoutReadingIt) {
 
 TEST(RecordCsv, OpensRegularFilesOnly) {
   RecordSource m;
-  m.location = "case.toml:7:8";
+  m.file.location = "case.toml:7:8";
   for (const char* name : {"/dev/zero", "/", "/no/such/file"}) {
     m.file.path = name;
     try {

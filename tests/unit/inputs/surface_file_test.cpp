@@ -105,7 +105,8 @@ TEST(SurfaceFile, ReportsEveryBadRowAtOnce) {
 
 TEST(SurfaceFile, AFileThatIsGoneIsToldWhereTheCaseNamesIt) {
   try {
-    static_cast<void>(read_surface({.file = {.name = "wall.csv", .path = "/no/wall.csv", .location = "c.toml:9:8"}}));
+    static_cast<void>(read_surface({.file = {.name = "wall.csv", .path = "/no/wall.csv",
+                                       .location = "c.toml:9:8"}}));
     FAIL();
   } catch (const base::InputError& error) {
     EXPECT_STREQ(error.what(),
@@ -122,35 +123,34 @@ Case thin_wall() {
   return c;
 }
 
-std::vector<SurfaceReading> one_reading(double x, double height) {
-  return {{.x = x, .height = height, .line = 5}};
+SurfaceFile one_reading(double x, double height) {
+  return {.readings = {{.x = x, .height = height, .line = 5}}};
 }
 
 TEST(SurfaceReadings, LieWithinTheCutAndTheWall) {
   const Case c = thin_wall();
   for (const double x : {0.0, 30 * mm, 60000 * 1e-6}) {
     for (const double height : {0.0, 3 * mm, 3000 * 1e-6}) {
-      EXPECT_TRUE(check_readings(one_reading(x, height), "w.csv", c).empty());
+      EXPECT_TRUE(check_readings(one_reading(x, height), "w.csv", wall_of(c)).empty());
     }
   }
-  EXPECT_EQ(check_readings(one_reading(0, 3.1 * mm), "w.csv", c),
+  EXPECT_EQ(check_readings(one_reading(0, 3.1 * mm), "w.csv", wall_of(c)),
             std::vector<std::string>{
                 "w.csv:5:1: the height of 3.1 mm is outside the cut: must be from 0 to "
                 "axial_depth_mm = 3 mm, above the tip of the cutter"});
-  EXPECT_EQ(check_readings(one_reading(0, -0.1 * mm), "w.csv", c).size(), 1U);
-  EXPECT_EQ(check_readings(one_reading(60.1 * mm, mm), "w.csv", c),
+  EXPECT_EQ(check_readings(one_reading(0, -0.1 * mm), "w.csv", wall_of(c)).size(), 1U);
+  EXPECT_EQ(check_readings(one_reading(60.1 * mm, mm), "w.csv", wall_of(c)),
             std::vector<std::string>{"w.csv:5:1: x = 60.1 mm is outside the wall: must "
                                      "be from 0 to length_mm = 60 mm"});
-  EXPECT_EQ(check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", c).size(), 2U);
+  EXPECT_EQ(check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", wall_of(c)).size(), 2U);
 }
 
 TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {
   const auto said = [](double x, double height, const char* unit) {
-    SurfaceFile surface;
-    surface.readings = one_reading(x, height);
+    SurfaceFile surface = one_reading(x, height);
     surface.readings.push_back({.x = x / 2, .height = height / 2});
     surface.x_unit = surface.height_unit = unit;
-    return check_readings(surface, "w.csv", thin_wall()).front();
+    return check_readings(surface, "w.csv", wall_of(thin_wall())).front();
   };
   const auto ends = [](const std::string& text, const std::string& unit) {
     return text.ends_with("; in " + unit + " all readings would lie inside");
@@ -169,12 +169,12 @@ TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {
 TEST(SurfaceReadings, AlongTheTurnOfAQuasiStaticModelOrARigidWallXIsFree) {
   Case c = thin_wall();
   c.machine.surface.emplace().model = surface::Model::imprint;
-  EXPECT_EQ(check_readings(one_reading(61 * mm, mm), "w.csv", c).size(), 1U);
+  EXPECT_EQ(check_readings(one_reading(61 * mm, mm), "w.csv", wall_of(c)).size(), 1U);
   c.machine.surface->model = surface::Model::quasi_static;
-  EXPECT_TRUE(check_readings(one_reading(61 * mm, mm), "w.csv", c).empty());
+  EXPECT_TRUE(check_readings(one_reading(61 * mm, mm), "w.csv", wall_of(c)).empty());
   c = thin_wall();
   c.machine.wall.reset();
-  EXPECT_TRUE(check_readings(one_reading(61 * mm, mm), "w.csv", c).empty());
+  EXPECT_TRUE(check_readings(one_reading(61 * mm, mm), "w.csv", wall_of(c)).empty());
 }
 
 }  // namespace

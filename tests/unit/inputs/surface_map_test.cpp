@@ -160,13 +160,12 @@ TEST(SurfaceMaps, KeepWhatLiesInsideTheCut) {
     std::ofstream out(file, std::ios::binary);
     out << x3p_file({}, all_little(heights));
   }
-  SurfaceMeasurement m;
-  m.source.file = file_at(file);
-  const auto surface = read_surface_of(c, m);
+  const SurfaceSource m{.file = file_at(file)};
+  const auto surface = read_wall(m, wall_of(c));
   EXPECT_EQ(surface.readings.size(), 2U);
   EXPECT_EQ(surface.counts.skipped, 4U);
   c.setup.cut.a_p = 0.9 * mm;
-  EXPECT_THROW(static_cast<void>(read_surface_of(c, m)), base::InputError);
+  EXPECT_THROW(static_cast<void>(read_wall(m, wall_of(c))), base::InputError);
 }
 
 }  // namespace

@@ -224,7 +224,7 @@ TEST_F(Vibration, AnActuatorComesFromAStep) {
   static_cast<void>(folder_.write("step.csv", rows));
   const auto given =
       read("[step]\nfile = \"step.csv\"\nstart_s = 0.001\n", Command::actuator);
-  EXPECT_EQ(given.machine.step->start, 0.001);
+  EXPECT_EQ(given.machine.step->source.start, 0.001);
   const auto r = actuator(given);
   EXPECT_TRUE(r.heading.ok) << r.heading.message;
   EXPECT_TRUE(r.heading.message.starts_with(

@@ -3,7 +3,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/resonance.h>
-#include <trochoid/inputs/transmission_file.h>
 #include <trochoid/signal/transmission.h>
 
 #include <fmt/core.h>
@@ -49,8 +48,7 @@ std::vector<Response> measured_responses(const inputs::Case& given,
                                          const signal::Matrix3& channels,
                                          std::vector<base::Warning>& warnings) {
   if (!given.dynamometer || given.dynamometer->frf.name.empty()) return {};
-  const inputs::TransmissionFile file =
-      inputs::read_transmission(given.dynamometer->frf);
+  const inputs::TransmissionFile& file = given.dynamometer->response.get();
   warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
   const signal::Matrix3 inverse = inverse_of(channels);
   std::vector<Response> out;

@@ -2,7 +2,6 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
-#include <trochoid/inputs/record_file.h>
 #include <trochoid/run/shared/used_part.h>
 #include <trochoid/signal/channel_faults.h>
 #include <trochoid/signal/drift.h>
@@ -53,7 +52,7 @@ std::vector<signal::Record> read_all(const inputs::Case& given) {
   std::vector<std::string> problems;
   for (const inputs::Measurement& m : given.measurements) {
     try {
-      records.push_back(inputs::read_record(m.source));
+      records.push_back(m.record.get());
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

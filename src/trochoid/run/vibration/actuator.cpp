@@ -12,7 +12,7 @@
 namespace trochoid::run {
 
 results::ActuatorResult actuator(const inputs::Case& given) {
-  inputs::StepFile file = inputs::read_step(*given.machine.step);
+  inputs::StepFile file = given.machine.step->step.get();
   results::ActuatorResult r{.heading = heading_of(given),
                             .record = std::move(file.record),
                             .command = std::move(file.command)};

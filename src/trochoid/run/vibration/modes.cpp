@@ -37,7 +37,7 @@ structure::ModesOptions options_of(const inputs::FrfTables& frf) {
 
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
-  inputs::FrfFile file = inputs::read_frf(frf.source);
+  inputs::FrfFile file = frf.response.get();
   results::ModesResult r{.heading = heading_of(given),
                          .kind = file.response.kind,
                          .description = std::move(file.description),

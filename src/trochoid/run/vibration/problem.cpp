@@ -1,6 +1,5 @@
 #include <trochoid/run/vibration/problem.h>
 
-#include <trochoid/inputs/command_file.h>
 #include <trochoid/run/shared/machine.h>
 
 #include <algorithm>
@@ -26,7 +25,7 @@ dynamics::ImposedCommand imposed(const inputs::ImposedCommand& command) {
                                .peak_to_peak = command.peak_to_peak.value_or(0.0),
                                .lead = command.lead};
   if (command.shape == dynamics::CommandShape::table) {
-    out.table = inputs::read_command(command.file);
+    out.table = command.table.get();
   }
   return out;
 }

@@ -1,7 +1,6 @@
 #include <trochoid/run/vibration/shared_modes.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/inputs/frf_file.h>
 #include <trochoid/run/shared/heading.h>
 #include <trochoid/run/vibration/mode_words.h>
 #include <trochoid/run/vibration/modes.h>
@@ -32,19 +31,19 @@ std::vector<Source> sources_of(const inputs::Case& given,
   std::vector<Source> out;
   if (!frf.source.file.name.empty()) {
     if (frf.source.dataset == 0) {
-      for (inputs::DirectedFrf& one : inputs::read_directed_frfs(frf.source)) {
-        out.push_back({std::move(one), frf.band});
+      for (const inputs::DirectedFrf& one : frf.directed.get()) {
+        out.push_back({one, frf.band});
       }
     }
     if (out.empty()) {
       out.push_back(
-          {{frf.axis, frf.axis, inputs::read_frf(frf.source)}, frf.band});
+          {{frf.axis, frf.axis, frf.response.get()}, frf.band});
     }
     return out;
   }
   for (const inputs::MeasuredFrf& one : given.machine.measured_frfs) {
     out.push_back({{one.axis, one.force_axis.value_or(one.axis),
-                    inputs::read_frf(one.source)},
+                    one.response.get()},
                    one.band.empty() ? frf.band : one.band});
   }
   return out;
@@ -137,7 +136,7 @@ bool modes_are_shared(const inputs::Case& given) {
   if (!frf || frf->source.file.name.empty() || frf->shapes == inputs::Shapes::complex) {
     return true;
   }
-  return frf->source.dataset == 0 && !inputs::read_directed_frfs(frf->source).empty();
+  return frf->source.dataset == 0 && !frf->directed.get().empty();
 }
 
 results::SharedModesResult shared_modes(const inputs::Case& given) {

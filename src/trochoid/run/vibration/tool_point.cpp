@@ -231,7 +231,7 @@ ToolPoint tool_point(const inputs::Case& given, Warnings& warnings) {
   ToolPoint point;
   std::vector<Measured> all;
   for (const inputs::MeasuredFrf& frf : given.machine.measured_frfs) {
-    inputs::FrfFile file = inputs::read_frf(frf.source);
+    inputs::FrfFile file = frf.response.get();
     warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
     all.push_back({frf, in_band(frf, std::move(file.response))});
     MeasuredReceptance part = lines_of(frf, all.back().response);

@@ -126,7 +126,7 @@ std::vector<Work> measured_work(const inputs::MachineTables& machine) {
                              .of = " MB"}});
   };
   if (machine.frf) add("frf", machine.frf->source.file.path);
-  if (machine.step) add("step", machine.step->file.path);
+  if (machine.step) add("step", machine.step->source.file.path);
   return parts;
 }
 

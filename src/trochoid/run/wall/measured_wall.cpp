@@ -1,7 +1,6 @@
 #include <trochoid/run/wall/measured_wall.h>
 
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/wall_readings.h>
 #include <trochoid/run/wall/setting.h>
 
 #include <string>
@@ -40,13 +39,14 @@ MeasuredWall measured_wall(const inputs::Case& given) {
   MeasuredWall wall;
   std::vector<std::string> problems;
   for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
-    inputs::SurfaceFile file;
+    const inputs::SurfaceFile* read_file = nullptr;
     try {
-      file = inputs::read_surface_of(given, m);
+      read_file = &m.surface.get();
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
       continue;
     }
+    const inputs::SurfaceFile& file = *read_file;
     for (const base::Warning& note : file.notes) {
       wall.notes.push_back({note.code, m.source.file.path + ": " + note.message});
     }
