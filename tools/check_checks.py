@@ -42,17 +42,6 @@ class Layers(unittest.TestCase):
         self.assertEqual(len(found), 1, found)
         return found[0]
 
-    def test_another_chapter(self):
-        said = self.refused("src/trochoid/run/wall/w.cpp",
-                            "#include <trochoid/run/wall/w.h>\n"
-                            "#include <trochoid/run/shared/s.h>\n"
-                            "#include <trochoid/run/identify/i.h>\n")
-        self.assertIn("run/wall may include run/shared only, not run/identify", said)
-
-    def test_a_floor_that_knows_a_chapter(self):
-        self.refused("src/trochoid/run/shared/s.cpp",
-                     "#include <trochoid/run/wall/w.h>\n")
-
     def test_sound_tree_is_accepted(self):
         self.assertEqual(answers(check_layers.violations), [])
 

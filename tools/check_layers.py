@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Check that every room includes lower rooms only, as the table of ARCHITECTURE.md says,
-and that no chapter of a room includes another.
+"""Check that every room includes lower rooms only, as the table of ARCHITECTURE.md says.
 
 Usage: check_layers.py [REPOSITORY]. Each violation is printed as file:line: reason.
 """
@@ -10,8 +9,6 @@ import sys
 
 # Beyond the ranks: the report computes nothing, it shows what a result folder holds.
 ONLY = {"report": {"base", "results"}}
-# Rooms that are folders of chapters: a chapter includes itself and this one of them.
-FLOOR = {"run": "shared"}
 # The decompositions of Eigen take longest: plain functions of this room give them, and one
 # file beside it has the sparse one.
 EIGEN = re.compile(r"(unsupported/)?Eigen/|ceres/")
@@ -42,10 +39,8 @@ def problem(file, room, target, quoted, rank):
     if EIGEN.match(target) and not f"{room}/{file.name}".startswith(EIGEN_AT):
         return f"<{target}> is slow to compile: call numerics/dense.h or least_squares.h"
     parts = target.split("/")
-    if parts[0] != "trochoid":
+    if parts[0] != "trochoid" or parts[1] == room:
         return None
-    if parts[1] == room:
-        return chapter_problem(file, room, parts)
     other = parts[1]
     if other not in rank:
         return f"{other} is not a room of ARCHITECTURE.md"
@@ -54,15 +49,6 @@ def problem(file, room, target, quoted, rank):
     if other not in ONLY.get(room, rank):
         return f"{room} may include {' and '.join(sorted(ONLY[room]))} only, not {other}"
     return None
-
-
-def chapter_problem(file, room, parts):
-    """Why a file of a chapter may not include another file of its room, or None."""
-    floor = FLOOR.get(room)
-    chapter = file.parent.name
-    if floor is None or len(parts) < 4 or parts[2] in (chapter, floor):
-        return None
-    return f"{room}/{chapter} may include {room}/{floor} only, not {room}/{parts[2]}"
 
 
 def violations(top):

@@ -1,7 +1,6 @@
 #include <trochoid/force/statistics.h>
 #include <trochoid/results/joint_of_fit.h>
 #include <trochoid/results/spread.h>
-#include <trochoid/sweep/chance.h>
 #include <trochoid/sweep/distribution.h>
 
 #include "../unit/identification/made_record.h"

@@ -2,8 +2,8 @@
 #include <trochoid/base/names.h>
 #include <trochoid/cli/given_case.h>
 #include <trochoid/inputs/case_source.h>
-#include <trochoid/run/identify/describe_record.h>
-#include <trochoid/run/shared/records.h>
+#include <trochoid/run/commands.h>
+#include <trochoid/run/records.h>
 
 #include <fmt/core.h>
 

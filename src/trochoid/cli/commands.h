@@ -50,16 +50,12 @@ inline constexpr int no_answer = 1;
 inline constexpr int wrong_input = 2;
 inline constexpr int our_bug = 3;
 
-int simulate(const Options& options);
-int identify(const Options& options);
-int surface(const Options& options);
-int calibrate(const Options& options);
-int stability(const Options& options);
-int modes(const Options& options);
-int actuator(const Options& options);
-int dynamics(const Options& options);
-int correct(const Options& options);
-int plan(const Options& options);
+/// @brief Answer the case, or the bare data file, of a command, and deliver the answer.
+///
+/// When the time is up, stability and identify are asked to end with what they have found;
+/// else, or where they do not soon, the answer is that there is none.
+/// @return exit code, as of all below
+int answer(base::Command command, const Options& options);
 int sweep(const Options& options);
 int check(const Options& options);
 /// @param command  whose case file is wanted

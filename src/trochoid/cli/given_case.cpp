@@ -4,11 +4,7 @@
 #include <trochoid/inputs/case_source.h>
 #include <trochoid/inputs/set_beside.h>
 #include <trochoid/results/folder.h>
-#include <trochoid/run/correct/work.h>
-#include <trochoid/run/identify/work.h>
-#include <trochoid/run/simulate/work.h>
-#include <trochoid/run/vibration/work.h>
-#include <trochoid/run/wall/work.h>
+#include <trochoid/run/work.h>
 
 #include <filesystem>
 #include <iostream>
@@ -34,38 +30,11 @@ Problems problems_of_place(const std::filesystem::path& folder) {
   return {};
 }
 
-/// What the command is going to take.
-std::vector<run::Work> work_of(const inputs::Case& given, base::Command command) {
-  using base::Command;
-  switch (command) {
-    case Command::simulate:
-      return run::simulate_work(given);
-    case Command::identify:
-      return run::identify_work(given);
-    case Command::surface:
-      return run::surface_work(given);
-    case Command::calibrate:
-      return run::calibrate_work(given);
-    case Command::stability:
-      return run::stability_work(given);
-    case Command::modes:
-    case Command::actuator:
-      return run::measured_work(given.machine);
-    case Command::dynamics:
-      return run::dynamics_work(given);
-    case Command::correct:
-      return run::correct_work(given);
-    case Command::plan:
-      return given.plan.of == inputs::PlanOf::wall ? run::calibrate_work(given)
-                                                   : run::plan_work(given);
-  }
-  return {};
-}
-
 /// The case is sound: is it too much?
 void add_work(const Options& options, base::Command command, const inputs::Case& given,
               Problems& problems) {
-  const std::string why = options.anyway ? "" : run::too_much(work_of(given, command));
+  const std::string why =
+      options.anyway ? "" : run::too_much(run::work_of(command, given));
   if (!why.empty()) {
     problems.push_back(options.file.string() + ": " + why);
   }

@@ -22,32 +22,6 @@ namespace {
 
 using base::Command;
 
-int answer(Command command, const Options& options) {
-  switch (command) {
-    case Command::simulate:
-      return simulate(options);
-    case Command::identify:
-      return identify(options);
-    case Command::surface:
-      return surface(options);
-    case Command::calibrate:
-      return calibrate(options);
-    case Command::stability:
-      return stability(options);
-    case Command::modes:
-      return modes(options);
-    case Command::actuator:
-      return actuator(options);
-    case Command::dynamics:
-      return dynamics(options);
-    case Command::correct:
-      return correct(options);
-    case Command::plan:
-      return plan(options);
-  }
-  return our_bug;
-}
-
 std::vector<Command> all_commands() {
   std::vector<Command> all;
   all.reserve(base::names<Command>.size());
@@ -242,7 +216,9 @@ void add_interface(CLI::App& app, Chosen& chosen) {
     add_data_options(*sub, command, options);
     sub->callback([&chosen, command] {
       take_input(chosen.options);
-      chosen.command = [&chosen, command] { return answer(command, chosen.options); };
+      chosen.command = [&chosen, command] {
+        return cli::answer(command, chosen.options);
+      };
     });
   }
   CLI::App* sweep = add_sweep(app, options);

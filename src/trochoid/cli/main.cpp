@@ -1,10 +1,9 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/commands.h>
-#include <trochoid/cli/console.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/interface.h>
 #include <trochoid/cli/manual.h>
-#include <trochoid/cli/memory.h>
+#include <trochoid/cli/system.h>
 #include <trochoid/inputs/findings.h>
 #include <trochoid/numerics/thread_count.h>
 

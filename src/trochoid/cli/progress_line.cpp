@@ -1,5 +1,5 @@
-#include <trochoid/cli/console.h>
 #include <trochoid/cli/progress_line.h>
+#include <trochoid/cli/system.h>
 
 #include <chrono>
 #include <cstdio>

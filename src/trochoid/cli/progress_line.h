@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/cli/commands.h>
-#include <trochoid/run/shared/progress.h>
+#include <trochoid/run/progress.h>
 
 #include <condition_variable>
 #include <mutex>

@@ -16,6 +16,32 @@ Amplitudes times(const Response::Matrix& H, const Amplitudes& F) noexcept {
   return out;
 }
 
+/// The response in the axes of the tool: Q^-1 H Q, channels = Q force.
+Response::Matrix on_tool(const signal::Transmission::Matrix& H,
+                         const signal::Matrix3& Q, const signal::Matrix3& inverse) {
+  Response::Matrix out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 9; ++k) {
+        out[3 * i + j] += inverse[i][k / 3] * H[k] * Q[k % 3][j];
+      }
+    }
+  }
+  return out;
+}
+
+/// Q^-1, from the forces that unit readings stand for.
+signal::Matrix3 inverse_of(const signal::Matrix3& Q) {
+  signal::Matrix3 out{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::array<std::vector<double>, 3> unit_reading{{{0.0}, {0.0}, {0.0}}};
+    unit_reading[c] = {1.0};
+    const auto force = signal::force_on_tool(unit_reading, Q);
+    for (std::size_t q = 0; force && q < 3; ++q) out[q][c] = force->front()[q];
+  }
+  return out;
+}
+
 }  // namespace
 
 void respond(const Response& response, std::size_t columns,
@@ -40,6 +66,17 @@ void respond(const Response& response, std::size_t columns,
       }
     }
   }
+}
+
+Response response_on_tool(const signal::Transmission& transmission,
+                          const signal::Matrix3& channels, double Omega, int highest) {
+  const signal::Matrix3 inverse = inverse_of(channels);
+  Response response;
+  for (int k = 0; k <= highest; ++k) {
+    response.harmonic.push_back(
+        on_tool(signal::at(transmission, k * Omega), channels, inverse));
+  }
+  return response;
 }
 
 }  // namespace trochoid::identification

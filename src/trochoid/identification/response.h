@@ -1,5 +1,8 @@
 #pragma once
 
+#include <trochoid/signal/axes.h>
+#include <trochoid/signal/transmission.h>
+
 #include <array>
 #include <complex>
 #include <cstddef>
@@ -41,5 +44,13 @@ using Resonances = std::array<std::optional<Resonance>, 3>;
 ///                              columns)
 void respond(const Response& response, std::size_t columns,
              std::span<double> coefficients);
+
+/// @brief What a measured dynamometer makes of the force on the tool: Q^-1 H Q,
+/// channels = Q force.
+/// @param channels  Q, which can be inverted
+/// @param Omega     spindle speed [rad/s]
+/// @param highest   harmonic of it that the lines of the transmission reach
+Response response_on_tool(const signal::Transmission& transmission,
+                          const signal::Matrix3& channels, double Omega, int highest);
 
 }  // namespace trochoid::identification

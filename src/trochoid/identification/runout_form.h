@@ -23,6 +23,15 @@ struct FormChoice {
   std::vector<FormTried> tried;
 };
 
+/// How the form of the runout was decided.
+struct RunoutForm {
+  RunoutUnknowns first = {};   ///< that was fitted first
+  RunoutUnknowns better = {};  ///< that the records decide for
+  bool stated = false;         ///< the first was asked for
+  std::string why;
+  std::vector<FormTried> tried;
+};
+
 /// @brief Decide between no runout, radial offsets, an eccentricity, and both.
 ///
 /// None, where offsets are found to be small and may be zero. Offsets, where these leave

@@ -2,7 +2,7 @@
 #include <trochoid/dynamics/multiplier.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/python/bindings.h>
-#include <trochoid/run/vibration/problem.h>
+#include <trochoid/run/problems.h>
 
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>

@@ -2,7 +2,7 @@
 #include <trochoid/base/names.h>
 #include <trochoid/inputs/case.h>
 #include <trochoid/python/bindings.h>
-#include <trochoid/sweep/answer.h>
+#include <trochoid/run/answer.h>
 
 #include <pybind11/pybind11.h>
 
@@ -44,15 +44,15 @@ void bind_run(py::module_& m) {
         const auto given_option = [&](const char* name) {
           return options.contains(name) && options[name].cast<bool>();
         };
-        const sweep::AnswerOptions chosen{
+        const run::AnswerOptions chosen{
             .curves = given_option("curves"),
             .simulate_controller = given_option("simulate_controller"),
             .anyway = given_option("anyway")};
         const auto named = base::named<base::Command>(command);
         const py::gil_scoped_release release;
         return std::make_shared<results::Answer>(
-            sweep::answer(named.value(), *given, chosen,
-                          [&](const run::Step& /*step*/) { wanted->check(); }));
+            run::answer(named.value(), *given, chosen,
+                        [&](const run::Step& /*step*/) { wanted->check(); }));
       },
       py::arg("command"), py::arg("case"), py::arg("wanted"));
 }

@@ -4,7 +4,7 @@
 #include <trochoid/python/document.h>
 #include <trochoid/python/state.h>
 #include <trochoid/results/folder.h>
-#include <trochoid/sweep/part_text.h>
+#include <trochoid/sweep/parts.h>
 #include <trochoid/sweep/work.h>
 
 #include <pybind11/pybind11.h>

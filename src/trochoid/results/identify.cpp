@@ -72,7 +72,7 @@ bool whole(const IdentifyResult& r) {
   return r.whole_curves || samples <= most_curve_samples;
 }
 
-Object form_value(const RunoutForm& form) {
+Object form_value(const identification::RunoutForm& form) {
   Array tried;
   for (const identification::FormTried& one : form.tried) {
     tried.push_back(Object{{"form", identification::name_of(one.form)},

@@ -35,15 +35,6 @@ struct OffsetSweep {
   std::vector<Curve> curves;  ///< one a fit
 };
 
-/// How the form of the runout was decided.
-struct RunoutForm {
-  identification::RunoutUnknowns first = {};   ///< that was fitted first
-  identification::RunoutUnknowns better = {};  ///< that the records decide for
-  bool stated = false;                         ///< the case asked for the first
-  std::string why;
-  std::vector<identification::FormTried> tried;
-};
-
 /// What an eccentricity means at the machine.
 struct Clocking {
   identification::Offset present;
@@ -64,9 +55,9 @@ struct IdentifyResult {
   std::vector<std::string> reasons_for_care;
   /// What other bands, or a rigid dynamometer, would answer; empty: nothing else to see.
   std::vector<identification::View> views;
-  std::optional<RunoutForm> runout_form;  ///< where one was searched
-  std::vector<RecordSummary> records;     ///< empty where they could not be used
-  signal::Matrix3 channels{};             ///< channels = matrix times force on the tool
+  std::optional<identification::RunoutForm> runout_form;  ///< where one was searched
+  std::vector<RecordSummary> records;  ///< empty where they could not be used
+  signal::Matrix3 channels{};          ///< channels = matrix times force on the tool
   std::optional<identification::AxesChoice> axes;  ///< where they were searched for
   std::vector<identification::Run> runs;           ///< measured force on the tool
   std::vector<signal::Overview> overviews;         ///< of the whole records

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/geometry/cut.h>
+#include <trochoid/identification/next_cut.h>
 #include <trochoid/results/answer.h>
 
 #include <cstddef>
@@ -10,29 +10,9 @@
 
 namespace trochoid::results {
 
-/// A quantity that a cut is to tell.
-struct PlannedQuantity {
-  std::string key;           ///< as in files, for example `K_tc_MPa`
-  std::string words;         ///< for a sentence, for example `K_tc`
-  double unit = 1.0;         ///< of the key [SI]
-  bool relative = true;      ///< told in percent; else in micrometres
-  double value = 0.0;        ///< [SI]
-  std::optional<double> se;  ///< as known so far [SI]; nothing: it is not
-};
-
-/// A cut that may be measured, and what it would make of the quantities.
-struct PlannedCut {
-  geometry::Cut cut;
-  double peak_force = 0.0;       ///< in the plane of the table [N]
-  std::vector<double> se;        ///< one a quantity [SI]
-  double log_determinant = 0.0;  ///< of the covariance (I-21)
-};
-
-/// Cuts that were not compared, and why.
-struct LeftOut {
-  std::string reason;
-  std::size_t count = 0;
-};
+using identification::LeftOut;
+using identification::PlannedCut;
+using identification::PlannedQuantity;
 
 /// @brief What `plan` answers: cuts that may be measured next, the best first.
 struct PlanResult {

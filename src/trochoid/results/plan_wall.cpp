@@ -184,20 +184,6 @@ base::Table error_table(const PlannedCutting& c) {
 
 }  // namespace
 
-HalfWidths half_widths(const PlanWallResult& r, const WallPrediction& told) {
-  const std::vector<double> K = force::coefficients(r.law);
-  const auto part = [&](double se, double value) {
-    return told.told && value != 0 ? told.factor * se / std::abs(value) : nothing;
-  };
-  return {part(told.se_K_tc, K[0]), part(told.se_K_rc, K[1]),
-          told.told && told.se_eccentricity ? told.factor * *told.se_eccentricity
-                                            : nothing};
-}
-
-double limited_error(const PlannedCutting& cutting, const GridCell& cell) {
-  return cutting.mean ? std::abs(cell.mean) : cell.peak;
-}
-
 Answer answer_of(const PlanWallResult& r) {
   Answer answer{.command = "plan", .heading = r.heading, .result = result_of(r)};
   if (!r.designs.empty()) {

@@ -34,7 +34,7 @@ std::string micrometres(double length) {
 }
 
 std::vector<std::string> cells_of(const PlanWallResult& r, const WallPrediction& told) {
-  const HalfWidths half = half_widths(r, told);
+  const HalfWidths half = half_widths(r.law, told);
   return {percent(half.K_tc), percent(half.K_rc), micrometres(half.eccentricity)};
 }
 
@@ -58,7 +58,7 @@ std::vector<std::size_t> worth_printing(const PlanWallResult& r) {
   std::vector<std::size_t> out;
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < r.designs.size(); ++i) {
-    const HalfWidths half = half_widths(r, r.designs[i].told);
+    const HalfWidths half = half_widths(r.law, r.designs[i].told);
     const double worst = std::max(half.K_tc, half.K_rc);
     if ((std::isfinite(worst) && worst < 0.9 * best) || r.chosen == i) {
       out.push_back(i);
@@ -124,7 +124,7 @@ std::string cutting_lines(const PlannedCutting& c) {
 std::string wall_plan_sentence(const PlanWallResult& r) {
   const PlannedDesign& d = r.designs[*r.chosen];
   const auto names = force::coefficient_quantities(r.law);
-  const HalfWidths half = half_widths(r, d.told);
+  const HalfWidths half = half_widths(r.law, d.told);
   std::string text =
       fmt::format("{} {}: {} readings tell {} {}, {} {}",
                   d.enough ? "Measure" : "No way to measure is enough; the best is",

@@ -183,6 +183,15 @@ std::vector<Steps> between(const std::vector<Steps>& air, std::size_t quarters) 
   return passes;
 }
 
+void keep(const Part& part, std::vector<double>& values) {
+  if (values.empty()) {
+    return;
+  }
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(part.end), values.end());
+  values.erase(values.begin(),
+               values.begin() + static_cast<std::ptrdiff_t>(part.begin));
+}
+
 }  // namespace
 
 Passes passes_of(const Channels& channels, std::span<const double> angle) {
@@ -219,6 +228,26 @@ Passes passes_of(const Channels& channels, std::span<const double> angle) {
     }
   }
   return found;
+}
+
+Part longest_steady(const Passes& passes) {
+  return *std::ranges::max_element(passes.steady, {}, &Part::size);
+}
+
+Part part_between(std::span<const double> time, double from, double to) {
+  const auto begin = std::lower_bound(time.begin(), time.end(), from);
+  const auto end = std::upper_bound(time.begin(), time.end(), to);
+  // Where `to` lies before `from` nothing is between them.
+  return {static_cast<std::size_t>(begin - time.begin()),
+          static_cast<std::size_t>(std::max(begin, end) - time.begin())};
+}
+
+void keep_part(const Part& part, Record& record) {
+  keep(part, record.angle);
+  keep(part, record.time);
+  for (auto& values : record.channel) {
+    keep(part, values);
+  }
 }
 
 }  // namespace trochoid::signal

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/signal/record.h>
+
 #include <array>
 #include <cstddef>
 #include <span>
@@ -39,5 +41,16 @@ struct Passes {
 ///         or fewer than 12 samples a turn, or nothing is told apart
 Passes passes_of(const std::array<std::vector<double>, 3>& channels,
                  std::span<const double> angle);
+
+/// @brief The longest steady cut, the first of equal ones: what is fitted where nobody says
+/// otherwise.
+Part longest_steady(const Passes& passes);
+
+/// @brief The samples from one time to another, both included.
+/// @param time  [s], ascending
+Part part_between(std::span<const double> time, double from, double to);
+
+/// @brief Leave out of a record what is not in a part.
+void keep_part(const Part& part, Record& record);
 
 }  // namespace trochoid::signal

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace trochoid::surface {
 
@@ -30,6 +34,26 @@ BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
                          .thickness = structure::thickness_at(*wall, top - a_p / 2)};
     }
     return bodies;
+  };
+}
+
+BodiesAt bodies_solved_once(const BodyDimensions& dimensions, double a_p) {
+  struct Known {
+    std::mutex mutex;
+    std::map<double, Bodies> at;
+  };
+  return [bodies = bodies_at(dimensions.cutter, dimensions.wall, a_p),
+          known = std::make_shared<Known>()](double x) {
+    {
+      const std::lock_guard lock(known->mutex);
+      if (const auto found = known->at.find(x); found != known->at.end()) {
+        return found->second;
+      }
+    }
+    // Not under the lock: a thread that waits for others may begin another task here.
+    Bodies solved = bodies(x);
+    const std::lock_guard lock(known->mutex);
+    return known->at.emplace(x, std::move(solved)).first->second;
   };
 }
 

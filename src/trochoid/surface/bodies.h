@@ -37,6 +37,18 @@ BodiesAt bodies_at(const std::optional<structure::Cantilever>& cutter,
                    const std::optional<structure::Plate>& wall, double a_p,
                    double below = 0.0);
 
+/// Cutter and wall by their dimensions, and where the one meets the other.
+struct BodyDimensions {
+  std::optional<structure::Cantilever> cutter;  ///< nothing: it is rigid
+  std::optional<structure::Plate> wall;         ///< nothing: it is rigid
+  double position = 0.0;  ///< of the cutter along the wall [m]; 0 without a wall
+};
+
+/// @brief The same bodies, the wall solved once for each x: for maps and plans, which come
+/// back to the same places. From any thread.
+/// @param a_p  axial depth [m]
+BodiesAt bodies_solved_once(const BodyDimensions& dimensions, double a_p);
+
 /// How the force is spread over the axial depth.
 enum class Load {
   distributed,   ///< each piece of an edge at its own height

@@ -6,7 +6,7 @@
 #include <trochoid/inputs/inches.h>
 #include <trochoid/results/hdf5_table.h>
 #include <trochoid/results/provenance.h>
-#include <trochoid/sweep/answer.h>
+#include <trochoid/run/answer.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -173,7 +173,7 @@ Prepared prepare(const inputs::CaseSource& source, const Request& request,
   check_keys(study, rows.first());
   const inputs::Case first = first_case(study, rows, request.folder);
   progress("The first row");
-  const results::Answer answered = answer(study.command, first);
+  const results::Answer answered = run::answer(study.command, first);
   if (answered.heading.ok || study.take.empty()) {
     check_take(study, answered);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/inputs/case_source.h>
-#include <trochoid/run/shared/progress.h>
+#include <trochoid/run/progress.h>
 #include <trochoid/sweep/row.h>
 #include <trochoid/sweep/rows.h>
 #include <trochoid/sweep/sweep.h>

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/numerics/parallel.h>
-#include <trochoid/sweep/answer.h>
+#include <trochoid/run/answer.h>
 
 #include <algorithm>
 #include <charconv>
@@ -164,7 +164,7 @@ results::SweepRow row_of(const Study& study, std::span<const inputs::Node> value
     if (!compares(study)) {
       given.measurements.clear();
     }
-    const Answer found = answer(study.command, given, {.tables = false});
+    const Answer found = run::answer(study.command, given, {.tables = false});
     if (!found.heading.ok) {
       row.status = "failed";
       row.message = found.heading.message;

@@ -3,7 +3,7 @@
 #include <trochoid/base/stop.h>
 #include <trochoid/inputs/case_source.h>
 #include <trochoid/results/sweep.h>
-#include <trochoid/run/shared/progress.h>
+#include <trochoid/run/progress.h>
 
 #include <filesystem>
 #include <string>

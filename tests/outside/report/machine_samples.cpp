@@ -1,13 +1,9 @@
 #include "machine_samples.h"
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/correct/correct.h>
-#include <trochoid/run/identify/plan.h>
-#include <trochoid/run/vibration/actuator.h>
-#include <trochoid/run/vibration/dynamics.h>
-#include <trochoid/run/vibration/modes.h>
-#include <trochoid/run/vibration/shared_modes.h>
-#include <trochoid/run/vibration/stability.h>
+#include <trochoid/run/commands.h>
+#include <trochoid/run/modes.h>
+#include <trochoid/run/shared_modes.h>
 
 namespace sample {
 

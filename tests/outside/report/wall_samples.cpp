@@ -2,10 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/run/vibration/stability.h>
-#include <trochoid/run/wall/calibrate.h>
-#include <trochoid/run/wall/plan.h>
-#include <trochoid/run/wall/surface.h>
+#include <trochoid/run/commands.h>
 
 #include <fstream>
 #include <string>

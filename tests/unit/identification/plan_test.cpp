@@ -1,4 +1,4 @@
-#include <trochoid/identification/plan.h>
+#include <trochoid/identification/next_cut.h>
 
 #include "made_record.h"
 
@@ -144,6 +144,69 @@ TEST_F(Plan, SaysWhatIsNotDetermined) {  // [I-21]
   EXPECT_FALSE(standard_error(known, 7).has_value()) << "e_y of two straight teeth";
   EXPECT_FALSE(log_determinant(known, both).has_value());
   EXPECT_FALSE(standard_error({}, 0).has_value());
+}
+
+Knowledge nothing_measured(const Trial& trial) {
+  return {.trial = trial, .information = {}, .freedom = 0.0};
+}
+
+/// The cut of a trial with another axial depth.
+geometry::Cut with_depth(const Trial& trial, double a_p) {
+  geometry::Cut cut = trial.setup.cut;
+  cut.a_p = a_p;
+  return cut;
+}
+
+TEST_F(Plan, PutsTheCutThatTellsMostFirst) {  // [I-21]
+  const Knowledge known = nothing_measured(trial());
+  const CutPlan plan =
+      next_cut(known, {.cuts = {with_depth(known.trial, 1e-3), known.trial.setup.cut},
+                       .quantities = {"coefficients"},
+                       .max_force = {}});
+  ASSERT_EQ(plan.cuts.size(), 2U);
+  EXPECT_EQ(plan.cuts[0].cut.a_p, 2e-3);
+  EXPECT_LT(plan.cuts[0].log_determinant, plan.cuts[1].log_determinant);
+  EXPECT_LT(plan.cuts[0].se[0], plan.cuts[1].se[0]);
+  EXPECT_EQ(plan.parameters, 6U);
+  EXPECT_EQ(plan.quantities[0].key, "K_tc_MPa");
+  EXPECT_FALSE(plan.quantities[0].se.has_value());
+}
+
+TEST_F(Plan, SaysWhyCutsAreLeftOut) {
+  const Knowledge known = nothing_measured(trial());
+  const geometry::Cut& cut = known.trial.setup.cut;
+  const CutPlan plan =
+      next_cut(known, {.cuts = {cut, with_depth(known.trial, 1e-3)},
+                       .quantities = {"K_tc"},
+                       .max_force = 0.75 * peak_in_plane(known.trial)});
+  ASSERT_EQ(plan.cuts.size(), 1U);
+  EXPECT_EQ(plan.cuts[0].cut.a_p, 1e-3);
+  ASSERT_EQ(plan.left_out.size(), 1U);
+  EXPECT_EQ(plan.left_out[0].count, 1U);
+  EXPECT_EQ(plan.left_out[0].reason.substr(0, 15), "above max_force");
+}
+
+TEST_F(Plan, OfWhatNoFitLooksForIsEmpty) {
+  const Knowledge known = nothing_measured(trial());
+  const CutPlan plan = next_cut(
+      known, {.cuts = {known.trial.setup.cut}, .quantities = {"m_c"}, .max_force = {}});
+  EXPECT_TRUE(plan.quantities.empty());
+  EXPECT_TRUE(plan.cuts.empty());
+}
+
+TEST_F(Plan, GoesOnFromWhatAFitKnows) {  // [I-20]
+  const force::Setup start = without_runout(setup);
+  const Fit fit = identify(start, steel(), runs, {.errors = Errors::white});
+  ASSERT_TRUE(fit.ok) << fit.message;
+  const Knowledge known = knowledge_of(start, steel(), runs, fit);
+  EXPECT_EQ(known.freedom, fit.freedom);
+  EXPECT_EQ(known.trial.setup.runout.radial_offsets, fit.runout.radial_offsets);
+  EXPECT_TRUE(untold_coefficients(known).empty());
+  const CutPlan plan = next_cut(
+      known,
+      {.cuts = {known.trial.setup.cut}, .quantities = {"K_tc"}, .max_force = {}});
+  ASSERT_EQ(plan.cuts.size(), 1U);
+  EXPECT_LT(plan.cuts[0].se[0], *plan.quantities[0].se);
 }
 
 }  // namespace

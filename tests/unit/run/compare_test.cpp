@@ -1,4 +1,4 @@
-#include <trochoid/run/simulate/compare.h>
+#include <trochoid/run/simulate.h>
 
 #include "made_record_file.h"
 

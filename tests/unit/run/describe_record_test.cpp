@@ -1,4 +1,4 @@
-#include <trochoid/run/identify/describe_record.h>
+#include <trochoid/run/records.h>
 
 #include <trochoid/base/units.h>
 

@@ -1,4 +1,4 @@
-#include <trochoid/run/identify/fit_options.h>
+#include <trochoid/run/identify.h>
 
 #include <trochoid/base/units.h>
 

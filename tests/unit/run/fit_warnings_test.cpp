@@ -1,4 +1,4 @@
-#include <trochoid/run/identify/warnings.h>
+#include <trochoid/run/identify.h>
 
 #include "../identification/sound_fit.h"
 

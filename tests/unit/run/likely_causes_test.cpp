@@ -1,4 +1,4 @@
-#include <trochoid/run/identify/likely_causes.h>
+#include <trochoid/run/identify.h>
 
 #include "made_record_file.h"
 

@@ -1,5 +1,5 @@
 #include <trochoid/base/units.h>
-#include <trochoid/run/shared/machine.h>
+#include <trochoid/run/problems.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,6 @@
-#include <trochoid/run/identify/plan.h>
+#include <trochoid/run/commands.h>
 
 #include "made_record_file.h"
-
-#include <trochoid/run/identify/identify.h>
 
 #include <gtest/gtest.h>
 

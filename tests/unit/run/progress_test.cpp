@@ -1,4 +1,4 @@
-#include <trochoid/run/shared/progress.h>
+#include <trochoid/run/progress.h>
 
 #include <gtest/gtest.h>
 

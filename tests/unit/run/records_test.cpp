@@ -1,4 +1,4 @@
-#include <trochoid/run/shared/records.h>
+#include <trochoid/run/records.h>
 
 #include "made_record_file.h"
 

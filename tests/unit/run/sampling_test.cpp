@@ -1,5 +1,5 @@
 #include <trochoid/base/units.h>
-#include <trochoid/run/shared/sampling.h>
+#include <trochoid/run/simulate.h>
 
 #include <gtest/gtest.h>
 

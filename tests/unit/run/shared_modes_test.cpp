@@ -4,8 +4,8 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
-#include <trochoid/run/shared/machine.h>
-#include <trochoid/run/vibration/shared_modes.h>
+#include <trochoid/run/problems.h>
+#include <trochoid/run/shared_modes.h>
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

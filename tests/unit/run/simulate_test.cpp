@@ -1,4 +1,4 @@
-#include <trochoid/run/simulate/simulate.h>
+#include <trochoid/run/commands.h>
 
 #include "made_record_file.h"
 

@@ -3,9 +3,8 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
-#include <trochoid/run/vibration/dynamics.h>
-#include <trochoid/run/vibration/stability.h>
-#include <trochoid/run/vibration/tool_point.h>
+#include <trochoid/run/commands.h>
+#include <trochoid/run/vibration.h>
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -109,15 +108,14 @@ TEST(ToolPoint, ACrossResponseTellsHowModesLie) {  // [D-25]
     folder.write("y.csv", askew(true, true, turned));
     folder.write("xy.csv", askew(false, true, turned));
     std::vector<base::Warning> warnings;
-    const ToolPoint point = tool_point(
-        inputs::read_case(
-            folder.write("case.toml",
-                         slot + along_x +
-                             "[[measured_frf]]\nfile = \"y.csv\"\naxis = \"y\"\n"
-                             "[[measured_frf]]\nfile = \"xy.csv\"\naxis = \"x\"\n"
-                             "force_axis = \"y\"\n"),
-            Command::stability),
-        warnings);
+    const auto given = inputs::read_case(
+        folder.write("case.toml",
+                     slot + along_x +
+                         "[[measured_frf]]\nfile = \"y.csv\"\naxis = \"y\"\n"
+                         "[[measured_frf]]\nfile = \"xy.csv\"\naxis = \"x\"\n"
+                         "force_axis = \"y\"\n"),
+        Command::stability);
+    const auto point = dynamics::tool_point(tool_responses(given, warnings), true);
     ASSERT_EQ(point.modes.modes.size(), 2U) << turned;
     const dynamics::ChipMode& first = point.modes.modes[0];
     const dynamics::ChipMode& second = point.modes.modes[1];

@@ -2,12 +2,10 @@
 #include "slot_case.h"
 
 #include <trochoid/base/units.h>
-#include <trochoid/run/vibration/actuator.h>
-#include <trochoid/run/vibration/dynamics.h>
-#include <trochoid/run/vibration/modes.h>
-#include <trochoid/run/vibration/problem.h>
-#include <trochoid/run/vibration/stability.h>
-#include <trochoid/run/vibration/warnings.h>
+#include <trochoid/run/commands.h>
+#include <trochoid/run/modes.h>
+#include <trochoid/run/problems.h>
+#include <trochoid/run/vibration.h>
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,8 @@
 #include "../inputs/case_text.h"
 #include "slot_case.h"
 
-#include <trochoid/run/correct/work.h>
-#include <trochoid/run/identify/plan.h>
-#include <trochoid/run/identify/work.h>
-#include <trochoid/run/simulate/simulate.h>
-#include <trochoid/run/simulate/work.h>
-#include <trochoid/run/vibration/dynamics.h>
-#include <trochoid/run/vibration/stability.h>
-#include <trochoid/run/vibration/work.h>
-#include <trochoid/run/wall/surface.h>
-#include <trochoid/run/wall/work.h>
+#include <trochoid/run/commands.h>
+#include <trochoid/run/work.h>
 
 #include <gtest/gtest.h>
 
@@ -34,7 +26,7 @@ TEST(WorkOf, SimulateIsItsAngles) {
   for (const char* sampling :
        {"samples_per_rev = 90\nrevolutions = 2.5", "angles_deg = [1, 2, 3]"}) {
     const auto given = read(std::string("[sampling]\n") + sampling, Command::simulate);
-    EXPECT_EQ(simulate_work(given).at(0).count,
+    EXPECT_EQ(work_of(Command::simulate, given).at(0).count,
               static_cast<double>(simulate(given).phi.size()));
   }
 }
@@ -43,7 +35,7 @@ TEST(WorkOf, TurnsThatRepeatAreComputedOnce) {
   const auto evaluations = [](const char* turns) {
     const auto given = read(std::string("[sampling]\nsamples_per_rev = 90\n") + turns,
                             Command::simulate);
-    return simulate_work(given).at(0).evaluations;
+    return work_of(Command::simulate, given).at(0).evaluations;
   };
   const double one = evaluations("revolutions = 1");
   EXPECT_LT(evaluations("revolutions = 2"), 1.5 * one);
@@ -55,16 +47,17 @@ TEST(WorkOf, StabilityIsThePointsOfItsLobes) {
       read("[stability]\nspindle_rpm = [9000, 12000, 4]\naxial_depth_mm = [0.1, 1, 3]",
            Command::stability);
   EXPECT_EQ(
-      stability_work(given).at(0).count,
+      work_of(Command::stability, given).at(0).count,
       static_cast<double>(stability(given, {}).stability.lobes.multiplier.size()));
 }
 
 TEST(WorkOf, StabilityCountsTheVibrationsOfAPeriod) {
   const auto given = read("", Command::stability);
-  EXPECT_NEAR(stability_work(given).at(1).count, 922 * 60 / 5000.0 / 2, 1e-9);
+  EXPECT_NEAR(work_of(Command::stability, given).at(1).count, 922 * 60 / 5000.0 / 2,
+              1e-9);
   const auto uneven =
       read("[runout]\nradial_offsets_mm = [0, 0.01]", Command::stability);
-  EXPECT_NEAR(stability_work(uneven).at(1).count, 922 * 60 / 5000.0, 1e-9);
+  EXPECT_NEAR(work_of(Command::stability, uneven).at(1).count, 922 * 60 / 5000.0, 1e-9);
 }
 
 TEST(WorkOf, DynamicsIsItsSteps) {
@@ -72,13 +65,14 @@ TEST(WorkOf, DynamicsIsItsSteps) {
   const results::MotionResult r = dynamics(given, {});
   ASSERT_TRUE(r.steady.has_value());
   ASSERT_EQ(r.steady->motion.turns_done, 30);
-  EXPECT_EQ(dynamics_work(given).at(0).count, 30.0 * r.steps_per_tooth * 2);
+  EXPECT_EQ(work_of(Command::dynamics, given).at(0).count,
+            30.0 * r.steps_per_tooth * 2);
 }
 
 TEST(WorkOf, StepsThatAreNotComputedAnyhowAreNoWork) {
   auto given = read("", Command::dynamics);
   given.setup.cut.Omega /= 10000;
-  EXPECT_TRUE(dynamics_work(given).empty());
+  EXPECT_TRUE(work_of(Command::dynamics, given).empty());
 }
 
 TEST(WorkOf, SurfaceIsThePointsOfItsMap) {
@@ -90,12 +84,12 @@ TEST(WorkOf, SurfaceIsThePointsOfItsMap) {
   for (const surface::ErrorRow& row : surface(given, {}).map.rows) {
     points += static_cast<double>(row.error.size());
   }
-  EXPECT_EQ(surface_work(given).at(0).count, points);
+  EXPECT_EQ(work_of(Command::surface, given).at(0).count, points);
 }
 
 TEST(WorkOf, PlanIsTheCutsItLooksAt) {
   const auto given = read("[plan]\naxial_depth_mm = [0.1, 0.2]", Command::plan);
-  EXPECT_EQ(plan_work(given).back().count,
+  EXPECT_EQ(work_of(Command::plan, given).back().count,
             static_cast<double>(plan(given, {}).looked_at));
 }
 
@@ -104,11 +98,12 @@ TEST(WorkOf, RecordsAreTheirBytes) {
   folder.write("record.csv", std::string(1234, '1'));
   const auto given =
       folder.read(cut + "[[measurement]]\nfile = \"record.csv\"", Command::identify);
-  EXPECT_EQ(identify_work(given).at(0).count, 1234);
-  EXPECT_EQ(size_of_file(folder.path() / "none.csv"), 0);
-  inputs::MachineTables machine;
-  machine.frf.emplace().source.file.path = (folder.path() / "record.csv").string();
-  EXPECT_EQ(measured_work(machine).at(0).count, 1234);
+  EXPECT_EQ(work_of(Command::identify, given).at(0).count, 1234);
+  inputs::Case bare;
+  bare.machine.frf.emplace().source.file.path = (folder.path() / "record.csv").string();
+  EXPECT_EQ(work_of(Command::modes, bare).at(0).count, 1234);
+  bare.machine.frf->source.file.path = (folder.path() / "none.csv").string();
+  EXPECT_EQ(work_of(Command::modes, bare).at(0).count, 0);
 }
 
 Work some(double evaluations, double bytes, double power = 1) {
@@ -154,14 +149,14 @@ TEST(TooMuch, TakesWhatItNames) {
   auto given = read("[sampling]\nsamples_per_rev = 1000", Command::simulate);
   given.setup.cutter.profile = geometry::ball(10e-3);
   given.sampling.samples_per_rev = 50'000'000;
-  const std::string text = too_much(simulate_work(given));
+  const std::string text = too_much(work_of(Command::simulate, given));
   const std::string before = "= 5e+07: up to ";
   ASSERT_NE(text.find(before), std::string::npos) << text;
   const double value = std::stod(text.substr(text.find(before) + before.size()));
   given.sampling.samples_per_rev = static_cast<int>(value);
-  EXPECT_EQ(too_much(simulate_work(given)), "");
+  EXPECT_EQ(too_much(work_of(Command::simulate, given)), "");
   given.sampling.samples_per_rev = static_cast<int>(1.1 * value);
-  EXPECT_NE(too_much(simulate_work(given)), "");
+  EXPECT_NE(too_much(work_of(Command::simulate, given)), "");
 }
 
 }  // namespace

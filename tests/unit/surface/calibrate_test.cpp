@@ -1,6 +1,7 @@
 #include "made_readings.h"
 
 #include <trochoid/surface/calibrate.h>
+#include <trochoid/surface/doubts.h>
 
 #include <gtest/gtest.h>
 
@@ -160,6 +161,25 @@ TEST(Calibrate, MeansScatterAsManyAsTheyAre) {  // [E-20] [E-21]
   ASSERT_TRUE(means.ok && joint.ok);
   EXPECT_FALSE(joint.with_runout);
   EXPECT_NEAR(joint.coefficients.K_tc.se / means.coefficients.K_tc.se, 1.0, 0.1);
+}
+
+TEST(Doubts, OfReadingsWithTheWrongSignNameTheRightCoefficients) {
+  const Setting s = made_setting(Model::imprint, made_cut());
+  std::vector<Reading> readings = imprints(s, K);
+  EXPECT_FALSE(negative_coefficients(s, readings, calibration(s, readings)));
+  for (Reading& r : readings) r.error = -r.error;
+  const auto doubt = negative_coefficients(s, readings, calibration(s, readings));
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_TRUE(doubt->wrong_sign);
+  EXPECT_NEAR(doubt->K_tc.value, K[0], 0.02 * K[0]);
+}
+
+TEST(Doubts, OfReadingsWhereTheCutterWasThereAreNone) {
+  const Setting s = made_setting(Model::imprint, made_cut());
+  const auto readings = imprints(s, K);  // all at 30 mm
+  const Calibration c = calibration(s, readings);
+  EXPECT_FALSE(origin_doubt(s, readings, c, 60e-3, 30e-3).has_value());
+  EXPECT_FALSE(origin_doubt(s, {}, c, 60e-3, 30e-3).has_value());
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "made_readings.h"
 
-#include <trochoid/surface/error_grid.h>
-#include <trochoid/surface/plan_wall.h>
+#include <trochoid/surface/plan_cutting.h>
+#include <trochoid/surface/plan_readings.h>
 
 #include <gtest/gtest.h>
 
@@ -214,6 +214,52 @@ TEST(ThinnestWall, TakesNoAnswerForTooMuch) {
   const double infinite = std::numeric_limits<double>::infinity();
   const auto error = [&](double t) { return t < 2.0 ? infinite : 1.0; };
   EXPECT_NEAR(*thinnest_wall(0.1, 10.0, 5.0, error).thickness, 2.0, 1e-2);
+}
+
+TEST(WallDesigns, AreEachThereOnceTheFewestReadingsFirst) {
+  const std::vector<double> spreads{0.8};
+  const std::vector<double> heights{9, 3};
+  const std::vector<double> places{11, 12};  // both are 12 with three teeth
+  const auto designs = wall_designs(spreads, heights, places, 3);
+  ASSERT_EQ(designs.size(), 2U);
+  EXPECT_EQ(designs[0].heights, 3);
+  EXPECT_EQ(designs[1].heights, 9);
+  EXPECT_EQ(designs[1].per_height, 12);
+}
+
+TEST(ReadingsPlan, TakesTheFirstThatIsEnoughElseTheBest) {
+  const WallTrial trial = trial_of(Model::envelope);
+  const std::vector<WallDesign> designs{{.heights = 3, .per_height = 12},
+                                        {.heights = 9, .per_height = 12},
+                                        {.heights = 9, .per_height = 48}};
+  const auto chosen = [&](double coefficients) {
+    const WantedWidths wanted{coefficients, 1.0};
+    const ReadingsPlan plan = plan_readings(trial, designs, wanted, {}, 0.0);
+    EXPECT_EQ(plan.designs[*plan.chosen].enough, plan.shortfall <= 1.0);
+    EXPECT_FALSE(plan.so_far.has_value());
+    EXPECT_FALSE(plan.more.empty());
+    return *plan.chosen;
+  };
+  EXPECT_EQ(chosen(1e6), 0U);
+  EXPECT_EQ(chosen(1e-6), 2U);
+}
+
+TEST(PlannedCutting, NamesTheCutThatRemovesMostWithinTheLimit) {
+  const WallTrial trial = trial_of(Model::envelope, 0.0);
+  const double f_z = trial.setting.setup.cut.f_z;
+  const CuttingRequest all{.feeds = {0.5 * f_z, f_z}, .radial_depths = {0.5e-3, 1e-3}};
+  const PlannedCutting map = plan_cutting(trial.setting, {}, all);
+  ASSERT_EQ(map.cells.size(), 4U);
+  EXPECT_FALSE(map.best.has_value());
+  CuttingRequest limited = all;
+  limited.limit = 1.0;  // [m]: whatever the cut
+  const PlannedCutting free = plan_cutting(trial.setting, {}, limited);
+  EXPECT_EQ(free.best, 3U);
+  EXPECT_FALSE(free.thinnest.has_value());  // there is no wall to make thinner
+  limited.limit = 1.01 * map.cells[0].peak;
+  const PlannedCutting tight = plan_cutting(trial.setting, {}, limited);
+  ASSERT_TRUE(tight.best.has_value());
+  EXPECT_LE(tight.cells[*tight.best].peak, *limited.limit);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <trochoid/numerics/student.h>
-#include <trochoid/sweep/chance.h>
 #include <trochoid/sweep/distribution.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include <trochoid/sweep/samples.h>
+#include <trochoid/sweep/rows.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <trochoid/inputs/case.h>
 #include <trochoid/inputs/document.h>
 #include <trochoid/numerics/parallel.h>
-#include <trochoid/sweep/part_text.h>
+#include <trochoid/sweep/parts.h>
 #include <trochoid/sweep/work.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "correct_case.h"
 
-#include <trochoid/run/correct/correct.h>
+#include <trochoid/run/commands.h>
 
 #include <algorithm>
 

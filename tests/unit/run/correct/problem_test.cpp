@@ -1,7 +1,7 @@
 #include "correct_case.h"
 
 #include <trochoid/base/units.h>
-#include <trochoid/run/correct/problem.h>
+#include <trochoid/run/correct.h>
 
 namespace trochoid::run {
 namespace {

@@ -1,6 +1,6 @@
 #include "correct_case.h"
 
-#include <trochoid/run/correct/warnings.h>
+#include <trochoid/run/correct.h>
 
 namespace trochoid::run {
 namespace {

@@ -1,7 +1,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/results/calibrate.h>
-#include <trochoid/run/wall/calibrate.h>
-#include <trochoid/run/wall/surface.h>
+#include <trochoid/run/commands.h>
 
 #include <gtest/gtest.h>
 

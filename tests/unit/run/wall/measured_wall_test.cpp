@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/run/wall/measured_wall.h>
+#include <trochoid/run/wall.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 #include <trochoid/base/units.h>
-#include <trochoid/run/wall/plan.h>
-#include <trochoid/run/wall/surface.h>
+#include <trochoid/run/commands.h>
 
 #include <gtest/gtest.h>
 

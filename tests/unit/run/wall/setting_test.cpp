@@ -1,5 +1,5 @@
 #include <trochoid/base/units.h>
-#include <trochoid/run/wall/setting.h>
+#include <trochoid/run/wall.h>
 
 #include <gtest/gtest.h>
 

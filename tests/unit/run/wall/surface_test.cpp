@@ -1,4 +1,4 @@
-#include <trochoid/run/wall/surface.h>
+#include <trochoid/run/commands.h>
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

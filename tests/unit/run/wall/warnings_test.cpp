@@ -1,4 +1,4 @@
-#include <trochoid/run/wall/warnings.h>
+#include <trochoid/run/wall.h>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <trochoid/dynamics/point_response.h>
+#include <trochoid/dynamics/system.h>
+#include <trochoid/structure/frequency_response.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The tool point from its measured responses, and what these can tell of it.
+namespace trochoid::dynamics {
+
+/// One measured response of the tool or of the table.
+struct MeasuredResponse {
+  structure::FrequencyResponse response;  ///< in the band that counts
+  std::size_t motion = 0;                 ///< axis of the motion, 0: x, 1: y
+  std::size_t force = 0;                  ///< axis of the force, 0: x, 1: y
+  bool of_table = false;
+};
+
+/// Fewer lines are no response.
+inline constexpr std::size_t fewest_lines = 8;
+
+/// @brief A response as receptance, its lines above 0.
+MeasuredReceptance receptance_of(const MeasuredResponse& measured);
+
+/// @brief Whether the point would move against the force that pushes it, so that the
+/// sensor points the wrong way: the imaginary part of a direct receptance is negative, most
+/// of all at a resonance. A cross response may have either sign.
+bool moves_against_force(const MeasuredReceptance& part);
+
+/// The greatest peak of a response.
+struct Peak {
+  double omega = 0.0;        ///< [rad/s]
+  std::size_t lines = 0;     ///< between the half-power points
+  bool at_the_edge = false;  ///< of the band: a resonance may lie outside
+};
+Peak greatest_peak(const MeasuredReceptance& part);
+
+/// @brief Scatter of the lines, from fourth differences: a resonance with several lines in
+/// it leaves little of them. The median keeps peaks out. [m/N]
+double scatter(const MeasuredReceptance& part);
+
+/// A response to which no modes could be fitted.
+struct NoModes {
+  std::size_t response = 0;  ///< which
+  std::string reason;
+};
+
+/// What measured responses say.
+struct ToolPoint {
+  PointResponse response;
+  std::vector<double> noise;  ///< scatter of each part of the response [m/N]
+  System modes;  ///< of the direct responses; empty where none were looked for
+  std::optional<NoModes> no_modes;  ///< the first without; nothing: all have some
+};
+
+/// @brief The tool point from the responses of tool and table.
+///
+/// A cross response that is given in one of its two directions serves for both: structures
+/// without gyroscopic forces are symmetric. With one, modes lie askew (D-25).
+/// @param measured   each with fewest_lines lines at least
+/// @param fit_modes  look for the modes, too
+ToolPoint tool_point(std::span<const MeasuredResponse> measured, bool fit_modes);
+
+}  // namespace trochoid::dynamics

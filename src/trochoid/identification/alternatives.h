@@ -1,0 +1,50 @@
+#pragma once
+
+#include <trochoid/identification/find_axes.h>
+
+#include <functional>
+#include <optional>
+#include <span>
+
+/// What would explain records clearly better than the cut, the tool and the axes that are
+/// stated: each is a likely mistake.
+namespace trochoid::identification {
+
+/// Another reading of the channels of the dynamometer.
+struct BetterAxes {
+  signal::Matrix3 matrix{};  ///< channels = matrix times force on the tool
+  double rms = 0.0;          ///< left with it [N]
+  double stated_rms = 0.0;   ///< left with the stated one [N]; infinite: no fit
+};
+
+/// @brief The reading of the channels that fits best, where it leaves clearly less than the
+/// stated one.
+/// @param M      the stated one
+/// @param least  of what the stated one leaves: clearly less is less than this part
+/// @param told   as of find_axes
+/// @return nothing: none does, or a channel is missing
+std::optional<BetterAxes> better_axes(const AxesProblem& problem,
+                                      std::span<const ChannelRun> runs,
+                                      const signal::Matrix3& M, double least,
+                                      const std::function<void(double)>& told);
+
+/// Another tool or cut than the stated one.
+struct BetterCut {
+  std::optional<int>
+      teeth;         ///< so many, with the same feed in a turn; nothing: reversed
+  bool up = false;   ///< reversed: it is an up cut
+  double rms = 0.0;  ///< left with it [N]
+  double stated_rms = 0.0;  ///< left as stated, by the same kind of fit [N]
+};
+
+/// @brief Another number of teeth, or milling the other way round, where it leaves less
+/// than half of what the stated cut leaves.
+///
+/// Numbers of teeth are compared without runout, directions with radial offsets of up to
+/// four teeth.
+/// @param runs     force on the tool
+/// @param options  their chip model and phase count
+std::optional<BetterCut> better_cut(const force::Setup& setup, const force::Law& law,
+                                    std::span<const Run> runs, const Options& options);
+
+}  // namespace trochoid::identification

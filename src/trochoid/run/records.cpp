@@ -1,0 +1,391 @@
+#include <trochoid/run/records.h>
+
+#include <trochoid/base/error.h>
+#include <trochoid/base/units.h>
+#include <trochoid/signal/channel_faults.h>
+#include <trochoid/signal/drift.h>
+#include <trochoid/signal/passes.h>
+#include <trochoid/signal/revolutions.h>
+#include <trochoid/signal/spindle_speed.h>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <span>
+
+namespace trochoid::run {
+
+namespace {
+
+using Warnings = std::vector<base::Warning>;
+
+/// A found speed that differs more than this from the stated one is worth a word.
+constexpr double speed_slack = 1e-3;
+/// Beyond this a percentage says less than a factor.
+constexpr double far_off = 0.5;
+
+std::vector<signal::Record> read_all(const inputs::Case& given) {
+  std::vector<signal::Record> records;
+  std::vector<std::string> problems;
+  for (const inputs::Measurement& m : given.measurements) {
+    try {
+      records.push_back(m.record.get());
+    } catch (const base::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  for (const signal::Record& record : records) {
+    if (const std::string why = missing_channel(record, given); !why.empty()) {
+      problems.push_back(why);
+    }
+  }
+  if (!problems.empty()) {
+    throw base::InputError(std::move(problems));
+  }
+  return records;
+}
+
+void compare_speed(const MeasuredRun& run, Warnings& warnings) {
+  const double stated = run.run.cut.Omega;
+  const double ratio = run.Omega / stated;
+  const double off = std::abs(ratio - 1);
+  if (off <= speed_slack) {
+    return;
+  }
+  const std::string how_far = off < far_off
+                                  ? fmt::format("{:+.2f} % off", 100 * (ratio - 1))
+                                  : fmt::format("{:.3g} times", ratio);
+  warnings.push_back(
+      {"spindle_speed",
+       fmt::format("{}: the record turns at {:.2f} rpm, {} the stated {:g} rpm. The "
+                   "found speed is used.{}",
+                   run.file, run.Omega / unit::rpm, how_far, stated / unit::rpm,
+                   off < far_off ? ""
+                                 : " Check spindle_rpm and the feed, or the times "
+                                   "and angles of the record.")});
+}
+
+/// @brief What a record that is not periodic near the stated speed repeats at; empty:
+/// nothing that explains most of it.
+std::string far_speed(const signal::Record& record, double Omega, int teeth) {
+  constexpr double range = 0.45;  // a half or a double would look periodic, too
+  constexpr double most = 0.5;    // of the variance
+  const signal::SpeedEstimate found =
+      signal::spindle_speed(record, {.Omega = Omega, .range = range, .teeth = teeth});
+  if (!found.ok || found.explained < most) {
+    return "";
+  }
+  return fmt::format(
+      " It repeats at {:.1f} rpm, {:+.0f} % off: check spindle_rpm, and with it the feed.",
+      found.Omega / unit::rpm, 100 * (found.Omega / Omega - 1));
+}
+
+/// Angle and speed of a run.
+void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
+                    Warnings& warnings) {
+  std::vector<double>& angle = run.run.angle;
+  run.Omega = run.run.cut.Omega;
+  if (!record.angle.empty()) {
+    angle = signal::unwrapped(record.angle);
+    if (!record.time.empty() && record.time.back() > record.time.front()) {
+      run.Omega =
+          (angle.back() - angle.front()) / (record.time.back() - record.time.front());
+      if (!(run.Omega > 0)) {
+        throw base::InputError(
+            {record.file +
+             ": the spindle angle falls while the time rises; it must rise "
+             "(if it was counted backwards, change its sign; two samples "
+             "must lie less than half a turn apart)"});
+      }
+      compare_speed(run, warnings);
+    }
+    return;
+  }
+  run.by_time = true;
+  const signal::SpeedEstimate found =
+      signal::spindle_speed(record, {.Omega = run.Omega, .teeth = teeth});
+  if (found.ok) {
+    run.Omega = found.Omega;
+    run.Omega_se = found.se;
+    compare_speed(run, warnings);
+  } else {
+    warnings.push_back(
+        {"spindle_speed_unknown", record.file + ": " + found.message +
+                                      " The stated spindle speed is used as it is." +
+                                      far_speed(record, run.Omega, teeth)});
+  }
+  angle = signal::angle_from_time(record.time, run.Omega);
+}
+
+/// Where nothing cuts a channel reads its offset.
+void take_drift_out(const inputs::Case& given, std::span<const double> angle,
+                    std::span<const signal::Part> air, signal::Record& record,
+                    Warnings& warnings) {
+  using inputs::ChannelOffset;
+  const ChannelOffset how = given.identify.channel_offsets;
+  if (how != ChannelOffset::idle && how != ChannelOffset::automatic) {
+    return;
+  }
+  if (const auto drift = signal::idle_drift(record.channel, angle, air)) {
+    signal::remove_drift(record.channel, *drift);
+  } else if (how == ChannelOffset::idle) {
+    warnings.push_back({"no_idle_part",
+                        record.file +
+                            ": nothing in the record is free of cutting, so the offset "
+                            "of the channels cannot be read off it; it is left in. "
+                            "channel_offsets = \"fit\" estimates it with the rest."});
+  }
+}
+
+/// Code of the warning, and what the channel does.
+std::pair<std::string_view, std::string_view> in_words(signal::ChannelFault fault) {
+  switch (fault) {
+    case signal::ChannelFault::constant:
+      return {"dead_channel",
+              "holds the same number in every sample: was it connected?"};
+    case signal::ChannelFault::clipped:
+      return {"clipped_channel",
+              "stays at its largest or smallest number again and again: it was driven "
+              "beyond its range. Measure in a wider one."};
+    case signal::ChannelFault::dropouts:
+      return {"dropouts",
+              "stands still for several samples now and then: samples were lost there. "
+              "Choose another part by from_s and to_s."};
+    case signal::ChannelFault::none:
+      break;
+  }
+  return {};
+}
+
+void warn_faults(const signal::Record& record, Warnings& warnings) {
+  for (std::size_t c = 0; c < record.channel.size(); ++c) {
+    if (!record.measured[c]) continue;
+    const signal::ChannelFault fault = signal::channel_fault(record.channel[c]);
+    if (fault == signal::ChannelFault::none) {
+      continue;
+    }
+    const auto [code, what] = in_words(fault);
+    warnings.push_back(
+        {std::string(code), fmt::format("{}: channel {} (column {}) {}", record.file,
+                                        c + 1, record.channel_column[c], what)});
+  }
+}
+
+/// `0.83 s`, or the number of the turn where a record has no times.
+std::string place_text(const signal::Record& record, std::span<const double> angle,
+                       std::size_t at) {
+  const std::size_t i = std::min(at, record.size() - 1);
+  return record.time.empty()
+             ? fmt::format("turn {:.1f}", (angle[i] - angle[0]) / unit::turn)
+             : fmt::format("{:.4g} s", record.time[i]);
+}
+
+std::string air_text(const signal::Record& record, std::span<const double> angle,
+                     const std::vector<signal::Part>& air) {
+  std::vector<std::string> parts;
+  for (const signal::Part& part : air) {
+    const std::string from = place_text(record, angle, part.begin);
+    const std::string to = place_text(record, angle, part.end);
+    parts.push_back(part.begin == 0 ? fmt::format("up to {}", to)
+                    : part.end == record.size()
+                        ? fmt::format("from {} on", from)
+                        : fmt::format("from {} to {}", from, to));
+  }
+  return fmt::format("nothing cuts {}", fmt::join(parts, ", "));
+}
+
+std::string steady_text(const signal::Record& record, std::span<const double> angle,
+                        const signal::Passes& passes, const signal::Part& used) {
+  std::string text = air_text(record, angle, passes.air);
+  if (passes.air.empty()) {
+    text = "the cut is not steady at its ends";
+  }
+  text += fmt::format("; the steady cut from {} to {} is used",
+                      place_text(record, angle, used.begin),
+                      place_text(record, angle, used.end - 1));
+  if (passes.steady.size() > 1) {
+    text += fmt::format(
+        ", the longest of {} passes (from_s and to_s in [[measurement]] choose another)",
+        passes.steady.size());
+  }
+  return text + ".";
+}
+
+/// The time that the case states.
+/// @throws base::InputError
+signal::Part stated_part(const signal::Record& record,
+                         const inputs::Measurement& measurement) {
+  const auto& time = record.time;
+  if (time.empty()) {
+    throw base::InputError({record.file +
+                            ": from_s and to_s need times, and this record has none: "
+                            "time_column or sample_rate_Hz gives them"});
+  }
+  const double from = measurement.from.value_or(time.front());
+  const double to = measurement.to.value_or(time.back());
+  const signal::Part part = signal::part_between(time, from, to);
+  if (part.size() < 2) {
+    throw base::InputError({fmt::format(
+        "{}: nothing was recorded from {:g} s to {:g} s (from_s, to_s): the record goes "
+        "from {:g} s to {:g} s",
+        record.file, from, to, time.front(), time.back())});
+  }
+  return part;
+}
+
+/// Angle of the spindle, before its speed is known any better than stated.
+std::vector<double> stated_angle(const signal::Record& record,
+                                 const geometry::Cut& cut) {
+  return record.angle.empty() ? signal::angle_from_time(record.time, cut.Omega)
+                              : signal::unwrapped(record.angle);
+}
+
+/// Which part of a record is fitted.
+struct UsedPart {
+  signal::Part part;
+  std::string why;  ///< one sentence for a person; empty: all, or what the case states
+};
+
+/// The time that the case states, or else the longest steady cut.
+/// @throws base::InputError where a time is stated that the record does not have
+UsedPart used_part(const signal::Record& record, std::span<const double> angle,
+                   const signal::Passes& passes,
+                   const inputs::Measurement& measurement) {
+  if (measurement.from || measurement.to) {
+    return {stated_part(record, measurement), ""};
+  }
+  const signal::Part longest = signal::longest_steady(passes);
+  return {longest, longest.size() < record.size()
+                       ? steady_text(record, angle, passes, longest)
+                       : ""};
+}
+
+/// The steady cut of a record, without the offset of its channels.
+void keep_cut(const inputs::Case& given, const inputs::Measurement& measurement,
+              signal::Record& record, MeasuredRun& run, Warnings& warnings) {
+  const std::vector<double> angle = stated_angle(record, measurement.cut);
+  const signal::Passes passes = signal::passes_of(record.channel, angle);
+  const UsedPart used = used_part(record, angle, passes, measurement);
+  run.overview = signal::overview_of(record, angle, used.part);
+  take_drift_out(given, angle, passes.air, record, warnings);
+  if (!used.why.empty()) {
+    warnings.push_back({"part_used", record.file + ": " + used.why});
+  }
+  signal::keep_part(used.part, record);
+}
+
+std::string duration_text(const signal::Record& record) {
+  if (record.time.size() < 2) {
+    return "no time";
+  }
+  std::string text = fmt::format("{:.4g} s", record.time.back() - record.time.front());
+  return record.sample_rate > 0
+             ? text + fmt::format(" at {:.6g} Hz", record.sample_rate)
+             : text + ", unevenly sampled";
+}
+
+std::string revolutions_text(const signal::Record& record, const geometry::Cut& cut) {
+  if (!record.angle.empty()) {
+    const auto angle = signal::unwrapped(record.angle);
+    return fmt::format("{:.2f} revolutions by their angles",
+                       std::abs(angle.back() - angle.front()) / unit::turn);
+  }
+  const double duration = record.time.back() - record.time.front();
+  return fmt::format("about {:.1f} revolutions at the stated {:g} rpm",
+                     duration * cut.Omega / unit::turn, unit::in(cut.Omega, unit::rpm));
+}
+
+/// Which column tells where the spindle stands.
+std::string axis_text(const signal::Record& record) {
+  if (!record.angle.empty()) {
+    return fmt::format("  angle from column {}\n", record.angle_column);
+  }
+  return record.time_column.empty()
+             ? std::string("  time from the sampling rate\n")
+             : fmt::format("  time from column {}\n", record.time_column);
+}
+
+}  // namespace
+
+std::string missing_channel(const signal::Record& record, const inputs::Case& given) {
+  if (std::ranges::all_of(record.measured, std::identity())) return "";
+  const auto dynamometer = given.dynamometer.value_or(inputs::Dynamometer{});
+  const std::string begin =
+      record.file + ": not all three channels were measured, so that ";
+  if (dynamometer.automatic) {
+    return begin +
+           "axes = \"auto\" cannot find what the others read; give the axes, for "
+           "example axes = [\"x\", \"y\", \"z\"]";
+  }
+  if (!identification::measured_forces(record.measured, dynamometer.matrix)) {
+    return begin +
+           "a full matrix gives no force; give axes, for example axes = [\"x\", "
+           "\"y\", \"z\"], in its place";
+  }
+  return "";
+}
+
+std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warnings) {
+  std::vector<signal::Record> records = read_all(given);
+  std::vector<MeasuredRun> runs;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    signal::Record& record = records[i];
+    MeasuredRun run{.file = record.file,
+                    .run = {.cut = given.measurements[i].cut,
+                            .group = given.measurements[i].group}};
+    for (const base::Warning& note : record.notes) {
+      warnings.push_back({note.code, run.file + ": " + note.message});
+    }
+    warn_faults(record, warnings);
+    keep_cut(given, given.measurements[i], record, run, warnings);
+    lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
+    run.run.channel = std::move(record.channel);
+    run.run.measured = record.measured;
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+std::vector<identification::ChannelRun> channels_of(
+    const std::vector<MeasuredRun>& measured) {
+  std::vector<identification::ChannelRun> runs;
+  runs.reserve(measured.size());
+  for (const MeasuredRun& one : measured) {
+    runs.push_back(one.run);
+  }
+  return runs;
+}
+
+std::string describe_record(const signal::Record& record,
+                            const inputs::Measurement& measurement) {
+  std::string text =
+      fmt::format("{}: {} samples, {}, {}\n", record.file, record.size(),
+                  duration_text(record), revolutions_text(record, measurement.cut));
+  text += axis_text(record);
+  const std::vector<double> angle = stated_angle(record, measurement.cut);
+  const UsedPart used =
+      used_part(record, angle, signal::passes_of(record.channel, angle), measurement);
+  if (!used.why.empty()) {
+    text += "  " + used.why + "\n";
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!record.measured[c]) {
+      text += fmt::format("  channel {} was not measured\n", c + 1);
+      continue;
+    }
+    const auto& values = record.channel[c];
+    const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) /
+                        static_cast<double>(values.size());
+    text +=
+        fmt::format("  channel {} from column {}: {:.1f} to {:.1f} N, mean {:.1f} N\n",
+                    c + 1, record.channel_column[c], *lo, *hi, mean);
+  }
+  return text;
+}
+
+}  // namespace trochoid::run

@@ -1,0 +1,72 @@
+#include <trochoid/dynamics/tool_point.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+namespace trochoid::dynamics {
+namespace {
+
+constexpr double mass = 0.04;
+constexpr double stiffness = 1.5e6;
+constexpr double damping = 5.0;
+
+/// One mode, from 200 rad/s on in steps of 10.
+MeasuredResponse one_mode(std::size_t motion, std::size_t force, double scale = 1.0) {
+  MeasuredResponse out;
+  out.motion = motion;
+  out.force = force;
+  for (double w = 200; w < 12000; w += 10) {
+    out.response.omega.push_back(w);
+    out.response.H.push_back(
+        scale / std::complex<double>(stiffness - mass * w * w, damping * w));
+  }
+  return out;
+}
+
+TEST(ToolPoint, HasTheModesOfItsDirectResponses) {
+  const std::vector<MeasuredResponse> x{one_mode(0, 0)};
+  const ToolPoint point = tool_point(x, true);
+  ASSERT_EQ(point.modes.modes.size(), 1U);
+  EXPECT_FALSE(point.no_modes.has_value());
+  EXPECT_NEAR(point.modes.modes[0].mass, mass, 1e-4 * mass);
+  EXPECT_EQ(point.modes.modes[0].x, 1.0);
+  EXPECT_TRUE(tool_point(x, false).modes.modes.empty());
+}
+
+TEST(ToolPoint, OfATableMovesAgainstTheTool) {
+  MeasuredResponse y = one_mode(1, 1);
+  y.of_table = true;
+  const ToolPoint point = tool_point(std::vector{y}, true);
+  ASSERT_EQ(point.modes.modes.size(), 1U);
+  EXPECT_EQ(point.modes.modes[0].y, -1.0);
+  EXPECT_TRUE(point.modes.modes[0].of_table);
+}
+
+TEST(ToolPoint, TakesACrossResponseForBothDirections) {
+  const std::vector<MeasuredResponse> all{one_mode(0, 0), one_mode(1, 1),
+                                          one_mode(0, 1, 0.3)};
+  const ToolPoint point = tool_point(all, false);
+  ASSERT_EQ(point.response.parts.size(), 4U);
+  EXPECT_EQ(point.response.parts[3].motion, 1U);
+  EXPECT_EQ(point.response.parts[3].force, 0U);
+  EXPECT_EQ(point.response.parts[3].H, point.response.parts[2].H);
+}
+
+TEST(MeasuredResponse, OfASensorTheWrongWayRoundMovesAgainstTheForce) {
+  EXPECT_FALSE(moves_against_force(receptance_of(one_mode(0, 0))));
+  EXPECT_TRUE(moves_against_force(receptance_of(one_mode(0, 0, -1.0))));
+  EXPECT_FALSE(moves_against_force(receptance_of(one_mode(0, 1, -1.0))));
+}
+
+TEST(MeasuredResponse, HasItsPeakAtTheResonance) {
+  const Peak peak = greatest_peak(receptance_of(one_mode(0, 0)));
+  EXPECT_NEAR(peak.omega, std::sqrt(stiffness / mass), 10);
+  EXPECT_NEAR(static_cast<double>(peak.lines), damping / mass / 10, 2);
+  EXPECT_FALSE(peak.at_the_edge);
+  EXPECT_LT(scatter(receptance_of(one_mode(0, 0))), 1e-9);
+}
+
+}  // namespace
+}  // namespace trochoid::dynamics
