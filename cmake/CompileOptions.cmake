@@ -4,10 +4,18 @@ add_library(trochoid_compile_options INTERFACE)
 target_compile_options(trochoid_compile_options INTERFACE -ffp-contract=off)
 if(TROCHOID_DEVELOPER)
   target_compile_options(trochoid_compile_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wsign-conversion
+    -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion
     -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Werror
     # g++ 12 sees an overlap in std::string operator+ that is not there (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  if(TROCHOID_UNITY)
+    # What a file has at its top is seen by the next one, which may have a variable of that
+    # name; and g++ does not see that the unnamed namespace of a unit is in one unit only.
+    target_compile_options(trochoid_compile_options INTERFACE
+      $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local;-Wno-subobject-linkage>)
+  else()
+    target_compile_options(trochoid_compile_options INTERFACE -Wshadow)
+  endif()
 endif()
 
 # What a file that is read wrongly meets before it does harm: for the library and the

@@ -3,7 +3,7 @@
 set(from /usr/include)
 set(here ${PROJECT_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${here})
-foreach(part eigen3/Eigen eigen3/unsupported fmt hwy toml++ nlohmann CLI boost ceres)
+foreach(part eigen3/Eigen eigen3/unsupported fmt hwy toml++ nlohmann CLI boost)
   if(NOT EXISTS ${from}/${part})
     message(FATAL_ERROR "${from}/${part} is not here: tools/setup.sh installs it")
   endif()

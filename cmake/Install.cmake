@@ -56,7 +56,7 @@ install(DIRECTORY docs examples linuxcnc DESTINATION ${CMAKE_INSTALL_DOCDIR}
 # trochoid_install_licences(COMPONENT PACKAGE...), besides those of the headers it is built on.
 function(trochoid_install_licences component)
   foreach(package ${ARGN} libfmt-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
-      libcli11-dev libeigen3-dev libboost-dev libceres-dev)
+      libcli11-dev libeigen3-dev libboost-dev)
     install(FILES /usr/share/doc/${package}/copyright RENAME ${package}
       DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL
       OPTIONAL)

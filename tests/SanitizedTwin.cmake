@@ -10,9 +10,9 @@ endif()
 
 if(TROCHOID_SANITIZED_TESTS)
   add_library(trochoid_sanitizers INTERFACE)
-  # -Og after the -O3 of Release: a third of the time to compile. -w: the other build
-  # warns already, and g++ 12 sees uninitialized values in what the sanitizers insert.
-  target_compile_options(trochoid_sanitizers INTERFACE -Og -UNDEBUG -w
+  # -w: the other build warns already, and g++ 12 sees uninitialized values in what the
+  # sanitizers insert.
+  target_compile_options(trochoid_sanitizers INTERFACE -UNDEBUG -w
     -fsanitize=address,undefined -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS)
   target_link_options(trochoid_sanitizers INTERFACE -fsanitize=address,undefined)
 
@@ -21,7 +21,7 @@ if(TROCHOID_SANITIZED_TESTS)
   if(NOT TROCHOID_SANITIZED_TESTS STREQUAL all)
     list(JOIN TROCHOID_SANITIZED_ROOMS "|" rooms)
     list(FILTER sources INCLUDE REGEX "/trochoid/(${rooms})/")
-    # Little but templates of Eigen and Ceres, and a fifth of the time to compile.
+    # Little but templates of Eigen, and a fifth of the time to compile.
     list(FILTER sources EXCLUDE REGEX
       "/numerics/(dense|least_squares|complex_eigenvalues|[a-z_]*levenberg_marquardt)\\.cpp")
   endif()
@@ -31,10 +31,8 @@ if(TROCHOID_SANITIZED_TESTS)
   add_library(trochoid_sanitized STATIC EXCLUDE_FROM_ALL ${sources})
   add_dependencies(trochoid_sanitized trochoid)  # it makes the generated sources
   target_precompile_headers(trochoid_sanitized PRIVATE ${TROCHOID_PRECOMPILED})
-  # What computes: -O1 takes longer to compile and half as long to run.
-  set(computes ${sources})
-  list(FILTER computes EXCLUDE REGEX "/(inputs|results|report|run)/")
-  set_source_files_properties(${computes} PROPERTIES COMPILE_OPTIONS -O1)
+  target_compile_options(trochoid_sanitized PRIVATE -O1)  # longer to compile, half as long to run
+  trochoid_unity(trochoid_sanitized)
   target_compile_features(trochoid_sanitized PUBLIC cxx_std_20)
   target_include_directories(trochoid_sanitized PUBLIC
     $<TARGET_PROPERTY:trochoid,INCLUDE_DIRECTORIES>)

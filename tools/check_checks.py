@@ -170,11 +170,17 @@ class Sizes(unittest.TestCase):
         self.assertEqual(answers(check_sizes.violations), [])
 
     def test_long_file(self):
-        self.assertIn("tests/a.py:501: 501 lines, more than 500",
-                      self.refused("tests/a.py", "\n" * 501))
+        self.assertIn("tests/a.py:601: 601 lines, more than 600",
+                      self.refused("tests/a.py", "\n" * 601))
 
     def test_long_header(self):
         self.assertIn("more than 250", self.refused("src/trochoid/chip/d.h", "\n" * 251))
+
+    def test_too_many_short_files(self):
+        short = {f"src/trochoid/chip/s{i}.h": "\n" for i in range(check_sizes.SHORT)}
+        found = answers(check_sizes.violations, files=short)
+        self.assertEqual(len(found), 1, found)
+        self.assertIn("have less than 40 lines", found[0])
 
     def test_long_function(self):
         self.accepted("void f() {" + "\n" * 59 + "}\n")

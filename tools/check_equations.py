@@ -2,7 +2,8 @@
 """Check that each equation stands in three places under one id, and in no place alone.
 
     docs/theory/*.md          \\tag{F-1}   written, once
-    src/trochoid/**/*.h       @eq F-1      coded
+    src/trochoid/**           @eq F-1      coded: where a header declares it, or in the source
+                                           that keeps it to itself
     tests/**                  [F-1]        tested
 
 The id proves presence; the tests prove the value.
@@ -31,21 +32,23 @@ def places(top, folder, suffixes, pattern):
 def gaps(top):
     identifier = r"([A-Z]+-\d+[a-z]?)"
     written = places(top, "docs/theory", {".md"}, r"\\tag\{" + identifier + r"\}")
-    coded = places(top, "src/trochoid", {".h"}, r"@eq\s+" + identifier)
-    hidden = places(top, "src/trochoid", {".cpp"}, r"@eq\s+" + identifier)
+    declared = places(top, "src/trochoid", {".h"}, r"@eq\s+" + identifier)
+    own = places(top, "src/trochoid", {".cpp"}, r"@eq\s+" + identifier)
+    coded = {**own, **declared}
     tested = places(top, "tests", TEST_FILES, r"\[" + identifier + r"\]")
     for name, where in sorted(written.items()):
         for again in where[1:]:
             yield f"{again}: {name} is already written at {where[0]}"
         if name not in coded:
-            yield f"{where[0]}: {name} is not coded (no '@eq {name}' in a header)"
+            yield f"{where[0]}: {name} is not coded (no '@eq {name}' in src)"
         if name not in tested:
             yield f"{where[0]}: {name} is not tested (no '[{name}]' in tests)"
     for name, where in sorted(coded.items()):
         if name not in written:
             yield f"{where[0]}: {name} is not written in docs/theory"
-    for name, where in sorted(hidden.items()):
-        yield f"{where[0]}: '@eq {name}' belongs in the header"
+    for name, where in sorted(own.items()):
+        if name in declared:
+            yield f"{where[0]}: '@eq {name}' belongs in the header, where it stands too"
     # An array index such as [N-1] is no equation: only families that the theory has.
     families = {name.split("-")[0] for name in written}
     for name, where in sorted(tested.items()):

@@ -11,10 +11,10 @@ import sys
 ONLY = {"report": {"base", "results"}}
 # The decompositions of Eigen take longest: plain functions of this room give them, and one
 # file beside it has the sparse one.
-EIGEN = re.compile(r"(unsupported/)?Eigen/|ceres/")
+EIGEN = re.compile(r"(unsupported/)?Eigen/")
 EIGEN_AT = ("numerics/", "structure/ritz.cpp")
 # Headers that are slow to compile stay in .cpp files.
-HEAVY = re.compile(r"toml\+\+/|nlohmann/(?!json_fwd)|CLI/|ceres/|boost/|tbb/|Eigen/")
+HEAVY = re.compile(r"toml\+\+/|nlohmann/(?!json_fwd)|CLI/|boost/|tbb/|Eigen/")
 
 ROW = re.compile(r"^\|\s*(\d+)\s*\|([^|]*)\|")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]*)>|"([^"]*)")')

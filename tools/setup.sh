@@ -11,7 +11,6 @@ export PATH=$PATH:/usr/sbin:/sbin
 # Libraries by Debian package; the comment says what for.
 libraries=(
   libeigen3-dev        # linear algebra
-  libceres-dev         # its header ceres/tiny_solver.h: Levenberg-Marquardt
   libboost-dev         # Boost.Math: Student's t, quadrature, roots
   libtbb-dev           # threads
   libfmt-dev           # number formatting

@@ -28,7 +28,7 @@ using numerics::ValueAndSlope;
 using Breaks = std::pmr::vector<double>;
 using Marks = std::pmr::vector<int>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double start = -pi / 2;  // of a turn: behind the tool
 /// Stretches shorter than this are none [rad].
 constexpr double shortest = 1e-13;

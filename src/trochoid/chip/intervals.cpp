@@ -10,7 +10,7 @@ namespace trochoid::chip {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double resolution = 1e-13;  // [rad]
 
 struct AroundTooth {

@@ -11,7 +11,7 @@ enum class Model {
   trochoidal,  ///< exact tooth paths
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Model model) noexcept {
   switch (model) {
     case Model::none:
@@ -37,7 +37,7 @@ enum class Lookback {
   previous,  ///< the tooth before only: the literal form of [riviere2009]
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Lookback lookback) noexcept {
   switch (lookback) {
     case Lookback::all:

@@ -12,7 +12,7 @@
 namespace trochoid::chip {
 
 Removal removal(const Passage& passage, const Slice& slice) {
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   const double feed = passage.feed;
   double widest = 0.0;
   for (const geometry::EdgePosition& p : slice.teeth) {

@@ -20,7 +20,7 @@ enum class Target {
   least_squares,  ///< the chips over the whole arc of cut, as nearly as possible
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Target target) noexcept {
   switch (target) {
     case Target::peak_force:
@@ -56,7 +56,7 @@ enum class Optimality {
   local_minimum,      ///< starts ended in different places: the best of them
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Optimality optimality) noexcept {
   switch (optimality) {
     case Optimality::equal:

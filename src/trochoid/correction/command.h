@@ -19,7 +19,7 @@ enum class Method {
   learning,         ///< inverse, then improved on the table itself
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Method method) noexcept {
   switch (method) {
     case Method::plain:

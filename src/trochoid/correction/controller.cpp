@@ -9,22 +9,14 @@
 
 namespace {
 
+using trochoid::correction::clamped;
+using trochoid::correction::fraction;
 using trochoid::correction::within;
 
-constexpr int32_t most_turns = 1000000;
+constexpr int32_t most_kept_turns = 1000000;
 constexpr double absurd_position = 1e9;  // [rev]: the fraction would be lost
 constexpr double absurd_speed = 10.0;    // times max_speed_rps
 constexpr double absurd_gain = 1e6;
-
-double clamped(double value, double low, double high) {
-  return value > low ? (value < high ? value : high) : low;
-}
-
-/// Into [0, 1).
-double fraction(double turns) {
-  const double rest = turns - floor(turns);
-  return rest < 1.0 ? rest : 0.0;
-}
 
 /// Into [-1/2, 1/2].
 double wrapped(double turns) {
@@ -151,7 +143,7 @@ int32_t follow_position(TrochoidController& c, const TrochoidControllerInput& in
   }
   if (turned) {
     c.expected_rev = wrapped(c.angle_rev);
-    c.turns = c.turns < most_turns ? c.turns + 1 : most_turns;
+    c.turns = c.turns < most_kept_turns ? c.turns + 1 : most_kept_turns;
   }
   if (c.expected_rev > c.config.index_turns) {
     return lose_position(c, TROCHOID_INDEX_LOST);

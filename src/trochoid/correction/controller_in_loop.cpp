@@ -17,7 +17,7 @@ namespace {
 constexpr double force_rate = 10e3;  ///< samples of the force for learning [Hz]
 constexpr int table_points = TROCHOID_TABLE_POINTS;
 /// Speeds around that of the case at which the controller runs.
-constexpr double slowest = 0.5;
+constexpr double slowest_force = 0.5;
 constexpr double fastest = 1.5;
 constexpr double at_rest = 1e-9;  ///< from mid-stroke [m]
 
@@ -40,7 +40,7 @@ TrochoidControllerConfig config_of(const Setting& s, const Plan& plan,
   config.fade_s = options.fade;
   config.ramp_s = options.ramp;
   const double rps = s.cut.setup.cut.Omega / unit::turn;
-  config.min_speed_rps = slowest * rps;
+  config.min_speed_rps = slowest_force * rps;
   config.max_speed_rps = fastest * rps;
   return config;
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr double most_level = 6.0;
 /// Step of the differences, over the largest offset; and what keeps unknowns that change
 /// nothing where they were.
-constexpr double difference = 1e-3;
+constexpr double flute_difference = 1e-3;
 constexpr double tether = 1e-4;
 /// Starts but the first, at the levels of the teeth, are off it by so much of the largest
 /// offset.
@@ -27,7 +27,7 @@ constexpr double alike = 1e-3;
 constexpr int exact_steps = 14;
 constexpr double longest_step = 0.7;  ///< over the largest offset
 constexpr double ridge = 1e-3;
-constexpr double rank_tolerance = 1e-12;
+constexpr double flutes_rank_tolerance = 1e-12;
 
 /// v_j over their mean, less 1.
 std::vector<double> differences(Target target, const std::vector<Flute>& flutes) {
@@ -125,12 +125,12 @@ struct Search {
     std::vector<std::vector<double>> columns(y.size());
     numerics::for_each_index(y.size(), [&](std::size_t k) {
       std::vector<double> moved(y.begin(), y.end());
-      moved[k] += difference;
+      moved[k] += flute_difference;
       columns[k] = v(moved);
-      moved[k] -= 2 * difference;
+      moved[k] -= 2 * flute_difference;
       const std::vector<double> down = v(moved);
       for (std::size_t j = 0; j < down.size(); ++j) {
-        columns[k][j] = (columns[k][j] - down[j]) / (2 * difference);
+        columns[k][j] = (columns[k][j] - down[j]) / (2 * flute_difference);
       }
     });
     std::vector<double> all;
@@ -165,12 +165,13 @@ struct Search {
   }
 };
 
-struct Found {
+struct FoundFlutes {
   std::vector<double> y;
   double rms = 0.0;
 };
 
-Found descend(const Search& search, std::vector<double> start, std::size_t teeth) {
+FoundFlutes descend(const Search& search, std::vector<double> start,
+                    std::size_t teeth) {
   const auto found = numerics::levenberg_marquardt(
       std::cref(search), static_cast<int>(teeth + start.size()), start,
       {.max_iterations = 20, .parameter_tolerance = 1e-6});
@@ -178,11 +179,11 @@ Found descend(const Search& search, std::vector<double> start, std::size_t teeth
 }
 
 /// Several starts; ends as soon as nothing is left.
-Found descend_from_several(const Search& search, std::size_t teeth, int starts,
-                           Optimum& optimum) {
+FoundFlutes descend_from_several(const Search& search, std::size_t teeth, int starts,
+                                 Optimum& optimum) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> off(-scatter, scatter);
-  std::vector<Found> all;
+  std::vector<FoundFlutes> all;
   for (int k = 0; k < starts; ++k) {
     std::vector<double> start = search.unknowns.start;
     for (double& y : start) {
@@ -194,10 +195,10 @@ Found descend_from_several(const Search& search, std::size_t teeth, int starts,
       return all.back();
     }
   }
-  const Found best = *std::ranges::min_element(all, {}, &Found::rms);
+  const FoundFlutes best = *std::ranges::min_element(all, {}, &FoundFlutes::rms);
   optimum.starts = starts;
   optimum.agreeing = static_cast<int>(std::ranges::count_if(
-      all, [&](const Found& each) { return each.rms < best.rms + alike; }));
+      all, [&](const FoundFlutes& each) { return each.rms < best.rms + alike; }));
   optimum.optimality = starts > 1 && optimum.agreeing == starts
                            ? Optimality::limit_of_one_axis
                            : Optimality::local_minimum;
@@ -223,7 +224,8 @@ std::vector<double> step_of(const std::vector<double>& J,
     right.push_back(0.0);
   }
   std::vector<double> s =
-      numerics::least_squares(rows, static_cast<int>(m), right, rank_tolerance).x;
+      numerics::least_squares(rows, static_cast<int>(m), right, flutes_rank_tolerance)
+          .x;
   const double longest =
       std::abs(*std::ranges::max_element(s, {}, [](double x) { return std::abs(x); }));
   for (double& x : s) {
@@ -252,11 +254,12 @@ void improve(std::vector<double>& J, const std::vector<double>& s,
 }
 
 /// From where the quick model is at its best to where the exact one is.
-Found correct_on(const Search& exact, const Search& quick, const Found& from) {
+FoundFlutes correct_on(const Search& exact, const Search& quick,
+                       const FoundFlutes& from) {
   std::vector<double> J = quick.jacobian(from.y);
   std::vector<double> at = from.y;
   std::vector<double> v = exact.v(at);
-  Found best{at, rms_of(v)};
+  FoundFlutes best{at, rms_of(v)};
   for (int i = 0; i < exact_steps && best.rms > none / 2; ++i) {
     std::vector<double> s = step_of(J, v);
     std::vector<double> next = at;
@@ -282,15 +285,15 @@ Found correct_on(const Search& exact, const Search& quick, const Found& from) {
 }
 
 /// From there, and where something is left from the levels and from rest as well.
-Found correct_on_from_several(const Search& exact, const Search& quick,
-                              const Found& from) {
-  Found best = correct_on(exact, quick, from);
+FoundFlutes correct_on_from_several(const Search& exact, const Search& quick,
+                                    const FoundFlutes& from) {
+  FoundFlutes best = correct_on(exact, quick, from);
   const std::vector<double>& levels = exact.unknowns.start;
   for (const auto& start : {levels, std::vector<double>(levels.size(), 0.0)}) {
     if (best.rms < 2 * none) {
       break;
     }
-    const Found other = correct_on(exact, quick, {start, 0.0});
+    const FoundFlutes other = correct_on(exact, quick, {start, 0.0});
     best = other.rms < best.rms ? other : best;
   }
   return best;
@@ -335,7 +338,7 @@ Amplitude equal_flutes(Target target, const RigidCut& cut, Shape shape,
   const Search on_quick{unknowns, target, quick};
   const Search on_exact{unknowns, target, exact};
   Optimum optimum;
-  Found found =
+  FoundFlutes found =
       descend_from_several(on_quick, cut.psi().size(), models.starts, optimum);
   if (models.exact) {
     found = correct_on_from_several(on_exact, on_quick, found);

@@ -6,18 +6,13 @@
 
 namespace {
 
+using trochoid::correction::backwards;
+using trochoid::correction::fraction;
+using trochoid::correction::largest_gap;
+using trochoid::correction::most_counted;
+using trochoid::correction::most_force;
+using trochoid::correction::most_turns;
 using trochoid::correction::within;
-
-constexpr int32_t most_counted = 1000000;
-constexpr double largest_gap = 0.1;  // [rev] between samples
-constexpr double backwards = 0.02;   // [rev] that quantisation may take back
-constexpr double most_turns = 1e9;   // [rev]: beyond, the fraction is lost
-constexpr double most_force = 1e9;   // [N]
-
-double fraction(double turns) {
-  const double rest = turns - floor(turns);
-  return rest < 1.0 ? rest : 0.0;
-}
 
 bool sound_windows(const TrochoidEstimatorConfig& c) {
   for (int32_t j = 0; j < c.teeth; ++j) {

@@ -10,7 +10,7 @@ namespace trochoid::correction {
 
 namespace {
 
-constexpr double difference = 0.2e-6;  ///< of waves and offsets [m]
+constexpr double model_difference = 0.2e-6;  ///< of waves and offsets [m]
 
 std::vector<double> differences(const std::vector<Flute>& flutes) {
   std::vector<double> v;
@@ -82,10 +82,10 @@ std::optional<TrochoidEstimatorConfig> estimator_for(const Setting& s,
     const auto with = [&](double amplitude) {
       return differences(cut.peaks(sum_of(base, table_of_wave(s, k, amplitude))));
     };
-    const auto up = with(difference);
-    const auto down = with(-difference);
+    const auto up = with(model_difference);
+    const auto down = with(-model_difference);
     for (std::size_t j = 0; j < up.size(); ++j) {
-      config.wave_model[j][k] = (up[j] - down[j]) / (2 * difference);
+      config.wave_model[j][k] = (up[j] - down[j]) / (2 * model_difference);
     }
   }
   for (std::size_t i = 0; i < s.rho.size(); ++i) {
@@ -94,10 +94,10 @@ std::optional<TrochoidEstimatorConfig> estimator_for(const Setting& s,
       rho[i] += more;
       return differences(cut_with(s, rho).peaks(base));
     };
-    const auto up = with(difference);
-    const auto down = with(-difference);
+    const auto up = with(model_difference);
+    const auto down = with(-model_difference);
     for (std::size_t j = 0; j < up.size(); ++j) {
-      config.runout_model[j][i] = (up[j] - down[j]) / (2 * difference);
+      config.runout_model[j][i] = (up[j] - down[j]) / (2 * model_difference);
     }
   }
   return config;

@@ -1,3 +1,5 @@
+#include <trochoid/correction/controller_memory.h>
+#include <trochoid/correction/estimator.h>
 #include <trochoid/correction/estimator_update.h>
 
 #include <math.h>
@@ -9,16 +11,15 @@ namespace trochoid::correction {
 
 namespace {
 
-constexpr int32_t most_counted = 1000000;
 constexpr double pi = 3.141592653589793;
-constexpr double scale = 1e-5;     // of a wave [m]: numbers about one
-constexpr double offset_sd = 1.0;  // of the constant terms, before anything is known
-constexpr double ridge = 1e-4;     // over the mean of the diagonal of S S^T
+constexpr double scale = 1e-5;        // of a wave [m]: numbers about one
+constexpr double offset_sd = 1.0;     // of the constant terms, before anything is known
+constexpr double model_ridge = 1e-4;  // over the mean of the diagonal of S S^T
 constexpr double model_memory = 0.05;  // the model is forgotten so much slower
 constexpr double explained = 0.8;      // of a change, by one tooth
 constexpr int32_t odd_turns = 2;       // in a row, before they are believed
 constexpr int32_t relearnt = 3;        // turns after which a change is told
-constexpr int32_t points = 96;         // of a turn, at which the waves are summed
+constexpr int32_t wave_points = 96;    // of a turn, at which the waves are summed
 
 using Vector = double[TROCHOID_ESTIMATOR_TEETH];
 
@@ -98,7 +99,7 @@ void solve(const TrochoidEstimator& e, const Vector& v, Vector& z) {
     z[i] = v[i];
   }
   for (int32_t i = 0; i < n; ++i) {
-    A[i][i] += ridge * trace / n + 1e-12;
+    A[i][i] += model_ridge * trace / n + 1e-12;
   }
   for (int32_t i = 0; i < n; ++i) {
     for (int32_t j = i + 1; j < n; ++j) {
@@ -120,9 +121,9 @@ void solve(const TrochoidEstimator& e, const Vector& v, Vector& z) {
 /// Largest magnitude of the waves' sum over a turn [m].
 double largest_sum(const TrochoidEstimator& e, const double* wave) {
   double most = 0.0;
-  for (int32_t i = 0; i < points; ++i) {
-    const double c1 = cos(2.0 * pi * i / points);
-    const double s1 = sin(2.0 * pi * i / points);
+  for (int32_t i = 0; i < wave_points; ++i) {
+    const double c1 = cos(2.0 * pi * i / wave_points);
+    const double s1 = sin(2.0 * pi * i / wave_points);
     double c = c1;
     double s = s1;
     double sum = 0.0;

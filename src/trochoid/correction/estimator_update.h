@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/correction/estimator.h>
+struct TrochoidEstimator;  // of estimator.h
 
 /// What the estimator does once a turn; not for hosts.
 namespace trochoid::correction {

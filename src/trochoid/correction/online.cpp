@@ -1,29 +1,19 @@
 #include <trochoid/correction/controller.h>
+#include <trochoid/correction/controller_memory.h>
 #include <trochoid/correction/online.h>
 
 #include <math.h>
 
 namespace {
 
-constexpr int32_t most_counted = 1000000;
-constexpr double largest_gap = 0.1;  // [rev] between samples
-constexpr double backwards = 0.02;   // [rev] that quantisation may take back
-constexpr double most_turns = 1e9;   // [rev]: beyond, the fraction is lost
-constexpr double most_force = 1e9;   // [N]
-
-/// False for NaN.
-bool within(double value, double low, double high) {
-  return value >= low && value <= high;
-}
-
-double clamped(double value, double low, double high) {
-  return value > low ? (value < high ? value : high) : low;
-}
-
-double fraction(double turns) {
-  const double rest = turns - floor(turns);
-  return rest < 1.0 ? rest : 0.0;
-}
+using trochoid::correction::backwards;
+using trochoid::correction::clamped;
+using trochoid::correction::fraction;
+using trochoid::correction::largest_gap;
+using trochoid::correction::most_counted;
+using trochoid::correction::most_force;
+using trochoid::correction::most_turns;
+using trochoid::correction::within;
 
 int32_t refusal(const TrochoidOnlineConfig& c) {
   if (c.teeth != 2) {

@@ -17,7 +17,7 @@ namespace trochoid::correction {
 /// On what cut the speed map looks.
 enum class MapCut { rigid, moving };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(MapCut cut) noexcept {
   switch (cut) {
     case MapCut::rigid:

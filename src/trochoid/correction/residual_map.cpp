@@ -13,15 +13,15 @@ namespace trochoid::correction {
 
 namespace {
 
-constexpr int samples = 512;  ///< of a clipped command
+constexpr int clipped_samples = 512;  ///< of a clipped command
 /// Harmonics below this fraction of the largest do not matter.
-constexpr double negligible = 1e-7;
+constexpr double negligible_waves = 1e-7;
 
 Harmonics clipped(const PeriodicMotion& wave, double low, double high) {
-  std::vector<double> u(samples);
-  for (int i = 0; i < samples; ++i) {
+  std::vector<double> u(clipped_samples);
+  for (int i = 0; i < clipped_samples; ++i) {
     u[static_cast<std::size_t>(i)] =
-        std::clamp(place_at(wave, unit::turn * i / samples), low, high);
+        std::clamp(place_at(wave, unit::turn * i / clipped_samples), low, high);
   }
   return harmonics_of_samples(u, table_harmonics);
 }
@@ -31,7 +31,7 @@ void drop_negligible(Harmonics& motion) {
   for (const auto& c : motion.c) {
     largest = std::max(largest, std::abs(c));
   }
-  while (!motion.c.empty() && std::abs(motion.c.back()) < negligible * largest) {
+  while (!motion.c.empty() && std::abs(motion.c.back()) < negligible_waves * largest) {
     motion.c.pop_back();
   }
 }

@@ -15,7 +15,7 @@ namespace trochoid::correction {
 /// forces takes it for.
 enum class RunoutEstimate { known, static_fit };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(RunoutEstimate estimate) noexcept {
   switch (estimate) {
     case RunoutEstimate::known:

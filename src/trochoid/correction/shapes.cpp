@@ -11,7 +11,7 @@ namespace trochoid::correction {
 
 namespace {
 
-constexpr double rank_tolerance = 1e-9;
+constexpr double shapes_rank_tolerance = 1e-9;
 /// Of a harmonic, for a bound that holds for all smaller ones [m].
 constexpr double largest_amplitude = 1e-3;
 /// Angles of an arc of cut at which chips are compared.
@@ -191,7 +191,7 @@ HarmonicFit fit_harmonics(const RigidCut& cut, const std::vector<double>& rho,
     }
   } else {
     const numerics::LeastSquares solved =
-        numerics::least_squares(A, static_cast<int>(columns), e, rank_tolerance);
+        numerics::least_squares(A, static_cast<int>(columns), e, shapes_rank_tolerance);
     rss = solved.rss;
     fit.bound = bound_below(A, e, solved.residual);
     for (std::size_t i = 0; i < n.size(); ++i) {

@@ -18,7 +18,7 @@ enum class Shape {
   harmonics,  ///< harmonics of the spindle, by least squares over the whole cut
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Shape shape) noexcept {
   switch (shape) {
     case Shape::sine:

@@ -16,7 +16,7 @@ constexpr double as_good = 1e-3;
 /// everywhere and must not choose: the narrowest is taken then.
 constexpr double same_area = 1e-9;
 /// A harmonic that is none, over the largest.
-constexpr double negligible = 1e-9;
+constexpr double negligible_step = 1e-9;
 
 bool by_harmonics(Method method) {
   return method == Method::inverse || method == Method::learning;
@@ -27,7 +27,7 @@ bool has_harmonic(const Harmonics& x, int n) {
   for (const auto& c : x.c) {
     largest = std::max(largest, std::abs(c));
   }
-  return std::abs(x.c[static_cast<std::size_t>(n) - 1]) > negligible * largest;
+  return std::abs(x.c[static_cast<std::size_t>(n) - 1]) > negligible_step * largest;
 }
 
 /// As large as the target asks, or as it is where no size makes the flutes alike.

@@ -15,11 +15,11 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Amplitudes of one Fourier coefficient of q after another.
-class Coefficients {
+class LineCoefficients {
  public:
   /// @param rate  of the first [1/s]
   /// @param step  from one to the next [rad/s]
-  Coefficients(const std::vector<PeriodMap::Node>& nodes, Complex rate, double step)
+  LineCoefficients(const std::vector<PeriodMap::Node>& nodes, Complex rate, double step)
       : nodes_(nodes) {
     for (const PeriodMap::Node& node : nodes) {
       factor_.push_back(node.weight * std::exp(-rate * node.t));
@@ -90,9 +90,9 @@ std::vector<ChatterLine> chatter_lines(const Directional& directional,
   const int most = static_cast<int>(std::ceil(1.5 * fastest * P)) + 3;
   const auto nodes = map.disturbance_nodes();
   std::vector<ChatterLine> lines;
-  Coefficients coefficients(nodes,
-                            (std::log(found.value) - Complex(0, unit::turn * most)) / P,
-                            unit::turn / P);
+  LineCoefficients coefficients(
+      nodes, (std::log(found.value) - Complex(0, unit::turn * most)) / P,
+      unit::turn / P);
   for (int k = -most; k <= most; ++k) {
     const Complex rate = (std::log(found.value) + Complex(0, unit::turn * k)) / P;
     add_line(lines, std::abs(rate.imag()) / unit::turn,  // D-12

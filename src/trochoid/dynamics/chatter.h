@@ -15,7 +15,7 @@ enum class Bifurcation {
   period_one,       ///< every period alike
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Bifurcation kind) noexcept {
   switch (kind) {
     case Bifurcation::hopf:

@@ -164,11 +164,11 @@ class CutForce {
 /// Add a force and its slope over the chip, both along t, r, a.
 inline void CutForce::add(double s, double c, const std::array<double, 3>& f,
                           const std::array<double, 3>& slope, Response& out) noexcept {
-  out.F[0] -= f[0] * c + f[1] * s;
-  out.F[1] += f[0] * s - f[1] * c;
+  const auto [F_x, F_y] = force::in_plane(f[0], f[1], s, c);
+  out.F[0] += F_x;
+  out.F[1] += F_y;
   out.F[2] -= f[2];
-  const double x = -slope[0] * c - slope[1] * s;
-  const double y = slope[0] * s - slope[1] * c;
+  const auto [x, y] = force::in_plane(slope[0], slope[1], s, c);
   out.per_q[0] += x * s;
   out.per_q[1] += x * c;
   out.per_q[2] += y * s;

@@ -13,7 +13,7 @@ namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A lag of the top that is none [rad].
 constexpr double no_lag = 1e-9;

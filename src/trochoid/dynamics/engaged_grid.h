@@ -70,21 +70,11 @@ struct GridOptions {
   int lookback = 0;         ///< 0: twice the number of teeth
 };
 
-/// @param setup  a cylinder
-/// @param steps_per_tooth  positive, of a mean pitch
-/// @throws std::invalid_argument for another cutter
-EngagedGrid engaged_grid(const force::Setup& setup, const GridOptions& options,
-                         int steps_per_tooth);
-
 /// Angles between nodes, for results there.
 struct BetweenNodes {
   EngagedGrid grid;               ///< at those angles, delays counted from `node`
   std::vector<std::size_t> node;  ///< the node that follows each
   std::vector<double> part;       ///< of the step before it, in [0, 1)
 };
-
-/// @param angles  ascending, in [0, 2 pi) [rad]
-BetweenNodes between_nodes(const force::Setup& setup, const GridOptions& options,
-                           const EngagedGrid& nodes, std::vector<double> angles);
 
 }  // namespace trochoid::dynamics

@@ -3,6 +3,8 @@
 #include <trochoid/dynamics/directional.h>
 #include <trochoid/dynamics/point_response.h>
 
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace trochoid::dynamics {
@@ -24,5 +26,45 @@ struct ForceHarmonics {
 
 /// @param most  largest n, at least 0
 ForceHarmonics force_harmonics(const Directional& directional, int most);
+
+/// The mirror image of a chatter frequency counts where no more tooth passing
+/// frequencies lie between: what couples them falls with the square of that number.
+inline constexpr int most_mirrored = 24;
+
+/// @brief The harmonics of a force at the depths of a diagram, each made once for all
+/// speeds, and between them.
+class DepthHarmonics {
+ public:
+  /// @param depth      [m], ascending, positive, at least one; its values must outlive
+  ///                   this
+  /// @param harmonics  of the tooth passing frequency, as of FrequencyOptions
+  DepthHarmonics(const DirectionalModel& model, std::span<const double> depth,
+                 int harmonics);
+  ~DepthHarmonics();
+  DepthHarmonics(const DepthHarmonics&) = delete;
+  DepthHarmonics& operator=(const DepthHarmonics&) = delete;
+
+  /// @brief Between two of the depths, linear per depth; exact where forces are
+  /// proportional to it.
+  /// @param depth  [m], at most the deepest
+  [[nodiscard]] ForceHarmonics at(double depth) const;
+
+  [[nodiscard]] std::span<const double> depths() const noexcept { return depth_; }
+  [[nodiscard]] bool proportional() const noexcept { return model_.proportional(); }
+  /// Harmonics of the period kept on each side.
+  [[nodiscard]] int kept() const noexcept { return kept_; }
+  [[nodiscard]] double period() const noexcept { return period_; }
+
+ private:
+  struct Made;
+  [[nodiscard]] const ForceHarmonics& made(std::size_t k) const;
+
+  const DirectionalModel& model_;
+  std::span<const double> depth_;
+  int kept_ = 0;
+  int waves_ = 0;
+  double period_ = 0.0;
+  std::unique_ptr<Made> made_;
+};
 
 }  // namespace trochoid::dynamics

@@ -1,18 +1,170 @@
 #include <trochoid/dynamics/frequency_limit.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/dynamics/depth_harmonics.h>
-#include <trochoid/dynamics/regenerative_loop.h>
+#include <trochoid/dynamics/force_harmonics.h>
+#include <trochoid/dynamics/point_response.h>
+#include <trochoid/numerics/complex_eigenvalues.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <mutex>
+#include <vector>
 
 namespace trochoid::dynamics {
-
 namespace {
+
+/// Its largest entry.
+double largest(const ComplexMatrix2& G) noexcept;
+
+/// @brief What a vibration becomes by the forces that it makes: the matrix of D-22 at
+/// one speed, for one frequency after another.
+///
+/// @eq  D-33 with process damping A_0^(k-l) + i (omega_l / Omega) D^(k-l) in D-22
+/// @src derived: D-30 of a vibration, whose dq/dphi is i omega_l / Omega times q_l
+class RegenerativeLoop {
+ public:
+  /// @param h  harmonics kept on each side; 0: the mean force
+  /// @note Forces and point must outlive it.
+  RegenerativeLoop(const ForceHarmonics& forces, const PointResponse& point,
+                   double Omega, int h);
+
+  /// @brief Eigenvalues at omega [rad/s].
+  /// @return empty where none can reach `least`, and where another harmonic of the same
+  ///         vibration is much softer
+  [[nodiscard]] std::vector<std::complex<double>> eigenvalues(double omega,
+                                                              double least) const;
+
+ private:
+  /// The response at the harmonics that are kept.
+  struct Kept {
+    std::vector<int> k;             ///< ascending
+    std::vector<ComplexMatrix2> G;  ///< of each
+    double softest = 0.0;           ///< largest entry of any
+  };
+  [[nodiscard]] Kept kept_at(double omega) const;
+  void add_column(double omega, const Kept& kept, std::size_t l,
+                  std::vector<std::complex<double>>& M) const;
+
+  const ForceHarmonics& forces_;
+  const PointResponse& point_;
+  double Omega_;
+  double step_;  ///< from a harmonic to the next [rad/s]
+  int h_;
+  std::vector<std::size_t> axes_;  ///< that move
+  double force_size_ = 0.0;        ///< no column of forces sums up to more [N/m]
+  double damping_size_ = 0.0;      ///< the same of what acts on dq/dphi [N]
+};
+
+using Complex = std::complex<double>;
+
+/// A vibration belongs to the frequency among its harmonics at which the tool point is
+/// soft; one with less than this share of the softest is left to that one.
+constexpr double share_of_softest = 0.5;
+
+double largest(const ComplexMatrix2& G) noexcept {
+  double most = 0.0;
+  for (const Complex& g : G) {
+    most = std::max(most, std::abs(g));
+  }
+  return most;
+}
+
+RegenerativeLoop::RegenerativeLoop(const ForceHarmonics& forces,
+                                   const PointResponse& point, double Omega, int h)
+    : forces_(forces),
+      point_(point),
+      Omega_(Omega),
+      step_(unit::turn * Omega / forces.period),
+      h_(h) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const bool moves = std::any_of(
+        point.parts.begin(), point.parts.end(),
+        [&](const MeasuredReceptance& part) { return part.motion == axis; });
+    if (moves) {
+      axes_.push_back(axis);
+    }
+  }
+  for (const auto& of_delay : forces.coefficients) {
+    for (const ComplexMatrix2& coefficient : of_delay) {
+      force_size_ += 2 * largest(coefficient);
+    }
+  }
+  for (const ComplexMatrix2& coefficient : forces.damping) {
+    damping_size_ += 2 * largest(coefficient);
+  }
+}
+
+std::vector<Complex> RegenerativeLoop::eigenvalues(double omega, double least) const {
+  const Kept kept = kept_at(omega);
+  const auto fastest =
+      static_cast<double>(std::max(std::abs(kept.k.front()), std::abs(kept.k.back())));
+  const double force_size =
+      force_size_ + damping_size_ * (omega + step_ * fastest) / Omega_;
+  if (largest(receptance(point_, omega)) < share_of_softest * kept.softest ||
+      2 * kept.softest * force_size < least) {
+    return {};
+  }
+  const std::size_t n = axes_.size() * kept.k.size();
+  std::vector<Complex> M(n * n);
+  for (std::size_t l = 0; l < kept.k.size(); ++l) {
+    add_column(omega, kept, l, M);
+  }
+  return least > 0 && numerics::eigenvalue_bound(M, n) < least
+             ? std::vector<Complex>{}
+             : numerics::complex_eigenvalues(M, n);
+}
+
+RegenerativeLoop::Kept RegenerativeLoop::kept_at(double omega) const {
+  Kept kept;
+  const int mirror = -static_cast<int>(std::lround(2 * omega / step_));
+  if (h_ > 0 && 2 * h_ - mirror <= forces_.most) {
+    for (int k = mirror - h_; k <= mirror + h_ && k < -h_; ++k) {
+      kept.k.push_back(k);
+    }
+  }
+  for (int k = -h_; k <= h_; ++k) {
+    kept.k.push_back(k);
+  }
+  for (const int k : kept.k) {
+    kept.G.push_back(receptance(point_, omega + step_ * k));
+    kept.softest = std::max(kept.softest, largest(kept.G.back()));
+  }
+  return kept;
+}
+
+void RegenerativeLoop::add_column(double omega, const Kept& kept, std::size_t l,
+                                  std::vector<Complex>& M) const {
+  const std::size_t n = axes_.size() * kept.k.size();
+  const Complex slope(0.0, (omega + step_ * kept.k[l]) / Omega_);
+  std::vector<Complex> turned;
+  for (const double delay : forces_.delays) {
+    turned.push_back(std::polar(1.0, -(omega + step_ * kept.k[l]) * delay / Omega_));
+  }
+  for (std::size_t k = 0; k < kept.k.size(); ++k) {
+    const auto wave = static_cast<std::size_t>(forces_.most + kept.k[k] - kept.k[l]);
+    ComplexMatrix2 W = forces_.coefficients[0][wave];
+    for (std::size_t q = 0; q < W.size() && !forces_.damping.empty(); ++q) {
+      W[q] += slope * forces_.damping[wave][q];  // D-33
+    }
+    for (std::size_t d = 0; d < forces_.delays.size(); ++d) {
+      for (std::size_t q = 0; q < W.size(); ++q) {
+        W[q] -= turned[d] * forces_.coefficients[d + 1][wave][q];
+      }
+    }
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      for (std::size_t j = 0; j < axes_.size(); ++j) {
+        const std::size_t row = 2 * axes_[i];
+        M[(l * axes_.size() + j) * n + k * axes_.size() + i] =
+            kept.G[k][row] * W[axes_[j]] +
+            kept.G[k][row + 1] * W[2 + axes_[j]];  // D-22
+      }
+    }
+  }
+}
 
 using Complex = std::complex<double>;
 
@@ -31,17 +183,17 @@ Complex nearest(const std::vector<Complex>& values, Complex to) {
 }
 
 /// An eigenvalue at a frequency.
-struct Point {
+struct OnsetPoint {
   double omega = 0.0;
   Complex lambda;
 };
 
 /// Where the eigenvalue is real between two frequencies: false position, halved where
 /// one end stays (Illinois).
-Point real_between(const RegenerativeLoop& loop, Point a, Point b) {
+OnsetPoint real_between(const RegenerativeLoop& loop, OnsetPoint a, OnsetPoint b) {
   double weight_a = a.lambda.imag();
   double weight_b = b.lambda.imag();
-  Point found = std::abs(weight_a) < std::abs(weight_b) ? a : b;
+  OnsetPoint found = std::abs(weight_a) < std::abs(weight_b) ? a : b;
   for (int i = 0; i < refinements; ++i) {
     const double t = weight_a / (weight_a - weight_b);
     const double omega = a.omega + t * (b.omega - a.omega);
@@ -68,7 +220,7 @@ Point real_between(const RegenerativeLoop& loop, Point a, Point b) {
 
 /// The onset that an eigenvalue passes through from one frequency to the next.
 void take_crossings(const RegenerativeLoop& loop, double from,
-                    const std::vector<Complex>& before, const Point& after,
+                    const std::vector<Complex>& before, const OnsetPoint& after,
                     Onset& best) {
   const Complex start = nearest(before, after.lambda);
   const bool crosses = (start.imag() > 0) != (after.lambda.imag() > 0);
@@ -76,7 +228,7 @@ void take_crossings(const RegenerativeLoop& loop, double from,
   if (!crosses || larger * best.factor < 1) {
     return;
   }
-  const Point real = real_between(loop, {from, start}, after);
+  const OnsetPoint real = real_between(loop, {from, start}, after);
   if (real.lambda.real() * best.factor > 1) {
     best = {1 / real.lambda.real(), real.omega};  // D-23
   }
@@ -99,7 +251,7 @@ double strongest_frequency(const PointResponse& point, double omega, double step
 using OnsetAt = std::function<std::optional<Onset>(double depth, double most)>;
 
 /// A depth, and the logarithm of the factor to the onset: negative where unstable.
-struct Tried {
+struct TriedDepth {
   double depth = 0.0;
   double g = 0.0;
   double omega = 0.0;
@@ -111,23 +263,23 @@ constexpr double far_enough = 4.0;
 /// depth, in logarithms: the next depth looked at.
 constexpr double next_look = 0.75;
 
-Tried tried(const OnsetAt& at, double depth, double most) {
+TriedDepth tried(const OnsetAt& at, double depth, double most) {
   const auto found = at(depth, most);
-  return found ? Tried{depth, std::log(found->factor), found->omega}
-               : Tried{depth, std::log(most), 0.0};
+  return found ? TriedDepth{depth, std::log(found->factor), found->omega}
+               : TriedDepth{depth, std::log(most), 0.0};
 }
 
 /// Between a stable depth and an unstable one: false position over the logarithm of the
 /// depth (Illinois).
-FrequencyLimit limit_between(const OnsetAt& at, double Omega, Tried stable,
-                             Tried unstable, double tolerance) {
+FrequencyLimit limit_between(const OnsetAt& at, double Omega, TriedDepth stable,
+                             TriedDepth unstable, double tolerance) {
   double weight_stable = stable.g;
   double weight_unstable = unstable.g;
   while (unstable.depth - stable.depth > tolerance * unstable.depth &&
          unstable.g < -0.1 * tolerance) {
     const double t = weight_stable / (weight_stable - weight_unstable);
     const double ratio = unstable.depth / stable.depth;
-    const Tried middle = tried(
+    const TriedDepth middle = tried(
         at, stable.depth * std::pow(ratio, std::clamp(t, 0.02, 0.98)), far_enough);
     if (middle.g > 0) {
       stable = middle;
@@ -146,10 +298,10 @@ FrequencyLimit limit_between(const OnsetAt& at, double Omega, Tried stable,
 std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
                                        std::span<const double> depth,
                                        double tolerance) {
-  Tried stable{1e-3 * depth.front(), std::log(1e3)};
+  TriedDepth stable{1e-3 * depth.front(), std::log(1e3)};
   std::size_t k = 0;
   while (k < depth.size()) {
-    const Tried here = tried(at, depth[k], far_enough);
+    const TriedDepth here = tried(at, depth[k], far_enough);
     if (here.g <= 0) {
       return limit_between(at, Omega, stable, here, tolerance);
     }

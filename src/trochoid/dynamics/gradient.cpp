@@ -13,9 +13,8 @@ Matrix2 directional_gradient(const force::Terms& law, double h, double theta,
   const double s = std::sin(theta);
   const double c = std::cos(theta);
   const double radial = k[1] * sin_kappa + k[2] * cos_kappa;
-  const double F_x = -c * k[0] - s * radial;  // F-3
-  const double F_y = s * k[0] - c * radial;
-  return {F_x * s, F_x * c, F_y * s, F_y * c};  // D-7
+  const auto [F_x, F_y] = force::in_plane(k[0], radial, s, c);  // F-3
+  return {F_x * s, F_x * c, F_y * s, F_y * c};                  // D-7
 }
 
 }  // namespace trochoid::dynamics

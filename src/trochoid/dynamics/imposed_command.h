@@ -9,7 +9,7 @@ namespace trochoid::dynamics {
 /// How a command goes over one turn of the spindle.
 enum class CommandShape { sine, square, trapezoid, table };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(CommandShape shape) noexcept {
   switch (shape) {
     case CommandShape::sine:

@@ -1,17 +1,93 @@
 #include <trochoid/dynamics/lobes.h>
 
-#include <trochoid/dynamics/depth_sweep.h>
+#include <trochoid/dynamics/directional.h>
+#include <trochoid/dynamics/multiplier.h>
+#include <trochoid/dynamics/period_map.h>
+#include <trochoid/dynamics/system.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
+#include <span>
+#include <vector>
 
 namespace trochoid::dynamics {
-
 namespace {
+
+/// A cut at the depths of a diagram, for every speed of it.
+struct Cuts {
+  const DirectionalModel& model;
+  std::vector<double> depth;          ///< [m], ascending
+  std::vector<Directional> at_depth;  ///< empty where the cut is proportional to it
+};
+
+Cuts cuts_at(const DirectionalModel& model, std::span<const double> depth);
+
+/// @brief Multipliers at one speed for one depth after another: what does not depend on
+/// the depth is made once.
+class DepthSweep {
+ public:
+  DepthSweep(const Cuts& cuts, const System& system, double Omega)
+      : cuts_(cuts), system_(system), Omega_(Omega) {}
+
+  /// @param depth      [m], positive
+  /// @param tolerance  of the eigenvalue only
+  [[nodiscard]] Multiplier at(double depth, double factor, double tolerance);
+  /// @param tolerance  of |mu|, relative where it is above 1
+  [[nodiscard]] Multiplier checked(double depth, double tolerance);
+  [[nodiscard]] double spindle_speed() const noexcept { return Omega_; }
+
+ private:
+  const Cuts& cuts_;
+  const System& system_;
+  double Omega_;
+  std::map<double, int> steps_;       ///< that the last search took, by factor
+  std::map<double, PeriodMap> maps_;  ///< by factor, of a cut one metre deep
+};
+
+Cuts cuts_at(const DirectionalModel& model, std::span<const double> depth) {
+  Cuts cuts{model, {depth.begin(), depth.end()}, {}};
+  if (!model.proportional()) {
+    cuts.at_depth.resize(depth.size());
+    numerics::for_each_index(depth.size(), [&](std::size_t k) {
+      cuts.at_depth[k] = model.at_depth(depth[k]);
+    });
+  }
+  return cuts;
+}
+
+Multiplier DepthSweep::at(double depth, double factor, double tolerance) {
+  int& steps = steps_[factor];
+  const auto found = [&](PeriodMap& map) {
+    const Multiplier mu = multiplier_of(map, factor, tolerance, steps);
+    steps = mu.steps;
+    return mu;
+  };
+  if (cuts_.model.proportional()) {
+    auto known = maps_.find(factor);
+    if (known == maps_.end()) {
+      PeriodMap map(cuts_.model.at_depth(1.0), system_, Omega_, {.factor = factor});
+      known = maps_.emplace(factor, std::move(map)).first;
+    }
+    known->second.scale_forces(depth);
+    return found(known->second);
+  }
+  const auto known = std::find(cuts_.depth.begin(), cuts_.depth.end(), depth);
+  const auto k = static_cast<std::size_t>(known - cuts_.depth.begin());
+  const bool at_hand = k < cuts_.at_depth.size();
+  PeriodMap map(at_hand ? cuts_.at_depth[k] : cuts_.model.at_depth(depth), system_,
+                Omega_, {.factor = factor});
+  return found(map);
+}
+
+Multiplier DepthSweep::checked(double depth, double tolerance) {
+  return settled([&](double factor) { return at(depth, factor, 0.1 * tolerance); },
+                 tolerance);
+}
 
 /// A new speed is put in where the limit is further than this from the chord.
 constexpr double worth_a_speed = 0.04;

@@ -1,3 +1,4 @@
+#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/motion.h>
 
 #include <trochoid/base/units.h>
@@ -137,6 +138,10 @@ class Run {
     past_.repeat_turn();
   }
 
+  /// One step. The force at its end and the motion there depend on each other, so the step
+  /// is implicit; the marks of earlier teeth lie in the past, and are met once before the
+  /// force is looked for. Where a tip enters or leaves at the end, the force has two values:
+  /// the one just before ends this step, the one just after begins the next.
   /// @return the force at the start of the next step
   Force step_once(int n, std::size_t i, const Force& F) {
     const std::size_t next = i + 1 < grid_.angle.size() ? i + 1 : 0;

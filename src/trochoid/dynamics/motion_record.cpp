@@ -1,7 +1,7 @@
+#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/motion_record.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/dynamics/steady_state.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 /// Turns that are compared: periods of up to four turns show; and two of many nodes.
 constexpr std::size_t turns_compared = 8;
 constexpr std::size_t many_nodes = 200000;
@@ -102,8 +102,8 @@ FluteWatch::FluteWatch(const MotionProblem& problem, const EngagedGrid& grid)
                 ? between_nodes(tips_of(problem.setup), problem.grid, grid, grid.angle)
                 : BetweenNodes{}),
       cut_(problem.law, helix_ ? tips_.grid : grid),
-      before_(grid.teeth, none),
-      now_(grid.teeth, none) {
+      before_(grid.teeth, not_there),
+      now_(grid.teeth, not_there) {
   const std::vector<double> psi = geometry::tooth_angles(problem.setup.cutter);
   for (const double angle : grid.angle) {
     const auto next = std::upper_bound(psi.begin(), psi.end(), angle + 1e-9);
@@ -121,7 +121,7 @@ void FluteWatch::add(const TakenStep& step, const Force& F, Motion& motion) {
   const History& past = step.past;
   const std::array<double, 2> q = {past.x[-1], past.y[-1]};
   std::swap(before_, now_);
-  std::fill(now_.begin(), now_.end(), none);
+  std::fill(now_.begin(), now_.end(), not_there);
   if (helix_) {  // its delays are counted from the end of the step
     cut_.prepare(i, tips_.grid.after[i], past);
   } else {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/dynamics/cut_force.h>
-#include <trochoid/dynamics/motion.h>
+#include <trochoid/dynamics/motion_problem.h>
 #include <trochoid/dynamics/stepper.h>
 
 #include <cstddef>

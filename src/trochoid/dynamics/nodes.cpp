@@ -11,7 +11,7 @@ namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Positive Gauss-Legendre nodes of eight and their weights.
 constexpr std::array<double, 4> legendre_t = {0.1834346424956498, 0.5255324099163290,

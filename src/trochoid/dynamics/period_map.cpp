@@ -13,15 +13,6 @@ namespace trochoid::dynamics {
 
 namespace {
 
-/// How an element answers while it cuts.
-struct Solved {
-  std::size_t response = 0;
-  /// (I - G A_0)^-1 times the motion of the response; empty where A_0 = 0.
-  numerics::PaddedMatrix motion;
-  /// A_0 + D d/dphi; empty without process damping.
-  numerics::PaddedMatrix whole;
-};
-
 /// Sum of products, in four chains: one would wait for itself.
 double dot(std::span<const double> a, const double* b) noexcept {
   std::array<double, 4> sum{};
@@ -33,16 +24,6 @@ double dot(std::span<const double> a, const double* b) noexcept {
   for (; i < n; ++i) sum[0] += a[i] * b[i];
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
-
-/// What one pass through the period works with.
-struct Work {
-  std::vector<double> state;   ///< at the start of the element
-  std::vector<double> input;   ///< forces of an element, then the state
-  std::vector<double> output;  ///< padded
-  std::vector<double> q;       ///< of the period
-  std::vector<double> force;   ///< of an element with process damping, padded
-  Elimination elimination;
-};
 
 /// The largest value of an element's and the largest last coefficient.
 struct Tail {
@@ -73,6 +54,25 @@ void add_force(const Channel& channel, double factor, std::span<const double> q,
 }  // namespace
 
 struct PeriodMap::Parts {
+  /// How an element answers while it cuts.
+  struct Solved {
+    std::size_t response = 0;
+    /// (I - G A_0)^-1 times the motion of the response; empty where A_0 = 0.
+    numerics::PaddedMatrix motion;
+    /// A_0 + D d/dphi; empty without process damping.
+    numerics::PaddedMatrix whole;
+  };
+
+  /// What one pass through the period works with.
+  struct Work {
+    std::vector<double> state;   ///< at the start of the element
+    std::vector<double> input;   ///< forces of an element, then the state
+    std::vector<double> output;  ///< padded
+    std::vector<double> q;       ///< of the period
+    std::vector<double> force;   ///< of an element with process damping, padded
+    Elimination elimination;
+  };
+
   Components components;
   std::vector<ChipMode> modes;
   double Omega = 0.0;

@@ -10,9 +10,9 @@ namespace trochoid::dynamics {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// Angles closer than this are one [rad].
-constexpr double same_angle = 1e-9;
+constexpr double same_part_angle = 1e-9;
 /// No element holds more cycles of the fastest mode: more cost more to solve.
 constexpr double most_cycles = 3.0;
 /// In an element of more cycles a kink that comes back is an end.
@@ -41,7 +41,7 @@ std::vector<double> returning_kinks(const Directional& directional) {
   std::vector<double> kinks;
   const double start = directional.elements.front().from;
   for (const double delay : directional.delays) {
-    if (std::abs(delay - directional.period) < same_angle) {
+    if (std::abs(delay - directional.period) < same_part_angle) {
       continue;  // back at a switch
     }
     for (const DirectionalElement& element : directional.elements) {
@@ -78,7 +78,7 @@ std::vector<double> ends_by_element(const Directional& directional, double cycle
 std::size_t equal_pitches(const Directional& directional) {
   const double pitch = longest_part(directional);
   const auto is_multiple = [pitch](double angle) {
-    return std::abs(angle - pitch * std::round(angle / pitch)) < same_angle;
+    return std::abs(angle - pitch * std::round(angle / pitch)) < same_part_angle;
   };
   const bool all =
       is_multiple(directional.period) &&
@@ -100,7 +100,7 @@ std::vector<double> ends_by_pitch(const Directional& directional, double cycle,
   std::vector<double> ends = {0.0};
   const double longest = std::min(most_cycles * cycle, pitch);
   for (const double at : switches) {
-    if (at - ends.back() > same_angle && pitch - at > same_angle) {
+    if (at - ends.back() > same_part_angle && pitch - at > same_part_angle) {
       add_parts(ends.back(), at, longest, ends);
     }
   }

@@ -28,7 +28,7 @@ DirectionalModel directional_model(const StabilityProblem& problem, double floor
 }
 
 /// The cut ready to be asked.
-struct Point {
+struct LimitOfSpeed {
   const StabilityProblem& problem;
   double Omega = problem.setup.cut.Omega;
   double a_p = problem.setup.cut.a_p;
@@ -52,7 +52,7 @@ bool cuts(const Directional& directional) {
 }
 
 /// |mu| with another floor of the chip.
-double with_floor(const Point& point, double floor) {
+double with_floor(const LimitOfSpeed& point, double floor) {
   const StabilityProblem& p = point.problem;
   return std::abs(multiplier(directional_model(p, floor).at_depth(point.a_p), p.system,
                              point.Omega, p.options.tolerance)
@@ -60,7 +60,7 @@ double with_floor(const Point& point, double floor) {
 }
 
 /// Does the verdict hang on the floor of a power law?
-std::optional<ChipFloorCheck> floor_check(const Point& point,
+std::optional<ChipFloorCheck> floor_check(const LimitOfSpeed& point,
                                           StabilityVerdict verdict) {
   if (!force::form(point.problem.law).power) {
     return std::nullopt;
@@ -81,7 +81,7 @@ std::vector<double> depths_up_to(double greatest) {
   return depths;
 }
 
-std::optional<DepthLimit> depth_limit(const Point& point, double factor,
+std::optional<DepthLimit> depth_limit(const LimitOfSpeed& point, double factor,
                                       double greatest) {
   const std::vector<double> looked_at = depths_up_to(greatest);
   const StabilityProblem& p = point.problem;
@@ -103,7 +103,7 @@ std::optional<Limit> sharp_limit(const StabilityProblem& problem, double greates
                      problem.options.tolerance);
 }
 
-std::vector<LimitPoint> with_frequencies(const Point& point,
+std::vector<LimitPoint> with_frequencies(const LimitOfSpeed& point,
                                          const std::vector<Limit>& limits) {
   std::vector<LimitPoint> curve(limits.size());
   numerics::for_each_index(limits.size(), [&](std::size_t i) {
@@ -115,7 +115,8 @@ std::vector<LimitPoint> with_frequencies(const Point& point,
   return curve;
 }
 
-void add_lobes(const Point& point, const StabilityProgress& progress, Stability& out) {
+void add_lobes(const LimitOfSpeed& point, const StabilityProgress& progress,
+               Stability& out) {
   const StabilityProblem& p = point.problem;
   const auto watch = [&](const char* what) {
     const auto tell = [&progress, what](double share) { progress(what, share); };
@@ -135,7 +136,7 @@ void add_lobes(const Point& point, const StabilityProgress& progress, Stability&
 
 Stability stability(const StabilityProblem& problem,
                     const StabilityProgress& progress) {
-  const Point point{problem};
+  const LimitOfSpeed point{problem};
   const StabilityOptions& options = problem.options;
   Stability out{.multiplier = multiplier(point.directional, problem.system, point.Omega,
                                          options.tolerance),

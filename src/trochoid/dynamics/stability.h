@@ -33,7 +33,7 @@ struct StabilityProblem {
 
 enum class StabilityVerdict { stable, unstable, marginal };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(StabilityVerdict verdict) noexcept {
   switch (verdict) {
     case StabilityVerdict::stable:

@@ -24,7 +24,7 @@ constexpr double persistent = 0.02;
 constexpr int most_doublings = 3;
 /// Changes from turn to turn, as fractions of the feed per tooth. Below the first no tooth
 /// leaves the cut, and nothing limits a vibration that grows; above the second teeth do.
-constexpr double small_change = 0.2;
+constexpr double small_turn_change = 0.2;
 constexpr double large_change = 2.0;
 /// And below this they are rounding.
 constexpr double no_change = 1e-6;
@@ -49,7 +49,8 @@ Trend trend_of(const MotionProblem& problem, const Motion& m) {
   }
   const double f_z = std::abs(problem.setup.cut.f_z);
   const double size = late_size(m.once);
-  const auto& [least, most] = size < small_change * f_z ? steady_small : steady_large;
+  const auto& [least, most] =
+      size < small_turn_change * f_z ? steady_small : steady_large;
   if (*late < least) {
     return Trend::fades;
   }

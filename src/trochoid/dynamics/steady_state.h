@@ -9,10 +9,6 @@
 /// Whether a cut reaches a steady state, in which its motion repeats.
 namespace trochoid::dynamics {
 
-/// @brief Largest change of the force from period to period, over the largest force, of a
-/// motion that is periodic: 0.2 N of 60 N, as the case of [diez2010] settles.
-inline constexpr double periodic_tolerance = 1.0 / 300;
-
 /// Growth in a turn above which a vibration is chatter: it is none that dies out.
 inline constexpr double chatter_growth = 1.02;
 

@@ -46,7 +46,7 @@ struct Growing {
 /// What a motion comes to.
 using Verdict = std::variant<Periodic, Bounded, Growing>;
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(const Periodic& /*verdict*/) noexcept {
   return "periodic";
 }

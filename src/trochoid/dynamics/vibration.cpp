@@ -21,7 +21,7 @@ constexpr int least_samples = 256;
 constexpr double least_turns = 4;
 constexpr int most_samples = 1 << 19;
 /// Lines weaker than this part of the strongest are not listed, and how many are.
-constexpr double least_line = 0.05;
+constexpr double least_vibration_line = 0.05;
 constexpr std::size_t most_lines = 10;
 /// A line this near to a harmonic of the spindle is that, in steps of the spectrum.
 constexpr double same_line = 0.5;
@@ -30,7 +30,7 @@ int power_of_two(double at_least) {
   return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(at_least))));
 }
 
-double size_of(const std::array<double, 2>& a) {
+double length_of(const std::array<double, 2>& a) {
   return std::hypot(a[0], a[1]);
 }
 
@@ -42,7 +42,7 @@ double shift_of(double before, double here, double after) {
 }
 
 double whole_amplitude(double a, double d) {
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   return std::abs(d) < 1e-9 ? a : a * pi * d * (1 - d * d) / std::sin(pi * d);
 }
 
@@ -113,9 +113,9 @@ std::vector<VibrationLine> lines_of(const Spectrum& spectrum,
   const auto& a = spectrum.amplitude;
   std::vector<VibrationLine> lines;
   for (std::size_t k = 1; k + 1 < a.size(); ++k) {
-    const double here = size_of(a[k]);
-    const double before = size_of(a[k - 1]);
-    const double after = size_of(a[k + 1]);
+    const double here = length_of(a[k]);
+    const double before = length_of(a[k - 1]);
+    const double after = length_of(a[k + 1]);
     if (!(here > before && here >= after)) {
       continue;
     }
@@ -133,11 +133,11 @@ std::vector<VibrationLine> lines_of(const Spectrum& spectrum,
   }
   std::sort(lines.begin(), lines.end(),
             [](const VibrationLine& one, const VibrationLine& other) {
-              return size_of(one.amplitude) > size_of(other.amplitude);
+              return length_of(one.amplitude) > length_of(other.amplitude);
             });
-  const double strongest = lines.empty() ? 0.0 : size_of(lines.front().amplitude);
+  const double strongest = lines.empty() ? 0.0 : length_of(lines.front().amplitude);
   std::erase_if(lines, [&](const VibrationLine& line) {
-    return size_of(line.amplitude) < least_line * strongest;
+    return length_of(line.amplitude) < least_vibration_line * strongest;
   });
   lines.resize(std::min(lines.size(), most_lines));
   return lines;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/dynamics/motion.h>
+#include <trochoid/dynamics/motion_problem.h>
 #include <trochoid/dynamics/verdict.h>
 
 #include <array>

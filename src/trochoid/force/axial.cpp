@@ -8,7 +8,6 @@
 #include <cmath>
 
 namespace trochoid::force {
-
 namespace {
 
 /// Break points are found to this part of the edge, or of the tolerance: where a chip
@@ -73,9 +72,6 @@ template <std::size_t M, class Element>
 void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
                            const Element& element, std::array<double, M>& sum) const {
   EdgeCurve curve(edges_);
-  numerics::PieceFinder<EdgeCurve> finder(curve, resolution_);
-  std::vector<numerics::Piece<EdgeState>> pieces;
-  std::vector<double> grid;
   const auto add = [&](double s, double weight, std::array<double, M>& out) {
     const EdgePoint point = edges_.point(s);
     const EdgeState state = curve.state(point);
@@ -83,22 +79,9 @@ void AxialForce::integrate(double phi, const std::array<double, M>& allowed,
       element(point, state, weight, out);
     }
   };
-  for (std::size_t j = 0; j < edges_.psi.size(); ++j) {
-    curve.stand_at(phi, j);
-    grid = edges_.grid;
-    curve.add_seeds(grid);
-    finder.find(grid, pieces);
-    for (const auto& piece : pieces) {
-      double from = piece.from;
-      for (const double end : edges_.ends) {
-        const double to = std::min(end, piece.to);
-        if (to > from) {
-          numerics::add_integral(from, to, add, allowed, smallest_, sum);
-          from = to;
-        }
-      }
-    }
-  }
+  for_each_stretch(edges_, curve, phi, resolution_, [&](double from, double to) {
+    numerics::add_integral(from, to, add, allowed, smallest_, sum);
+  });
 }
 
 AxialForce::Matrix AxialForce::matrix(double phi, const Matrix& allowed) const {

@@ -29,7 +29,7 @@ std::optional<Vector3> closed_form_mean(const Setup& setup, const Law& law) {
       !geometry::runs_true(runout_of(setup)) || !(setup.cut.f_z > 0)) {
     return std::nullopt;
   }
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   const geometry::Meridian m = geometry::meridian(p);
   const double slope = geometry::lag_at(setup.cutter, m, 0.0).per_arc;
   const double e =

@@ -19,7 +19,7 @@ constexpr double start = -std::numbers::pi / 2;
 /// Below this lag the difference of F-5 would lose more digits than its limit [rad].
 constexpr double smallest_lag = 1e-8;
 /// Sines are resolved to 1e-13 on panels of this length [rad].
-constexpr double longest_panel = 0.8;
+constexpr double longest_chip_panel = 0.8;
 
 }  // namespace
 
@@ -91,7 +91,7 @@ void CumulativeForce::tabulate(std::size_t tooth, double tolerance) {
   std::fill(edges, allowed.end(), edge);
   tables_.emplace_back(start, unit::turn);
   for (const chip::ChipPiece& piece : pieces) {
-    tables_.back().append(piece.from, piece.to, f, longest_panel, allowed);
+    tables_.back().append(piece.from, piece.to, f, longest_chip_panel, allowed);
   }
   tables_.back().finish();
 }

@@ -3,7 +3,9 @@
 #include <trochoid/chip/intervals.h>
 #include <trochoid/force/setup.h>
 #include <trochoid/geometry/edge.h>
+#include <trochoid/numerics/pieces.h>
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -96,5 +98,44 @@ class EdgeCurve {
   mutable std::vector<geometry::EdgePosition> teeth_;
   mutable std::vector<double> advance_;
 };
+
+/// @brief The stretches of all edges along which nothing switches, at one spindle angle:
+/// ends of the profile and switches of the chip part them, as a quadrature needs it.
+/// @param curve       of these edges
+/// @param resolution  to which switches are found [m]
+/// @param visit       visit(from, to) with the curve at the tooth in question [m]
+template <class Visit>
+void for_each_stretch(const Edges& edges, EdgeCurve& curve, double phi,
+                      double resolution, const Visit& visit) {
+  numerics::PieceFinder<EdgeCurve> finder(curve, resolution);
+  std::vector<numerics::Piece<EdgeState>> pieces;
+  std::vector<double> grid;
+  for (std::size_t j = 0; j < edges.psi.size(); ++j) {
+    curve.stand_at(phi, j);
+    grid = edges.grid;
+    curve.add_seeds(grid);
+    finder.find(grid, pieces);
+    for (const auto& piece : pieces) {
+      double from = piece.from;
+      for (const double end : edges.ends) {
+        const double to = std::min(end, piece.to);
+        if (to > from) {
+          visit(from, to);
+          from = to;
+        }
+      }
+    }
+  }
+}
+
+/// @brief Where along the edges two teeth stand on one ray from the axis of rotation.
+///
+/// Near the axis an eccentricity turns the teeth so far that one passes the other. There
+/// the mark of the one before, as the exact chip model takes it, turns from new to a
+/// turn old, whatever the spindle angle: chips jump.
+///
+/// @return arc lengths [m] for each tooth, shape (teeth); empty lists where chips do not
+///         know of it
+std::vector<std::vector<double>> meetings(const Edges& edges);
 
 }  // namespace trochoid::force

@@ -1,8 +1,10 @@
 #include <trochoid/force/forces.h>
 
 #include <trochoid/base/overloaded.h>
+#include <trochoid/base/units.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
+#include <trochoid/force/node_force.h>
 #include <trochoid/force/turn_kernel.h>
 #include <trochoid/force/turn_numbers.h>
 #include <trochoid/force/turn_polynomial.h>
@@ -10,16 +12,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <unordered_map>
 #include <variant>
-
-#include "node_force.h"
-#include "over_turns.h"
+#include <vector>
 
 namespace trochoid::force {
-
 namespace {
+
+/// Angles of a record, of which each turn has the same.
+struct DifferentAngles {
+  std::vector<double> phi;         ///< [rad]
+  std::vector<std::size_t> place;  ///< which of them the i-th of the record is
+};
+
+/// @brief The different angles of a turn; turns repeat to the last digit.
+DifferentAngles different_angles(std::span<const double> phi);
+
+/// @brief Evaluate once for every angle of a turn, a few angles at a time, on several
+/// threads.
+/// @param evaluate     takes angles and the place of their values
+/// @param[out] values  shape (phi)
+template <class Value, class Evaluate>
+void over_turns(std::span<const double> phi, std::span<Value> values,
+                const Evaluate& evaluate) {
+  constexpr std::size_t fewest = 8;
+  constexpr std::size_t parts = 360;  // of a turn whose angles are close together
+  const DifferentAngles different = different_angles(phi);
+  const std::span<const double> angles = different.phi;
+  const std::size_t few = std::max(fewest, angles.size() / parts);
+  std::vector<Value> once(angles.size());
+  numerics::for_each_index((angles.size() + few - 1) / few, [&](std::size_t k) {
+    const std::size_t from = k * few;
+    const auto some = angles.subspan(from, std::min(few, angles.size() - from));
+    evaluate(some, std::span(once).subspan(from, some.size()));
+  });
+  std::ranges::transform(different.place, values.begin(),
+                         [&](std::size_t i) { return once[i]; });
+}
+
+DifferentAngles different_angles(std::span<const double> phi) {
+  constexpr double same = 1e-11;  // angles closer than this are one angle [rad]
+  DifferentAngles out;
+  out.place.reserve(phi.size());
+  const auto [lo, hi] = std::ranges::minmax_element(phi);
+  if (phi.empty() || *hi - *lo < unit::turn) {
+    out.phi.assign(phi.begin(), phi.end());
+    out.place.resize(phi.size());
+    std::iota(out.place.begin(), out.place.end(), std::size_t{0});
+    return out;
+  }
+  std::unordered_map<long long, std::size_t> seen;
+  for (const double angle : phi) {
+    const double u = angle - unit::turn * std::floor(angle / unit::turn);
+    const auto [at, is_new] = seen.try_emplace(std::llround(u / same), out.phi.size());
+    if (is_new) {
+      out.phi.push_back(u);
+    }
+    out.place.push_back(at->second);
+  }
+  return out;
+}
 
 MomentWeights moment_weights(const Law& law) {
   std::vector<double> K = coefficients(law);

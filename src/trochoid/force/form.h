@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 namespace trochoid::force {
 
@@ -48,5 +49,32 @@ ColumnWeights column_weights(const Form& form, double h, double sin_kappa,
 /// @param h  positive where a power law is steepest at 0 [m]
 std::array<double, 3> column_slopes(const Form& form, double h,
                                     double sin_kappa) noexcept;
+
+/// What a number of a law does in it.
+enum class Role { cutting, edge, exponent };
+
+/// A number of a law, as files name it.
+struct Quantity {
+  std::string_view key;  ///< for example `K_tc_MPa`
+  std::string_view meaning;
+  double unit = 1.0;  ///< of the key [SI]
+  Role role = Role::cutting;
+  bool signed_value = true;  ///< false: not below 0
+};
+
+/// A number of a law and where it stands.
+template <class Law>
+struct Number {
+  Quantity quantity;
+  double Law::*value;
+};
+
+/// @brief Force in x and y of a tangential one and one towards the axis, both in the plane:
+/// F-3 but for its last row; on a cylinder the radial force is the one towards the axis.
+/// @param sine, cosine  of theta, effective
+inline std::array<double, 2> in_plane(double t, double inward, double sine,
+                                      double cosine) noexcept {
+  return {-t * cosine - inward * sine, t * sine - inward * cosine};
+}
 
 }  // namespace trochoid::force

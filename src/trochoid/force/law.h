@@ -68,7 +68,7 @@ enum class EdgeLength {
   axial,        ///< dz
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(EdgeLength length) noexcept {
   switch (length) {
     case EdgeLength::true_length:

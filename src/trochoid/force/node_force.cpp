@@ -1,4 +1,6 @@
-#include "node_force.h"
+#include <trochoid/force/node_force.h>
+
+#include <trochoid/force/node_panels.h>
 
 #include <trochoid/base/units.h>
 

@@ -2,7 +2,7 @@
 
 #include <trochoid/force/axial.h>
 
-#include "node_pieces.h"
+#include <trochoid/force/node_pieces.h>
 
 #include <optional>
 #include <span>

@@ -1,4 +1,4 @@
-#include "node_kernel.h"
+#include <trochoid/force/node_kernel.h>
 
 // Highway compiles this file once for each kind of vectors, and picks one when it runs.
 #undef HWY_TARGET_INCLUDE

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node_panels.h"
+#include <trochoid/force/node_panel.h>
 
 #include <array>
 #include <vector>

@@ -1,8 +1,8 @@
-#include "node_panels.h"
+#include <trochoid/force/node_panels.h>
 
 #include <trochoid/base/units.h>
 
-#include "node_kernel.h"
+#include <trochoid/force/node_kernel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace trochoid::force {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// A panel turns by no more than this, along the edge and around the corner [rad].
 constexpr double longest_panel = 1.3;
 /// Marks by series need a radius of so many feeds per radian.
@@ -23,7 +23,7 @@ constexpr double bend_of_two_steps = 0.025;
 constexpr int most_steps = 4;
 /// Chips over marks are as large as the runout: no rule follows them better than to this
 /// part of it, nor than radii are rounded, of which they are differences.
-constexpr double rounding = 1e-11;
+constexpr double panel_rounding = 1e-11;
 constexpr double rounding_of_radius = 1e-15;
 
 /// How far behind the side of the tool, as a sine, a chip may still be found.
@@ -81,7 +81,7 @@ class Resolution {
     const double gap = *std::max_element(edges.setup.cutter.pitch.begin(),
                                          edges.setup.cutter.pitch.end());
     allowed_ = std::max({tolerance * (edges.passage.feed * gap),
-                         rounding * reach_of(edges.setup.runout),
+                         panel_rounding * reach_of(edges.setup.runout),
                          rounding_of_radius * edges.setup.cutter.profile.D / 2});
     allowed_edge_ = tolerance;
   }

@@ -1,15 +1,101 @@
-#include "node_pieces.h"
+#include <trochoid/force/node_pieces.h>
 
+#include <trochoid/force/node_kernel.h>
 #include <trochoid/numerics/gauss_kronrod.h>
-
-#include "node_marks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace trochoid::force {
-
 namespace {
+
+/// @brief Chips over all marks at the nodes of a panel: which marks count between them.
+struct NodeMarks {
+  const NodeChips& chips;
+  const NodeRule& rule;
+  double slack;  ///< how far a chip may bend between two nodes [m]
+
+  /// @brief Marks that may be the closest somewhere on the panel.
+  /// @param[out] marks  numbers from 0 on
+  void choose(std::vector<std::size_t>& marks) const;
+
+  /// @brief Whether one of the marks alone leaves nothing between any two neighbours.
+  [[nodiscard]] bool leave_air(std::span<const std::size_t> marks) const noexcept;
+
+ private:
+  [[nodiscard]] const double* over(std::size_t mark) const noexcept {
+    return &chips.over[mark * rule.width];
+  }
+  [[nodiscard]] bool near_at_a_node(std::size_t mark) const noexcept;
+  [[nodiscard]] bool may_be_between(std::size_t mark,
+                                    std::span<const std::size_t> near) const noexcept;
+};
+
+bool NodeMarks::near_at_a_node(std::size_t mark) const noexcept {
+  const double* h = over(mark);
+  double nearest = h[0] - chips.least[0];
+  for (std::size_t i = 1; i < rule.nodes; ++i) {
+    nearest = std::min(nearest, h[i] - chips.least[i]);
+  }
+  return nearest <= slack;
+}
+
+/// A mark may be the closest between two nodes although it is so at neither: the closest
+/// ones there lie above it where they change places.
+bool NodeMarks::may_be_between(std::size_t mark,
+                               std::span<const std::size_t> near) const noexcept {
+  const double* h = over(mark);
+  for (std::size_t i = 0; i + 1 < rule.nodes; ++i) {
+    const bool below_another = std::ranges::any_of(near, [&](std::size_t k) {
+      const double* other = over(k);
+      const bool closest =
+          other[i] == chips.least[i] || other[i + 1] == chips.least[i + 1];
+      return closest && other[i] < h[i] - slack && other[i + 1] < h[i + 1] - slack;
+    });
+    if (!below_another) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void NodeMarks::choose(std::vector<std::size_t>& marks) const {
+  const std::size_t all = chips.over.size() / rule.width;
+  marks.clear();
+  for (std::size_t m = 0; m < all; ++m) {
+    if (near_at_a_node(m)) {
+      marks.push_back(m);
+    }
+  }
+  const std::size_t near = marks.size();
+  for (std::size_t m = 0; near > 1 && m < all; ++m) {
+    if (std::ranges::find(marks, m) == marks.end() && may_be_between(m, marks)) {
+      marks.push_back(m);
+    }
+  }
+}
+
+bool NodeMarks::leave_air(std::span<const std::size_t> marks) const noexcept {
+  for (std::size_t i = 0; i + 1 < rule.nodes; ++i) {
+    const bool air = std::ranges::any_of(marks, [&](std::size_t m) {
+      return over(m)[i] < -slack && over(m)[i + 1] < -slack;
+    });
+    if (!air) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Along a panel the chip over one mark is a polynomial that its values at the nodes hold. What
+// is no polynomial is the chip of the tooth: which mark is the closest, where the chip begins,
+// and where the stock cuts it short. Those places are roots of what the nodes hold, found as
+// breaks of the panel. Between two of them one mark counts, and the integral is a sum over the
+// nodes, with weights by the antiderivatives of Lagrange's polynomials (area_at). Most panels
+// have no break at all: one mark, thick everywhere and away from the edge of the stock, takes
+// the weights of a whole panel.
 
 /// One tooth on one panel.
 struct Look {

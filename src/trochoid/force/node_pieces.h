@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node_kernel.h"
+#include <trochoid/force/node_kernel.h>
 
 #include <vector>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <trochoid/force/form.h>
-#include <trochoid/force/quantity.h>
 
 #include <span>
 #include <string_view>

@@ -12,7 +12,7 @@ namespace trochoid::force {
 namespace {
 
 using Complex = std::complex<double>;
-using Sums = std::array<Complex, 3>;
+using NumberSums = std::array<Complex, 3>;
 constexpr Complex i(0.0, 1.0);
 
 struct Segment {
@@ -48,7 +48,7 @@ Complex rising_wave(int n, const Segment& s) {
   return (end(s.to) - end(s.from) - wave(-n, s)) / (-i * static_cast<double>(n));
 }
 
-void add(const Triple& factors, Complex value, Sums& sums) {
+void add(const Triple& factors, Complex value, NumberSums& sums) {
   for (std::size_t q = 0; q < sums.size(); ++q) {
     sums[q] += factors[q] * value;
   }
@@ -66,7 +66,7 @@ Triple value_at(const TurnPanel& panel, double phi) {
 }
 
 /// Panels are short and smooth: a Gauss rule on parts in which the wave is slow.
-void add_panel(const TurnPanel& panel, const Segment& s, int n, Sums& sums) {
+void add_panel(const TurnPanel& panel, const Segment& s, int n, NumberSums& sums) {
   constexpr std::array<double, 4> node = {0.1834346424956498, 0.5255324099163290,
                                           0.7966664774136267, 0.9602898564975363};
   constexpr std::array<double, 4> weight = {0.3626837833783620, 0.3137066458778873,
@@ -122,12 +122,12 @@ double turning_point(const TurnPolynomial& slopes, std::size_t q, double lo,
 }  // namespace
 
 std::array<double, 3> mean(const TurnPolynomial& turn) {
-  const Sums c = harmonic(turn, 0);
+  const NumberSums c = harmonic(turn, 0);
   return {c[0].real(), c[1].real(), c[2].real()};
 }
 
-Sums harmonic(const TurnPolynomial& turn, int n) {
-  Sums sums{};
+NumberSums harmonic(const TurnPolynomial& turn, int n) {
+  NumberSums sums{};
   for_each_segment(turn, [&](const Segment& s) {
     const Triple* const terms = &turn.terms[s.number * turn.terms_of_segment()];
     add(terms[0], wave(-n, s), sums);

@@ -34,7 +34,7 @@ enum class LagLaw {
                    ///< cos(beta))
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(LagLaw law) noexcept {
   switch (law) {
     case LagLaw::constant_lead:

@@ -12,7 +12,7 @@ enum class EccentricityOrder {
   first,  ///< R = r + rho cos(c), the angle stays
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(EccentricityOrder order) noexcept {
   switch (order) {
     case EccentricityOrder::exact:

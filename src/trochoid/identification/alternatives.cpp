@@ -1,5 +1,7 @@
 #include <trochoid/identification/alternatives.h>
 
+#include <trochoid/identification/identify.h>
+
 #include <algorithm>
 #include <array>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/identification/identify.h>
+#include <trochoid/identification/fit.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/least_squares.h>
 

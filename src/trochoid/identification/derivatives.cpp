@@ -1,6 +1,6 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/derivatives.h>
-#include <trochoid/identification/groups.h>
+#include <trochoid/identification/problem.h>
 
 #include <algorithm>
 

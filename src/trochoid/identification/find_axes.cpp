@@ -1,6 +1,7 @@
 #include <trochoid/identification/find_axes.h>
 
 #include <trochoid/identification/fit_at.h>
+#include <trochoid/identification/identify.h>
 #include <trochoid/identification/prepare.h>
 #include <trochoid/identification/readings.h>
 #include <trochoid/identification/residuals.h>
@@ -30,7 +31,7 @@ constexpr std::size_t least_fits = 3;
 /// Within this many times the best, a reading is searched with all starts.
 constexpr double worth_searching = 3.0;
 /// A reading that is alone in this and leaves so little of the force is clear as it is.
-constexpr double little_left = 0.02;
+constexpr double clear_rms = 0.02;
 /// Beyond this many times the best, a reading need not be fitted to the last digit.
 constexpr double nearly_best = 1.02;
 /// Angles of the turn: the few harmonics ask for no more.
@@ -164,7 +165,7 @@ class Search {
     const bool alone = families.size() > 1 && !(families[1].rms <= limit);
     for (Family& family : families) {
       if (family.settled || !(family.rms <= limit)) continue;
-      const bool clear = alone && family.rms < little_left * force_;
+      const bool clear = alone && family.rms < clear_rms * force_;
       settle(family, clear ? std::vector<Candidate>{} : family.candidates);
       return true;
     }
@@ -237,7 +238,7 @@ std::vector<Judged> judged(const std::vector<Family>& families) {
         se[q] = found->se;
       }
     }
-    for (const Reading& reading : family.readings) {
+    for (const signal::AxesReading& reading : family.readings) {
       const Vector3 turned_se = turned(reading.turn, se);
       out.push_back(
           {reading.Q,

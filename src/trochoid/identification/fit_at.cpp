@@ -22,7 +22,7 @@ constexpr double least_F = 10.0;
 
 /// Part of the sum of squares of the force that a fit must explain, unless what it
 /// leaves is noise.
-constexpr double least_explained = 0.1;
+constexpr double least_explained_force = 0.1;
 
 using base::index;
 
@@ -42,7 +42,8 @@ std::string nothing_explained(const Fit& fit) {
   const Unexplained& u = fit.unexplained;
   // Beyond its band a fit through resonances says what a lightly damped one makes of it.
   const double left = fit.options.response.empty() ? u.all : u.in_band;
-  if (left * left <= 1.0 - least_explained || u.correlation <= noise_correlation) {
+  if (left * left <= 1.0 - least_explained_force ||
+      u.correlation <= noise_correlation) {
     return "";  // I-9
   }
   return fmt::format(

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <trochoid/identification/local_minimum.h>
 #include <trochoid/identification/sandwich.h>
-#include <trochoid/identification/variable_projection.h>
 #include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 

@@ -3,8 +3,8 @@
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/fit_at.h>
-#include <trochoid/identification/groups.h>
 #include <trochoid/identification/prepare.h>
+#include <trochoid/identification/problem.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/dense.h>
 #include <trochoid/numerics/least_squares.h>

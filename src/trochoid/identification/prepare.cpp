@@ -2,7 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/identification/answer.h>
-#include <trochoid/identification/groups.h>
+#include <trochoid/identification/problem.h>
 #include <trochoid/identification/uncertainty.h>
 
 #include <fmt/core.h>

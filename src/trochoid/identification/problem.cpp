@@ -2,13 +2,11 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/identification/groups.h>
-#include <trochoid/identification/turn_rows.h>
+#include <trochoid/identification/folded.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace trochoid::identification {
@@ -50,9 +48,7 @@ void leave_out(const Problem& problem, std::size_t r, std::span<double> C) {
   const FoldedRun& run = problem.runs[r];
   const std::size_t stride = index(problem.rows());
   if (measured_count(run) == 3) return;
-  const auto squares = [](std::span<const double> v) {
-    return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
-  };
+  const auto squares = [](std::span<const double> v) { return numerics::dot(v, v); };
   for (std::size_t c = 0; c < index(problem.columns); ++c) {
     const std::span<double> column = C.subspan(c * stride, index(run.rows));
     const double whole = squares(column);
@@ -293,6 +289,58 @@ std::vector<double> measured(const Problem& problem) {
     out.insert(out.end(), run.b.begin(), run.b.end());
   }
   return out;
+}
+
+void set_groups(std::span<const Run> runs, Problem& problem) {
+  problem.groups.clear();
+  problem.group_of.clear();
+  for (const Run& run : runs) {
+    const auto found = std::ranges::find(problem.groups, run.group);
+    problem.group_of.push_back(
+        static_cast<std::size_t>(found - problem.groups.begin()));
+    if (found == problem.groups.end()) problem.groups.push_back(run.group);
+  }
+}
+
+std::size_t first_column(const Problem& problem, std::size_t r) noexcept {
+  return problem.group_of.empty() ? 0
+                                  : base::index(problem.columns) * problem.group_of[r];
+}
+
+bool teeth_are_alike(const Problem& problem) {
+  const Unknowns& u = problem.unknowns;
+  if (u.phases == 0 || !geometry::equally_pitched(problem.setup.cutter.pitch))
+    return false;
+  const geometry::Runout& given = problem.setup.runout;
+  if (u.runout == RunoutUnknowns::both) return true;
+  if (u.runout == RunoutUnknowns::offsets) return given.eccentricity == 0.0;
+  if (u.runout == RunoutUnknowns::eccentricity) return geometry::equal_offsets(given);
+  return geometry::runs_true(given);
+}
+
+bool apply_gauge(const Problem& problem, std::vector<double>& p) {
+  const Unknowns& u = problem.unknowns;
+  if (u.phases == 0) return false;
+  Point point = point_of(problem, p);
+  const double pitch = unit::turn / u.teeth;
+  int shift = 0;
+  if (teeth_are_alike(problem)) {
+    const auto passed = static_cast<int>(std::floor(point.phase[0] / pitch + 0.5));
+    shift = ((passed % u.teeth) + u.teeth) % u.teeth;
+    for (double& phase : point.phase) phase -= passed * pitch;
+  }
+  if (finds_offsets(u.runout) && shift != 0) {
+    auto& s = point.runout.radial_offsets;
+    std::ranges::rotate(s, s.begin() + shift);
+  }
+  point.runout.angle -= shift * pitch;
+  for (std::size_t r = 0; r < point.phase.size(); ++r) {
+    double& phase = point.phase[r];
+    if (r > 0 || !teeth_are_alike(problem))
+      phase -= unit::turn * std::floor(phase / unit::turn + 0.5);
+  }
+  p = parameters_of(problem, point);
+  return shift != 0;
 }
 
 }  // namespace trochoid::identification

@@ -6,10 +6,13 @@
 #include <trochoid/identification/turn_matrix.h>
 #include <trochoid/numerics/columns.h>
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+/// Runs that share coefficients.
 namespace trochoid::identification {
 
 /// @brief What the nonlinear unknowns p mean, in
@@ -127,5 +130,19 @@ bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step);
 
 /// Measured force of all runs, shape (rows).
 std::vector<double> measured(const Problem& problem);
+
+/// @brief Take down which runs share coefficients (I-19).
+void set_groups(std::span<const Run> runs, Problem& problem);
+
+/// Where the coefficients of a run begin among those of all groups.
+std::size_t first_column(const Problem& problem, std::size_t r) noexcept;
+
+/// Whether teeth can be renumbered without changing anything but names.
+bool teeth_are_alike(const Problem& problem);
+
+/// @brief Choose names: phase of the first run in [-pi/N, pi/N) when the teeth are
+/// alike, else in [-pi, pi); other phases in [-pi, pi).
+/// @return whether teeth were renumbered
+bool apply_gauge(const Problem& problem, std::vector<double>& p);
 
 }  // namespace trochoid::identification

@@ -8,15 +8,8 @@
 
 namespace trochoid::identification {
 
-/// One reading of the channels, and what makes it the same data as the first of its
-/// family.
-struct Reading {
-  signal::Matrix3 Q;     ///< channels = Q force
-  signal::Matrix3 turn;  ///< (K_t, K_r, K_a) = turn (K_t, K_r, K_a) of the first
-};
-
 /// Readings that fit a record equally well, the first of them to be fitted.
-using ReadingFamily = std::vector<Reading>;
+using ReadingFamily = std::vector<signal::AxesReading>;
 
 /// @brief The 48 signed permutations in families that no residual can tell apart.
 ///

@@ -11,8 +11,8 @@ namespace {
 
 using base::index;
 
-/// Sums of squares over runs [N^2].
-struct Sums {
+/// RunSums of squares over runs [N^2].
+struct RunSums {
   std::array<double, 3> left{};  ///< in the band, one a channel
   double in_band = 0.0;          ///< measured force in the band
   double all = 0.0;              ///< measured force
@@ -20,7 +20,7 @@ struct Sums {
 };
 
 /// Products of neighbouring residuals and squares of residuals [N^2].
-struct Neighbours {
+struct NeighbourPairs {
   double products = 0.0;
   double squares = 0.0;
 
@@ -31,7 +31,7 @@ struct Neighbours {
 
 std::array<double, 3> squares_left(const Run& run,
                                    std::span<const std::array<double, 3>> fitted,
-                                   Neighbours& pairs) {
+                                   NeighbourPairs& pairs) {
   std::array<double, 3> out{};
   std::array<double, 3> before{};
   for (std::size_t i = 0; i < fitted.size(); ++i) {
@@ -100,15 +100,15 @@ double scatter_of(const Run& run, const FoldedRun& folded) {
 
 void fill_residuals(const Problem& problem, std::span<const Run> runs,
                     std::span<const double> left, Fit& fit) {
-  Sums sums;
-  Neighbours unbanded;
-  Neighbours everywhere;
+  RunSums sums;
+  NeighbourPairs unbanded;
+  NeighbourPairs everywhere;
   std::size_t row = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const FoldedRun& folded = problem.runs[r];
     const std::span<const double> own = left.subspan(row, index(folded.rows));
     row += index(folded.rows);
-    Neighbours pairs;
+    NeighbourPairs pairs;
     std::array<double, 3> squares = squares_left(runs[r], fit.fitted[r], pairs);
     const double force = squares_of(runs[r], !folded.drift.empty());
     if (folded.band > 0) {

@@ -15,18 +15,18 @@ namespace {
 using base::index;
 using std::complex;
 
-constexpr int most_harmonics = 60;
+constexpr int most_resolved = 60;
 /// Slower ones than this harmonic are those of the machine, not of a dynamometer.
 constexpr int first_harmonic = 3;
 /// Less damping is not believed: near a harmonic, amplitude alone would tell it.
 constexpr double least_damping = 0.02;
 constexpr std::array dampings{0.02, 0.03, 0.05, 0.08, 0.12, 0.2};
 /// A resonance that explains less of what is left is none.
-constexpr double least_explained = 0.3;
+constexpr double least_explained_left = 0.3;
 /// What a rigid fit leaves must repeat turn by turn so much beyond what scatter makes of it.
 constexpr double repeating = 1.2;
 /// The second time the force is better known.
-constexpr int rounds = 2;
+constexpr int rounds_of_fits = 2;
 
 /// Measured and computed amplitude of one axis at one harmonic.
 struct Line {
@@ -140,7 +140,7 @@ std::vector<Response> responses(std::span<const Run> runs, const Resonances& fou
 /// per cent, by which the amplification then changes by little more.
 int band_below(std::span<const Run> runs, const Resonances& found) {
   constexpr double bearable = 0.7;
-  double highest = most_harmonics;
+  double highest = most_resolved;
   for (const Run& run : runs) {
     highest = std::min(highest, double(resolved_harmonics(run)));
     for (const auto& r : found) {
@@ -174,7 +174,7 @@ int resolved_harmonics(const Run& run) {
   const double span = std::abs(run.angle.back() - run.angle.front());
   const double per_turn =
       span > 0 ? static_cast<double>(run.angle.size() - 1) * unit::turn / span : 1.0;
-  return static_cast<int>(std::clamp(0.4 * per_turn, 1.0, double(most_harmonics)));
+  return static_cast<int>(std::clamp(0.4 * per_turn, 1.0, double(most_resolved)));
 }
 
 Resonances find_resonances(std::span<const Run> runs,
@@ -193,7 +193,7 @@ Resonances find_resonances(std::span<const Run> runs,
   const auto noise = noise_of(runs, fitted);
   for (std::size_t q = 0; q < 3; ++q) {
     const Resonance best = best_resonance(lines[q], lowest, 1.5 * highest, noise[q]);
-    if (best.explained > least_explained) out[q] = best;
+    if (best.explained > least_explained_left) out[q] = best;
   }
   return out;
 }
@@ -218,7 +218,7 @@ std::optional<Fit> fit_through_resonance(const force::Setup& setup,
   Resonances found = find_resonances(runs, rigid.fitted, {});
   if (!any(found)) return std::nullopt;
   std::optional<Fit> fit;
-  for (int i = 0; i < rounds; ++i) {
+  for (int i = 0; i < rounds_of_fits; ++i) {
     const Fit& from = fit ? *fit : rigid;
     Options options = rigid.options;
     options.response = responses(runs, found);

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/identification/gauge.h>
+#include <trochoid/identification/problem.h>
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@ using base::index;
 /// So many equations to spare make a power: their sum of squares is good to 40 %.
 constexpr double enough = 12.0;
 /// With fewer of one channel and kind, all rows of the run share one power.
-constexpr double too_few = 5.0;
+constexpr double too_few_rows = 5.0;
 
 /// A run by harmonics.
 struct Harmonics {
@@ -90,7 +90,7 @@ std::vector<Power> powers(const Harmonics& run) {
   std::vector<Power> out;
   for (std::size_t row = 0; row < run.spectrum.rows(); ++row) {
     Excess own = near(run, row / lines, row % lines);
-    if (own.freedom < too_few) own = all;
+    if (own.freedom < too_few_rows) own = all;
     const double scatter = run.spectrum.scatter[row];
     const double repeats = std::max(0.0, own.squares / std::max(own.freedom, 1e-9));
     const double value = scatter + repeats;

@@ -2,8 +2,8 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/identification/products.h>
-#include <trochoid/identification/variable_projection.h>
+#include <trochoid/identification/local_minimum.h>
+#include <trochoid/identification/phase_grid.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double scan_tolerance = 1e-4;
 /// Of the phases at which one run alone fits best, so many are looked at; at least one
 /// for each tooth that may be tooth 1.
 constexpr std::size_t most_minima = 4;
-constexpr int rounds = 3;
+constexpr int rounds_of_descent = 3;
 
 /// G^-1 of a small positive semidefinite matrix, as solve_normal has it.
 std::vector<double> inverse(std::span<const double> G, std::size_t n) {
@@ -142,8 +142,10 @@ std::vector<PhaseMinimum> phase_minima(const RunScan& run, const signal::Matrix3
   return out;
 }
 
-/// Runs with one phase chosen for each. What runs of different groups leave is added:
-/// they have nothing but the runout in common.
+/// Runs with one phase chosen for each. All combinations of their phases would be a power of
+/// the number of runs; so one run after the other takes the phase that is best with the rest,
+/// until none gains. What runs of different groups leave is added: they have nothing but the
+/// runout in common.
 class Combination {
  public:
   Combination(const Problem& problem, const std::vector<RunScan>& runs,
@@ -171,7 +173,7 @@ class Combination {
     chosen_[0] = first;
     for (const auto& members : members_) follow_first(members);
     double least = rss();
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < rounds_of_descent; ++round) {
       bool better = false;
       for (std::size_t r = 1; r < runs_.size(); ++r) {
         better = improve(r, least) || better;
@@ -258,7 +260,8 @@ class Combination {
 };
 
 /// All runs against one runout.
-std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>& cells,
+std::vector<RunScan> run_scans(const Problem& problem,
+                               const std::vector<PhaseGrid>& grids,
                                std::span<const double> p, bool mixed) {
   const Point point = point_of(problem, p);
   std::vector<RunScan> out;
@@ -270,10 +273,10 @@ std::vector<RunScan> run_scans(const Problem& problem, const std::vector<Cells>&
     const bool free = problem.unknowns.phases > 0;
     const double given = free ? 0.0 : problem.fixed_phase;
     RunScan& run = out.emplace_back();
-    run.at = products(cells[r], matrix_in_cells(matrix, cells[r], given),
-                      free ? cells[r].size() : 1, mixed);
-    run.squares = cells[r].squares;
-    if (cells[r].even) run.inverse_G = inverse(run.at.gram_at(0), run.at.columns);
+    run.at = products(grids[r], matrix_on_grid(matrix, grids[r], given),
+                      free ? grids[r].size() : 1, mixed);
+    run.squares = grids[r].squares;
+    if (grids[r].even) run.inverse_G = inverse(run.at.gram_at(0), run.at.columns);
   }
   return out;
 }
@@ -305,8 +308,8 @@ std::vector<std::vector<Candidate>> scan(
     const Problem& problem, const std::vector<std::vector<double>>& runouts,
     std::span<const signal::Matrix3> readings) {
   const bool mixed = readings.size() > 1 || readings.front() != as_it_is;
-  std::vector<Cells> cells;
-  for (const FoldedRun& run : problem.runs) cells.push_back(cells_of(run));
+  std::vector<PhaseGrid> grids;
+  for (const FoldedRun& run : problem.runs) grids.push_back(phase_grid_of(run));
   std::vector<double> p =
       parameters_of(problem, {problem.setup.runout, problem.law,
                               std::vector<double>(problem.runs.size(), 0.0)});
@@ -315,7 +318,7 @@ std::vector<std::vector<Candidate>> scan(
     std::ranges::copy(runout, p.begin());
     if (!in_range(problem, p)) continue;
     try {
-      const std::vector<RunScan> runs = run_scans(problem, cells, p, mixed);
+      const std::vector<RunScan> runs = run_scans(problem, grids, p, mixed);
       for (std::size_t k = 0; k < readings.size(); ++k) {
         add_candidates(problem, runs, readings[k], p, out[k]);
       }

@@ -1,5 +1,5 @@
-#include <trochoid/identification/gauge.h>
-#include <trochoid/identification/jumps.h>
+#include <trochoid/identification/local_minimum.h>
+#include <trochoid/identification/problem.h>
 #include <trochoid/identification/runout_starts.h>
 #include <trochoid/identification/search.h>
 #include <trochoid/identification/uncertainty.h>
@@ -8,15 +8,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 namespace trochoid::identification {
 namespace {
 
-double norm(std::span<const double> v) {
-  return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
-}
+// The sum of squares has many minima over runout and phases: a phase that is off by a pitch
+// renumbers the teeth, and a tooth that hardly cuts says little of its offset. So the search
+// goes from cheap to dear. A scan (I-12) ranks runouts and phases. Levenberg-Marquardt runs
+// from the best few on data averaged over the turn with a coarse force matrix; there the two
+// kinds of wrong minima are left as well (move_single_teeth, renumber). Only the best minimum,
+// and a second one that all but ties with it, is followed on all of the data.
+//
+// Edges without lag that carry an edge force enter all at once: the sum of squares then jumps
+// whenever an edge passes a sample, and no derivative leads across. A smooth problem nearby
+// gives the starts, and the last part compares the places between the jumps.
 
 constexpr int coarse_bins = 120;
 constexpr int coarse_angles = 64;
@@ -284,7 +290,7 @@ void restrict_eccentricity(Problem& problem, std::vector<double>& p) {
   std::vector<double> residual = force;
   const std::vector<double> K = numerics::project_out(D, gram_of(D), residual);
   problem.unknowns.direction =
-      single_direction(coarse, p, K, norm(residual) / norm(force));
+      single_direction(coarse, p, K, numerics::norm(residual) / numerics::norm(force));
   if (!problem.unknowns.direction) return;
   p = settle(problem, parameters_of(problem, point)).p;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <trochoid/identification/local_minimum.h>
 #include <trochoid/identification/scan.h>
-#include <trochoid/identification/variable_projection.h>
 
 #include <vector>
 

@@ -13,7 +13,7 @@ namespace {
 using base::index;
 
 /// What no column of a force matrix has to speak of above.
-constexpr int most_harmonics = 48;
+constexpr int most_lines = 48;
 /// Fewer turns tell too little of what differs from one to the next.
 constexpr double fewest_turns = 4.0;
 /// More blocks of turns tell no more.
@@ -66,8 +66,8 @@ std::vector<double> waves(double angle, std::size_t lines) {
   return out;
 }
 
-/// Sums over the samples of each bin of each block.
-struct Sums {
+/// BlockSums over the samples of each bin of each block.
+struct BlockSums {
   std::vector<std::array<double, 3>> sum;  ///< shape (blocks, bins)
   std::vector<double> samples;             ///< shape (blocks)
   std::size_t bins = 1;
@@ -75,8 +75,9 @@ struct Sums {
 
 /// @param value  of a sample, by its number
 template <class Value>
-Sums sums_of(std::span<const double> angle, const Value& value, const Blocks& blocks) {
-  Sums out;
+BlockSums sums_of(std::span<const double> angle, const Value& value,
+                  const Blocks& blocks) {
+  BlockSums out;
   out.bins = std::clamp(static_cast<std::size_t>(std::round(4.0 * blocks.per_turn)),
                         std::size_t{90}, most_bins);
   out.sum.assign(blocks.count * out.bins, {});
@@ -97,7 +98,7 @@ Sums sums_of(std::span<const double> angle, const Value& value, const Blocks& bl
 }
 
 /// @return of each block the mean of the values times each wave, shape (blocks, rows)
-std::vector<double> means_of(const Sums& sums, std::size_t lines) {
+std::vector<double> means_of(const BlockSums& sums, std::size_t lines) {
   const std::size_t blocks = sums.samples.size();
   const std::size_t rows = 3 * lines;
   std::vector<double> out(blocks * rows, 0.0);
@@ -138,7 +139,7 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
   Spectrum out;
   const Blocks blocks = blocks_of(run);
   const int resolved = static_cast<int>(0.5 * (blocks.per_turn - 1.0) + 1e-6);
-  const int highest = std::min(resolved, band > 0 ? (band - 1) / 2 : most_harmonics);
+  const int highest = std::min(resolved, band > 0 ? (band - 1) / 2 : most_lines);
   if (blocks.count == 0 || highest < 1) return out;
   out.highest = highest;
   out.turns = static_cast<double>(blocks.count);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <trochoid/identification/fit.h>
 #include <trochoid/identification/folded.h>
-#include <trochoid/identification/identify.h>
 #include <trochoid/numerics/columns.h>
 
 #include <array>

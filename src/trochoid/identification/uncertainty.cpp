@@ -1,9 +1,9 @@
 #include <trochoid/base/index.h>
 #include <trochoid/identification/derivatives.h>
-#include <trochoid/identification/groups.h>
-#include <trochoid/identification/jumps.h>
+#include <trochoid/identification/local_minimum.h>
+#include <trochoid/identification/problem.h>
+#include <trochoid/identification/reliability.h>
 #include <trochoid/identification/uncertainty.h>
-#include <trochoid/identification/widening.h>
 #include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/student.h>
@@ -32,10 +32,6 @@ constexpr double edge_ratio = 3.0;
 
 using base::index;
 
-double norm(std::span<const double> v) {
-  return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
-}
-
 /// Columns that are kept, in their order.
 std::vector<double> keep_columns(const numerics::Columns& A,
                                  const std::vector<std::size_t>& kept) {
@@ -55,8 +51,8 @@ bool find_slope(const Derivatives& derivatives, int i, bool jumps,
                 std::span<double> column, std::span<double> behind) {
   derivatives.find(i, fine_step, column);
   derivatives.find(i, fine_step_back, behind);
-  const double a = norm(column);
-  const double b = norm(behind);
+  const double a = numerics::norm(column);
+  const double b = numerics::norm(behind);
   if (jumps) {
     if (b <= a) std::ranges::copy(behind, column.begin());
     return false;
@@ -113,7 +109,7 @@ std::string missing_forces(const FoldedRun& run) {
 void drop_insensitive(const numerics::Columns& J, std::size_t linear, double force_norm,
                       Uncertainty& out) {
   for (std::size_t c = linear; c < J.count(); ++c) {
-    if (!(norm(J[c]) > insensitive * force_norm)) {
+    if (!(numerics::norm(J[c]) > insensitive * force_norm)) {
       out.reason[c] = "the force does not depend on it";
     }
   }
@@ -187,19 +183,19 @@ double widening_of(const Problem& problem, const Determined& unknowns,
 std::vector<double> covariance_of(const Problem& problem, const Determined& unknowns,
                                   const Leftover& left, Uncertainty& out) {
   const double variance = out.freedom > 0.0 ? left.rss / out.freedom : 0.0;
-  std::vector<double> white = unknowns.inverse_gram;
-  for (double& v : white) v *= variance;
+  std::vector<double> white_noise = unknowns.inverse_gram;
+  for (double& v : white_noise) v *= variance;
   out.chance = variance;
-  if (left.runs.empty() || !(variance > 0)) return white;
+  if (left.runs.empty() || !(variance > 0)) return white_noise;
   auto found = sandwich(problem, unknowns.J, unknowns.inverse_gram,
                         shared_of(problem, unknowns.which), left);
   if (!found) {
-    if (problem.runs.front().band > 0) return white;
+    if (problem.runs.front().band > 0) return white_noise;
     out.widening = interval_widening(left.runs, left.fitted,
                                      static_cast<int>(unknowns.which.size()));
-    for (double& v : white) v *= out.widening * out.widening;
+    for (double& v : white_noise) v *= out.widening * out.widening;
     out.chance *= out.widening * out.widening;
-    return white;
+    return white_noise;
   }
   out.quantile_freedom = std::min(out.freedom, std::max(1.0, found->freedom));
   out.chance = found->chance;
@@ -252,7 +248,7 @@ std::vector<std::string> unmeasured_reasons(const Problem& problem,
     const std::string why = missing_forces(run);
     for (std::size_t i = 0; i < index(problem.columns); ++i) {
       const std::size_t c = first_column(problem, r) + i;
-      if (norm(D[c]) == 0.0) out[c] = why;
+      if (numerics::norm(D[c]) == 0.0) out[c] = why;
     }
     for (std::size_t i = 0; i < 6 && problem.drift_columns() > 0; ++i) {
       if (!run.measured[i / 2]) out[force + 6 * r + i] = why;
@@ -279,7 +275,7 @@ Uncertainty uncertainty(const Problem& problem, Evaluation at,
   out.reason.resize(width);
   for (const std::string& why : out.reason) out.unmeasured.push_back(!why.empty());
   out.on_edge.assign(width, false);
-  drop_insensitive(J, linear, norm(b), out);
+  drop_insensitive(J, linear, numerics::norm(b), out);
   std::vector<std::size_t> kept;
   const std::size_t runout_end = linear + index(problem.unknowns.runout_count());
   for (std::size_t c = 0; c < width; ++c) {
@@ -343,7 +339,7 @@ double squares_about_columns(const FoldedRun& run) {
   }
   std::vector<double> b = run.b;
   numerics::project_out(A, run.drift.empty() ? 3 : 6, b, 1);
-  return std::inner_product(b.begin(), b.end(), b.begin(), 0.0);
+  return numerics::dot(b, b);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <trochoid/inputs/step_file.h>
 #include <trochoid/inputs/surface_file.h>
 #include <trochoid/structure/plate.h>
-#include <trochoid/surface/also_bends.h>
+#include <trochoid/surface/choices.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/readings.h>

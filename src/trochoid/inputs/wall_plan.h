@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/surface/planned_form.h>
+#include <trochoid/surface/choices.h>
 
 #include <optional>
 #include <string_view>

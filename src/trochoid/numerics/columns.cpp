@@ -162,6 +162,15 @@ void add_combination(const Columns& A, std::span<const double> x, double factor,
   HWY_DYNAMIC_DISPATCH(combine)(A, x, factor, out);
 }
 
+std::vector<double> by_rows(std::span<const double> columns, std::size_t rows) {
+  const std::size_t count = rows == 0 ? 0 : columns.size() / rows;
+  std::vector<double> out(columns.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t k = 0; k < count; ++k) out[i * count + k] = columns[k * rows + i];
+  }
+  return out;
+}
+
 std::vector<double> gram_of(const Columns& A) {
   std::vector<double> out(A.count() * A.count());
   inner_products(A, A, out);

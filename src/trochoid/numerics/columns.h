@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -30,6 +31,18 @@ struct Columns {
   }
 };
 
+/// Sum of a_i b_i, in the order of i; b is at least as long as a.
+inline double dot(std::span<const double> a, std::span<const double> b) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Euclidean norm.
+inline double norm(std::span<const double> v) noexcept {
+  return std::sqrt(dot(v, v));
+}
+
 /// @brief All products of columns, on as wide vectors as the machine has.
 /// @param[out] out  A^T B, row-major, shape (columns of A, columns of B)
 void inner_products(const Columns& A, const Columns& B, std::span<double> out) noexcept;
@@ -39,6 +52,10 @@ void inner_products(const Columns& A, const Columns& B, std::span<double> out) n
 /// @param[in,out] out  shape (rows)
 void add_combination(const Columns& A, std::span<const double> x, double factor,
                      std::span<double> out) noexcept;
+
+/// The same matrix row by row.
+/// @param columns  one after the other, shape (columns, rows)
+std::vector<double> by_rows(std::span<const double> columns, std::size_t rows);
 
 /// A^T A, shape (columns, columns).
 std::vector<double> gram_of(const Columns& A);

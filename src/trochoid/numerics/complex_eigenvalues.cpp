@@ -10,9 +10,10 @@ namespace trochoid::numerics {
 
 namespace {
 
-using Dense = Eigen::MatrixXcd;
+using ComplexDense = Eigen::MatrixXcd;
 
-Eigen::Map<const Dense> square(std::span<const std::complex<double>> A, std::size_t n) {
+Eigen::Map<const ComplexDense> square(std::span<const std::complex<double>> A,
+                                      std::size_t n) {
   if (n == 0 || A.size() != n * n) {
     throw std::invalid_argument("complex_eigenvalues: the matrix is not (n, n), n > 0");
   }
@@ -24,15 +25,15 @@ Eigen::Map<const Dense> square(std::span<const std::complex<double>> A, std::siz
 
 std::vector<std::complex<double>> complex_eigenvalues(
     std::span<const std::complex<double>> A, std::size_t n) {
-  const Eigen::ComplexEigenSolver<Dense> solver(square(A, n), false);
+  const Eigen::ComplexEigenSolver<ComplexDense> solver(square(A, n), false);
   const auto& values = solver.eigenvalues();
   return {values.data(), values.data() + values.size()};
 }
 
 double eigenvalue_bound(std::span<const std::complex<double>> A, std::size_t n) {
   const auto map = square(A, n);
-  const Dense second = map * map;
-  const Dense fourth = second * second;
+  const ComplexDense second = map * map;
+  const ComplexDense fourth = second * second;
   const double columns = fourth.cwiseAbs().colwise().sum().maxCoeff();
   const double rows = fourth.cwiseAbs().rowwise().sum().maxCoeff();
   return std::sqrt(std::sqrt(std::min(columns, rows)));

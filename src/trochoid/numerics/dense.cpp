@@ -13,7 +13,7 @@ namespace trochoid::numerics {
 namespace {
 
 using Dense = Eigen::MatrixXd;
-using Columns = Eigen::Map<const Dense>;
+using ConstColumnMap = Eigen::Map<const Dense>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 
@@ -21,7 +21,7 @@ Eigen::Index index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
 }
 
-Columns columns_of(const Matrix& A) {
+ConstColumnMap columns_of(const Matrix& A) {
   return {A.values.data(), index(A.rows), index(A.columns)};
 }
 
@@ -40,7 +40,7 @@ double sum_of_sizes(std::span<const double> column) {
 using Complex = std::complex<double>;
 
 /// Of unit length, by two steps of inverse iteration.
-std::vector<Complex> hessenberg_vector(const Columns& H, Complex eigenvalue) {
+std::vector<Complex> hessenberg_vector(const ConstColumnMap& H, Complex eigenvalue) {
   const Eigen::Index n = H.rows();
   const double size = H.cwiseAbs().maxCoeff();
   const double least = size > 0 ? 1e-16 * size : 1.0;
@@ -75,13 +75,13 @@ std::vector<Complex> hessenberg_vector(const Columns& H, Complex eigenvalue) {
 
 void add_product(double factor, std::span<const double> A, std::span<const double> x,
                  std::span<double> y) noexcept {
-  const Columns a(A.data(), index(y.size()), index(x.size()));
+  const ConstColumnMap a(A.data(), index(y.size()), index(x.size()));
   Vector(y.data(), a.rows()).noalias() += factor * a * ConstVector(x.data(), a.cols());
 }
 
 void transposed_product(std::span<const double> A, std::span<const double> x,
                         std::span<double> y) noexcept {
-  const Columns a(A.data(), index(x.size()), index(y.size()));
+  const ConstColumnMap a(A.data(), index(x.size()), index(y.size()));
   Vector(y.data(), a.cols()).noalias() =
       a.transpose() * ConstVector(x.data(), a.rows());
 }
@@ -96,7 +96,7 @@ void solve(const Lu& lu, std::span<const double> b, std::span<double> x) noexcep
   for (std::size_t i = 0; i < b.size(); ++i) {
     x[static_cast<std::size_t>(lu.place[i])] = b[i];
   }
-  const Columns factors = columns_of(lu.factors);
+  const ConstColumnMap factors = columns_of(lu.factors);
   Vector out(x.data(), factors.rows());
   factors.triangularView<Eigen::UnitLower>().solveInPlace(out);
   factors.triangularView<Eigen::Upper>().solveInPlace(out);
@@ -149,7 +149,7 @@ Eigenpair largest_eigenpair(const Matrix& A) {
 }
 
 Eigenpair largest_hessenberg_pair(const Matrix& H) {
-  const Columns h = columns_of(H);
+  const ConstColumnMap h = columns_of(H);
   const Eigen::Index n = h.rows();
   Eigen::RealSchur<Dense> schur(n);
   schur.computeFromHessenberg(h, Dense::Identity(n, n), false);

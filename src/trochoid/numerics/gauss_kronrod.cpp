@@ -7,7 +7,7 @@ namespace trochoid::numerics {
 
 namespace {
 
-KronrodRule make_rule() {
+KronrodRule make_kronrod_rule() {
   using Kronrod = boost::math::quadrature::gauss_kronrod<double, 15>;
   using Gauss = boost::math::quadrature::gauss<double, 7>;
   KronrodRule rule{};
@@ -25,7 +25,7 @@ KronrodRule make_rule() {
 }  // namespace
 
 const KronrodRule& kronrod_rule() {
-  static const KronrodRule rule = make_rule();
+  static const KronrodRule rule = make_kronrod_rule();
   return rule;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Vector = Eigen::VectorXd;
+using DenseVector = Eigen::VectorXd;
 using Qr = Eigen::ColPivHouseholderQR<Dense>;
 
 /// Added to the unit diagonal of normal equations, so that a dependent column ends in
@@ -29,7 +29,7 @@ void check_shape(std::size_t entries, int n, std::size_t rows) {
   }
 }
 
-Vector inverse_or_zero(const Vector& norms) {
+DenseVector inverse_or_zero(const DenseVector& norms) {
   return norms.unaryExpr([](double v) { return v > 0.0 ? 1.0 / v : 0.0; });
 }
 
@@ -63,7 +63,7 @@ void solve_scaled(const Eigen::Ref<const Dense>& gram,
   if (gram.rows() <= few) {
     solve_scaled_as<FewByFew, Few>(gram, right);
   } else {
-    solve_scaled_as<Dense, Vector>(gram, right);
+    solve_scaled_as<Dense, DenseVector>(gram, right);
   }
 }
 
@@ -79,10 +79,10 @@ void reflect(const Qr& qr, Eigen::Index k, Eigen::Ref<Dense> B) {
 }
 
 /// Basic solution of the least-squares problem with the right-hand side given.
-Vector solved(const Qr& qr, Vector right) {
+DenseVector solved(const Qr& qr, DenseVector right) {
   const Eigen::Index rank = qr.nonzeroPivots();
   for (Eigen::Index k = 0; k < rank; ++k) reflect(qr, k, right);
-  Vector x = Vector::Zero(qr.cols());
+  DenseVector x = DenseVector::Zero(qr.cols());
   x.head(rank) = right.head(rank);
   qr.matrixQR()
       .topLeftCorner(rank, rank)
@@ -94,7 +94,7 @@ Vector solved(const Qr& qr, Vector right) {
 void fill_singular(const Dense& R, double rank_tolerance, LeastSquares& out) {
   // R is square: what would first make it so need not be compiled.
   const Eigen::JacobiSVD<Dense, Eigen::NoQRPreconditioner> svd(R, Eigen::ComputeFullV);
-  const Vector& s = svd.singularValues();
+  const DenseVector& s = svd.singularValues();
   out.singular_values.assign(s.data(), s.data() + s.size());
   const double limit = rank_tolerance * s[0];
   while (out.rank < s.size() && s[out.rank] > limit) ++out.rank;
@@ -102,31 +102,31 @@ void fill_singular(const Dense& R, double rank_tolerance, LeastSquares& out) {
   out.condition =
       smallest > 0.0 ? s[0] / smallest : std::numeric_limits<double>::infinity();
   for (Eigen::Index j = out.rank; j < R.cols(); ++j) {
-    const Vector v = svd.matrixV().col(j);
+    const DenseVector v = svd.matrixV().col(j);
     out.null_space.insert(out.null_space.end(), v.data(), v.data() + v.size());
   }
 }
 
 template <class Matrix>
-LeastSquares by_reflections(const Matrix& a, const Vector& right,
+LeastSquares by_reflections(const Matrix& a, const DenseVector& right,
                             double rank_tolerance) {
   const Eigen::Index m = a.rows();
   const Eigen::Index n = a.cols();
   LeastSquares out;
-  const Vector norms = a.colwise().norm();
+  const DenseVector norms = a.colwise().norm();
   out.norms.assign(norms.data(), norms.data() + n);
-  const Vector scale = inverse_or_zero(norms);
+  const DenseVector scale = inverse_or_zero(norms);
   Dense scaled = Dense::Zero(std::max<Eigen::Index>(m, n), n);
   scaled.topRows(m) = a * scale.asDiagonal();
-  Vector padded = Vector::Zero(scaled.rows());
+  DenseVector padded = DenseVector::Zero(scaled.rows());
   padded.head(m) = right;
 
   const Qr qr(scaled);  // I-1
   const Dense R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
   fill_singular(R * qr.colsPermutation().transpose(), rank_tolerance, out);  // I-6
 
-  const Vector x = scale.cwiseProduct(solved(qr, std::move(padded)));
-  const Vector residual = right - a * x;
+  const DenseVector x = scale.cwiseProduct(solved(qr, std::move(padded)));
+  const DenseVector residual = right - a * x;
   out.x.assign(x.data(), x.data() + n);
   out.residual.assign(residual.data(), residual.data() + m);
   out.rss = residual.squaredNorm();
@@ -146,24 +146,24 @@ constexpr double worst_condition = 3e3;
 
 /// (L L^T)^-1 right, L row-major in the lower triangle of a scaled gram.
 struct Normal {
-  Vector scale;
+  DenseVector scale;
   Eigen::LLT<Dense> factors;
 
   explicit Normal(const Dense& gram)
       : scale(inverse_or_zero(gram.diagonal().cwiseSqrt())),
         factors(scale.asDiagonal() * gram * scale.asDiagonal()) {}
 
-  [[nodiscard]] Vector solve(const Vector& right) const {
+  [[nodiscard]] DenseVector solve(const DenseVector& right) const {
     return scale.cwiseProduct(factors.solve(scale.cwiseProduct(right)));
   }
 };
 
-std::span<const double> as_span(const Vector& v) {
+std::span<const double> as_span(const DenseVector& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-Vector products_with(const Columns& A, std::span<const double> b) {
-  Vector out(static_cast<Eigen::Index>(A.count()));
+DenseVector products_with(const Columns& A, std::span<const double> b) {
+  DenseVector out(static_cast<Eigen::Index>(A.count()));
   inner_products(A, {b, A.rows}, {out.data(), A.count()});
   return out;
 }
@@ -175,7 +175,7 @@ LeastSquares least_squares(std::span<const double> A, int n, std::span<const dou
   check_shape(A.size(), n, b.size());
   const auto m = static_cast<Eigen::Index>(b.size());
   return by_reflections(Eigen::Map<const RowMajor>(A.data(), m, n),
-                        Eigen::Map<const Vector>(b.data(), m), rank_tolerance);
+                        Eigen::Map<const DenseVector>(b.data(), m), rank_tolerance);
 }
 
 LeastSquares least_squares(const Columns& A, std::span<const double> b,
@@ -192,20 +192,20 @@ LeastSquares least_squares(const Columns& A, std::span<const double> b,
   if (out.rank < n || !(out.condition < worst_condition)) {
     const auto m = static_cast<Eigen::Index>(b.size());
     return by_reflections(Eigen::Map<const Dense>(A.values.data(), m, n),
-                          Eigen::Map<const Vector>(b.data(), m), rank_tolerance);
+                          Eigen::Map<const DenseVector>(b.data(), m), rank_tolerance);
   }
-  const Vector norms = gram.diagonal().cwiseSqrt();
+  const DenseVector norms = gram.diagonal().cwiseSqrt();
   out.norms.assign(norms.begin(), norms.end());
   out.x.assign(A.count(), 0.0);
   out.residual.assign(b.begin(), b.end());
   for (int step = 0; step < 2; ++step) {  // I-1
-    const Vector dx = normal.solve(products_with(A, out.residual));
+    const DenseVector dx = normal.solve(products_with(A, out.residual));
     add_combination(A, as_span(dx), -1.0, out.residual);
-    Eigen::Map<Vector>(out.x.data(), n) += dx;
+    Eigen::Map<DenseVector>(out.x.data(), n) += dx;
   }
-  out.rss =
-      Eigen::Map<const Vector>(out.residual.data(), static_cast<Eigen::Index>(b.size()))
-          .squaredNorm();
+  out.rss = Eigen::Map<const DenseVector>(out.residual.data(),
+                                          static_cast<Eigen::Index>(b.size()))
+                .squaredNorm();
   const Dense half = normal.factors.matrixL().solve(Dense(normal.scale.asDiagonal()));
   out.inverse_gram.resize(A.count() * A.count());
   Eigen::Map<Dense>(out.inverse_gram.data(), n, n) = half.transpose() * half;
@@ -250,8 +250,8 @@ double solve_normal(std::span<const double> G, std::span<const double> g,
                     std::span<double> x) {
   const auto n = static_cast<Eigen::Index>(g.size());
   const Eigen::Map<const Dense> gram(G.data(), n, n);  // symmetric
-  const Eigen::Map<const Vector> right(g.data(), n);
-  Eigen::Map<Vector> solution(x.data(), n);
+  const Eigen::Map<const DenseVector> right(g.data(), n);
+  Eigen::Map<DenseVector> solution(x.data(), n);
   solution = right;
   solve_scaled(gram, solution);
   return right.dot(solution);

@@ -35,10 +35,20 @@ struct LevenbergMarquardtSummary {
 };
 
 /// @brief Local minimum of |r(p)|^2 near the start.
-/// @src [madsen2004], as ceres/tiny_solver.h of [ceres2022] has it
+/// @src [madsen2004], with the scaling and the ends of TinySolver in [ceres2022]
 LevenbergMarquardtSummary levenberg_marquardt(const Residuals& residuals,
                                               int residual_count,
                                               std::vector<double> start,
                                               const LevenbergMarquardtOptions& options);
+
+/// @brief Covariance of the parameters at the end of a search, what is left taken for white
+/// noise; row-major, empty where some of them cannot be told apart.
+///
+/// @eq I-4 2 cost/(m - n) (J^T J)^-1
+/// @param cost            |r|^2/2 at p
+/// @param rank_tolerance  as of least_squares
+std::vector<double> covariance_at(const Residuals& residuals, int residual_count,
+                                  std::span<const double> p, double cost,
+                                  double rank_tolerance);
 
 }  // namespace trochoid::numerics

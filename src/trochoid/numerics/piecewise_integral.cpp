@@ -22,7 +22,7 @@ std::array<Power, n + 1> chebyshev_polynomials() {
   return T;
 }
 
-PanelRule make_rule() {
+PanelRule make_panel_rule() {
   PanelRule rule{};
   std::array<std::array<double, n>, n> to_chebyshev{};  // from node values
   for (std::size_t i = 0; i < n; ++i) {
@@ -56,7 +56,7 @@ PanelRule make_rule() {
 }  // namespace
 
 const PanelRule& panel_rule() {
-  static const PanelRule rule = make_rule();
+  static const PanelRule rule = make_panel_rule();
   return rule;
 }
 

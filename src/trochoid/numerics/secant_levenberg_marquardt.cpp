@@ -10,7 +10,7 @@ namespace trochoid::numerics {
 namespace {
 
 using Dense = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
+using DenseVector = Eigen::VectorXd;
 
 constexpr double first_damping = 1e-4;  ///< relative to the diagonal of J^T J
 constexpr double least_diagonal = 1e-12;
@@ -36,8 +36,8 @@ class Descent {
           const std::vector<double>& start, const LevenbergMarquardtOptions& options)
       : residuals_(residuals),
         options_(options),
-        p_(Eigen::Map<const Vector>(start.data(),
-                                    static_cast<Eigen::Index>(start.size()))),
+        p_(Eigen::Map<const DenseVector>(start.data(),
+                                         static_cast<Eigen::Index>(start.size()))),
         r_(residual_count),
         r_new_(residual_count),
         J_(residual_count, p_.size()) {}
@@ -101,7 +101,7 @@ class Descent {
     }
   }
 
-  [[nodiscard]] Vector step() const {
+  [[nodiscard]] DenseVector step() const {
     Dense damped = gram_;
     damped.diagonal() += damping_ * gram_.diagonal().cwiseMax(least_diagonal);
     return damped.ldlt().solve(downhill_);
@@ -115,7 +115,7 @@ class Descent {
   }
 
   /// @return whether r_new_ is what p leaves
-  bool try_at(const Vector& p) {
+  bool try_at(const DenseVector& p) {
     return residuals_({p.data(), static_cast<std::size_t>(p.size())},
                       {r_new_.data(), static_cast<std::size_t>(r_new_.size())}, {}) &&
            r_new_.allFinite();
@@ -126,7 +126,7 @@ class Descent {
     if (downhill_.cwiseAbs().maxCoeff() < options_.gradient_tolerance) {
       return exact() ? "the gradient vanished" : renew();
     }
-    const Vector h = step();
+    const DenseVector h = step();
     const double length = h.norm();
     const double promised = h.dot(2.0 * downhill_ - gram_ * h);
     const bool little = promised < noise();
@@ -135,7 +135,7 @@ class Descent {
     if (last && !exact()) return renew();
     if (!(length >= tolerance())) return "the step became negligible";
     if (little) return "the step became small against its standard error";
-    const Vector p = p_ + h;
+    const DenseVector p = p_ + h;
     const double change = try_at(p) ? squares_ - r_new_.squaredNorm()
                                     : -std::numeric_limits<double>::infinity();
     if (!(change > 0.0)) return after_failure(promised, change);
@@ -166,8 +166,8 @@ class Descent {
   }
 
   /// Take the step, and let the Jacobian learn from it.
-  void accept(const Vector& p, const Vector& h) {
-    const Vector miss = r_new_ - r_ - J_ * h;
+  void accept(const DenseVector& p, const DenseVector& h) {
+    const DenseVector miss = r_new_ - r_ - J_ * h;
     J_.noalias() += miss * (h / h.squaredNorm()).transpose();
     p_ = p;
     r_.swap(r_new_);
@@ -181,13 +181,13 @@ class Descent {
 
   const Residuals& residuals_;
   const LevenbergMarquardtOptions& options_;
-  Vector p_;
-  Vector r_;
-  Vector r_new_;
+  DenseVector p_;
+  DenseVector r_;
+  DenseVector r_new_;
   Dense J_;
-  Vector p_of_J_;    ///< where the Jacobian was asked for
-  Dense gram_;       ///< J^T J
-  Vector downhill_;  ///< -J^T r
+  DenseVector p_of_J_;    ///< where the Jacobian was asked for
+  Dense gram_;            ///< J^T J
+  DenseVector downhill_;  ///< -J^T r
   double squares_ = 0.0;
   double gained_ = 0.0;  ///< of the squares, as promised, since then
   double damping_ = first_damping;

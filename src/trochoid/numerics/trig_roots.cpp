@@ -12,7 +12,7 @@ namespace {
 
 using base::index;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Bound of all but the mean and the sine.
 double beyond_the_sine(const TrigPolynomial& p) noexcept {

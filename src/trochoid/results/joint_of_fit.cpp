@@ -1,7 +1,7 @@
 #include <trochoid/results/joint_of_fit.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/identification/groups.h>
+#include <trochoid/identification/fit.h>
 
 #include <fmt/core.h>
 

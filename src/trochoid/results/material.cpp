@@ -2,7 +2,7 @@
 
 #include <trochoid/base/rounded.h>
 #include <trochoid/base/units.h>
-#include <trochoid/identification/groups.h>
+#include <trochoid/identification/fit.h>
 #include <trochoid/identification/reliability.h>
 
 #include <fmt/core.h>

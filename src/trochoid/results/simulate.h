@@ -2,7 +2,7 @@
 
 #include <trochoid/force/slice.h>
 #include <trochoid/force/statistics.h>
-#include <trochoid/identification/match_phase.h>
+#include <trochoid/identification/identify.h>
 #include <trochoid/results/answer.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 #include <trochoid/run/commands.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/identification/groups.h>
+#include <trochoid/identification/fit.h>
 #include <trochoid/identification/reliability.h>
 #include <trochoid/run/identify.h>
 #include <trochoid/run/wall.h>

@@ -25,7 +25,7 @@ void powers(double angle, std::span<Complex> out) {
 }
 
 /// Everything that the normal equations need, from one pass over the samples.
-struct Sums {
+struct FitSums {
   /// sum t^p e^(i m Omega t), p = 0, 1, 2, m = 0 .. twice the highest order
   std::array<std::vector<Complex>, 3> S;
   /// sum t^p y e^(-i k Omega t), p = 0, 1, of each channel, k of the two-sided orders
@@ -33,9 +33,9 @@ struct Sums {
   std::array<double, 3> yy{};
 };
 
-Sums sums(const TimedSamples& samples, std::span<const int> orders, double Omega) {
+FitSums sums(const TimedSamples& samples, std::span<const int> orders, double Omega) {
   const auto K = static_cast<std::size_t>(orders.back());
-  Sums s;
+  FitSums s;
   for (auto& row : s.S) row.assign(2 * K + 1, Complex{});
   for (auto& channel : s.Y) {
     for (auto& row : channel) row.assign(orders.size(), Complex{});
@@ -83,8 +83,8 @@ struct Derivative {
   double with_residual = 0.0;
 };
 
-Derivative derivative(const Sums& s, std::size_t channel, std::span<const int> orders,
-                      const std::vector<Complex>& c) {
+Derivative derivative(const FitSums& s, std::size_t channel,
+                      std::span<const int> orders, const std::vector<Complex>& c) {
   const std::size_t size = orders.size();
   Derivative d{std::vector<Complex>(size), 0.0, 0.0};
   for (std::size_t k = 0; k < size; ++k) {
@@ -165,7 +165,7 @@ std::vector<int> two_sided(std::span<const int> orders) {
 
 HarmonicFit fit_harmonics(const TimedSamples& samples, std::span<const int> two_sided,
                           double Omega) {
-  const Sums s = sums(samples, two_sided, Omega);
+  const FitSums s = sums(samples, two_sided, Omega);
   const NormalEquations equations(s.S[0], two_sided);
   HarmonicFit fit;
   fit.Omega = Omega;

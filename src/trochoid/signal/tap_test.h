@@ -20,7 +20,7 @@ enum class FrfEstimator {
   H2,  ///< noise of the force does
 };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(FrfEstimator estimator) noexcept {
   switch (estimator) {
     case FrfEstimator::H1:

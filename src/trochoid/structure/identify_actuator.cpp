@@ -139,14 +139,18 @@ struct Solved {
   bool converged = false;
 };
 
+numerics::Residuals residuals_of(const Problem& problem) {
+  return [&problem](std::span<const double> p, std::span<double> r,
+                    std::span<double> jacobian) {
+    return evaluate(problem, p, r, jacobian);
+  };
+}
+
 /// From several dampings: the sum of squares can have more than one valley.
 Solved solve(const Problem& problem, const Guess& first) {
   const StepRecord& record = *problem.record;
   const auto count = static_cast<int>(record.time.size());
-  const numerics::Residuals residuals =
-      [&](std::span<const double> p, std::span<double> r, std::span<double> jacobian) {
-        return evaluate(problem, p, r, jacobian);
-      };
+  const numerics::Residuals residuals = residuals_of(problem);
   Solved out;
   for (const double zeta : {0.1, 0.4, 1.0, 2.5}) {
     const double omega_tau = 1.05 + 0.63 * zeta;  // half of the rise at tau
@@ -163,28 +167,6 @@ Solved solve(const Problem& problem, const Guess& first) {
     }
   }
   return out;
-}
-
-/// Covariance of the parameters, row-major; empty when some cannot be told.
-std::vector<double> covariance(const Problem& problem, const std::vector<double>& p,
-                               double cost) {
-  const std::size_t m = problem.record->time.size();
-  const std::size_t n = p.size();
-  std::vector<double> r(m);
-  std::vector<double> columns(m * n);
-  evaluate(problem, p, r, columns);
-  std::vector<double> J(m * n);
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t k = 0; k < n; ++k) {
-      J[i * n + k] = columns[k * m + i];
-    }
-  }
-  std::fill(r.begin(), r.end(), 0.0);
-  auto fit = numerics::least_squares(J, static_cast<int>(n), r, rank_tolerance);
-  for (double& value : fit.inverse_gram) {
-    value *= 2 * cost / static_cast<double>(m - n);
-  }
-  return fit.inverse_gram;
 }
 
 /// Standard error of a function with this gradient over the parameters 1 and 2.
@@ -324,7 +306,9 @@ ActuatorFit identify_actuator(const StepRecord& record) {
   if (!fit.reason.empty()) {
     return fit;
   }
-  const auto C = covariance(problem, solved.p, solved.cost);
+  const auto C = numerics::covariance_at(residuals_of(problem),
+                                         static_cast<int>(record.time.size()), solved.p,
+                                         solved.cost, rank_tolerance);
   if (C.empty()) {
     fit.reason = "gain, sum and product of the time constants cannot be told apart";
     return fit;

@@ -3,12 +3,12 @@
 #include <trochoid/numerics/lagrange.h>
 #include <trochoid/structure/cantilever.h>
 #include <trochoid/structure/plate.h>
+#include <trochoid/surface/choices.h>
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace trochoid::surface {
@@ -48,23 +48,6 @@ struct BodyDimensions {
 /// back to the same places. From any thread.
 /// @param a_p  axial depth [m]
 BodiesAt bodies_solved_once(const BodyDimensions& dimensions, double a_p);
-
-/// How the force is spread over the axial depth.
-enum class Load {
-  distributed,   ///< each piece of an edge at its own height
-  concentrated,  ///< on the cutter at a_p/2, on the wall evenly over a_p, [wang2015]
-};
-
-/// Names of files.
-constexpr std::string_view name_of(Load load) noexcept {
-  switch (load) {
-    case Load::distributed:
-      return "distributed";
-    case Load::concentrated:
-      return "concentrated";
-  }
-  return {};
-}
 
 /// @brief Deflection along the cut, from the force along the cut.
 ///

@@ -26,7 +26,7 @@ RunoutFit runout_of(const Setting& setting, std::span<const Reading> readings,
 }
 
 /// Farther off than so many standard deviations, or this.
-constexpr double far_off = 5.0;
+constexpr double outlier_deviations = 5.0;
 constexpr double never_far = 0.25e-6;  // [m]
 /// So many times farther from the median of all readings than most of them: a slip of the
 /// unit or the point, which no fit survives.
@@ -54,7 +54,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// Leave out what lies far from what is predicted, in parts of far_off.
+/// Leave out what lies far from what is predicted, in parts of outlier_deviations.
 /// @return whether anything does
 bool leave_out(std::span<const double> predicted, double far, Kept& kept,
                std::vector<Outlier>& outliers) {
@@ -63,7 +63,7 @@ bool leave_out(std::span<const double> predicted, double far, Kept& kept,
     size.push_back(std::abs(kept.readings[i].error - predicted[i]));
   }
   const double s = 1.4826 * median_of(size);
-  const double most = far * std::max(far_off * s, never_far);  // E-26
+  const double most = far * std::max(outlier_deviations * s, never_far);  // E-26
   const auto count = static_cast<double>(std::count_if(
       size.begin(), size.end(), [&](double distance) { return distance > most; }));
   const auto before = static_cast<double>(outliers.size());

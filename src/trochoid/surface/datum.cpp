@@ -11,7 +11,7 @@ namespace trochoid::surface {
 namespace {
 
 /// Means of readings at one place differ by rounding only [m].
-constexpr double same_place = 1e-9;
+constexpr double same_spot = 1e-9;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ DatumColumns datum_columns(std::span<const Spot> spots, std::span<const Datum> d
     for (const Spot& spot : spots) {
       if (spot.set == set) {
         first = first == nullptr ? &spot : first;
-        moves = moves || std::abs(spot.x - first->x) > same_place;
+        moves = moves || std::abs(spot.x - first->x) > same_spot;
         x_mean += spot.x;
         height_mean += spot.height;
         low = std::min(low, spot.height);

@@ -11,6 +11,10 @@ namespace trochoid::surface {
 
 using base::Estimate;
 
+/// Unknowns of fits are about one in these: errors and runout [m], coefficients [N/m^2].
+inline constexpr double error_scale = 1e-6;
+inline constexpr double coefficient_scale = 1e8;
+
 /// What is estimated of a measurement beside the coefficients.
 struct Datum {
   bool offset = false;     ///< a constant of the readings
@@ -23,7 +27,7 @@ struct Datum {
 /// Form of a wall that is no work of this cut, each with those before it.
 enum class Form { none, offset, tilt, curvature };
 
-/// Names of files.
+/// The names that files use.
 constexpr std::string_view name_of(Form form) noexcept {
   switch (form) {
     case Form::none:

@@ -51,10 +51,6 @@ void EdgeMoments::integrate(double phi, const force::Bend* bend, const Add& add)
     bend = &shifted;
   }
   force::EdgeCurve curve(edges_, bend);
-  numerics::PieceFinder<force::EdgeCurve> finder(
-      curve, relative_resolution * edges_.ends.back());
-  std::vector<numerics::Piece<force::EdgeState>> pieces;
-  std::vector<double> grid;
   const numerics::KronrodRule& rule = numerics::kronrod_rule();
   const auto add_at = [&](double s, double ds) {
     const force::EdgePoint point = edges_.point(s);
@@ -63,25 +59,13 @@ void EdgeMoments::integrate(double phi, const force::Bend* bend, const Add& add)
       add(point, state, ds);
     }
   };
-  for (std::size_t j = 0; j < edges_.psi.size(); ++j) {
-    curve.stand_at(phi, j);
-    grid = edges_.grid;
-    curve.add_seeds(grid);
-    finder.find(grid, pieces);
-    for (const auto& piece : pieces) {
-      double from = piece.from;
-      for (const double end : edges_.ends) {
-        const double to = std::min(end, piece.to);
-        if (to > from) {
-          for (std::size_t i = 0; i < rule.t.size(); ++i) {
-            const double half = 0.5 * (to - from);
-            add_at(from + half * (1 + rule.t[i]), half * rule.kronrod[i]);
-          }
-          from = to;
-        }
-      }
+  const double resolution = relative_resolution * edges_.ends.back();
+  force::for_each_stretch(edges_, curve, phi, resolution, [&](double from, double to) {
+    const double half = 0.5 * (to - from);
+    for (std::size_t i = 0; i < rule.t.size(); ++i) {
+      add_at(from + half * (1 + rule.t[i]), half * rule.kronrod[i]);
     }
-  }
+  });
 }
 
 void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out) const {
@@ -127,9 +111,10 @@ void EdgeMoments::couples_at(double phi, const LeverArms& arms,
         for (std::size_t q = 0; q < 3; ++q) {
           tra[q] = terms_.K[q] * w.cutting[q] + terms_.K_e[q] * w.edge;
         }
-        const double across = state.R * std::cos(state.theta);
+        const double cosine = std::cos(state.theta);
+        const double across = state.R * cosine;
         const double F_x =
-            -tra[0] * std::cos(state.theta) - tra[1] * std::sin(state.theta);
+            force::in_plane(tra[0], tra[1], std::sin(state.theta), cosine)[0];
         const double F_z = -tra[2];
         const double arm = arms.sigma * arms.mid_plane + across;  // sigma l
         const std::array<double, 4> parts = {F_x, arm * F_x, across * F_z, arm * F_z};

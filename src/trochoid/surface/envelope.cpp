@@ -1,7 +1,6 @@
 #include <trochoid/surface/envelope.h>
 
 #include <trochoid/base/units.h>
-#include <trochoid/surface/wall_passes.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +8,6 @@
 #include <limits>
 
 namespace trochoid::surface {
-
 namespace {
 
 /// delta is the first of up to this many functions.

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/surface/fixed_point.h>
-#include <trochoid/surface/scale.h>
+#include <trochoid/surface/turn.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,11 +12,11 @@ namespace trochoid::surface {
 
 namespace {
 
-using fixed_point::dot;
 using fixed_point::largest_of;
 using fixed_point::Limits;
 using fixed_point::solve_by_newton;
 using fixed_point::solve_fixed_point;
+using numerics::dot;
 using Values = std::vector<double>;
 
 /// One passage over the turn, with the deflections of the passage before as the past.

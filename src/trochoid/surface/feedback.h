@@ -2,37 +2,14 @@
 
 #include <trochoid/numerics/periodic_pieces.h>
 #include <trochoid/surface/bodies.h>
+#include <trochoid/surface/choices.h>
 #include <trochoid/surface/edge_moments.h>
 
 #include <array>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace trochoid::surface {
-
-/// What of the chip the deflection changes.
-enum class Feedback {
-  none,
-  entry,         ///< where an edge meets the stock
-  regenerative,  ///< entry and chip; earlier teeth were deflected as well
-  direct,        ///< entry and chip, as if earlier teeth had not been deflected
-};
-
-/// Names of files.
-constexpr std::string_view name_of(Feedback feedback) noexcept {
-  switch (feedback) {
-    case Feedback::none:
-      return "none";
-    case Feedback::entry:
-      return "entry";
-    case Feedback::regenerative:
-      return "regenerative";
-    case Feedback::direct:
-      return "direct";
-  }
-  return {};
-}
 
 /// @brief Forces over a turn that repeats, deflection included.
 struct SteadyState {

@@ -5,29 +5,151 @@
 #include <trochoid/numerics/levenberg_marquardt.h>
 #include <trochoid/surface/datum.h>
 #include <trochoid/surface/folded_readings.h>
-#include <trochoid/surface/runout_problem.h>
+#include <trochoid/surface/tooth_model.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <vector>
 
 namespace trochoid::surface {
-
 namespace {
+
+namespace runout {
+
+/// Which unknowns a fit has, scaled to about one: c, s, [start], [K_tc, K_rc, datum].
+struct Unknowns {
+  bool start = false;
+  bool all = false;
+  std::size_t datum = 0;
+
+  [[nodiscard]] std::size_t count() const {
+    return 2 + (start ? 1 : 0) + (all ? 2 + datum : 0);
+  }
+};
+
+struct State {
+  RunoutVector runout;
+  double start = 0.0;  ///< [m]
+  std::array<double, columns> K{};
+  std::vector<double> datum;
+};
+
+struct Problem {
+  const ToothModel& model;
+  std::span<const Reading> readings;  ///< of that model
+  std::span<const double> count;      ///< of readings in each mean, shape (readings)
+  const DatumColumns& columns_of_datum;
+  double f_z;  ///< [m]
+
+  [[nodiscard]] std::vector<double> pack(const State& s, const Unknowns& u) const;
+  [[nodiscard]] State unpack(std::span<const double> p, const Unknowns& u,
+                             State s) const;
+  /// Predicted errors with the datum [m].
+  [[nodiscard]] std::vector<double> errors(const State& s,
+                                           const ToothModel::Forces& forces) const;
+  /// Measured minus predicted, times the root of the count [um].
+  void residuals(const State& s, const ToothModel::Forces& forces,
+                 std::span<double> r) const;
+};
+
+/// @brief Residuals and their differences; forces change with the runout only, and with
+/// `frozen` not even then.
+/// @param problem, frozen  must live as long as the result
+numerics::Residuals residuals_of(const Problem& problem, const Unknowns& u,
+                                 const State& about, const ToothModel::Forces* frozen);
+
+}  // namespace runout
+
+namespace runout {
+
+std::vector<double> Problem::pack(const State& s, const Unknowns& u) const {
+  std::vector<double> p = {s.runout.c / error_scale, s.runout.s / error_scale};
+  if (u.start) {
+    p.push_back(s.start / f_z);
+  }
+  if (u.all) {
+    p.push_back(s.K[0] / coefficient_scale);
+    p.push_back(s.K[1] / coefficient_scale);
+    for (const double d : s.datum) {
+      p.push_back(d / error_scale);
+    }
+  }
+  return p;
+}
+
+State Problem::unpack(std::span<const double> p, const Unknowns& u, State s) const {
+  std::size_t i = 0;
+  s.runout = {p[0] * error_scale, p[1] * error_scale};
+  i = 2;
+  if (u.start) {
+    s.start = p[i++] * f_z;
+  }
+  if (u.all) {
+    s.K[0] = p[i++] * coefficient_scale;
+    s.K[1] = p[i++] * coefficient_scale;
+    for (double& d : s.datum) {
+      d = p[i++] * error_scale;
+    }
+  }
+  return s;
+}
+
+std::vector<double> Problem::errors(const State& s,
+                                    const ToothModel::Forces& forces) const {
+  std::vector<double> e = model.predict(forces, s.K, s.runout, s.start);
+  const std::size_t n = columns_of_datum.count;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      e[i] += columns_of_datum.values[i * n + k] * s.datum[k];
+    }
+  }
+  return e;
+}
+
+void Problem::residuals(const State& s, const ToothModel::Forces& forces,
+                        std::span<double> r) const {
+  const std::vector<double> e = errors(s, forces);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    r[i] = std::sqrt(count[i]) * (readings[i].error - e[i]) / error_scale;
+  }
+}
+
+numerics::Residuals residuals_of(const Problem& problem, const Unknowns& u,
+                                 const State& about, const ToothModel::Forces* frozen) {
+  return [=, &problem](std::span<const double> p, std::span<double> r,
+                       std::span<double> jacobian) {
+    constexpr double step = 1e-3;
+    const auto forces_at = [&](const State& s) {
+      return frozen != nullptr ? *frozen : problem.model.forces(s.runout);
+    };
+    const State here = problem.unpack(p, u, about);
+    const ToothModel::Forces forces = forces_at(here);
+    problem.residuals(here, forces, r);
+    std::vector<double> q(p.begin(), p.end());
+    std::vector<double> moved(r.size());
+    for (std::size_t k = 0; !jacobian.empty() && k < q.size(); ++k) {
+      q[k] = p[k] + step;
+      const State s = problem.unpack(q, u, about);
+      problem.residuals(s, k < 2 ? forces_at(s) : forces, moved);
+      q[k] = p[k];
+      for (std::size_t i = 0; i < r.size(); ++i) {
+        jacobian[k * r.size() + i] = (moved[i] - r[i]) / step;
+      }
+    }
+    return true;
+  };
+}
+
+}  // namespace runout
 
 using namespace runout;
 using Values = std::vector<double>;
 
 std::ptrdiff_t at(std::size_t i) {
   return static_cast<std::ptrdiff_t>(i);
-}
-
-double sum_of_squares(std::span<const double> r) {
-  double sum = 0.0;
-  for (const double x : r) {
-    sum += x * x;
-  }
-  return sum;
 }
 
 /// A reading counts where the mean that it belongs to lies, so that the datum has the
@@ -115,7 +237,7 @@ State first_guess(const Problem& problem, const State& about, double amplitude) 
     s.runout = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
     s.start = problem.f_z * (i / angles) / starts;
     problem.residuals(s, forces, r);
-    guesses.emplace_back(sum_of_squares(r), s);
+    guesses.emplace_back(numerics::dot(r, r), s);
   }
   std::sort(guesses.begin(), guesses.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -194,7 +316,7 @@ State refined(const Problem& every, const Problem& means, const Unknowns& u,
           J.begin() + at(a * m), J.begin() + at(a * m + m), J.begin() + at(b * m), 0.0);
     }
   }
-  const double s2 = sum_of_squares(r) / static_cast<double>(m);
+  const double s2 = numerics::dot(r, r) / static_cast<double>(m);
   for (int k = 0; k < most_steps; ++k) {
     const Values right = gradient_at(every, p, u, best);
     Values step(n);
@@ -220,31 +342,28 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
   Values J(m * n);
   const Values p = problem.pack(best, u);
   residuals_of(problem, u, best, nullptr)(p, r, J);
-  Values rows(m * n);
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t k = 0; k < n; ++k) {
-      rows[i * n + k] = J[k * m + i];
-    }
-  }
-  const auto solved = numerics::least_squares(rows, static_cast<int>(n), r, 1e-7);
+  const auto solved =
+      numerics::least_squares(numerics::by_rows(J, m), static_cast<int>(n), r, 1e-7);
   if (solved.inverse_gram.empty()) {
     fit.message = "the readings do not tell runout and coefficients apart";
     return;
   }
   // What the means scatter about the model and the readings about their means (E-19).
-  const double sum = static_cast<double>(readings) * fit.rms * fit.rms / (um * um);
+  const double sum =
+      static_cast<double>(readings) * fit.rms * fit.rms / (error_scale * error_scale);
   const int freedom = static_cast<int>(readings) - static_cast<int>(n);
   const double s2 = freedom > 0 ? sum / freedom : 0.0;
   const auto G = [&](std::size_t i, std::size_t k) {
     return s2 * solved.inverse_gram[i * n + k];
   };
-  const double c = best.runout.c / um;
-  const double s = best.runout.s / um;
+  const double c = best.runout.c / error_scale;
+  const double s = best.runout.s / error_scale;
   const double rho2 = std::max(c * c + s * s, 1e-30);
   const double along = (c * c * G(0, 0) + 2 * c * s * G(0, 1) + s * s * G(1, 1)) / rho2;
   const double across =
       (s * s * G(0, 0) - 2 * c * s * G(0, 1) + c * c * G(1, 1)) / (rho2 * rho2);
-  fit.eccentricity = estimate(um * std::sqrt(rho2), um * um * along, freedom);
+  fit.eccentricity = estimate(error_scale * std::sqrt(rho2),
+                              error_scale * error_scale * along, freedom);
   double angle = std::atan2(s, c);
   angle += angle < 0 ? unit::turn : 0.0;
   fit.angle = estimate(angle, across, freedom);
@@ -252,15 +371,18 @@ void describe_fit(const Problem& problem, const Unknowns& u, const State& best,
   if (u.start) {
     fit.start = estimate(best.start, problem.f_z * problem.f_z * G(2, 2), freedom);
   }
-  fit.K_tc = estimate(best.K[0], MN_m2 * MN_m2 * G(k, k), freedom);
-  fit.K_rc = estimate(best.K[1], MN_m2 * MN_m2 * G(k + 1, k + 1), freedom);
+  fit.K_tc =
+      estimate(best.K[0], coefficient_scale * coefficient_scale * G(k, k), freedom);
+  fit.K_rc = estimate(best.K[1],
+                      coefficient_scale * coefficient_scale * G(k + 1, k + 1), freedom);
   for (std::size_t d = 0; d < best.datum.size(); ++d) {
-    fit.datum.push_back(
-        estimate(best.datum[d], um * um * G(k + 2 + d, k + 2 + d), freedom));
+    fit.datum.push_back(estimate(
+        best.datum[d], error_scale * error_scale * G(k + 2 + d, k + 2 + d), freedom));
   }
   fit.correlation = G(k, k + 1) / std::sqrt(G(k, k) * G(k + 1, k + 1));
   const std::array<std::size_t, 4> place = {0, 1, k, k + 1};
-  const std::array<double, 4> unit = {um, um, MN_m2, MN_m2};
+  const std::array<double, 4> unit = {error_scale, error_scale, coefficient_scale,
+                                      coefficient_scale};
   for (std::size_t a = 0; a < 4; ++a) {
     for (std::size_t b = 0; b < 4; ++b) {
       fit.covariance[4 * a + b] = unit[a] * unit[b] * G(place[a], place[b]);
@@ -299,7 +421,8 @@ State search(const Measured& from, const Problem& problem, const State& about,
                       sample.readings.size() > all.count() &&
                       columns.count == problem.columns_of_datum.count;
   const Problem part{model, sample.readings, sample.count, columns, problem.f_z};
-  return first_guess(enough ? part : problem, about, std::max(from.scatter, 0.1 * um));
+  return first_guess(enough ? part : problem, about,
+                     std::max(from.scatter, 0.1 * error_scale));
 }
 
 }  // namespace

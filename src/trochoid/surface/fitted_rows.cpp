@@ -1,7 +1,6 @@
 #include <trochoid/surface/fitted_rows.h>
 
 #include <trochoid/surface/folded_readings.h>
-#include <trochoid/surface/joint_fit.h>
 #include <trochoid/surface/joint_model.h>
 
 #include <cmath>
@@ -9,8 +8,6 @@
 namespace trochoid::surface {
 
 namespace {
-
-constexpr double um = JointModel::scale;
 
 std::vector<Datum> with_form(std::span<const Datum> datum, Form form) {
   std::vector<Datum> out(datum.begin(), datum.end());
@@ -33,7 +30,7 @@ std::vector<Spot> spots_of(std::span<const Nominal> nominal, std::size_t reading
 
 void add_row(const Reading& reading, double count, FittedRows& rows) {
   rows.readings.push_back(reading);
-  rows.error.push_back(reading.error / um);
+  rows.error.push_back(reading.error / error_scale);
   rows.count.push_back(count);
 }
 
@@ -62,7 +59,8 @@ DatumColumns add_form(const FittedRows& rows, std::span<const Datum> datum, Form
                       (part.kind == Kind::offset && asked.offset) ||
                       (part.kind == Kind::tilt && asked.tilt);
     const double usual = part.kind == Kind::offset ? usual_offset : usual_form;
-    problem.prior.push_back(open ? 0.0 : std::pow(part.largest * um / usual, 2));
+    problem.prior.push_back(open ? 0.0
+                                 : std::pow(part.largest * error_scale / usual, 2));
   }
   return all;
 }
@@ -76,7 +74,8 @@ FittedRows folded_rows(const Setting& setting, std::span<const Reading> readings
     add_row(folded.means[i], folded.count[i], rows);
   }
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const double apart = (readings[i].error - folded.means[folded.of[i]].error) / um;
+    const double apart =
+        (readings[i].error - folded.means[folded.of[i]].error) / error_scale;
     rows.within += apart * apart;
   }
   rows.of = std::move(folded.of);

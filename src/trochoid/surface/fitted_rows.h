@@ -9,6 +9,11 @@
 
 namespace trochoid::surface {
 
+/// @brief How far a form of the wall may reach that is no work of the cut: one standard
+/// deviation [m].
+inline constexpr double usual_offset = 10e-6;
+inline constexpr double usual_form = 5e-6;
+
 /// @brief What is fitted, row by row: folded readings, or means.
 struct FittedRows {
   std::vector<Reading> readings;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
@@ -18,14 +19,6 @@ inline double largest_of(std::span<const double> v) {
     largest = std::max(largest, std::abs(x));
   }
   return largest;
-}
-
-inline double dot(std::span<const double> a, std::span<const double> b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += a[i] * b[i];
-  }
-  return sum;
 }
 
 /// What a solution must reach, and beyond what there is none.
@@ -59,7 +52,8 @@ bool solve_fixed_point(const Image& image, std::vector<double>& u,
     }
     std::vector<double> z = r;
     for (std::size_t n = 0; n < steps.size(); ++n) {
-      const double part = dot(steps[n], z) / dot(steps[n], steps[n]);
+      const double part =
+          numerics::dot(steps[n], z) / numerics::dot(steps[n], steps[n]);
       const bool last = n + 1 == steps.size();
       const double factor = last ? 1 / std::max(1 - part, 0.1) : 1.0;
       for (std::size_t i = 0; i < z.size(); ++i) {
@@ -113,7 +107,7 @@ bool solve_by_newton(const Image& image, std::vector<double>& u, const Limits& l
         there[i] += share * step[i];
       }
       residual(there, moved);
-      better = dot(moved, moved) < (1 - 0.2 * share) * dot(r, r);
+      better = numerics::dot(moved, moved) < (1 - 0.2 * share) * numerics::dot(r, r);
       if (better) {
         u = there;
         r = moved;

@@ -46,11 +46,6 @@ struct JointFit {
   double shared_scatter = 0;  ///< that readings of a height or a place share [m]
 };
 
-/// @brief How far a form of the wall may reach that is no work of the cut: one standard
-/// deviation [m].
-inline constexpr double usual_offset = 10e-6;
-inline constexpr double usual_form = 5e-6;
-
 /// @brief What the readings say, whichever explanation is true.
 ///
 /// @eq E-22 d_0 + d_x (x - x_m) + d_h (h - h_m) + d_c u^2, u in [-1, 1] over the heights

@@ -7,8 +7,6 @@ namespace trochoid::surface {
 
 namespace {
 
-constexpr double MN_m2 = 1e8;  // scale of coefficients
-
 /// Steps of differences: to begin with, at least, and at most; wide for D as well, which
 /// is known to the tolerance of its steady state only.
 struct Steps {
@@ -24,7 +22,7 @@ constexpr Steps fine = {0.05, 0.01, 0.02};
 /// Forces and slopes that are kept for the next time.
 constexpr std::size_t most_known = 12;
 /// Beyond, slopes of D are found anew: a micrometre, or 100 MPa.
-constexpr double far_off = 1.0;
+constexpr double far_from_base = 1.0;
 constexpr Steps wide = {0.3, 0.05, 0.3};
 constexpr Steps of_change = {0.5, 0.05, 0.5};
 constexpr Steps least = {1e-3, 1e-3, 1e-3};
@@ -42,23 +40,23 @@ JointModel::JointModel(const Setting& setting, std::span<const Reading> readings
       coarse_(setting, readings, std::move(coarse)) {}
 
 std::vector<double> JointModel::pack(const JointState& state) const {
-  std::vector<double> p = {state.runout.c / scale, state.runout.s / scale};
+  std::vector<double> p = {state.runout.c / error_scale, state.runout.s / error_scale};
   if (has_start()) {
     p.push_back(state.start / setting_.setup.cut.f_z);
   }
-  p.push_back(state.K[0] / MN_m2);
-  p.push_back(state.K[1] / MN_m2);
+  p.push_back(state.K[0] / coefficient_scale);
+  p.push_back(state.K[1] / coefficient_scale);
   return p;
 }
 
 JointState JointModel::unpack(std::span<const double> p) const {
-  JointState state{.runout = {scale * p[0], scale * p[1]},
+  JointState state{.runout = {error_scale * p[0], error_scale * p[1]},
                    .K = wall_coefficients(setting_.law)};
   if (has_start()) {
     state.start = p[2] * setting_.setup.cut.f_z;
   }
-  state.K[0] = MN_m2 * p[p.size() - 2];
-  state.K[1] = MN_m2 * p[p.size() - 1];
+  state.K[0] = coefficient_scale * p[p.size() - 2];
+  state.K[1] = coefficient_scale * p[p.size() - 1];
   return state;
 }
 
@@ -155,7 +153,7 @@ const JointModel::Slopes& JointModel::slopes_of_change(std::span<const double> p
     for (std::size_t k = 0; k < n; ++k) {
       far = std::max(far, std::abs(p[k] - known.at[k]));
     }
-    if (far <= far_off) {
+    if (far <= far_from_base) {
       return known;
     }
   }
@@ -213,7 +211,7 @@ Linearised JointModel::at(std::span<const double> p, std::span<const double> ste
     std::transform(out.f.begin(), out.f.end(), D.begin(), out.f.begin(), std::plus<>());
   }
   for (double& f : out.f) {
-    f /= scale;
+    f /= error_scale;
   }
   out.slopes = [this, at = std::vector<double>(p.begin(), p.end()),
                 with = std::vector<double>(steps.begin(), steps.end())] {
@@ -235,7 +233,7 @@ std::vector<double> JointModel::slopes_at(std::span<const double> p,
     std::transform(J.begin(), J.end(), slopes_.begin(), J.begin(), std::plus<>());
   }
   for (double& slope : J) {
-    slope /= scale;
+    slope /= error_scale;
   }
   return J;
 }

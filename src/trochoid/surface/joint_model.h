@@ -40,7 +40,7 @@ class JointModel {
   ///         square over the readings [m]; negative: no steady state was found
   double rebase(std::span<const double> p);
 
-  /// Of the readings, in units of `scale` [m].
+  /// Of the readings, in units of `error_scale` [m].
   /// @param steps  of differences; empty: small ones
   [[nodiscard]] Linearised at(std::span<const double> p, std::span<const double> steps);
 
@@ -50,8 +50,6 @@ class JointModel {
 
   [[nodiscard]] Feedback feedback() const noexcept { return feedback_; }
   [[nodiscard]] bool has_start() const noexcept { return model_.has_phase(); }
-
-  static constexpr double scale = 1e-6;  ///< of errors and runout [m]
 
  private:
   /// With and without feedback, as `coarse` knows them.
@@ -77,7 +75,7 @@ class JointModel {
   [[nodiscard]] std::vector<double> change(const JointState& state,
                                            const BothForces& forces) const;
   [[nodiscard]] std::vector<double> said(std::span<const double> p) const;
-  /// Of the readings, in units of `scale` [m], shape (readings, unknowns).
+  /// Of the readings, in units of `error_scale` [m], shape (readings, unknowns).
   std::vector<double> slopes_at(std::span<const double> p,
                                 std::span<const double> steps);
   /// Those found nearby, or at p.

@@ -1,6 +1,7 @@
 #include <trochoid/surface/nominal_model.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/surface/envelope.h>
 #include <trochoid/surface/probe.h>
@@ -35,21 +36,13 @@ std::vector<double> places(std::span<const Nominal> rows) {
 /// Forces are known to so many tolerances of their largest value.
 constexpr double uncertain = 3;
 
-double dot(std::span<const double> a, std::span<const double> b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += a[i] * b[i];
-  }
-  return sum;
-}
-
 /// What each coefficient does to a place, added to what it did before.
 /// @param values  of the moments of with_sum, or the sum alone: then nothing is known
 void add_effects(std::span<const double> values, std::span<const double> row,
                  double share, std::array<double, columns>& per_K) {
   const std::size_t n = row.size() + 2;
   for (std::size_t c = 0; (c + 1) * n < values.size(); ++c) {
-    per_K[c] += share * dot(row, values.subspan((c + 1) * n, row.size()));
+    per_K[c] += share * numerics::dot(row, values.subspan((c + 1) * n, row.size()));
   }
 }
 
@@ -135,9 +128,10 @@ double NominalModel::largest_effect(const numerics::PeriodicPieces& moments) con
     for (std::size_t s = 0; s < stations_->count(); ++s) {
       for (std::size_t node = 0; node < stations_->grid().nodes().size(); ++node) {
         const auto row = stations_->row(s, node);
-        largest =
-            std::max({largest, std::abs(dot(row, std::span(values).subspan(n, points))),
-                      std::abs(dot(row, std::span(values).subspan(2 * n, points)))});
+        largest = std::max(
+            {largest,
+             std::abs(numerics::dot(row, std::span(values).subspan(n, points))),
+             std::abs(numerics::dot(row, std::span(values).subspan(2 * n, points)))});
       }
     }
   }
@@ -196,7 +190,8 @@ NominalModel::Value NominalModel::at_level(const numerics::PeriodicPieces& momen
   Value value;
   const auto add = [&](double phi, double share) {
     moments.value(phi, values);
-    value.error += share * side.sigma * dot(row, std::span(values).first(row.size()));
+    value.error +=
+        share * side.sigma * numerics::dot(row, std::span(values).first(row.size()));
     add_effects(values, row, share * side.sigma, value.per_K);
   };
   if (setting_.model == Model::quasi_static) {

@@ -22,7 +22,7 @@ geometry::Engagement engagement(const geometry::Engagement& given, double a_e) {
 }
 
 /// Heights nearer to each other than this are the same [m].
-constexpr double same_height = 1e-9;
+constexpr double same_level = 1e-9;
 
 /// A part of the wall that passes go over, from its top down by the axial depth.
 struct WallBand {
@@ -40,8 +40,8 @@ std::vector<WallBand> levels_of(std::span<const PassCut> cuts, double a_p,
     bool known = false;
     for (const WallBand& level : levels) {
       const double apart = std::abs(level.below - cut.below);
-      known = known || apart < same_height;
-      if (apart >= same_height && apart < a_p - same_height) {
+      known = known || apart < same_level;
+      if (apart >= same_level && apart < a_p - same_level) {
         throw std::invalid_argument("levels of passes overlap");
       }
     }
@@ -66,17 +66,17 @@ structure::Plate thinned(structure::Plate wall, double a_p,
     }
     const double top = wall.height - level.below;
     const double from = top - a_p;
-    if (from < same_height) {
+    if (from < same_level) {
       wall.thickness = level.thickness;
     } else {
-      if (above > 0 && from - above > same_height) {
+      if (above > 0 && from - above > same_level) {
         wall.layers.push_back({.from = above, .thickness = whole});
       }
       wall.layers.push_back({.from = from, .thickness = level.thickness});
     }
     above = top;
   }
-  if (above > 0 && wall.height - above > same_height) {
+  if (above > 0 && wall.height - above > same_level) {
     wall.layers.push_back({.from = above, .thickness = whole});
   }
   return wall;
@@ -167,7 +167,7 @@ PassSequence pass_sequence(const Setting& setting, const MapOptions& options,
   PassSequence out;
   for (const PassCut& cut : cuts) {
     WallBand& level = *std::ranges::find_if(levels, [&](const WallBand& l) {
-      return std::abs(l.below - cut.below) < same_height;
+      return std::abs(l.below - cut.below) < same_level;
     });
     Setting now = setting;
     now.setup.cut.f_z = cut.f_z;

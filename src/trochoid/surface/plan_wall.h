@@ -1,7 +1,7 @@
 #pragma once
 
+#include <trochoid/surface/choices.h>
 #include <trochoid/surface/feedback.h>
-#include <trochoid/surface/planned_form.h>
 #include <trochoid/surface/readings.h>
 #include <trochoid/surface/setting.h>
 

@@ -1,31 +1,12 @@
 #pragma once
 
+#include <trochoid/surface/choices.h>
+
 #include <cstddef>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace trochoid::surface {
-
-/// What is meant by surface error.
-enum class Model {
-  quasi_static,  ///< the deflection at every spindle angle, [wang2015]
-  imprint,       ///< where each tooth touches the wall squarely
-  envelope,      ///< what all passes leave
-};
-
-/// Names of files.
-constexpr std::string_view name_of(Model model) noexcept {
-  switch (model) {
-    case Model::quasi_static:
-      return "quasi_static";
-    case Model::imprint:
-      return "imprint";
-    case Model::envelope:
-      return "envelope";
-  }
-  return {};
-}
 
 /// One measured point of a wall.
 struct Reading {

@@ -14,9 +14,9 @@ using numerics::Matrix;
 using Values = std::vector<double>;
 
 constexpr std::size_t fewest_levels = 4;
-constexpr std::size_t most_levels = 48;  // of heights, and of places
-constexpr std::size_t most_cells = 400;  // of both
-constexpr double same_height = 1e-9;     // [m]
+constexpr std::size_t most_levels = 48;       // of heights, and of places
+constexpr std::size_t most_cells = 400;       // of both
+constexpr double same_scatter_height = 1e-9;  // [m]
 
 /// Levels of a quantity: its distinct values, or bins where these are very many.
 template <class Of>
@@ -194,8 +194,8 @@ Values nonnegative(const Matrix& E, std::span<const double> q) {
 }  // namespace
 
 std::vector<Sharing> sharing_of(std::span<const Reading> readings, double feed) {
-  const Sharing heights =
-      levels_of(readings, same_height, [](const Reading& r) { return r.height; });
+  const Sharing heights = levels_of(readings, same_scatter_height,
+                                    [](const Reading& r) { return r.height; });
   const Sharing places =
       levels_of(readings, 1.5 * feed, [](const Reading& r) { return r.x; });
   std::vector<Sharing> all;

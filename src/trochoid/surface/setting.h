@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/force/setup.h>
-#include <trochoid/surface/also_bends.h>
+#include <trochoid/surface/choices.h>
 #include <trochoid/surface/feedback.h>
 #include <trochoid/surface/pass.h>
 #include <trochoid/surface/readings.h>

@@ -1,7 +1,7 @@
 #include <trochoid/surface/station_envelopes.h>
 
+#include <trochoid/surface/envelope.h>
 #include <trochoid/surface/turn.h>
-#include <trochoid/surface/wall_passes.h>
 
 #include <algorithm>
 #include <limits>

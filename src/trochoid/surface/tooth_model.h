@@ -1,8 +1,8 @@
 #pragma once
 
 #include <trochoid/numerics/periodic_pieces.h>
-#include <trochoid/surface/march.h>
 #include <trochoid/surface/setting.h>
+#include <trochoid/surface/stepwise_turn.h>
 
 #include <memory>
 #include <span>
@@ -59,8 +59,8 @@ class ToothModel {
     numerics::PeriodicPieces table;  ///< envelope, and pulses at many angles
     /// With feedback instead: at each station, the coefficients in it.
     std::vector<numerics::PeriodicPieces> bent;
-    std::vector<Marched> turns;  ///< of which these are
-    bool found = true;           ///< false: no steady state was found
+    std::vector<StepwiseTurn> turns;  ///< of which these are
+    bool found = true;                ///< false: no steady state was found
   };
   [[nodiscard]] Forces forces(RunoutVector runout) const;
   /// @brief The same in the steady state that the deflection leads to (E-10).

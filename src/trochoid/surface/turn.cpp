@@ -1,7 +1,6 @@
-#include <trochoid/base/units.h>
 #include <trochoid/surface/turn.h>
 
-#include <trochoid/surface/scale.h>
+#include <trochoid/base/units.h>
 
 #include <algorithm>
 #include <cmath>

@@ -31,4 +31,15 @@ numerics::PeriodicPieces with_coefficients(const numerics::PeriodicPieces& unit,
 numerics::PeriodicPieces deflection(const numerics::PeriodicPieces& moments,
                                     std::span<const double> row, double sigma);
 
+/// @brief Largest absolute value over a turn of each group of values().
+/// @return shape (groups)
+std::vector<double> largest_values(const EdgeMoments& edges, std::size_t groups,
+                                   const numerics::PeriodicPieces::Function& f);
+
+/// @brief Panels over a turn, or over one tooth where all repeat.
+/// @param largest  value of each group; errors are relative to it
+numerics::PeriodicPieces::Options panels_for(const EdgeMoments& edges, bool repeats,
+                                             std::span<const double> largest,
+                                             double tolerance);
+
 }  // namespace trochoid::surface

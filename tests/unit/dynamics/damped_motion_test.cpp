@@ -1,3 +1,4 @@
+#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/force_balance.h>
 #include <trochoid/dynamics/growth.h>
 #include <trochoid/dynamics/motion.h>

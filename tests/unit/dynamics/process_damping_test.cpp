@@ -1,4 +1,4 @@
-#include <trochoid/dynamics/depth_harmonics.h>
+#include <trochoid/dynamics/force_harmonics.h>
 #include <trochoid/dynamics/frequency_limit.h>
 #include <trochoid/dynamics/lobes.h>
 #include <trochoid/dynamics/nodes.h>

@@ -1,4 +1,4 @@
-#include <trochoid/force/edge_meetings.h>
+#include <trochoid/force/edge_curve.h>
 
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/edge.h>

@@ -1,8 +1,8 @@
 #include "made_record.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/identification/gauge.h>
-#include <trochoid/identification/variable_projection.h>
+#include <trochoid/identification/local_minimum.h>
+#include <trochoid/identification/problem.h>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <trochoid/identification/groups.h>
+#include <trochoid/identification/problem.h>
 
 #include "made_record.h"
 

@@ -1,4 +1,4 @@
-#include <trochoid/identification/match_phase.h>
+#include <trochoid/identification/identify.h>
 
 #include "made_record.h"
 

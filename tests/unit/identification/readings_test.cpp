@@ -11,7 +11,7 @@ namespace {
 std::size_t different(const std::vector<ReadingFamily>& families) {
   std::vector<signal::Matrix3> all;
   for (const ReadingFamily& family : families) {
-    for (const Reading& reading : family) {
+    for (const signal::AxesReading& reading : family) {
       if (std::ranges::find(all, reading.Q) == all.end()) all.push_back(reading.Q);
     }
   }

@@ -1,11 +1,11 @@
 #include "made_record.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/identification/cells.h>
+#include <trochoid/identification/local_minimum.h>
+#include <trochoid/identification/phase_grid.h>
 #include <trochoid/identification/prepare.h>
 #include <trochoid/identification/runout_starts.h>
 #include <trochoid/identification/scan.h>
-#include <trochoid/identification/variable_projection.h>
 
 #include <cmath>
 
@@ -93,21 +93,21 @@ TEST(Scan, NumbersTheTeethOfAllRunsAlike) {
   }
 }
 
-TEST(Cells, OfABandAreItsForceAtEqualWeights) {
+TEST(PhaseGrid, OfABandAreItsForceAtEqualWeights) {
   const Record record = made_record(with_offset(), steel(), {0.0, 360, 2.0, 0.0, 1});
-  const Cells cells = cells_of(fold(record, {.band_harmonics = 2}));
+  const PhaseGrid cells = phase_grid_of(fold(record, {.band_harmonics = 2}));
   EXPECT_EQ(cells.size(), 64U);
   EXPECT_TRUE(cells.even);
   EXPECT_EQ(cells.harmonics, 2);
-  const Cells all = cells_of(fold(record, {}));
+  const PhaseGrid all = phase_grid_of(fold(record, {}));
   EXPECT_EQ(all.size(), 120U);
   EXPECT_TRUE(all.even);
   EXPECT_LT(cells.squares, all.squares);
 }
 
-TEST(Cells, OfPartOfATurnKeepTheirWeights) {
+TEST(PhaseGrid, OfPartOfATurnKeepTheirWeights) {
   const Record record = made_record(with_offset(), steel(), {0.0, 360, 0.5, 0.0, 1});
-  const Cells cells = cells_of(fold(record, {.band_harmonics = 2}));
+  const PhaseGrid cells = phase_grid_of(fold(record, {.band_harmonics = 2}));
   EXPECT_FALSE(cells.even);
   EXPECT_EQ(cells.harmonics, 0);
   EXPECT_EQ(cells.weight.back(), 0.0);

@@ -1,7 +1,7 @@
 #include "made_record.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/identification/jumps.h>
+#include <trochoid/identification/local_minimum.h>
 #include <trochoid/identification/prepare.h>
 #include <trochoid/identification/runout_starts.h>
 #include <trochoid/identification/search.h>

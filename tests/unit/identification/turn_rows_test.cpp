@@ -1,7 +1,7 @@
 #include "made_record.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/identification/turn_rows.h>
+#include <trochoid/identification/folded.h>
 
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,6 @@
 #include "made_wall.h"
 
-#include <trochoid/surface/march.h>
+#include <trochoid/surface/stepwise_turn.h>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@ std::pair<double, double> difference(const MadeCut& s, Feedback feedback) {
   const EdgeMoments edges(s, edges_only, compliance.basis());
   const SteadyState exact = steady_state(edges, K, compliance, feedback, 1e-6);
   EXPECT_TRUE(exact.converged);
-  const Marched turn = march(s, edges_only, K, compliance, feedback);
+  const StepwiseTurn turn =
+      stepwise_steady_state(s, edges_only, K, compliance, feedback);
   EXPECT_TRUE(turn.converged);
   const auto straight = with_coefficients(unit_moments(edges, 1e-5), K);
   const auto marched = with_feedback(straight, turn);
@@ -52,11 +53,13 @@ TEST(March, BeginsFromAnotherTurn) {  // [E-25]
   const MadeCut s = with_runout(made_cut(), 5e-6, 1.2);
   const Compliance compliance(cutter_only()(0.0), s.cut.a_p, 0.0, Load::distributed);
   const Coefficients softer = {780e6, 310e6, 0.0, 0.0};
-  const Marched there = march(s, law(0, 0), softer, compliance, Feedback::regenerative);
+  const StepwiseTurn there =
+      stepwise_steady_state(s, law(0, 0), softer, compliance, Feedback::regenerative);
   const Coefficients here = {800e6, 300e6, 0.0, 0.0};
-  const Marched cold = march(s, law(0, 0), here, compliance, Feedback::regenerative);
-  const Marched warm =
-      march(s, law(0, 0), here, compliance, Feedback::regenerative, &there);
+  const StepwiseTurn cold =
+      stepwise_steady_state(s, law(0, 0), here, compliance, Feedback::regenerative);
+  const StepwiseTurn warm = stepwise_steady_state(s, law(0, 0), here, compliance,
+                                                  Feedback::regenerative, &there);
   ASSERT_TRUE(cold.converged && warm.converged);
   double peak = 0.0;
   for (const double m : cold.moments) {

@@ -1,0 +1,42 @@
+# Files of one room are compiled together, about 60 kB a unit: what they include is parsed
+# once a unit and not once a file, which halves the time of a build from nothing. Therefore
+# two files of a room have no names in common in their unnamed namespaces. The preset `dev`
+# and -DTROCHOID_UNITY=OFF compile every file by itself, and find the file that lacks an
+# include.
+option(TROCHOID_UNITY "Compile the files of a room together" ON)
+
+# trochoid_unity(TARGET [BYTES]): group the sources of a target by their folder under src or
+# tests; 60 kB a unit, or what BYTES says.
+function(trochoid_unity target)
+  if(NOT TROCHOID_UNITY)
+    return()
+  endif()
+  set(most 60000)
+  if(ARGC GREATER 1)
+    set(most ${ARGV1})
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder ${target} SOURCE_DIR)
+  foreach(source ${sources})
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
+    if(NOT source MATCHES "/(src/trochoid|tests)/([a-z/]*)/[^/]*\\.cpp$"
+        OR source MATCHES "^${PROJECT_BINARY_DIR}/")
+      continue()
+    endif()
+    string(REGEX REPLACE "/.*" "" room ${CMAKE_MATCH_2})
+    # Highway compiles such a file once for each width of vectors.
+    file(STRINGS ${source} vectors REGEX "foreach_target" LIMIT_COUNT 1)
+    if(vectors)
+      continue()
+    endif()
+    file(SIZE ${source} bytes)
+    math(EXPR bytes_of_${room} "0${bytes_of_${room}} + ${bytes}")
+    if(bytes_of_${room} GREATER most)
+      set(bytes_of_${room} ${bytes})
+      math(EXPR part_of_${room} "0${part_of_${room}} + 1")
+    endif()
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target}
+      PROPERTIES UNITY_GROUP ${room}${part_of_${room}})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
