@@ -25,7 +25,10 @@ LINES, PARAMETERS = 60, 5
 SIX = re.compile(r"six parameters: \S")
 
 # What may be longer: file, or file:function, and why.
-MAY = {}
+KEYS = "a table of the keys of an answer, one after the other"
+MAY = {f"src/trochoid/results/{file}.cpp:{name}_fields": KEYS for file, name in (
+    ("calibrate", "calibrate"), ("identify", "identified"), ("dynamics", "motion"),
+    ("stability", "stability"))}
 
 
 def code_files(top, folders, suffixes):

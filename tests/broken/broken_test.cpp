@@ -56,13 +56,9 @@ void read(const BrokenFile& broken) {
   if (broken.kind == "case") {
     static_cast<void>(read_case(broken.file, command_of(content(broken.file))));
   } else if (broken.kind == "record") {
-    Measurement measurement;
-    measurement.file = broken.file;
-    static_cast<void>(read_record(measurement));
+    static_cast<void>(read_record({.file = file_at(broken.file)}));
   } else {
-    SurfaceMeasurement measurement;
-    measurement.file = broken.file;
-    static_cast<void>(read_surface(measurement, teeth));
+    static_cast<void>(read_surface({.file = file_at(broken.file)}, teeth));
   }
 }
 

@@ -24,6 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 for folder in ("tests/reference", "tests/outside/cases"):
     sys.path.insert(0, str(ROOT / folder))
 import case_file  # noqa: E402
+import described  # noqa: E402
 import program  # noqa: E402
 import surface_cases_test  # noqa: E402
 import worked_cases_test  # noqa: E402
@@ -133,6 +134,13 @@ class Pins(unittest.TestCase):
         worked = of_worked_cases(folder)
         if worked is not None:
             self.compare(stored["worked_cases"], worked, "worked cases")
+        self.every_key_and_column_is_described(folder)
+
+    def every_key_and_column_is_described(self, folder):
+        unknown = set().union(*(described.undescribed(summary.parent)
+                                for summary in folder.rglob("summary.json")))
+        self.assertFalse(unknown, "not in docs/formats/results.md:\n"
+                         + "\n".join(sorted(unknown)))
 
     def compare(self, then, now, what):
         differ = []

@@ -60,8 +60,8 @@ int check(const Options& options) {
     try {
       const inputs::SurfaceFile& surface = measurement.surface.get();
       for (const base::Warning& note : surface.notes) {
-        found += fmt::format("warning [{}]: {}: {}\n", note.code, measurement.source.file.path,
-                             note.message);
+        found += fmt::format("warning [{}]: {}: {}\n", note.code,
+                             measurement.source.file.path, note.message);
       }
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

@@ -1,5 +1,6 @@
 #include <trochoid/identification/answer.h>
 
+#include <trochoid/base/estimate.h>
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/identification/problem.h>
@@ -203,7 +204,6 @@ std::string not_held(const Unknowns& u, std::size_t i, std::array<double, 2> e,
   const double wide = mean + swing;
   const double narrow = std::max(mean - swing, 1e-30);
   constexpr double region = 5.99;  // of chi squared with two degrees of freedom, 95 %
-  constexpr double two_sided = 1.96;
   const bool holds_zero =
       along * along / std::max(wide, 1e-30) + across * across / narrow < region;
   const bool too_long = region * wide > along * along + across * across;
@@ -213,7 +213,7 @@ std::string not_held(const Unknowns& u, std::size_t i, std::array<double, 2> e,
       "cos(lambda - {:.3g} deg) = {:.4g} +- {:.2g} mm (95 %)",
       holds_zero ? "holds zero" : "is as long as the eccentricity itself",
       (longest + 0.5 * pi) / unit::deg, across * u.length / unit::mm,
-      two_sided * std::sqrt(narrow) * u.length / unit::mm);
+      base::normal_interval * std::sqrt(narrow) * u.length / unit::mm);
 }
 
 /// rho and lambda from e_x and e_y by the chain rule.

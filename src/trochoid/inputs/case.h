@@ -36,9 +36,9 @@ struct Sampling {
 
 /// [dynamometer]: channel i = sum over j of matrix[i][j] times force j on the tool.
 struct Dynamometer {
-  bool automatic = false;     ///< axes = "auto": find the signed permutation
-  bool rigid = false;         ///< resonance = "none": none is looked for
-  FileRef frf;                ///< measured response, channel over force; or none
+  bool automatic = false;           ///< axes = "auto": find the signed permutation
+  bool rigid = false;               ///< resonance = "none": none is looked for
+  FileRef frf;                      ///< measured response, channel over force; or none
   Held<TransmissionFile> response;  ///< what it holds
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };

@@ -46,8 +46,7 @@ void check_angles(const std::vector<std::size_t>& lines, CommandTable& table,
 CommandTable read_command(std::istream& in, const std::string& name) {
   constexpr std::array wanted = {
       WantedColumn{turn_names, Quantity::angle, "angle, for example angle_deg"},
-      WantedColumn{command_names, Quantity::length,
-                   "command, for example command_um"}};
+      WantedColumn{command_names, Quantity::length, "command, for example command_um"}};
   TableText table(in, name, command_kind);
   NamedTable read = read_named_table(table, wanted);
   if (read.lines.size() < 2) {

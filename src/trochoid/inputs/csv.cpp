@@ -6,8 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 #include <cstring>
+#include <stdexcept>
 
 namespace trochoid::inputs {
 

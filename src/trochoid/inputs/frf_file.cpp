@@ -190,9 +190,10 @@ struct FrfReader {
 };
 
 /// All of them: the first that recognises a file reads it, and the last takes any text.
-constexpr std::array frf_readers{FrfReader{is_uff, frf_from_uff}, FrfReader{is_tdms, from_tdms},
-                             FrfReader{is_mat, from_mat},
-                             FrfReader{[](std::string_view) { return true; }, from_table}};
+constexpr std::array frf_readers{
+    FrfReader{is_uff, frf_from_uff}, FrfReader{is_tdms, from_tdms},
+    FrfReader{is_mat, from_mat},
+    FrfReader{[](std::string_view) { return true; }, from_table}};
 
 }  // namespace
 
@@ -205,9 +206,8 @@ FrfFile read_frf(const std::string& text, const std::string& name,
 
 std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source) {
   const std::string text = bytes_of(source.file, frf_kind);
-  return is_uff(text)
-             ? directed_frfs_from_uff(text, source.file.path, source)
-             : std::vector<DirectedFrf>();
+  return is_uff(text) ? directed_frfs_from_uff(text, source.file.path, source)
+                      : std::vector<DirectedFrf>();
 }
 
 FrfFile read_frf(const FrfSource& source) {

@@ -238,7 +238,8 @@ std::vector<double> values_of(hid_t file, const std::string& name,
 
 NumericTable hdf5_table(std::shared_ptr<Hdf5Handle> file, const std::string& name,
                         Hdf5Kind kind) {
-  Hdf5Reading reading{.name = name, .file = file->id(), .matlab = kind == Hdf5Kind::matlab};
+  Hdf5Reading reading{
+      .name = name, .file = file->id(), .matlab = kind == Hdf5Kind::matlab};
   const Hdf5Handle root(H5Gopen2(file->id(), "/", H5P_DEFAULT), H5Gclose);
   if (root.open()) add_group(reading, root.id(), "", {}, 0);
   if (reading.tables && reading.table.columns.size() < 3) refuse_matlab_object(name);

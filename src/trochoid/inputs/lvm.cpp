@@ -120,7 +120,8 @@ void read_heads(LvmReading& reading) {
 }
 
 /// The channels of the row of names; the times stand before one or each of them.
-std::vector<SegmentPlace> places_of(const LvmReading& reading, const std::vector<Field>& names) {
+std::vector<SegmentPlace> places_of(const LvmReading& reading,
+                                    const std::vector<Field>& names) {
   std::vector<SegmentPlace> places;
   const auto stated = parse_number(value_of(reading.segment, "Channels", 0, ""));
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -191,7 +192,8 @@ LvmColumns read_names(LvmReading& reading) {
   return columns;
 }
 
-void read_row(LvmReading& reading, const std::vector<Field>& fields, LvmColumns& columns) {
+void read_row(LvmReading& reading, const std::vector<Field>& fields,
+              LvmColumns& columns) {
   const std::size_t line = reading.text.lines.number();
   for (std::size_t i = 0; i < columns.places.size(); ++i) {
     const std::size_t at = columns.places[i].field;

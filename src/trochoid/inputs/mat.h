@@ -1,7 +1,7 @@
 #pragma once
 
-#include <trochoid/inputs/record_source.h>
 #include <trochoid/inputs/numeric_table.h>
+#include <trochoid/inputs/record_source.h>
 #include <trochoid/signal/record.h>
 
 #include <istream>

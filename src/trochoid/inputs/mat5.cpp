@@ -49,7 +49,7 @@ struct MatReading {
   std::string name;
   std::endian order = std::endian::little;
   std::vector<MatArray> arrays;  ///< of the variable that is read
-  bool objects = false;       ///< there are tables perhaps
+  bool objects = false;          ///< there are tables perhaps
 };
 
 struct Element {
@@ -115,8 +115,8 @@ std::optional<NumberKind> kind_of_number(std::uint32_t type) {
   refuse(reading.name, fmt::format("{}: the file is cut off or damaged", what));
 }
 
-bool read_matrix(MatReading& reading, std::string_view body, std::vector<std::string> path,
-                 bool is_field);
+bool read_matrix(MatReading& reading, std::string_view body,
+                 std::vector<std::string> path, bool is_field);
 
 /// The fields of a struct that stands alone.
 bool read_fields(MatReading& reading, ByteCursor& cursor,
@@ -156,8 +156,8 @@ bool read_numbers(MatReading& reading, ByteCursor& cursor, MatArray array) {
 }
 
 /// @return false: sizes contradict one another
-bool read_matrix(MatReading& reading, std::string_view body, std::vector<std::string> path,
-                 bool is_field) {
+bool read_matrix(MatReading& reading, std::string_view body,
+                 std::vector<std::string> path, bool is_field) {
   ByteCursor cursor{.left = body, .order = reading.order};
   ByteCursor flags{.left = next_element(cursor).data, .order = reading.order};
   const auto word = flags.take<std::uint32_t>();
@@ -257,7 +257,8 @@ std::vector<Variable> variables_of(MatReading& reading) {
   return variables;
 }
 
-void read_arrays(MatReading& reading, const Variable& variable, std::string_view bytes) {
+void read_arrays(MatReading& reading, const Variable& variable,
+                 std::string_view bytes) {
   reading.arrays.clear();
   if (!read_matrix(reading, bytes, {}, false)) {
     refuse_damaged(reading,
@@ -304,7 +305,9 @@ NumericTable mat5_table(std::istream& in, const std::string& name) {
     read_arrays(*reading, variable, bytes);
     for (const MatArray& array : reading->arrays) {
       const NumericColumn like{.name = array.path.back(), .path = joined(array.path)};
-      const auto taken = [&](const MatSource& other) { return other.path == array.path; };
+      const auto taken = [&](const MatSource& other) {
+        return other.path == array.path;
+      };
       if (std::any_of(sources.begin(), sources.end(), taken)) continue;  // named twice
       for (auto& [column, part] : matrix_columns(like, array.rows, array.columns)) {
         table.columns.push_back(std::move(column));

@@ -35,8 +35,8 @@ std::vector<std::string> searched_names(const NumericTable& table) {
 
 /// The case file may name a column by its path, too.
 RecordSource by_searched_names(const NumericTable& table,
-                              const std::vector<std::string>& names,
-                              const RecordSource& source) {
+                               const std::vector<std::string>& names,
+                               const RecordSource& source) {
   RecordSource wanted = source;
   const auto replace = [&](std::string& text) {
     for (std::size_t i = 0; i < names.size() && !text.empty(); ++i) {

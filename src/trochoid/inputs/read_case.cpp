@@ -265,7 +265,8 @@ Findings findings_of(const CaseSource& source) {
 /// Every file that the case names is read when its data are asked for.
 void hold_data(Case& c) {
   for (Measurement& m : c.measurements) {
-    m.record = Held<signal::Record>::by([source = m.source] { return read_record(source); });
+    m.record =
+        Held<signal::Record>::by([source = m.source] { return read_record(source); });
   }
   if (c.dynamometer && !c.dynamometer->frf.name.empty()) {
     c.dynamometer->response = Held<TransmissionFile>::by(
@@ -273,9 +274,8 @@ void hold_data(Case& c) {
   }
   MachineTables& machine = c.machine;
   for (SurfaceMeasurement& m : machine.surface_measurements) {
-    m.surface = Held<SurfaceFile>::by([wall = wall_of(c), source = m.source] {
-      return read_wall(source, wall);
-    });
+    m.surface = Held<SurfaceFile>::by(
+        [wall = wall_of(c), source = m.source] { return read_wall(source, wall); });
   }
   const auto response = [](const FrfSource& source) {
     return Held<FrfFile>::by([source] { return read_frf(source); });

@@ -36,28 +36,30 @@ struct RecordReader {
 /// All of them: the first that recognises a file reads it, and the last takes any text.
 constexpr std::array record_readers{
     RecordReader{RecordFormat::dynoware, "a DynoWare export",
-           "begins with `DynoWare,Version ...`", is_dynoware, read_dynoware_record},
+                 "begins with `DynoWare,Version ...`", is_dynoware,
+                 read_dynoware_record},
     RecordReader{RecordFormat::lvm, "a LabVIEW measurement file",
-           "begins with `LabVIEW Measurement`", is_lvm, read_lvm_record},
-    RecordReader{RecordFormat::mat, "a MATLAB file", "begins with `MATLAB ... MAT-file`",
-           is_mat, read_mat_record},
+                 "begins with `LabVIEW Measurement`", is_lvm, read_lvm_record},
+    RecordReader{RecordFormat::mat, "a MATLAB file",
+                 "begins with `MATLAB ... MAT-file`", is_mat, read_mat_record},
     RecordReader{RecordFormat::tdms, "a TDMS file", "begins with `TDSm`", is_tdms,
-           read_tdms_record},
-    RecordReader{RecordFormat::hdf5, "an HDF5 file", "begins with the byte 0x89 and `HDF`",
-           is_hdf5, read_hdf5_record},
-    RecordReader{RecordFormat::npy, "a NumPy array", "begins with the byte 0x93 and `NUMPY`",
-           is_npy, read_npy_record},
+                 read_tdms_record},
+    RecordReader{RecordFormat::hdf5, "an HDF5 file",
+                 "begins with the byte 0x89 and `HDF`", is_hdf5, read_hdf5_record},
+    RecordReader{RecordFormat::npy, "a NumPy array",
+                 "begins with the byte 0x93 and `NUMPY`", is_npy, read_npy_record},
     RecordReader{RecordFormat::uff58, "a universal file",
-           "begins with a line that holds only -1", is_uff, read_uff58_record},
+                 "begins with a line that holds only -1", is_uff, read_uff58_record},
     RecordReader{RecordFormat::csv, "a CSV file", "is text",
-           [](std::string_view) { return true; }, read_csv_record}};
+                 [](std::string_view) { return true; }, read_csv_record}};
 
 /// Enough to recognise a format by.
 constexpr std::size_t longest_head = 4096;
 
 const RecordReader& reader_of(RecordFormat format) {
-  return *std::find_if(record_readers.begin(), record_readers.end(),
-                       [&](const RecordReader& reader) { return reader.format == format; });
+  return *std::find_if(
+      record_readers.begin(), record_readers.end(),
+      [&](const RecordReader& reader) { return reader.format == format; });
 }
 
 /// @throws base::InputError where the case file says another format
@@ -85,9 +87,9 @@ signal::Record read_record(std::istream& in, const std::string& name,
     throw std::invalid_argument("read_record: columns must hold 3 names or none");
   }
   const std::string head = first_bytes(in, longest_head);
-  const RecordReader& found =
-      *std::find_if(record_readers.begin(), record_readers.end(),
-                    [&](const RecordReader& reader) { return reader.recognises(head); });
+  const RecordReader& found = *std::find_if(
+      record_readers.begin(), record_readers.end(),
+      [&](const RecordReader& reader) { return reader.recognises(head); });
   check_stated(found, source.format, name);
   return found.read(in, name, source);
 }

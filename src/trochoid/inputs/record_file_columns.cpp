@@ -160,8 +160,7 @@ RecordColumns find_columns(const TableHead& head, const RecordSource& source,
     return columns;  // the angle follows from it
   }
   // Who names a time wants the angle from it, whatever else the file holds.
-  const bool by_time =
-      !source.time_column.empty() || source.sample_rate.has_value();
+  const bool by_time = !source.time_column.empty() || source.sample_rate.has_value();
   if (!by_time || !source.angle_column.empty()) {
     columns.angle =
         find_axis(search, source.angle_column, angle_names, Quantity::angle);

@@ -15,14 +15,22 @@ enum class RecordFormat { csv, dynoware, mat, lvm, tdms, hdf5, npy, uff58 };
 /// The names that files use.
 constexpr std::string_view name_of(RecordFormat format) noexcept {
   switch (format) {
-    case RecordFormat::csv: return "csv";
-    case RecordFormat::dynoware: return "dynoware";
-    case RecordFormat::mat: return "mat";
-    case RecordFormat::lvm: return "lvm";
-    case RecordFormat::tdms: return "tdms";
-    case RecordFormat::hdf5: return "hdf5";
-    case RecordFormat::npy: return "npy";
-    case RecordFormat::uff58: return "uff58";
+    case RecordFormat::csv:
+      return "csv";
+    case RecordFormat::dynoware:
+      return "dynoware";
+    case RecordFormat::mat:
+      return "mat";
+    case RecordFormat::lvm:
+      return "lvm";
+    case RecordFormat::tdms:
+      return "tdms";
+    case RecordFormat::hdf5:
+      return "hdf5";
+    case RecordFormat::npy:
+      return "npy";
+    case RecordFormat::uff58:
+      return "uff58";
   }
   return {};
 }

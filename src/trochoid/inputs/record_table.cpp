@@ -109,8 +109,8 @@ void read_rows(RecordReading& reading, TableHead& head) {
     take_units(reading.text, fields, head);
   }
   // The texts of the unit row end with the next line.
-  reading.columns = find_columns(head, reading.source, reading.text.problems,
-                                 reading.record.notes);
+  reading.columns =
+      find_columns(head, reading.source, reading.text.problems, reading.record.notes);
   keep_names(reading.columns, reading.record);
   if (!head.units.empty()) line = next_content(reading.text);
   for (bool first = true; line; first = false) {

@@ -53,7 +53,7 @@ struct FrfTables {
   FrfSource source;  ///< no file: the [[measured_frf]] together
   Held<FrfFile> response;
   Held<std::vector<DirectedFrf>> directed;  ///< where the file says directions
-  int modes = 0;             ///< 0: their number is chosen
+  int modes = 0;                            ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ResidualTerms residual_terms = ResidualTerms::choose;
   Shapes shapes = Shapes::choose;

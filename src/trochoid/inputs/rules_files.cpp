@@ -39,9 +39,8 @@ void for_each_file(CaseTables& tables, const std::function<void(const Named&)>& 
 /// @param named_at  the place of the name: the path is relative to that file, and that
 ///                  file to Findings::base
 fs::path resolved(const std::string& file, const Location& named_at,
-                               const Findings& findings) {
-  const fs::path folder =
-      findings.base / fs::path(named_at.file).parent_path();
+                  const Findings& findings) {
+  const fs::path folder = findings.base / fs::path(named_at.file).parent_path();
   return (folder / file).lexically_normal();
 }
 

@@ -37,8 +37,8 @@ struct FrameAxis {
   const std::optional<Direction>& direction;
 };
 
-void check_perpendicular(const std::string& path, const FrameAxis& a, const FrameAxis& b,
-                         Findings& findings) {
+void check_perpendicular(const std::string& path, const FrameAxis& a,
+                         const FrameAxis& b, Findings& findings) {
   const std::string key = fmt::format("{}.{}", path, b.name);
   if (!a.direction || !b.direction ||
       !sound(findings, {fmt::format("{}.{}", path, a.name), key})) {

@@ -44,7 +44,7 @@ void fill(std::vector<double>& list, std::initializer_list<double> values) {
 }
 
 void check_counts(const std::vector<double>& list, const std::string& key,
-                 Findings& findings) {
+                  Findings& findings) {
   for (std::size_t i = 0; sound(findings, {key}) && i < list.size(); ++i) {
     if (list[i] != std::round(list[i])) {
       report(findings, key,

@@ -94,8 +94,8 @@ using Rows = std::vector<std::array<double, 3>>;
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*, FileRef*,
-                           std::vector<double>*, std::optional<base::Steps>*,
+using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
+                           FileRef*, std::vector<double>*, std::optional<base::Steps>*,
                            std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
                            std::optional<PreviousClamping>*,
                            std::optional<SurfaceFrame>*, std::optional<Direction>*>;

@@ -7,7 +7,6 @@ namespace trochoid::inputs {
 
 namespace {
 
-
 void describe_profile(const Visitor& v, ToolTable& t) {
   v({.name = "corner_radius_mm",
      .meaning = "corner radius R",

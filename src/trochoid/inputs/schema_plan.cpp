@@ -81,7 +81,7 @@ void describe_force_records(const Visitor& v, Plan& t) {
     &t.quantities);
 }
 
-void describe(const Visitor& v, WallPlan& t) {
+void describe_wall(const Visitor& v, WallPlan& t) {
   v({.name = "heights",
      .meaning = "numbers of heights at which a wall may be measured",
      .range = between(2, 200),
@@ -159,7 +159,7 @@ void describe(const Visitor& v, Plan& t) {
     describe_force_records(v, t);
   }
   if (wall) {
-    describe(v, t.wall);
+    describe_wall(v, t.wall);
   }
 }
 

@@ -20,7 +20,8 @@ constexpr TableKind step_kind{.noun = "the record of a step",
 
 constexpr std::array step_time_names = {"time"sv, "t"sv};
 constexpr std::array step_command_names = {"command"sv, "setpoint"sv, "reference"sv};
-constexpr std::array step_position_names = {"position"sv, "displacement"sv, "response"sv};
+constexpr std::array step_position_names = {"position"sv, "displacement"sv,
+                                            "response"sv};
 /// Where the command changes, and by how much.
 void settle_command(const StepSource& source, std::size_t last_line, StepFile& out,
                     Problems& problems) {

@@ -70,11 +70,9 @@ struct Trial {
 };
 
 /// Whether a coordinate changes where a reading lies, or what it is.
-bool matters(const SurfaceSource& source, std::size_t axis,
-             bool error_known) {
+bool matters(const SurfaceSource& source, std::size_t axis, bool error_known) {
   const SurfaceFrame& frame = *source.frame;
-  return (*frame.feed)[axis] != 0.0 ||
-         (!source.height && (*frame.up)[axis] != 0.0) ||
+  return (*frame.feed)[axis] != 0.0 || (!source.height && (*frame.up)[axis] != 0.0) ||
          (!error_known && (*frame.normal)[axis] != 0.0);
 }
 
@@ -180,8 +178,7 @@ struct Finder {
   }
 };
 
-SurfaceColumns find_with(const ColumnSearch& search,
-                         const SurfaceSource& source) {
+SurfaceColumns find_with(const ColumnSearch& search, const SurfaceSource& source) {
   Finder finder{search, source};
   finder.find_values();
   if (source.frame) {
@@ -194,8 +191,7 @@ SurfaceColumns find_with(const ColumnSearch& search,
 
 }  // namespace
 
-SurfaceColumns find_surface_columns(const TableHead& head,
-                                    const SurfaceSource& source,
+SurfaceColumns find_surface_columns(const TableHead& head, const SurfaceSource& source,
                                     Problems& problems) {
   std::vector<base::Warning> notes;  // lengths without a unit are refused: none come
   const ColumnSearch search{head,
@@ -219,8 +215,8 @@ bool names_surface(const TableHead& head, const SurfaceSource& source) {
   if (!source.frame) {
     const bool place = has(x_names) || has(step_names);
     // Of a trace at one height Z is the error.
-    return place && (source.height ? error || has(height_names)
-                                        : error && has(height_names));
+    return place &&
+           (source.height ? error || has(height_names) : error && has(height_names));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     if (matters(source, i, error) && !has(coordinate_names[i])) return false;

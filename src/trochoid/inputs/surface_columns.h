@@ -26,8 +26,7 @@ inline constexpr TableKind surface_kind{
 };
 
 /// @brief Find the columns that say where a reading lies and what it is.
-SurfaceColumns find_surface_columns(const TableHead& head,
-                                    const SurfaceSource& source,
+SurfaceColumns find_surface_columns(const TableHead& head, const SurfaceSource& source,
                                     Problems& problems);
 
 /// @brief Whether a row of names has all that is needed; units are not looked at.

@@ -13,8 +13,7 @@ namespace trochoid::inputs {
 
 namespace {
 
-SurfaceFile read_map(std::istream& in, const SurfaceSource& source,
-                     bool archive) {
+SurfaceFile read_map(std::istream& in, const SurfaceSource& source, bool archive) {
   const SurfaceMap map =
       archive ? read_x3p(in, source.file.path) : read_sdf(in, source.file.path);
   if (source.unit) {
@@ -66,8 +65,7 @@ std::vector<SurfaceReading> read_surface(std::istream& in, const std::string& na
   return read_surface_file(in, source, teeth).readings;
 }
 
-std::vector<SurfaceReading> read_surface(const SurfaceSource& source,
-                                         int teeth) {
+std::vector<SurfaceReading> read_surface(const SurfaceSource& source, int teeth) {
   return read_surface_file(source, teeth).readings;
 }
 

@@ -15,8 +15,8 @@ namespace trochoid::inputs {
 /// Which measured surface is meant, and what its file need not say.
 struct SurfaceSource {
   FileRef file;
-  std::optional<LengthUnit> unit = {};     ///< of columns that name none
-  std::optional<double> height = {};       ///< above the tip, of a trace along the feed [m]
+  std::optional<LengthUnit> unit = {};  ///< of columns that name none
+  std::optional<double> height = {};  ///< above the tip, of a trace along the feed [m]
   std::optional<SurfaceFrame> frame = {};  ///< of coordinates X, Y, Z, or of a map
 };
 
@@ -70,8 +70,7 @@ SurfaceFile read_surface_file(std::istream& in, const SurfaceSource& source,
                               int teeth = 0);
 
 /// @brief Only the readings of read_surface_file.
-std::vector<SurfaceReading> read_surface(const SurfaceSource& source,
-                                         int teeth = 0);
+std::vector<SurfaceReading> read_surface(const SurfaceSource& source, int teeth = 0);
 
 /// @brief The same from an open stream.
 /// @param name  of the file, for messages

@@ -81,8 +81,8 @@ char of_rows(char separator) {
 }
 
 /// Whether a line is the row of names, by one separator or another.
-bool settle(TableText& table, std::string_view line,
-            const SurfaceSource& source, SurfaceHead& head) {
+bool settle(TableText& table, std::string_view line, const SurfaceSource& source,
+            SurfaceHead& head) {
   std::vector<char> marks(separators.begin(), separators.end());
   if (head.stated != 0) marks.assign(1, head.stated);
   for (const char separator : marks) {
@@ -123,7 +123,7 @@ struct Nearest {
 };
 
 [[noreturn]] void refuse_head(TableText& table, const SurfaceSource& source,
-                         const Nearest& nearest, SurfaceHead& head) {
+                              const Nearest& nearest, SurfaceHead& head) {
   if (table.problems.lines.empty() && nearest.number == 0) {
     table.problems.add(
         1, 1,
@@ -189,8 +189,7 @@ void split_names(std::string_view line, char separator, std::vector<Field>& fiel
   }
 }
 
-void find_head(TableText& table, const SurfaceSource& source,
-               SurfaceHead& head) {
+void find_head(TableText& table, const SurfaceSource& source, SurfaceHead& head) {
   Nearest nearest;
   std::vector<Field> fields;
   std::string comment;

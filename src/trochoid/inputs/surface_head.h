@@ -30,7 +30,6 @@ void split_names(std::string_view line, char separator, std::vector<Field>& fiel
 ///
 /// @param[out] head  stays where it is: its fields are parts of it
 /// @throws base::InputError where there is none, with what it lacks
-void find_head(TableText& table, const SurfaceSource& source,
-               SurfaceHead& head);
+void find_head(TableText& table, const SurfaceSource& source, SurfaceHead& head);
 
 }  // namespace trochoid::inputs

@@ -132,7 +132,8 @@ void count_text_at(TextBelow& text, std::size_t line) {
 }
 
 /// `Statistics;;;` and, below it, `Mean;;;0.05`; or else points that failed.
-bool may_be_statistics(const SurfaceReadings& reading, const std::vector<Field>& fields) {
+bool may_be_statistics(const SurfaceReadings& reading,
+                       const std::vector<Field>& fields) {
   const auto& used = reading.used;
   return is_text(fields.front()) && used.front() != 0 &&
          (!reading.text.open.empty() || !reading.text.perhaps.empty() ||
@@ -166,7 +167,8 @@ void count_text(SurfaceReadings& reading, std::string_view line) {
   count_text_at(text, at);
 }
 
-void take_line(SurfaceReadings& reading, std::string_view line, std::vector<Field>& fields) {
+void take_line(SurfaceReadings& reading, std::string_view line,
+               std::vector<Field>& fields) {
   auto& table = reading.table;
   split_row(table, line, fields);
   const std::size_t count = reading.head.head.names.size();
@@ -198,7 +200,8 @@ void take_line(SurfaceReadings& reading, std::string_view line, std::vector<Fiel
 }
 
 /// The names may have commas where the rows have blanks.
-void settle_rows(SurfaceReadings& reading, std::string_view line, std::vector<Field>& fields) {
+void settle_rows(SurfaceReadings& reading, std::string_view line,
+                 std::vector<Field>& fields) {
   const std::size_t count = reading.head.head.names.size();
   split_row(reading.table, line, fields);
   if (fields.size() > 1) return;

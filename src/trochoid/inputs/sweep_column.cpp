@@ -1,7 +1,7 @@
 #include "sweep_column.h"
 
-#include <trochoid/inputs/named_table.h>
 #include <trochoid/inputs/findings.h>
+#include <trochoid/inputs/named_table.h>
 
 #include <fmt/core.h>
 

@@ -17,7 +17,7 @@ using namespace std::string_view_literals;
 
 constexpr std::array tap_time_names = {"time"sv, "t"sv};
 constexpr std::array hammer_names = {"force"sv, "hammer"sv, "f"sv,     "fx"sv,
-                                    "fy"sv,    "fz"sv,     "impact"sv};
+                                     "fy"sv,    "fz"sv,     "impact"sv};
 constexpr std::array response_names = {
     "acceleration"sv, "accelerometer"sv, "acc"sv,          "accel"sv, "a"sv,
     "velocity"sv,     "vel"sv,           "displacement"sv, "disp"sv,  "response"sv};
@@ -56,7 +56,8 @@ double force_factor(const TapColumn& column, const std::string& unit, FrfFile& o
 /// Rate of a column of times, which must be evenly spaced.
 double rate_of(const TapColumn& time, Problems& problems) {
   const std::vector<double>& t = time.values;
-  const std::string unit = unit_of(time, unit_after(time.name, tap_time_names).value_or(""));
+  const std::string unit =
+      unit_of(time, unit_after(time.name, tap_time_names).value_or(""));
   const double factor = unit == "ms" ? 1e-3 : (unit == "us" ? 1e-6 : 1.0);
   if (factor == 1.0 && !unit.empty() && unit != "s") {
     problems.add(time.line, time.at,
@@ -261,8 +262,8 @@ FrfFile tap_file(std::vector<TapColumn> columns, const FrfSource& source,
   }
   const double newtons = force_factor(
       *roles.force,
-      unit_of(*roles.force, unit_after(roles.force->name, hammer_names).value_or("")), out,
-      problems);
+      unit_of(*roles.force, unit_after(roles.force->name, hammer_names).value_or("")),
+      out, problems);
   const double factor = settle_response(*response, source, out, problems);
   for (std::size_t i = 0; i < n; ++i) {
     record.force.push_back(newtons * roles.force->values[i]);

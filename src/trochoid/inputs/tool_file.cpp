@@ -98,8 +98,8 @@ Shape shape_of(const Json& bit, const std::string& file) {
   if (shape == "ballend") return Shape::ball;
   if (shape == "bullnose") return Shape::bull_nose;
   refuse_tool(file, fmt::format("the tool is of the shape \"{}\"; must be an end mill: "
-                           "endmill, ballend or bullnose",
-                           shape));
+                                "endmill, ballend or bullnose",
+                                shape));
 }
 
 FoundTool tool_of_bit(const std::string& text, const std::string& file) {
@@ -111,10 +111,10 @@ FoundTool tool_of_bit(const std::string& text, const std::string& file) {
   const std::string diameter = text_in(bit, "Diameter");
   const auto length = length_in(diameter);
   if (!length || !is_possible(*length)) {
-    refuse_tool(file,
-           fmt::format("\"Diameter\" = \"{}\": must be a length such as \"6.0 mm\" "
-                       "or \"0.25 in\"",
-                       diameter));
+    refuse_tool(
+        file, fmt::format("\"Diameter\" = \"{}\": must be a length such as \"6.0 mm\" "
+                          "or \"0.25 in\"",
+                          diameter));
   }
   tool.diameter = *length;
   if (tool.shape == Shape::bull_nose) {
@@ -170,17 +170,18 @@ FoundTool tool_of_table(std::string_view text, const ToolChoice& choice) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   if (tools.empty()) {
-    refuse_tool(file,
-           "no tool with a diameter is in it; must be a tool bit of FreeCAD (.fctb) "
-           "or a tool table of LinuxCNC, with lines such as `T1 P1 D6.0 ;6 mm end "
-           "mill`");
+    refuse_tool(
+        file,
+        "no tool with a diameter is in it; must be a tool bit of FreeCAD (.fctb) "
+        "or a tool table of LinuxCNC, with lines such as `T1 P1 D6.0 ;6 mm end "
+        "mill`");
   }
   std::vector<int> numbers;
   for (const TableLine& line : tools) numbers.push_back(*line.number);
   const auto wanted = std::ranges::find(numbers, choice.number.value_or(numbers[0]));
   if ((!choice.number && tools.size() > 1) || wanted == numbers.end()) {
     refuse_tool(file, fmt::format("which tool? --tool-number, one of {}",
-                             fmt::join(numbers, ", ")));
+                                  fmt::join(numbers, ", ")));
   }
   const TableLine& line = tools[static_cast<std::size_t>(wanted - numbers.begin())];
   return {.name = line.comment, .diameter = *line.diameter * one};

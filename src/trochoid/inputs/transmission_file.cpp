@@ -24,7 +24,7 @@ constexpr TableKind transmission_kind{.noun = "the response of a dynamometer",
                                       .example = "freq_Hz,H11_re,H11_im"};
 
 constexpr int response_type = 4;  ///< function type of a set 58
-constexpr int force = 13;              ///< type of an axis of a set 58
+constexpr int force = 13;         ///< type of an axis of a set 58
 /// A static response that differs more than this from 1 is worth a word.
 constexpr double calibrated = 0.1;
 

@@ -41,7 +41,8 @@ bool is_delimiter(std::string_view line) {
 
 /// Columns [from, from + width) of a line, without blanks around.
 std::string_view cell(std::string_view line, std::size_t from, std::size_t width) {
-  return from < line.size() ? trimmed(line.substr(from, width), " \t\r") : std::string_view();
+  return from < line.size() ? trimmed(line.substr(from, width), " \t\r")
+                            : std::string_view();
 }
 
 std::optional<long long> whole(std::string_view text) {

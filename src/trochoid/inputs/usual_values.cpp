@@ -57,7 +57,8 @@ bool is_digit_of_place(char c) noexcept {
 std::string table_and_key(std::string_view path) {
   std::string plain;
   for (const char c : path) {
-    if (c != '[' && c != ']' && !(is_digit_of_place(c) && plain.find('.') == plain.npos)) {
+    if (c != '[' && c != ']' &&
+        !(is_digit_of_place(c) && plain.find('.') == plain.npos)) {
       plain += c;
     }
   }

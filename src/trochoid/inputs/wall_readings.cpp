@@ -42,8 +42,7 @@ std::string likely_cause(const Extent& extent, double most,
   const auto fits = [&](double factor) {
     const double low = std::min(extent.low * factor, extent.high * factor);
     const double high = std::max(extent.low * factor, extent.high * factor);
-    return !beyond(low, most) && !beyond(high, most) &&
-           high >= 0.02 * most;
+    return !beyond(low, most) && !beyond(high, most) && high >= 0.02 * most;
   };
   if (extent.high <= 0.0 && fits(-1.0)) {
     return "; with the other sign all readings would lie inside";
@@ -74,7 +73,8 @@ Extent extent_of(const std::vector<SurfaceReading>& readings, const Value& value
 }
 
 /// Leave out what a map shows beside the wall.
-void keep_inside(SurfaceFile& surface, const WallLimits& limits, const std::string& file) {
+void keep_inside(SurfaceFile& surface, const WallLimits& limits,
+                 const std::string& file) {
   const std::size_t before = surface.readings.size();
   std::erase_if(surface.readings, [&](const SurfaceReading& reading) {
     return misses_height(limits, reading) || misses_length(limits, reading);
@@ -117,7 +117,8 @@ SurfaceFile read_wall(const SurfaceSource& source, const WallLimits& limits) {
 }
 
 std::vector<std::string> check_readings(const SurfaceFile& surface,
-                                        const std::string& file, const WallLimits& limits) {
+                                        const std::string& file,
+                                        const WallLimits& limits) {
   const auto& readings = surface.readings;
   Problems problems{file, {}};
   const auto hint = [&](const Extent& extent, double most, const std::string& unit) {

@@ -110,15 +110,15 @@ inputs::Case bare_case(const std::string& file, base::Command command,
                        const BareOptions& options, const fs::path& folder) {
   inputs::MachineTables machine;
   if (command == base::Command::modes) {
-    machine.frf =
-        inputs::FrfTables{
-            .source = {.file = inputs::file_at(file),
-                       .kind = base::named<structure::ResponseKind>(options.kind),
-                       .dataset = options.dataset},
-                          .modes = options.modes,
-                          .band = options.band};
+    machine.frf = inputs::FrfTables{
+        .source = {.file = inputs::file_at(file),
+                   .kind = base::named<structure::ResponseKind>(options.kind),
+                   .dataset = options.dataset},
+        .modes = options.modes,
+        .band = options.band};
   } else {
-    machine.step = inputs::StepTables{.source = {.file = inputs::file_at(file), .start = options.start_s}};
+    machine.step = inputs::StepTables{
+        .source = {.file = inputs::file_at(file), .start = options.start_s}};
     if (options.step_um) machine.step->source.step = *options.step_um * unit::um;
   }
   return inputs::bare_case(machine, command, folder);

@@ -1,8 +1,10 @@
 #include <trochoid/report/report.h>
 
 #include <trochoid/base/command.h>
+#include <trochoid/base/estimate.h>
 #include <trochoid/base/names.h>
 #include <trochoid/results/json.h>
+#include <trochoid/results/words.h>
 
 #include <fmt/core.h>
 
@@ -85,7 +87,7 @@ std::string pages_js() {
 }
 
 std::string page_scripts() {
-  std::string text;
+  std::string text = fmt::format("const normalInterval = {};\n", base::normal_interval);
   for (const auto part : {text_js(),
                           band_js(),
                           svg_js(),
@@ -132,6 +134,7 @@ std::string scripts_allowed() {
 
 std::string data_json(const results::Answer& answer, const std::string& summary) {
   return in_script("{\"summary\":" + summary +
+                   ",\"words\":" + results::json_text(results::words_of(answer)) +
                    ",\"tables\":" + tables_json(answer.tables) + "}");
 }
 

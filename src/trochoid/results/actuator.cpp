@@ -2,6 +2,7 @@
 
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
+#include <trochoid/results/descriptions.h>
 
 #include <fmt/core.h>
 
@@ -9,68 +10,92 @@ namespace trochoid::results {
 
 namespace {
 
-using base::add_column;
 using structure::ActuatorDynamics;
 using structure::ActuatorFit;
 
-/// fitted.csv: command and motion as recorded, and the motion as fitted.
-base::Table fitted_table(const ActuatorResult& r) {
-  base::Table table{"fitted.csv", {}};
-  add_column(table, "time_s", r.record.time.size(),
-             [&](std::size_t i) { return r.record.time[i]; });
-  const auto add = [&](const char* name, const std::vector<double>& values) {
-    add_column(table, name, values.size(),
-               [&](std::size_t i) { return unit::in(values[i], unit::um); });
+const Columns<ActuatorResult>& step_columns() {
+  using R = const ActuatorResult&;
+  static const Columns<ActuatorResult> all{
+      "fitted.csv",
+      [](R r) { return r.record.time.size(); },
+      {{"time_s", "as recorded", [](R r, std::size_t i) { return r.record.time[i]; }},
+       {"command_um", "as recorded, where it was",
+        [](R r, std::size_t i) { return given(r.command[i]); },
+        [](R r) { return !r.command.empty(); }},
+       {"position_um", "as recorded",
+        [](R r, std::size_t i) { return given(r.record.position[i]); }},
+       {"fitted_um", "the motion as fitted",
+        [](R r, std::size_t i) { return given(r.fit.fitted[i]); },
+        [](R r) { return r.fit.ok; }}}};
+  return all;
+}
+
+const Fields<ActuatorFit>& actuator_error_fields() {
+  static const Fields<ActuatorFit> all{
+      {"gain", "of the same key", &ActuatorFit::gain_se},
+      {"frequency_Hz", "of the same key", &ActuatorFit::frequency_se},
+      {"damping_ratio", "of the same key", &ActuatorFit::damping_ratio_se},
+      {"time_constants_s", "of the same key, or `null`",
+       [](const ActuatorFit& f) {
+         return f.time_constants ? Value(f.time_constants_se) : Value();
+       }},
+      {"sum_s", "of the same key", &ActuatorFit::sum_se},
+      {"product_s2", "of the same key", &ActuatorFit::product_se},
+      {"start_s", "of the same key; 0 where it is given", &ActuatorFit::start_se}};
+  return all;
+}
+
+const Fields<ActuatorResult>& actuator_fields() {
+  using R = const ActuatorResult&;
+  const auto ok = [](R r) { return r.fit.ok; };
+  const auto found = [](auto get) {
+    return [get](R r) { return r.fit.ok ? Value(get(r.fit.dynamics)) : Value(); };
   };
-  if (!r.command.empty()) {
-    add("command_um", r.command);
-  }
-  add("position_um", r.record.position);
-  if (r.fit.ok) {
-    add("fitted_um", r.fit.fitted);
-  }
-  return table;
-}
-
-Object errors_value(const ActuatorFit& fit) {
-  return {
-      {"gain", fit.gain_se},
-      {"frequency_Hz", fit.frequency_se},
-      {"damping_ratio", fit.damping_ratio_se},
-      {"time_constants_s", fit.time_constants ? Value(fit.time_constants_se) : Value()},
-      {"sum_s", fit.sum_se},
-      {"product_s2", fit.product_se},
-      {"start_s", fit.start_se}};
-}
-
-Object result_of(const ActuatorResult& r) {
-  const ActuatorFit& fit = r.fit;
-  if (!fit.ok) {
-    return {{"gain", nullptr},
-            {"frequency_Hz", nullptr},
-            {"damping_ratio", nullptr},
-            {"time_constants_s", nullptr}};
-  }
-  const ActuatorDynamics& d = fit.dynamics;
-  Object identifiable;
-  if (!fit.time_constants) {
-    identifiable.push_back({"time_constants_s", fit.time_constants_reason});
-  }
-  return {{"gain", d.gain},
-          {"frequency_Hz", natural_frequency(d) / unit::Hz},
-          {"damping_ratio", damping_ratio(d)},
-          {"time_constants_s", fit.time_constants},
-          {"sum_s", d.sum},
-          {"product_s2", d.product},
-          {"se", errors_value(fit)},
-          {"identifiable", std::move(identifiable)},
-          {"start_s", fit.start},
-          {"step_um", unit::in(r.record.step, unit::um)},
-          {"half_power_frequency_Hz", half_power_frequency(d)},
-          {"low_frequency_delay_s", low_frequency_delay(d)},
-          {"rise_time_10_90_s", rise_time(d, 0.9) - rise_time(d, 0.1)},
-          {"rms_um", fit.rms / unit::um},
-          {"explained", fit.explained}};
+  static const Fields<ActuatorResult> all{
+      {"gain", "M-8; `null` with status failed",
+       found([](const ActuatorDynamics& d) { return d.gain; })},
+      {"frequency_Hz", "natural frequency", found([](const ActuatorDynamics& d) {
+         return natural_frequency(d) / unit::Hz;
+       })},
+      {"damping_ratio", "of critical damping",
+       found([](const ActuatorDynamics& d) { return damping_ratio(d); })},
+      {"time_constants_s",
+       "the longer one first, or `null` with the reason in `identifiable` (M-14)",
+       [](R r) { return r.fit.ok ? Value(r.fit.time_constants) : Value(); }},
+      {"sum_s", "of the two time constants, always well determined",
+       [](R r) { return r.fit.dynamics.sum; }, ok},
+      {"product_s2", "of the two, likewise", [](R r) { return r.fit.dynamics.product; },
+       ok},
+      {"se", "standard errors of all of these", actuator_error_fields(),
+       [](R r) { return &r.fit; }, ok},
+      Field<ActuatorResult>{
+          "identifiable", "empty, or",
+          [](R r) {
+            Object why;
+            if (!r.fit.time_constants) {
+              why.push_back({"time_constants_s", r.fit.time_constants_reason});
+            }
+            return why;
+          },
+          ok}
+          .with({{".time_constants_s", "why there are none"}}),
+      {"start_s", "of the step, as fitted, or as given",
+       [](R r) { return r.fit.start; }, ok},
+      {"step_um", "of the command", [](R r) { return given(r.record.step); }, ok},
+      {"half_power_frequency_Hz", "bandwidth (-3 dB), by the transfer function",
+       [](R r) { return half_power_frequency(r.fit.dynamics); }, ok},
+      {"low_frequency_delay_s", "of slow commands",
+       [](R r) { return low_frequency_delay(r.fit.dynamics); }, ok},
+      {"rise_time_10_90_s", "of a step",
+       [](R r) {
+         const ActuatorDynamics& d = r.fit.dynamics;
+         return rise_time(d, 0.9) - rise_time(d, 0.1);
+       },
+       ok},
+      {"rms_um", "that the fit leaves", [](R r) { return r.fit.rms; }, ok},
+      {"explained", "1 less the sum of squares of that over that of the motion",
+       [](R r) { return r.fit.explained; }, ok}};
+  return all;
 }
 
 std::string actuator_toml(const ActuatorFit& fit) {
@@ -122,8 +147,8 @@ std::string short_table(const ActuatorFit& fit) {
 Answer answer_of(const ActuatorResult& r) {
   Answer answer{.command = "actuator",
                 .heading = r.heading,
-                .result = result_of(r),
-                .tables = {fitted_table(r)}};
+                .result = actuator_fields().object(r),
+                .tables = {step_columns().table(r)}};
   if (r.fit.ok) {
     answer.short_table = short_table(r.fit);
     if (r.fit.dynamics.gain > 0) {
@@ -131,6 +156,12 @@ Answer answer_of(const ActuatorResult& r) {
     }
   }
   return answer;
+}
+
+Description description_of_actuator() {
+  Description all{.command = "actuator", .keys = actuator_fields().texts()};
+  step_columns().add_texts(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

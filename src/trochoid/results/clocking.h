@@ -1,15 +1,19 @@
 #pragma once
 
+#include <trochoid/results/fields.h>
 #include <trochoid/results/identify.h>
-#include <trochoid/results/value.h>
 
 #include <string>
 
 namespace trochoid::results {
 
-/// @brief `clocking` of the summary.
-/// @param factor  half of a 95 % interval over its standard error
-Object clocking_value(const Clocking& clocking, double factor);
+/// What `clocking` of the summary is made of.
+struct Clocked {
+  const Clocking& clocking;
+  double factor = 0.0;  ///< half of a 95 % interval over its standard error
+};
+
+const Fields<Clocked>& clocking_fields();
 
 /// @brief The same for a person, below the table of fits.
 std::string clocking_lines(const Clocking& clocking, double factor);

@@ -2,7 +2,9 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/results/correct_tables.h>
+#include <trochoid/results/descriptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,131 +15,178 @@ namespace {
 using correction::ControllerInLoop;
 using correction::Correction;
 using correction::MovedCut;
-using correction::Plan;
 using correction::Setting;
 
 /// Flutes whose peaks differ by less are equal, for `turns_to_3_percent`.
 constexpr double equal_difference = 0.03;
 
-Value um(const std::vector<double>& values) {
-  return all_in_unit(values, unit::um);
+const Fields<Setting>& correct_runout_fields() {
+  static const Fields<correction::Value> estimate{
+      {"value", "as found",
+       [](const correction::Value& v) { return v.value / unit::um; }},
+      {"se", "one standard error",
+       [](const correction::Value& v) { return v.se / unit::um; }}};
+  using Fit = correction::StaticFit;
+  static const Fields<Fit> fit{
+      {"chip_difference_um", "of each tooth", estimate, &Fit::h_ro},
+      {"rms_N", "that it leaves", &Fit::rms},
+      {"explained", "1 less the sum of squares of that over that of the force",
+       &Fit::explained}};
+  static const Fields<Setting> all{
+      {"radial_offsets_um", "of what is there, mean 0", &Setting::rho},
+      {"chip_difference_um", "rho_j - rho_(j-1) of the same",
+       [](const Setting& s) { return correction::chip_differences(s.rho); }},
+      {"designed_for_um", "of what the command is made for",
+       [](const Setting& s) { return correction::chip_differences(s.designed_for); }},
+      {"static_fit", "what a rigid model reads from the forces (R-21)", fit,
+       [](const Setting& s) { return s.fit; },
+       [](const Setting& s) { return s.fit && s.fit->ok; }},
+      {"ratio_um", "with a measurement: from the peaks alone, or `null`",
+       [](const Setting& s) { return s.ratio->ok ? Value(s.ratio->h_ro) : Value(); },
+       [](const Setting& s) { return s.ratio.has_value(); }},
+      {"ratio_reason", "why not", [](const Setting& s) { return s.ratio->reason; },
+       [](const Setting& s) { return s.ratio && !s.ratio->ok; }},
+      {"angle_offset_deg", "true angle less the recorded one",
+       [](const Setting& s) { return given(s.angle_offset); }}};
+  return all;
 }
 
-Array estimates_value(const std::vector<correction::Value>& values) {
-  Array list;
-  for (const correction::Value& v : values) {
-    list.push_back(Object{{"value", v.value / unit::um}, {"se", v.se / unit::um}});
-  }
-  return list;
+/// A flute of a cut that moves.
+struct FluteOfCut {
+  std::size_t number;
+  const dynamics::FluteMotion& motion;
+  const dynamics::FluteMotion* own;  ///< null: not known
+};
+
+const Fields<FluteOfCut>& flute_of_cut_fields() {
+  using Of = const FluteOfCut&;
+  static const Fields<FluteOfCut> all{
+      {"tooth", "number, from 1", &FluteOfCut::number},
+      {"peak_Fx_N", "of the whole force while its turn lasts",
+       [](Of f) { return f.motion.peak_x; }},
+      {"peak_Fy_N",
+       "of the whole force while a tooth is nearest to the middle of the arc of cut",
+       [](Of f) { return f.motion.peak_y; }},
+      {"own_peak_Fy_N", "of this tooth alone, or `null`",
+       [](Of f) { return f.own != nullptr ? Value(f.own->peak_y) : Value(); }},
+      {"chip_area_mm_rad", "at the tip", [](Of f) { return f.motion.chip_area; }},
+      {"peak_chip_mm", "at the tip", [](Of f) { return f.motion.peak_chip; }}};
+  return all;
 }
 
-Object runout_value(const Setting& s) {
-  Object runout{{"radial_offsets_um", um(s.rho)},
-                {"chip_difference_um", um(correction::chip_differences(s.rho))},
-                {"designed_for_um", um(correction::chip_differences(s.designed_for))}};
-  const auto add = [&](const char* key, Value value) {
-    runout.push_back({key, std::move(value)});
-  };
-  if (s.fit && s.fit->ok) {
-    add("static_fit", Object{{"chip_difference_um", estimates_value(s.fit->h_ro)},
-                             {"rms_N", s.fit->rms},
-                             {"explained", s.fit->explained}});
-  }
-  if (s.ratio) {
-    add("ratio_um", s.ratio->ok ? um(s.ratio->h_ro) : Value());
-    if (!s.ratio->ok) {
-      add("ratio_reason", s.ratio->reason);
-    }
-  }
-  add("angle_offset_deg", unit::in(s.angle_offset, unit::deg));
-  return runout;
+const Fields<MovedCut>& moved_cut_fields() {
+  using Of = const MovedCut&;
+  using Wall = const correction::MarkedWall&;
+  static const Fields<correction::MarkedWall> wall{
+      {"theta_deg", "0: where the teeth enter, 180: where they leave",
+       [](Wall w) { return w.exit ? 180 : 0; }},
+      {"peak_to_valley_um", "depth of the feed marks, for a rigid tool (R-25)",
+       [](Wall w) { return w.marks.peak_to_valley; }},
+      {"share", "fraction of it that each tooth leaves",
+       [](Wall w) { return w.marks.share; }}};
+  static const Fields<MovedCut> all{
+      {"flutes", "in the last turn", flute_of_cut_fields(),
+       [](Of cut) {
+         std::vector<FluteOfCut> flutes;
+         for (std::size_t j = 0; j < cut.motion.flutes.size(); ++j) {
+           flutes.push_back({j + 1, cut.motion.flutes[j],
+                             j < cut.own.size() ? &cut.own[j] : nullptr});
+         }
+         return flutes;
+       }},
+      {"difference", "of the peaks of \\|Fy\\|: (largest - smallest)/largest",
+       [](Of cut) { return dynamics::peak_difference(cut.motion); }},
+      {"own_difference", "the same of each tooth alone", correction::own_difference},
+      {"area_difference", "the same of the chip areas",
+       [](Of cut) { return dynamics::area_difference(cut.motion); }},
+      {"periodic", "whether the motion repeats",
+       [](Of cut) { return std::holds_alternative<dynamics::Periodic>(cut.verdict); }},
+      {"change_N", "largest change of the force from the turn before",
+       [](Of cut) { return cut.motion.last_change; }},
+      {"walls", "beside the cutter", wall, &MovedCut::walls}};
+  return all;
 }
 
-Array walls_value(const std::vector<correction::MarkedWall>& walls) {
-  Array list;
-  for (const correction::MarkedWall& wall : walls) {
-    list.push_back(Object{{"theta_deg", wall.exit ? 180 : 0},
-                          {"peak_to_valley_um", wall.marks.peak_to_valley / unit::um},
-                          {"share", wall.marks.share}});
-  }
-  return list;
-}
-
-Object cut_value(const MovedCut& cut) {
-  const dynamics::Motion& m = cut.motion;
-  Array flutes;
-  for (std::size_t j = 0; j < m.flutes.size(); ++j) {
-    const dynamics::FluteMotion& f = m.flutes[j];
-    flutes.push_back(Object{
-        {"tooth", j + 1},
-        {"peak_Fx_N", f.peak_x},
-        {"peak_Fy_N", f.peak_y},
-        {"own_peak_Fy_N", j < cut.own.size() ? Value(cut.own[j].peak_y) : Value()},
-        {"chip_area_mm_rad", f.chip_area / unit::mm},
-        {"peak_chip_mm", f.peak_chip / unit::mm}});
-  }
-  return {{"flutes", std::move(flutes)},
-          {"difference", dynamics::peak_difference(m)},
-          {"own_difference", correction::own_difference(cut)},
-          {"area_difference", dynamics::area_difference(m)},
-          {"periodic", std::holds_alternative<dynamics::Periodic>(cut.verdict)},
-          {"change_N", m.last_change},
-          {"walls", walls_value(cut.walls)}};
-}
-
-Array limits_value(const correction::LimitReport& report) {
-  Array list;
-  for (const correction::Limit& l : report.limits) {
-    const auto known = [&](double value) {
-      return l.known ? Value(unit::in(value, unit_of(l.kind))) : Value();
+const Fields<correction::Limit>& limit_fields() {
+  using Of = const correction::Limit&;
+  const auto known = [](double correction::Limit::*member) {
+    return [member](Of l) {
+      return as_named(l.known ? Value(unit::in(l.*member, unit_of(l.kind))) : Value());
     };
-    list.push_back(Object{{"what", name_of(l.kind)},
-                          {"value", unit::in(l.value, unit_of(l.kind))},
-                          {"limit", known(l.limit)},
-                          {"margin", known(l.margin)},
-                          {"ok", l.known ? Value(l.ok) : Value()},
-                          {"reason", l.reason}});
-  }
-  return list;
+  };
+  static const Fields<correction::Limit> all{
+      {"what", "with its unit", [](Of l) { return name_of(l.kind); }},
+      {"value", "of the command",
+       [](Of l) { return as_named(unit::in(l.value, unit_of(l.kind))); }},
+      {"limit", "`null` where it is not known", known(&correction::Limit::limit)},
+      {"margin", "up to it, or `null`", known(&correction::Limit::margin)},
+      {"ok", "whether it is kept, or `null`",
+       [](Of l) { return l.known ? Value(l.ok) : Value(); }},
+      {"reason", "in words", [](Of l) { return l.reason; }}};
+  return all;
 }
 
-Object optimum_value(const correction::Optimum& optimum) {
-  return {{"kind", name_of(optimum.optimality)},
-          {"proven", optimum.proven},
-          {"starts", optimum.starts},
-          {"agreeing", optimum.agreeing}};
+/// The limit of a kind; null: there is none.
+const correction::Limit* limit_of(const Correction& c, correction::LimitKind kind) {
+  const auto& limits = c.plan.limits.limits;
+  const auto found = std::ranges::find(limits, kind, &correction::Limit::kind);
+  return found == limits.end() ? nullptr : &*found;
 }
 
-Object command_value(const Correction& c) {
-  const Plan& plan = c.plan;
-  Object command{
-      {"spindle_rpm", unit::in(c.setting.cut.setup.cut.Omega, unit::rpm)},
-      {"peak_to_peak_um",
-       correction::range_of(plan.command.wave).peak_to_peak() / unit::um},
-      {"offset_um", plan.limits.offset / unit::um},
-      {"motion_peak_to_peak_um",
-       correction::range_of(plan.motion).peak_to_peak() / unit::um},
-      {"table_deviation_um", c.cuts.table_deviation / unit::um},
-      {"lead_s", plan.command.lead},
-      {"harmonics", plan.command.n_max == 0 ? Value() : Value(plan.command.n_max)},
-      {"transition_deg",
-       plan.transition ? Value(unit::in(*plan.transition, unit::deg)) : Value()},
-      {"optimum", plan.optimum ? Value(optimum_value(*plan.optimum)) : Value()},
-      {"within_limits", plan.limits.ok},
-      {"limits", limits_value(plan.limits)}};
-  for (const correction::Limit& l : plan.limits.limits) {
-    if (l.kind == correction::LimitKind::stroke) {
-      command.push_back({"stroke_margin_um", l.margin / unit::um});
-    } else if (l.kind == correction::LimitKind::slew) {
-      command.push_back({"slew_um_per_s", l.value / unit::um});
-    }
-  }
-  if (plan.learned) {
-    command.push_back({"learning", Object{{"iterations", plan.learned->iterations},
-                                          {"converged", plan.learned->converged},
-                                          {"error_um", um(plan.learned->error)}}});
-  }
-  return command;
+const Fields<Correction>& command_fields() {
+  using C = const Correction&;
+  using correction::LimitKind;
+  using correction::Optimum;
+  static const Fields<Optimum> optimum{
+      {"kind", "`equal`, `limit_of_one_axis` or `local_minimum`",
+       [](const Optimum& o) { return name_of(o.optimality); }},
+      {"proven", "whether nothing better exists", &Optimum::proven},
+      {"starts", "of the search", &Optimum::starts},
+      {"agreeing", "how many of them ended alike", &Optimum::agreeing}};
+  static const Fields<Correction> learning{
+      {"iterations", "of iterative learning control",
+       [](C c) { return c.plan.learned->iterations; }},
+      {"converged", "whether it did", [](C c) { return c.plan.learned->converged; }},
+      {"error_um", "before each iteration", [](C c) { return c.plan.learned->error; }}};
+  static const Fields<Correction> all{
+      {"spindle_rpm", "that it is made for",
+       [](C c) { return given(c.setting.cut.setup.cut.Omega); }},
+      {"peak_to_peak_um", "of the command",
+       [](C c) { return correction::range_of(c.plan.command.wave).peak_to_peak(); }},
+      {"offset_um", "of its middle", [](C c) { return c.plan.limits.offset; }},
+      {"motion_peak_to_peak_um", "of what the table should do",
+       [](C c) { return correction::range_of(c.plan.motion).peak_to_peak(); }},
+      {"table_deviation_um", "from that at most, while it is cut upon",
+       [](C c) { return c.cuts.table_deviation; }},
+      {"lead_s", "by which it is early", [](C c) { return c.plan.command.lead; }},
+      {"harmonics", "that it has, or `null`",
+       [](C c) {
+         return c.plan.command.n_max == 0 ? Value() : Value(c.plan.command.n_max);
+       }},
+      {"transition_deg", "given or chosen, or `null`",
+       [](C c) {
+         return all_given(c.plan.transition ? Value(*c.plan.transition) : Value());
+       }},
+      {"optimum", "three teeth and more: whether there is anything better; else `null`",
+       optimum, [](C c) { return c.plan.optimum; }},
+      {"within_limits", "of all", [](C c) { return c.plan.limits.ok; }},
+      {"limits", "of the actuator", limit_fields(),
+       [](C c) -> const auto& {return c.plan.limits.limits;
+}
+}  // namespace
+,
+    {"stroke_margin_um", "of the stroke",
+     [](C c) { return limit_of(c, LimitKind::stroke)->margin; },
+     [](C c) { return limit_of(c, LimitKind::stroke) != nullptr; }},
+    {"slew_um_per_s", "largest speed of the command",
+     [](C c) { return limit_of(c, LimitKind::slew)->value; },
+     [](C c) { return limit_of(c, LimitKind::slew) != nullptr; }},
+{
+  "learning", "with `strategy = \"learning\"`", learning, [](C c) { return &c; },
+      [](C c) { return c.plan.learned.has_value(); }
+}
+};  // namespace trochoid::results
+return all;
 }
 
 Object speeds_value(const correction::SpeedMap& map) {
@@ -148,83 +197,134 @@ Object speeds_value(const correction::SpeedMap& map) {
   return highest;
 }
 
-Object spindle_value(const correction::SpeedModulation& m, double allowed) {
-  return {{"difference", m.peak_difference},
-          {"part", m.part},
-          {"limit", m.limit.empty() ? Value() : Value(m.limit)},
-          {"speed_change", m.speed_change},
-          {"torque_Nm", m.torque},
-          {"torque_wanted_Nm",
-           std::isfinite(m.torque_wanted) ? Value(m.torque_wanted) : Value()},
-          {"torque_limit_Nm", allowed}};
+const Fields<CorrectResult>& spindle_fields() {
+  using R = const CorrectResult&;
+  const auto of = [](auto get) {
+    return [get](R r) { return get(*r.correction.speeds.spindle); };
+  };
+  using M = const correction::SpeedModulation&;
+  static const Fields<CorrectResult> all{
+      {"difference", "of the peaks that a sine of the speed leaves, on a rigid cut",
+       of([](M m) { return m.peak_difference; })},
+      {"part", "of the sine that the drive gives", of([](M m) { return m.part; })},
+      {"limit", "why not all of it, or `null`",
+       of([](M m) { return m.limit.empty() ? Value() : Value(m.limit); })},
+      {"speed_change", "largest, as a fraction",
+       of([](M m) { return m.speed_change; })},
+      {"torque_Nm", "that it takes", of([](M m) { return m.torque; })},
+      {"torque_wanted_Nm", "for all of the sine, or `null`", of([](M m) {
+         return std::isfinite(m.torque_wanted) ? Value(m.torque_wanted) : Value();
+       })},
+      {"torque_limit_Nm", "of `[spindle]`",
+       [](R r) { return r.options.spindle->torque; }}};
+  return all;
 }
 
-Array turns_value(const ControllerInLoop& run) {
-  Array turns;
-  for (std::size_t n = 0; n < run.turns.size(); ++n) {
-    const correction::LoopTurn& t = run.turns[n];
-    turns.push_back(Object{{"turn", n + 1},
-                           {"peaks_Fy_N", t.peaks},
-                           {"difference", t.difference},
-                           {"gain", t.gain},
-                           {"wave_um", t.wave / unit::um},
-                           {"tool", trochoid_tool_event_name(t.event)},
-                           {"state", trochoid_state_name(t.state)}});
-  }
-  return turns;
+/// A turn of the controller, and its number.
+struct NumberedTurn {
+  std::size_t number;
+  const correction::LoopTurn& turn;
+};
+
+const Fields<ControllerInLoop>& controller_fields() {
+  using Run = const ControllerInLoop&;
+  using Of = const NumberedTurn&;
+  static const Fields<NumberedTurn> turn{
+      {"turn", "number, from 1", &NumberedTurn::number},
+      {"peaks_Fy_N", "of the flutes", [](Of t) { return t.turn.peaks; }},
+      {"difference", "of them", [](Of t) { return t.turn.difference; }},
+      {"gain", "of the command", [](Of t) { return t.turn.gain; }},
+      {"wave_um", "the largest wave learnt", [](Of t) { return t.turn.wave; }},
+      {"tool", "what was recognised of it",
+       [](Of t) { return trochoid_tool_event_name(t.turn.event); }},
+      {"state", "of the controller",
+       [](Of t) { return trochoid_state_name(t.turn.state); }}};
+  const auto fault = [](Run run) { return run.fault != TROCHOID_NO_PROBLEM; };
+  static const Fields<ControllerInLoop> all{
+      {"difference_before", "of the peaks before it runs",
+       [](Run run) { return run.turns[correction::enabling_turn - 1].difference; }},
+      {"difference_running", "while it runs, or `null`",
+       [](Run run) {
+         const auto* running = last_running(run);
+         return running != nullptr ? Value(running->difference) : Value();
+       }},
+      {"turns_to_3_percent", "turns of running until below, or `null`",
+       [](Run run) { return turns_to_equal(run, equal_difference); }},
+      {"gain", "while it runs, or `null`",
+       [](Run run) {
+         const auto* running = last_running(run);
+         return running != nullptr ? Value(running->gain) : Value();
+       }},
+      {"lowest_um", "of the command", &ControllerInLoop::lowest},
+      {"highest_um", "of the command", &ControllerInLoop::highest},
+      {"fault", "or `null`",
+       [fault](Run run) {
+         return fault(run) ? Value(trochoid_problem_name(run.fault)) : Value();
+       }},
+      {"fault_time_s", "of it, or `null`",
+       [fault](Run run) { return fault(run) ? Value(run.fault_time) : Value(); }},
+      {"time_to_safe_s", "from there to rest at mid-stroke, or `null`",
+       &ControllerInLoop::time_to_safe},
+      {"turns", "every turn", turn, [](Run run) {
+         std::vector<NumberedTurn> turns;
+         for (const auto& one : run.turns) turns.push_back({turns.size() + 1, one});
+         return turns;
+       }}};
+  return all;
 }
 
-Object controller_value(const ControllerInLoop& run) {
-  const correction::LoopTurn* running = last_running(run);
-  const bool fault = run.fault != TROCHOID_NO_PROBLEM;
-  return {
-      {"difference_before", run.turns[correction::enabling_turn - 1].difference},
-      {"difference_running", running != nullptr ? Value(running->difference) : Value()},
-      {"turns_to_3_percent", turns_to_equal(run, equal_difference)},
-      {"gain", running != nullptr ? Value(running->gain) : Value()},
-      {"lowest_um", run.lowest / unit::um},
-      {"highest_um", run.highest / unit::um},
-      {"fault", fault ? Value(trochoid_problem_name(run.fault)) : Value()},
-      {"fault_time_s", fault ? Value(run.fault_time) : Value()},
-      {"time_to_safe_s", run.time_to_safe},
-      {"turns", turns_value(run)}};
-}
-
-Object result_of(const CorrectResult& r) {
-  const Correction& c = r.correction;
-  if (!c.ok) {
-    return {};
-  }
-  const correction::AxisLimits& axes = c.axes;
-  Object result{{"runout", runout_value(c.setting)},
-                {"before", cut_value(c.cuts.before)},
-                {"after", cut_value(c.cuts.after)},
-                {"reduction", correction::reduction(c.cuts)},
-                {"command", command_value(c)},
-                {"allowed_difference", r.options.allowed_difference},
-                {"max_rpm", speeds_value(c.speeds)},
-                {"max_rpm_cut", name_of(c.speeds.cut)},
-                {"axes", Object{{"uncorrected_um", axes.uncorrected / unit::um},
-                                {"one_axis_um", axes.one_axis / unit::um},
-                                {"two_axes_um", axes.two_axes / unit::um},
-                                {"one_axis_bound_um", axes.one_axis_bound / unit::um},
-                                {"two_axes_bound_um", axes.two_axes_bound / unit::um},
-                                {"most_teeth_in_cut", axes.most_teeth}}}};
-  if (c.speeds.spindle) {
-    result.push_back(
-        {"spindle_speed", spindle_value(*c.speeds.spindle, r.options.spindle->torque)});
-  }
-  if (c.controller && c.controller->ok) {
-    result.push_back({"controller", controller_value(*c.controller)});
-  }
-  return result;
+const Fields<CorrectResult>& correct_fields() {
+  using R = const CorrectResult&;
+  using Axes = const correction::AxisLimits&;
+  static const Fields<correction::AxisLimits> axes{
+      {"uncorrected_um", "as it is", [](Axes a) { return a.uncorrected; }},
+      {"one_axis_um", "with one axis at best (R-7)", [](Axes a) { return a.one_axis; }},
+      {"two_axes_um", "with two (R-8)", [](Axes a) { return a.two_axes; }},
+      {"one_axis_bound_um", "no motion of these harmonics leaves less (R-30)",
+       [](Axes a) { return a.one_axis_bound; }},
+      {"two_axes_bound_um", "nor with two axes",
+       [](Axes a) { return a.two_axes_bound; }},
+      {"most_teeth_in_cut", "at once", [](Axes a) { return a.most_teeth; }}};
+  static const Fields<CorrectResult> all{
+      {"runout", "of what is there, and how it was read", correct_runout_fields(),
+       [](R r) { return &r.correction.setting; }},
+      {"before", "on the moving cut, last turn, without the command",
+       moved_cut_fields(), [](R r) { return &r.correction.cuts.before; }},
+      {"after", "the same with it", moved_cut_fields(),
+       [](R r) { return &r.correction.cuts.after; }},
+      {"reduction", "1 less the ratio of both differences",
+       [](R r) { return correction::reduction(r.correction.cuts); }},
+      {"command", "the feedforward command", command_fields(),
+       [](R r) { return &r.correction; }},
+      {"allowed_difference", "as asked for",
+       [](R r) { return r.options.allowed_difference; }},
+      Field<CorrectResult>{
+          "max_rpm",
+          "highest spindle speed that keeps `allowed_difference`; the last speed looked "
+          "at where it is kept up to there",
+          [](R r) { return speeds_value(r.correction.speeds); }}
+          .with({{".*", "for each strategy"}}),
+      {"max_rpm_cut", "the cut that these are of",
+       [](R r) { return name_of(r.correction.speeds.cut); }},
+      {"axes", "root mean square of the chip differences over the cut", axes,
+       [](R r) { return &r.correction.axes; }},
+      {"spindle_speed",
+       "with `[spindle]`: a speed that changes within the turn in place of the table",
+       spindle_fields(), [](R r) { return &r; },
+       [](R r) { return r.correction.speeds.spindle.has_value(); }},
+      {"controller", "with `--simulate-controller`", controller_fields(),
+       [](R r) { return r.correction.controller; },
+       [](R r) { return r.correction.controller && r.correction.controller->ok; }}};
+  return all;
 }
 
 }  // namespace
 
 Answer answer_of(const CorrectResult& r) {
   const Correction& c = r.correction;
-  Answer answer{.command = "correct", .heading = r.heading, .result = result_of(r)};
+  Answer answer{.command = "correct",
+                .heading = r.heading,
+                .result = c.ok ? Value(correct_fields().object(r)) : Value(Object{})};
   if (!c.ok) {
     return answer;
   }
@@ -242,6 +342,12 @@ Answer answer_of(const CorrectResult& r) {
   }
   answer.texts.push_back({"command.h", command_header(c, r.heading.title)});
   return answer;
+}
+
+Description description_of_correct() {
+  Description all{.command = "correct", .keys = correct_fields().texts()};
+  add_texts_of_correct_tables(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

@@ -13,6 +13,9 @@ struct CorrectResult {
   correction::Correction correction;      ///< what was found
 };
 
+/// @brief Whether anything better could be found, and how this is known.
+std::string optimum_words(const correction::Optimum& optimum);
+
 Answer answer_of(const CorrectResult& result);
 
 }  // namespace trochoid::results

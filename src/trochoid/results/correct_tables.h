@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/base/table.h>
+#include <trochoid/results/columns.h>
 #include <trochoid/results/correct.h>
 
 #include <string>
@@ -25,6 +26,9 @@ base::Table estimator_table(const TrochoidEstimatorConfig& model);
 
 /// controller.csv: the controller at each of its steps.
 base::Table controller_table(const correction::ControllerInLoop& run);
+
+/// What all these columns mean.
+void add_texts_of_correct_tables(std::vector<ColumnText>& out);
 
 /// command.h: the command for a program in C.
 std::string command_header(const correction::Correction& c, const std::string& title);

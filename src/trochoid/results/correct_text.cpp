@@ -1,3 +1,4 @@
+#include <trochoid/results/correct.h>
 #include <trochoid/results/correct_tables.h>
 
 #include <trochoid/base/units.h>
@@ -49,25 +50,6 @@ std::string flute_lines(const correction::BeforeAfter& cuts) {
                     100 * dynamics::peak_difference(cuts.after.motion));
 }
 
-std::string in_words(const correction::Optimum& optimum) {
-  switch (optimum.optimality) {
-    case correction::Optimality::equal:
-      return "the flutes are made equal: no motion does better";
-    case correction::Optimality::limit_of_one_axis:
-      return optimum.proven
-                 ? "limit of one axis: a convex problem, no motion of these harmonics "
-                   "does better"
-                 : fmt::format(
-                       "limit of one axis in this shape: {} of {} starts ended "
-                       "here, which is not a proof",
-                       optimum.agreeing, optimum.starts);
-    case correction::Optimality::local_minimum:
-      break;
-  }
-  return "local minimum of a problem that is not convex: another shape or strategy may "
-         "do better";
-}
-
 std::string command_lines(const correction::Correction& c) {
   const correction::Plan& plan = c.plan;
   const correction::Range range = correction::range_of(plan.command.wave);
@@ -79,7 +61,7 @@ std::string command_lines(const correction::Correction& c) {
   text += fmt::format("the table stays within {:.2f} um of it while it is cut upon\n",
                       c.cuts.table_deviation / unit::um);
   if (plan.optimum) {
-    text += "  " + in_words(*plan.optimum) + "\n";
+    text += "  " + optimum_words(*plan.optimum) + "\n";
   }
   for (const correction::Limit& l : plan.limits.limits) {
     text += fmt::format("  {}{}\n", l.known && !l.ok ? "BEYOND: " : "", l.reason);
@@ -124,6 +106,25 @@ std::string controller_line(const ControllerInLoop& run) {
 }
 
 }  // namespace
+
+std::string optimum_words(const correction::Optimum& optimum) {
+  switch (optimum.optimality) {
+    case correction::Optimality::equal:
+      return "the flutes are made equal: no motion does better";
+    case correction::Optimality::limit_of_one_axis:
+      return optimum.proven
+                 ? "limit of one axis: a convex problem, no motion of these harmonics "
+                   "does better"
+                 : fmt::format(
+                       "limit of one axis in this shape: {} of {} starts ended "
+                       "here, which is not a proof",
+                       optimum.agreeing, optimum.starts);
+    case correction::Optimality::local_minimum:
+      break;
+  }
+  return "local minimum of a problem that is not convex: another shape or strategy may "
+         "do better";
+}
 
 std::string correct_text(const CorrectResult& r) {
   const correction::Correction& c = r.correction;

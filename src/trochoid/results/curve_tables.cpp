@@ -36,46 +36,133 @@ std::vector<Place> places_of(std::span<const identification::Run> runs) {
   return places;
 }
 
+/// What fitted.csv and residual.csv show.
+struct Curves {
+  std::span<const identification::Run> runs;
+  std::span<const ComputedForces> computed;
+  std::vector<Place> places = places_of(runs);
+  std::vector<std::size_t> axes = {};  ///< of the forces that any run has
+
+  Curves(std::span<const identification::Run> of,
+         std::span<const ComputedForces> beside)
+      : runs(of), computed(beside) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (is_measured(runs, q)) axes.push_back(q);
+    }
+  }
+
+  [[nodiscard]] double value(std::size_t i, std::size_t q,
+                             const std::vector<std::array<double, 3>>& of_run) const {
+    return runs[places[i].run].measured[q] ? of_run[places[i].sample][q]
+                                           : std::numeric_limits<double>::quiet_NaN();
+  }
+  [[nodiscard]] double measured(std::size_t i, std::size_t which) const {
+    return value(i, axes[which], runs[places[i].run].force);
+  }
+  /// Of all computed forces one after the other, axis by axis.
+  [[nodiscard]] double by_computation(std::size_t i, std::size_t which) const {
+    const ComputedForces& one = computed[which / axes.size()];
+    return value(i, axes[which % axes.size()], one.of_run[places[i].run]);
+  }
+  [[nodiscard]] double left(std::size_t i, std::size_t which) const {
+    return measured(i, which % axes.size()) - by_computation(i, which);
+  }
+};
+
+std::vector<std::string> measured_names(const Curves& c) {
+  std::vector<std::string> names;
+  for (const std::size_t q : c.axes) names.emplace_back(axis[q]);
+  return names;
+}
+
+std::vector<std::string> computed_names(const Curves& c) {
+  std::vector<std::string> names;
+  for (const ComputedForces& one : c.computed) {
+    for (const std::size_t q : c.axes) {
+      names.push_back(fmt::format("{}_{}", axis[q], one.name));
+    }
+  }
+  return names;
+}
+
+Column<Curves> run_column() {
+  return {"run", "number of the measurement, from 1",
+          [](const Curves& c, std::size_t i) { return c.places[i].run + 1; }};
+}
+
+Column<Curves> angle_column() {
+  return {"angle_deg", "recorded angle", [](const Curves& c, std::size_t i) {
+            return given(c.runs[c.places[i].run].angle[c.places[i].sample]);
+          }};
+}
+
+std::size_t samples_of(const Curves& c) {
+  return c.places.size();
+}
+
+const Columns<Curves>& fitted_columns() {
+  static const Columns<Curves> all{
+      "fitted.csv",
+      samples_of,
+      {run_column(),
+       angle_column(),
+       {"*_measured_N",
+        "measured force on the tool, `Fx`, `Fy`, `Fz` of those measured",
+        measured_names,
+        [](const Curves& c, std::size_t i, std::size_t k) { return c.measured(i, k); }},
+       {"*_N",
+        "the same as computed: `Fx_trochoidal_N` by the chip model of that name, of "
+        "`simulate` `Fx_computed_N`",
+        computed_names, [](const Curves& c, std::size_t i, std::size_t k) {
+          return c.by_computation(i, k);
+        }}}};
+  return all;
+}
+
+const Columns<Curves>& residual_columns() {
+  static const Columns<Curves> all{
+      "residual.csv",
+      samples_of,
+      {run_column(),
+       angle_column(),
+       {"*_N", "measured less computed, names as in fitted.csv", computed_names,
+        [](const Curves& c, std::size_t i, std::size_t k) { return c.left(i, k); }}}};
+  return all;
+}
+
+const Columns<force::ChipCurve>& chip_curve_columns() {
+  using Of = const force::ChipCurve&;
+  static const Columns<force::ChipCurve> all{
+      "chip_curve.csv",
+      [](Of curve) { return curve.theta.size(); },
+      {{"theta_deg", "nominal",
+        [](Of curve, std::size_t i) { return given(curve.theta[i]); }},
+       {"h_tooth*_mm", "chip thickness of each tooth, at the tip",
+        [](Of curve) {
+          std::vector<std::string> names;
+          for (std::size_t j = 0; j < curve.h.size(); ++j) {
+            names.push_back(std::to_string(j + 1));
+          }
+          return names;
+        },
+        [](Of curve, std::size_t i, std::size_t j) { return curve.h[j][i]; }}}};
+  return all;
+}
+
 }  // namespace
 
 std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
                                       std::span<const ComputedForces> computed) {
-  using base::add_column;
-  const std::vector<Place> places = places_of(runs);
-  const std::size_t n = places.size();
-  const auto measured = [&](std::size_t i, std::size_t q) {
-    const identification::Run& run = runs[places[i].run];
-    return run.measured[q] ? run.force[places[i].sample][q]
-                           : std::numeric_limits<double>::quiet_NaN();
-  };
-  base::Table fitted{"fitted.csv", {}};
-  base::Table residual{"residual.csv", {}};
-  for (base::Table* table : {&fitted, &residual}) {
-    add_column(*table, "run", n, [&](std::size_t i) { return places[i].run + 1; });
-    add_column(*table, "angle_deg", n, [&](std::size_t i) {
-      return unit::in(runs[places[i].run].angle[places[i].sample], unit::deg);
-    });
-  }
-  for (std::size_t q = 0; q < 3; ++q) {
-    if (!is_measured(runs, q)) continue;
-    add_column(fitted, fmt::format("{}_measured_N", axis[q]), n,
-               [&](std::size_t i) { return measured(i, q); });
-  }
-  for (const ComputedForces& c : computed) {
-    for (std::size_t q = 0; q < 3; ++q) {
-      if (!is_measured(runs, q)) continue;
-      const std::string name = fmt::format("{}_{}_N", axis[q], c.name);
-      const auto value = [&](std::size_t i) {
-        return runs[places[i].run].measured[q]
-                   ? c.of_run[places[i].run][places[i].sample][q]
-                   : std::numeric_limits<double>::quiet_NaN();
-      };
-      add_column(fitted, name, n, value);
-      add_column(residual, name, n,
-                 [&](std::size_t i) { return measured(i, q) - value(i); });
-    }
-  }
-  return {std::move(fitted), std::move(residual)};
+  const Curves curves(runs, computed);
+  std::vector<base::Table> tables;
+  tables.push_back(fitted_columns().table(curves));
+  tables.push_back(residual_columns().table(curves));
+  return tables;
+}
+
+void add_texts_of_curves(std::vector<ColumnText>& out) {
+  fitted_columns().add_texts(out);
+  residual_columns().add_texts(out);
 }
 
 namespace {
@@ -144,16 +231,11 @@ std::vector<identification::Run> mean_turns(std::span<const identification::Run>
 }
 
 base::Table chip_curve_table(const force::ChipCurve& curve) {
-  using base::add_column;
-  base::Table table{"chip_curve.csv", {}};
-  const std::size_t n = curve.theta.size();
-  add_column(table, "theta_deg", n,
-             [&](std::size_t i) { return unit::in(curve.theta[i], unit::deg); });
-  for (std::size_t j = 0; j < curve.h.size(); ++j) {
-    add_column(table, fmt::format("h_tooth{}_mm", j + 1), n,
-               [&](std::size_t i) { return curve.h[j][i] / unit::mm; });
-  }
-  return table;
+  return chip_curve_columns().table(curve);
+}
+
+void add_texts_of_chip_curve(std::vector<ColumnText>& out) {
+  chip_curve_columns().add_texts(out);
 }
 
 }  // namespace trochoid::results

@@ -3,6 +3,7 @@
 #include <trochoid/base/table.h>
 #include <trochoid/force/slice.h>
 #include <trochoid/identification/identify.h>
+#include <trochoid/results/columns.h>
 #include <trochoid/signal/revolutions.h>
 
 #include <array>
@@ -23,6 +24,7 @@ struct ComputedForces {
 /// what is left, against the recorded angle.
 std::vector<base::Table> curve_tables(std::span<const identification::Run> runs,
                                       std::span<const ComputedForces> computed);
+void add_texts_of_curves(std::vector<ColumnText>& out);
 
 /// @brief The mean turn of runs that are long, measured and computed, in at most 720 bins
 /// each; runs that are not, whole.
@@ -36,5 +38,6 @@ inline constexpr std::size_t most_curve_samples = 50000;
 
 /// chip_curve.csv: h of every tooth over nominal theta, at one height.
 base::Table chip_curve_table(const force::ChipCurve& curve);
+void add_texts_of_chip_curve(std::vector<ColumnText>& out);
 
 }  // namespace trochoid::results

@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/identification/reliability.h>
-#include <trochoid/results/estimate_value.h>
 #include <trochoid/results/joint_of_fit.h>
 
 #include <fmt/core.h>
@@ -14,38 +13,57 @@ namespace trochoid::results {
 
 namespace {
 
-using identification::finds_offsets;
 using identification::Fit;
 using identification::unidentifiable;
 
-/// A number that may be unknown, as a file has it.
-Value known(bool unknown, double value, double unit) {
-  return unknown ? Value() : Value(unit::in(value, unit));
+/// A number that may be unknown.
+Value known(bool unknown, double value) {
+  return unknown ? Value() : Value(value);
 }
 
-Value runout_value(const Fit& fit) {
-  if (!fit.ok || !chip::feels_runout(fit.chip.model)) {
-    return nullptr;
-  }
+Value offsets_value(const Fit& fit) {
   Array offsets;
-  Array errors;
-  const bool found = finds_offsets(fit.options.runout);
   for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
     const bool unknown =
         unidentifiable(fit, "radial_offsets_mm") ||
         unidentifiable(fit, fmt::format("radial_offsets_mm[{}]", k + 1));
-    offsets.push_back(known(unknown, fit.runout.radial_offsets[k], unit::mm));
-    const bool gauge = found && k == 0 && !unknown;
-    errors.push_back(gauge ? Value(0.0) : in_unit(fit.radial_offsets_se[k], unit::mm));
+    offsets.push_back(known(unknown, fit.runout.radial_offsets[k]));
   }
-  return Object{{"radial_offsets_mm", std::move(offsets)},
-                {"radial_offsets_se_mm", std::move(errors)},
-                {"eccentricity_mm", known(unidentifiable(fit, "eccentricity_mm"),
-                                          fit.runout.eccentricity, unit::mm)},
-                {"eccentricity_se_mm", in_unit(fit.eccentricity_se, unit::mm)},
-                {"angle_deg",
-                 known(unidentifiable(fit, "angle_deg"), fit.runout.angle, unit::deg)},
-                {"angle_se_deg", in_unit(fit.angle_se, unit::deg)}};
+  return offsets;
+}
+
+Value offset_errors_value(const Fit& fit) {
+  Array errors;
+  for (std::size_t k = 0; k < fit.runout.radial_offsets.size(); ++k) {
+    const bool gauge = k == 0 && identification::finds_offsets(fit.options.runout) &&
+                       !unidentifiable(fit, "radial_offsets_mm") &&
+                       !unidentifiable(fit, "radial_offsets_mm[1]");
+    errors.push_back(gauge ? Value(0.0) : Value(fit.radial_offsets_se[k]));
+  }
+  return errors;
+}
+
+const Fields<Fit>& runout_fields() {
+  static const Fields<Fit> all{
+      {"radial_offsets_mm", "of each tooth",
+       [](const Fit& f) { return all_given(offsets_value(f)); }},
+      {"radial_offsets_se_mm",
+       "standard errors; `null` where it is given, the gauge, or found where a tooth just "
+       "starts or stops cutting (warning `runout_on_edge`)",
+       offset_errors_value},
+      {"eccentricity_mm", "of the tool",
+       [](const Fit& f) {
+         return all_given(
+             known(unidentifiable(f, "eccentricity_mm"), f.runout.eccentricity));
+       }},
+      {"eccentricity_se_mm", "standard error or `null`, as above",
+       &Fit::eccentricity_se},
+      {"angle_deg", "of the eccentricity, from the tip of tooth 1 towards tooth 2",
+       [](const Fit& f) {
+         return all_given(known(unidentifiable(f, "angle_deg"), f.runout.angle));
+       }},
+      {"angle_se_deg", "standard error or `null`, as above", &Fit::angle_se}};
+  return all;
 }
 
 Array phases_value(const Fit& fit) {
@@ -53,7 +71,7 @@ Array phases_value(const Fit& fit) {
   for (std::size_t r = 0; r < fit.phase.size(); ++r) {
     const bool unknown = unidentifiable(fit, "phase_deg") ||
                          unidentifiable(fit, fmt::format("phase_deg[{}]", r + 1));
-    phases.push_back(known(unknown, fit.phase[r], unit::deg));
+    phases.push_back(known(unknown, fit.phase[r]));
   }
   return phases;
 }
@@ -128,7 +146,8 @@ void add_coefficients(const Fit& fit, Object& K, Object& identifiable) {
 }
 
 /// Of the forces that are measured.
-Array rms_axis_value(const Fit& fit) {
+Value rms_axis_value(const Fit& fit) {
+  if (!fit.ok) return {};
   Array out;
   for (std::size_t q = 0; q < 3; ++q) {
     out.push_back(fit.measured[q] ? Value(fit.rms_axis[q]) : Value());
@@ -136,64 +155,161 @@ Array rms_axis_value(const Fit& fit) {
   return out;
 }
 
-}  // namespace
-
-Array groups_value(const Fit& fit, std::span<const std::string> files) {
-  Array out;
-  for (const identification::Group& group : fit.groups) {
-    Array own;
-    for (const std::size_t r : group.runs) own.emplace_back(files[r]);
-    const auto g = static_cast<std::size_t>(&group - fit.groups.data());
-    out.emplace_back(Object{{"group", group.name.empty() ? Value() : Value(group.name)},
-                            {"coefficients", coefficients_value(group)},
-                            {"covariance", joint_value(joint_of(fit, g))},
-                            {"files", std::move(own)}});
-  }
-  return out;
+/// A number of a fit that succeeded, else null.
+template <class Get>
+auto of_success(Get get) {
+  return [get](const Fit& f) { return f.ok ? Value(std::invoke(get, f)) : Value(); };
 }
 
-Object fit_value(const Fit& fit) {
-  Object K;
-  Object identifiable;
-  add_coefficients(fit, K, identifiable);
-  Array phase_se;
-  for (const auto& se : fit.phase_se) {
-    phase_se.push_back(in_unit(se, unit::deg));
+/// How good a fit is.
+const Fields<Fit>& quality_fields() {
+  const auto solved = [](auto member) {  // a refusal may come before the equations
+    return [member](const Fit& f) { return f.rank > 0 ? Value(f.*member) : Value(); };
+  };
+  static const Fields<Fit> all{
+      {"rms_N", "sqrt(mean over samples of the squared difference) of the vector (I-5)",
+       of_success(&Fit::rms)},
+      {"rms_axis_N", "the same of each axis, `null` where that force was not measured",
+       rms_axis_value},
+      {"rms_meaning", "both in words",
+       [](const Fit&) {
+         return "square root of the mean over samples of |dF|^2, and of dF_q^2 per axis";
+       }},
+      {"condition", "condition number of [D] with columns of length one",
+       solved(&Fit::condition)},
+      {"rank", "of the same", solved(&Fit::rank)},
+      {"degrees_of_freedom", "data less unknowns", of_success(&Fit::freedom)},
+      {"band_harmonics", "harmonics of the spindle that were fitted; 0: all",
+       of_success(band_of)},
+      {"interval_factor",
+       "half of a 95 % confidence interval over its standard error, for every unknown of "
+       "the fit: what the terminal and the report print behind ± is this times the "
+       "standard error",
+       of_success(&Fit::interval_factor)},
+      {"residual_correlation",
+       "of neighbouring residuals (I-8); 0 with a band limit, where harmonics are counted "
+       "and not samples",
+       of_success(&Fit::residual_correlation)},
+      {"interval_widening",
+       "by how much the intervals of the coefficients are wider than white noise would "
+       "make them (rms of them), because residuals agree with their neighbours, repeat "
+       "turn by turn, or records disagree (I-13 to I-15): `se`, `low` and `high` hold it; "
+       "1 with `errors = \"white\"`",
+       of_success(&Fit::widening)},
+      {"unexplained_in_band",
+       "what the fit does not explain as a fraction of the force (rms, 0 to 1), within "
+       "its band (I-9)",
+       of_success([](const Fit& f) { return f.unexplained.in_band; })},
+      {"unexplained", "the same of everything",
+       of_success([](const Fit& f) { return f.unexplained.all; })},
+      {"outside_band", "fraction of the force (rms) that lies outside of the band",
+       of_success([](const Fit& f) { return f.unexplained.outside; })},
+      Field<Fit>{
+          "resonances",
+          "of the dynamometer, where its response is in the model: for `x`, `y`, "
+          "`z` of the tool, or `null` where none was found or the response was "
+          "given (I-17)",
+          [](const Fit& f) { return as_named(resonances_value(f)); },
+          [](const Fit& f) { return f.ok && !f.options.response.empty(); }}
+          .with({{".*", "of each axis"},
+                 {".*.frequency_Hz", "natural frequency"},
+                 {".*.damping_ratio", "of critical damping"}})};
+  return all;
+}
+
+/// What a fit found.
+const Fields<Fit>& found_fields() {
+  static const Fields<Fit> all{
+      {"chip_model", "of this fit",
+       [](const Fit& f) { return chip::name_of(f.chip.model); }},
+      {"lookback", "of the chip model",
+       [](const Fit& f) { return chip::name_of(f.chip.lookback); }},
+      {"ok", "whether there is an answer", &Fit::ok},
+      {"message", "when not, why", &Fit::message},
+      Field<Fit>{"coefficients",
+                 "each of the law, by its key in `[force]`; `null` with the reason in "
+                 "`identifiable`",
+                 [](const Fit& f) {
+                   Object K;
+                   Object identifiable;
+                   add_coefficients(f, K, identifiable);
+                   return as_named(std::move(K));
+                 }}
+          .with(below_estimate(".*.")),
+      {"runout", "`null` for model none", runout_fields(),
+       [](const Fit& f) {
+         return f.ok && chip::feels_runout(f.chip.model) ? &f : nullptr;
+       }},
+      {"phase_deg",
+       "true angle of the tip of tooth 1 less the recorded angle; a list in measurement "
+       "order, of one measurement the number alone. Equal pitch: the first within half a "
+       "pitch of 0, further ones within half a turn",
+       [](const Fit& f) { return all_given(alone_or_list(phases_value(f))); }},
+      {"phase_se_deg", "standard errors of the same",
+       [](const Fit& f) {
+         return alone_or_list(Array(f.phase_se.begin(), f.phase_se.end()));
+       }},
+      Field<Fit>{"channel_offsets",
+                 "where they were fitted: for each measurement those of its channels",
+                 [](const Fit& f) { return as_named(channel_offsets_value(f)); },
+                 [](const Fit& f) { return !f.channel_offsets.empty(); }}
+          .with({{"[][].constant_N", "at the middle of the record"},
+                 {"[][].slope_N", "from its beginning to its end"}}),
+      {"", "", quality_fields(), [](const Fit& f) { return &f; }},
+      Field<Fit>{"identifiable",
+                 "for each quantity `true`, or the reason why it cannot be told",
+                 [](const Fit& f) {
+                   Object K;
+                   Object identifiable;
+                   add_coefficients(f, K, identifiable);
+                   return identifiable;
+                 }}
+          .with({{".*", "by its key"}})};
+  return all;
+}
+
+}  // namespace
+
+const Fields<GroupOfRecords>& group_fields() {
+  using Of = const GroupOfRecords&;
+  static const Fields<GroupOfRecords> all{
+      {"group", "its name; `null`: records without one",
+       [](Of g) {
+         const std::string& name = g.fit.groups[g.group].name;
+         return name.empty() ? Value() : Value(name);
+       }},
+      Field<GroupOfRecords>{
+          "coefficients", "as those of the fit",
+          [](Of g) { return as_named(coefficients_value(g.fit.groups[g.group])); }}
+          .with(below_estimate(".*.")),
+      {"covariance", "as below", joint_fields(),
+       [](Of g) { return found_or_none(joint_of(g.fit, g.group)); }},
+      {"files", "of its records", [](Of g) {
+         Array own;
+         for (const std::size_t r : g.fit.groups[g.group].runs) {
+           own.emplace_back(g.files[r]);
+         }
+         return own;
+       }}};
+  return all;
+}
+
+std::vector<GroupOfRecords> groups_of(const FitOfRecords& of) {
+  std::vector<GroupOfRecords> groups;
+  for (std::size_t g = 0; g < of.fit.groups.size(); ++g) {
+    groups.push_back({of.fit, g, of.files});
   }
-  const bool solved = fit.rank > 0;  // a refusal may come before the equations
-  const auto number = [&](double value) { return fit.ok ? Value(value) : Value(); };
-  Object out{{"chip_model", chip::name_of(fit.chip.model)},
-             {"lookback", chip::name_of(fit.chip.lookback)},
-             {"ok", fit.ok},
-             {"message", fit.message},
-             {"coefficients", std::move(K)},
-             {"runout", runout_value(fit)},
-             {"phase_deg", alone_or_list(phases_value(fit))},
-             {"phase_se_deg", alone_or_list(std::move(phase_se))}};
-  if (!fit.channel_offsets.empty()) {
-    out.push_back({"channel_offsets", channel_offsets_value(fit)});
-  }
-  const Object quality{
-      {"rms_N", number(fit.rms)},
-      {"rms_axis_N", fit.ok ? Value(rms_axis_value(fit)) : Value()},
-      {"rms_meaning",
-       "square root of the mean over samples of |dF|^2, and of dF_q^2 per axis"},
-      {"condition", solved ? Value(fit.condition) : Value()},
-      {"rank", solved ? Value(fit.rank) : Value()},
-      {"degrees_of_freedom", number(fit.freedom)},
-      {"band_harmonics", fit.ok ? Value(band_of(fit)) : Value()},
-      {"interval_factor", number(fit.interval_factor)},
-      {"residual_correlation", number(fit.residual_correlation)},
-      {"interval_widening", number(fit.widening)},
-      {"unexplained_in_band", number(fit.unexplained.in_band)},
-      {"unexplained", number(fit.unexplained.all)},
-      {"outside_band", number(fit.unexplained.outside)}};
-  out.insert(out.end(), quality.begin(), quality.end());
-  if (fit.ok && !fit.options.response.empty()) {
-    out.push_back({"resonances", resonances_value(fit)});
-  }
-  out.push_back({"identifiable", std::move(identifiable)});
-  return out;
+  return groups;
+}
+
+const Fields<FitOfRecords>& fit_fields() {
+  static const Fields<FitOfRecords> all{
+      {"", "", found_fields(), [](const FitOfRecords& of) { return &of.fit; }},
+      {"groups",
+       "where a record names its `group`; `coefficients` of the fit are those of the "
+       "first group",
+       group_fields(), groups_of, &FitOfRecords::grouped}};
+  return all;
 }
 
 }  // namespace trochoid::results

@@ -1,15 +1,34 @@
 #pragma once
 
+#include <trochoid/results/fields.h>
+
 #include <trochoid/identification/identify.h>
-#include <trochoid/results/value.h>
+
+#include <span>
+#include <string>
+#include <vector>
 
 namespace trochoid::results {
 
-/// @brief One entry of `fits` of the summary.
-Object fit_value(const identification::Fit& fit);
+/// A fit, and the records that it is of.
+struct FitOfRecords {
+  const identification::Fit& fit;
+  std::span<const std::string> files = {};
+  bool grouped = false;  ///< a record names its group
+};
 
-/// @brief What each group of records found: its name, coefficients and files.
-/// @param files  one a record
-Array groups_value(const identification::Fit& fit, std::span<const std::string> files);
+/// @brief The keys of an entry of `fits`.
+const Fields<FitOfRecords>& fit_fields();
+
+/// A group of records.
+struct GroupOfRecords {
+  const identification::Fit& fit;
+  std::size_t group = 0;
+  std::span<const std::string> files;
+};
+
+/// @brief What each group found: its name, coefficients and files.
+const Fields<GroupOfRecords>& group_fields();
+std::vector<GroupOfRecords> groups_of(const FitOfRecords& fit);
 
 }  // namespace trochoid::results

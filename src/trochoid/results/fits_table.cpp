@@ -82,9 +82,9 @@ std::string phase_text(const Fit& fit, std::size_t run) {
 using Cells = std::vector<std::string>;
 
 /// One column a fit.
-class Columns {
+class FitColumns {
  public:
-  explicit Columns(std::span<const Fit> fits) : fits_(fits) {}
+  explicit FitColumns(std::span<const Fit> fits) : fits_(fits) {}
 
   void row(std::string name, const std::function<std::string(const Fit&)>& text) {
     std::vector<std::string> cells{std::move(name)};
@@ -103,7 +103,7 @@ class Columns {
   std::vector<std::vector<std::string>> rows_;
 };
 
-void add_runout(const Fit& first, Columns& columns) {
+void add_runout(const Fit& first, FitColumns& columns) {
   const RunoutUnknowns form = first.options.runout;
   if (form == RunoutUnknowns::none) return;
   if (form != RunoutUnknowns::eccentricity) {
@@ -115,7 +115,7 @@ void add_runout(const Fit& first, Columns& columns) {
   }
 }
 
-void add_quality(Columns& columns) {
+void add_quality(FitColumns& columns) {
   columns.row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
   columns.row("unexplained (rms)",
               [](const Fit& fit) { return base::percent(fit.unexplained.in_band); });
@@ -148,7 +148,7 @@ std::string groups_table(const Fit& fit) {
 }
 
 std::string fits_table(std::span<const Fit> fits) {
-  Columns columns(fits);
+  FitColumns columns(fits);
   std::vector<std::string> head{"chip model (95 %: +-)"};
   for (const Fit& fit : fits) {
     head.emplace_back(chip::name_of(fit.chip.model));

@@ -3,7 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/results/clocking.h>
 #include <trochoid/results/curve_tables.h>
-#include <trochoid/results/estimate_value.h>
+#include <trochoid/results/descriptions.h>
 #include <trochoid/results/fit_value.h>
 #include <trochoid/results/fits_table.h>
 #include <trochoid/results/joint_of_fit.h>
@@ -12,13 +12,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
 
 namespace trochoid::results {
 
 namespace {
 
-using base::add_column;
 using identification::Fit;
 
 bool is_signed_permutation(const signal::Matrix3& M) {
@@ -26,43 +27,64 @@ bool is_signed_permutation(const signal::Matrix3& M) {
   return std::find(all.begin(), all.end(), M) != all.end();
 }
 
-Object signal_value(const IdentifyResult& r) {
-  Array files;
-  Array samples;
-  Array rpm;
-  Array rpm_se;
-  Array stated;
-  for (const RecordSummary& record : r.records) {
-    files.emplace_back(record.file);
-    samples.emplace_back(record.samples);
-    rpm.emplace_back(unit::in(record.Omega, unit::rpm));
-    rpm_se.push_back(record.Omega_se > 0 ? Value(record.Omega_se / unit::rpm)
-                                         : Value());
-    stated.emplace_back(unit::in(record.stated_Omega, unit::rpm));
-  }
-  Object out{{"files", std::move(files)},
-             {"samples", std::move(samples)},
-             {"spindle_rpm", alone_or_list(std::move(rpm))},
-             {"spindle_rpm_se", alone_or_list(std::move(rpm_se))},
-             {"stated_rpm", alone_or_list(std::move(stated))}};
-  if (!r.folded.empty()) {
-    Array turns;
-    for (const signal::OneRevolution& one : r.folded) {
-      turns.emplace_back(one.revolutions);
+/// A list of one number a record; of a single record the number alone.
+template <class Get>
+auto of_records(Get get) {
+  return [get](const IdentifyResult& r) {
+    Array list;
+    for (const RecordSummary& record : r.records) {
+      list.emplace_back(std::invoke(get, record));
     }
-    out.push_back({"revolutions", std::move(turns)});
-  }
-  if (is_signed_permutation(r.channels)) {
-    out.push_back({"axes", signal::axes_names(r.channels)});
-  } else {
-    out.push_back({"axes", nullptr});
-    out.push_back({"matrix", r.channels});
-  }
-  if (r.axes) {
-    out.push_back({"axes_rms_N", r.axes->rms});
-    out.push_back({"axes_next_rms_N", r.axes->next_rms});
-  }
-  return out;
+    return alone_or_list(std::move(list));
+  };
+}
+
+const Fields<IdentifyResult>& signal_fields() {
+  using R = const IdentifyResult&;
+  const auto searched = [](R r) { return r.axes.has_value(); };
+  static const Fields<IdentifyResult> all{
+      {"files", "the records, in measurement order",
+       [](R r) {
+         Array files;
+         for (const RecordSummary& record : r.records) files.emplace_back(record.file);
+         return files;
+       }},
+      {"samples", "of each",
+       [](R r) {
+         Array samples;
+         for (const RecordSummary& one : r.records) samples.emplace_back(one.samples);
+         return samples;
+       }},
+      {"spindle_rpm", "spindle speed found, of a single record the number alone",
+       [](R r) { return all_given(of_records(&RecordSummary::Omega)(r)); }},
+      {"spindle_rpm_se", "its standard error, or `null`",
+       of_records([](const RecordSummary& one) {
+         return one.Omega_se > 0 ? Value(one.Omega_se / unit::rpm) : Value();
+       })},
+      {"stated_rpm", "spindle speed of the case",
+       [](R r) { return all_given(of_records(&RecordSummary::stated_Omega)(r)); }},
+      {"revolutions", "how many turns of each record were laid over one another",
+       [](R r) {
+         Array turns;
+         for (const signal::OneRevolution& one : r.folded) {
+           turns.emplace_back(one.revolutions);
+         }
+         return turns;
+       },
+       [](R r) { return !r.folded.empty(); }},
+      {"axes", "of the dynamometer; `null` where they are no signed permutation",
+       [](R r) {
+         return is_signed_permutation(r.channels)
+                    ? Value(signal::axes_names(r.channels))
+                    : Value();
+       }},
+      {"matrix", "of the dynamometer, in that case", &IdentifyResult::channels,
+       [](R r) { return !is_signed_permutation(r.channels); }},
+      {"axes_rms_N", "with `axes = \"auto\"`: what the choice leaves",
+       [](R r) { return r.axes->rms; }, searched},
+      {"axes_next_rms_N", "and what the next one leaves",
+       [](R r) { return r.axes->next_rms; }, searched}};
+  return all;
 }
 
 /// Whether the curves of all samples are written, or those of a mean turn.
@@ -72,22 +94,30 @@ bool whole(const IdentifyResult& r) {
   return r.whole_curves || samples <= most_curve_samples;
 }
 
-Object form_value(const identification::RunoutForm& form) {
-  Array tried;
-  for (const identification::FormTried& one : form.tried) {
-    tried.push_back(Object{{"form", identification::name_of(one.form)},
-                           {"rms_N", one.rms},
-                           {"excess", one.excess}});
-  }
-  return Object{
-      {"form", identification::name_of(form.stated ? form.first : form.better)},
-      {"decided_by", form.stated ? "case" : "record"},
-      {"better", identification::name_of(form.better)},
-      {"why", form.why},
-      {"tried", std::move(tried)}};
+const Fields<identification::RunoutForm>& form_fields() {
+  using Tried = identification::FormTried;
+  static const Fields<Tried> tried{
+      {"form", "as in `[identify] runout`",
+       [](const Tried& one) { return identification::name_of(one.form); }},
+      {"rms_N", "that it leaves", &Tried::rms},
+      {"excess",
+       "how much worse it would foretell further turns than the better one, in what one "
+       "unknown explains by chance (I-18); below 4 it decides nothing",
+       &Tried::excess}};
+  static const Fields<identification::RunoutForm> all{
+      {"form", "that was fitted",
+       [](const identification::RunoutForm& f) {
+         return identification::name_of(f.stated ? f.first : f.better);
+       }},
+      {"decided_by", "`case` or `record`",
+       [](const identification::RunoutForm& f) { return f.stated ? "case" : "record"; }},
+      {"better", "that the records decide for",
+       [](const identification::RunoutForm& f) { return identification::name_of(f.better); }},
+      {"why", "in words", &identification::RunoutForm::why},
+      {"tried", "each form that was tried", tried, &identification::RunoutForm::tried}};
+  return all;
 }
 
-/// How the answer depends on the harmonics that are fitted.
 Array views_value(const IdentifyResult& r) {
   const auto name = force::coefficient_quantities(r.fits.front().law).front();
   Array out;
@@ -118,44 +148,90 @@ bool has_groups(const IdentifyResult& r) {
                      [](const identification::Run& run) { return !run.group.empty(); });
 }
 
-Object result_of(const IdentifyResult& r) {
+/// A result, and what all its fits and groups need of it.
+struct Identified {
+  const IdentifyResult& r;
   std::vector<std::string> files;
-  for (const RecordSummary& record : r.records) {
-    files.push_back(record.file);
+  bool grouped = has_groups(r);
+
+  explicit Identified(const IdentifyResult& of) : r(of) {
+    for (const RecordSummary& record : r.records) files.push_back(record.file);
   }
-  const bool grouped = has_groups(r);
-  Array fits;
-  for (const Fit& fit : r.fits) {
-    Object value = fit_value(fit);
-    if (grouped) {
-      set(value, "groups", groups_value(fit, files));
-    }
-    fits.emplace_back(std::move(value));
+  [[nodiscard]] FitOfRecords fit(std::size_t i) const {
+    return {r.fits[i], files, grouped};
   }
-  Object result{{"fits", std::move(fits)}, {"chosen", nullptr}};
-  if (r.chosen) {
-    const Fit& chosen = r.fits[*r.chosen];
-    set(result, "chosen", chip::name_of(chosen.chip.model));
-    set(result, "covariance", joint_value(joint_of(chosen, 0)));
-    if (grouped) {
-      set(result, "groups", groups_value(chosen, files));
-    }
-  }
-  if (!r.records.empty()) {
-    set(result, "signal", signal_value(r));
-  }
-  if (r.clocking) {
-    set(result, "clocking", clocking_value(*r.clocking, factor_of(r)));
-  }
-  if (r.chosen) {
-    if (r.runout_form) set(result, "runout_form", form_value(*r.runout_form));
-    if (!r.views.empty()) set(result, "views", views_value(r));
-    set(result, "curves", whole(r) ? "whole" : "mean turn");
-    set(result, "verdict", verdict_of(r));
-    set(result, "with_care", r.reasons_for_care);
-    set(result, "do_not_use", r.reasons_against);
-  }
-  return result;
+};
+
+const Fields<Identified>& identified_fields() {
+  using Of = const Identified&;
+  const auto chosen = [](Of of) { return of.r.chosen.has_value(); };
+  static const Fields<Identified> all{
+      {"fits", "one for each entry of `chip_models`, in that order", fit_fields(),
+       [](Of of) {
+         std::vector<FitOfRecords> fits;
+         for (std::size_t i = 0; i < of.r.fits.size(); ++i) fits.push_back(of.fit(i));
+         return fits;
+       }},
+      {"chosen",
+       "the fit that `material.toml` holds: the trochoidal one if it was asked for, else "
+       "the best",
+       [](Of of) {
+         return of.r.chosen ? Value(chip::name_of(of.r.fits[*of.r.chosen].chip.model))
+                            : Value();
+       }},
+      {"covariance",
+       "of the chosen fit, the first group: what `[sweep] covariance` draws "
+       "from",
+       joint_fields(),
+       [](Of of) { return found_or_none(joint_of(of.r.fits[*of.r.chosen], 0)); },
+       chosen},
+      {"groups", "those of the chosen fit", group_fields(),
+       [](Of of) { return groups_of(of.fit(*of.r.chosen)); },
+       [](Of of) { return of.r.chosen && of.grouped; }},
+      {"signal", "what was found in the records before anything was fitted",
+       signal_fields(), [](Of of) { return &of.r; },
+       [](Of of) { return !of.r.records.empty(); }},
+      {"clocking", "of an identified eccentricity", clocking_fields(),
+       [](Of of) {
+         return Clocked{*of.r.clocking, factor_of(of.r)};
+       },
+       [](Of of) { return of.r.clocking.has_value(); }},
+      {"runout_form", "how the form of the runout was decided", form_fields(),
+       [](Of of) { return of.r.runout_form; },
+       [](Of of) { return of.r.chosen && of.r.runout_form; }},
+      Field<Identified>{
+          "views",
+          "where what a fit leaves repeats turn by turn: the chosen view first, then "
+          "others",
+          [](Of of) { return as_named(views_value(of.r)); },
+          [](Of of) { return of.r.chosen && !of.r.views.empty(); }}
+          .with({{"[].band_harmonics", "0: all"},
+                 {"[].resonance",
+                  "whether resonances of the dynamometer are in the model"},
+                 {"[].K_*", "the first coefficient of the law, by its key"},
+                 {"[].K_*.value", "in the unit of its key"},
+                 {"[].K_*.se", "one standard error"},
+                 {"[].K_*.low", "of the 95 % confidence interval"},
+                 {"[].K_*.high", "of the 95 % confidence interval"},
+                 {"[].unexplained", "part of the whole force"}}),
+      {"curves",
+       "`whole`, or `mean turn` where the records are long and `fitted.csv`, "
+       "`residual.csv` hold the mean turn of each (`--curves` keeps every sample)",
+       [](Of of) { return whole(of.r) ? "whole" : "mean turn"; }, chosen},
+      {"verdict",
+       "`usable`, `usable with care` or `do not use`: the first line printed and the "
+       "first of the report",
+       [](Of of) { return verdict_of(of.r); }, chosen},
+      {"with_care",
+       "why to use the numbers with care, a few words for each; empty: no reason seen, or "
+       "`do_not_use` holds some",
+       [](Of of) { return of.r.reasons_for_care; }, chosen},
+      {"do_not_use",
+       "reasons why the numbers must not be used; empty: none. Then `message`, the table "
+       "and `material.toml` begin with `Do not use these numbers`, and warnings "
+       "`likely_cause` say what to look at",
+       [](Of of) { return of.r.reasons_against; }, chosen}};
+  return all;
 }
 
 /// Below the table of fits: axes and spindle speeds found.
@@ -192,97 +268,159 @@ std::string short_table(const IdentifyResult& r) {
          form_line(r) + gauge + signal_lines(r);
 }
 
-/// folded.csv: mean and scatter of the measured force over one turn; none where no
-/// record holds two whole turns.
-std::optional<base::Table> folded_table(
-    const std::vector<signal::OneRevolution>& folded,
-    std::span<const identification::Run> runs) {
+constexpr std::array<const char*, 3> axis_words = {"Fx", "Fy", "Fz"};
+
+/// The bins of all records that hold something.
+struct Folded {
   struct Bin {
     std::size_t run;
     std::size_t at;
   };
-  std::vector<Bin> bins;
-  for (std::size_t r = 0; r < folded.size(); ++r) {
-    for (std::size_t b = 0; folded[r].revolutions >= 2 && b < folded[r].angle.size();
-         ++b) {
-      if (folded[r].count[b] >= 2) {
-        bins.push_back({r, b});
+  std::span<const signal::OneRevolution> folded;
+  std::span<const identification::Run> runs;
+  std::vector<Bin> bins = {};
+  std::vector<std::size_t> axes = {};  ///< that any of the runs has measured
+
+  Folded(std::span<const signal::OneRevolution> turns,
+         std::span<const identification::Run> of)
+      : folded(turns), runs(of) {
+    for (std::size_t r = 0; r < folded.size(); ++r) {
+      for (std::size_t b = 0; folded[r].revolutions >= 2 && b < folded[r].angle.size();
+           ++b) {
+        if (folded[r].count[b] >= 2) bins.push_back({r, b});
+      }
+    }
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (std::ranges::any_of(bins, [&](Bin bin) { return measured(bin, q); })) {
+        axes.push_back(q);
       }
     }
   }
-  if (bins.empty()) {
-    return std::nullopt;
+  [[nodiscard]] bool measured(Bin bin, std::size_t q) const {
+    return bin.run >= runs.size() || runs[bin.run].measured[q];
   }
-  base::Table table{"folded.csv", {}};
-  const std::size_t n = bins.size();
-  add_column(table, "run", n, [&](std::size_t i) { return bins[i].run + 1; });
-  add_column(table, "angle_deg", n, [&](std::size_t i) {
-    return folded[bins[i].run].angle[bins[i].at] / unit::deg;
-  });
-  constexpr const char* axis[] = {"Fx", "Fy", "Fz"};
-  for (std::size_t q = 0; q < 3; ++q) {
-    const auto measured = [&](const Bin& bin) {
-      return bin.run >= runs.size() || runs[bin.run].measured[q];
-    };
-    if (std::ranges::none_of(bins, measured)) continue;
-    const auto value = [&](std::size_t i, const auto& of) {
-      return measured(bins[i]) ? of[q][bins[i].at]
-                               : std::numeric_limits<double>::quiet_NaN();
-    };
-    add_column(table, fmt::format("{}_mean_N", axis[q]), n,
-               [&](std::size_t i) { return value(i, folded[bins[i].run].mean); });
-    add_column(table, fmt::format("{}_sd_N", axis[q]), n,
-               [&](std::size_t i) { return value(i, folded[bins[i].run].scatter); });
+  [[nodiscard]] double value(std::size_t i, std::size_t which) const {
+    const std::size_t q = axes[which / 2];
+    if (!measured(bins[i], q)) return std::numeric_limits<double>::quiet_NaN();
+    const signal::OneRevolution& one = folded[bins[i].run];
+    return (which % 2 == 0 ? one.mean : one.scatter)[q][bins[i].at];
   }
-  return table;
+};
+
+const Columns<Folded>& folded_columns() {
+  using Of = const Folded&;
+  static const Columns<Folded> all{
+      "folded.csv",
+      [](Of f) { return f.bins.size(); },
+      {{"run", "number of the measurement, from 1",
+        [](Of f, std::size_t i) { return f.bins[i].run + 1; }},
+       {"angle_deg", "middle of the bin",
+        [](Of f, std::size_t i) {
+          return f.folded[f.bins[i].run].angle[f.bins[i].at];
+        }},
+       {"*_N",
+        "`Fx_mean_N`, `Fx_sd_N`, ...: mean and standard deviation of the measured "
+        "force over one turn",
+        [](Of f) {
+          std::vector<std::string> names;
+          for (const std::size_t q : f.axes) {
+            names.push_back(fmt::format("{}_mean", axis_words[q]));
+            names.push_back(fmt::format("{}_sd", axis_words[q]));
+          }
+          return names;
+        },
+        [](Of f, std::size_t i, std::size_t k) { return f.value(i, k); }}}};
+  return all;
 }
 
-/// overview.csv: the whole records in few pieces, and which of them were used.
-base::Table overview_table(std::span<const signal::Overview> overviews) {
+/// The whole records in few pieces.
+struct Overviews {
   struct Piece {
-    std::size_t run = 0;
-    std::size_t at = 0;
+    std::size_t run;
+    std::size_t at;
   };
-  std::vector<Piece> pieces;
-  bool timed = true;
-  for (std::size_t r = 0; r < overviews.size(); ++r) {
-    timed = timed && !overviews[r].time.empty();
-    for (std::size_t k = 0; k < overviews[r].turn.size(); ++k) pieces.push_back({r, k});
+  std::span<const signal::Overview> overviews;
+  std::vector<Piece> pieces = {};
+  std::vector<std::size_t> channels = {};  ///< that all of them have
+
+  explicit Overviews(std::span<const signal::Overview> of) : overviews(of) {
+    for (std::size_t r = 0; r < overviews.size(); ++r) {
+      for (std::size_t k = 0; k < overviews[r].turn.size(); ++k)
+        pieces.push_back({r, k});
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto there = [&](const signal::Overview& o) { return !o.low[c].empty(); };
+      if (std::ranges::all_of(overviews, there)) channels.push_back(c);
+    }
   }
-  base::Table table{"overview.csv", {}};
-  const std::size_t n = pieces.size();
-  const auto of = [&](std::size_t i) -> const signal::Overview& {
-    return overviews[pieces[i].run];
-  };
-  add_column(table, "run", n, [&](std::size_t i) { return pieces[i].run + 1; });
-  if (timed) {
-    add_column(table, "time_s", n,
-               [&](std::size_t i) { return of(i).time[pieces[i].at]; });
+  template <class Values>
+  [[nodiscard]] double value(std::size_t i, const Values& of) const {
+    return of(overviews[pieces[i].run])[pieces[i].at];
   }
-  add_column(table, "turn", n, [&](std::size_t i) { return of(i).turn[pieces[i].at]; });
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto there = [&](const signal::Overview& o) { return !o.low[c].empty(); };
-    if (!std::ranges::all_of(overviews, there)) continue;
-    add_column(table, fmt::format("channel{}_low_N", c + 1), n,
-               [&](std::size_t i) { return of(i).low[c][pieces[i].at]; });
-    add_column(table, fmt::format("channel{}_high_N", c + 1), n,
-               [&](std::size_t i) { return of(i).high[c][pieces[i].at]; });
-  }
-  add_column(table, "used", n,
-             [&](std::size_t i) { return of(i).used[pieces[i].at] ? 1 : 0; });
-  return table;
+};
+
+const Columns<Overviews>& overview_columns() {
+  using Of = const Overviews&;
+  static const Columns<Overviews> all{
+      "overview.csv",
+      [](Of o) { return o.pieces.size(); },
+      {{"run", "number of the measurement, from 1",
+        [](Of o, std::size_t i) { return o.pieces[i].run + 1; }},
+       {"time_s", "middle of the piece, where all records have times",
+        [](Of o, std::size_t i) {
+          return o.value(
+              i, [](const auto& one) -> auto& { return one.time; });
+        },
+        [](Of o) {
+          return std::ranges::none_of(o.overviews,
+                                      [](const auto& one) { return one.time.empty(); });
+        }},
+       {"turn", "the same in turns of the spindle as stated",
+        [](Of o, std::size_t i) {
+          return o.value(
+              i, [](const auto& one) -> auto& { return one.turn; });
+        }},
+       {"channel*_N",
+        "`channel1_low_N`, `channel1_high_N`, ...: smallest and largest reading of each "
+        "channel",
+        [](Of o) {
+          std::vector<std::string> names;
+          for (const std::size_t c : o.channels) {
+            names.push_back(fmt::format("{}_low", c + 1));
+            names.push_back(fmt::format("{}_high", c + 1));
+          }
+          return names;
+        },
+        [](Of o, std::size_t i, std::size_t k) {
+          return o.value(
+              i, [&](const auto& one) -> auto& {
+                return (k % 2 == 0 ? one.low : one.high)[o.channels[k / 2]];
+              });
+        }},
+       {"used", "1: its middle is in the part that was used", [](Of o, std::size_t i) {
+          return o.value(
+              i, [](const auto& one) -> auto& { return one.used; });
+        }}}};
+  return all;
 }
 
-base::Table sweep_table(const OffsetSweep& sweep) {
-  base::Table table{"sweep.csv", {}};
-  const std::size_t n = sweep.offset.size();
-  add_column(table, "offset_um", n,
-             [&](std::size_t i) { return unit::in(sweep.offset[i], unit::um); });
-  for (const OffsetSweep::Curve& curve : sweep.curves) {
-    add_column(table, fmt::format("rms_{}_N", chip::name_of(curve.model)), n,
-               [&](std::size_t i) { return curve.rms[i]; });
-  }
-  return table;
+const Columns<OffsetSweep>& offset_sweep_columns() {
+  using Of = const OffsetSweep&;
+  static const Columns<OffsetSweep> all{
+      "sweep.csv",
+      [](Of s) { return s.offset.size(); },
+      {{"offset_um", "of tooth 2",
+        [](Of s, std::size_t i) { return given(s.offset[i]); }},
+       {"rms_*_N", "left by each chip model of that name, coefficients fitted anew",
+        [](Of s) {
+          std::vector<std::string> names;
+          for (const OffsetSweep::Curve& curve : s.curves) {
+            names.emplace_back(chip::name_of(curve.model));
+          }
+          return names;
+        },
+        [](Of s, std::size_t i, std::size_t k) { return s.curves[k].rms[i]; }}}};
+  return all;
 }
 
 std::vector<base::Table> tables_of(const IdentifyResult& r) {
@@ -295,15 +433,17 @@ std::vector<base::Table> tables_of(const IdentifyResult& r) {
   std::vector<base::Table> tables =
       whole(r) ? curve_tables(r.runs, computed)
                : curve_tables(mean_turns(r.runs, computed), computed);
-  if (!r.overviews.empty()) tables.push_back(overview_table(r.overviews));
-  if (auto folded = folded_table(r.folded, r.runs)) {
-    tables.push_back(std::move(*folded));
+  if (!r.overviews.empty()) {
+    tables.push_back(overview_columns().table(Overviews(r.overviews)));
+  }
+  if (const Folded folded(r.folded, r.runs); !folded.bins.empty()) {
+    tables.push_back(folded_columns().table(folded));
   }
   if (r.curve) {
     tables.push_back(chip_curve_table(*r.curve));
   }
   if (r.sweep && !r.sweep->curves.empty()) {
-    tables.push_back(sweep_table(*r.sweep));
+    tables.push_back(offset_sweep_columns().table(*r.sweep));
   }
   return tables;
 }
@@ -313,7 +453,7 @@ std::vector<base::Table> tables_of(const IdentifyResult& r) {
 Answer answer_of(const IdentifyResult& r) {
   Answer answer{.command = "identify",
                 .heading = r.heading,
-                .result = result_of(r),
+                .result = identified_fields().object(Identified(r)),
                 .short_table = short_table(r)};
   if (r.chosen) {
     answer.tables = tables_of(r);
@@ -325,6 +465,16 @@ Answer answer_of(const IdentifyResult& r) {
     }
   }
   return answer;
+}
+
+Description description_of_identify() {
+  Description all{.command = "identify", .keys = identified_fields().texts()};
+  overview_columns().add_texts(all.columns);
+  folded_columns().add_texts(all.columns);
+  offset_sweep_columns().add_texts(all.columns);
+  add_texts_of_curves(all.columns);
+  add_texts_of_chip_curve(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

@@ -27,46 +27,52 @@ double interval_factor(const base::Estimate& estimate) {
                          : base::normal_interval;
 }
 
+const Fields<Joint>& joint_fields() {
+  static const Fields<JointMode> mode{
+      {"body", "that moves", &JointMode::body},
+      {"axis", "along which it moves", &JointMode::axis}};
+  using Lost = std::pair<std::string, std::string>;
+  static const Fields<Lost> not_found{{"name", "a key of a case", &Lost::first},
+                                      {"why", "it was not found", &Lost::second}};
+  static const Fields<Joint> all{
+      {"law", "of the coefficients, where there are some", &Joint::law,
+       [](const Joint& j) { return !j.law.empty(); }},
+      {"chip_model", "that they were found with", &Joint::chip_model,
+       [](const Joint& j) { return !j.chip_model.empty(); }},
+      {"teeth", "of the runout, where there is one", &Joint::teeth,
+       [](const Joint& j) { return j.teeth > 0; }},
+      {"modes", "of modes.toml, in its order", mode, &Joint::modes,
+       [](const Joint& j) { return !j.modes.empty(); }},
+      {"names",
+       "keys of a case: `force.K_tc_MPa`, `runout.radial_offsets_mm[2]`, "
+       "`mode[1].frequency_Hz`, `mode[1].damping_ratio`, `mode[1].mass_kg`. An "
+       "eccentricity stands as `runout.e_x_mm`, `runout.e_y_mm`: rho cos(lambda), rho "
+       "sin(lambda)",
+       &Joint::names},
+      {"found", "as found, in the unit of the name", &Joint::values},
+      {"interval_factors",
+       "half of each 95 % interval over the square root of its variance",
+       &Joint::factors},
+      {"matrix", "covariance, row by row: that of which the intervals are (U-1)",
+       [](const Joint& j) {
+         const auto n = static_cast<std::ptrdiff_t>(j.names.size());
+         Array rows;
+         for (auto row = j.covariance.begin(); row != j.covariance.end(); row += n) {
+           rows.emplace_back(Array(row, row + n));
+         }
+         return rows;
+       }},
+      {"not_found", "what was looked for and is not among the names", not_found,
+       &Joint::not_found}};
+  return all;
+}
+
+std::optional<Joint> found_or_none(Joint joint) {
+  return joint.names.empty() ? std::nullopt : std::optional(std::move(joint));
+}
+
 Value joint_value(const Joint& joint) {
-  if (joint.names.empty()) {
-    return nullptr;
-  }
-  const std::size_t n = joint.names.size();
-  Array matrix;
-  for (std::size_t i = 0; i < n; ++i) {
-    Array row;
-    for (std::size_t j = 0; j < n; ++j) {
-      row.emplace_back(joint.covariance[i * n + j]);
-    }
-    matrix.emplace_back(std::move(row));
-  }
-  Object out;
-  if (!joint.law.empty()) {
-    out.push_back({"law", joint.law});
-  }
-  if (!joint.chip_model.empty()) {
-    out.push_back({"chip_model", joint.chip_model});
-  }
-  if (joint.teeth > 0) {
-    out.push_back({"teeth", joint.teeth});
-  }
-  if (!joint.modes.empty()) {
-    Array modes;
-    for (const JointMode& mode : joint.modes) {
-      modes.emplace_back(Object{{"body", mode.body}, {"axis", mode.axis}});
-    }
-    out.push_back({"modes", std::move(modes)});
-  }
-  Array not_found;
-  for (const auto& [name, why] : joint.not_found) {
-    not_found.emplace_back(Object{{"name", name}, {"why", why}});
-  }
-  out.push_back({"names", joint.names});
-  out.push_back({"found", joint.values});
-  out.push_back({"interval_factors", joint.factors});
-  out.push_back({"matrix", std::move(matrix)});
-  out.push_back({"not_found", std::move(not_found)});
-  return out;
+  return joint.names.empty() ? Value() : joint_fields().object(joint);
 }
 
 }  // namespace trochoid::results

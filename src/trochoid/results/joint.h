@@ -1,9 +1,10 @@
 #pragma once
 
 #include <trochoid/base/estimate.h>
-#include <trochoid/results/value.h>
+#include <trochoid/results/fields.h>
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -50,7 +51,13 @@ void set_covariance(Joint& joint, std::span<const double> covariance,
 /// w of an estimate.
 double interval_factor(const base::Estimate& estimate);
 
-/// @brief As it stands in summary.json; null where nothing was found.
+/// Its keys in summary.json.
+const Fields<Joint>& joint_fields();
+
+/// Nothing where nothing was found.
+std::optional<Joint> found_or_none(Joint joint);
+
+/// @brief As it stands there; null where nothing was found.
 Value joint_value(const Joint& joint);
 
 /// What was read from a summary.json.

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/overloaded.h>
 #include <trochoid/base/units.h>
+#include <trochoid/results/descriptions.h>
 #include <trochoid/results/text_table.h>
 
 #include <fmt/core.h>
@@ -14,8 +15,6 @@
 namespace trochoid::results {
 
 namespace {
-
-using base::add_column;
 
 /// So many of the cuts are in the summary; all are in plan.csv.
 constexpr std::size_t most_in_summary = 100;
@@ -54,45 +53,81 @@ Value interval(const PlannedQuantity& q, const std::optional<double>& se,
                 {"high", (q.value + factor * *se) / q.unit}};
 }
 
-Object cut_value(const PlanResult& r, const PlannedCut& cut) {
-  Object predicted;
-  for (std::size_t i = 0; i < r.quantities.size(); ++i) {
-    set(predicted, r.quantities[i].key,
-        interval(r.quantities[i], cut.se[i], r.factor_after));
-  }
-  return {{"engagement", engagements[cut.cut.engagement.index()]},
-          {"feed_per_tooth_mm", unit::in(cut.cut.f_z, unit::mm)},
-          {"axial_depth_mm", unit::in(cut.cut.a_p, unit::mm)},
-          {"radial_depth_mm", unit::in(radial_depth(r, cut.cut), unit::mm)},
-          {"turns", r.turns},
-          {"peak_force_N", cut.peak_force},
-          {"narrows", narrows(r, cut)},
-          {"predicted", std::move(predicted)}};
+/// A cut of a plan.
+struct CutOfPlan {
+  const PlanResult& r;
+  const PlannedCut& cut;
+};
+
+const Fields<CutOfPlan>& planned_cut_fields() {
+  using Of = const CutOfPlan&;
+  static const Fields<CutOfPlan> all{
+      {"engagement", "`slot`, `up` or `down`",
+       [](Of c) { return engagements[c.cut.cut.engagement.index()]; }},
+      {"feed_per_tooth_mm", "of the cut", [](Of c) { return given(c.cut.cut.f_z); }},
+      {"axial_depth_mm", "of the cut", [](Of c) { return given(c.cut.cut.a_p); }},
+      {"radial_depth_mm", "of a slot the diameter",
+       [](Of c) { return given(radial_depth(c.r, c.cut.cut)); }},
+      {"turns", "to be measured", [](Of c) { return c.r.turns; }},
+      {"peak_force_N", "in the plane of the table",
+       [](Of c) { return c.cut.peak_force; }},
+      {"narrows",
+       "I-21: geometric mean of the factors by which the standard errors of the "
+       "quantities, taken together, become smaller; `null` where they are not all known "
+       "so far",
+       [](Of c) { return narrows(c.r, c.cut); }},
+      Field<CutOfPlan>{
+          "predicted",
+          "of each quantity once the cut has been measured, together with what is known: "
+          "the value is the present one. `radial_offset_2_mm` is the offset of tooth 2",
+          [](Of c) {
+            Object predicted;
+            for (std::size_t i = 0; i < c.r.quantities.size(); ++i) {
+              set(predicted, c.r.quantities[i].key,
+                  interval(c.r.quantities[i], c.cut.se[i], c.r.factor_after));
+            }
+            return predicted;
+          }}
+          .with(below_estimate(".*."))};
+  return all;
 }
 
-Object result_of(const PlanResult& r) {
-  Array cuts;
-  for (std::size_t i = 0; i < std::min(r.cuts.size(), most_in_summary); ++i) {
-    cuts.emplace_back(cut_value(r, r.cuts[i]));
-  }
-  Object before;
-  for (const PlannedQuantity& q : r.quantities) {
-    set(before, q.key, interval(q, q.se, r.factor_before));
-  }
-  Array left_out;
-  for (const LeftOut& one : r.left_out) {
-    left_out.emplace_back(Object{{"reason", one.reason}, {"count", one.count}});
-  }
-  return {{"cuts", std::move(cuts)},
-          {"before", std::move(before)},
-          {"looked_at", r.looked_at},
-          {"left_out", std::move(left_out)},
-          {"noise_N", r.noise},
-          {"noise_from", r.noise_from},
-          {"turns", r.turns},
-          {"samples_per_rev", r.samples_per_rev},
-          {"files", r.files},
-          {"group", r.group.empty() ? Value() : Value(r.group)}};
+const Fields<PlanResult>& plan_fields() {
+  using R = const PlanResult&;
+  static const Fields<LeftOut> left_out{{"reason", "in words", &LeftOut::reason},
+                                        {"count", "of cuts", &LeftOut::count}};
+  static const Fields<PlanResult> all{
+      {"cuts", "the best hundred, best first", planned_cut_fields(),
+       [](R r) {
+         std::vector<CutOfPlan> cuts;
+         for (std::size_t i = 0; i < std::min(r.cuts.size(), most_in_summary); ++i) {
+           cuts.push_back({r, r.cuts[i]});
+         }
+         return cuts;
+       }},
+      Field<PlanResult>{"before", "each quantity as known so far; `null` where it is not",
+                        [](R r) {
+                          Object before;
+                          for (const PlannedQuantity& q : r.quantities) {
+                            set(before, q.key, interval(q, q.se, r.factor_before));
+                          }
+                          return before;
+                        }}
+          .with(below_estimate(".*.")),
+      {"looked_at", "how many cuts", &PlanResult::looked_at},
+      {"left_out", "those that were not compared", left_out, &PlanResult::left_out},
+      {"noise_N", "of a sample", &PlanResult::noise},
+      {"noise_from",
+       "whether it is of the `records` (widening of I-13 included), `given`, or `assumed`",
+       &PlanResult::noise_from},
+      {"turns", "of each cut", &PlanResult::turns},
+      {"samples_per_rev", "of each cut", &PlanResult::samples_per_rev},
+      {"files", "what was measured so far", &PlanResult::files},
+      {"group",
+       "whose coefficients these are, where the records have groups: the last one; else "
+       "`null`",
+       [](R r) { return r.group.empty() ? Value() : Value(r.group); }}};
+  return all;
 }
 
 /// `+- 4.2 %`, or `+- 0.8 um` of what may be zero.
@@ -130,31 +165,35 @@ std::string short_table(const PlanResult& r) {
   return r.group.empty() ? text : text + fmt::format("coefficients of {}\n", r.group);
 }
 
-/// plan.csv: every cut that was compared, the best first.
-base::Table table_of(const PlanResult& r) {
-  base::Table table{"plan.csv", {}};
-  const std::size_t n = r.cuts.size();
-  const auto add = [&](std::string name, const auto& value) {
-    add_column(table, std::move(name), n,
-               [&](std::size_t i) { return value(r.cuts[i]); });
-  };
-  add("engagement", [](const PlannedCut& c) { return c.cut.engagement.index(); });
-  add("feed_per_tooth_mm",
-      [](const PlannedCut& c) { return unit::in(c.cut.f_z, unit::mm); });
-  add("axial_depth_mm",
-      [](const PlannedCut& c) { return unit::in(c.cut.a_p, unit::mm); });
-  add("radial_depth_mm",
-      [&](const PlannedCut& c) { return unit::in(radial_depth(r, c.cut), unit::mm); });
-  add("peak_force_N", [](const PlannedCut& c) { return c.peak_force; });
-  if (r.log_determinant) {
-    add("narrows", [&](const PlannedCut& c) { return *narrows(r, c); });
-  }
-  for (std::size_t q = 0; q < r.quantities.size(); ++q) {
-    add("half_width_" + r.quantities[q].key, [&](const PlannedCut& c) {
-      return r.factor_after * c.se[q] / r.quantities[q].unit;
-    });
-  }
-  return table;
+/// Every cut that was compared, the best first.
+const Columns<PlanResult>& plan_columns() {
+  using R = const PlanResult&;
+  static const Columns<PlanResult> all{
+      "plan.csv",
+      [](R r) { return r.cuts.size(); },
+      {{"engagement", "0 slot, 1 up, 2 down; the best cut first",
+        [](R r, std::size_t i) { return r.cuts[i].cut.engagement.index(); }},
+       {"feed_per_tooth_mm", "of the cut",
+        [](R r, std::size_t i) { return given(r.cuts[i].cut.f_z); }},
+       {"axial_depth_mm", "of the cut",
+        [](R r, std::size_t i) { return given(r.cuts[i].cut.a_p); }},
+       {"radial_depth_mm", "of a slot the diameter",
+        [](R r, std::size_t i) { return given(radial_depth(r, r.cuts[i].cut)); }},
+       {"peak_force_N", "in the plane of the table",
+        [](R r, std::size_t i) { return r.cuts[i].peak_force; }},
+       {"narrows", "as above, where the quantities are known so far",
+        [](R r, std::size_t i) { return *narrows(r, r.cuts[i]); },
+        [](R r) { return r.log_determinant.has_value(); }},
+       {"half_width_*", "of the 95 % interval of each quantity after the cut",
+        [](R r) {
+          std::vector<std::string> names;
+          for (const PlannedQuantity& q : r.quantities) names.push_back(q.key);
+          return names;
+        },
+        [](R r, std::size_t i, std::size_t q) {
+          return as_named(r.factor_after * r.cuts[i].se[q] / r.quantities[q].unit);
+        }}}};
+  return all;
 }
 
 }  // namespace
@@ -204,12 +243,18 @@ std::string next_cut_sentence(const PlanResult& r) {
 Answer answer_of(const PlanResult& r) {
   Answer answer{.command = "plan",
                 .heading = r.heading,
-                .result = result_of(r),
+                .result = plan_fields().object(r),
                 .short_table = short_table(r)};
   if (!r.cuts.empty()) {
-    answer.tables = {table_of(r)};
+    answer.tables = {plan_columns().table(r)};
   }
   return answer;
+}
+
+Description description_of_plan() {
+  Description all{.command = "plan", .keys = plan_fields().texts()};
+  plan_columns().add_texts(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

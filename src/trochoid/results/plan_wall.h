@@ -12,6 +12,9 @@
 
 namespace trochoid::results {
 
+/// Unit of a removal rate [m^3/s].
+inline constexpr double mm3_per_min = 1e-9 / 60.0;
+
 using surface::ChangedWall;
 using surface::HalfWidths;
 using surface::MoreReadings;

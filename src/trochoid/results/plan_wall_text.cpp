@@ -15,9 +15,8 @@ namespace {
 using surface::GridCell;
 using surface::WallPrediction;
 
-constexpr double mm3_per_min = 1e-9 / 60.0;
 /// So many designs are printed: the cheapest of each quality.
-constexpr std::size_t most_printed = 8;
+constexpr std::size_t most_designs_printed = 8;
 
 /// `K_tc` of `K_tc_MPa`.
 std::string plain(std::string_view key) {
@@ -65,7 +64,8 @@ std::vector<std::size_t> worth_printing(const PlanWallResult& r) {
       best = std::min(best, worst);
     }
   }
-  while (out.size() > most_printed) {  // the poorest first, never the chosen one
+  while (out.size() >
+         most_designs_printed) {  // the poorest first, never the chosen one
     out.erase(out.begin() + (r.chosen == out.front() ? 1 : 0));
   }
   return out;

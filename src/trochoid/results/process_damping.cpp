@@ -6,12 +6,14 @@
 
 namespace trochoid::results {
 
-Object process_damping_value(const force::ProcessDamping& damping) {
-  return {
-      {"wear_land_um", unit::in(damping.wear_land, unit::um)},
-      {"indentation_N_per_mm3", unit::in(damping.indentation, unit::N_per_mm3)},
-      {"flank_friction", damping.friction},
-  };
+const Fields<force::ProcessDamping>& process_damping_fields() {
+  using Of = const force::ProcessDamping&;
+  static const Fields<force::ProcessDamping> all{
+      {"wear_land_um", "of the flank", [](Of d) { return given(d.wear_land); }},
+      {"indentation_N_per_mm3", "force over the volume that the flank presses aside",
+       [](Of d) { return given(d.indentation); }},
+      {"flank_friction", "friction over that force", &force::ProcessDamping::friction}};
+  return all;
 }
 
 std::string process_damping_text(const force::ProcessDamping& damping) {

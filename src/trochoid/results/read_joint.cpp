@@ -19,22 +19,23 @@ namespace fs = std::filesystem;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+[[noreturn]] void refuse_summary(const fs::path& file, const std::string& why) {
   throw base::InputError({fmt::format("{}: {}", file.string(), why)});
 }
 
 Value summary_of(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
-    refuse(file,
-           "there is no such file; must be a summary.json of identify, modes or "
-           "calibrate, or its folder");
+    refuse_summary(
+        file,
+        "there is no such file; must be a summary.json of identify, modes or "
+        "calibrate, or its folder");
   }
   const auto text = base::read_text(file);
   if (!text || !is_our_summary(*text)) {
-    refuse(file,
-           "not a summary.json of trochoid; must be that of identify, modes or "
-           "calibrate, or its folder");
+    refuse_summary(file,
+                   "not a summary.json of trochoid; must be that of identify, modes or "
+                   "calibrate, or its folder");
   }
   return json_value(*text);
 }
@@ -81,8 +82,8 @@ const Value* covariance_in(const Value& result, const std::string& group,
     }
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
   }
-  refuse(file, fmt::format("there is no group \"{}\"; there {}", group,
-                           names.empty() ? "are none" : "are " + names));
+  refuse_summary(file, fmt::format("there is no group \"{}\"; there {}", group,
+                                   names.empty() ? "are none" : "are " + names));
 }
 
 /// k of `before[k]after`, `after` beginning what follows; 0: it is another name.
@@ -165,28 +166,32 @@ ReadJoint read_joint(const fs::path& path, const std::string& group) {
   out.command = text_of(find(summary, "command"));
   if (out.command != "identify" && out.command != "modes" &&
       out.command != "calibrate") {
-    refuse(out.file, fmt::format("of the command {}, which finds nothing to draw; must "
-                                 "be of identify, modes or calibrate",
-                                 out.command));
+    refuse_summary(out.file,
+                   fmt::format("of the command {}, which finds nothing to draw; must "
+                               "be of identify, modes or calibrate",
+                               out.command));
   }
   if (text_of(find(summary, "status")) != "ok") {
-    refuse(out.file, fmt::format("{} had no answer there ({}), so there is nothing to "
-                                 "draw",
-                                 out.command, text_of(find(summary, "message"))));
+    refuse_summary(out.file,
+                   fmt::format("{} had no answer there ({}), so there is nothing to "
+                               "draw",
+                               out.command, text_of(find(summary, "message"))));
   }
   const Value* result = find(summary, "result");
   const Value* covariance =
       result != nullptr ? covariance_in(*result, group, out.file) : nullptr;
   if (covariance == nullptr) {
-    refuse(out.file, fmt::format("no `covariance` in it, as versions before it left it "
-                                 "out; run {} again",
-                                 out.command));
+    refuse_summary(out.file,
+                   fmt::format("no `covariance` in it, as versions before it left it "
+                               "out; run {} again",
+                               out.command));
   }
   out.joint = joint_in(*covariance);
   if (!whole(out.joint)) {
-    refuse(out.file,
-           "`covariance` names nothing, or something else than what the command finds, "
-           "or has not one finite number for each name");
+    refuse_summary(
+        out.file,
+        "`covariance` names nothing, or something else than what the command finds, "
+        "or has not one finite number for each name");
   }
   out.do_not_use = text_of(find(*result, "verdict")) == "do not use";
   return out;

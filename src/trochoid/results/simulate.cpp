@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/results/curve_tables.h>
+#include <trochoid/results/descriptions.h>
 
 #include <fmt/core.h>
 
@@ -9,103 +10,148 @@ namespace trochoid::results {
 
 namespace {
 
-using base::add_column;
+/// A tooth and its number.
+struct NumberedTooth {
+  std::size_t number;
+  const force::ToothEngagement& cuts;
+};
 
-base::Table force_table(const SimulateResult& r) {
-  base::Table table{"forces.csv", {}};
-  const std::size_t n = r.phi.size();
-  add_column(table, "angle_deg", n,
-             [&](std::size_t i) { return unit::in(r.phi[i], unit::deg); });
-  add_column(table, "time_s", n, [&](std::size_t i) { return r.phi[i] / r.Omega; });
-  constexpr const char* names[] = {"Fx_N", "Fy_N", "Fz_N"};
-  for (std::size_t q = 0; q < 3; ++q) {
-    add_column(table, names[q], n, [&](std::size_t i) { return r.loads[i].force[q]; });
-  }
-  for (std::size_t q = 0; r.channels && q < 3; ++q) {
-    const auto& row = (*r.channels)[q];
-    add_column(table, fmt::format("channel{}_N", q + 1), n, [&](std::size_t i) {
-      const force::Vector3& F = r.loads[i].force;
-      return row[0] * F[0] + row[1] * F[1] + row[2] * F[2];
-    });
-  }
-  return table;
+const Fields<NumberedTooth>& tooth_fields() {
+  static const Fields<NumberedTooth> all{
+      {"tooth", "number, from 1", [](const NumberedTooth& t) { return t.number; }},
+      {"intervals_deg", "where it cuts: pairs of nominal theta, from and to",
+       [](const NumberedTooth& t) {
+         Array arcs;
+         for (const chip::Arc& arc : t.cuts.arcs) {
+           arcs.push_back(Array{arc.from, arc.to});
+         }
+         return arcs;
+       }},
+      {"peak_chip_mm", "thickest chip",
+       [](const NumberedTooth& t) { return t.cuts.peak_chip; }}};
+  return all;
 }
 
-base::Table chip_table(const force::ChipGrid& grid) {
-  base::Table table{"chip.csv", {}};
-  const std::size_t heights = grid.height.size();
-  const std::size_t of_tooth = heights * grid.theta.size();
-  const std::size_t n = grid.h.size();
-  add_column(table, "tooth", n, [&](std::size_t i) { return i / of_tooth + 1; });
-  add_column(table, "edge_angle_deg", n, [&](std::size_t i) {
-    return unit::in(grid.theta[i % of_tooth / heights], unit::deg);
-  });
-  add_column(table, "height_mm", n, [&](std::size_t i) {
-    return unit::in(grid.height[i % heights], unit::mm);
-  });
-  add_column(table, "h_mm", n, [&](std::size_t i) { return grid.h[i] / unit::mm; });
-  return table;
-}
-
-Value teeth_value(const force::Engagement& engagement) {
-  Array teeth;
-  for (std::size_t j = 0; j < engagement.teeth.size(); ++j) {
-    const force::ToothEngagement& tooth = engagement.teeth[j];
-    Array arcs;
-    for (const chip::Arc& arc : tooth.arcs) {
-      arcs.push_back(Array{arc.from / unit::deg, arc.to / unit::deg});
-    }
-    teeth.push_back(Object{{"tooth", j + 1},
-                           {"intervals_deg", std::move(arcs)},
-                           {"peak_chip_mm", tooth.peak_chip / unit::mm}});
+std::vector<NumberedTooth> numbered_teeth(const SimulateResult& r) {
+  std::vector<NumberedTooth> teeth;
+  for (const force::ToothEngagement& cuts : r.engagement.teeth) {
+    teeth.push_back({teeth.size() + 1, cuts});
   }
   return teeth;
 }
 
-Value comparison_value(const std::vector<Comparison>& comparison) {
-  Array all;
-  for (const Comparison& c : comparison) {
-    all.push_back(Object{{"file", c.file},
-                         {"phase_deg", c.match.phase / unit::deg},
-                         {"rms_N", c.match.rms},
-                         {"rms_axis_N", c.match.rms_axis},
-                         {"measured_rms_N", c.match.measured_rms},
-                         {"spindle_rpm", c.Omega / unit::rpm}});
-  }
+const Fields<chip::Removal>& removal_fields() {
+  using Of = const chip::Removal&;
+  static const Fields<chip::Removal> all{
+      {"removed_mm2_per_rev", "what the chips of all teeth add up to in a turn",
+       [](Of of) { return of.removed * 1e6; }},
+      {"feed_times_width_mm2", "feed per turn times width of cut",
+       [](Of of) { return of.available * 1e6; }},
+      {"ratio", "of both; 1 where the chips are what the feed takes",
+       [](Of of) { return of.removed / of.available; }}};
   return all;
 }
 
-Object result_of(const SimulateResult& r) {
-  Object result{{"mean_N", r.force.mean},
-                {"min_N", r.force.min},
-                {"max_N", r.force.max},
-                {"rms_N", r.force.rms},
-                {"peak_xy_N", r.force.peak_xy}};
-  const auto add = [&](const char* key, Value value) {
-    result.push_back({key, std::move(value)});
-  };
-  if (r.closed_form_mean) {
-    add("closed_form_mean_N", *r.closed_form_mean);
-  }
-  add("torque_mean_Nm", r.moments.mean_torque);
-  add("torque_peak_Nm", r.moments.peak_torque);
-  add("power_W", r.moments.mean_torque * r.Omega);
-  if (r.gauge_length) {
-    add("gauge_length_mm", unit::in(*r.gauge_length, unit::mm));
-    add("bending_peak_Nm", r.moments.peak_bending);
-  }
-  add("teeth", teeth_value(r.engagement));
-  add("teeth_height_mm", unit::in(r.engagement.height, unit::mm));
-  const chip::Removal& removal = r.engagement.removal;
-  if (removal.available > 0) {
-    add("volume_check", Object{{"removed_mm2_per_rev", removal.removed * 1e6},
-                               {"feed_times_width_mm2", removal.available * 1e6},
-                               {"ratio", removal.removed / removal.available}});
-  }
-  if (!r.comparison.empty()) {
-    add("comparison", comparison_value(r.comparison));
-  }
-  return result;
+const Fields<Comparison>& comparison_fields() {
+  using Of = const Comparison&;
+  static const Fields<Comparison> all{
+      {"file", "of the record", &Comparison::file},
+      {"phase_deg", "true angle of tooth 1 less the recorded angle, as found",
+       [](Of c) { return c.match.phase; }},
+      {"rms_N", "of the difference", [](Of c) { return c.match.rms; }},
+      {"rms_axis_N", "of the difference along each axis",
+       [](Of c) { return c.match.rms_axis; }},
+      {"measured_rms_N", "of the measured force",
+       [](Of c) { return c.match.measured_rms; }},
+      {"spindle_rpm", "found in the record", &Comparison::Omega}};
+  return all;
+}
+
+const Fields<SimulateResult>& simulate_fields() {
+  using R = SimulateResult;
+  const auto moment = [](const R& r) { return r.gauge_length.has_value(); };
+  static const Fields<R> all{
+      {"mean_N", "mean force along x, y, z, over the rows of forces.csv",
+       [](const R& r) { return r.force.mean; }},
+      {"min_N", "smallest, axis by axis", [](const R& r) { return r.force.min; }},
+      {"max_N", "largest, axis by axis", [](const R& r) { return r.force.max; }},
+      {"rms_N", "root mean square, axis by axis",
+       [](const R& r) { return r.force.rms; }},
+      {"peak_xy_N", "largest force in the plane of the table",
+       [](const R& r) { return r.force.peak_xy; }},
+      {"closed_form_mean_N",
+       "F-8, where it applies: a slot without runout and without trochoids",
+       &R::closed_form_mean, [](const R& r) { return r.closed_form_mean.has_value(); }},
+      {"torque_mean_Nm", "mean torque (F-6)",
+       [](const R& r) { return r.moments.mean_torque; }},
+      {"torque_peak_Nm", "largest torque",
+       [](const R& r) { return r.moments.peak_torque; }},
+      {"power_W", "mean torque times spindle speed",
+       [](const R& r) { return r.moments.mean_torque * r.Omega; }},
+      {"gauge_length_mm", "of the bending moment, where it is given",
+       [](const R& r) { return given(*r.gauge_length); }, moment},
+      {"bending_peak_Nm", "largest bending moment there (F-7)",
+       [](const R& r) { return r.moments.peak_bending; }, moment},
+      {"teeth", "what each tooth does in a turn at `teeth_height_mm`", tooth_fields(),
+       numbered_teeth},
+      {"teeth_height_mm", "above the tip",
+       [](const R& r) { return given(r.engagement.height); }},
+      {"volume_check", "C-8: whether the chips of a turn are the material there is",
+       removal_fields(), [](const R& r) { return r.engagement.removal; },
+       [](const R& r) { return r.engagement.removal.available > 0; }},
+      {"comparison", "with each measurement", comparison_fields(), &R::comparison,
+       [](const R& r) { return !r.comparison.empty(); }}};
+  return all;
+}
+
+const Columns<SimulateResult>& simulated_forces() {
+  using R = SimulateResult;
+  static const Columns<R> all{
+      "forces.csv",
+      [](const R& r) { return r.phi.size(); },
+      {{"angle_deg", "spindle angle",
+        [](const R& r, std::size_t i) { return given(r.phi[i]); }},
+       {"time_s", "since the angle 0",
+        [](const R& r, std::size_t i) { return r.phi[i] / r.Omega; }},
+       {"F*_N", "force on the tool along x, y, z",
+        [](const R&) {
+          return std::vector<std::string>{"x", "y", "z"};
+        },
+        [](const R& r, std::size_t i, std::size_t q) { return r.loads[i].force[q]; }},
+       {"channel*_N", "with a dynamometer: what its channels 1 to 3 read",
+        [](const R& r) {
+          return r.channels ? std::vector<std::string>{"1", "2", "3"}
+                            : std::vector<std::string>{};
+        },
+        [](const R& r, std::size_t i, std::size_t q) {
+          const auto& row = (*r.channels)[q];
+          const force::Vector3& F = r.loads[i].force;
+          return row[0] * F[0] + row[1] * F[1] + row[2] * F[2];
+        }}}};
+  return all;
+}
+
+const Columns<force::ChipGrid>& chip_columns() {
+  using Of = const force::ChipGrid&;
+  static const Columns<force::ChipGrid> all{
+      "chip.csv",
+      [](Of grid) { return grid.h.size(); },
+      {{"tooth", "number, from 1",
+        [](Of grid, std::size_t i) {
+          return i / (grid.height.size() * grid.theta.size()) + 1;
+        }},
+       {"edge_angle_deg", "nominal theta, as asked for",
+        [](Of grid, std::size_t i) {
+          const std::size_t heights = grid.height.size();
+          return given(grid.theta[i % (heights * grid.theta.size()) / heights]);
+        }},
+       {"height_mm", "above the tip, as asked for",
+        [](Of grid, std::size_t i) {
+          return given(grid.height[i % grid.height.size()]);
+        }},
+       {"h_mm", "uncut chip thickness along the horizontal ray",
+        [](Of grid, std::size_t i) { return grid.h[i]; }}}};
+  return all;
 }
 
 std::string comparison_text(const Comparison& c) {
@@ -165,15 +211,15 @@ std::string short_table(const SimulateResult& r) {
 Answer answer_without_tables(const SimulateResult& r) {
   return {.command = "simulate",
           .heading = r.heading,
-          .result = result_of(r),
+          .result = simulate_fields().object(r),
           .short_table = short_table(r)};
 }
 
 Answer answer_of(const SimulateResult& r) {
   Answer answer = answer_without_tables(r);
   // One by one: a list in braces would copy what may be a million rows.
-  answer.tables.push_back(force_table(r));
-  answer.tables.push_back(chip_table(r.chips));
+  answer.tables.push_back(simulated_forces().table(r));
+  answer.tables.push_back(chip_columns().table(r.chips));
   answer.tables.push_back(chip_curve_table(r.curve));
   if (!r.comparison.empty()) {
     std::vector<identification::Run> runs;
@@ -187,6 +233,15 @@ Answer answer_of(const SimulateResult& r) {
     }
   }
   return answer;
+}
+
+Description description_of_simulate() {
+  Description all{.command = "simulate", .keys = simulate_fields().texts()};
+  simulated_forces().add_texts(all.columns);
+  chip_columns().add_texts(all.columns);
+  add_texts_of_chip_curve(all.columns);
+  add_texts_of_curves(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

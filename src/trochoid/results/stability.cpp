@@ -1,4 +1,5 @@
 #include <trochoid/results/better_speed.h>
+#include <trochoid/results/descriptions.h>
 #include <trochoid/results/process_damping.h>
 #include <trochoid/results/stability.h>
 
@@ -14,13 +15,8 @@ namespace trochoid::results {
 
 namespace {
 
-using base::add_column;
 using dynamics::ChatterLine;
 using dynamics::Stability;
-
-double degrees(const std::complex<double>& multiplier) {
-  return std::arg(multiplier) / unit::deg;
-}
 
 /// What the multiplier is of: the time from one tooth to the next where all are alike.
 std::string_view period_name(const Stability& s) {
@@ -47,52 +43,77 @@ Array shares(const std::vector<ChatterLine>& lines) {
   return list;
 }
 
-Value better_speed_value(const StabilityResult& r) {
-  const auto better = better_speed(r);
-  return better ? Value(Object{{"spindle_rpm", unit::in(better->Omega, unit::rpm)},
-                               {"limit_depth_mm", better->depth / unit::mm}})
-                : Value();
+bool has_modes(const StabilityResult& r) {
+  return r.no_modes.empty();
+}
+
+const Fields<BetterSpeed>& better_speed_fields() {
+  static const Fields<BetterSpeed> all{
+      {"spindle_rpm",
+       "within 30 % of that of the case, the one of the diagram that allows most",
+       [](const BetterSpeed& better) { return given(better.Omega); }},
+      {"limit_depth_mm",
+       "what it allows within 2 % of that speed, all of which the diagram holds",
+       &BetterSpeed::depth}};
+  return all;
 }
 
 /// What damps, and the limit without it.
-Value damping_value(const StabilityResult& r) {
-  Object value = process_damping_value(r.problem.setup.process_damping);
-  if (r.no_modes.empty()) {
-    const auto& sharp = r.stability.sharp_limit;
-    value.push_back(
-        {"limit_depth_without_mm", sharp ? Value(sharp->depth / unit::mm) : Value()});
-  }
-  return value;
+const Fields<StabilityResult>& damping_fields() {
+  using R = const StabilityResult&;
+  static const Fields<StabilityResult> all{
+      {"", "", process_damping_fields(),
+       [](R r) { return &r.problem.setup.process_damping; }},
+      {"limit_depth_without_mm",
+       "the limit depth with sharp edges, `null` where there is none",
+       [](R r) {
+         const auto& sharp = r.stability.sharp_limit;
+         return sharp ? Value(sharp->depth) : Value();
+       },
+       has_modes}};
+  return all;
 }
 
-Object multiplier_value(const Stability& s, double Omega) {
-  const std::complex<double> mu = s.multiplier.value;
-  return {{"absolute", std::abs(mu)},
-          {"argument_deg", degrees(mu)},
-          {"type", type_of(mu)},
-          {"chatter_frequencies_Hz", frequencies(s.lines)},
-          {"chatter_shares", shares(s.lines)},
-          {"period", period_name(s)},
-          {"period_s", s.period / Omega},
-          {"error", s.multiplier.error}};
+const Fields<StabilityResult>& multiplier_fields() {
+  using R = const StabilityResult&;
+  static const Fields<StabilityResult> all{
+      {"absolute", "of the Floquet multiplier",
+       [](R r) { return std::abs(r.stability.multiplier.value); }},
+      {"argument_deg", "of the same",
+       [](R r) { return std::arg(r.stability.multiplier.value); }},
+      {"type", "`hopf`, `period_doubling` or `period_one`",
+       [](R r) { return type_of(r.stability.multiplier.value); }},
+      {"chatter_frequencies_Hz",
+       "of the vibration that fades or grows (D-12), strongest first",
+       [](R r) { return frequencies(r.stability.lines); }},
+      {"chatter_shares", "their amplitudes relative to the first",
+       [](R r) { return shares(r.stability.lines); }},
+      {"period",
+       "that it belongs to: `tooth` where all teeth are alike, else "
+       "`revolution`",
+       [](R r) { return period_name(r.stability); }},
+      {"period_s", "the same",
+       [](R r) { return r.stability.period / r.problem.setup.cut.Omega; }},
+      {"error", "estimated", [](R r) { return r.stability.multiplier.error; }}};
+  return all;
 }
 
-Array modes_value(const dynamics::System& system) {
-  Array modes;
-  for (const dynamics::ChipMode& mode : system.modes) {
-    const double omega = std::sqrt(mode.stiffness / mode.mass);
-    modes.push_back(Object{{"direction", Array{mode.x, mode.y}},
-                           {"frequency_Hz", omega / unit::turn},
-                           {"damping_ratio", 0.5 * mode.damping / (mode.mass * omega)},
-                           {"mass_kg", mode.mass},
-                           {"stiffness_N_per_m", mode.stiffness},
-                           {"damping_Ns_per_m", mode.damping}});
-  }
-  return modes;
-}
-
-Value depth_value(const std::optional<dynamics::FrequencyLimit>& limit) {
-  return limit ? Value(limit->depth / unit::mm) : Value();
+const Fields<dynamics::ChipMode>& chip_mode_fields() {
+  using Of = const dynamics::ChipMode&;
+  const auto omega = [](Of mode) { return std::sqrt(mode.stiffness / mode.mass); };
+  static const Fields<dynamics::ChipMode> all{
+      {"direction", "along x and y, as the chip feels it",
+       [](Of mode) {
+         return Array{mode.x, mode.y};
+       }},
+      {"frequency_Hz", "natural frequency",
+       [omega](Of mode) { return omega(mode) / unit::turn; }},
+      {"damping_ratio", "of critical damping",
+       [omega](Of mode) { return 0.5 * mode.damping / (mode.mass * omega(mode)); }},
+      {"mass_kg", "modal mass", [](Of mode) { return mode.mass; }},
+      {"stiffness_N_per_m", "modal stiffness", [](Of mode) { return mode.stiffness; }},
+      {"damping_Ns_per_m", "modal damping", [](Of mode) { return mode.damping; }}};
+  return all;
 }
 
 /// By how much a limit differs from that of the multiplier, in percent of it.
@@ -123,84 +144,147 @@ Value median_difference(const std::vector<dynamics::FrequencyLimit>& curve,
   return *middle;
 }
 
-Object by_frequency(const ByFrequency& found, const StabilityResult& r) {
-  const auto& limit = found.limit;
-  return {{"limit_depth_mm", depth_value(limit)},
-          {"chatter_frequency_Hz", limit ? Value(limit->chatter_frequency) : Value()},
-          {"difference_percent", difference(limit, r)},
-          {"median_difference_percent", median_difference(found.curve, r)}};
+/// A limit by the measured response, beside what else was found.
+struct LimitByFrequency {
+  const ByFrequency& found;
+  const StabilityResult& r;
+  bool several;  ///< harmonics of the force
+};
+
+const Fields<LimitByFrequency>& by_frequency_fields() {
+  using Of = const LimitByFrequency&;
+  static const Fields<LimitByFrequency> all{
+      {"limit_depth_mm", "limit depth, `null` where there is none",
+       [](Of l) { return l.found.limit ? Value(l.found.limit->depth) : Value(); }},
+      {"chatter_frequency_Hz", "there",
+       [](Of l) {
+         return l.found.limit ? Value(l.found.limit->chatter_frequency) : Value();
+       }},
+      {"difference_percent", "from the limit of the multiplier",
+       [](Of l) { return difference(l.found.limit, l.r); }},
+      {"median_difference_percent",
+       "median size of the same over the speeds of the diagram",
+       [](Of l) { return median_difference(l.found.curve, l.r); }},
+      {"harmonics", "of the force, in `multi_frequency`",
+       [](Of l) { return l.r.measured->harmonics; }, [](Of l) { return l.several; }}};
+  return all;
 }
 
-Object measured_value(const StabilityResult& r) {
-  const MeasuredStability& m = *r.measured;
-  Object multi = by_frequency(m.multi_frequency, r);
-  multi.push_back({"harmonics", m.harmonics});
-  return {{"band_Hz",
-           Array{unit::in(m.band.from, unit::Hz), unit::in(m.band.to, unit::Hz)}},
-          {"zeroth_order", by_frequency(m.zeroth_order, r)},
-          {"multi_frequency", std::move(multi)},
-          {"modes_fitted", m.modes_fitted}};
+const Fields<StabilityResult>& measured_fields() {
+  using R = const StabilityResult&;
+  static const Fields<StabilityResult> all{
+      {"band_Hz", "of the measured response",
+       [](R r) {
+         const auto& band = r.measured->band;
+         return as_named(
+             Array{unit::in(band.from, unit::Hz), unit::in(band.to, unit::Hz)});
+       }},
+      {"zeroth_order", "with the mean force (D-22)", by_frequency_fields(),
+       [](R r) {
+         return LimitByFrequency{r.measured->zeroth_order, r, false};
+       }},
+      {"multi_frequency", "with harmonics of it (D-22)", by_frequency_fields(),
+       [](R r) {
+         return LimitByFrequency{r.measured->multi_frequency, r, true};
+       }},
+      {"modes_fitted",
+       "the modes of the multiplier are fitted to the response, and `modes.toml` has them",
+       [](R r) { return r.measured->modes_fitted; }}};
+  return all;
 }
 
 /// Without modes: what the measured response says alone.
-Object result_without_modes(const StabilityResult& r) {
-  const geometry::Cut& cut = r.problem.setup.cut;
+bool stable_without_modes(const StabilityResult& r) {
   const auto& limit = r.measured->multi_frequency.limit;
-  const bool stable = !limit || limit->depth > cut.a_p;
-  Object result{{"multiplier", nullptr},
-                {"stable", stable},
-                {"verdict", stable ? "stable" : "unstable"},
-                {"limit_depth_mm", depth_value(limit)},
-                {"greatest_depth_mm", unit::in(r.measured->greatest_depth, unit::mm)},
-                {"spindle_rpm", unit::in(cut.Omega, unit::rpm)},
-                {"axial_depth_mm", unit::in(cut.a_p, unit::mm)},
-                {"modes", nullptr},
-                {"measured_frf", measured_value(r)}};
-  if (r.problem.setup.process_damping.acts()) {
-    result.push_back({"process_damping", damping_value(r)});
-  }
-  return result;
+  return !limit || limit->depth > r.problem.setup.cut.a_p;
 }
 
-Object result_of(const StabilityResult& r) {
-  if (!r.no_modes.empty()) {
-    return result_without_modes(r);
+Value limit_depth_value(const StabilityResult& r) {
+  if (!has_modes(r)) {
+    const auto& limit = r.measured->multi_frequency.limit;
+    return limit ? Value(limit->depth) : Value();
   }
-  const Stability& s = r.stability;
-  const geometry::Cut& cut = r.problem.setup.cut;
-  Object result{{"multiplier", multiplier_value(s, cut.Omega)},
-                {"stable", std::abs(s.multiplier.value) < 1}};
-  const auto add = [&](const char* key, Value value) {
-    result.push_back({key, std::move(value)});
-  };
-  if (s.floor) {
-    const double floor = r.problem.options.chip_floor;
-    add("chip_floor", Object{{"chip_floor_um", unit::in(floor, unit::um)},
-                             {"multiplier_at_half", s.floor->at_half},
-                             {"multiplier_at_twice", s.floor->at_twice}});
-  }
-  add("verdict", name_of(s.verdict));
-  add("limit_depth_mm", s.limit ? Value(s.limit->limit.depth / unit::mm) : Value());
-  if (s.limit) {
-    const std::complex<double> mu = s.limit->limit.multiplier;
-    add("limit", Object{{"type", type_of(mu)},
-                        {"argument_deg", degrees(mu)},
-                        {"chatter_frequencies_Hz", frequencies(s.limit->lines)}});
-  }
-  if (s.whole) {
-    add("better_speed", better_speed_value(r));
-  }
-  add("greatest_depth_mm", unit::in(s.greatest_depth, unit::mm));
-  add("spindle_rpm", unit::in(cut.Omega, unit::rpm));
-  add("axial_depth_mm", unit::in(cut.a_p, unit::mm));
-  add("modes", modes_value(r.problem.system));
-  if (r.problem.setup.process_damping.acts()) {
-    add("process_damping", damping_value(r));
-  }
-  if (r.measured) {
-    add("measured_frf", measured_value(r));
-  }
-  return result;
+  const auto& limit = r.stability.limit;
+  return limit ? Value(limit->limit.depth) : Value();
+}
+
+const Fields<StabilityResult>& stability_fields() {
+  using R = const StabilityResult&;
+  static const Fields<StabilityResult> floor{
+      {"chip_floor_um", "of the power law",
+       [](R r) { return given(r.problem.options.chip_floor); }},
+      {"multiplier_at_half", "at half the floor",
+       [](R r) { return r.stability.floor->at_half; }},
+      {"multiplier_at_twice", "at twice the floor",
+       [](R r) { return r.stability.floor->at_twice; }}};
+  static const Fields<StabilityResult> limit{
+      {"type", "as of the multiplier",
+       [](R r) { return type_of(r.stability.limit->limit.multiplier); }},
+      {"argument_deg", "as of the multiplier",
+       [](R r) { return std::arg(r.stability.limit->limit.multiplier); }},
+      {"chatter_frequencies_Hz", "strongest first",
+       [](R r) { return frequencies(r.stability.limit->lines); }}};
+  // With modes the measured response comes last; without, it is what there is.
+  static const Fields<StabilityResult> damping{
+      {"process_damping", "where a flank is worn", damping_fields(),
+       [](R r) { return &r; },
+       [](R r) { return r.problem.setup.process_damping.acts(); }}};
+  static const Fields<StabilityResult> measured{
+      {"measured_frf",
+       "with `[[measured_frf]]`. Where no modes could be fitted, `multiplier` and `modes` "
+       "are `null`, `verdict` and `limit_depth_mm` are those of `multi_frequency`",
+       measured_fields(), [](R r) { return &r; },
+       [](R r) { return r.measured.has_value(); }}};
+  static const Fields<StabilityResult> all{
+      {"multiplier", "Floquet multiplier of the case", multiplier_fields(),
+       [](R r) { return has_modes(r) ? &r : nullptr; }},
+      {"stable", "whether `absolute` is below 1",
+       [](R r) {
+         return has_modes(r) ? std::abs(r.stability.multiplier.value) < 1
+                             : stable_without_modes(r);
+       }},
+      {"chip_floor",
+       "in a power law: the Floquet multiplier at half and twice the floor", floor,
+       [](R r) { return &r; }, [](R r) { return has_modes(r) && r.stability.floor; }},
+      {"verdict",
+       "`stable`, `unstable` or `marginal`: within `margin` of 1, or, in a power law, with "
+       "another answer at half or twice `chip_floor_um`",
+       [](R r) -> std::string_view {
+         if (has_modes(r)) return name_of(r.stability.verdict);
+         return stable_without_modes(r) ? "stable" : "unstable";
+       }},
+      {"limit_depth_mm",
+       "limit depth: least unstable axial depth at the speed of the case (D-13); `null` if "
+       "there is none up to `greatest_depth_mm`",
+       limit_depth_value},
+      {"limit", "how stability is lost there", limit, [](R r) { return &r; },
+       [](R r) { return has_modes(r) && r.stability.limit; }},
+      {"better_speed",
+       "`null` where what it allows is not 1.2 times the limit within 2 % of the speed of "
+       "the case; no such key where the time was up before",
+       better_speed_fields(), better_speed,
+       [](R r) { return has_modes(r) && r.stability.whole; }},
+      {"greatest_depth_mm", "up to which was looked",
+       [](R r) {
+         return given(has_modes(r) ? r.stability.greatest_depth
+                                   : r.measured->greatest_depth);
+       }},
+      {"spindle_rpm", "of the case",
+       [](R r) { return given(r.problem.setup.cut.Omega); }},
+      {"axial_depth_mm", "of the case",
+       [](R r) { return given(r.problem.setup.cut.a_p); }},
+      {"modes", "as the chip feels them", chip_mode_fields(),
+       [](R r) -> const auto& {return r.problem.system.modes;
+}
+, has_modes
+}  // namespace
+, {"modes", "", [](R) { return nullptr; }, [](R r) { return !has_modes(r); }},
+    {"", "", measured, [](R r) { return &r; }, [](R r) { return !has_modes(r); }},
+    {"", "", damping, [](R r) { return &r; }}, {
+  "", "", measured, [](R r) { return &r; }, has_modes
+}
+};  // namespace trochoid::results
+return all;
 }
 
 std::string limit_text(const ByFrequency& found) {
@@ -272,50 +356,61 @@ std::string short_table(const StabilityResult& r) {
          (r.measured ? measured_table(r) : std::string());
 }
 
-/// zeroth_order.csv, multi_frequency.csv: the limit depth over the speed.
-base::Table frequency_table(const char* file,
-                            const std::vector<dynamics::FrequencyLimit>& curve) {
-  base::Table table{file, {}};
-  const std::size_t n = curve.size();
-  add_column(table, "spindle_rpm", n,
-             [&](std::size_t i) { return unit::in(curve[i].Omega, unit::rpm); });
-  add_column(table, "limit_depth_mm", n,
-             [&](std::size_t i) { return unit::in(curve[i].depth, unit::mm); });
-  add_column(table, "chatter_frequency_Hz", n,
-             [&](std::size_t i) { return curve[i].chatter_frequency; });
-  return table;
+/// The limit depth over the speed, by the measured response.
+Columns<std::vector<dynamics::FrequencyLimit>> frequency_columns(
+    std::string_view file) {
+  using Of = const std::vector<dynamics::FrequencyLimit>&;
+  return {file,
+          [](Of curve) { return curve.size(); },
+          {{"spindle_rpm", "each speed that has a limit",
+            [](Of curve, std::size_t i) { return given(curve[i].Omega); }},
+           {"limit_depth_mm", "by the measured response alone",
+            [](Of curve, std::size_t i) { return given(curve[i].depth); }},
+           {"chatter_frequency_Hz", "there",
+            [](Of curve, std::size_t i) { return curve[i].chatter_frequency; }}}};
 }
 
-/// lobes.csv: |mu| over speed and depth.
-base::Table lobes_table(const dynamics::LobeGrid& grid) {
-  base::Table table{"lobes.csv", {}};
-  const std::size_t n = grid.multiplier.size();
-  const std::size_t depths = grid.depth.size();
-  add_column(table, "spindle_rpm", n, [&](std::size_t i) {
-    return unit::in(grid.Omega[i / depths], unit::rpm);
-  });
-  add_column(table, "axial_depth_mm", n,
-             [&](std::size_t i) { return unit::in(grid.depth[i % depths], unit::mm); });
-  add_column(table, "multiplier", n,
-             [&](std::size_t i) { return std::abs(grid.multiplier[i]); });
-  return table;
+/// |mu| over speed and depth.
+const Columns<dynamics::LobeGrid>& lobe_columns() {
+  using Of = const dynamics::LobeGrid&;
+  static const Columns<dynamics::LobeGrid> all{
+      "lobes.csv",
+      [](Of grid) { return grid.multiplier.size(); },
+      {{"spindle_rpm", "of the stability lobe diagram",
+        [](Of grid, std::size_t i) {
+          return given(grid.Omega[i / grid.depth.size()]);
+        }},
+       {"axial_depth_mm", "at every speed",
+        [](Of grid, std::size_t i) {
+          return given(grid.depth[i % grid.depth.size()]);
+        }},
+       {"multiplier",
+        "\\|mu\\|, the Floquet multiplier, good to 1e-5 at the greatest depth",
+        [](Of grid, std::size_t i) { return std::abs(grid.multiplier[i]); }}}};
+  return all;
 }
 
-/// limit.csv: the limit depth over the speed, and the strongest frequency of the
-/// vibration that appears there.
-base::Table limit_table(const std::vector<dynamics::LimitPoint>& curve) {
-  base::Table table{"limit.csv", {}};
-  const std::size_t n = curve.size();
-  add_column(table, "spindle_rpm", n,
-             [&](std::size_t i) { return unit::in(curve[i].limit.Omega, unit::rpm); });
-  add_column(table, "limit_depth_mm", n,
-             [&](std::size_t i) { return unit::in(curve[i].limit.depth, unit::mm); });
-  add_column(table, "argument_deg", n,
-             [&](std::size_t i) { return degrees(curve[i].limit.multiplier); });
-  add_column(table, "chatter_frequency_Hz", n,
-             [&](std::size_t i) { return curve[i].chatter_frequency; });
-  return table;
+/// The limit depth over the speed, and the strongest frequency of the vibration that
+/// appears there.
+const Columns<std::vector<dynamics::LimitPoint>>& limit_columns() {
+  using Of = const std::vector<dynamics::LimitPoint>&;
+  static const Columns<std::vector<dynamics::LimitPoint>> all{
+      "limit.csv",
+      [](Of curve) { return curve.size(); },
+      {{"spindle_rpm",
+        "each speed that has a limit; further speeds where the limit bends",
+        [](Of curve, std::size_t i) { return given(curve[i].limit.Omega); }},
+       {"limit_depth_mm", "the least unstable depth",
+        [](Of curve, std::size_t i) { return given(curve[i].limit.depth); }},
+       {"argument_deg", "of mu there",
+        [](Of curve, std::size_t i) { return std::arg(curve[i].limit.multiplier); }},
+       {"chatter_frequency_Hz", "the strongest there",
+        [](Of curve, std::size_t i) { return curve[i].chatter_frequency; }}}};
+  return all;
 }
+
+constexpr std::string_view zeroth_order_file = "zeroth_order.csv";
+constexpr std::string_view multi_frequency_file = "multi_frequency.csv";
 
 /// The modes of the multiplier, for other commands: of all directions together.
 std::string modes_toml(const dynamics::System& system) {
@@ -342,22 +437,31 @@ std::string modes_toml(const dynamics::System& system) {
 Answer answer_of(const StabilityResult& r) {
   Answer answer{.command = "stability",
                 .heading = r.heading,
-                .result = result_of(r),
+                .result = stability_fields().object(r),
                 .short_table = short_table(r)};
   if (r.no_modes.empty()) {
-    answer.tables = {lobes_table(r.stability.lobes),
-                     limit_table(r.stability.limit_curve)};
+    answer.tables = {lobe_columns().table(r.stability.lobes),
+                     limit_columns().table(r.stability.limit_curve)};
   }
   if (r.measured) {
     answer.tables.push_back(
-        frequency_table("zeroth_order.csv", r.measured->zeroth_order.curve));
-    answer.tables.push_back(
-        frequency_table("multi_frequency.csv", r.measured->multi_frequency.curve));
+        frequency_columns(zeroth_order_file).table(r.measured->zeroth_order.curve));
+    answer.tables.push_back(frequency_columns(multi_frequency_file)
+                                .table(r.measured->multi_frequency.curve));
     if (r.measured->modes_fitted) {
       answer.texts.push_back({"modes.toml", modes_toml(r.problem.system)});
     }
   }
   return answer;
+}
+
+Description description_of_stability() {
+  Description all{.command = "stability", .keys = stability_fields().texts()};
+  lobe_columns().add_texts(all.columns);
+  limit_columns().add_texts(all.columns);
+  frequency_columns(zeroth_order_file).add_texts(all.columns);
+  frequency_columns(multi_frequency_file).add_texts(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

@@ -1,6 +1,7 @@
 #include <trochoid/results/surface_parts.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/results/descriptions.h>
 
 #include <fmt/core.h>
 
@@ -11,178 +12,216 @@ namespace trochoid::results {
 
 namespace {
 
-using base::add_column;
 using surface::DeflectedShape;
 using surface::ErrorMap;
 using surface::ErrorRow;
-using surface::ForceSample;
 
-/// One point of one row of the map.
-struct Place {
-  const ErrorRow* row;
-  std::size_t i;
-};
+/// The points of all rows of a map.
+struct MapPoints {
+  struct Point {
+    const ErrorRow* row;
+    std::size_t i;
+  };
+  std::vector<Point> points = {};
 
-base::Table surface_table(const ErrorMap& map) {
-  std::vector<Place> places;
-  for (const ErrorRow& row : map.rows) {
-    for (std::size_t i = 0; i < row.x.size(); ++i) {
-      places.push_back({&row, i});
+  explicit MapPoints(const ErrorMap& map) {
+    for (const ErrorRow& row : map.rows) {
+      for (std::size_t i = 0; i < row.x.size(); ++i) points.push_back({&row, i});
     }
   }
-  base::Table table{"surface.csv", {}};
-  const std::size_t n = places.size();
-  const auto add = [&](const char* name, const auto& value) {
-    add_column(table, name, n,
-               [&](std::size_t i) { return value(*places[i].row, places[i].i); });
-  };
-  add("x_mm",
-      [](const ErrorRow& r, std::size_t i) { return unit::in(r.x[i], unit::mm); });
-  add("height_mm",
-      [](const ErrorRow& r, std::size_t) { return unit::in(r.height, unit::mm); });
-  add("error_mm",
-      [](const ErrorRow& r, std::size_t i) { return r.error[i] / unit::mm; });
-  add("tooth", [](const ErrorRow& r, std::size_t i) { return r.tooth[i] + 1; });
-  return table;
+};
+
+const Columns<MapPoints>& surface_columns() {
+  using Of = const MapPoints&;
+  static const Columns<MapPoints> all{
+      "surface.csv",
+      [](Of of) { return of.points.size(); },
+      {{"x_mm", "along the feed, height by height",
+        [](Of of, std::size_t i) {
+          return given(of.points[i].row->x[of.points[i].i]);
+        }},
+       {"height_mm", "above the tip",
+        [](Of of, std::size_t i) { return given(of.points[i].row->height); }},
+       {"error_mm", "positive where material is left",
+        [](Of of, std::size_t i) { return of.points[i].row->error[of.points[i].i]; }},
+       {"tooth", "that made it, from 1; 0: left by a pass before",
+        [](Of of, std::size_t i) {
+          return of.points[i].row->tooth[of.points[i].i] + 1;
+        }}}};
+  return all;
 }
 
-base::Table force_table(const ErrorMap& map) {
-  base::Table table{"forces.csv", {}};
-  const auto add = [&](const char* name, const auto& value) {
-    add_column(table, name, map.forces.size(),
-               [&](std::size_t i) { return value(map.forces[i]); });
-  };
-  add("angle_deg", [](const ForceSample& f) { return unit::in(f.phi, unit::deg); });
-  add("x_mm", [](const ForceSample& f) { return unit::in(f.x, unit::mm); });
-  add("F_normal_N", [](const ForceSample& f) { return f.F_normal; });
-  add("Fx_N", [](const ForceSample& f) { return f.F_x; });
-  add("Fy_N", [](const ForceSample& f) { return f.F_y; });
-  return table;
+const Columns<ErrorMap>& wall_force_columns() {
+  using Of = const ErrorMap&;
+  static const Columns<ErrorMap> all{
+      "forces.csv",
+      [](Of map) { return map.forces.size(); },
+      {{"angle_deg", "spindle angle",
+        [](Of map, std::size_t i) { return given(map.forces[i].phi); }},
+       {"x_mm", "of the axis along the feed",
+        [](Of map, std::size_t i) { return given(map.forces[i].x); }},
+       {"F_normal_N", "pushes cutter and wall apart",
+        [](Of map, std::size_t i) { return map.forces[i].F_normal; }},
+       {"Fx_N", "on the tool", [](Of map, std::size_t i) { return map.forces[i].F_x; }},
+       {"Fy_N", "on the tool",
+        [](Of map, std::size_t i) { return map.forces[i].F_y; }}}};
+  return all;
 }
 
-base::Table deflection_table(const ErrorMap& map) {
-  base::Table table{"deflection.csv", {}};
-  const std::size_t angles = map.forces.size();
-  const std::size_t n = map.rows.size() * angles;
-  add_column(table, "angle_deg", n, [&](std::size_t i) {
-    return unit::in(map.forces[i % angles].phi, unit::deg);
-  });
-  add_column(table, "height_mm", n, [&](std::size_t i) {
-    return unit::in(map.rows[i / angles].height, unit::mm);
-  });
-  add_column(table, "deflection_mm", n, [&](std::size_t i) {
-    return map.rows[i / angles].deflection[i % angles] / unit::mm;
-  });
-  return table;
+const Columns<ErrorMap>& deflection_columns() {
+  using Of = const ErrorMap&;
+  static const Columns<ErrorMap> all{
+      "deflection.csv",
+      [](Of map) { return map.rows.size() * map.forces.size(); },
+      {{"angle_deg", "spindle angle",
+        [](Of map, std::size_t i) {
+          return given(map.forces[i % map.forces.size()].phi);
+        }},
+       {"height_mm", "above the tip",
+        [](Of map, std::size_t i) {
+          return given(map.rows[i / map.forces.size()].height);
+        }},
+       {"deflection_mm", "of cutter and wall together", [](Of map, std::size_t i) {
+          const std::size_t angles = map.forces.size();
+          return map.rows[i / angles].deflection[i % angles];
+        }}}};
+  return all;
 }
 
-base::Table influence_table(const ErrorMap& map) {
-  base::Table table{"influence.csv", {}};
-  const std::vector<double>& heights = map.influence_heights;
-  const std::size_t n = heights.size() * heights.size();
-  add_column(table, "height_mm", n, [&](std::size_t i) {
-    return unit::in(heights[i / heights.size()], unit::mm);
-  });
-  add_column(table, "load_height_mm", n, [&](std::size_t i) {
-    return unit::in(heights[i % heights.size()], unit::mm);
-  });
-  add_column(table, "cutter_mm_per_N", n,
-             [&](std::size_t i) { return map.influence_of_cutter[i] / unit::mm; });
-  add_column(table, "wall_mm_per_N", n,
-             [&](std::size_t i) { return map.influence_of_wall[i] / unit::mm; });
-  return table;
+const Columns<ErrorMap>& influence_columns() {
+  using Of = const ErrorMap&;
+  static const Columns<ErrorMap> all{
+      "influence.csv",
+      [](Of map) {
+        return map.influence_heights.size() * map.influence_heights.size();
+      },
+      {{"height_mm", "at which the deflection is told",
+        [](Of map, std::size_t i) {
+          return given(map.influence_heights[i / map.influence_heights.size()]);
+        }},
+       {"load_height_mm", "at which the force acts",
+        [](Of map, std::size_t i) {
+          return given(map.influence_heights[i % map.influence_heights.size()]);
+        }},
+       {"cutter_mm_per_N", "of the cutter",
+        [](Of map, std::size_t i) { return map.influence_of_cutter[i]; }},
+       {"wall_mm_per_N", "of the wall",
+        [](Of map, std::size_t i) { return map.influence_of_wall[i]; }}}};
+  return all;
 }
 
-/// bent.csv: 0 where a body does not reach.
-base::Table shape_table(const DeflectedShape& shape) {
-  base::Table table{"bent.csv", {}};
-  const std::size_t n = shape.heights.size();
-  add_column(table, "height_mm", n,
-             [&](std::size_t i) { return unit::in(shape.heights[i], unit::mm); });
-  add_column(table, "cutter_mm", n,
-             [&](std::size_t i) { return shape.cutter[i] / unit::mm; });
-  add_column(table, "wall_mm", n,
-             [&](std::size_t i) { return shape.wall[i] / unit::mm; });
-  return table;
+const Columns<DeflectedShape>& bent_columns() {
+  using Of = const DeflectedShape&;
+  static const Columns<DeflectedShape> all{
+      "bent.csv",
+      [](Of shape) { return shape.heights.size(); },
+      {{"height_mm", "from the foot of the wall to the holder",
+        [](Of shape, std::size_t i) { return given(shape.heights[i]); }},
+       {"cutter_mm",
+        "where its axis is at the angle of the largest force, positive away from the "
+        "wall; 0 where it does not reach",
+        [](Of shape, std::size_t i) { return shape.cutter[i]; }},
+       {"wall_mm", "the same of the wall, positive away from the cutter",
+        [](Of shape, std::size_t i) { return shape.wall[i]; }}}};
+  return all;
 }
 
-Object height_value(const ErrorRow& row) {
-  const surface::ErrorStatistics& s = row.statistics;
-  Object value{{"height_mm", unit::in(row.height, unit::mm)},
-               {"mean_error_mm", s.error.mean / unit::mm},
-               {"min_error_mm", s.error.min / unit::mm},
-               {"max_error_mm", s.error.max / unit::mm},
-               {"Ra_um", s.Ra / unit::um},
-               {"Rt_um", (s.error.max - s.error.min) / unit::um},
-               {"share", s.share},
-               {"compliance_mm_per_N", row.compliance / unit::mm}};
-  if (row.waves) {
-    value.push_back({"once_per_turn_um", row.waves->once_per_turn / unit::um});
-    value.push_back({"once_per_tooth_um", row.waves->once_per_tooth / unit::um});
-  }
-  if (row.per_K) {
-    const auto& [by_K_tc, by_K_rc] = *row.per_K;
-    value.push_back(
-        {"operator", Object{{"K_tc_mm_per_MPa", by_K_tc * unit::MPa / unit::mm},
-                            {"K_rc_mm_per_MPa", by_K_rc * unit::MPa / unit::mm}}});
-  }
-  return value;
+const Fields<ErrorRow>& height_fields() {
+  using Of = const ErrorRow&;
+  const auto waves = [](Of row) { return row.waves.has_value(); };
+  static const Fields<ErrorRow> operators{
+      {"K_tc_mm_per_MPa", "error by K_tc",
+       [](Of row) { return as_named((*row.per_K)[0] * unit::MPa / unit::mm); }},
+      {"K_rc_mm_per_MPa", "error by K_rc",
+       [](Of row) { return as_named((*row.per_K)[1] * unit::MPa / unit::mm); }}};
+  static const Fields<ErrorRow> all{
+      {"height_mm", "above the tip", [](Of row) { return given(row.height); }},
+      {"mean_error_mm", "mean error", [](Of row) { return row.statistics.error.mean; }},
+      {"min_error_mm", "smallest", [](Of row) { return row.statistics.error.min; }},
+      {"max_error_mm", "largest", [](Of row) { return row.statistics.error.max; }},
+      {"Ra_um", "along the feed", [](Of row) { return row.statistics.Ra; }},
+      {"Rt_um", "along the feed",
+       [](Of row) { return row.statistics.error.max - row.statistics.error.min; }},
+      {"share", "which fraction of the profile each tooth made",
+       [](Of row) { return row.statistics.share; }},
+      {"compliance_mm_per_N", "under the whole force", &ErrorRow::compliance},
+      {"once_per_turn_um", "envelope over whole turns: amplitude",
+       [](Of row) { return row.waves->once_per_turn; }, waves},
+      {"once_per_tooth_um", "the same with the teeth",
+       [](Of row) { return row.waves->once_per_tooth; }, waves},
+      {"operator", "imprint: the error by each coefficient", operators,
+       [](Of row) { return &row; }, [](Of row) { return row.per_K.has_value(); }}};
+  return all;
 }
 
-/// What bent.csv shows, and the bodies that it is drawn on: the wall up to the cut.
-Object shape_value(const SurfaceResult& r) {
-  const double below = r.passes.empty() ? 0.0 : r.passes.back().cut.below;
-  Object value{{"angle_deg", unit::in(r.map.shape->phi, unit::deg)},
-               {"F_normal_N", r.map.shape->F_normal},
-               {"cutter", nullptr},
-               {"wall", nullptr}};
-  if (r.cutter) {
-    set(value, "cutter",
-        Object{{"diameter_mm", unit::in(r.diameter, unit::mm)},
-               {"shank_diameter_mm", unit::in(r.cutter->shank_diameter, unit::mm)},
-               {"flute_length_mm", unit::in(r.cutter->flute_length, unit::mm)},
-               {"overhang_mm", unit::in(r.cutter->overhang, unit::mm)}});
-  }
-  if (r.wall) {
-    set(value, "wall",
-        Object{{"height_mm", unit::in(r.wall->height - below, unit::mm)},
-               {"thickness_mm", unit::in(r.wall->thickness, unit::mm)},
-               {"edge_height_mm", unit::in(r.a_p, unit::mm)}});
-  }
-  return value;
+const Fields<SurfaceResult>& bent_fields() {
+  using R = const SurfaceResult&;
+  static const Fields<SurfaceResult> cutter{
+      {"diameter_mm", "of the teeth", [](R r) { return given(r.diameter); }},
+      {"shank_diameter_mm", "of the shank",
+       [](R r) { return given(r.cutter->shank_diameter); }},
+      {"flute_length_mm", "above the tip",
+       [](R r) { return given(r.cutter->flute_length); }},
+      {"overhang_mm", "from the holder to the tip",
+       [](R r) { return given(r.cutter->overhang); }}};
+  static const Fields<SurfaceResult> wall{
+      {"height_mm", "up to the last pass",
+       [](R r) {
+         const double below = r.passes.empty() ? 0.0 : r.passes.back().cut.below;
+         return given(r.wall->height - below);
+       }},
+      {"thickness_mm", "before the cut", [](R r) { return given(r.wall->thickness); }},
+      {"edge_height_mm", "axial depth of the cut", [](R r) { return given(r.a_p); }}};
+  static const Fields<SurfaceResult> all{
+      {"angle_deg", "spindle angle of the largest force",
+       [](R r) { return given(r.map.shape->phi); }},
+      {"F_normal_N", "the force there", [](R r) { return r.map.shape->F_normal; }},
+      {"cutter", "`null` where rigid", cutter,
+       [](R r) { return r.cutter ? &r : nullptr; }},
+      {"wall", "`null` where rigid", wall, [](R r) { return r.wall ? &r : nullptr; }}};
+  return all;
 }
 
-Object result_of(const SurfaceResult& r) {
-  const ErrorMap& map = r.map;
-  Object result{{"model", surface::name_of(map.model)},
-                {"feedback", surface::name_of(map.feedback)}};
-  if (!map.converged) {
-    return result;
-  }
-  const auto add = [&](const char* key, Value value) {
-    result.push_back({key, std::move(value)});
-  };
-  Array heights;
-  for (const ErrorRow& row : map.rows) {
-    heights.push_back(height_value(row));
-  }
-  add("mean_error_mm", map.error.mean / unit::mm);
-  add("peak_error_mm", map.error.max / unit::mm);
-  add("min_error_mm", map.error.min / unit::mm);
-  add("forces", Object{{"F_normal_mean_N", map.F_normal.mean},
-                       {"F_normal_min_N", map.F_normal.min},
-                       {"F_normal_max_N", map.F_normal.max},
-                       {"Fx_mean_N", map.F_x.mean},
-                       {"Fx_min_N", map.F_x.min},
-                       {"Fx_max_N", map.F_x.max}});
-  add("compliance_mm_per_N", map.rows.front().compliance / unit::mm);
-  add("turns_to_repeat", map.turns);
-  add("heights", std::move(heights));
-  if (map.shape) {
-    add("bent", shape_value(r));
-  }
-  add_surface_parts(r, result);
-  return result;
+const Fields<SurfaceResult>& surface_fields() {
+  using R = const SurfaceResult&;
+  const auto steady = [](R r) { return r.map.converged; };
+  static const Fields<ErrorMap> forces{
+      {"F_normal_mean_N", "mean", [](const ErrorMap& m) { return m.F_normal.mean; }},
+      {"F_normal_min_N", "smallest", [](const ErrorMap& m) { return m.F_normal.min; }},
+      {"F_normal_max_N", "largest", [](const ErrorMap& m) { return m.F_normal.max; }},
+      {"Fx_mean_N", "mean", [](const ErrorMap& m) { return m.F_x.mean; }},
+      {"Fx_min_N", "smallest", [](const ErrorMap& m) { return m.F_x.min; }},
+      {"Fx_max_N", "largest", [](const ErrorMap& m) { return m.F_x.max; }}};
+  static const Fields<SurfaceResult> all{
+      {"model", "as asked for", [](R r) { return surface::name_of(r.map.model); }},
+      {"feedback", "as asked for",
+       [](R r) { return surface::name_of(r.map.feedback); }},
+      {"mean_error_mm", "mean of the heights, each over surface.csv",
+       [](R r) { return r.map.error.mean; }, steady},
+      {"peak_error_mm", "largest in surface.csv", [](R r) { return r.map.error.max; },
+       steady},
+      {"min_error_mm", "smallest in surface.csv", [](R r) { return r.map.error.min; },
+       steady},
+      {"forces", "over the rows of forces.csv", forces, [](R r) { return &r.map; },
+       steady},
+      {"compliance_mm_per_N", "at the first of the heights, under the whole force",
+       [](R r) { return r.map.rows.front().compliance; }, steady},
+      {"turns_to_repeat",
+       "turns until the steady state, in which the deflection repeats",
+       [](R r) { return r.map.turns; }, steady},
+      {"heights", "for each height", height_fields(),
+       [](R r) -> const auto& {return r.map.rows;
+}
+, steady
+}  // namespace
+,
+    {"bent", "the deflected shapes in bent.csv", bent_fields(), [](R r) { return &r; },
+     [](R r) { return r.map.converged && r.map.shape; }},
+{
+  "", "", surface_part_fields(), [](R r) { return &r; }, steady
+}
+};  // namespace trochoid::results
+return all;
 }
 
 /// Else it might print as -0.00.
@@ -220,18 +259,31 @@ std::string short_table(const SurfaceResult& r) {
 }  // namespace
 
 Answer answer_of(const SurfaceResult& r) {
-  Answer answer{.command = "surface", .heading = r.heading, .result = result_of(r)};
+  Answer answer{
+      .command = "surface", .heading = r.heading, .result = surface_fields().object(r)};
   if (!r.map.converged) {
     return answer;
   }
   answer.short_table = short_table(r);
-  answer.tables = {surface_table(r.map), force_table(r.map), deflection_table(r.map),
-                   influence_table(r.map)};
+  answer.tables = {surface_columns().table(MapPoints(r.map)),
+                   wall_force_columns().table(r.map), deflection_columns().table(r.map),
+                   influence_columns().table(r.map)};
   if (r.map.shape) {
-    answer.tables.push_back(shape_table(*r.map.shape));
+    answer.tables.push_back(bent_columns().table(*r.map.shape));
   }
   add_surface_tables(r, answer.tables);
   return answer;
+}
+
+Description description_of_surface() {
+  Description all{.command = "surface", .keys = surface_fields().texts()};
+  surface_columns().add_texts(all.columns);
+  wall_force_columns().add_texts(all.columns);
+  deflection_columns().add_texts(all.columns);
+  influence_columns().add_texts(all.columns);
+  bent_columns().add_texts(all.columns);
+  add_texts_of_surface_parts(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results

@@ -12,71 +12,63 @@ using structure::LoadedWall;
 using structure::WallLoad;
 using surface::PassOutcome;
 
-/// A number of a pass: its name in files, and itself in that unit.
-struct PassColumn {
-  const char* name;
-  double (*value)(const PassOutcome& p);
+/// A pass, and whether the wall bends.
+struct PassOfWall {
+  const PassOutcome& pass;
+  bool bends;
 };
 
-constexpr PassColumn pass_columns[] = {
-    {"radial_depth_mm",
-     [](const PassOutcome& p) { return unit::in(p.cut.a_e, unit::mm); }},
-    {"feed_per_tooth_mm",
-     [](const PassOutcome& p) { return unit::in(p.cut.f_z, unit::mm); }},
-    {"below_edge_mm",
-     [](const PassOutcome& p) { return unit::in(p.cut.below, unit::mm); }},
-    {"stock_min_mm",
-     [](const PassOutcome& p) { return p.radial_depth.min / unit::mm; }},
-    {"stock_mean_mm",
-     [](const PassOutcome& p) { return p.radial_depth.mean / unit::mm; }},
-    {"stock_max_mm",
-     [](const PassOutcome& p) { return p.radial_depth.max / unit::mm; }},
-    {"mean_error_mm", [](const PassOutcome& p) { return p.error.mean / unit::mm; }},
-    {"min_error_mm", [](const PassOutcome& p) { return p.error.min / unit::mm; }},
-    {"peak_error_mm", [](const PassOutcome& p) { return p.error.max / unit::mm; }},
-    {"F_normal_mean_N", [](const PassOutcome& p) { return p.F_normal.mean; }},
-    {"F_normal_max_N", [](const PassOutcome& p) { return p.F_normal.max; }},
-};
-constexpr PassColumn thickness_columns[] = {
-    {"thickness_before_mm",
-     [](const PassOutcome& p) { return unit::in(p.thickness_before, unit::mm); }},
-    {"thickness_left_mm",
-     [](const PassOutcome& p) { return p.thickness_after / unit::mm; }},
-};
-
-base::Table pass_table(const SurfaceResult& r) {
-  base::Table table{"passes.csv", {}};
-  const std::size_t n = r.passes.size();
-  add_column(table, "pass", n,
-             [](std::size_t i) { return static_cast<double>(i + 1); });
-  const auto add = [&](const PassColumn& column) {
-    add_column(table, column.name, n,
-               [&](std::size_t i) { return column.value(r.passes[i]); });
-  };
-  for (const PassColumn& column : pass_columns) {
-    add(column);
-  }
-  for (const PassColumn& column : thickness_columns) {
-    if (r.wall) {
-      add(column);
-    }
-  }
-  return table;
+const Fields<PassOfWall>& pass_fields() {
+  using Of = const PassOfWall&;
+  static const Fields<PassOfWall> all{
+      {"radial_depth_mm", "as asked for", [](Of p) { return given(p.pass.cut.a_e); }},
+      {"feed_per_tooth_mm", "as asked for", [](Of p) { return given(p.pass.cut.f_z); }},
+      {"below_edge_mm", "how deep below the free edge of the wall",
+       [](Of p) { return given(p.pass.cut.below); }},
+      {"stock_min_mm",
+       "smallest radial depth with what the pass before left, over the "
+       "heights",
+       [](Of p) { return p.pass.radial_depth.min; }},
+      {"stock_mean_mm", "its mean", [](Of p) { return p.pass.radial_depth.mean; }},
+      {"stock_max_mm", "its largest", [](Of p) { return p.pass.radial_depth.max; }},
+      {"mean_error_mm", "error that it leaves", [](Of p) { return p.pass.error.mean; }},
+      {"min_error_mm", "the smallest", [](Of p) { return p.pass.error.min; }},
+      {"peak_error_mm", "the largest", [](Of p) { return p.pass.error.max; }},
+      {"F_normal_mean_N", "mean force across the wall",
+       [](Of p) { return p.pass.F_normal.mean; }},
+      {"F_normal_max_N", "largest force across the wall",
+       [](Of p) { return p.pass.F_normal.max; }},
+      {"thickness_before_mm", "of the wall where it is cut, `null` where it is rigid",
+       [](Of p) {
+         return all_given(p.bends ? Value(p.pass.thickness_before) : Value());
+       }},
+      {"thickness_left_mm", "after the pass, `null` where it is rigid",
+       [](Of p) { return p.bends ? Value(p.pass.thickness_after) : Value(); }}};
+  return all;
 }
 
 Array passes_value(const SurfaceResult& r) {
   Array all;
   for (const PassOutcome& pass : r.passes) {
-    Object one;
-    for (const PassColumn& column : pass_columns) {
-      one.push_back({column.name, column.value(pass)});
-    }
-    for (const PassColumn& column : thickness_columns) {
-      one.push_back({column.name, r.wall ? Value(column.value(pass)) : Value()});
-    }
-    all.emplace_back(std::move(one));
+    all.emplace_back(pass_fields().object({pass, r.wall.has_value()}));
   }
   return all;
+}
+
+/// passes.csv: a row for each of the same, without what is null.
+base::Table pass_table(const SurfaceResult& r) {
+  base::Table table{"passes.csv", {}};
+  const Array passes = passes_value(r);
+  const auto row = [&](std::size_t i) -> const Object& {
+    return std::get<Object>(passes[i].data);
+  };
+  add_column(table, "pass", passes.size(), [](std::size_t i) { return i + 1; });
+  for (std::size_t k = 0; k < row(0).size(); ++k) {
+    if (!std::holds_alternative<double>(row(0)[k].value.data)) continue;
+    add_column(table, row(0)[k].key, passes.size(),
+               [&](std::size_t i) { return std::get<double>(row(i)[k].value.data); });
+  }
+  return table;
 }
 
 /// The unit of a load in files.
@@ -102,33 +94,63 @@ const char* coefficient_words(WallLoad load) {
   return "";
 }
 
-base::Table loads_table(const structure::LoadedWalls& loads) {
-  base::Table table{"wall_loads.csv", {}};
-  const std::size_t rows = loads.y.size();
-  const std::size_t n = loads.x.size() * rows;
-  add_column(table, "x_mm", n,
-             [&](std::size_t i) { return unit::in(loads.x[i / rows], unit::mm); });
-  add_column(table, "wall_height_mm", n,
-             [&](std::size_t i) { return unit::in(loads.y[i % rows], unit::mm); });
-  for (const LoadedWall& wall : loads.walls) {
-    add_column(table, fmt::format("{}_deflection_mm", name_of(wall.load)), n,
-               [&](std::size_t i) { return wall.w[i] / unit::mm; });
-  }
-  return table;
+const Columns<structure::LoadedWalls>& load_columns() {
+  using Of = const structure::LoadedWalls&;
+  static const Columns<structure::LoadedWalls> all{
+      "wall_loads.csv",
+      [](Of loads) { return loads.x.size() * loads.y.size(); },
+      {{"x_mm", "along the wall",
+        [](Of loads, std::size_t i) { return given(loads.x[i / loads.y.size()]); }},
+       {"wall_height_mm", "above the foot",
+        [](Of loads, std::size_t i) { return given(loads.y[i % loads.y.size()]); }},
+       {"*_deflection_mm",
+        "of each load, `pressure`, `edge_load`, `line_load`, in its direction",
+        [](Of loads) {
+          std::vector<std::string> names;
+          for (const LoadedWall& wall : loads.walls) {
+            names.emplace_back(name_of(wall.load));
+          }
+          return names;
+        },
+        [](Of loads, std::size_t i, std::size_t k) { return loads.walls[k].w[i]; }}}};
+  return all;
+}
+
+/// Behind the name of a load, but for its size.
+const Fields<LoadedWall>& load_fields() {
+  using Of = const LoadedWall&;
+  static const Fields<LoadedWall> all{
+      {"largest_deflection_mm", "by size", &LoadedWall::largest},
+      {"x_mm", "where that is", [](Of wall) { return given(wall.x); }},
+      {"wall_height_mm", "above the foot", [](Of wall) { return given(wall.y); }},
+      {"coefficient", "the number without unit of handbooks (B-11)",
+       &LoadedWall::coefficient},
+      {"coefficient_is", "how it is made, in letters",
+       [](Of wall) { return coefficient_words(wall.load); }}};
+  return all;
 }
 
 Object loads_value(const structure::LoadedWalls& loads) {
   Object all;
   for (const LoadedWall& wall : loads.walls) {
-    all.push_back({std::string(name_of(wall.load)),
-                   Object{{key_of(wall.load), unit::in(wall.size, unit_of(wall.load))},
-                          {"largest_deflection_mm", wall.largest / unit::mm},
-                          {"x_mm", unit::in(wall.x, unit::mm)},
-                          {"wall_height_mm", unit::in(wall.y, unit::mm)},
-                          {"coefficient", wall.coefficient},
-                          {"coefficient_is", coefficient_words(wall.load)}}});
+    Object one{{key_of(wall.load), unit::in(wall.size, unit_of(wall.load))}};
+    for (Member& member : load_fields().object(wall)) one.push_back(std::move(member));
+    all.push_back({std::string(name_of(wall.load)), std::move(one)});
   }
   return all;
+}
+
+std::vector<KeyText> texts_of_loads() {
+  std::vector<KeyText> out;
+  for (const WallLoad load :
+       {WallLoad::pressure, WallLoad::edge_load, WallLoad::line_load}) {
+    const std::string path = fmt::format(".{}", name_of(load));
+    out.push_back({path, "where it is given"});
+    out.push_back({fmt::format("{}.{}", path, key_of(load)), "as asked for"});
+    for (KeyText& text : load_fields().texts(path + "."))
+      out.push_back(std::move(text));
+  }
+  return out;
 }
 
 Array axes_of(const SurfaceResult& r) {
@@ -155,22 +177,28 @@ std::string pass_text(const SurfaceResult& r) {
 
 }  // namespace
 
-void add_surface_parts(const SurfaceResult& r, Object& result) {
-  if (!r.passes.empty()) {
-    result.push_back({"passes", passes_value(r)});
-  }
-  if (r.straight) {
-    result.push_back(
-        {"also_bends",
-         Object{{"axes", axes_of(r)},
-                {"mean_error_without_mm", r.straight->mean / unit::mm},
-                {"peak_error_without_mm", r.straight->max / unit::mm},
-                {"mean_change_um", (r.map.error.mean - r.straight->mean) / unit::um},
-                {"peak_change_um", (r.map.error.max - r.straight->max) / unit::um}}});
-  }
-  if (r.loads) {
-    result.push_back({"wall_loads", loads_value(*r.loads)});
-  }
+const Fields<SurfaceResult>& surface_part_fields() {
+  using R = const SurfaceResult&;
+  static const Fields<SurfaceResult> bends{
+      {"axes", "of the forces", axes_of},
+      {"mean_error_without_mm", "without them", [](R r) { return r.straight->mean; }},
+      {"peak_error_without_mm", "without them", [](R r) { return r.straight->max; }},
+      {"mean_change_um", "by which they change it",
+       [](R r) { return r.map.error.mean - r.straight->mean; }},
+      {"peak_change_um", "by which they change it",
+       [](R r) { return r.map.error.max - r.straight->max; }}};
+  static const Fields<SurfaceResult> all{
+      Field<SurfaceResult>{"passes",
+                           "with `[[pass]]`, for each; everything else is of the last",
+                           passes_value, [](R r) { return !r.passes.empty(); }}
+          .with(pass_fields().texts("[].")),
+      {"also_bends", "if asked for: mean and peak error without those forces", bends,
+       [](R r) { return &r; }, [](R r) { return r.straight.has_value(); }},
+      Field<SurfaceResult>{"wall_loads", "if asked for",
+                           [](R r) { return loads_value(*r.loads); },
+                           [](R r) { return r.loads.has_value(); }}
+          .with(texts_of_loads())};
+  return all;
 }
 
 void add_surface_tables(const SurfaceResult& r, std::vector<base::Table>& tables) {
@@ -178,8 +206,16 @@ void add_surface_tables(const SurfaceResult& r, std::vector<base::Table>& tables
     tables.push_back(pass_table(r));
   }
   if (r.loads) {
-    tables.push_back(loads_table(*r.loads));
+    tables.push_back(load_columns().table(*r.loads));
   }
+}
+
+void add_texts_of_surface_parts(std::vector<ColumnText>& out) {
+  out.push_back({"passes.csv", "pass", "with `[[pass]]`: number, from 1"});
+  for (const KeyText& key : pass_fields().texts()) {
+    out.push_back({"passes.csv", key.path, key.meaning});
+  }
+  load_columns().add_texts(out);
 }
 
 std::string surface_parts_text(const SurfaceResult& r) {

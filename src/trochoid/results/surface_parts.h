@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/results/columns.h>
 #include <trochoid/results/surface.h>
 
 #include <string>
@@ -9,10 +10,11 @@
 namespace trochoid::results {
 
 /// @brief Passes, loads and other forces, where they were asked for, in summary.json.
-void add_surface_parts(const SurfaceResult& r, Object& result);
+const Fields<SurfaceResult>& surface_part_fields();
 
 /// @brief passes.csv and wall_loads.csv, where they were asked for.
 void add_surface_tables(const SurfaceResult& r, std::vector<base::Table>& tables);
+void add_texts_of_surface_parts(std::vector<ColumnText>& out);
 
 /// The same for a person.
 std::string surface_parts_text(const SurfaceResult& r);

@@ -10,7 +10,7 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// What stands for a number among the texts of a column.
 const std::string no_text;
@@ -26,7 +26,7 @@ void add_cell(const Cell& cell, base::Table::Column& column) {
   if (text != nullptr || !column.texts.empty()) {
     column.texts.push_back(text != nullptr ? *text : no_text);
   }
-  column.values.push_back(value != nullptr ? *value : none);
+  column.values.push_back(value != nullptr ? *value : no_number);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <trochoid/run/vibration.h>
 
+#include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
 
 #include <fmt/core.h>
@@ -32,7 +33,8 @@ void warn_of_complex_shapes(const ShapesFit& fit, Warnings& warnings) {
   std::string each;
   for (const ShapeMode& mode : fit.modes) {
     each += fmt::format("{}{:.1f} +- {:.1f} % at {}", each.empty() ? "" : ", ",
-                        100 * mode.imaginary.value, 100 * 1.96 * mode.imaginary.se,
+                        100 * mode.imaginary.value,
+                        100 * base::normal_interval * mode.imaginary.se,
                         hertz(mode.omega.value));
   }
   warnings.push_back(
@@ -82,8 +84,8 @@ void warn_of_reciprocity(const results::SharedModesResult& r, Warnings& warnings
                "The response {} is {:.3f} +- {:.3f} times {}, and reciprocity makes them "
                "equal: the calibration of hammer or sensor differs between the two, or "
                "they did not hit the same point. The modes lie between.",
-               r.responses[pair.other].name, pair.gain.value, 1.96 * pair.gain.se,
-               r.responses[pair.one].name)});
+               r.responses[pair.other].name, pair.gain.value,
+               base::normal_interval * pair.gain.se, r.responses[pair.one].name)});
     }
   }
 }

@@ -36,14 +36,12 @@ std::vector<Source> sources_of(const inputs::Case& given,
       }
     }
     if (out.empty()) {
-      out.push_back(
-          {{frf.axis, frf.axis, frf.response.get()}, frf.band});
+      out.push_back({{frf.axis, frf.axis, frf.response.get()}, frf.band});
     }
     return out;
   }
   for (const inputs::MeasuredFrf& one : given.machine.measured_frfs) {
-    out.push_back({{one.axis, one.force_axis.value_or(one.axis),
-                    one.response.get()},
+    out.push_back({{one.axis, one.force_axis.value_or(one.axis), one.response.get()},
                    one.band.empty() ? frf.band : one.band});
   }
   return out;
@@ -142,7 +140,8 @@ bool modes_are_shared(const inputs::Case& given) {
 results::SharedModesResult shared_modes(const inputs::Case& given) {
   const inputs::FrfTables frf = given.machine.frf.value_or(inputs::FrfTables{});
   results::SharedModesResult r{.heading = heading_of(given)};
-  r.body = frf.source.file.name.empty() ? given.machine.measured_frfs.front().body : frf.body;
+  r.body = frf.source.file.name.empty() ? given.machine.measured_frfs.front().body
+                                        : frf.body;
   std::vector<DirectedResponse> all;
   std::string fault;
   for (Source& source : sources_of(given, frf)) {

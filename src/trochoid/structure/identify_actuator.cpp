@@ -1,3 +1,4 @@
+#include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
@@ -200,7 +201,7 @@ void add_errors(const std::vector<double>& C, std::size_t n, double tau,
             : fmt::format(
                   "the damping ratio, {:.5g} +- {:.1g}, is too near to 1: only "
                   "the sum and the product of the time constants are known",
-                  zeta, 1.96 * fit.damping_ratio_se);
+                  zeta, base::normal_interval * fit.damping_ratio_se);
     return;
   }
   const auto T = time_constants(fit.dynamics);

@@ -26,6 +26,20 @@ using inputs::Node;
 using inputs::SweptKey;
 using results::ReadJoint;
 
+/// A number of a table of a case, as it stands there; none: another value, or none.
+std::optional<double> number_in(const Node& table, std::string_view key) {
+  const Node* node = find(table, key);
+  return node != nullptr ? inputs::number_in(*node) : std::nullopt;
+}
+
+/// Whether a case states any mode.
+bool has_modes(const Node& root) {
+  const Node* modes = find(root, "mode");
+  const auto* list =
+      modes != nullptr ? std::get_if<inputs::Array>(&modes->value) : nullptr;
+  return list != nullptr && !list->empty();
+}
+
 /// Where modes come from.
 struct ModesFile {
   inputs::Location where;  ///< of what asks for them
@@ -43,12 +57,6 @@ std::string text_in(const Node& table, std::string_view key) {
   const Node* node = find(table, key);
   const auto* text = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
   return text != nullptr ? *text : std::string();
-}
-
-/// A number of a table of a case, as it stands there; none: another value, or none.
-std::optional<double> number_in(const Node& table, std::string_view key) {
-  const Node* node = find(table, key);
-  return node != nullptr ? inputs::number_in(*node) : std::nullopt;
 }
 
 /// Natural frequency of a mode of a case [Hz]; none where it is not said.
@@ -156,14 +164,6 @@ std::string text_at(const Node& root, std::string_view table, std::string_view k
                          : nullptr;
   const auto* text = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
   return text != nullptr ? *text : otherwise;
-}
-
-/// Whether a case states any mode.
-bool has_modes(const Node& root) {
-  const Node* modes = find(root, "mode");
-  const auto* list =
-      modes != nullptr ? std::get_if<inputs::Array>(&modes->value) : nullptr;
-  return list != nullptr && !list->empty();
 }
 
 /// Find the modes of a joint answer among those of a case: its names then are keys of that

@@ -24,7 +24,9 @@ Answer modes() {
 Answer shared_modes() {
   inputs::MachineTables machine;
   machine.frf = inputs::FrfTables{
-      .source = {.file = inputs::file_at((examples / "several_responses/tool.uff").string())}, .modes = 2};
+      .source = {.file = inputs::file_at(
+                     (examples / "several_responses/tool.uff").string())},
+      .modes = 2};
   return answer_of(trochoid::run::shared_modes(
       inputs::bare_case(machine, inputs::Command::modes, {})));
 }

@@ -139,7 +139,8 @@ TEST(CaseSurface, AFrameIsThreePerpendicularDirections) {
   const Case axes = folder.read(
       with("origin_mm = [12.5, -5, 40], feed = \"x\", normal = \"-y\", up = \"+Z\""),
       Command::calibrate);
-  const SurfaceFrame& frame = axes.machine.surface_measurements.at(0).source.frame.value();
+  const SurfaceFrame& frame =
+      axes.machine.surface_measurements.at(0).source.frame.value();
   EXPECT_EQ(frame.origin, (std::vector<double>{12.5e-3, -5e-3, 40e-3}));
   EXPECT_EQ(*frame.feed, (Direction{1, 0, 0}));
   EXPECT_EQ(*frame.normal, (Direction{0, -1, 0}));
@@ -152,7 +153,8 @@ TEST(CaseSurface, AFrameIsThreePerpendicularDirections) {
   // Without up the three are right-handed; numbers need not be exact.
   const Case numbers = folder.read(
       with("feed = [0.707, 0.707, 0], normal = [-2, 2.004, 0]"), Command::calibrate);
-  const SurfaceFrame& turned = numbers.machine.surface_measurements.at(0).source.frame.value();
+  const SurfaceFrame& turned =
+      numbers.machine.surface_measurements.at(0).source.frame.value();
   EXPECT_NEAR((*turned.up)[2], 1.0, 1e-15);
   double cosine = 0.0;
   for (std::size_t i = 0; i < 3; ++i) cosine += (*turned.feed)[i] * (*turned.normal)[i];

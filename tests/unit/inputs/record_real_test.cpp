@@ -17,7 +17,8 @@ TEST(RealRecord, IsReadAndItsSpindleSpeedFound) {
        {std::pair{"n6000_f600_ap3.csv", 5.0}, {"n6000_f1200_ap3.csv", 2.0}}) {
     RecordSource m;
     m.file.path = folder / name;
-    if (!std::filesystem::exists(m.file.path)) GTEST_SKIP() << m.file.path << " is not here";
+    if (!std::filesystem::exists(m.file.path))
+      GTEST_SKIP() << m.file.path << " is not here";
     const auto record = read_record(m);
     EXPECT_EQ(record.size(), 10001u);
     EXPECT_EQ(record.sample_rate, 1e4);

@@ -105,8 +105,9 @@ TEST(SurfaceFile, ReportsEveryBadRowAtOnce) {
 
 TEST(SurfaceFile, AFileThatIsGoneIsToldWhereTheCaseNamesIt) {
   try {
-    static_cast<void>(read_surface({.file = {.name = "wall.csv", .path = "/no/wall.csv",
-                                       .location = "c.toml:9:8"}}));
+    static_cast<void>(read_surface(
+        {.file = {
+             .name = "wall.csv", .path = "/no/wall.csv", .location = "c.toml:9:8"}}));
     FAIL();
   } catch (const base::InputError& error) {
     EXPECT_STREQ(error.what(),
@@ -142,7 +143,8 @@ TEST(SurfaceReadings, LieWithinTheCutAndTheWall) {
   EXPECT_EQ(check_readings(one_reading(60.1 * mm, mm), "w.csv", wall_of(c)),
             std::vector<std::string>{"w.csv:5:1: x = 60.1 mm is outside the wall: must "
                                      "be from 0 to length_mm = 60 mm"});
-  EXPECT_EQ(check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", wall_of(c)).size(), 2U);
+  EXPECT_EQ(check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", wall_of(c)).size(),
+            2U);
 }
 
 TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {

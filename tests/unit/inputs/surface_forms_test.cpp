@@ -20,8 +20,7 @@ SurfaceFile read(const std::string& text, SurfaceSource measurement = {}) {
   return read_surface_file(in, measurement, 3);
 }
 
-std::string refusal(const std::string& text,
-                    const SurfaceSource& measurement = {}) {
+std::string refusal(const std::string& text, const SurfaceSource& measurement = {}) {
   try {
     static_cast<void>(read(text, measurement));
   } catch (const base::InputError& error) {

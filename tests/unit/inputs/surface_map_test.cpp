@@ -25,8 +25,7 @@ SurfaceFile read(const std::string& bytes, SurfaceSource measurement = {}) {
   return read_surface_file(in, measurement, 3);
 }
 
-std::string refusal(const std::string& bytes,
-                    const SurfaceSource& measurement = {}) {
+std::string refusal(const std::string& bytes, const SurfaceSource& measurement = {}) {
   try {
     static_cast<void>(read(bytes, measurement));
   } catch (const base::InputError& error) {

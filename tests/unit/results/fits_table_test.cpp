@@ -50,7 +50,7 @@ TEST(FitValue, WhatCannotBeToldIsNull) {
   fit.coefficients[5].reset();
   fit.unidentifiable.emplace_back("K_ae_N_per_mm", "the record does not hold it");
   fit.unidentifiable.emplace_back("phase_deg", "nor that");
-  const Value value = fit_value(fit);
+  const Value value = fit_fields().object({fit});
   const Value* K = find(value, "coefficients");
   ASSERT_NE(K, nullptr);
   EXPECT_EQ(json_text(*find(*K, "K_ae_N_per_mm")), "null");

@@ -131,10 +131,11 @@ std::string universal(const std::vector<std::string>& names, int node_of_last = 
 
 inputs::Case bare(const CaseFolder& folder, const std::string& text) {
   inputs::MachineTables machine;
-  machine.frf = inputs::FrfTables{.source = {.file = inputs::file_at(folder.write("all.uff", text).string())},
-                                  .modes = 2,
-                                  .residual_terms = inputs::ResidualTerms::no,
-                                  .shapes = inputs::Shapes::real};
+  machine.frf = inputs::FrfTables{
+      .source = {.file = inputs::file_at(folder.write("all.uff", text).string())},
+      .modes = 2,
+      .residual_terms = inputs::ResidualTerms::no,
+      .shapes = inputs::Shapes::real};
   return inputs::bare_case(machine, Command::modes, {});
 }
 

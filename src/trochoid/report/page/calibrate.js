@@ -40,7 +40,7 @@ function calibratePage(report) {
     { part: answersTable(result, readings, keys) },
     fitted ? ellipseSection(readings, keys) : null,
     { part: explanationsPart(result, keys) },
-    { part: runoutPart(result) },
+    { part: runoutPart(report) },
     adviceSection(result, keys, fitted),
     { part: datumPart(result) },
     { part: restSection(result, calibrateKnown) },
@@ -67,9 +67,9 @@ function calibrateLead(report, readings, keys) {
         value: fixed(micro(result.readings.repeatability_mm), 2), unit: 'µm',
         note: `standard deviation of ${result.readings.repeats} repeated readings` },
       isNumber(result.runout?.eccentricity_mm) && { label: 'Runout',
-        value: measured(micro(result.runout.eccentricity_mm), micro(1.96 * result.runout.eccentricity_se_mm)),
-        unit: 'µm', note: `± ${number(micro(1.96 * result.runout.eccentricity_se_mm), 2)} µm${
-          runoutSeen(result.runout) ? ', off centre' : ': none stands out'}` },
+        value: measured(micro(result.runout.eccentricity_mm), micro(normalInterval * result.runout.eccentricity_se_mm)),
+        unit: 'µm', note: `± ${number(micro(normalInterval * result.runout.eccentricity_se_mm), 2)} µm${
+          report.said.runout_seen ? ', off centre' : ': none stands out'}` },
     ]),
     ...verdict(result, readings),
   ];

@@ -27,21 +27,18 @@ function explanationsPart(result, keys) {
       out.length > 6 ? ', ...' : '', '.') : null);
 }
 
-/** As the program judges it: three standard errors from none. */
-const runoutSeen = (runout) => runout.eccentricity_mm > 3 * runout.eccentricity_se_mm;
-
-function runoutPart(result) {
+function runoutPart({ result, said }) {
   const { runout } = result;
   if (isEmpty(runout)) return null;
   if (!isNumber(runout.eccentricity_mm)) {
     return section('runout', 'Runout', 'Runout', prose('Not known: ', runout.identifiable || 'not fitted', '.'));
   }
-  const width = micro(1.96 * runout.eccentricity_se_mm);
-  const turn = 1.96 * runout.angle_se_deg;
+  const width = micro(normalInterval * runout.eccentricity_se_mm);
+  const turn = normalInterval * runout.angle_se_deg;
   const less = 100 * (1 - runout.rms_mm / runout.rms_without_mm);
   const pitch = runout.angle_known_up_to_deg;
   return section('runout', 'Runout', 'Runout',
-    prose(runoutSeen(runout) ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
+    prose(said.runout_seen ? 'The tool turns ' : 'No runout stands out. The best fit has the tool turn ',
       el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
       ' off its centre', turn < 180 ? [', at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
         ' from the tip of tooth 1 towards tooth 2'] : ', at an angle that is not known', ' (eccentricity, 95 %).', isNumber(pitch) && turn < 180 ?

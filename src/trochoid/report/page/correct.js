@@ -17,7 +17,7 @@ function correctPage(report) {
     controllerSection(report),
     speedsSection(report),
     spindleSection(report),
-    { part: limitsSection(report.result.command) },
+    { part: limitsSection(report.result.command, report.said) },
     { part: wallsSection(report.result) },
     { part: correctRunoutSection(report.result) },
     { part: restSection(report.result, correctKnown) },
@@ -103,19 +103,6 @@ function flutesSection({ before, after }) {
     table(['flute', ...kinds.flatMap(({ name }, k) => [k === 0 ? '|Fy| before, N' :
       name.replace(/,(?=[^,]*$)/, ' before,'), 'after'])], rows), ownForces(after, before));
   return { part, draw: () => chart.resize() };
-}
-
-/** Whether anything better could be found, and how this is known. */
-function optimumOf(optimum) {
-  if (!optimum) return null;
-  const { kind, proven, starts, agreeing } = optimum;
-  if (kind === 'equal') return 'The flutes are made equal: no motion does better.';
-  if (kind === 'limit_of_one_axis') {
-    return proven ? 'Limit of one axis: a convex problem, no motion of these harmonics does better.'
-      : `Limit of one axis in this shape: ${agreeing} of ${starts} starts of the search ended ` +
-        'here, which is not a proof.';
-  }
-  return 'Local minimum of a problem that is not convex: another shape or strategy may do better.';
 }
 
 /** What a dynamometer does not show. */
@@ -257,13 +244,13 @@ function spindleSection(report) {
       values: columnNamed(t, 'torque_Nm'), color: '--s2', width: 1.8 }] }]) };
 }
 
-function limitsSection(command) {
+function limitsSection(command, { optimum }) {
   if (!command?.limits?.length) return null;
   const rows = command.limits.map((l) => [el('span', {}, inPrint(l.reason)),
     l.ok === null ? 'not known' : l.ok ? 'within' : el('b', {}, 'beyond')]);
   return section('limits', 'Limits of the actuator', 'Limits',
     table(['what', 'against its limit'], rows),
-    command.optimum ? prose(optimumOf(command.optimum)) : null,
+    optimum ? prose(`${sentence(optimum)}.`) : null,
     command.learning ? prose(`Iterative learning control: ${command.learning.iterations} iterations, ` +
       `${command.learning.converged ? 'converged' : 'not converged'}.`) : null);
 }
@@ -290,7 +277,7 @@ function correctRunoutSection({ runout, axes }) {
     ['chip of each tooth above the feed per tooth, µm', list(runout.chip_difference_um)],
     ['the command is made for, µm', list(runout.designed_for_um)],
     runout.static_fit && ['a rigid model reads from the forces, µm',
-      runout.static_fit.chip_difference_um.map((v) => measured(v.value, 1.96 * v.se)).join(', ')],
+      runout.static_fit.chip_difference_um.map((v) => measured(v.value, normalInterval * v.se)).join(', ')],
     runout.ratio_um && ['from the ratio of the peaks, µm', list(runout.ratio_um)],
   ].filter(Boolean);
   return section('runout', 'Runout', 'Runout', table(['', ''], rows), axes ?

@@ -75,7 +75,7 @@ function headline(fit, fits, trust) {
 }
 
 /** The interval of a runout of two teeth or of an eccentricity alone, in words. */
-function runoutWidth({ runout, interval_factor: factor = 1.96 }) {
+function runoutWidth({ runout, interval_factor: factor = normalInterval }) {
   const offsets = runout?.radial_offsets_mm || [];
   const se = offsets.some((r) => r !== offsets[0]) ? offsets.length === 2 && runout.radial_offsets_se_mm?.[1] : runout?.eccentricity_se_mm;
   return isNumber(se) && se > 0 ? `± ${number(1000 * factor * se, 2)} µm` : '';
@@ -155,7 +155,7 @@ function offsetTable(fit) {
   if (!Array.isArray(offsets) || offsets.length < 2) return null;
   const um = offsets.map((r) => 1000 * r);
   const se = fit.runout.radial_offsets_se_mm || [];
-  const factor = fit.interval_factor || 1.96;
+  const factor = fit.interval_factor || normalInterval;
   const largest = Math.max(...um.map(Math.abs)) || 1;
   return el('details', { class: 'offsets', open: offsets.length <= 8 ? '' : undefined },
     el('summary', {}, 'Radius of each tooth against tooth 1'),

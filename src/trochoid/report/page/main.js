@@ -3,8 +3,8 @@
 
 function build() {
   const data = JSON.parse(document.getElementById('data').textContent);
-  const { summary, tables } = data;
-  const report = { ...summary, result: summary.result || {}, tables };
+  const { summary, words: said, tables } = data;
+  const report = { ...summary, result: summary.result || {}, said, tables };
   const page = pages[report.command] || anyPage;
   const parts = page(report).filter(Boolean);
   const figures = document.getElementById('figures');

@@ -12,7 +12,7 @@ const kindLabels = { receptance: 'receptance, displacement over force',
 
 /** A value and half of its 95 % interval, to the digits that the interval leaves. */
 const withError = (value, se) => (isNumber(value)
-  ? [measured(value, 1.96 * se), isNumber(se) ? el('small', {}, ` ± ${number(1.96 * se, 2)}`) : null]
+  ? [measured(value, normalInterval * se), isNumber(se) ? el('small', {}, ` ± ${number(normalInterval * se, 2)}`) : null]
   : missing);
 
 function modesPage(report) {
@@ -40,7 +40,7 @@ function modesPage(report) {
 }
 
 /** Half of a 95 % interval in words; empty where there is none. */
-const halfWords = (se, unit = '') => (se > 0 ? `±\u00a0${number(1.96 * se, 2)}${unit && ` ${unit}`}` : '');
+const halfWords = (se, unit = '') => (se > 0 ? `±\u00a0${number(normalInterval * se, 2)}${unit && ` ${unit}`}` : '');
 
 function modesTable({ modes: found, noise, unresolved }) {
   const modes = Array.isArray(found) ? found : [];

@@ -150,7 +150,7 @@ function restSection(result, known) {
 const offsetWords = (um) => (um < 0 ? 'shorter' : 'longer');
 
 /** Runout in a sentence; everything relative to tooth 1, as only differences matter. */
-function runoutWords(runout, factor = 1.96) {
+function runoutWords(runout, factor = normalInterval) {
   const parts = [];
   const offsets = runout?.radial_offsets_mm?.map((r) => 1000 * r);
   const se = runout?.radial_offsets_se_mm?.map((r) => (isNumber(r) ? 1000 * r : null)) || [];

@@ -12,7 +12,7 @@ function sharedModesPage(report) {
         note: `damping ratio ${number(mode.damping_ratio, 3)}` +
           (isNumber(mode.angle_deg) ? `, at ${number(mode.angle_deg, 3)}°` : '') })),
       ...(result.reciprocity || []).map(({ response, over, gain, se }) => ({ label: `${response} over ${over}`,
-        value: gain, note: `± ${number(1.96 * se, 2)}; reciprocity: 1` })),
+        value: gain, note: `± ${number(normalInterval * se, 2)}; reciprocity: 1` })),
     ]) },
     { part: sharedModesTable(result) },
     { part: shapesTable(result) },
