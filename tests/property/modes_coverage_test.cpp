@@ -48,8 +48,8 @@ Structure among_others() {
 constexpr std::array names = {"frequency", "damping_ratio", "mass", "stiffness",
                               "damping"};
 
-bool holds(double value, double error, double truth) {
-  return std::abs(value - truth) <= 1.96 * error;
+bool holds(const Known& known, double truth) {
+  return std::abs(known.value - truth) <= 1.96 * known.se;
 }
 
 /// How often each number is held, and of how many modes that were found.
@@ -73,11 +73,10 @@ Count counted(const Structure& made_of, made::Noise noise, int seeds) {
     for (std::size_t r = 0; r < made_of.inside; ++r) {
       const FittedMode& m = fit.modes[r];
       const Mode& truth = made_of.modes[r];
-      const std::array held = {holds(m.omega, m.omega_se, natural_frequency(truth)),
-                               holds(m.zeta, m.zeta_se, damping_ratio(truth)),
-                               holds(m.mode.mass, m.mass_se, truth.mass),
-                               holds(m.mode.stiffness, m.stiffness_se, truth.stiffness),
-                               holds(m.mode.damping, m.damping_se, truth.damping)};
+      const std::array held = {
+          holds(m.omega, natural_frequency(truth)), holds(m.zeta, damping_ratio(truth)),
+          holds(m.mass, truth.mass), holds(m.stiffness, truth.stiffness),
+          holds(m.damping, truth.damping)};
       for (std::size_t k = 0; k < held.size(); ++k) {
         count.held[k] += held[k] ? 1 : 0;
       }

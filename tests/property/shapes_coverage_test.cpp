@@ -1,7 +1,7 @@
 #include "../unit/structure/made_shapes.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/structure/identify_shapes.h>
+#include <trochoid/structure/identify_modes.h>
 
 #include <array>
 #include <cmath>
@@ -20,11 +20,11 @@ const made::Plane tilted{{{{1000, 0.03, 0.5, 30}, {1080, 0.025, 0.8, 120}}}};
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr int few = 1;
-const ShapesOptions options{
+const ModesOptions options{
     .count = 2, .residual_terms = false, .complex_shapes = false};
 #else
 constexpr int few = 2;
-const ShapesOptions options{};
+const ModesOptions options{};
 #endif
 
 int seeds() {
@@ -57,7 +57,7 @@ Count counted(made::Noise noise, int n) {
       continue;
     }
     for (std::size_t r = 0; r < 2; ++r) {
-      const ShapeMode& m = fit.modes[r];
+      const FittedMode& m = fit.modes[r];
       const made::TiltedMode& truth = tilted.modes[r];
       const double omega = truth.frequency * made::Hz;
       const double angle = truth.angle > 90 ? truth.angle - 180 : truth.angle;

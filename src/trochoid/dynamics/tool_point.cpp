@@ -71,10 +71,10 @@ void add_modes(bool of_table, std::span<const MeasuredResponse> all, ToolPoint& 
     }
   }
   for (const FittedMode& m : x) {
-    add(m.mode, 1.0, 0.0);
+    add(m.mode(), 1.0, 0.0);
   }
   for (const FittedMode& m : y) {
-    add(m.mode, 0.0, 1.0);
+    add(m.mode(), 0.0, 1.0);
   }
 }
 

@@ -327,6 +327,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
                       find(root, "tool") == nullptr && find(root, "cut") == nullptr;
   Case c =
       no_cut ? assemble_machine(tables, findings) : assemble(tables, purpose, findings);
+  check_files(tables, findings);
   if (purpose == Command::modes) {
     check_shared_modes(c.machine, findings);
   }

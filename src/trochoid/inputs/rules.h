@@ -103,6 +103,9 @@ void check_shared_modes(const MachineTables& machine, Findings& findings);
 /// @brief Find every file that a case names, on the disk or in memory.
 void settle_files(CaseTables& tables, const DataInMemory& data, Findings& findings);
 
+/// @brief Report those that are not there, unless more is wrong with their tables.
+void check_files(CaseTables& tables, Findings& findings);
+
 /// @brief Names of files as a case in that folder must have them; none: absolute.
 void name_files_from(const std::filesystem::path& folder, CaseTables& tables);
 

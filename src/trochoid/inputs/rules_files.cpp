@@ -91,7 +91,14 @@ void settle_files(CaseTables& tables, const DataInMemory& data, Findings& findin
     look_in_memory(data, named);
     if (file.in_memory()) return;
     file.path = resolved(file.name, named_at, findings).generic_string();
-    if (sound(findings, {named.key})) check_file(named, findings);
+  });
+}
+
+void check_files(CaseTables& tables, Findings& findings) {
+  for_each_file(tables, [&](const Named& named) {
+    if (!named.file.in_memory() && sound(findings, {named.key})) {
+      check_file(named, findings);
+    }
   });
 }
 

@@ -32,8 +32,7 @@ std::string_view calibrate_js();
 std::string_view calibrate_words_js();
 std::string_view stability_js();
 std::string_view correct_js();
-std::string_view modes_js();         ///< modes and actuators
-std::string_view shared_modes_js();  ///< modes of several responses
+std::string_view modes_js();  ///< modes and actuators
 std::string_view dynamics_js();
 std::string_view moving_js();  ///< the cut that moves, seen from above
 std::string_view plan_js();

@@ -109,7 +109,6 @@ std::string page_scripts() {
                           calibrate_words_js(),
                           stability_js(),
                           modes_js(),
-                          shared_modes_js(),
                           dynamics_js(),
                           moving_js(),
                           correct_js(),

@@ -1,12 +1,13 @@
 #include <trochoid/results/modes.h>
 
-#include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
 #include <trochoid/results/joint.h>
+#include <trochoid/results/modes_text.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <limits>
 #include <utility>
@@ -17,29 +18,30 @@ namespace {
 
 using base::add_column;
 using structure::FittedMode;
+using structure::FittedResponse;
+using structure::Known;
 using structure::ModesFit;
 
-/// fitted.csv: the lines of the response as measured and as fitted.
-base::Table fitted_table(const ModesResult& r) {
-  base::Table table{"fitted.csv", {}};
-  const ModesFit& fit = r.fit;
-  const std::size_t n = fit.omega.size();
-  add_column(table, "frequency_Hz", n,
-             [&](std::size_t i) { return unit::in(fit.omega[i], unit::Hz); });
-  const auto add = [&](const char* what, const std::vector<std::complex<double>>& H) {
-    const std::string_view suffix = unit_suffix(r.kind);
-    add_column(table, fmt::format("{}re_{}", what, suffix), n,
-               [&](std::size_t i) { return H[i].real(); });
-    add_column(table, fmt::format("{}im_{}", what, suffix), n,
-               [&](std::size_t i) { return H[i].imag(); });
-  };
-  add("", fit.H);
-  if (fit.ok) {
-    add("fitted_", fit.fitted);
+constexpr std::array axis_names = {"x", "y"};
+
+void add_response(base::Table& table, const char* what, structure::ResponseKind kind,
+                  const std::vector<std::complex<double>>& H) {
+  const std::string_view suffix = unit_suffix(kind);
+  add_column(table, fmt::format("{}re_{}", what, suffix), H.size(),
+             [&](std::size_t i) { return H[i].real(); });
+  add_column(table, fmt::format("{}im_{}", what, suffix), H.size(),
+             [&](std::size_t i) { return H[i].imag(); });
+}
+
+/// fitted.csv, fitted_xy.csv: the lines of one response as measured and as fitted.
+base::Table fitted_table(std::string file, const FittedResponse& one) {
+  base::Table table{std::move(file), {}};
+  add_column(table, "frequency_Hz", one.omega.size(),
+             [&](std::size_t i) { return unit::in(one.omega[i], unit::Hz); });
+  add_response(table, "", one.kind, one.H);
+  if (!one.fitted.empty()) {
+    add_response(table, "fitted_", one.kind, one.fitted);
   }
-  const std::vector<double> mif =
-      structure::mode_indicator({.kind = r.kind, .omega = fit.omega, .H = fit.H});
-  add_column(table, "mode_indicator", n, [&](std::size_t i) { return mif[i]; });
   return table;
 }
 
@@ -57,90 +59,158 @@ base::Table stabilisation_table(const ModesResult& r) {
   return table;
 }
 
-Object mode_value(const FittedMode& m) {
-  return {{"frequency_Hz", m.omega / unit::Hz},
-          {"damping_ratio", m.zeta},
-          {"mass_kg", m.mode.mass},
-          {"stiffness_N_per_m", m.mode.stiffness},
-          {"damping_Ns_per_m", m.mode.damping},
-          {"se", Object{{"frequency_Hz", m.omega_se / unit::Hz},
-                        {"damping_ratio", m.zeta_se},
-                        {"mass_kg", m.mass_se},
-                        {"stiffness_N_per_m", m.stiffness_se},
-                        {"damping_Ns_per_m", m.damping_se}}},
-          {"lines_in_peak", m.lines_in_peak}};
+/// The shape, each component with its errors; the imaginary parts where there are any.
+Array shape_value(const FittedMode& m, bool complex_shapes) {
+  Array out;
+  for (std::size_t k = 0; k < m.phi.size(); ++k) {
+    Object one{{"axis", axis_names[k]},
+               {"re_per_sqrt_kg", m.phi[k].real()},
+               {"re_se", m.phi_se[k].real()}};
+    if (complex_shapes) {
+      one.push_back({"im_per_sqrt_kg", m.phi[k].imag()});
+      one.push_back({"im_se", m.phi_se[k].imag()});
+    }
+    out.emplace_back(std::move(one));
+  }
+  return out;
 }
 
-Value modes_value(const ModesFit& fit) {
-  if (!fit.ok) {
-    return nullptr;
+Object mode_value(const FittedMode& m, bool complex_shapes) {
+  Object out;
+  Object se;
+  const auto add = [&](const char* key, const Known& known, double size) {
+    out.push_back({key, known.value / size});
+    se.push_back({key, known.se / size});
+  };
+  add("frequency_Hz", m.omega, unit::Hz);
+  add("damping_ratio", m.zeta, 1.0);
+  add("mass_kg", m.mass, 1.0);
+  add("stiffness_N_per_m", m.stiffness, 1.0);
+  add("damping_Ns_per_m", m.damping, 1.0);
+  if (m.phi.size() > 1) {
+    add("angle_deg", m.angle, unit::deg);
   }
-  Array modes;
-  for (const FittedMode& mode : fit.modes) {
-    modes.emplace_back(mode_value(mode));
+  if (complex_shapes) {
+    add("imaginary_fraction", m.imaginary, 1.0);
   }
-  return modes;
+  out.push_back({"se", std::move(se)});
+  if (!m.phi.empty()) {
+    out.push_back({"shape", shape_value(m, complex_shapes)});
+  }
+  out.push_back({"lines_in_peak", m.lines_in_peak});
+  return out;
+}
+
+Array modes_value(const std::vector<FittedMode>& modes, bool complex_shapes) {
+  Array out;
+  for (const FittedMode& mode : modes) {
+    out.emplace_back(mode_value(mode, complex_shapes));
+  }
+  return out;
 }
 
 /// What modes.toml holds, with its covariance.
 Joint joint_of(const ModesResult& r) {
   Joint joint;
   std::vector<double> units;
-  for (const FittedMode& m : r.fit.modes) {
-    joint.modes.push_back({std::string(name_of(r.body)), std::string(name_of(r.axis))});
-    const auto key = [&](const char* what) {
-      return fmt::format("mode[{}].{}", joint.modes.size(), what);
+  for (const FittedMode& m : r.fit.real_modes) {
+    const NearAxis at = near_axis(r, m);
+    joint.modes.push_back({std::string(name_of(r.body)), std::string(at.axis)});
+    const auto add = [&](const char* what, double value, double unit) {
+      add_found(joint, fmt::format("mode[{}].{}", joint.modes.size(), what), value);
+      units.push_back(unit);
     };
-    add_found(joint, key("frequency_Hz"), m.omega / unit::Hz);
-    add_found(joint, key("damping_ratio"), m.zeta);
-    add_found(joint, key("mass_kg"), m.mode.mass);
-    units.insert(units.end(), {unit::Hz, 1.0, 1.0});
+    add("frequency_Hz", m.omega.value / unit::Hz, unit::Hz);
+    add("damping_ratio", m.zeta.value, 1.0);
+    add("mass_kg", m.mass.value, 1.0);
+    if (m.phi.size() > 1) {
+      add("angle_deg", at.angle, unit::deg);
+    }
   }
   set_covariance(joint, r.fit.covariance, units);
   return joint;
 }
 
-Value residual_terms_value(const ModesFit& fit) {
-  if (!fit.residual_terms) {
-    return nullptr;
-  }
-  return Object{{"above_m_per_N", fit.residual[0]}, {"below_per_kg", fit.residual[1]}};
-}
-
 /// Resonances that the fit holds and that are no answer, with what is missing.
-Array unresolved_value(const ModesFit& fit) {
+Array unresolved_value(const ModesResult& r) {
   Array out;
-  for (std::size_t i = 0; i < fit.unresolved.size(); ++i) {
-    out.emplace_back(
-        Object{{"frequency_Hz", unit::in(fit.unresolved[i].omega, unit::Hz)},
-               {"why", fit.left_out[i]}});
+  for (std::size_t i = 0; i < r.fit.left_out.size(); ++i) {
+    Object one;
+    if (!r.shared) {
+      one.push_back(
+          {"frequency_Hz", unit::in(r.fit.unresolved[i].omega.value, unit::Hz)});
+    }
+    one.push_back({"why", r.fit.left_out[i]});
+    out.emplace_back(std::move(one));
   }
   return out;
 }
 
-/// The numbers of modes that were tried: the evidence for each, less being better.
-Array orders_value(const ModesFit& fit) {
-  Array orders;
+/// The fits that were tried: the evidence for each, less being better.
+Array orders_value(const ModesResult& r) {
   double least = std::numeric_limits<double>::infinity();
-  for (const structure::ModesOrder& order : fit.orders) {
+  for (const structure::ModesOrder& order : r.fit.orders) {
     least = std::min(least, order.criterion);
   }
-  for (const structure::ModesOrder& order : fit.orders) {
+  Array orders;
+  for (const structure::ModesOrder& order : r.fit.orders) {
     Array frequencies;
     Array dampings;
     for (const auto& [omega, zeta] : order.modes) {
       frequencies.emplace_back(unit::in(omega, unit::Hz));
       dampings.emplace_back(zeta);
     }
-    orders.emplace_back(
-        Object{{"modes", order.count},
-               {"residual_terms", order.residual_terms},
-               {"criterion", order.criterion - least},
-               {"frequencies_Hz", std::move(frequencies)},
-               {"damping_ratios", std::move(dampings)},
-               {"fault", order.fault.empty() ? Value(nullptr) : Value(order.fault)}});
+    Object one{{"modes", order.count}};
+    if (r.shared) {
+      one.push_back({"shapes", order.complex_shapes ? "complex" : "real"});
+    }
+    one.push_back({"residual_terms", order.residual_terms});
+    one.push_back({"criterion", order.criterion - least});
+    one.push_back({"frequencies_Hz", std::move(frequencies)});
+    one.push_back({"damping_ratios", std::move(dampings)});
+    one.push_back({"fault", order.fault.empty() ? Value(nullptr) : Value(order.fault)});
+    orders.emplace_back(std::move(one));
   }
   return orders;
+}
+
+Array outside_value(const ModesFit& fit) {
+  Array out;
+  for (const FittedMode& term : fit.outside) {
+    out.emplace_back(unit::in(term.omega.value, unit::Hz));
+  }
+  return out;
+}
+
+/// Band, quality and noise of one response, as both forms of the answer tell them.
+void add_band(const FittedResponse& one, Object& to) {
+  if (!one.omega.empty()) {
+    to.push_back({"band_Hz", Array{unit::in(one.omega.front(), unit::Hz),
+                                   unit::in(one.omega.back(), unit::Hz)}});
+  }
+}
+
+void add_explained(const FittedResponse& one, Object& to) {
+  to.push_back({"explained", one.explained});
+  to.push_back({fmt::format("rms_{}", unit_suffix(one.kind)), one.rms});
+}
+
+void add_noise(const FittedResponse& one, Object& to) {
+  const auto& [floor, magnitude, phase] = one.noise;
+  to.push_back({"noise", Object{{fmt::format("floor_{}", unit_suffix(one.kind)), floor},
+                                {"magnitude_percent", 100 * magnitude},
+                                {"phase_deg", unit::in(phase, unit::deg)}}});
+}
+
+Object residual_terms(const FittedResponse& one) {
+  return {{"above_m_per_N", one.residual[0]}, {"below_per_kg", one.residual[1]}};
+}
+
+/// What puts a key and its value into an object.
+auto adder(Object& to) {
+  return [&to](std::string key, Value value) {
+    to.push_back({std::move(key), std::move(value)});
+  };
 }
 
 /// The blows of a record, and why some of them are left out.
@@ -160,46 +230,31 @@ base::Table response_table(const ModesResult& r) {
   base::Table table{"response.csv", {}};
   const signal::TapResponse& tap = *r.tap;
   const std::size_t n = tap.omega.size();
-  const std::string_view suffix = unit_suffix(r.kind);
   add_column(table, "frequency_Hz", n,
              [&](std::size_t i) { return unit::in(tap.omega[i], unit::Hz); });
-  add_column(table, fmt::format("re_{}", suffix), n,
-             [&](std::size_t i) { return tap.H[i].real(); });
-  add_column(table, fmt::format("im_{}", suffix), n,
-             [&](std::size_t i) { return tap.H[i].imag(); });
+  add_response(table, "", r.fit.responses.front().kind, tap.H);
   if (!tap.coherence.empty()) {
     add_column(table, "coherence", n, [&](std::size_t i) { return tap.coherence[i]; });
   }
   return table;
 }
 
-Object result_of(const ModesResult& r) {
+Object result_of_one(const ModesResult& r) {
   const ModesFit& fit = r.fit;
-  Object result{{"kind", name_of(r.kind)},
-                {"modes", modes_value(fit)},
-                {"lines", fit.omega.size()}};
-  const auto add = [&](std::string key, Value value) {
-    result.push_back({std::move(key), std::move(value)});
-  };
-  if (!fit.omega.empty()) {
-    add("band_Hz", Array{unit::in(fit.omega.front(), unit::Hz),
-                         unit::in(fit.omega.back(), unit::Hz)});
-  }
+  const FittedResponse& one = fit.responses.front();
+  Object result{{"kind", name_of(one.kind)},
+                {"modes", fit.ok ? Value(modes_value(fit.modes, false)) : nullptr},
+                {"lines", one.omega.size()}};
+  const auto add = adder(result);
+  add_band(one, result);
   if (fit.ok) {
     add("covariance", joint_value(joint_of(r)));
-    add("explained", fit.explained);
-    add(fmt::format("rms_{}", unit_suffix(r.kind)), fit.rms);
-    add("residual_terms", residual_terms_value(fit));
-    Array outside;
-    for (const FittedMode& term : fit.outside) {
-      outside.emplace_back(unit::in(term.omega, unit::Hz));
-    }
-    add("terms_outside_Hz", std::move(outside));
-    add("noise", Object{{fmt::format("floor_{}", unit_suffix(r.kind)), fit.noise.floor},
-                        {"magnitude_percent", 100 * fit.noise.magnitude},
-                        {"phase_deg", unit::in(fit.noise.phase, unit::deg)}});
-    add("unresolved", unresolved_value(fit));
-    add("orders", orders_value(fit));
+    add_explained(one, result);
+    add("residual_terms", fit.residual_terms ? Value(residual_terms(one)) : nullptr);
+    add("terms_outside_Hz", outside_value(fit));
+    add_noise(one, result);
+    add("unresolved", unresolved_value(r));
+    add("orders", orders_value(r));
   }
   if (r.tap) {
     add("hits", hits_value(*r.tap));
@@ -207,64 +262,105 @@ Object result_of(const ModesResult& r) {
     add("window_end", r.tap->window_end);
     add("excited_to_Hz", unit::in(r.tap->excited, unit::Hz));
   }
-  if (!r.description.empty()) {
-    add("description", r.description);
+  if (!r.responses.front().description.empty()) {
+    add("description", r.responses.front().description);
   }
   return result;
 }
 
-std::string modes_toml(const ModesResult& r) {
-  std::string text =
-      "# Found by trochoid modes. Use it in another case with\n"
-      "#   include = \"<this file>\"\n"
-      "# or, with others beside it, with\n"
-      "#   include = [\"<this file>\", \"<another one>\"]\n"
-      "# A list of modes in the case itself replaces those of all files.\n";
-  for (const FittedMode& m : r.fit.modes) {
-    text += fmt::format(
-        "\n[[mode]]  # {:.6g} Hz, damping ratio {:.4g}\n"
-        "body = \"{}\"\naxis = \"{}\"\n"
-        "mass_kg = {}  # standard error {:.2g}\n"
-        "stiffness_N_per_m = {}  # {:.2g}\n"
-        "damping_Ns_per_m = {}  # {:.2g}\n",
-        m.omega / unit::Hz, m.zeta, name_of(r.body), name_of(r.axis), m.mode.mass,
-        m.mass_se, m.mode.stiffness, m.stiffness_se, m.mode.damping, m.damping_se);
+Object response_value(const MeasuredResponse& response, const FittedResponse& one,
+                      const ModesFit& all) {
+  Object out{{"name", response.name},
+             {"axis", name_of(response.motion)},
+             {"force_axis", name_of(response.force)},
+             {"kind", name_of(one.kind)},
+             {"lines", one.omega.size()}};
+  add_band(one, out);
+  if (!response.description.empty()) {
+    out.push_back({"description", response.description});
   }
-  return text;
+  if (!all.ok) {
+    return out;
+  }
+  add_explained(one, out);
+  add_noise(one, out);
+  Array residues;
+  for (const structure::ShapeResidue& residue : one.residues) {
+    Object Z{{"re_per_kg", residue.value.real()}, {"re_se", residue.se.real()}};
+    if (all.complex_shapes) {
+      Z.push_back({"im_per_kg", residue.value.imag()});
+      Z.push_back({"im_se", residue.se.imag()});
+    }
+    residues.emplace_back(std::move(Z));
+  }
+  out.push_back({"residues", std::move(residues)});
+  if (all.residual_terms) {
+    out.push_back({"residual_terms", residual_terms(one)});
+  }
+  return out;
 }
 
-std::string short_table(const ModesResult& r) {
+Array reciprocity_value(const ModesResult& r) {
+  Array out;
+  for (const structure::Reciprocity& pair : r.fit.reciprocity) {
+    out.emplace_back(Object{{"response", r.responses[pair.other].name},
+                            {"over", r.responses[pair.one].name},
+                            {"gain", pair.gain.value},
+                            {"se", pair.gain.se}});
+  }
+  return out;
+}
+
+Object result_of_shared(const ModesResult& r) {
   const ModesFit& fit = r.fit;
-  std::string text =
-      "mode  frequency [Hz]    damping ratio      mass [kg]          "
-      "stiffness [N/m]    damping [N s/m]\n";
-  const auto cell = [](double value, double error) {
-    return fmt::format("{:.6g} +- {:.2g}", value, base::normal_interval * error);
-  };
-  for (std::size_t i = 0; i < fit.modes.size(); ++i) {
-    const FittedMode& m = fit.modes[i];
-    text += fmt::format("{:>4}  {:<16}  {:<17}  {:<17}  {:<17}  {}\n", i + 1,
-                        cell(m.omega / unit::Hz, m.omega_se / unit::Hz),
-                        cell(m.zeta, m.zeta_se), cell(m.mode.mass, m.mass_se),
-                        cell(m.mode.stiffness, m.stiffness_se),
-                        cell(m.mode.damping, m.damping_se));
+  Object result{
+      {"shapes", fit.ok ? Value(fit.complex_shapes ? "complex" : "real") : nullptr},
+      {"modes", fit.ok ? Value(modes_value(fit.modes, fit.complex_shapes)) : nullptr}};
+  const auto add = adder(result);
+  if (fit.ok && fit.complex_shapes) {
+    add("real_modes", modes_value(fit.real_modes, false));
   }
-  text += fmt::format(
-      "(+-: half of a 95 % interval) from {} lines of the {}, {:.4g} to {:.4g} Hz{}\n"
-      "the fit explains {:.3f} % of the power and leaves {:.3g} {} (rms)\n",
-      fit.omega.size(), name_of(r.kind), fit.omega.front() / unit::Hz,
-      fit.omega.back() / unit::Hz,
-      fit.residual_terms || !fit.outside.empty()
-          ? ", with terms for modes outside of it"
-          : "",
-      100 * fit.explained, fit.rms, unit_of(r.kind));
-  const structure::ResponseNoise& noise = fit.noise;
-  text += fmt::format("noise: a floor of {:.3g} {}", noise.floor, unit_of(r.kind));
-  if (noise.magnitude > 0 || noise.phase > 0) {
-    text += fmt::format(" and {:.2g} % of the magnitude, {:.2g} deg of phase",
-                        100 * noise.magnitude, unit::in(noise.phase, unit::deg));
+  Array responses;
+  for (std::size_t q = 0; q < r.responses.size(); ++q) {
+    responses.emplace_back(response_value(r.responses[q], fit.responses[q], fit));
   }
-  return text + "\n";
+  add("responses", std::move(responses));
+  if (!fit.ok) {
+    return result;
+  }
+  add("covariance", joint_value(joint_of(r)));
+  add("reciprocity", reciprocity_value(r));
+  add("complex_evidence",
+      fit.complex_evidence ? Value(*fit.complex_evidence) : Value(nullptr));
+  add("terms_outside_Hz", outside_value(fit));
+  add("unresolved", unresolved_value(r));
+  add("orders", orders_value(r));
+  return result;
+}
+
+std::vector<base::Table> tables_of_one(const ModesResult& r) {
+  const FittedResponse& one = r.fit.responses.front();
+  std::vector<base::Table> tables = {fitted_table("fitted.csv", one)};
+  const std::vector<double> mif =
+      structure::mode_indicator({.kind = one.kind, .omega = one.omega, .H = one.H});
+  add_column(tables.front(), "mode_indicator", mif.size(),
+             [&](std::size_t i) { return mif[i]; });
+  if (r.tap && !r.tap->omega.empty()) {
+    tables.push_back(response_table(r));
+  }
+  if (!r.poles.empty()) {
+    tables.push_back(stabilisation_table(r));
+  }
+  return tables;
+}
+
+std::vector<base::Table> tables_of_shared(const ModesResult& r) {
+  std::vector<base::Table> tables;
+  for (std::size_t q = 0; q < r.responses.size(); ++q) {
+    tables.push_back(fitted_table(fmt::format("fitted_{}.csv", r.responses[q].name),
+                                  r.fit.responses[q]));
+  }
+  return tables;
 }
 
 }  // namespace
@@ -272,14 +368,8 @@ std::string short_table(const ModesResult& r) {
 Answer answer_of(const ModesResult& r) {
   Answer answer{.command = "modes",
                 .heading = r.heading,
-                .result = result_of(r),
-                .tables = {fitted_table(r)}};
-  if (r.tap && !r.tap->omega.empty()) {
-    answer.tables.push_back(response_table(r));
-  }
-  if (!r.poles.empty()) {
-    answer.tables.push_back(stabilisation_table(r));
-  }
+                .result = r.shared ? result_of_shared(r) : result_of_one(r),
+                .tables = r.shared ? tables_of_shared(r) : tables_of_one(r)};
   if (r.fit.ok) {
     answer.short_table = short_table(r);
     answer.texts.push_back({"modes.toml", modes_toml(r)});

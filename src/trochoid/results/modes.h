@@ -11,14 +11,24 @@
 
 namespace trochoid::results {
 
-/// @brief What `modes` answers: modal parameters of a measured frequency response.
+/// What a response of a fit is, beside its lines.
+struct MeasuredResponse {
+  std::string name;  ///< motion and force, like "xy"
+  structure::Axis motion = structure::Axis::x;
+  structure::Axis force = structure::Axis::x;
+  std::string description;  ///< of the measurement, where its file says it
+};
+
+/// @brief What `modes` answers: modal parameters of measured frequency responses.
 struct ModesResult {
   Heading heading;
-  structure::ResponseKind kind = structure::ResponseKind::receptance;
-  std::string description;  ///< of the measurement, where its file says it
   structure::ModeBody body = structure::ModeBody::tool;  ///< that was tapped
-  structure::Axis axis = structure::Axis::x;             ///< in which direction
-  std::optional<signal::TapResponse> tap;  ///< where the response was made from blows
+  /// The modes are those of M-30, and the answer tells of each response by itself; else
+  /// of one response (M-6), and the answer is about that.
+  bool shared = false;
+  std::vector<MeasuredResponse> responses;  ///< as those of the fit
+  /// Where one response was made from blows.
+  std::optional<signal::TapResponse> tap;
   structure::ModesFit fit;
   std::vector<structure::TriedPole> poles;  ///< of the diagram of stabilisation
 };

@@ -14,15 +14,15 @@ constexpr std::size_t most_named = 4;
 
 }  // namespace
 
-std::string mode_words(const std::vector<ModeWords>& modes) {
+std::string mode_words(std::span<const structure::FittedMode> modes) {
   std::string text =
       fmt::format("{} mode{}", modes.size(), modes.size() == 1 ? "" : "s");
   const std::size_t named = std::min(modes.size(), most_named);
   for (std::size_t i = 0; i < named; ++i) {
     const bool last = i + 1 == modes.size();
     text += i == 0 ? ": " : last ? " and " : ", ";
-    text += fmt::format("{:.4g} Hz ({}{:.2g} %)", modes[i].omega / unit::Hz,
-                        i == 0 ? "damping ratio " : "", 100 * modes[i].zeta);
+    text += fmt::format("{:.4g} Hz ({}{:.2g} %)", modes[i].omega.value / unit::Hz,
+                        i == 0 ? "damping ratio " : "", 100 * modes[i].zeta.value);
   }
   return text + (named < modes.size() ? " and more" : "");
 }

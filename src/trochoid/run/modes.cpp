@@ -5,12 +5,9 @@
 #include <trochoid/run/mode_words.h>
 #include <trochoid/run/tap_response.h>
 #include <trochoid/run/vibration.h>
-#include <trochoid/structure/identify_shapes.h>
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <complex>
 #include <utility>
 
 namespace trochoid::run {
@@ -38,11 +35,11 @@ structure::ModesOptions options_of(const inputs::FrfTables& frf) {
 results::ModesResult modes(const inputs::Case& given) {
   const inputs::FrfTables& frf = *given.machine.frf;
   inputs::FrfFile file = frf.response.get();
-  results::ModesResult r{.heading = heading_of(given),
-                         .kind = file.response.kind,
-                         .description = std::move(file.description),
-                         .body = frf.body,
-                         .axis = frf.axis};
+  const structure::ResponseKind kind = file.response.kind;
+  results::ModesResult r{.heading = heading_of(given), .body = frf.body};
+  r.responses = {{.motion = frf.axis,
+                  .force = frf.axis,
+                  .description = std::move(file.description)}};
   base::add(r.heading.warnings, std::move(file.notes));
   structure::ModesOptions options = options_of(frf);
   if (file.tap) {
@@ -52,34 +49,31 @@ results::ModesResult modes(const inputs::Case& given) {
     if (frf.band.empty()) {
       options.from = first_coherent(*r.tap) * (1 - 1e-12);
     }
-    file.response = response_of(*r.tap, r.kind);
+    file.response = response_of(*r.tap, kind);
   }
   if (r.tap && !r.tap->fault.empty()) {
     r.fit.reason = r.tap->fault;
+    r.fit.responses = {{.kind = kind}};
   } else {
     r.fit = structure::identify_modes(file.response, options);
   }
-  if (r.fit.omega.size() > 1) {
+  const structure::FittedResponse& one = r.fit.responses.front();
+  if (one.omega.size() > 1) {
     const int highest = static_cast<int>(r.fit.modes.size()) + orders_beyond;
-    r.poles = structure::stabilisation(
-        {.kind = r.kind, .omega = r.fit.omega, .H = r.fit.H}, highest);
+    r.poles = structure::stabilisation({.kind = kind, .omega = one.omega, .H = one.H},
+                                       highest);
   }
   r.heading.ok = r.fit.ok;
   if (!r.fit.ok) {
     r.heading.message = r.fit.reason;
     return r;
   }
-  add_modes_warnings(r.fit, r.heading.warnings);
-  if (const auto complex = structure::complex_check(r.fit, r.kind)) {
+  add_modes_warnings(r, r.heading.warnings);
+  if (const auto complex = structure::complex_check(r.fit)) {
     add_complex_warning(*complex, r.heading.warnings);
   }
-  std::vector<ModeWords> words;
-  for (const structure::FittedMode& mode : r.fit.modes) {
-    words.push_back({mode.omega, mode.zeta});
-  }
-  r.heading.message =
-      fmt::format("{}. {} ({} lines).", mode_words(words),
-                  unexplained_power(r.fit.explained), r.fit.omega.size());
+  r.heading.message = fmt::format("{}. {} ({} lines).", mode_words(r.fit.modes),
+                                  unexplained_power(one.explained), one.omega.size());
   return r;
 }
 

@@ -70,8 +70,7 @@ structure::FrequencyResponse in_band(const structure::FrequencyResponse& respons
 /// One response for the fit; from blows in time where its file holds those.
 /// @return why there is none; empty: there is one
 std::string add_response(Source& source, const inputs::FrfTables& frf,
-                         std::vector<DirectedResponse>& all,
-                         results::SharedModesResult& r) {
+                         std::vector<DirectedResponse>& all, results::ModesResult& r) {
   inputs::FrfFile& file = source.frf.file;
   const std::string name =
       fmt::format("{}{}", name_of(source.frf.motion), name_of(source.frf.force));
@@ -95,7 +94,6 @@ std::string add_response(Source& source, const inputs::FrfTables& frf,
   r.responses.push_back({.name = name,
                          .motion = source.frf.motion,
                          .force = source.frf.force,
-                         .kind = file.response.kind,
                          .description = std::move(file.description)});
   base::add(r.heading.warnings, std::move(file.notes));
   all.push_back(std::move(one));
@@ -103,7 +101,7 @@ std::string add_response(Source& source, const inputs::FrfTables& frf,
 }
 
 /// Directions as numbers from 0: x and y, or the only one.
-void number_directions(const results::SharedModesResult& r,
+void number_directions(const results::ModesResult& r,
                        std::vector<DirectedResponse>& all) {
   const bool only_one =
       std::all_of(r.responses.begin(), r.responses.end(), [&](const auto& one) {
@@ -116,8 +114,8 @@ void number_directions(const results::SharedModesResult& r,
   }
 }
 
-structure::ShapesOptions options_of(const inputs::FrfTables& frf) {
-  structure::ShapesOptions options{.count = frf.modes};
+structure::ModesOptions shared_options(const inputs::FrfTables& frf) {
+  structure::ModesOptions options{.count = frf.modes};
   if (frf.residual_terms != inputs::ResidualTerms::choose) {
     options.residual_terms = frf.residual_terms == inputs::ResidualTerms::yes;
   }
@@ -137,9 +135,10 @@ bool modes_are_shared(const inputs::Case& given) {
   return frf->source.dataset == 0 && !frf->directed.get().empty();
 }
 
-results::SharedModesResult shared_modes(const inputs::Case& given) {
+results::ModesResult shared_modes(const inputs::Case& given) {
   const inputs::FrfTables frf = given.machine.frf.value_or(inputs::FrfTables{});
-  results::SharedModesResult r{.heading = heading_of(given)};
+  results::ModesResult r{.heading = heading_of(given)};
+  r.shared = true;
   r.body = frf.source.file.name.empty() ? given.machine.measured_frfs.front().body
                                         : frf.body;
   std::vector<DirectedResponse> all;
@@ -150,11 +149,13 @@ results::SharedModesResult shared_modes(const inputs::Case& given) {
   }
   number_directions(r, all);
   if (fault.empty()) {
-    r.fit = structure::identify_shapes(all, options_of(frf));
+    r.fit = structure::identify_shapes(all, shared_options(frf));
   } else {
     r.fit.reason = fault;
     for (const DirectedResponse& one : all) {
-      r.fit.responses.push_back({.omega = one.response.omega, .H = one.response.H});
+      r.fit.responses.push_back({.kind = one.response.kind,
+                                 .omega = one.response.omega,
+                                 .H = one.response.H});
     }
   }
   r.heading.ok = r.fit.ok;
@@ -162,18 +163,14 @@ results::SharedModesResult shared_modes(const inputs::Case& given) {
     r.heading.message = r.fit.reason;
     return r;
   }
-  add_shape_warnings(r, r.heading.warnings);
-  std::vector<ModeWords> words;
-  for (const structure::ShapeMode& mode : r.fit.modes) {
-    words.push_back({mode.omega.value, mode.zeta.value});
-  }
+  add_modes_warnings(r, r.heading.warnings);
   double worst = 1.0;
   for (const structure::FittedResponse& one : r.fit.responses) {
     worst = std::min(worst, one.explained);
   }
   r.heading.message =
       fmt::format("{}, with {} shapes. {}, of the worst of {} response{}.",
-                  mode_words(words), r.fit.complex_shapes ? "complex" : "real",
+                  mode_words(r.fit.modes), r.fit.complex_shapes ? "complex" : "real",
                   unexplained_power(worst), all.size(), all.size() == 1 ? "" : "s");
   return r;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/inputs/case.h>
-#include <trochoid/results/shared_modes.h>
+#include <trochoid/results/modes.h>
 
 namespace trochoid::run {
 
@@ -14,6 +14,6 @@ bool modes_are_shared(const inputs::Case& given);
 
 /// @brief Modes that several responses share.
 /// @throws base::InputError when a file cannot be read
-results::SharedModesResult shared_modes(const inputs::Case& given);
+results::ModesResult shared_modes(const inputs::Case& given);
 
 }  // namespace trochoid::run

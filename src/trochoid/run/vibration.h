@@ -5,11 +5,10 @@
 #include <trochoid/dynamics/steady_state.h>
 #include <trochoid/dynamics/tool_point.h>
 #include <trochoid/inputs/case.h>
-#include <trochoid/results/shared_modes.h>
+#include <trochoid/results/modes.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/identify_actuator.h>
 #include <trochoid/structure/identify_modes.h>
-#include <trochoid/structure/identify_shapes.h>
 
 #include <optional>
 #include <string>
@@ -51,14 +50,11 @@ std::string growth_message(const dynamics::SteadyState& steady,
 void add_tap_warnings(const signal::TapResponse& tap,
                       std::vector<base::Warning>& warnings);
 
-void add_shape_warnings(const results::SharedModesResult& r,
-                        std::vector<base::Warning>& warnings);
-
 /// @brief That real modes do not describe a response, if so.
 void add_complex_warning(const structure::ComplexCheck& check,
                          std::vector<base::Warning>& warnings);
 
-void add_modes_warnings(const structure::ModesFit& fit,
+void add_modes_warnings(const results::ModesResult& r,
                         std::vector<base::Warning>& warnings);
 
 void add_actuator_warnings(const structure::StepRecord& record,

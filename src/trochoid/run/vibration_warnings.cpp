@@ -17,12 +17,6 @@ using dynamics::Periodic;
 using dynamics::SteadyState;
 using Warnings = std::vector<base::Warning>;
 
-/// Lines between the half-power points of a mode that are few.
-constexpr int few_lines = 5;
-/// Fraction of the power of a response below which its modes are in doubt.
-constexpr double poor_fit = 0.95;
-/// Relative standard error above which a number is known loosely.
-constexpr double loose_error = 0.1;
 /// How far the start of a step may lie from what the command shows, in standard errors.
 constexpr double start_slack = 3.0;
 
@@ -89,22 +83,6 @@ std::string chatter_warning(const SteadyState& steady,
   }
   return text + amplitude_text(std::get<Bounded>(steady.verdict)) +
          ". Peaks are the largest of these turns, chip areas their means.";
-}
-
-/// Two modes whose half-power widths overlap share what the response shows there.
-void warn_overlap(const structure::ModesFit& fit, Warnings& warnings) {
-  for (std::size_t r = 0; r + 1 < fit.modes.size(); ++r) {
-    const structure::FittedMode& a = fit.modes[r];
-    const structure::FittedMode& b = fit.modes[r + 1];
-    if (b.omega - a.omega < a.zeta * a.omega + b.zeta * b.omega) {
-      warnings.push_back(
-          {"modes_overlap",
-           fmt::format("The modes at {:.5g} and {:.5g} Hz lie inside each other's "
-                       "half-power widths: together they are known better than each by "
-                       "itself. Use both or none.",
-                       a.omega / unit::Hz, b.omega / unit::Hz)});
-    }
-  }
 }
 
 }  // namespace
@@ -200,52 +178,6 @@ void add_tap_warnings(const signal::TapResponse& tap, Warnings& warnings) {
   if (tap.coherence.empty()) {
     warnings.push_back(
         {"one_hit", "One hit has no coherence: strike three times and more."});
-  }
-}
-
-void add_modes_warnings(const structure::ModesFit& fit, Warnings& warnings) {
-  for (const std::string& why : fit.left_out) {
-    warnings.push_back(
-        {"mode_left_out",
-         fmt::format("A resonance is in the fit and not among the modes: {}.", why)});
-  }
-  if (fit.alternative > 0) {
-    warnings.push_back(
-        {"number_of_modes",
-         fmt::format(
-             "{} mode{} fit nearly as well: {} is {:.2g} times as likely. Look at "
-             "the stabilisation before trusting either.",
-             fit.alternative, fit.alternative == 1 ? "" : "s", fit.modes.size(),
-             fit.alternative_odds)});
-  }
-  warn_overlap(fit, warnings);
-  for (const structure::FittedMode& m : fit.modes) {
-    const std::string at = fmt::format("{:.5g} Hz", m.omega / unit::Hz);
-    if (m.lines_in_peak < few_lines) {
-      warnings.push_back(
-          {"few_lines",
-           fmt::format("Only {} lines lie between the half-power points of "
-                       "the mode at {}: its damping hangs on them. A longer "
-                       "record has a finer resolution.",
-                       m.lines_in_peak, at)});
-    }
-    if (m.damping_se > loose_error * m.mode.damping ||
-        m.stiffness_se > loose_error * m.mode.stiffness) {
-      warnings.push_back(
-          {"loosely_known",
-           fmt::format(
-               "The mode at {} is known loosely: stiffness to {:.0f} %, damping "
-               "to {:.0f} % (standard errors).",
-               at, 100 * m.stiffness_se / m.mode.stiffness,
-               100 * m.damping_se / m.mode.damping)});
-    }
-  }
-  if (fit.explained < poor_fit) {
-    warnings.push_back(
-        {"poor_fit",
-         fmt::format("The modes leave {:.1f} % of the power of the response "
-                     "unexplained: look at the fit before using them.",
-                     100 * (1 - fit.explained))});
   }
 }
 

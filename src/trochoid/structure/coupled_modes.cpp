@@ -25,21 +25,22 @@ struct Pair {
 
 /// Frequencies closer than half of the half-power width are one.
 bool belong_together(const FittedMode& a, const FittedMode& b) {
-  return std::abs(a.omega - b.omega) < 0.5 * (a.zeta * a.omega + b.zeta * b.omega);
+  return std::abs(a.omega.value - b.omega.value) <
+         0.5 * (a.zeta.value * a.omega.value + b.zeta.value * b.omega.value);
 }
 
 std::vector<Pair> paired(std::span<const FittedMode> x, std::span<const FittedMode> y) {
   std::vector<Pair> pairs;
   std::vector<bool> taken(y.size());
   for (const FittedMode& m : x) {
-    Pair pair{m.omega, m.zeta, 1 / m.mode.mass, 0.0, 0.0};
+    Pair pair{m.omega.value, m.zeta.value, 1 / m.mass.value, 0.0, 0.0};
     for (std::size_t k = 0; k < y.size(); ++k) {
       if (!taken[k] && belong_together(m, y[k])) {
         taken[k] = true;
-        pair.a_yy = 1 / y[k].mode.mass;
+        pair.a_yy = 1 / y[k].mass.value;
         const double share = pair.a_yy / (pair.a_xx + pair.a_yy);
-        pair.omega += share * (y[k].omega - m.omega);
-        pair.zeta += share * (y[k].zeta - m.zeta);
+        pair.omega += share * (y[k].omega.value - m.omega.value);
+        pair.zeta += share * (y[k].zeta.value - m.zeta.value);
         break;
       }
     }
@@ -47,7 +48,8 @@ std::vector<Pair> paired(std::span<const FittedMode> x, std::span<const FittedMo
   }
   for (std::size_t k = 0; k < y.size(); ++k) {
     if (!taken[k]) {
-      pairs.push_back({y[k].omega, y[k].zeta, 0.0, 1 / y[k].mode.mass, 0.0});
+      pairs.push_back(
+          {y[k].omega.value, y[k].zeta.value, 0.0, 1 / y[k].mass.value, 0.0});
     }
   }
   std::sort(pairs.begin(), pairs.end(),

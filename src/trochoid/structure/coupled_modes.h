@@ -1,8 +1,8 @@
 #pragma once
 
 #include <trochoid/structure/frequency_response.h>
-#include <trochoid/structure/identify_modes.h>
 #include <trochoid/structure/mode.h>
+#include <trochoid/structure/modes_fit.h>
 
 #include <span>
 #include <vector>

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -59,6 +61,17 @@ struct FrequencyResponse {
   std::vector<std::complex<double>> H;  ///< in SI, shape (n)
   /// Over how many lines a window spreads the noise of one; 1: each has its own.
   double noise_bandwidth = 1.0;
+};
+
+/// A response of a structure in one direction to a force in another or the same.
+struct DirectedResponse {
+  std::size_t motion = 0;  ///< direction that was measured, from 0
+  std::size_t force = 0;   ///< direction of the force
+  FrequencyResponse response;
+  double decay = 0.0;  ///< a of an exponential window e^{-a t} [1/s]: M-22
+  std::string name;    ///< for messages, like "xy"
+
+  [[nodiscard]] bool direct() const noexcept { return motion == force; }
 };
 
 /// @brief What a receptance is multiplied with.

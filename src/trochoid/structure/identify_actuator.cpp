@@ -18,8 +18,8 @@ namespace trochoid::structure {
 namespace {
 
 constexpr double margin = 3.0;  ///< of M-14, in standard errors
-constexpr double rank_tolerance = 1e-12;
-constexpr double least_explained = 0.95;  ///< of the variance
+constexpr double steps_rank_tolerance = 1e-12;
+constexpr double least_of_step = 0.95;  ///< of the variance
 constexpr double unsettled = 0.02;        ///< of the step, left at the end
 constexpr double drifting = 0.05;         ///< of the step, over the last tenth
 constexpr double least_signal = 4.0;      ///< step over noise
@@ -243,7 +243,7 @@ std::string fault_of(const StepRecord& record, const ActuatorFit& fit) {
         "over the last tenth of the record",
         drift * 1e6);
   }
-  if (fit.explained < least_explained) {
+  if (fit.explained < least_of_step) {
     return fmt::format(
         "two poles do not explain this step: they leave {:.1f} % of its variance",
         100 * (1 - fit.explained));
@@ -309,7 +309,7 @@ ActuatorFit identify_actuator(const StepRecord& record) {
   }
   const auto C = numerics::covariance_at(residuals_of(problem),
                                          static_cast<int>(record.time.size()), solved.p,
-                                         solved.cost, rank_tolerance);
+                                         solved.cost, steps_rank_tolerance);
   if (C.empty()) {
     fit.reason = "gain, sum and product of the time constants cannot be told apart";
     return fit;

@@ -1,83 +1,12 @@
 #pragma once
 
-#include <trochoid/structure/frequency_response.h>
-#include <trochoid/structure/mode.h>
+#include <trochoid/structure/modes_fit.h>
 
-#include <array>
 #include <complex>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace trochoid::structure {
-
-struct ModesOptions {
-  int count = 0;  ///< modes to fit; 0: chosen
-  /// Stand for the modes below and above the band; absent: chosen.
-  std::optional<bool> residual_terms;
-  double from = 0.0;  ///< lowest line [rad/s]
-  double to = 0.0;    ///< highest line [rad/s]; 0: all
-  /// a of an exponential window e^{-a t} on force and response [1/s], H being that of
-  /// M-22; taken out of the modes.
-  double window_decay = 0.0;
-};
-
-/// The noise of a response (M-15), as standard deviations.
-struct ResponseNoise {
-  double floor = 0.0;      ///< the same at all lines, of real and imaginary part
-  double magnitude = 0.0;  ///< as a fraction of |H|
-  double phase = 0.0;      ///< [rad]
-};
-
-/// One of the fits among which the number of modes was chosen.
-struct ModesOrder {
-  std::vector<std::pair<double, double>> modes;  ///< omega [rad/s] and zeta, by omega
-  std::size_t count = 0;                         ///< of those that would be answers
-  bool residual_terms = false;
-  double criterion = 0.0;  ///< -2 ln L + p ln(2 n): less is better
-  std::string fault;       ///< why it cannot be the answer; empty: it can
-};
-
-/// One mode of a fit; its standard errors are those under the noise of the fit.
-struct FittedMode {
-  Mode mode;
-  double omega = 0.0;  ///< natural frequency [rad/s]
-  double zeta = 0.0;
-  double omega_se = 0.0;
-  double zeta_se = 0.0;
-  double mass_se = 0.0;
-  double stiffness_se = 0.0;
-  double damping_se = 0.0;
-  int lines_in_peak = 0;  ///< between the half-power points
-};
-
-struct ModesFit {
-  bool ok = false;
-  std::string reason;             ///< when not ok
-  std::vector<FittedMode> modes;  ///< by frequency; empty when not ok
-  /// Of omega [rad/s], zeta and mass [kg] of each mode in turn: row-major, shape (3 modes,
-  /// 3 modes).
-  std::vector<double> covariance;
-  bool residual_terms = false;
-  std::array<double, 2> residual{};  ///< U [m/N] and L [1/kg] for modes above and below
-  std::vector<FittedMode> outside;   ///< stand for modes above and below as well
-  std::vector<double> omega;         ///< of the lines fitted
-  std::vector<std::complex<double>> H;       ///< as measured
-  std::vector<std::complex<double>> fitted;  ///< in the same kind
-  double explained = 0.0;                    ///< 1 - sum |residual|^2 / sum |H|^2
-  double rms = 0.0;  ///< sqrt(mean |residual|^2), in the unit of H
-  ResponseNoise noise;
-  double window_decay = 0.0;       ///< of the lines fitted, as in the options [1/s]
-  double noise_bandwidth = 1.0;    ///< of the lines fitted
-  std::vector<ModesOrder> orders;  ///< all that were tried
-  /// Resonances that are in the fit, but too narrow for the lines or cut off by the
-  /// band: their numbers are no answer.
-  std::vector<FittedMode> unresolved;
-  std::vector<std::string> left_out;  ///< why, one for each
-  int alternative = 0;            ///< another number of modes that is likely; 0: none
-  double alternative_odds = 0.0;  ///< how many times likelier the answer is
-};
 
 /// @brief Modal parameters of a measured response.
 ///
@@ -103,5 +32,36 @@ ModesFit identify_modes(const FrequencyResponse& response, const ModesOptions& o
 
 /// @brief The model M-6 of a fit at an angular frequency, as a receptance.
 std::complex<double> modelled(const ModesFit& fit, double omega);
+
+/// @brief Modes that several responses of one structure share.
+///
+/// @eq  M-30  H_jk(s) = sum_r (Re Z + Im Z (s + zeta_r omega_r)/omega_dr) / (omega_r^2 +
+///            s^2 + 2 zeta_r omega_r s) + U_jk + L_jk/s^2,  Z = phi_jr phi_kr,
+///            s = i omega + a_jk,  omega_dr = omega_r sqrt(1 - zeta_r^2)
+/// @eq  M-31  min over omega_r, zeta_r, phi_r, U_jk, L_jk of the sum over responses and
+///            lines of |f (H_model - H)|^2, each line weighted by the noise of its
+///            response (M-15);  -2 ln L adds up over responses, the choice is by
+///            -2 ln L + p ln(2 n), n lines of all
+/// @src derived: poles of a linear structure are global, its residues have rank one and
+///      are symmetric; Im Z = 0 where damping is proportional
+///
+/// Complex shapes are chosen where the criterion of the best of them is less by 10 than
+/// that of the best real ones. Frequencies of lines may differ between responses, and so
+/// may kinds.
+/// @param all  with a direct response of one direction at least, and all directions
+///             joined by cross responses
+ModesFit identify_shapes(const std::vector<DirectedResponse>& all,
+                         const ModesOptions& options);
+
+/// Whether complex modes describe a response better than the real ones found in it.
+struct ComplexCheck {
+  double evidence = 0.0;   ///< criterion of real modes less that of complex ones
+  double omega = 0.0;      ///< of the mode whose shape is the most imaginary [rad/s]
+  double imaginary = 0.0;  ///< |Im phi|/|phi| there
+};
+
+/// @brief The fit of one response once more with complex shapes, from its own modes.
+/// @return none: it has terms with a negative mass outside of the band, or no answer
+std::optional<ComplexCheck> complex_check(const ModesFit& fit);
 
 }  // namespace trochoid::structure

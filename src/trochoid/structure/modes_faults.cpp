@@ -1,4 +1,5 @@
 #include <trochoid/base/units.h>
+#include <trochoid/structure/modes_answer.h>
 #include <trochoid/structure/modes_faults.h>
 #include <trochoid/structure/pole_search.h>
 
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace trochoid::structure {
@@ -14,11 +16,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double most_damping = 0.5;  ///< more has no peak worth the name
 /// Relative standard error: at three of them a mass might as well be infinite.
 constexpr double worst_mass = 1.0 / 3;
 constexpr int least_lines_in_peak = 2;
-constexpr double least_part = 0.01;  ///< of the response, that a resonance makes
+constexpr double least_part = 0.01;  ///< of a response, that a resonance makes
+/// A shape more imaginary than this has residues turned by 60 deg and more.
+constexpr double most_imaginary = 0.5;
 /// A residue turned by more than this belongs to another kind of response.
 constexpr double most_turned = 50 * std::numbers::pi / 180;
 
@@ -26,80 +29,136 @@ std::string hertz(double omega) {
   return fmt::format("{:.5g} Hz", omega / unit::Hz);
 }
 
+/// The largest fraction of a response at the pole of a term that the term makes.
+double part_of(Responses all, const ModesModel& model, const ModeTerm& t) {
+  if (model.is_residue()) {  // beside what stands for the modes out of the band
+    const Complex H = receptance(model, all.front(), 0, {0.0, t.omega});
+    return t.phi.front().real() / (2 * t.zeta * t.omega * t.omega) / std::abs(H);
+  }
+  ModesModel terms = model;
+  terms.residual_terms = false;
+  double most = 0.0;
+  for (const DirectedResponse& one : all) {
+    const Complex s = laplace(one, t.omega);
+    const double H = std::abs(receptance(terms, one, 0, s));
+    const Complex own = product(model, t, one) * unit_mode(t, s);
+    most = std::max(most, H > 0 ? std::abs(own) / H : 0.0);
+  }
+  return most;
+}
+
+/// The band of a response, as messages name it.
+std::string band_of(const FrequencyResponse& lines) {
+  return fmt::format("the band from {} to {}", hertz(lines.omega.front()),
+                     hertz(lines.omega.back()));
+}
+
 /// Why a resonance cannot be resolved; empty: it can.
-std::string unresolved(const FrequencyResponse& lines, const ModesModel& model,
-                       const ModeTerm& t, const std::string& band) {
+std::string unresolved(Responses all, const ModesModel& model, const ModeTerm& t) {
+  const bool single = model.is_residue();
   const double from = t.omega * (1 - t.zeta);
   const double to = t.omega * (1 + t.zeta);
-  if (from < lines.omega.front() || to > lines.omega.back()) {
-    return fmt::format(
-        "the half-power points of the resonance at {} ({} and {}) are "
-        "not both inside {}: a wider record is needed",
-        hertz(t.omega), hertz(from), hertz(to), band);
+  int fewest = std::numeric_limits<int>::max();
+  for (const DirectedResponse& one : all) {
+    const FrequencyResponse& lines = one.response;
+    fewest = std::min(fewest, lines_in_peak(lines, t));
+    if (from < lines.omega.front() || to > lines.omega.back()) {
+      return fmt::format(
+          "the half-power points of the resonance at {} ({} and {}) are not both inside "
+          "{}: a wider record is needed",
+          hertz(t.omega), hertz(from), hertz(to),
+          single ? band_of(lines)
+                 : fmt::format("the band of the response {}", one.name));
+    }
   }
-  const int count = lines_in_peak(lines, t);
-  if (count < least_lines_in_peak) {
+  if (fewest < least_lines_in_peak) {
     return fmt::format(
-        "the resonance at {} is {} wide, and {} of the measured lines "
-        "lies in it: at least {} are needed, so measure longer",
-        hertz(t.omega), hertz(2 * t.zeta * t.omega), count, least_lines_in_peak);
+        "the resonance at {} is {} wide, and {} of the {} in it: at least {} are "
+        "needed, so measure longer",
+        hertz(t.omega), hertz(2 * t.zeta * t.omega), fewest,
+        single ? "measured lines lies" : "lines of a response lie",
+        least_lines_in_peak);
   }
-  const double peak = t.A / (2 * t.zeta * t.omega * t.omega);
-  const double part = peak / std::abs(receptance(model, t.omega));
+  const double part = part_of(all, model, t);
   if (part < least_part) {
     return fmt::format(
-        "the resonance at {} makes {:.2g} % of the response at its own peak: less than "
+        "the resonance at {} makes {:.2g} % of {} response at its own peak: less than "
         "filters, windows and mounting leave in any record",
-        hertz(t.omega), 100 * part);
+        hertz(t.omega), 100 * part, single ? "the" : "any");
   }
   return {};
 }
 
-}  // namespace
-
-int lines_in_peak(const FrequencyResponse& lines, const ModeTerm& t) {
-  return static_cast<int>(std::count_if(
-      lines.omega.begin(), lines.omega.end(),
-      [&](double w) { return std::abs(w - t.omega) <= t.zeta * t.omega; }));
+/// What is wrong with what a term moves: no mass, or no shape; empty: nothing.
+std::string wrong_way(Responses all, const ModesSolution& solution, std::size_t r) {
+  const ModeTerm& t = solution.model.terms[r];
+  if (solution.model.is_residue()) {
+    return t.phi.front().real() <= 0
+               ? fmt::format(
+                     "the mode at {} has a negative mass: the response has the wrong "
+                     "sign. Is the sensor against the force, or is it not a response at "
+                     "the point of the force?",
+                     hertz(t.omega))
+               : std::string();
+  }
+  const double imaginary = shape_mode(all, solution, r).imaginary.value;
+  return imaginary > most_imaginary
+             ? fmt::format(
+                   "the shape of the mode at {} is imaginary by {:.2g} of its size: the "
+                   "kind of a response, or the sign of a direct one, is wrong",
+                   hertz(t.omega), imaginary)
+             : std::string();
 }
 
-TermVerdict verdict_on(const FrequencyResponse& lines, const ModesSolution& solution,
-                       std::size_t r) {
+/// Whether the mass of a term can be told at all.
+bool mass_known(Responses all, const ModesSolution& solution, std::size_t r) {
+  if (solution.covariance.empty()) {
+    return false;
+  }
+  if (solution.model.is_residue()) {
+    return std::sqrt(solution.variance(3 * r + 2)) <=
+           worst_mass * solution.model.terms[r].phi.front().real();
+  }
+  const Known mass = shape_mode(all, solution, r).mass;
+  return mass.se <= worst_mass * mass.value;
+}
+
+}  // namespace
+
+TermVerdict verdict_on(Responses all, const ModesSolution& solution, std::size_t r) {
   const ModeTerm& t = solution.model.terms[r];
-  const double low = lines.omega.front();
-  const double high = lines.omega.back();
-  const std::string band =
-      fmt::format("the band from {} to {}", hertz(low), hertz(high));
-  if (t.omega < low || t.omega > high) {
-    return {
-        TermRole::outside,
-        fmt::format("no resonance lies in {}: the best fit has its resonance at {}, "
-                    "where nothing was measured",
-                    band, hertz(t.omega))};
+  const bool single = solution.model.is_residue();
+  const bool inside =
+      std::any_of(all.begin(), all.end(), [&](const DirectedResponse& one) {
+        return t.omega >= one.response.omega.front() &&
+               t.omega <= one.response.omega.back();
+      });
+  if (!inside) {
+    return {TermRole::outside,
+            fmt::format(
+                "no resonance lies in {}: the best fit has its resonance at {}, "
+                "where nothing was measured",
+                single ? band_of(all.front().response) : "the band", hertz(t.omega))};
   }
   if (t.zeta > most_damping) {
     return {TermRole::none,
-            fmt::format("no resonance lies in {}: the best fit has a damping ratio of "
-                        "{:.2g}, which makes no peak",
-                        band, t.zeta)};
+            fmt::format(
+                "no resonance lies {}: the best fit has a damping ratio of "
+                "{:.2g}{}, which makes no peak",
+                single ? "in " + band_of(all.front().response) : "at " + hertz(t.omega),
+                t.zeta, single ? "" : " there")};
   }
-  if (t.A <= 0) {
-    return {
-        TermRole::none,
-        fmt::format("the mode at {} has a negative mass: the response has the wrong "
-                    "sign. Is the sensor against the force, or is it not a response "
-                    "at the point of the force?",
-                    hertz(t.omega))};
+  const std::string wrong = wrong_way(all, solution, r);
+  if (!wrong.empty()) {
+    return {TermRole::none, wrong};
   }
-  const std::string why = unresolved(lines, solution.model, t, band);
-  const bool known = !solution.variance.empty() &&
-                     std::sqrt(solution.variance[3 * r + 2]) <= worst_mass * t.A;
-  if (!known) {
+  const std::string why = unresolved(all, solution.model, t);
+  if (!mass_known(all, solution, r)) {
     return {
         TermRole::none,
         why.empty()
-            ? fmt::format("the mass of the mode at {} cannot be told from this record",
-                          hertz(t.omega))
+            ? fmt::format("the mass of the mode at {} cannot be told from {}",
+                          hertz(t.omega), single ? "this record" : "these responses")
             : why};
   }
   return {why.empty() ? TermRole::mode : TermRole::unresolved, why};

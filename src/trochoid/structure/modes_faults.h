@@ -9,9 +9,6 @@
 
 namespace trochoid::structure {
 
-/// @brief Lines between the half-power points of a term.
-int lines_in_peak(const FrequencyResponse& lines, const ModeTerm& term);
-
 /// What a term is, if not an answer.
 enum class TermRole {
   mode,        ///< an answer
@@ -27,8 +24,7 @@ struct TermVerdict {
 
 /// @brief What a term of a fit is.
 /// @param solution  with its covariance, if all of it can be told
-TermVerdict verdict_on(const FrequencyResponse& lines, const ModesSolution& solution,
-                       std::size_t r);
+TermVerdict verdict_on(Responses all, const ModesSolution& solution, std::size_t r);
 
 /// @brief How many terms are of a kind.
 std::size_t count_of(std::span<const TermVerdict> terms, TermRole role) noexcept;

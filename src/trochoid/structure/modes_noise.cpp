@@ -12,11 +12,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Below this fraction of the largest |H| nothing is noise, but rounding.
-constexpr double rounding = 1e-12;
+/// Below this fraction of the largest |H| nothing is noise, but least_noise.
+constexpr double least_noise = 1e-12;
 /// A line with more leverage says nothing of the noise.
 constexpr double most_leverage = 0.9;
-constexpr int most_rounds = 200;
+constexpr int most_scorings = 200;
 constexpr double settled = 1e-11;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -62,7 +62,7 @@ Squares squares_of(const FrequencyResponse& lines, std::span<const Complex> left
 using Variances = std::array<double, 3>;
 
 double variance(const Variances& v, double power, std::size_t part) {
-  return std::max(v[0] + v[1 + part] * power, rounding * rounding);
+  return std::max(v[0] + v[1 + part] * power, least_noise * least_noise);
 }
 
 /// The normal equations of r^2 over a^2, b^2, c^2 with the weights 1/variance^2.
@@ -125,7 +125,7 @@ Variances solved(const Normal& n, bool alike) {
 
 /// Fisher scoring from a start, half a step at a time: full ones may swing.
 Variances scored(const Squares& s, Variances v, bool alike) {
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_scorings; ++round) {
     Variances next = solved(normal_of(s, v, alike), alike);
     if (alike) {
       next[2] = next[1];
@@ -162,11 +162,6 @@ double deviance_of(const Squares& s, const Variances& v) {
 }  // namespace
 
 NoiseEstimate estimate_noise(const FrequencyResponse& lines,
-                             const ModesSolution& solution) {
-  return estimate_noise(lines, gaps(lines, solution.model), solution.leverage);
-}
-
-NoiseEstimate estimate_noise(const FrequencyResponse& lines,
                              std::span<const Complex> left,
                              std::span<const double> leverage) {
   const Squares s = squares_of(lines, left, leverage);
@@ -195,17 +190,8 @@ NoiseEstimate estimate_noise(const FrequencyResponse& lines,
               .deviance = deviance};
     }
   }
-  best.noise.floor = std::max(best.noise.floor, rounding * std::sqrt(s.scale));
+  best.noise.floor = std::max(best.noise.floor, least_noise * std::sqrt(s.scale));
   return best;
-}
-
-LineWeights weights_of(const FrequencyResponse& lines, const ResponseNoise& noise,
-                       const ModesModel& model) {
-  std::vector<Complex> modelled;
-  for (const double omega : lines.omega) {
-    modelled.push_back(factor(lines.kind, omega) * receptance(model, omega));
-  }
-  return weights_of(modelled, noise);
 }
 
 LineWeights weights_of(std::span<const Complex> modelled, const ResponseNoise& noise) {

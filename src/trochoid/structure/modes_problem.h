@@ -1,35 +1,12 @@
 #pragma once
 
-#include <trochoid/structure/frequency_response.h>
-#include <trochoid/structure/identify_modes.h>
+#include <trochoid/structure/modes_model.h>
 
-#include <array>
+#include <complex>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace trochoid::structure {
-
-/// One term of M-6.
-struct ModeTerm {
-  double omega = 0.0;  ///< [rad/s]
-  double zeta = 0.0;
-  double A = 0.0;  ///< 1/mass [1/kg]
-};
-
-/// The parameters of M-6.
-struct ModesModel {
-  std::vector<ModeTerm> terms;
-  bool residual_terms = false;
-  std::array<double, 2> residual{};  ///< U [m/N], L [1/kg]
-
-  [[nodiscard]] std::size_t residual_size() const noexcept {
-    return residual_terms ? 2 : 0;
-  }
-  [[nodiscard]] std::size_t size() const noexcept {
-    return 3 * terms.size() + residual_size();
-  }
-};
 
 /// How much each line counts: its residual is turned, and its two parts are divided by
 /// their standard deviations.
@@ -39,56 +16,59 @@ struct LineWeights {
   std::vector<double> across;              ///< the same, imaginary part
 };
 
-/// @brief All lines alike: standard deviations of 1 in the unit of H.
-LineWeights even_weights(std::size_t lines);
+/// Of each response.
+using AllWeights = std::vector<LineWeights>;
 
-/// A model fitted to some lines.
+/// A model fitted to all responses.
 struct ModesSolution {
   ModesModel model;
   bool converged = false;
-  double rss = 0.0;   ///< in the unit of H, squared
   double cost = 0.0;  ///< sum of the squared weighted residuals
-  /// What the fit takes of each weighted residual, real and imaginary part in turn: 1
-  /// where a line determines what is fitted through it. Empty as variance is.
-  std::vector<double> leverage;
-  std::vector<double> variance;  ///< of the parameters; empty: not all can be told
-  std::vector<double>
-      covariance;  ///< row-major, in the order omega, zeta, A, ..., U, L
+  /// Of each response what the fit takes of each weighted residual, real and imaginary
+  /// part in turn: 1 where a line determines what is fitted through it. Empty as the
+  /// covariance is.
+  std::vector<std::vector<double>> leverage;
+  std::vector<double> covariance;  ///< row-major; empty: not all can be told
+
+  [[nodiscard]] double variance(std::size_t parameter) const {
+    return covariance[parameter * model.size() + parameter];
+  }
 };
 
-/// @brief The receptance of a model (M-6).
-std::complex<double> receptance(const ModesModel& model, double omega);
+/// @brief Lines of each response alike. Where there are shapes the largest |H| of each
+/// counts for 1; else a standard deviation of 1 in the unit of H.
+AllWeights even_weights(Responses all, ModeForm form);
 
-/// @brief A response less a model, line by line, in its unit.
-std::vector<std::complex<double>> gaps(const FrequencyResponse& lines,
-                                       const ModesModel& model);
+/// Residues of the terms of a model in one response, and its U and L.
+struct Residues {
+  std::vector<std::complex<double>> Z;
+  std::array<double, 2> residual{};
+};
 
-/// @brief The linear parameters A, U, L for given frequencies and dampings.
-void fit_linear(const FrequencyResponse& lines, const LineWeights& weights,
-                ModesModel& model);
+/// @brief The linear parameters of one response for the poles of a model.
+Residues fit_residues(const DirectedResponse& one, const LineWeights& weights,
+                      const ModesModel& model);
 
-/// @brief Nonlinear least squares M-7 from a start of all parameters.
+/// @brief Nonlinear least squares M-7 or M-31 from a start of all parameters.
 ///
 /// Without leverage and covariance, which describe() adds.
 /// @param weights  the covariance takes their standard deviations as known
-ModesSolution fit_modes(const FrequencyResponse& lines, const LineWeights& weights,
-                        ModesModel start, int iterations);
+ModesSolution fit_modes(Responses all, const AllWeights& weights,
+                        const ModesModel& start, int iterations);
 
 /// @brief Leverage and covariance of a solution under its weights.
-void describe(const FrequencyResponse& lines, const LineWeights& weights,
-              ModesSolution& solution);
+void describe(Responses all, const AllWeights& weights, ModesSolution& solution);
 
-/// @brief A fitted mode with its standard errors, an exponential window taken out (M-22).
-/// @param window_decay  [1/s]; may be more than the mode decays by: then its damping is
-///                      not positive
-FittedMode fitted_mode(const ModesSolution& solution, std::size_t r,
-                       double window_decay);
+/// @brief Sum of |H_model - H|^2 over the lines of one response, in the unit of H.
+double left_over(const ModesModel& model, const DirectedResponse& one,
+                 std::size_t which);
 
-/// @brief Covariance of natural frequency [rad/s], damping ratio and mass [kg] of some
-/// terms, as fitted_mode gives them, those of one term behind those of another.
-/// @return row-major, shape (3 terms, 3 terms); empty as that of the solution
-std::vector<double> mode_covariance(const ModesSolution& solution,
-                                    std::span<const std::size_t> terms,
-                                    double window_decay);
+/// @brief Sum of |H|^2 over its lines.
+double power(const FrequencyResponse& lines);
+
+/// @brief What the covariance of two terms makes of a quantity of each.
+/// @param g, h  derivatives of the quantities by the parameters of terms r and s
+double covariance(const ModesSolution& solution, std::size_t r,
+                  std::span<const double> g, std::size_t s, std::span<const double> h);
 
 }  // namespace trochoid::structure

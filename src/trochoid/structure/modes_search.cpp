@@ -1,8 +1,9 @@
 #include <trochoid/structure/modes_search.h>
+
+#include <trochoid/structure/modes_start.h>
 #include <trochoid/structure/pole_search.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,160 +18,46 @@ constexpr int scout_iterations = 12;
 constexpr int fit_iterations = 60;
 constexpr int most_rounds = 60;
 constexpr double roughly = 0.03;  ///< of a standard error, while modes are sought
-constexpr std::size_t places_of_power = 60;
-constexpr std::size_t places_everywhere = 60;
-constexpr std::size_t neighbours = 3;
-constexpr std::size_t places_tried = 2;
-constexpr std::array dampings = {0.003, 0.01, 0.03, 0.1};
-constexpr double most_damping = 0.5;
-
-/// A place for one mode more, and what it would gain.
-struct Place {
-  ModeTerm term;
-  double gain = 0.0;
-};
-
-/// A line as the search for places sees it.
-struct WeighedLine {
-  double omega = 0.0;
-  Complex f;                         ///< M-4, turned, its parts still to be weighted
-  double along = 0.0, across = 0.0;  ///< weights
-  double r_along = 0.0, r_across = 0.0;  ///< weighted residual
-};
-
-std::vector<WeighedLine> weighed(const FrequencyResponse& lines,
-                                 const LineWeights& weights,
-                                 const std::vector<Complex>& left) {
-  std::vector<WeighedLine> out;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const Complex r = left[i] * weights.turn[i];
-    out.push_back({.omega = lines.omega[i],
-                   .f = factor(lines.kind, lines.omega[i]) * weights.turn[i],
-                   .along = weights.along[i],
-                   .across = weights.across[i],
-                   .r_along = r.real() * weights.along[i],
-                   .r_across = r.imag() * weights.across[i]});
-  }
-  return out;
-}
-
-/// What a mode alone would take of the residual (M-17).
-Place place_at(const std::vector<WeighedLine>& lines, double omega, double zeta) {
-  double gr = 0.0;
-  double gg = 0.0;
-  for (const WeighedLine& line : lines) {
-    const double re = omega * omega - line.omega * line.omega;
-    const double im = -2 * zeta * omega * line.omega;
-    const double norm = 1 / (re * re + im * im);
-    const double along = (re * line.f.real() - im * line.f.imag()) * norm * line.along;
-    const double across =
-        (re * line.f.imag() + im * line.f.real()) * norm * line.across;
-    gr += along * line.r_along + across * line.r_across;
-    gg += along * along + across * across;
-  }
-  const double A = gr / gg;
-  return {.term = {omega, zeta, A}, .gain = A > 0 ? gr * A : 0.0};
-}
-
-/// Lines worth a look: those around which most is left, and some everywhere.
-std::vector<std::size_t> lines_to_try(const std::vector<WeighedLine>& lines) {
-  const std::size_t n = lines.size();
-  std::vector<double> sum(n + 1, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    sum[i + 1] = sum[i] + lines[i].r_along * lines[i].r_along +
-                 lines[i].r_across * lines[i].r_across;
-  }
-  const auto around = [&](std::size_t i) {
-    return sum[std::min(i + neighbours + 1, n)] - sum[i - std::min(i, neighbours)];
-  };
-  std::vector<std::size_t> order(n);
-  for (std::size_t i = 0; i < n; ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return around(a) > around(b); });
-  order.resize(std::min(n, places_of_power));
-  const std::size_t step = 1 + (n - 1) / places_everywhere;
-  for (std::size_t i = 0; i < n; i += step) order.push_back(i);
-  return order;
-}
-
-/// Where one mode more would gain most, places apart from one another.
-std::vector<ModeTerm> places(const FrequencyResponse& response,
-                             const LineWeights& weights,
-                             const std::vector<Complex>& left) {
-  const std::vector<WeighedLine> lines = weighed(response, weights, left);
-  std::vector<Place> all;
-  for (const std::size_t i : lines_to_try(lines)) {
-    for (const double zeta : dampings) {
-      all.push_back(place_at(lines, lines[i].omega, zeta));
-    }
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Place& a, const Place& b) { return a.gain > b.gain; });
-  std::vector<ModeTerm> out;
-  for (const Place& p : all) {
-    const bool near = std::any_of(out.begin(), out.end(), [&](const ModeTerm& t) {
-      return std::abs(p.term.omega - t.omega) < 0.05 * t.omega;
-    });
-    if (!near && p.gain > 0) {
-      out.push_back(p.term);
-    }
-    if (out.size() == places_tried) {
-      break;
-    }
-  }
-  return out;
-}
-
-/// All modes anew, by vector fitting.
-ModesModel from_poles(const FrequencyResponse& lines, std::size_t count,
-                      bool residual_terms) {
-  ModesModel model{.residual_terms = residual_terms};
-  const Poles poles = find_poles(lines, static_cast<int>(count), residual_terms);
-  for (const Pole& pole : poles.pairs) {
-    const double omega = std::abs(pole.p);
-    model.terms.push_back(
-        {.omega = omega,
-         .zeta = std::clamp(std::abs(pole.p.real()) / omega, 1e-5, 0.9)});
-  }
-  return model;
-}
-
-/// One mode of a model as two beside one another.
-ModesModel split(ModesModel model, std::size_t r) {
-  ModeTerm& t = model.terms[r];
-  const double apart = std::min(t.zeta, 0.2);
-  ModeTerm other = t;
-  t.omega *= 1 - 0.7 * apart;
-  other.omega *= 1 + 0.7 * apart;
-  t.zeta *= 0.6;
-  other.zeta *= 0.6;
-  t.A *= 0.5;
-  other.A *= 0.5;
-  model.terms.push_back(other);
-  return model;
-}
 
 /// Whether all modes inside the band could be resonances, and there is one.
-bool plausible(const FrequencyResponse& lines, const ModesModel& model) {
+bool plausible(Responses all, const ModesModel& model) {
   bool any = false;
   for (const ModeTerm& t : model.terms) {
-    if (t.omega > lines.omega.front() && t.omega < lines.omega.back()) {
-      any = true;
-      if (t.A <= 0 || t.zeta >= most_damping) return false;
+    for (const DirectedResponse& one : all) {
+      if (t.omega > one.response.omega.front() && t.omega < one.response.omega.back()) {
+        any = true;
+        if (t.zeta >= most_damping ||
+            (model.is_residue() && t.phi.front().real() <= 0)) {
+          return false;
+        }
+      }
     }
   }
   return any;
 }
 
+/// The linear parameters for the poles of a start. A shape is no linear parameter: it
+/// comes with its start.
+void fit_linear(Responses all, const AllWeights& weights, ModesModel& start) {
+  if (!start.is_residue()) {
+    return;
+  }
+  const Residues found = fit_residues(all.front(), weights.front(), start);
+  for (std::size_t r = 0; r < start.terms.size(); ++r) {
+    start.terms[r].phi = {found.Z[r]};
+  }
+  start.residual = {found.residual};
+}
+
 /// The best of some starts after a few steps: plausible ones first.
-ModesModel scouted(const FrequencyResponse& lines, const LineWeights& weights,
+ModesModel scouted(Responses all, const AllWeights& weights,
                    const std::vector<ModesModel>& starts) {
   ModesModel best;
   std::pair<bool, double> rank{true, std::numeric_limits<double>::infinity()};
   for (ModesModel start : starts) {
-    fit_linear(lines, weights, start);
-    ModesSolution found = fit_modes(lines, weights, start, scout_iterations);
-    const std::pair<bool, double> own{!plausible(lines, found.model), found.cost};
+    fit_linear(all, weights, start);
+    ModesSolution found = fit_modes(all, weights, start, scout_iterations);
+    const std::pair<bool, double> own{!plausible(all, found.model), found.cost};
     if (own < rank || best.terms.empty()) {
       rank = own;
       best = std::move(found.model);
@@ -179,86 +66,106 @@ ModesModel scouted(const FrequencyResponse& lines, const LineWeights& weights,
   return best;
 }
 
-/// Largest change of frequency, damping and A between two models, in standard errors.
+/// Largest change of a pole, a residue or a shape between two models, in standard errors.
 double moved(const ModesSolution& from, const ModesSolution& to) {
   double most = 0.0;
-  for (std::size_t r = 0; r < to.model.terms.size(); ++r) {
+  for (std::size_t r = 0; r < to.model.terms.size() && !to.covariance.empty(); ++r) {
     const ModeTerm& a = from.model.terms[r];
     const ModeTerm& b = to.model.terms[r];
-    const std::array change = {b.omega - a.omega, b.zeta - a.zeta, b.A - a.A};
-    for (std::size_t k = 0; k < 3 && !to.variance.empty(); ++k) {
-      most = std::max(most, std::abs(change[k]) / std::sqrt(to.variance[3 * r + k]));
+    std::size_t k = r * to.model.term_size();
+    const auto change = [&](double by) {
+      most = std::max(most, std::abs(by) / std::sqrt(to.variance(k)));
+      ++k;
+    };
+    change(b.omega - a.omega);
+    change(b.zeta - a.zeta);
+    for (std::size_t m = 0; m < b.phi.size(); ++m) {
+      change(b.phi[m].real() - a.phi[m].real());
+    }
+    for (std::size_t m = 0; to.model.complex_shapes() && m < b.phi.size(); ++m) {
+      change(b.phi[m].imag() - a.phi[m].imag());
     }
   }
   return most;
 }
 
-std::size_t lines_of(const FrequencyResponse& lines) {
-  return lines.omega.size();
-}
-
 }  // namespace
 
-ModesTrial settle(const FrequencyResponse& lines, const ModesModel& start,
-                  LineWeights weights, double tolerance) {
+AllWeights weights_of(Responses all, const ModesTrial& trial) {
+  const ModesModel& model = trial.solution.model;
+  AllWeights out;
+  for (std::size_t q = 0; q < all.size(); ++q) {
+    out.push_back(weights_of(modelled(model, all[q], q), trial.noise[q]));
+    // Lines that share their noise count for fewer (M-23); one response alone has the
+    // same share everywhere, and its covariance takes it.
+    const double share =
+        model.is_residue() ? 1.0 : std::sqrt(all[q].response.noise_bandwidth);
+    for (std::size_t i = 0; i < out.back().along.size(); ++i) {
+      out.back().along[i] /= share;
+      out.back().across[i] /= share;
+    }
+  }
+  return out;
+}
+
+ModesTrial settle(Responses all, const ModesModel& start, AllWeights weights,
+                  double tolerance) {
   ModesTrial out;
   ModesModel model = start;
-  NoiseEstimate noise;
+  double deviance = 0.0;
+  double n = 0.0;
+  int noise_parameters = 0;
   for (int round = 0; round < most_rounds; ++round) {
-    ModesSolution next = fit_modes(lines, weights, model, fit_iterations);
-    describe(lines, weights, next);
+    ModesSolution next = fit_modes(all, weights, model, fit_iterations);
+    describe(all, weights, next);
     const bool stands = round > 1 && moved(out.solution, next) < tolerance;
     out.solution = std::move(next);
     if (stands) {
       break;
     }
-    noise = estimate_noise(lines, out.solution);
     model = out.solution.model;
-    weights = weights_of(lines, noise.noise, model);
+    out.noise.clear();
+    deviance = n = 0.0;
+    noise_parameters = 0;
+    for (std::size_t q = 0; q < all.size(); ++q) {
+      const std::vector<double> unknown;
+      const bool known = !out.solution.leverage.empty();
+      const FrequencyResponse& lines = all[q].response;
+      const NoiseEstimate noise = estimate_noise(
+          lines, gaps(model, all[q], q), known ? out.solution.leverage[q] : unknown);
+      out.noise.push_back(noise.noise);
+      noise_parameters += noise.parameters;
+      deviance += noise.deviance / lines.noise_bandwidth;
+      n += static_cast<double>(2 * lines.omega.size()) / lines.noise_bandwidth;
+    }
+    weights = weights_of(all, out);
   }
-  out.noise = noise.noise;
-  // Lines that share their noise count for fewer (M-23).
-  const double n = static_cast<double>(2 * lines_of(lines)) / lines.noise_bandwidth;
-  const auto p = static_cast<double>(model.size()) + noise.parameters;
-  out.criterion = noise.deviance / lines.noise_bandwidth + p * std::log(n);
+  out.criterion = deviance + (static_cast<double>(model.size()) + noise_parameters) *
+                                 std::log(n);  // M-31
   return out;
 }
 
-ModesTrial with_one_more(const FrequencyResponse& lines, const ModesTrial& before,
-                         bool residual_terms) {
+ModesTrial with_one_more(Responses all, const ModesTrial& before) {
   const ModesModel& known = before.solution.model;
-  const LineWeights even = even_weights(lines_of(lines));
-  std::vector<LineWeights> weightings = {even};
-  if (!known.terms.empty()) {
-    weightings.push_back(weights_of(lines, before.noise, known));
+  std::vector<AllWeights> weightings = {even_weights(all, known.form)};
+  if (before.found()) {
+    weightings.push_back(weights_of(all, before));
   }
-  const std::vector<Complex> left = gaps(lines, known);
-  std::vector<ModesModel> starts = {
-      from_poles(lines, known.terms.size() + 1, residual_terms)};
-  for (const LineWeights& weights : weightings) {
-    for (const ModeTerm& term : places(lines, weights, left)) {
-      starts.push_back(known);
-      starts.back().terms.push_back(term);
-    }
-  }
-  for (std::size_t r = 0; r < known.terms.size(); ++r) {
-    starts.push_back(split(known, r));
-  }
-  for (const double outside : {0.5 * lines.omega.front(), 1.5 * lines.omega.back()}) {
-    starts.push_back(known);
-    starts.back().terms.push_back({.omega = outside, .zeta = 0.03});
-  }
-  for (ModesModel& start : starts) {
-    start.residual_terms = residual_terms;
-  }
+  const std::span<const AllWeights> both = weightings;
+  // The residues of a start are fitted anew with each of the weights, so one set of
+  // starts serves both; a shape stays as its start has it.
+  std::vector<ModesModel> starts;
   ModesTrial best;
-  for (const LineWeights& weights : weightings) {
-    const ModesModel scout = scouted(lines, weights, starts);
-    ModesTrial trial = settle(lines, scout, weights, roughly);
-    const bool first = best.solution.model.terms.empty();
-    if (first ||
-        std::pair{!plausible(lines, trial.solution.model), trial.criterion} <
-            std::pair{!plausible(lines, best.solution.model), best.criterion}) {
+  for (std::size_t k = 0; k < both.size(); ++k) {
+    if (!known.is_residue()) {
+      starts = starts_with_one_more(all, both.subspan(k, 1), known);
+    } else if (k == 0) {
+      starts = starts_with_one_more(all, both, known);
+    }
+    ModesTrial trial = settle(all, scouted(all, both[k], starts), both[k], roughly);
+    if (!best.found() ||
+        std::pair{!plausible(all, trial.solution.model), trial.criterion} <
+            std::pair{!plausible(all, best.solution.model), best.criterion}) {
       best = std::move(trial);
     }
   }

@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 constexpr int rounds = 15;
 constexpr double first_damping = 0.01;
 constexpr double renewed_damping = 0.1;
-constexpr double rank_tolerance = 1e-13;
+constexpr double pole_rank_tolerance = 1e-13;
 constexpr Complex i{0.0, 1.0};
 
 /// The lines of a response, scaled to about one.
@@ -77,7 +77,7 @@ numerics::LeastSquares solve(const std::vector<Complex>& A, std::size_t columns,
     right[2 * n + 1] = b[n].imag();
   }
   return numerics::least_squares(rows, static_cast<int>(columns), right,
-                                 rank_tolerance);
+                                 pole_rank_tolerance);
 }
 
 /// Zeros of 1 + sum of c * fractions: eigenvalues of the poles less what c adds.

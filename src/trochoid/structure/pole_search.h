@@ -7,6 +7,9 @@
 
 namespace trochoid::structure {
 
+/// Damping ratio above which there is no peak worth the name.
+constexpr double most_damping = 0.5;
+
 /// One pair of poles of a receptance: R/(s-p) + conj(R)/(s-conj(p)).
 struct Pole {
   std::complex<double> p;  ///< [rad/s]; above the real axis, left of the imaginary one

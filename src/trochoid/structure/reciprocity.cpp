@@ -89,9 +89,9 @@ void each_transposed(Responses all, const Visit& visit) {
 
 }  // namespace
 
-std::vector<Reciprocity> reciprocity_of(Responses all, const ShapesTrial& trial) {
+std::vector<Reciprocity> reciprocity_of(Responses all, const ModesTrial& trial) {
   const AllWeights weights = weights_of(all, trial);
-  ShapesModel modes = trial.solution.model;
+  ModesModel modes = trial.solution.model;
   modes.residual_terms = false;
   const auto gain = [&](std::size_t q) {
     return gain_of(all[q], weights[q], modelled(modes, all[q], q),

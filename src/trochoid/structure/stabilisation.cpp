@@ -8,7 +8,6 @@ namespace trochoid::structure {
 
 namespace {
 
-constexpr double most_damping = 0.5;
 constexpr double same_omega = 0.01;
 constexpr double same_zeta = 0.05;
 

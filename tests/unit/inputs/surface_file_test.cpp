@@ -1,6 +1,5 @@
-#include "case_text.h"
-
 #include <gtest/gtest.h>
+#include <trochoid/base/error.h>
 #include <trochoid/inputs/wall_readings.h>
 
 #include <sstream>

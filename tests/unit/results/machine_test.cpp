@@ -17,19 +17,19 @@ using test::table_of;
 using Names = std::vector<std::string>;
 
 ModesResult modes_result() {
-  ModesResult r{.kind = ResponseKind::accelerance,
-                .body = structure::ModeBody::table,
-                .axis = structure::Axis::y};
-  r.fit = {.ok = true,
-           .modes = {{.mode = {0.2, 1.7e7, 80},
-                      .omega = 1500 * unit::Hz,
-                      .zeta = 0.02,
-                      .lines_in_peak = 7}},
-           .omega = {100 * unit::Hz, 200 * unit::Hz},
-           .H = {{1, 2}, {3, 4}},
-           .fitted = {{5, 6}, {7, 8}},
-           .explained = 0.99,
-           .rms = 0.5};
+  ModesResult r{.body = structure::ModeBody::table};
+  r.responses = {{.motion = structure::Axis::y, .force = structure::Axis::y}};
+  structure::FittedMode mode{
+      .omega = {1500 * unit::Hz}, .zeta = {0.02}, .mass = {0.2}, .stiffness = {1.7e7}};
+  mode.damping = {80};
+  mode.lines_in_peak = 7;
+  r.fit = {.ok = true, .modes = {mode}, .real_modes = {mode}};
+  r.fit.responses = {{.kind = ResponseKind::accelerance,
+                      .omega = {100 * unit::Hz, 200 * unit::Hz},
+                      .H = {{1, 2}, {3, 4}},
+                      .fitted = {{5, 6}, {7, 8}},
+                      .explained = 0.99,
+                      .rms = 0.5}};
   return r;
 }
 
@@ -63,6 +63,7 @@ TEST(ModesAnswer, WritesModesForOtherCases) {
 TEST(ModesAnswer, WithoutAFitHasNoModes) {
   ModesResult r = modes_result();
   r.fit.ok = false;
+  r.fit.responses[0].fitted.clear();
   const Answer answer = answer_of(r);
   EXPECT_EQ(json_at(answer, "modes"), "null");
   EXPECT_EQ(json_at(answer, "explained"), "");

@@ -57,8 +57,7 @@ void expect_tilted(const dynamics::System& system) {
   }
 }
 
-dynamics::System included(const CaseFolder& folder,
-                          const results::SharedModesResult& found) {
+dynamics::System included(const CaseFolder& folder, const results::ModesResult& found) {
   const results::Answer answer = results::answer_of(found);
   folder.write("modes.toml", answer.texts.at(0).text);
   const auto path =

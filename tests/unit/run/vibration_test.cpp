@@ -206,9 +206,9 @@ TEST_F(Vibration, ModesComeFromAResponse) {
       "1 mode: 1490 Hz (damping ratio 2.1 %). Less than 0.01 % of the power of the "
       "response stays unexplained (250 lines).");
   EXPECT_EQ(r.body, structure::ModeBody::table);
-  EXPECT_EQ(r.axis, structure::Axis::y);
+  EXPECT_EQ(r.responses.at(0).motion, structure::Axis::y);
   ASSERT_EQ(r.fit.modes.size(), 1U);
-  EXPECT_NEAR(r.fit.modes[0].mode.mass, 0.194, 1e-4);
+  EXPECT_NEAR(r.fit.modes[0].mass.value, 0.194, 1e-4);
 }
 
 TEST_F(Vibration, AnActuatorComesFromAStep) {
@@ -261,11 +261,13 @@ TEST(VibrationWarnings, OfMotion) {
 }
 
 TEST(VibrationWarnings, OfModes) {
+  structure::FittedMode mode{.mass = {1}, .stiffness = {1}, .damping = {1, 0.2}};
+  mode.lines_in_peak = 3;
+  results::ModesResult r;
+  r.responses.resize(1);
+  r.fit = {.modes = {mode}, .responses = {{.explained = 0.9}}};
   std::vector<base::Warning> warnings;
-  add_modes_warnings(
-      {.modes = {{.mode = {1, 1, 1}, .damping_se = 0.2, .lines_in_peak = 3}},
-       .explained = 0.9},
-      warnings);
+  add_modes_warnings(r, warnings);
   EXPECT_EQ(codes(warnings),
             (std::vector<std::string>{"few_lines", "loosely_known", "poor_fit"}));
 }

@@ -17,7 +17,8 @@ using made::mode_of;
 std::string found(const ModesFit& fit) {
   std::string text = fit.ok ? "ok" : fit.reason;
   for (const FittedMode& m : fit.modes) {
-    text += " " + std::to_string(m.omega / Hz) + " (" + std::to_string(m.zeta) + ")";
+    text += " " + std::to_string(m.omega.value / Hz) + " (" +
+            std::to_string(m.zeta.value) + ")";
   }
   for (const ModesOrder& o : fit.orders) {
     text += "\n" + std::to_string(o.criterion) + " " + std::to_string(o.residual_terms);
@@ -31,10 +32,10 @@ std::string found(const ModesFit& fit) {
 
 /// Within four standard errors, and those no larger than a fraction.
 void expect_known(const FittedMode& m, const Mode& truth, double worst) {
-  EXPECT_NEAR(m.omega, natural_frequency(truth), 4 * m.omega_se);
-  EXPECT_NEAR(m.zeta, damping_ratio(truth), 4 * m.zeta_se);
-  EXPECT_NEAR(m.mode.stiffness, truth.stiffness, 4 * m.stiffness_se);
-  EXPECT_LT(m.stiffness_se, worst * truth.stiffness);
+  EXPECT_NEAR(m.omega.value, natural_frequency(truth), 4 * m.omega.se);
+  EXPECT_NEAR(m.zeta.value, damping_ratio(truth), 4 * m.zeta.se);
+  EXPECT_NEAR(m.stiffness.value, truth.stiffness, 4 * m.stiffness.se);
+  EXPECT_LT(m.stiffness.se, worst * truth.stiffness);
 }
 
 TEST(CloseModes, TwoHalfAPeakApartAreTwo) {  // [M-16] [M-17]
@@ -83,11 +84,11 @@ TEST(CloseModes, AModeWithTooFewLinesIsNotLeftOutInSilence) {
   ASSERT_EQ(fit.modes.size(), 1U) << found(fit);
   ASSERT_EQ(fit.left_out.size(), 1U) << found(fit);
   EXPECT_NE(fit.left_out[0].find("measure longer"), std::string::npos);
-  EXPECT_NEAR(fit.unresolved[0].omega / Hz, 60, 0.5);
+  EXPECT_NEAR(fit.unresolved[0].omega.value / Hz, 60, 0.5);
   expect_known(fit.modes[0], truth[1], 0.02);
-  const double w = fit.omega[100];
-  EXPECT_NEAR(std::abs(modelled(fit, w) - fit.fitted[100]), 0.0,
-              1e-12 * std::abs(fit.fitted[100]));
+  const double w = fit.responses[0].omega[100];
+  EXPECT_NEAR(std::abs(modelled(fit, w) - fit.responses[0].fitted[100]), 0.0,
+              1e-12 * std::abs(fit.responses[0].fitted[100]));
 }
 
 TEST(CloseModes, ARippleOfAFewThousandthsIsNoMode) {
@@ -100,7 +101,7 @@ TEST(CloseModes, ARippleOfAFewThousandthsIsNoMode) {
   const auto fit = identify_modes(record, {});
   ASSERT_EQ(fit.modes.size(), 1U) << found(fit);
   ASSERT_EQ(fit.unresolved.size(), 1U) << found(fit);
-  EXPECT_NEAR(fit.unresolved[0].omega / Hz, 1500, 10);
+  EXPECT_NEAR(fit.unresolved[0].omega.value / Hz, 1500, 10);
   EXPECT_NE(fit.left_out[0].find("% of the response at its own peak"),
             std::string::npos);
 }
@@ -115,15 +116,16 @@ TEST(CloseModes, TheNoiseIsRecognised) {  // [M-15]
   };
   const double largest = 1 / truth[0].damping;
   auto fit = with({.floor = 0.01});
-  EXPECT_NEAR(fit.noise.floor / (0.01 * largest), 1, 0.1);  // 2600 numbers: 1.4 %
-  EXPECT_EQ(fit.noise.magnitude, 0.0);
+  EXPECT_NEAR(fit.responses[0].noise.floor / (0.01 * largest), 1,
+              0.1);  // 2600 numbers: 1.4 %
+  EXPECT_EQ(fit.responses[0].noise.magnitude, 0.0);
   fit = with({.fraction = 0.03});
-  EXPECT_NEAR(fit.noise.magnitude / 0.03, 1, 0.1);
-  EXPECT_EQ(fit.noise.magnitude, fit.noise.phase);
+  EXPECT_NEAR(fit.responses[0].noise.magnitude / 0.03, 1, 0.1);
+  EXPECT_EQ(fit.responses[0].noise.magnitude, fit.responses[0].noise.phase);
   fit = with({.floor = 0.002, .magnitude = 0.05});
-  EXPECT_NEAR(fit.noise.magnitude / 0.05, 1, 0.2);
-  EXPECT_LT(fit.noise.phase, 0.01);
-  EXPECT_NEAR(fit.noise.floor / (0.002 * largest), 1, 0.1);
+  EXPECT_NEAR(fit.responses[0].noise.magnitude / 0.05, 1, 0.2);
+  EXPECT_LT(fit.responses[0].noise.phase, 0.01);
+  EXPECT_NEAR(fit.responses[0].noise.floor / (0.002 * largest), 1, 0.1);
 }
 
 TEST(CloseModes, OneIsNotTakenForTwo) {

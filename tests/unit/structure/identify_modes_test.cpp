@@ -47,9 +47,9 @@ Mode mode_of(double frequency, double zeta, double mass) {
 }
 
 void expect_mode(const FittedMode& found, const Mode& truth, double tolerance) {
-  EXPECT_NEAR(found.mode.mass / truth.mass, 1, tolerance);
-  EXPECT_NEAR(found.mode.stiffness / truth.stiffness, 1, tolerance);
-  EXPECT_NEAR(found.mode.damping / truth.damping, 1, tolerance);
+  EXPECT_NEAR(found.mass.value / truth.mass, 1, tolerance);
+  EXPECT_NEAR(found.stiffness.value / truth.stiffness, 1, tolerance);
+  EXPECT_NEAR(found.damping.value / truth.damping, 1, tolerance);
 }
 
 TEST(IdentifyModes, FindsAModeExactlyInEachKind) {  // [M-6]
@@ -60,11 +60,12 @@ TEST(IdentifyModes, FindsAModeExactlyInEachKind) {  // [M-6]
     ASSERT_TRUE(fit.ok) << fit.reason;
     ASSERT_EQ(fit.modes.size(), 1U);
     expect_mode(fit.modes[0], truth, 1e-8);
-    EXPECT_NEAR(fit.modes[0].omega, 900 * Hz, 1e-4);
-    EXPECT_NEAR(fit.explained, 1.0, 1e-12);
-    const double w = fit.omega[100];
-    EXPECT_NEAR(std::abs(modelled(fit, w) * factor(kind, w) - fit.fitted[100]), 0.0,
-                1e-12 * std::abs(fit.fitted[100]));
+    EXPECT_NEAR(fit.modes[0].omega.value, 900 * Hz, 1e-4);
+    EXPECT_NEAR(fit.responses[0].explained, 1.0, 1e-12);
+    const double w = fit.responses[0].omega[100];
+    EXPECT_NEAR(
+        std::abs(modelled(fit, w) * factor(kind, w) - fit.responses[0].fitted[100]),
+        0.0, 1e-12 * std::abs(fit.responses[0].fitted[100]));
   }
 }
 
@@ -107,11 +108,11 @@ TEST(IdentifyModes, ResidualTermsStandForModesOutsideOfTheBand) {  // [M-6]
   ASSERT_TRUE(with.ok) << with.reason;
   EXPECT_TRUE(with.residual_terms);
   expect_mode(with.modes[0], truth, 1e-7);
-  EXPECT_NEAR(with.residual[0], 2e-8, 1e-14);
-  EXPECT_NEAR(with.residual[1], 0.2, 1e-7);
+  EXPECT_NEAR(with.responses[0].residual[0], 2e-8, 1e-14);
+  EXPECT_NEAR(with.responses[0].residual[1], 0.2, 1e-7);
   const auto without = identify_modes(record, {.count = 1, .residual_terms = false});
   ASSERT_TRUE(without.ok) << without.reason;
-  EXPECT_GT(without.rms, 1e3 * with.rms);
+  EXPECT_GT(without.responses[0].rms, 1e3 * with.responses[0].rms);
 }
 
 TEST(IdentifyModes, StandardErrorsAreTheScatterOfManyFits) {  // [M-7]
@@ -134,14 +135,14 @@ TEST(IdentifyModes, StandardErrorsAreTheScatterOfManyFits) {  // [M-7]
     const auto fit = identify_modes(noisy, {.count = 1, .residual_terms = false});
     ASSERT_TRUE(fit.ok) << fit.reason;
     last = fit.modes[0];
-    mass += std::pow(last.mode.mass - truth.mass, 2) / runs;
-    damping += std::pow(last.mode.damping - truth.damping, 2) / runs;
-    frequency += std::pow(last.omega - 500 * Hz, 2) / runs;
+    mass += std::pow(last.mass.value - truth.mass, 2) / runs;
+    damping += std::pow(last.damping.value - truth.damping, 2) / runs;
+    frequency += std::pow(last.omega.value - 500 * Hz, 2) / runs;
   }
   // 200 runs tell a standard deviation to 5 %: three of that
-  EXPECT_NEAR(last.mass_se / std::sqrt(mass), 1.0, 0.15);
-  EXPECT_NEAR(last.damping_se / std::sqrt(damping), 1.0, 0.15);
-  EXPECT_NEAR(last.omega_se / std::sqrt(frequency), 1.0, 0.15);
+  EXPECT_NEAR(last.mass.se / std::sqrt(mass), 1.0, 0.15);
+  EXPECT_NEAR(last.damping.se / std::sqrt(damping), 1.0, 0.15);
+  EXPECT_NEAR(last.omega.se / std::sqrt(frequency), 1.0, 0.15);
 }
 
 TEST(IdentifyModes, AnExponentialWindowIsTakenOut) {  // [M-22]
@@ -162,10 +163,10 @@ TEST(IdentifyModes, AnExponentialWindowIsTakenOut) {  // [M-22]
   ASSERT_EQ(fit.modes.size(), 2U) << fit.reason;
   expect_mode(fit.modes[0], low, 1e-6);
   expect_mode(fit.modes[1], high, 1e-6);
-  EXPECT_NEAR(fit.modes[0].omega, natural_frequency(low), 1e-3);
-  EXPECT_NEAR(fit.modes[0].zeta, 0.004, 1e-8);
+  EXPECT_NEAR(fit.modes[0].omega.value, natural_frequency(low), 1e-3);
+  EXPECT_NEAR(fit.modes[0].zeta.value, 0.004, 1e-8);
   const auto bare = identify_modes(record, {});
-  EXPECT_GT(bare.modes.at(0).zeta, 0.012) << "the window is a damping";
+  EXPECT_GT(bare.modes.at(0).zeta.value, 0.012) << "the window is a damping";
 }
 
 /// Stiffness and damping follow from frequency, damping ratio and mass: so do errors.
@@ -174,7 +175,7 @@ void expect_consistent(const ModesFit& fit) {
   ASSERT_EQ(fit.covariance.size(), n * n);
   for (std::size_t k = 0; k < fit.modes.size(); ++k) {
     const FittedMode& m = fit.modes[k];
-    const double x[] = {m.omega, m.zeta, m.mode.mass};
+    const double x[] = {m.omega.value, m.zeta.value, m.mass.value};
     const auto error = [&](double omega, double zeta, double mass) {
       const double power[] = {omega, zeta, mass};
       double sum = 0.0;
@@ -186,11 +187,11 @@ void expect_consistent(const ModesFit& fit) {
       }
       return std::sqrt(sum);
     };
-    EXPECT_NEAR(error(1, 0, 0) * m.omega / m.omega_se, 1, 1e-9);
-    EXPECT_NEAR(error(0, 1, 0) * m.zeta / m.zeta_se, 1, 1e-9);
-    EXPECT_NEAR(error(0, 0, 1) * m.mode.mass / m.mass_se, 1, 1e-9);
-    EXPECT_NEAR(error(2, 0, 1) * m.mode.stiffness / m.stiffness_se, 1, 1e-6);
-    EXPECT_NEAR(error(1, 1, 1) * m.mode.damping / m.damping_se, 1, 1e-6);
+    EXPECT_NEAR(error(1, 0, 0) * m.omega.value / m.omega.se, 1, 1e-9);
+    EXPECT_NEAR(error(0, 1, 0) * m.zeta.value / m.zeta.se, 1, 1e-9);
+    EXPECT_NEAR(error(0, 0, 1) * m.mass.value / m.mass.se, 1, 1e-9);
+    EXPECT_NEAR(error(2, 0, 1) * m.stiffness.value / m.stiffness.se, 1, 1e-6);
+    EXPECT_NEAR(error(1, 1, 1) * m.damping.value / m.damping.se, 1, 1e-6);
   }
 }
 
@@ -223,11 +224,11 @@ TEST(IdentifyModes, CloseModesHangTogetherAsTheCovarianceSays) {
     const auto fit = identify_modes(noisy, {.count = 2, .residual_terms = false});
     ASSERT_EQ(fit.modes.size(), 2U) << fit.reason;
     for (std::size_t k = 0; k < 2; ++k) {
-      mean[k] += fit.modes[k].mode.mass / runs;
-      square[k] += std::pow(fit.modes[k].mode.mass, 2) / runs;
+      mean[k] += fit.modes[k].mass.value / runs;
+      square[k] += std::pow(fit.modes[k].mass.value, 2) / runs;
     }
-    product += fit.modes[0].mode.mass * fit.modes[1].mode.mass / runs;
-    told += fit.covariance[2 * 6 + 5] / (fit.modes[0].mass_se * fit.modes[1].mass_se) /
+    product += fit.modes[0].mass.value * fit.modes[1].mass.value / runs;
+    told += fit.covariance[2 * 6 + 5] / (fit.modes[0].mass.se * fit.modes[1].mass.se) /
             runs;
   }
   const double seen =
@@ -320,7 +321,7 @@ TEST(IdentifyModes, LeavesOutTheLineAtZero) {
   const auto fit =
       identify_modes(made({truth}, ResponseKind::accelerance, {0, 300, 0.5}), {});
   ASSERT_TRUE(fit.ok) << fit.reason;
-  EXPECT_EQ(fit.omega.size(), 600U);
+  EXPECT_EQ(fit.responses[0].omega.size(), 600U);
   expect_mode(fit.modes[0], truth, 1e-7);
 }
 

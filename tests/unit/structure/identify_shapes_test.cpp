@@ -2,7 +2,7 @@
 #include "made_shapes.h"
 
 #include <gtest/gtest.h>
-#include <trochoid/structure/identify_shapes.h>
+#include <trochoid/structure/identify_modes.h>
 
 #include <cmath>
 #include <numbers>
@@ -30,16 +30,15 @@ constexpr made::Band coarse{600, 1600, 5};
 /// Close modes at 30 and 120 deg.
 const Plane tilted{{{{1000, 0.03, 0.5, 30}, {1080, 0.025, 0.8, 120}}}};
 
-std::string told(const ShapesFit& fit) {
+std::string told(const ModesFit& fit) {
   std::string text = fit.ok ? "ok" : fit.reason;
-  for (const ShapesOrder& o : fit.orders) {
-    text += "\n" + std::to_string(o.order.criterion) + " " +
-            (o.complex_shapes ? "complex " : "real ") +
-            (o.order.residual_terms ? "UL" : "");
-    for (const auto& [w, z] : o.order.modes) {
+  for (const ModesOrder& o : fit.orders) {
+    text += "\n" + std::to_string(o.criterion) + " " +
+            (o.complex_shapes ? "complex " : "real ") + (o.residual_terms ? "UL" : "");
+    for (const auto& [w, z] : o.modes) {
       text += " " + std::to_string(w / Hz) + " (" + std::to_string(z) + ")";
     }
-    text += " " + o.order.fault;
+    text += " " + o.fault;
   }
   return text;
 }
@@ -50,7 +49,7 @@ void expect_known(const Known& found, double truth, double worst) {
   EXPECT_GT(found.se, 0.0);
 }
 
-void expect_mode(const ShapeMode& found, const made::TiltedMode& truth) {
+void expect_mode(const FittedMode& found, const made::TiltedMode& truth) {
   expect_known(found.omega, truth.frequency * Hz, 0.002 * truth.frequency * Hz);
   expect_known(found.zeta, truth.zeta, 0.03 * truth.zeta);
   expect_known(found.mass, truth.mass, 0.03 * truth.mass);
@@ -83,7 +82,7 @@ TEST(IdentifyShapes, TheCovarianceIsThatOfTheStandardErrors) {  // [U-1]
     return fit.covariance[8 * i + j];
   };
   for (std::size_t k = 0; k < 2; ++k) {
-    const ShapeMode& m = fit.real_modes[k];
+    const FittedMode& m = fit.real_modes[k];
     const std::size_t i = 4 * k;
     EXPECT_NEAR(std::sqrt(at(i, i)) / m.omega.se, 1, 1e-9);
     EXPECT_NEAR(std::sqrt(at(i + 1, i + 1)) / m.zeta.se, 1, 1e-9);
@@ -116,7 +115,7 @@ TEST(IdentifyShapes, OneFrequencyInTwoDirectionsIsTwoModes) {
   const auto fit = identify_shapes(all_of(round, {"xx", "xy", "yy"}, {.band = coarse}),
                                    {.complex_shapes = false});
   ASSERT_EQ(fit.modes.size(), 2U) << told(fit);
-  for (const ShapeMode& mode : fit.modes) {
+  for (const FittedMode& mode : fit.modes) {
     EXPECT_NEAR(mode.omega.value, 1002 * Hz, 4 * Hz);
     EXPECT_NEAR(mode.mass.value, 0.5, 0.03);
   }
@@ -131,7 +130,7 @@ TEST(IdentifyShapes, ADamperInOnePlaceMakesShapesComplex) {  // [M-30] [M-33]
   EXPECT_TRUE(fit.complex_shapes) << told(fit);
   ASSERT_TRUE(fit.complex_evidence.has_value());
   EXPECT_GT(*fit.complex_evidence, 100.0);
-  for (const ShapeMode& mode : fit.modes) {
+  for (const FittedMode& mode : fit.modes) {
     EXPECT_GT(mode.imaginary.value, 0.05);
     EXPECT_LT(mode.imaginary.se, 0.01);
   }
@@ -181,7 +180,7 @@ TEST(IdentifyShapes, ASwappedSignOfADirectResponseIsNamed) {
 
 TEST(IdentifyShapes, ReciprocityIsMeasured) {  // [M-34]
   auto all = all_of(tilted, {"xx", "xy", "yx", "yy"}, {.band = coarse});
-  const ShapesOptions two{.count = 2, .complex_shapes = false};
+  const ModesOptions two{.count = 2, .complex_shapes = false};
   const auto fit = identify_shapes(all, two);
   ASSERT_EQ(fit.reciprocity.size(), 1U) << told(fit);
   EXPECT_NEAR(fit.reciprocity[0].gain.value, 1.0, 4 * fit.reciprocity[0].gain.se);

@@ -3,7 +3,7 @@
 
 #include "made_response.h"
 
-#include <trochoid/structure/identify_shapes.h>
+#include <trochoid/structure/identify_modes.h>
 
 #include <array>
 #include <complex>

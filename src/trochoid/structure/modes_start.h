@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/structure/shapes_search.h>
+#include <trochoid/structure/modes_problem.h>
 
 #include <complex>
 #include <span>
@@ -19,8 +19,16 @@ std::vector<std::complex<double>> rank_one(Responses all,
                                            std::size_t directions);
 
 /// @brief Starts for a fit with one mode more than a model.
-std::vector<ShapesModel> starts_with_one_more(Responses all, const AllWeights& weights,
-                                              const ShapesModel& known,
-                                              ShapesForm form);
+///
+/// @eq  M-17  gain of a mode more = (g^T r)^2/(g^T g) over frequencies and dampings, r
+///            the weighted residual, g what a mode there would add to it
+/// @src derived: the change of the sum of squares by one linear parameter
+///
+/// All modes anew by M-5, those found with one more where M-17 is largest, and those
+/// found with one split in two.
+/// @param weightings  by each of which places are sought; residues are by the first
+std::vector<ModesModel> starts_with_one_more(Responses all,
+                                             std::span<const AllWeights> weightings,
+                                             const ModesModel& known);
 
 }  // namespace trochoid::structure

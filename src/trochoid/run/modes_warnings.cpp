@@ -12,11 +12,11 @@ namespace trochoid::run {
 
 namespace {
 
-using structure::ShapeMode;
-using structure::ShapesFit;
+using structure::FittedMode;
+using structure::ModesFit;
 using Warnings = std::vector<base::Warning>;
 
-constexpr int few_lines = 5;  ///< between half-power points
+constexpr int few_in_peak = 5;  ///< between half-power points
 constexpr double poor_fit =
     0.95;  ///< explained fraction below which modes are in doubt
 constexpr double loose_error = 0.1;  ///< relative standard error
@@ -29,9 +29,9 @@ std::string hertz(double omega) {
   return fmt::format("{:.5g} Hz", omega / unit::Hz);
 }
 
-void warn_of_complex_shapes(const ShapesFit& fit, Warnings& warnings) {
+void warn_of_complex_shapes(const ModesFit& fit, Warnings& warnings) {
   std::string each;
-  for (const ShapeMode& mode : fit.modes) {
+  for (const FittedMode& mode : fit.modes) {
     each += fmt::format("{}{:.1f} +- {:.1f} % at {}", each.empty() ? "" : ", ",
                         100 * mode.imaginary.value,
                         100 * base::normal_interval * mode.imaginary.se,
@@ -51,15 +51,32 @@ void warn_of_complex_shapes(const ShapesFit& fit, Warnings& warnings) {
            each)});
 }
 
-void warn_of_mode(const ShapeMode& m, Warnings& warnings) {
+/// Two modes whose half-power widths overlap share what the response shows there.
+void warn_overlap(const ModesFit& fit, Warnings& warnings) {
+  for (std::size_t r = 0; r + 1 < fit.modes.size(); ++r) {
+    const FittedMode& a = fit.modes[r];
+    const FittedMode& b = fit.modes[r + 1];
+    if (b.omega.value - a.omega.value <
+        a.zeta.value * a.omega.value + b.zeta.value * b.omega.value) {
+      warnings.push_back(
+          {"modes_overlap",
+           fmt::format("The modes at {:.5g} and {:.5g} Hz lie inside each other's "
+                       "half-power widths: together they are known better than each by "
+                       "itself. Use both or none.",
+                       a.omega.value / unit::Hz, b.omega.value / unit::Hz)});
+    }
+  }
+}
+
+void warn_of_mode(const FittedMode& m, bool shared, Warnings& warnings) {
   const std::string at = hertz(m.omega.value);
-  if (m.lines_in_peak < few_lines) {
+  if (m.lines_in_peak < few_in_peak) {
     warnings.push_back(
         {"few_lines",
-         fmt::format("Only {} lines of a response lie between the half-power "
-                     "points of the mode at {}: its damping hangs on them. A "
-                     "longer record has a finer resolution.",
-                     m.lines_in_peak, at)});
+         fmt::format(
+             "Only {} lines {} between the half-power points of the mode at {}: "
+             "its damping hangs on them. A longer record has a finer resolution.",
+             m.lines_in_peak, shared ? "of a response lie" : "lie", at)});
   }
   const double angle = m.angle.se / unit::deg;
   if (m.damping.se > loose_error * m.damping.value ||
@@ -68,13 +85,14 @@ void warn_of_mode(const ShapeMode& m, Warnings& warnings) {
         {"loosely_known",
          fmt::format(
              "The mode at {} is known loosely: stiffness to {:.0f} %, damping to "
-             "{:.0f} %, its direction to {:.1f} deg (standard errors).",
+             "{:.0f} %{} (standard errors).",
              at, 100 * m.stiffness.se / m.stiffness.value,
-             100 * m.damping.se / m.damping.value, angle)});
+             100 * m.damping.se / m.damping.value,
+             shared ? fmt::format(", its direction to {:.1f} deg", angle) : "")});
   }
 }
 
-void warn_of_reciprocity(const results::SharedModesResult& r, Warnings& warnings) {
+void warn_of_reciprocity(const results::ModesResult& r, Warnings& warnings) {
   for (const structure::Reciprocity& pair : r.fit.reciprocity) {
     const double off = std::abs(pair.gain.value - 1);
     if (off > worth_telling && off > sure * pair.gain.se) {
@@ -92,8 +110,8 @@ void warn_of_reciprocity(const results::SharedModesResult& r, Warnings& warnings
 
 }  // namespace
 
-void add_shape_warnings(const results::SharedModesResult& r, Warnings& warnings) {
-  const ShapesFit& fit = r.fit;
+void add_modes_warnings(const results::ModesResult& r, Warnings& warnings) {
+  const ModesFit& fit = r.fit;
   if (fit.complex_shapes) {
     warn_of_complex_shapes(fit, warnings);
   }
@@ -106,20 +124,27 @@ void add_shape_warnings(const results::SharedModesResult& r, Warnings& warnings)
   if (fit.alternative > 0) {
     warnings.push_back(
         {"number_of_modes",
-         fmt::format("{} mode{} fit nearly as well: {} is {:.2g} times as likely.",
-                     fit.alternative, fit.alternative == 1 ? "" : "s", fit.modes.size(),
-                     fit.alternative_odds)});
+         fmt::format(
+             "{} mode{} fit nearly as well: {} is {:.2g} times as likely.{}",
+             fit.alternative, fit.alternative == 1 ? "" : "s", fit.modes.size(),
+             fit.alternative_odds,
+             r.shared ? "" : " Look at the stabilisation before trusting either.")});
   }
-  for (const ShapeMode& mode : fit.modes) {
-    warn_of_mode(mode, warnings);
+  if (!r.shared) {  // modes that are close by each other differ in their shapes
+    warn_overlap(fit, warnings);
+  }
+  for (const FittedMode& mode : fit.modes) {
+    warn_of_mode(mode, r.shared, warnings);
   }
   for (std::size_t q = 0; q < fit.responses.size(); ++q) {
-    if (fit.responses[q].explained < poor_fit) {
+    const double explained = fit.responses[q].explained;
+    if (explained < poor_fit) {
       warnings.push_back(
           {"poor_fit",
-           fmt::format("The modes leave {:.1f} % of the power of the response {} "
+           fmt::format("The modes leave {:.1f} % of the power of the response{}{} "
                        "unexplained: look at the fit before using them.",
-                       100 * (1 - fit.responses[q].explained), r.responses[q].name)});
+                       100 * (1 - explained), r.shared ? " " : "",
+                       r.responses[q].name)});
     }
   }
 }
