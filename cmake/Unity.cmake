@@ -19,14 +19,16 @@ function(trochoid_unity target)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(source ${sources})
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
-    if(NOT source MATCHES "/(src/trochoid|tests)/([a-z/]*)/[^/]*\\.cpp$"
-        OR source MATCHES "^${PROJECT_BINARY_DIR}/")
+    # Not what is made by the build.
+    if(NOT source MATCHES "^${PROJECT_SOURCE_DIR}/(src/trochoid|tests)/([^/]+)/.*\\.cpp$")
       continue()
     endif()
-    string(REGEX REPLACE "/.*" "" room ${CMAKE_MATCH_2})
+    set(room ${CMAKE_MATCH_2})
+    get_source_file_property(alone ${source} TARGET_DIRECTORY ${target}
+      SKIP_UNITY_BUILD_INCLUSION)
     # Highway compiles such a file once for each width of vectors.
     file(STRINGS ${source} vectors REGEX "foreach_target" LIMIT_COUNT 1)
-    if(vectors)
+    if(vectors OR alone)
       continue()
     endif()
     file(SIZE ${source} bytes)

@@ -3,7 +3,7 @@
 # below them, but for the solvers; "all" is every room (./test --all).
 set(TROCHOID_SANITIZED_TESTS quick CACHE STRING
   "Run tests also under ASan and UBSan: quick, all or OFF")
-set(TROCHOID_SANITIZED_ROOMS base numerics geometry chip force signal inputs)
+set(TROCHOID_SANITIZED_ROOMS base numerics geometry chip force signal files cases)
 if(TROCHOID_SANITIZE)
   set(TROCHOID_SANITIZED_TESTS OFF)  # then everything already is
 endif()

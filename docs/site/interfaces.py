@@ -9,7 +9,7 @@ ROOMS = {"base": "Units, errors, warnings", "geometry": "Cutter, cut, runout",
          "chip": "Uncut chip thickness", "force": "Forces", "signal": "Records of forces",
          "identification": "Coefficients from forces", "structure": "Structures and their modes",
          "surface": "Surfaces of thin walls", "dynamics": "Stability and motion",
-         "correction": "Correction of runout", "inputs": "Case files",
+         "correction": "Correction of runout", "files": "Files of measurements", "cases": "Case files",
          "results": "Answers", "report": "The report", "run": "Commands"}
 IN_C = ("correction/controller.h", "correction/online.h")
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
-#include <trochoid/inputs/case.h>
-#include <trochoid/inputs/record_file.h>
-#include <trochoid/inputs/surface_file.h>
+#include <trochoid/cases/case.h>
+#include <trochoid/files/record_file.h>
+#include <trochoid/files/surface_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 /// Every file that broken.py writes from the tables is wrong in one way, and is refused in
 /// the words that lie beside it.
-namespace trochoid::inputs {
+namespace trochoid::cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,9 +56,9 @@ void read(const BrokenFile& broken) {
   if (broken.kind == "case") {
     static_cast<void>(read_case(broken.file, command_of(content(broken.file))));
   } else if (broken.kind == "record") {
-    static_cast<void>(read_record({.file = file_at(broken.file)}));
+    static_cast<void>(files::read_record({.file = files::file_at(broken.file)}));
   } else {
-    static_cast<void>(read_surface({.file = file_at(broken.file)}, teeth));
+    static_cast<void>(files::read_surface({.file = files::file_at(broken.file)}, teeth));
   }
 }
 
@@ -103,4 +103,4 @@ TEST(BrokenFiles, AreThere) {
 }
 
 }  // namespace
-}  // namespace trochoid::inputs
+}  // namespace trochoid::cases

@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace {
 using trochoid::fuzz::demand;
 using trochoid::fuzz::Folder;
 using trochoid::fuzz::write;
-using trochoid::inputs::Command;
+using trochoid::cases::Command;
 
 /// The commands in their order, and none: that which the tables show.
 std::optional<Command> command_of(std::uint8_t byte) {
@@ -34,14 +34,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write(file, {reinterpret_cast<const char*>(data) + 1, size - 1});
   std::string understood;
   try {
-    understood = trochoid::inputs::read_case(file, command, folder.path).as_understood;
+    understood = trochoid::cases::read_case(file, command, folder.path).as_understood;
   } catch (const trochoid::base::InputError& error) {
     demand(!error.problems().empty());
     return 0;
   }
   demand(!understood.empty());
   write(file, understood);
-  demand(trochoid::inputs::read_case(file, command, folder.path).as_understood ==
+  demand(trochoid::cases::read_case(file, command, folder.path).as_understood ==
          understood);
   return 0;
 }

@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/frf_file.h>
+#include <trochoid/files/frf_file.h>
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace {
 
-using trochoid::inputs::FrfFile;
+using trochoid::files::FrfFile;
 
 using trochoid::fuzz::demand;
 
@@ -49,13 +49,13 @@ void use(const FrfFile& file) {
 /// The first byte says the kind, or that the file must, and which data set.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  trochoid::inputs::FrfSource source;
+  trochoid::files::FrfSource source;
   if (data[0] % 4 != 3) {
     source.kind = static_cast<trochoid::structure::ResponseKind>(data[0] % 4);
   }
   source.dataset = data[0] / 64;
   try {
-    use(trochoid::inputs::read_frf(
+    use(trochoid::files::read_frf(
         std::string(reinterpret_cast<const char*>(data) + 1, size - 1), "frf", source));
   } catch (const trochoid::base::InputError& error) {
     demand(!error.problems().empty());

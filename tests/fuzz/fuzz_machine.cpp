@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/command_file.h>
-#include <trochoid/inputs/step_file.h>
-#include <trochoid/inputs/transmission_file.h>
+#include <trochoid/files/command_file.h>
+#include <trochoid/files/step_file.h>
+#include <trochoid/files/transmission_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ bool finite(const std::vector<double>& values) {
 
 void read_command(const std::string& text) {
   std::istringstream in(text);
-  const auto table = trochoid::inputs::read_command(in, "command");
+  const auto table = trochoid::files::read_command(in, "command");
   demand(increasing(table.angle) && finite(table.command));
   demand(table.command.size() == table.angle.size());
   demand(table.angle.back() - table.angle.front() < 6.2832);
@@ -40,11 +40,11 @@ void read_command(const std::string& text) {
 }
 
 void read_step(const std::string& text, bool height, bool start) {
-  trochoid::inputs::StepSource source;
+  trochoid::files::StepSource source;
   if (height) source.step = 1e-5;
   if (start) source.start = 0.01;
   std::istringstream in(text);
-  const auto file = trochoid::inputs::read_step(in, "step", source);
+  const auto file = trochoid::files::read_step(in, "step", source);
   const auto& record = file.record;
   demand(increasing(record.time) && finite(record.position));
   demand(record.position.size() == record.time.size());
@@ -54,7 +54,7 @@ void read_step(const std::string& text, bool height, bool start) {
 }
 
 void read_transmission(const std::string& text) {
-  const auto file = trochoid::inputs::transmission_of(text, "frf");
+  const auto file = trochoid::files::transmission_of(text, "frf");
   const auto& omega = file.transmission.omega;
   demand(increasing(omega) && omega.front() >= 0.0);
   demand(file.transmission.H.size() == omega.size());

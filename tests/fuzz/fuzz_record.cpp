@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/record_file.h>
+#include <trochoid/files/record_file.h>
 #include <trochoid/signal/drift.h>
 #include <trochoid/signal/revolutions.h>
 #include <trochoid/signal/spindle_speed.h>
@@ -15,7 +15,7 @@
 namespace {
 
 using trochoid::fuzz::demand;
-using trochoid::inputs::RecordSource;
+using trochoid::files::RecordSource;
 
 /// The first byte chooses what the case file says about the record.
 RecordSource said_by(std::uint8_t byte) {
@@ -62,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   std::istringstream in(std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
   try {
-    use(trochoid::inputs::read_record(in, "record", said_by(data[0])));
+    use(trochoid::files::read_record(in, "record", said_by(data[0])));
   } catch (const trochoid::base::InputError& error) {
     demand(!error.problems().empty());
   }

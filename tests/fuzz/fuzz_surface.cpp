@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/wall_readings.h>
+#include <trochoid/cases/wall_readings.h>
 
 #include <cmath>
 #include <cstdint>
@@ -11,8 +11,8 @@
 namespace {
 
 using trochoid::fuzz::demand;
-using trochoid::inputs::SurfaceFile;
-using trochoid::inputs::SurfaceReading;
+using trochoid::files::SurfaceFile;
+using trochoid::files::SurfaceReading;
 
 bool finite(const std::optional<double>& value) {
   return !value || std::isfinite(*value);
@@ -33,10 +33,10 @@ void use(const SurfaceFile& surface, int teeth) {
     demand(surface.map ? r.line >= line : r.line > line);
     line = r.line;
   }
-  trochoid::inputs::Case given;
+  trochoid::cases::Case given;
   given.setup.cut.a_p = 3e-3;
   given.machine.wall.emplace().length = 0.06;
-  trochoid::inputs::check_readings(surface, "wall", trochoid::inputs::wall_of(given));
+  trochoid::cases::check_readings(surface, "wall", trochoid::cases::wall_of(given));
 }
 
 }  // namespace
@@ -45,19 +45,19 @@ void use(const SurfaceFile& surface, int teeth) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const int teeth = data[0] % 65;
-  trochoid::inputs::SurfaceSource measurement;
-  measurement.file = trochoid::inputs::file_at("wall");
+  trochoid::files::SurfaceSource measurement;
+  measurement.file = trochoid::files::file_at("wall");
   if (data[0] >= 128) {
-    using trochoid::inputs::Direction;
-    measurement.unit = trochoid::inputs::LengthUnit::mm;
-    measurement.frame = trochoid::inputs::SurfaceFrame{{0.01, -0.005, 0.04},
+    using trochoid::files::Direction;
+    measurement.unit = trochoid::files::LengthUnit::mm;
+    measurement.frame = trochoid::files::SurfaceFrame{{0.01, -0.005, 0.04},
                                                        Direction{1, 0, 0},
                                                        Direction{0, -1, 0},
                                                        Direction{0, 0, 1}};
   }
   std::istringstream in(std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
   try {
-    use(trochoid::inputs::read_surface_file(in, measurement, teeth), teeth);
+    use(trochoid::files::read_surface_file(in, measurement, teeth), teeth);
   } catch (const trochoid::base::InputError& error) {
     demand(!error.problems().empty());
   }

@@ -39,14 +39,14 @@ void refuse_for_case(const Options& options, bool given, const char* names,
 }
 
 /// Of a measured frequency response without a case.
-inputs::MachineTables frf_alone(const Options& options) {
+cases::MachineTables frf_alone(const Options& options) {
   const bool any = !options.kind.empty() || options.modes > 0 || options.dataset > 0 ||
                    !options.band.empty();
   refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
-  inputs::MachineTables machine;
+  cases::MachineTables machine;
   machine.frf =
-      inputs::FrfTables{
-          .source = {.file = inputs::file_at(options.file.string()),
+      cases::FrfTables{
+          .source = {.file = files::file_at(options.file.string()),
                      .kind = base::named<structure::ResponseKind>(options.kind),
                      .dataset = options.dataset},
                         .modes = options.modes,
@@ -55,12 +55,12 @@ inputs::MachineTables frf_alone(const Options& options) {
 }
 
 /// Of the record of a step without a case.
-inputs::MachineTables step_alone(const Options& options) {
+cases::MachineTables step_alone(const Options& options) {
   refuse_for_case(options, options.step_um || options.start_s,
                   "--step-um and --start-s", "[step]");
-  inputs::MachineTables machine;
+  cases::MachineTables machine;
   machine.step =
-      inputs::StepTables{.source = {.file = inputs::file_at(options.file.string()),
+      cases::StepTables{.source = {.file = files::file_at(options.file.string()),
                                     .start = options.start_s}};
   if (options.step_um) {
     machine.step->source.step = *options.step_um * 1e-6;
@@ -69,13 +69,13 @@ inputs::MachineTables step_alone(const Options& options) {
 }
 
 /// The case that is named, or that of a bare data file.
-inputs::Case case_for(base::Command command, const Options& options) {
+cases::Case case_for(base::Command command, const Options& options) {
   const bool of_data =
       command == base::Command::modes || command == base::Command::actuator;
   if (!of_data) {
     return given_case(options, command);
   }
-  const inputs::MachineTables alone =
+  const cases::MachineTables alone =
       command == base::Command::modes ? frf_alone(options) : step_alone(options);
   return is_case(options.file) ? given_case(options, command)
                                : bare_case(options, alone, command);
@@ -87,7 +87,7 @@ bool ends_by_itself(base::Command command) {
 }
 
 /// That there is none, for lack of time.
-results::Answer no_answer_in_time(const inputs::Case& given, const Options& options,
+results::Answer no_answer_in_time(const cases::Case& given, const Options& options,
                                   base::Command command, const std::string& doing) {
   results::Heading heading = run::heading_of(given);
   heading.ok = false;
@@ -117,7 +117,7 @@ results::Answer no_answer_in_time(const inputs::Case& given, const Options& opti
 }  // namespace
 
 int answer(base::Command command, const Options& options) {
-  const inputs::Case given = case_for(command, options);
+  const cases::Case given = case_for(command, options);
   const auto found = [&] {
     ProgressLine progress(talk_of(options));
     const TimeLimit limit(options.time_limit, ends_by_itself(command), [&] {

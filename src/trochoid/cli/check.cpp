@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
 #include <trochoid/cli/given_case.h>
-#include <trochoid/inputs/case_source.h>
+#include <trochoid/cases/case_source.h>
 #include <trochoid/run/commands.h>
 #include <trochoid/run/records.h>
 
@@ -12,7 +12,7 @@ namespace trochoid::cli {
 namespace {
 
 /// The frequency response and the step that a case names.
-void check_machine_files(const inputs::Case& given,
+void check_machine_files(const cases::Case& given,
                          std::vector<std::string>& problems) {
   const auto look = [&](const auto& read) {
     try {
@@ -32,15 +32,15 @@ void check_machine_files(const inputs::Case& given,
 }  // namespace
 
 int check(const Options& options) {
-  const inputs::Node root = document_of(options);
-  const inputs::Case given = inputs::read_case(
+  const cases::Node root = document_of(options);
+  const cases::Case given = cases::read_case(
       {root, options.file, {}}, base::named<base::Command>(options.command));
   std::vector<std::string> problems;
   std::string found;
   for (const base::Warning& note : given.notes) {
     found += fmt::format("warning [{}]: {}\n", note.code, note.message);
   }
-  for (const inputs::Measurement& measurement : given.measurements) {
+  for (const cases::Measurement& measurement : given.measurements) {
     try {
       const signal::Record& record = measurement.record.get();
       found += run::describe_record(record, measurement);
@@ -56,9 +56,9 @@ int check(const Options& options) {
     }
   }
   const auto& surfaces = given.machine.surface_measurements;
-  for (const inputs::SurfaceMeasurement& measurement : surfaces) {
+  for (const cases::SurfaceMeasurement& measurement : surfaces) {
     try {
-      const inputs::SurfaceFile& surface = measurement.surface.get();
+      const files::SurfaceFile& surface = measurement.surface.get();
       for (const base::Warning& note : surface.notes) {
         found += fmt::format("warning [{}]: {}: {}\n", note.code,
                              measurement.source.file.path, note.message);

@@ -1,8 +1,8 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
-#include <trochoid/inputs/case_source.h>
-#include <trochoid/inputs/set_beside.h>
+#include <trochoid/cases/case_source.h>
+#include <trochoid/cases/set_beside.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/run/work.h>
 
@@ -31,7 +31,7 @@ Problems problems_of_place(const std::filesystem::path& folder) {
 }
 
 /// The case is sound: is it too much?
-void add_work(const Options& options, base::Command command, const inputs::Case& given,
+void add_work(const Options& options, base::Command command, const cases::Case& given,
               Problems& problems) {
   const std::string why =
       options.anyway ? "" : run::too_much(run::work_of(command, given));
@@ -42,9 +42,9 @@ void add_work(const Options& options, base::Command command, const inputs::Case&
 
 /// @param read  the case, or InputError
 template <class Read>
-inputs::Case checked(const Options& options, base::Command command, const Read& read) {
+cases::Case checked(const Options& options, base::Command command, const Read& read) {
   const auto folder = result_folder(options, std::string(name_of(command)));
-  std::optional<inputs::Case> given;
+  std::optional<cases::Case> given;
   Problems problems;
   try {
     given = read(folder);
@@ -61,7 +61,7 @@ inputs::Case checked(const Options& options, base::Command command, const Read& 
   return std::move(*given);
 }
 
-inputs::Node standard_input(const std::filesystem::path& name) {
+cases::Node standard_input(const std::filesystem::path& name) {
   constexpr std::size_t most = std::size_t{16} << 20U;  // as of a file
   std::string text;
   std::string part(4096, '\0');
@@ -74,28 +74,28 @@ inputs::Node standard_input(const std::filesystem::path& name) {
                             ":1:1: larger than 16 MiB; this cannot be a "
                             "case file"});
   }
-  return inputs::with_includes(inputs::parse_text(text, name.string()), name);
+  return cases::with_includes(cases::parse_text(text, name.string()), name);
 }
 
 }  // namespace
 
-inputs::Node document_of(const Options& options) {
-  return inputs::with_settings(options.from_input ? standard_input(options.file)
-                                                  : inputs::load_document(options.file),
+cases::Node document_of(const Options& options) {
+  return cases::with_settings(options.from_input ? standard_input(options.file)
+                                                  : cases::load_document(options.file),
                                options.set, options.file);
 }
 
-inputs::Case given_case(const Options& options, base::Command command) {
+cases::Case given_case(const Options& options, base::Command command) {
   return checked(options, command, [&](const std::filesystem::path& folder) {
-    const inputs::Node root = document_of(options);
-    return inputs::read_case({root, options.file, {}}, command, folder);
+    const cases::Node root = document_of(options);
+    return cases::read_case({root, options.file, {}}, command, folder);
   });
 }
 
-inputs::Case bare_case(const Options& options, const inputs::MachineTables& machine,
+cases::Case bare_case(const Options& options, const cases::MachineTables& machine,
                        base::Command command) {
   return checked(options, command, [&](const std::filesystem::path& folder) {
-    return inputs::bare_case(machine, command, folder);
+    return cases::bare_case(machine, command, folder);
   });
 }
 

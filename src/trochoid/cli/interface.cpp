@@ -2,7 +2,7 @@
 
 #include <trochoid/base/command.h>
 #include <trochoid/base/names.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/numerics/thread_count.h>
 #include <trochoid/results/provenance.h>
 
@@ -176,7 +176,7 @@ CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
   fresh->add_flag_callback(
       "--schema",
       [] {
-        fmt::print("{}", inputs::case_schema());
+        fmt::print("{}", cases::case_schema());
         throw CLI::Success();
       },
       "Print the JSON Schema of the case file, for editors");

@@ -4,7 +4,7 @@
 #include <trochoid/cli/interface.h>
 #include <trochoid/cli/manual.h>
 #include <trochoid/cli/system.h>
-#include <trochoid/inputs/findings.h>
+#include <trochoid/cases/findings.h>
 #include <trochoid/numerics/thread_count.h>
 
 #include <CLI/CLI.hpp>
@@ -58,7 +58,7 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (std::find(names.begin(), names.end(), first) == names.end()) {
     throw trochoid::base::InputError(
         {fmt::format("trochoid {}: there is no such command{}", first,
-                     trochoid::inputs::suggestion(first, names))});
+                     trochoid::cases::suggestion(first, names))});
   }
 }
 

@@ -1,6 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cli/commands.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 
 #include <fmt/core.h>
 
@@ -12,12 +12,12 @@ namespace trochoid::cli {
 
 int new_case(base::Command command, const Options& options) {
   const std::filesystem::path& file = options.file;
-  inputs::NewCaseOptions given{.material = options.material,
+  cases::NewCaseOptions given{.material = options.material,
                                .folder = file.parent_path()};
   if (!options.tool.empty()) {
     given.tool = {options.tool, options.tool_number, options.tool_inches};
   }
-  const std::string text = inputs::new_case(command, given);
+  const std::string text = cases::new_case(command, given);
   if (file.empty()) {
     fmt::print("{}", text);
     return answered;

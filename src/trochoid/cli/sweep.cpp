@@ -45,7 +45,7 @@ int sweep(const Options& options) {
   const auto result = [&] {
     ProgressLine progress(talk_of(options));
     const TimeLimit limit(options.time_limit, true, give_up);
-    const inputs::Node root = document_of(options);
+    const cases::Node root = document_of(options);
     return sweep::sweep({root, options.file, {}},
                         {.command = options.command,
                          .take = options.take,

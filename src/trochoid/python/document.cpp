@@ -1,7 +1,7 @@
 #include <trochoid/python/document.h>
 
 #include <trochoid/base/overloaded.h>
-#include <trochoid/inputs/inches.h>
+#include <trochoid/cases/inches.h>
 
 #include <pybind11/pybind11.h>
 
@@ -22,7 +22,7 @@ constexpr int deepest = 32;
 /// What is being read, for messages and for files that it names.
 struct Place {
   std::string key;  ///< path from the top: `tool.teeth`
-  inputs::Location where;
+  cases::Location where;
   int depth = 0;
 
   [[nodiscard]] Place of(const std::string& inner) const {
@@ -33,7 +33,7 @@ struct Place {
   }
 };
 
-inputs::Node converted(const py::handle& from, const Place& place);
+cases::Node converted(const py::handle& from, const Place& place);
 
 [[noreturn]] void refuse(const Place& place, const std::string& why) {
   throw py::type_error(place.key.empty() ? why : place.key + ": " + why);
@@ -51,8 +51,8 @@ std::string text_of(const py::handle& value) {
   return {text, static_cast<std::size_t>(size)};
 }
 
-inputs::Members members_of(const py::handle& mapping, const Place& place) {
-  inputs::Members members;
+cases::Members members_of(const py::handle& mapping, const Place& place) {
+  cases::Members members;
   for (const py::handle entry : mapping.attr("items")()) {
     const auto pair = py::reinterpret_borrow<py::tuple>(entry);
     const py::object key = pair[0];
@@ -67,8 +67,8 @@ inputs::Members members_of(const py::handle& mapping, const Place& place) {
   return members;
 }
 
-inputs::Array array_of(const py::handle& sequence, const Place& place) {
-  inputs::Array entries;
+cases::Array array_of(const py::handle& sequence, const Place& place) {
+  cases::Array entries;
   for (const py::handle entry : sequence) {
     entries.push_back(converted(entry, place.of(entries.size())));
   }
@@ -82,9 +82,9 @@ std::int64_t whole_of(const py::handle& value, const Place& place) {
   return whole;
 }
 
-inputs::Node converted(const py::handle& from, const Place& place) {
+cases::Node converted(const py::handle& from, const Place& place) {
   if (place.depth > deepest) refuse(place, "nested too deep; no case needs that");
-  inputs::Node node{{}, place.where};
+  cases::Node node{{}, place.where};
   if (py::isinstance<py::bool_>(from)) {
     node.value = py::cast<bool>(from);
   } else if (py::isinstance<py::int_>(from)) {
@@ -111,26 +111,26 @@ inputs::Node converted(const py::handle& from, const Place& place) {
 
 }  // namespace
 
-inputs::Node node_of(const py::dict& tables, const std::filesystem::path& file) {
-  inputs::Node node = converted(tables, {.key = "", .where = {file.string(), 0, 0}});
-  inputs::take_inches(node);
+cases::Node node_of(const py::dict& tables, const std::filesystem::path& file) {
+  cases::Node node = converted(tables, {.key = "", .where = {file.string(), 0, 0}});
+  cases::take_inches(node);
   return node;
 }
 
-py::object object_of(const inputs::Node& node) {
+py::object object_of(const cases::Node& node) {
   return std::visit(
-      base::Overloaded{[](const inputs::DateOrTime& date) -> py::object {
+      base::Overloaded{[](const cases::DateOrTime& date) -> py::object {
                          return py::str(date.text);
                        },
-                       [](const inputs::Array& entries) -> py::object {
+                       [](const cases::Array& entries) -> py::object {
                          py::list list;
-                         for (const inputs::Node& entry : entries)
+                         for (const cases::Node& entry : entries)
                            list.append(object_of(entry));
                          return list;
                        },
-                       [](const inputs::Members& members) -> py::object {
+                       [](const cases::Members& members) -> py::object {
                          py::dict table;
-                         for (const inputs::Member& member : members) {
+                         for (const cases::Member& member : members) {
                            table[py::str(member.key)] = object_of(member.node);
                          }
                          return table;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case_source.h>
+#include <trochoid/cases/case_source.h>
 
 #include <filesystem>
 
@@ -14,18 +14,18 @@ namespace trochoid::python {
 /// @brief A case as it was given, unchecked: tables of a file or of a program, and
 /// data that are in memory.
 struct Document {
-  inputs::Node root;
+  cases::Node root;
   std::filesystem::path file;  ///< its folder is what names of files count from
-  inputs::DataInMemory data;
+  cases::DataInMemory data;
 
-  [[nodiscard]] inputs::CaseSource source() const { return {root, file, data}; }
+  [[nodiscard]] cases::CaseSource source() const { return {root, file, data}; }
 };
 
 /// @brief What a Python mapping says; keys whose value is None are left out.
 /// @throws TypeError for what no case file could hold, with the key
-inputs::Node node_of(const pybind11::dict& tables, const std::filesystem::path& file);
+cases::Node node_of(const pybind11::dict& tables, const std::filesystem::path& file);
 
 /// @brief The same again as dict, list, str, int, float and bool.
-pybind11::object object_of(const inputs::Node& node);
+pybind11::object object_of(const cases::Node& node);
 
 }  // namespace trochoid::python

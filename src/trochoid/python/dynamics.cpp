@@ -1,6 +1,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/multiplier.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/python/bindings.h>
 #include <trochoid/run/problems.h>
 
@@ -24,7 +24,7 @@ using Numbers = py::array_t<double, py::array::c_style>;
 constexpr double matrix_tolerance = 1e-10;
 
 /// @param depth_mm  as long as the speeds, positive
-py::array_t<std::complex<double>> multiplier(const inputs::Case& given,
+py::array_t<std::complex<double>> multiplier(const cases::Case& given,
                                              const Numbers& spindle_rpm,
                                              const Numbers& depth_mm) {
   const dynamics::StabilityProblem problem = run::stability_problem(given);

@@ -1,7 +1,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/force/slice.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/python/bindings.h>
 
 #include <pybind11/numpy.h>
@@ -33,7 +33,7 @@ std::vector<double> in_si(std::span<const double> values, double unit) {
 }
 
 /// Shape (n, 3).
-Numbers forces(const inputs::Case& given, const Numbers& phi_deg) {
+Numbers forces(const cases::Case& given, const Numbers& phi_deg) {
   const std::vector<double> phi = in_si(values_of(phi_deg), unit::deg);
   Numbers out({static_cast<py::ssize_t>(phi.size()), py::ssize_t{3}});
   double* F = out.mutable_data();
@@ -47,7 +47,7 @@ Numbers forces(const inputs::Case& given, const Numbers& phi_deg) {
 }
 
 /// Shape (n, 3, columns).
-Numbers force_matrix(const inputs::Case& given, const Numbers& phi_deg) {
+Numbers force_matrix(const cases::Case& given, const Numbers& phi_deg) {
   const std::vector<double> phi = in_si(values_of(phi_deg), unit::deg);
   const force::ForceMatrix matrix(given.setup, given.law, given.sampling.tolerance);
   Numbers out({static_cast<py::ssize_t>(phi.size()), py::ssize_t{3},
@@ -61,7 +61,7 @@ Numbers force_matrix(const inputs::Case& given, const Numbers& phi_deg) {
 /// @param tooth      from 1, checked
 /// @param theta_deg  as long as tooth
 /// @param height_mm  as long as tooth
-Numbers chip(const inputs::Case& given, const Whole& tooth, const Numbers& theta_deg,
+Numbers chip(const cases::Case& given, const Whole& tooth, const Numbers& theta_deg,
              const Numbers& height_mm) {
   Numbers out(tooth.size());
   const std::span<double> h(out.mutable_data(), static_cast<std::size_t>(out.size()));

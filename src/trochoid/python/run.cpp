@@ -1,6 +1,6 @@
 #include <trochoid/base/command.h>
 #include <trochoid/base/names.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/python/bindings.h>
 #include <trochoid/run/answer.h>
 
@@ -39,7 +39,7 @@ void bind_run(py::module_& m) {
       .def("end", &Wanted::end);
   m.def(
       "run",
-      [](const std::string& command, const std::shared_ptr<inputs::Case>& given,
+      [](const std::string& command, const std::shared_ptr<cases::Case>& given,
          const std::shared_ptr<Wanted>& wanted, const py::kwargs& options) {
         const auto given_option = [&](const char* name) {
           return options.contains(name) && options[name].cast<bool>();

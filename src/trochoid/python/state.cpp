@@ -15,20 +15,20 @@ namespace trochoid::python {
 namespace {
 
 /// A date is bytes, so that it is no text.
-py::object state_of_value(const inputs::Node& node) {
+py::object state_of_value(const cases::Node& node) {
   return std::visit(
-      base::Overloaded{[](const inputs::DateOrTime& date) -> py::object {
+      base::Overloaded{[](const cases::DateOrTime& date) -> py::object {
                          return py::bytes(date.text);
                        },
-                       [](const inputs::Array& entries) -> py::object {
+                       [](const cases::Array& entries) -> py::object {
                          py::list list;
-                         for (const inputs::Node& entry : entries)
+                         for (const cases::Node& entry : entries)
                            list.append(state_of(entry));
                          return list;
                        },
-                       [](const inputs::Members& members) -> py::object {
+                       [](const cases::Members& members) -> py::object {
                          py::list list;
-                         for (const inputs::Member& member : members) {
+                         for (const cases::Member& member : members) {
                            list.append(py::make_tuple(member.key,
                                                       state_of(member.where),
                                                       state_of(member.node)));
@@ -39,8 +39,8 @@ py::object state_of_value(const inputs::Node& node) {
       node.value);
 }
 
-inputs::Members members_of_state(const py::handle& state) {
-  inputs::Members members;
+cases::Members members_of_state(const py::handle& state) {
+  cases::Members members;
   for (const py::handle one : state) {
     const auto parts = one.cast<py::tuple>();
     members.push_back({parts[0].cast<std::string>(), location_of_state(parts[1]),
@@ -51,9 +51,9 @@ inputs::Members members_of_state(const py::handle& state) {
 
 }  // namespace
 
-std::shared_ptr<const inputs::NumericTable> record_in_memory(
+std::shared_ptr<const files::NumericTable> record_in_memory(
     const std::vector<GivenColumn>& columns) {
-  auto table = std::make_shared<inputs::NumericTable>();
+  auto table = std::make_shared<files::NumericTable>();
   std::vector<std::vector<double>> values;
   for (const auto& [name, unit, samples] : columns) {
     const double* begin = samples.data();
@@ -65,25 +65,25 @@ std::shared_ptr<const inputs::NumericTable> record_in_memory(
   return table;
 }
 
-py::tuple state_of(const inputs::Location& where) {
+py::tuple state_of(const cases::Location& where) {
   return py::make_tuple(py::bytes(where.file), where.line, where.column);
 }
 
-inputs::Location location_of_state(const py::handle& state) {
+cases::Location location_of_state(const py::handle& state) {
   const auto parts = state.cast<py::tuple>();
   return {parts[0].cast<std::string>(), parts[1].cast<int>(), parts[2].cast<int>()};
 }
 
-py::tuple state_of(const inputs::Node& node) {
+py::tuple state_of(const cases::Node& node) {
   return py::make_tuple(state_of_value(node), state_of(node.where), node.inherited);
 }
 
-inputs::Node node_of_state(const py::handle& state) {
+cases::Node node_of_state(const py::handle& state) {
   const auto parts = state.cast<py::tuple>();
   const py::object value = parts[0];
-  inputs::Node node{{}, location_of_state(parts[1]), parts[2].cast<bool>()};
+  cases::Node node{{}, location_of_state(parts[1]), parts[2].cast<bool>()};
   if (py::isinstance<py::bytes>(value)) {
-    node.value = inputs::DateOrTime{value.cast<std::string>()};
+    node.value = cases::DateOrTime{value.cast<std::string>()};
   } else if (py::isinstance<py::bool_>(value)) {
     node.value = value.cast<bool>();
   } else if (py::isinstance<py::int_>(value)) {
@@ -95,14 +95,14 @@ inputs::Node node_of_state(const py::handle& state) {
   } else if (py::isinstance<py::tuple>(value)) {
     node.value = members_of_state(value);
   } else {
-    inputs::Array entries;
+    cases::Array entries;
     for (const py::handle entry : value) entries.push_back(node_of_state(entry));
     node.value = std::move(entries);
   }
   return node;
 }
 
-py::tuple state_of(const inputs::DataInMemory& data) {
+py::tuple state_of(const cases::DataInMemory& data) {
   py::dict records;
   for (const auto& [name, table] : data.records) {
     py::list columns;
@@ -120,9 +120,9 @@ py::tuple state_of(const inputs::DataInMemory& data) {
   return py::make_tuple(records, texts);
 }
 
-inputs::DataInMemory data_of_state(const py::handle& state) {
+cases::DataInMemory data_of_state(const py::handle& state) {
   const auto parts = state.cast<py::tuple>();
-  inputs::DataInMemory data;
+  cases::DataInMemory data;
   for (const auto& [name, columns] : parts[0].cast<py::dict>()) {
     data.records[name.cast<std::string>()] =
         record_in_memory(columns.cast<std::vector<GivenColumn>>());

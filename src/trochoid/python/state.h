@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case_source.h>
+#include <trochoid/cases/case_source.h>
 
 #include <pybind11/numpy.h>
 
@@ -18,16 +18,16 @@ using GivenColumn = std::tuple<std::string, std::string,
                                pybind11::array_t<double, pybind11::array::c_style>>;
 
 /// The samples are copied: what a case holds does not change.
-std::shared_ptr<const inputs::NumericTable> record_in_memory(
+std::shared_ptr<const files::NumericTable> record_in_memory(
     const std::vector<GivenColumn>& columns);
 
-pybind11::tuple state_of(const inputs::Location& where);
-inputs::Location location_of_state(const pybind11::handle& state);
+pybind11::tuple state_of(const cases::Location& where);
+cases::Location location_of_state(const pybind11::handle& state);
 
-pybind11::tuple state_of(const inputs::Node& node);
-inputs::Node node_of_state(const pybind11::handle& state);
+pybind11::tuple state_of(const cases::Node& node);
+cases::Node node_of_state(const pybind11::handle& state);
 
-pybind11::tuple state_of(const inputs::DataInMemory& data);
-inputs::DataInMemory data_of_state(const pybind11::handle& state);
+pybind11::tuple state_of(const cases::DataInMemory& data);
+cases::DataInMemory data_of_state(const pybind11::handle& state);
 
 }  // namespace trochoid::python

@@ -27,7 +27,7 @@ namespace trochoid::python {
 namespace {
 
 namespace fs = std::filesystem;
-using inputs::Node;
+using cases::Node;
 using sweep::Study;
 using sweep::Work;
 
@@ -36,7 +36,7 @@ constexpr std::chrono::duration<double> part_time{0.25};
 
 py::tuple state_of_study(const Study& study) {
   py::list over;
-  for (const inputs::SweptKey& key : study.over) {
+  for (const cases::SweptKey& key : study.over) {
     over.append(py::make_tuple(key.key, state_of(key.where)));
   }
   return py::make_tuple(std::string(name_of(study.command)), state_of(study.root),
@@ -79,7 +79,7 @@ std::unique_ptr<Work> begun(const Document& document, sweep::Request request) {
     }
   }
   const py::gil_scoped_release release;
-  inputs::CaseSource source = document.source();
+  cases::CaseSource source = document.source();
   source.base = fs::current_path();
   return std::make_unique<Work>(source, request, run::Progress());
 }

@@ -10,8 +10,8 @@
 
 namespace trochoid::run {
 
-results::ActuatorResult actuator(const inputs::Case& given) {
-  inputs::StepFile file = given.machine.step->step.get();
+results::ActuatorResult actuator(const cases::Case& given) {
+  files::StepFile file = given.machine.step->step.get();
   results::ActuatorResult r{.heading = heading_of(given),
                             .record = std::move(file.record),
                             .command = std::move(file.command)};

@@ -14,7 +14,7 @@ namespace trochoid::run {
 
 namespace {
 
-results::Answer identified(const inputs::Case& given, const AnswerOptions& options,
+results::Answer identified(const cases::Case& given, const AnswerOptions& options,
                            const Progress& progress, base::Stop stop) {
   if (options.anyway) {
     stop.left = std::make_shared<std::atomic<std::int64_t>>(
@@ -27,7 +27,7 @@ results::Answer identified(const inputs::Case& given, const AnswerOptions& optio
 
 }  // namespace
 
-results::Answer answer(base::Command command, const inputs::Case& given,
+results::Answer answer(base::Command command, const cases::Case& given,
                        const AnswerOptions& options, const Progress& progress,
                        base::Stop stop) {
   using base::Command;
@@ -57,7 +57,7 @@ results::Answer answer(base::Command command, const inputs::Case& given,
     case Command::correct:
       return answer_of(correct(given, options.simulate_controller, progress));
     case Command::plan:
-      return given.plan.of == inputs::PlanOf::wall
+      return given.plan.of == cases::PlanOf::wall
                  ? answer_of(plan_wall(given, progress))
                  : answer_of(plan(given, progress));
   }

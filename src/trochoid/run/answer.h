@@ -2,7 +2,7 @@
 
 #include <trochoid/base/command.h>
 #include <trochoid/base/stop.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/results/answer.h>
 #include <trochoid/run/progress.h>
 
@@ -21,7 +21,7 @@ struct AnswerOptions {
 /// @param progress  told what is done; what it throws ends the work
 /// @param stop      when identify and stability are to end with what they have
 /// @throws base::InputError when a measurement cannot be read
-results::Answer answer(base::Command command, const inputs::Case& given,
+results::Answer answer(base::Command command, const cases::Case& given,
                        const AnswerOptions& options = {}, const Progress& progress = {},
                        base::Stop stop = {});
 

@@ -11,7 +11,7 @@ namespace trochoid::run {
 namespace {
 
 /// Why a fit was refused, and what is known all the same.
-std::string refusal(const inputs::Case& given, const surface::CoefficientFit& fit) {
+std::string refusal(const cases::Case& given, const surface::CoefficientFit& fit) {
   std::string text = fit.message;
   if (fit.rank > 0 && fit.condition > surface::worst_condition) {
     text += fmt::format(
@@ -28,7 +28,7 @@ std::string refusal(const inputs::Case& given, const surface::CoefficientFit& fi
   return text;
 }
 
-std::string both(const inputs::Case& given, const surface::Estimate& K_tc,
+std::string both(const cases::Case& given, const surface::Estimate& K_tc,
                  const surface::Estimate& K_rc) {
   const auto names = force::coefficient_quantities(given.law);
   return fmt::format("{} = {:.4g} and {} = {:.4g}", names[0].key,
@@ -36,7 +36,7 @@ std::string both(const inputs::Case& given, const surface::Estimate& K_tc,
                      K_rc.value / names[1].unit);
 }
 
-std::string why_negative(const inputs::Case& given,
+std::string why_negative(const cases::Case& given,
                          const surface::FoundCoefficients& found,
                          const surface::NegativeCoefficients& negative) {
   if (negative.wrong_sign) {
@@ -55,7 +55,7 @@ std::string why_negative(const inputs::Case& given,
       name.key, e.value / name.unit, e.low / name.unit, e.high / name.unit);
 }
 
-std::string origin_in_words(const inputs::Case& given,
+std::string origin_in_words(const cases::Case& given,
                             const surface::OriginDoubt& doubt) {
   return fmt::format(
       "x begins at {:.4g} mm: is it counted from the start of the scan? It counts from "
@@ -67,7 +67,7 @@ std::string origin_in_words(const inputs::Case& given,
 }
 
 /// Take the runout back where the readings follow feedback that the case leaves out.
-void withdraw_hidden_runout(const inputs::Case& given, const surface::Setting& setting,
+void withdraw_hidden_runout(const cases::Case& given, const surface::Setting& setting,
                             const MeasuredWall& wall, results::CalibrateResult& r) {
   const auto hidden = surface::eccentricity_hidden_by_feedback(
       setting, r.readings, wall.datum, wall_fit(given), r.calibration);
@@ -82,7 +82,7 @@ void withdraw_hidden_runout(const inputs::Case& given, const surface::Setting& s
 
 }  // namespace
 
-results::CalibrateResult calibrate(const inputs::Case& given,
+results::CalibrateResult calibrate(const cases::Case& given,
                                    const Progress& progress) {
   const auto tell = [&](const char* what) { progress(what); };
   MeasuredWall wall = measured_wall(given);

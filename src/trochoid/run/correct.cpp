@@ -18,7 +18,7 @@ namespace {
 
 using Warnings = std::vector<base::Warning>;
 
-correction::MovingCut moving_cut(const inputs::Case& given) {
+correction::MovingCut moving_cut(const cases::Case& given) {
   correction::MovingCut cut{.setup = given.setup, .law = given.law};
   for (const dynamics::ChipMode& mode : chip_modes(given.machine.modes).modes) {
     if (!mode.of_table) {
@@ -32,7 +32,7 @@ correction::MovingCut moving_cut(const inputs::Case& given) {
   return cut;
 }
 
-correction::ForceRecord record_of(const inputs::Case& given,
+correction::ForceRecord record_of(const cases::Case& given,
                                   std::vector<base::Warning>& warnings) {
   const auto runs = measured_runs(given, warnings);
   for (const MeasuredRun& one : runs) {
@@ -40,7 +40,7 @@ correction::ForceRecord record_of(const inputs::Case& given,
     throw base::InputError(
         {one.file + ": not all three channels were measured; must hold three forces"});
   }
-  const auto M = given.dynamometer.value_or(inputs::Dynamometer{}).matrix;
+  const auto M = given.dynamometer.value_or(cases::Dynamometer{}).matrix;
   identification::Run run = identification::on_tool(channels_of(runs), M).front();
   return {std::move(run.angle), std::move(run.force)};
 }
@@ -138,7 +138,7 @@ std::string nearest_limit(const correction::LimitReport& report) {
 
 }  // namespace
 
-correction::CorrectionProblem correction_problem(const inputs::Case& given,
+correction::CorrectionProblem correction_problem(const cases::Case& given,
                                                  bool controller,
                                                  std::vector<base::Warning>& warnings) {
   correction::CorrectionProblem problem{.cut = moving_cut(given),
@@ -186,7 +186,7 @@ void add_correction_warnings(const correction::Correction& c, Warnings& warnings
   }
 }
 
-results::CorrectResult correct(const inputs::Case& given, bool controller,
+results::CorrectResult correct(const cases::Case& given, bool controller,
                                const Progress& progress) {
   results::CorrectResult r{.heading = heading_of(given)};
   r.heading.ok = false;

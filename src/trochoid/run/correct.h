@@ -2,7 +2,7 @@
 
 #include <trochoid/base/warning.h>
 #include <trochoid/correction/correct.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace trochoid::run {
 /// @param controller     that of [controller] is to be simulated
 /// @param[out] warnings  what was found out about the record
 /// @throws base::InputError when a measurement cannot be read
-correction::CorrectionProblem correction_problem(const inputs::Case& given,
+correction::CorrectionProblem correction_problem(const cases::Case& given,
                                                  bool controller,
                                                  std::vector<base::Warning>& warnings);
 

@@ -25,7 +25,7 @@ MotionResult failed(MotionResult r, std::string why) {
   return r;
 }
 
-MotionResult result_of(const inputs::Case& given, const MotionProblem& problem) {
+MotionResult result_of(const cases::Case& given, const MotionProblem& problem) {
   const double D = problem.setup.cutter.profile.D;
   MotionResult r{.heading = heading_of(given),
                  .system = problem.system,
@@ -84,7 +84,7 @@ std::string effect_of(const MotionResult& r) {
 
 }  // namespace
 
-MotionResult dynamics(const inputs::Case& given, const Progress& progress) {
+MotionResult dynamics(const cases::Case& given, const Progress& progress) {
   const MotionProblem problem = motion_problem(given);
   MotionResult r = result_of(given, problem);
   if (problem.grid.steps_per_tooth > dynamics::most_steps) {

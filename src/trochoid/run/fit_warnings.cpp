@@ -118,7 +118,7 @@ void warn_size(const Fit& chosen, const Group& group, Warnings& warnings) {
 }
 
 /// What the fit does not explain and has not looked at.
-void warn_ringing(const inputs::Case& given, const Fit& chosen, Warnings& warnings) {
+void warn_ringing(const cases::Case& given, const Fit& chosen, Warnings& warnings) {
   const identification::Unexplained& u = chosen.unexplained;
   if (u.outside > much_ringing) {
     warnings.push_back(
@@ -190,7 +190,7 @@ void warn_other_model(std::span<const Fit> fits, const Fit& chosen,
   }
 }
 
-void warn_large_runout(const inputs::Case& given, const Fit& chosen,
+void warn_large_runout(const cases::Case& given, const Fit& chosen,
                        Warnings& warnings) {
   if (!chip::feels_runout(chosen.chip.model) || !(given.setup.cut.f_z > 0)) {
     return;
@@ -227,7 +227,7 @@ void warn_edge(const Fit& chosen, Warnings& warnings) {
 
 }  // namespace
 
-void add_fit_warnings(const inputs::Case& given, std::span<const Fit> fits,
+void add_fit_warnings(const cases::Case& given, std::span<const Fit> fits,
                       const Fit& chosen, Warnings& warnings) {
   for (const Fit& fit : fits) {
     if (!fit.ok) {

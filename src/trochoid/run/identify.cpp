@@ -31,7 +31,7 @@ constexpr std::int64_t most_of_fits = 100'000'000;
 constexpr double worth_a_look = 0.2;
 
 std::optional<results::OffsetSweep> offset_sweep(
-    const inputs::Case& given, std::span<const identification::Run> runs,
+    const cases::Case& given, std::span<const identification::Run> runs,
     const std::vector<Fit>& fits, const Progress& progress) {
   if (!given.identify.sweep) {
     return std::nullopt;
@@ -112,7 +112,7 @@ void warn_axes(const AxesChoice& axes, std::vector<base::Warning>& warnings) {
 
 /// What an answer is made of, whatever is found.
 struct Task {
-  const inputs::Case& given;
+  const cases::Case& given;
   const Progress& progress;
   const base::Stop& stop;
   const std::vector<MeasuredRun>& measured;
@@ -153,7 +153,7 @@ void add_causes(const Task& task, IdentifyResult& r,
 
 /// @return why there are no axes; empty: there are
 std::string find_axes(const Task& task, IdentifyResult& r) {
-  const auto dynamometer = task.given.dynamometer.value_or(inputs::Dynamometer{});
+  const auto dynamometer = task.given.dynamometer.value_or(cases::Dynamometer{});
   r.channels = dynamometer.matrix;
   if (!dynamometer.automatic) {
     return "";
@@ -179,10 +179,10 @@ std::string find_axes(const Task& task, IdentifyResult& r) {
 /// @param channels  channels = matrix times force on the tool
 /// @throws base::InputError where its file is wrong
 std::vector<identification::Response> measured_responses(
-    const inputs::Case& given, std::span<const identification::Run> runs,
+    const cases::Case& given, std::span<const identification::Run> runs,
     const signal::Matrix3& channels, std::vector<base::Warning>& warnings) {
   if (!given.dynamometer || given.dynamometer->frf.name.empty()) return {};
-  const inputs::TransmissionFile& file = given.dynamometer->response.get();
+  const files::TransmissionFile& file = given.dynamometer->response.get();
   warnings.insert(warnings.end(), file.notes.begin(), file.notes.end());
   std::vector<identification::Response> out;
   for (const identification::Run& run : runs) {
@@ -204,7 +204,7 @@ std::vector<identification::Response> measured_responses(
 
 /// @throws base::InputError where the file of the response of the dynamometer is wrong
 identification::Fits fit_records(const Task& task, IdentifyResult& r) {
-  const inputs::Identify& asked = task.given.identify;
+  const cases::Identify& asked = task.given.identify;
   const bool rigid = task.given.dynamometer && task.given.dynamometer->rigid;
   identification::FitRequest request{
       .chip_models = asked.chip_models,
@@ -288,7 +288,7 @@ void add_curves(const Task& task, IdentifyResult& r,
 }
 
 /// What the eccentricity of the chosen fit means at the machine.
-void add_clocking(const inputs::Case& given, IdentifyResult& r) {
+void add_clocking(const cases::Case& given, IdentifyResult& r) {
   const Fit& fit = r.fits[*r.chosen];
   if (!fit.eccentricity_se || !fit.angle_se) return;
   const double rho = fit.runout.eccentricity;
@@ -346,18 +346,18 @@ IdentifyResult identified(const Task& task, IdentifyResult r) {
 
 }  // namespace
 
-identification::Options fit_options(const inputs::Case& given, chip::Model model) {
+identification::Options fit_options(const cases::Case& given, chip::Model model) {
   return {
       .chip_model = model,
       .runout = given.identify.runout.value_or(identification::RunoutUnknowns::offsets),
       .phase = given.identify.phase,
       .band_harmonics = given.identify.band_harmonics.value_or(0),
       .fit_channel_offsets =
-          given.identify.channel_offsets == inputs::ChannelOffset::fit,
+          given.identify.channel_offsets == cases::ChannelOffset::fit,
       .errors = given.identify.errors};
 }
 
-identification::AxesProblem axes_problem(const inputs::Case& given) {
+identification::AxesProblem axes_problem(const cases::Case& given) {
   return {given.setup, given.law,
           fit_options(given, given.identify.chip_models.back())};
 }
@@ -366,7 +366,7 @@ Step axes_progress(double part) {
   return {"finding the axes of the dynamometer", part};
 }
 
-IdentifyResult identify(const inputs::Case& given, const Progress& progress,
+IdentifyResult identify(const cases::Case& given, const Progress& progress,
                         base::Stop stop) {
   if (stop.left == nullptr) {
     stop.left = std::make_shared<std::atomic<std::int64_t>>(most_of_fits);

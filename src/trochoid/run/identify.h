@@ -3,7 +3,7 @@
 #include <trochoid/base/warning.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/run/progress.h>
 #include <trochoid/run/records.h>
 
@@ -15,17 +15,17 @@
 namespace trochoid::run {
 
 /// @brief Options of one fit as [identify] asks for them.
-identification::Options fit_options(const inputs::Case& given, chip::Model model);
+identification::Options fit_options(const cases::Case& given, chip::Model model);
 
 /// @brief What is fitted to find out what the channels read.
-identification::AxesProblem axes_problem(const inputs::Case& given);
+identification::AxesProblem axes_problem(const cases::Case& given);
 
 /// @brief What to say while that is done.
 /// @param part  of it that is done, from 0 to 1
 Step axes_progress(double part);
 
 /// @brief What an engineer should know before trusting a fit.
-void add_fit_warnings(const inputs::Case& given,
+void add_fit_warnings(const cases::Case& given,
                       std::span<const identification::Fit> fits,
                       const identification::Fit& chosen,
                       std::vector<base::Warning>& warnings);
@@ -39,7 +39,7 @@ std::vector<std::string> reasons_for_care(std::span<const base::Warning> warning
 ///
 /// With given axes of the dynamometer the other readings of the channels are tried.
 /// @param M  matrix of the dynamometer that was used
-std::vector<base::Warning> likely_causes(const inputs::Case& given,
+std::vector<base::Warning> likely_causes(const cases::Case& given,
                                          const std::vector<MeasuredRun>& runs,
                                          const signal::Matrix3& M,
                                          const Progress& progress);
@@ -47,14 +47,14 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
 /// @brief Whether another reading of the channels than the given one fits clearly better,
 /// although the given one may be used: a warning with the code `axes_fit_better`, or none.
 /// @param M  matrix of the dynamometer that was used
-std::vector<base::Warning> look_at_channels(const inputs::Case& given,
+std::vector<base::Warning> look_at_channels(const cases::Case& given,
                                             const std::vector<MeasuredRun>& runs,
                                             const signal::Matrix3& M,
                                             const Progress& progress);
 
 /// @brief Whether another number of teeth, or milling the other way round, fits clearly
 /// better: a warning with the code `cut_fits_better`, or none.
-std::vector<base::Warning> look_at_cut(const inputs::Case& given,
+std::vector<base::Warning> look_at_cut(const cases::Case& given,
                                        const std::vector<MeasuredRun>& runs,
                                        const signal::Matrix3& M);
 

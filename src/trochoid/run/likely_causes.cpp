@@ -19,7 +19,7 @@ constexpr double much_better = 0.5;
 /// Of a fit that may be used, one that leaves this much less is worth a word.
 constexpr double better = 0.8;
 
-bool axes_were_given(const inputs::Case& given) {
+bool axes_were_given(const cases::Case& given) {
   return !given.dynamometer || !given.dynamometer->automatic;
 }
 
@@ -30,7 +30,7 @@ base::Warning likely(std::string message) {
 /// @brief What the channels read, if that leaves so much less than the given reading.
 /// @param least  of the rms that the given reading leaves
 /// @return a sentence, or nothing
-std::string better_axes(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
+std::string better_axes(const cases::Case& given, const std::vector<MeasuredRun>& runs,
                         const signal::Matrix3& M, double least,
                         const Progress& progress) {
   const auto other =
@@ -57,7 +57,7 @@ std::string how_much(double now, double other) {
 }
 
 /// @return a sentence, or nothing
-std::string better_cut(const inputs::Case& given, const std::vector<MeasuredRun>& runs,
+std::string better_cut(const cases::Case& given, const std::vector<MeasuredRun>& runs,
                        const signal::Matrix3& M) {
   const auto found = identification::better_cut(
       given.setup, given.law, identification::on_tool(channels_of(runs), M),
@@ -76,7 +76,7 @@ std::string better_cut(const inputs::Case& given, const std::vector<MeasuredRun>
 
 }  // namespace
 
-std::vector<base::Warning> likely_causes(const inputs::Case& given,
+std::vector<base::Warning> likely_causes(const cases::Case& given,
                                          const std::vector<MeasuredRun>& runs,
                                          const signal::Matrix3& M,
                                          const Progress& progress) {
@@ -104,8 +104,8 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
         given.setup.cut.Omega / unit::rpm)));
   }
   const auto offsets = given.identify.channel_offsets;
-  if (offsets == inputs::ChannelOffset::none ||
-      offsets == inputs::ChannelOffset::automatic) {
+  if (offsets == cases::ChannelOffset::none ||
+      offsets == cases::ChannelOffset::automatic) {
     out.push_back(
         likely("An offset of the channels: try "
                "channel_offsets = \"fit\" in [identify]."));
@@ -116,7 +116,7 @@ std::vector<base::Warning> likely_causes(const inputs::Case& given,
   return out;
 }
 
-std::vector<base::Warning> look_at_channels(const inputs::Case& given,
+std::vector<base::Warning> look_at_channels(const cases::Case& given,
                                             const std::vector<MeasuredRun>& runs,
                                             const signal::Matrix3& M,
                                             const Progress& progress) {
@@ -128,7 +128,7 @@ std::vector<base::Warning> look_at_channels(const inputs::Case& given,
                        : std::vector<base::Warning>{{"axes_fit_better", found}};
 }
 
-std::vector<base::Warning> look_at_cut(const inputs::Case& given,
+std::vector<base::Warning> look_at_cut(const cases::Case& given,
                                        const std::vector<MeasuredRun>& runs,
                                        const signal::Matrix3& M) {
   const std::string found = better_cut(given, runs, M);

@@ -17,10 +17,10 @@ namespace {
 /// Orders that the diagram of stabilisation shows beyond the modes that were found.
 constexpr int orders_beyond = 6;
 
-structure::ModesOptions options_of(const inputs::FrfTables& frf) {
+structure::ModesOptions options_of(const cases::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
-  if (frf.residual_terms != inputs::ResidualTerms::choose) {
-    options.residual_terms = frf.residual_terms == inputs::ResidualTerms::yes;
+  if (frf.residual_terms != cases::ResidualTerms::choose) {
+    options.residual_terms = frf.residual_terms == cases::ResidualTerms::yes;
   }
   if (frf.band.size() == 2) {
     // A line at the end of the band belongs to it, whatever rounding did to it.
@@ -32,9 +32,9 @@ structure::ModesOptions options_of(const inputs::FrfTables& frf) {
 
 }  // namespace
 
-results::ModesResult modes(const inputs::Case& given) {
-  const inputs::FrfTables& frf = *given.machine.frf;
-  inputs::FrfFile file = frf.response.get();
+results::ModesResult modes(const cases::Case& given) {
+  const cases::FrfTables& frf = *given.machine.frf;
+  files::FrfFile file = frf.response.get();
   const structure::ResponseKind kind = file.response.kind;
   results::ModesResult r{.heading = heading_of(given), .body = frf.body};
   r.responses = {{.motion = frf.axis,

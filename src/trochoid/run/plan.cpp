@@ -27,15 +27,15 @@ using surface::WallTrial;
 /// Of the peak force of [cut], where nothing else tells the noise.
 constexpr double assumed_force_noise = 0.02;
 
-std::vector<geometry::Engagement> planned_engagements(const inputs::Plan& plan) {
+std::vector<geometry::Engagement> planned_engagements(const cases::Plan& plan) {
   std::vector<geometry::Engagement> out;
-  for (const inputs::PlannedEngagement kind : plan.engagements) {
-    if (kind == inputs::PlannedEngagement::slot) {
+  for (const cases::PlannedEngagement kind : plan.engagements) {
+    if (kind == cases::PlannedEngagement::slot) {
       out.emplace_back(geometry::Slot{});
       continue;
     }
     for (const double a_e : plan.radial_depths) {
-      if (kind == inputs::PlannedEngagement::up) {
+      if (kind == cases::PlannedEngagement::up) {
         out.emplace_back(geometry::UpMilling{a_e});
       } else {
         out.emplace_back(geometry::DownMilling{a_e});
@@ -46,8 +46,8 @@ std::vector<geometry::Engagement> planned_engagements(const inputs::Plan& plan) 
 }
 
 /// Every combination that is to be looked at.
-identification::CutRequest request_of(const inputs::Case& given) {
-  const inputs::Plan& plan = given.plan;
+identification::CutRequest request_of(const cases::Case& given) {
+  const cases::Plan& plan = given.plan;
   identification::CutRequest out{
       .cuts = {}, .quantities = plan.quantities, .max_force = plan.max_force};
   for (const geometry::Engagement& engagement : planned_engagements(plan)) {
@@ -62,7 +62,7 @@ identification::CutRequest request_of(const inputs::Case& given) {
 
 /// What the measurements tell.
 /// @return why nothing can be planned from them; empty: it can
-std::string learn_from_records(const inputs::Case& given, const Progress& progress,
+std::string learn_from_records(const cases::Case& given, const Progress& progress,
                                Knowledge& known, PlanResult& r) {
   const results::IdentifyResult found = identify(given, progress);
   r.heading.warnings = found.heading.warnings;
@@ -95,7 +95,7 @@ std::string learn_from_records(const inputs::Case& given, const Progress& progre
   return "";
 }
 
-void start_from_coefficients(const inputs::Case& given, Knowledge& known,
+void start_from_coefficients(const cases::Case& given, Knowledge& known,
                              PlanResult& r) {
   identification::Trial& trial = known.trial;
   trial = {.setup = given.setup,
@@ -130,7 +130,7 @@ bool take_plan(identification::CutPlan plan, PlanResult& r) {
 /// Of a reading where nothing tells the noise: a good measuring machine [m].
 constexpr double assumed_reading_noise = 1.0 * unit::um;
 
-WallTrial trial_of(const inputs::Case& given) {
+WallTrial trial_of(const cases::Case& given) {
   WallTrial trial{.setting = wall_setting(given),
                   .feedback = wall_feedback(given),
                   .form = given.plan.wall.form.value_or(surface::PlannedForm::offset),
@@ -141,7 +141,7 @@ WallTrial trial_of(const inputs::Case& given) {
 }
 
 /// @return why nothing can be told from what was measured; empty: it can
-std::string learn_from_readings(const inputs::Case& given, WallTrial& trial,
+std::string learn_from_readings(const cases::Case& given, WallTrial& trial,
                                 std::vector<surface::Reading>& measured,
                                 PlanWallResult& r) {
   MeasuredWall wall = measured_wall(given);
@@ -155,7 +155,7 @@ std::string learn_from_readings(const inputs::Case& given, WallTrial& trial,
   measured = std::move(wall.readings);
   r.noise_from = "readings";
   r.measured = measured.size();
-  for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
+  for (const cases::SurfaceMeasurement& m : given.machine.surface_measurements) {
     r.files.push_back(m.source.file.path);
   }
   return "";
@@ -163,7 +163,7 @@ std::string learn_from_readings(const inputs::Case& given, WallTrial& trial,
 
 /// Coefficients, runout and noise.
 /// @return why there is no plan about these; empty: there is
-std::string settle_expectation(const inputs::Case& given, WallTrial& trial,
+std::string settle_expectation(const cases::Case& given, WallTrial& trial,
                                std::vector<surface::Reading>& measured,
                                PlanWallResult& r) {
   auto& offsets = trial.setting.setup.runout.radial_offsets;
@@ -225,7 +225,7 @@ void warn_of_readings(double shortfall, PlanWallResult& r) {
                  shortfall, shortfall * shortfall)});
 }
 
-void warn_of_cutting(const inputs::Case& given, PlanWallResult& r) {
+void warn_of_cutting(const cases::Case& given, PlanWallResult& r) {
   const auto add = [&](const char* code, std::string message) {
     r.heading.warnings.push_back({code, std::move(message)});
   };
@@ -245,7 +245,7 @@ void warn_of_cutting(const inputs::Case& given, PlanWallResult& r) {
                     "does not settle.",
                     left_out, r.cutting.cells.size()));
   }
-  const inputs::Wall* wall = given.machine.wall ? &*given.machine.wall : nullptr;
+  const cases::Wall* wall = given.machine.wall ? &*given.machine.wall : nullptr;
   if (wall != nullptr && r.cutting.stated.peak > wall->thickness / 2) {
     add("thick_deflection",
         "The error of the stated cut is more than half of the wall's thickness: a "
@@ -255,10 +255,10 @@ void warn_of_cutting(const inputs::Case& given, PlanWallResult& r) {
 
 /// Which readings, and what they tell of other cuts and walls.
 /// @return why there are none; empty: there are
-std::string compare_readings(const inputs::Case& given, const WallTrial& trial,
+std::string compare_readings(const cases::Case& given, const WallTrial& trial,
                              std::span<const surface::Reading> measured,
                              const Progress& progress, PlanWallResult& r) {
-  const inputs::WallPlan& plan = given.plan.wall;
+  const cases::WallPlan& plan = given.plan.wall;
   progress("Comparing readings");
   surface::ReadingsPlan found = surface::plan_readings(
       trial,
@@ -286,7 +286,7 @@ std::string compare_readings(const inputs::Case& given, const WallTrial& trial,
 }
 
 /// @return why there is no plan; empty: there is one
-std::string make_plan(const inputs::Case& given, const Progress& progress,
+std::string make_plan(const cases::Case& given, const Progress& progress,
                       PlanWallResult& r) {
   WallTrial trial = trial_of(given);
   std::vector<surface::Reading> measured;
@@ -305,12 +305,12 @@ std::string make_plan(const inputs::Case& given, const Progress& progress,
     return error.what();
   }
   progress("Mapping the error over feed and radial depth");
-  const inputs::WallPlan& plan = given.plan.wall;
+  const cases::WallPlan& plan = given.plan.wall;
   r.cutting = surface::plan_cutting(trial.setting, wall_dimensions(given),
                                     {.feeds = given.plan.feeds,
                                      .radial_depths = given.plan.radial_depths,
                                      .feedback = trial.feedback,
-                                     .mean = plan.limited == inputs::LimitedError::mean,
+                                     .mean = plan.limited == cases::LimitedError::mean,
                                      .limit = plan.largest_error});
   warn_of_cutting(given, r);
   return "";
@@ -318,7 +318,7 @@ std::string make_plan(const inputs::Case& given, const Progress& progress,
 
 }  // namespace
 
-PlanResult plan(const inputs::Case& given, const Progress& progress) {
+PlanResult plan(const cases::Case& given, const Progress& progress) {
   PlanResult r;
   r.heading = heading_of(given);
   r.diameter = given.setup.cutter.profile.D;
@@ -363,8 +363,8 @@ PlanResult plan(const inputs::Case& given, const Progress& progress) {
   return r;
 }
 
-PlanWallResult plan_wall(const inputs::Case& given, const Progress& progress) {
-  const inputs::WallPlan& plan = given.plan.wall;
+PlanWallResult plan_wall(const cases::Case& given, const Progress& progress) {
+  const cases::WallPlan& plan = given.plan.wall;
   PlanWallResult r;
   r.heading = heading_of(given);
   r.form = plan.form.value_or(surface::PlannedForm::offset);

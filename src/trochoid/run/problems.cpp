@@ -12,12 +12,12 @@ namespace trochoid::run {
 
 namespace {
 
-structure::Mode whole_mode(const inputs::Mode& mode) {
+structure::Mode whole_mode(const cases::Mode& mode) {
   return structure::completed(
       {mode.mass, mode.stiffness, mode.damping, mode.frequency, mode.damping_ratio});
 }
 
-structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
+structure::ActuatorDynamics dynamics_of(const cases::Actuator& a) {
   return a.frequency ? structure::from_frequency(a.gain, *a.frequency, *a.damping_ratio)
                      : structure::from_time_constants(a.gain, a.time_constants[0],
                                                       a.time_constants[1]);
@@ -26,7 +26,7 @@ structure::ActuatorDynamics dynamics_of(const inputs::Actuator& a) {
 /// Last turns that are returned.
 constexpr int turns_kept = 2;
 
-dynamics::Drive drive_of(const inputs::MachineTables& machine,
+dynamics::Drive drive_of(const cases::MachineTables& machine,
                          const dynamics::System& system) {
   const auto table = std::find_if(
       system.modes.begin(), system.modes.end(),
@@ -35,7 +35,7 @@ dynamics::Drive drive_of(const inputs::MachineTables& machine,
                               static_cast<std::size_t>(table - system.modes.begin()));
 }
 
-dynamics::ImposedCommand imposed(const inputs::ImposedCommand& command) {
+dynamics::ImposedCommand imposed(const cases::ImposedCommand& command) {
   dynamics::ImposedCommand out{.shape = command.shape,
                                .peak_to_peak = command.peak_to_peak.value_or(0.0),
                                .lead = command.lead};
@@ -47,18 +47,18 @@ dynamics::ImposedCommand imposed(const inputs::ImposedCommand& command) {
 
 }  // namespace
 
-dynamics::System chip_modes(std::span<const inputs::Mode> modes) {
+dynamics::System chip_modes(std::span<const cases::Mode> modes) {
   dynamics::System system;
-  for (const inputs::Mode& mode : modes) {
-    if (mode.axis == inputs::Axis::z) {
+  for (const cases::Mode& mode : modes) {
+    if (mode.axis == cases::Axis::z) {
       continue;
     }
     const structure::Mode whole = whole_mode(mode);
     dynamics::ChipMode m{whole.mass, whole.damping, whole.stiffness};
-    const double sign = mode.body == inputs::ModeBody::table ? -1.0 : 1.0;
+    const double sign = mode.body == cases::ModeBody::table ? -1.0 : 1.0;
     const double along = sign * std::cos(mode.angle);
     const double across = sign * std::sin(mode.angle);
-    const bool is_x = mode.axis == inputs::Axis::x;
+    const bool is_x = mode.axis == cases::Axis::x;
     m.x = is_x ? along : -across;
     m.y = is_x ? across : along;
     m.of_table = sign < 0;
@@ -67,10 +67,10 @@ dynamics::System chip_modes(std::span<const inputs::Mode> modes) {
   return system;
 }
 
-correction::Plant plant_of(const inputs::MachineTables& machine) {
+correction::Plant plant_of(const cases::MachineTables& machine) {
   const auto table = std::find_if(
-      machine.modes.begin(), machine.modes.end(), [](const inputs::Mode& mode) {
-        return mode.body == inputs::ModeBody::table && mode.axis == inputs::Axis::x &&
+      machine.modes.begin(), machine.modes.end(), [](const cases::Mode& mode) {
+        return mode.body == cases::ModeBody::table && mode.axis == cases::Axis::x &&
                mode.angle == 0;
       });
   if (!machine.actuator || table == machine.modes.end()) {
@@ -88,7 +88,7 @@ correction::Plant plant_of(const inputs::MachineTables& machine) {
   return plant;
 }
 
-correction::ActuatorLimits limits_of(const inputs::Actuator& actuator) {
+correction::ActuatorLimits limits_of(const cases::Actuator& actuator) {
   correction::ActuatorLimits limits{.slew = actuator.slew,
                                     .push = actuator.push,
                                     .pull = actuator.pull,
@@ -107,12 +107,12 @@ std::string too_many_steps(int steps_per_tooth) {
       steps_per_tooth, dynamics::most_steps);
 }
 
-dynamics::StabilityOptions stability_options(const inputs::Case& given) {
-  return given.machine.stability.value_or(inputs::Stability{}).options;
+dynamics::StabilityOptions stability_options(const cases::Case& given) {
+  return given.machine.stability.value_or(cases::Stability{}).options;
 }
 
-dynamics::StabilityProblem stability_problem(const inputs::Case& given) {
-  const inputs::Stability& asked = *given.machine.stability;
+dynamics::StabilityProblem stability_problem(const cases::Case& given) {
+  const cases::Stability& asked = *given.machine.stability;
   return {.setup = given.setup,
           .law = given.law,
           .system = chip_modes(given.machine.modes),
@@ -121,7 +121,7 @@ dynamics::StabilityProblem stability_problem(const inputs::Case& given) {
           .depths = base::values(*asked.axial_depth)};
 }
 
-dynamics::MotionProblem motion_problem(const inputs::Case& given) {
+dynamics::MotionProblem motion_problem(const cases::Case& given) {
   dynamics::MotionProblem p{.setup = given.setup,
                             .law = given.law,
                             .system = chip_modes(given.machine.modes)};

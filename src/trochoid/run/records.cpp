@@ -28,10 +28,10 @@ constexpr double speed_slack = 1e-3;
 /// Beyond this a percentage says less than a factor.
 constexpr double far_off = 0.5;
 
-std::vector<signal::Record> read_all(const inputs::Case& given) {
+std::vector<signal::Record> read_all(const cases::Case& given) {
   std::vector<signal::Record> records;
   std::vector<std::string> problems;
-  for (const inputs::Measurement& m : given.measurements) {
+  for (const cases::Measurement& m : given.measurements) {
     try {
       records.push_back(m.record.get());
     } catch (const base::InputError& error) {
@@ -122,10 +122,10 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
 }
 
 /// Where nothing cuts a channel reads its offset.
-void take_drift_out(const inputs::Case& given, std::span<const double> angle,
+void take_drift_out(const cases::Case& given, std::span<const double> angle,
                     std::span<const signal::Part> air, signal::Record& record,
                     Warnings& warnings) {
-  using inputs::ChannelOffset;
+  using cases::ChannelOffset;
   const ChannelOffset how = given.identify.channel_offsets;
   if (how != ChannelOffset::idle && how != ChannelOffset::automatic) {
     return;
@@ -218,7 +218,7 @@ std::string steady_text(const signal::Record& record, std::span<const double> an
 /// The time that the case states.
 /// @throws base::InputError
 signal::Part stated_part(const signal::Record& record,
-                         const inputs::Measurement& measurement) {
+                         const cases::Measurement& measurement) {
   const auto& time = record.time;
   if (time.empty()) {
     throw base::InputError({record.file +
@@ -254,7 +254,7 @@ struct UsedPart {
 /// @throws base::InputError where a time is stated that the record does not have
 UsedPart used_part(const signal::Record& record, std::span<const double> angle,
                    const signal::Passes& passes,
-                   const inputs::Measurement& measurement) {
+                   const cases::Measurement& measurement) {
   if (measurement.from || measurement.to) {
     return {stated_part(record, measurement), ""};
   }
@@ -265,7 +265,7 @@ UsedPart used_part(const signal::Record& record, std::span<const double> angle,
 }
 
 /// The steady cut of a record, without the offset of its channels.
-void keep_cut(const inputs::Case& given, const inputs::Measurement& measurement,
+void keep_cut(const cases::Case& given, const cases::Measurement& measurement,
               signal::Record& record, MeasuredRun& run, Warnings& warnings) {
   const std::vector<double> angle = stated_angle(record, measurement.cut);
   const signal::Passes passes = signal::passes_of(record.channel, angle);
@@ -311,9 +311,9 @@ std::string axis_text(const signal::Record& record) {
 
 }  // namespace
 
-std::string missing_channel(const signal::Record& record, const inputs::Case& given) {
+std::string missing_channel(const signal::Record& record, const cases::Case& given) {
   if (std::ranges::all_of(record.measured, std::identity())) return "";
-  const auto dynamometer = given.dynamometer.value_or(inputs::Dynamometer{});
+  const auto dynamometer = given.dynamometer.value_or(cases::Dynamometer{});
   const std::string begin =
       record.file + ": not all three channels were measured, so that ";
   if (dynamometer.automatic) {
@@ -329,7 +329,7 @@ std::string missing_channel(const signal::Record& record, const inputs::Case& gi
   return "";
 }
 
-std::vector<MeasuredRun> measured_runs(const inputs::Case& given, Warnings& warnings) {
+std::vector<MeasuredRun> measured_runs(const cases::Case& given, Warnings& warnings) {
   std::vector<signal::Record> records = read_all(given);
   std::vector<MeasuredRun> runs;
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -361,7 +361,7 @@ std::vector<identification::ChannelRun> channels_of(
 }
 
 std::string describe_record(const signal::Record& record,
-                            const inputs::Measurement& measurement) {
+                            const cases::Measurement& measurement) {
   std::string text =
       fmt::format("{}: {} samples, {}, {}\n", record.file, record.size(),
                   duration_text(record), revolutions_text(record, measurement.cut));

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/warning.h>
 #include <trochoid/identification/find_axes.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/signal/overview.h>
 #include <trochoid/signal/record.h>
 
@@ -23,13 +23,13 @@ struct MeasuredRun {
 
 /// @brief Why a record without all three channels cannot be used with the dynamometer of a
 /// case; empty: it can.
-std::string missing_channel(const signal::Record& record, const inputs::Case& given);
+std::string missing_channel(const signal::Record& record, const cases::Case& given);
 
 /// @brief Read all measurements of a case.
 /// @param[out] warnings  what was found out about the records
 /// @return one a measurement
 /// @throws base::InputError with the problems of all files
-std::vector<MeasuredRun> measured_runs(const inputs::Case& given,
+std::vector<MeasuredRun> measured_runs(const cases::Case& given,
                                        std::vector<base::Warning>& warnings);
 
 /// Their channels alone.
@@ -39,6 +39,6 @@ std::vector<identification::ChannelRun> channels_of(
 /// @brief What a record holds, for a person, in a few lines: samples, duration, rate,
 /// revolutions, the columns used and their ranges, and which part of it cuts.
 std::string describe_record(const signal::Record& record,
-                            const inputs::Measurement& measurement);
+                            const cases::Measurement& measurement);
 
 }  // namespace trochoid::run

@@ -16,22 +16,22 @@ namespace trochoid::run {
 
 namespace {
 
-using inputs::Axis;
+using cases::Axis;
 using structure::DirectedResponse;
 using Warnings = std::vector<base::Warning>;
 
 /// A response as its file has it.
 struct Source {
-  inputs::DirectedFrf frf;
+  files::DirectedFrf frf;
   std::vector<double> band;  ///< [Hz]; empty: all
 };
 
-std::vector<Source> sources_of(const inputs::Case& given,
-                               const inputs::FrfTables& frf) {
+std::vector<Source> sources_of(const cases::Case& given,
+                               const cases::FrfTables& frf) {
   std::vector<Source> out;
   if (!frf.source.file.name.empty()) {
     if (frf.source.dataset == 0) {
-      for (const inputs::DirectedFrf& one : frf.directed.get()) {
+      for (const files::DirectedFrf& one : frf.directed.get()) {
         out.push_back({one, frf.band});
       }
     }
@@ -40,7 +40,7 @@ std::vector<Source> sources_of(const inputs::Case& given,
     }
     return out;
   }
-  for (const inputs::MeasuredFrf& one : given.machine.measured_frfs) {
+  for (const cases::MeasuredFrf& one : given.machine.measured_frfs) {
     out.push_back({{one.axis, one.force_axis.value_or(one.axis), one.response.get()},
                    one.band.empty() ? frf.band : one.band});
   }
@@ -69,9 +69,9 @@ structure::FrequencyResponse in_band(const structure::FrequencyResponse& respons
 
 /// One response for the fit; from blows in time where its file holds those.
 /// @return why there is none; empty: there is one
-std::string add_response(Source& source, const inputs::FrfTables& frf,
+std::string add_response(Source& source, const cases::FrfTables& frf,
                          std::vector<DirectedResponse>& all, results::ModesResult& r) {
-  inputs::FrfFile& file = source.frf.file;
+  files::FrfFile& file = source.frf.file;
   const std::string name =
       fmt::format("{}{}", name_of(source.frf.motion), name_of(source.frf.force));
   DirectedResponse one{.name = name};
@@ -114,29 +114,29 @@ void number_directions(const results::ModesResult& r,
   }
 }
 
-structure::ModesOptions shared_options(const inputs::FrfTables& frf) {
+structure::ModesOptions shared_options(const cases::FrfTables& frf) {
   structure::ModesOptions options{.count = frf.modes};
-  if (frf.residual_terms != inputs::ResidualTerms::choose) {
-    options.residual_terms = frf.residual_terms == inputs::ResidualTerms::yes;
+  if (frf.residual_terms != cases::ResidualTerms::choose) {
+    options.residual_terms = frf.residual_terms == cases::ResidualTerms::yes;
   }
-  if (frf.shapes != inputs::Shapes::choose) {
-    options.complex_shapes = frf.shapes == inputs::Shapes::complex;
+  if (frf.shapes != cases::Shapes::choose) {
+    options.complex_shapes = frf.shapes == cases::Shapes::complex;
   }
   return options;
 }
 
 }  // namespace
 
-bool modes_are_shared(const inputs::Case& given) {
+bool modes_are_shared(const cases::Case& given) {
   const auto& frf = given.machine.frf;
-  if (!frf || frf->source.file.name.empty() || frf->shapes == inputs::Shapes::complex) {
+  if (!frf || frf->source.file.name.empty() || frf->shapes == cases::Shapes::complex) {
     return true;
   }
   return frf->source.dataset == 0 && !frf->directed.get().empty();
 }
 
-results::ModesResult shared_modes(const inputs::Case& given) {
-  const inputs::FrfTables frf = given.machine.frf.value_or(inputs::FrfTables{});
+results::ModesResult shared_modes(const cases::Case& given) {
+  const cases::FrfTables frf = given.machine.frf.value_or(cases::FrfTables{});
   results::ModesResult r{.heading = heading_of(given)};
   r.shared = true;
   r.body = frf.source.file.name.empty() ? given.machine.measured_frfs.front().body

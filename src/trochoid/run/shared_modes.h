@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/results/modes.h>
 
 namespace trochoid::run {
@@ -10,10 +10,10 @@ namespace trochoid::run {
 /// [[measured_frf]] without a file in [frf], or a universal file with responses of one
 /// point along x and y of which none is chosen.
 /// @throws base::InputError when the file cannot be read
-bool modes_are_shared(const inputs::Case& given);
+bool modes_are_shared(const cases::Case& given);
 
 /// @brief Modes that several responses share.
 /// @throws base::InputError when a file cannot be read
-results::ModesResult shared_modes(const inputs::Case& given);
+results::ModesResult shared_modes(const cases::Case& given);
 
 }  // namespace trochoid::run

@@ -20,7 +20,7 @@ using Warnings = std::vector<base::Warning>;
 /// A removed volume this much above what there is means a wrong chip model.
 constexpr double volume_slack = 1e-3;
 
-void warn_heights(const inputs::Case& given, Warnings& warnings) {
+void warn_heights(const cases::Case& given, Warnings& warnings) {
   for (const double z : given.sampling.edge_heights) {
     if (z > given.setup.cut.a_p) {
       warnings.push_back(
@@ -54,7 +54,7 @@ void warn_idle_teeth(const force::Engagement& engagement, Warnings& warnings) {
 }
 
 /// The chips of a turn against the material there is (C-8).
-void warn_volume(const inputs::Case& given, const chip::Removal& removal,
+void warn_volume(const cases::Case& given, const chip::Removal& removal,
                  Warnings& warnings) {
   if (removal.available <= 0) {
     return;
@@ -78,7 +78,7 @@ void warn_volume(const inputs::Case& given, const chip::Removal& removal,
 
 }  // namespace
 
-std::vector<double> sampled_angles(const inputs::Sampling& sampling) {
+std::vector<double> sampled_angles(const cases::Sampling& sampling) {
   if (!sampling.angles.empty()) {
     return sampling.angles;
   }
@@ -92,7 +92,7 @@ std::vector<double> sampled_angles(const inputs::Sampling& sampling) {
   return phi;
 }
 
-std::vector<results::Comparison> compare(const inputs::Case& given,
+std::vector<results::Comparison> compare(const cases::Case& given,
                                          std::vector<base::Warning>& warnings) {
   const auto measured = measured_runs(given, warnings);
   if (given.dynamometer && given.dynamometer->automatic) {
@@ -110,7 +110,7 @@ std::vector<results::Comparison> compare(const inputs::Case& given,
     }
   }
   const auto runs = identification::on_tool(
-      channels_of(measured), given.dynamometer.value_or(inputs::Dynamometer{}).matrix);
+      channels_of(measured), given.dynamometer.value_or(cases::Dynamometer{}).matrix);
   std::vector<results::Comparison> all;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     all.push_back(
@@ -121,9 +121,9 @@ std::vector<results::Comparison> compare(const inputs::Case& given,
   return all;
 }
 
-results::SimulateResult simulate(const inputs::Case& given) {
+results::SimulateResult simulate(const cases::Case& given) {
   const force::Setup& setup = given.setup;
-  const inputs::Sampling& sampling = given.sampling;
+  const cases::Sampling& sampling = given.sampling;
   const double height = sampling.edge_heights.empty()
                             ? force::representative_height(setup)
                             : sampling.edge_heights.front();

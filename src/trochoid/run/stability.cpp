@@ -40,7 +40,7 @@ std::string name_of_part(const MeasuredReceptance& part) {
 }
 
 /// A response in its band. A line at an end of it belongs to it, whatever rounding did.
-structure::FrequencyResponse in_band(const inputs::MeasuredFrf& frf,
+structure::FrequencyResponse in_band(const cases::MeasuredFrf& frf,
                                      structure::FrequencyResponse response) {
   if (frf.band.size() != 2) {
     return response;
@@ -57,7 +57,7 @@ structure::FrequencyResponse in_band(const inputs::MeasuredFrf& frf,
 }
 
 /// @throws base::InputError for too few lines, and a sensor that points against the force
-void check(const inputs::MeasuredFrf& frf, const MeasuredReceptance& part) {
+void check(const cases::MeasuredFrf& frf, const MeasuredReceptance& part) {
   if (part.omega.size() < dynamics::fewest_lines) {
     throw base::InputError(
         {fmt::format("{}: {} has {} lines above 0 Hz{}; must have at least {}",
@@ -121,7 +121,7 @@ ByFrequency by_frequency(const dynamics::StabilityProblem& problem,
   return out;
 }
 
-MeasuredStability measured_stability(const inputs::Case& given,
+MeasuredStability measured_stability(const cases::Case& given,
                                      const dynamics::StabilityProblem& problem,
                                      const dynamics::ToolPoint& point,
                                      const Progress& progress) {
@@ -169,16 +169,16 @@ void warn_of_time(const results::StabilityResult& r,
 
 }  // namespace
 
-std::vector<MeasuredResponse> tool_responses(const inputs::Case& given,
+std::vector<MeasuredResponse> tool_responses(const cases::Case& given,
                                              Warnings& warnings) {
   std::vector<MeasuredResponse> all;
-  for (const inputs::MeasuredFrf& frf : given.machine.measured_frfs) {
-    inputs::FrfFile file = frf.response.get();
+  for (const cases::MeasuredFrf& frf : given.machine.measured_frfs) {
+    files::FrfFile file = frf.response.get();
     base::add(warnings, std::move(file.notes));
     all.push_back({.response = in_band(frf, std::move(file.response)),
                    .motion = static_cast<std::size_t>(frf.axis),
                    .force = static_cast<std::size_t>(frf.force_axis.value_or(frf.axis)),
-                   .of_table = frf.body == inputs::ModeBody::table});
+                   .of_table = frf.body == cases::ModeBody::table});
     const MeasuredReceptance part = dynamics::receptance_of(all.back());
     check(frf, part);
     warn_of_peak(part, warnings);
@@ -222,7 +222,7 @@ void warn_of_response(const dynamics::ToolPoint& point, double chatter, double s
   }
 }
 
-results::StabilityResult stability(const inputs::Case& given, const Progress& progress,
+results::StabilityResult stability(const cases::Case& given, const Progress& progress,
                                    base::Stop stop) {
   results::StabilityResult r{.heading = heading_of(given),
                              .problem = stability_problem(given)};

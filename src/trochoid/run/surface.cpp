@@ -25,7 +25,7 @@ std::string why_no_map(const surface::ErrorMap& map) {
 }
 
 /// The cut, or all passes.
-void cut(const inputs::Case& given, const surface::Setting& setting,
+void cut(const cases::Case& given, const surface::Setting& setting,
          const std::function<void()>& solved, results::SurfaceResult& r) {
   const std::vector<surface::PassCut> cuts = wall_passes(given);
   if (cuts.empty()) {
@@ -40,7 +40,7 @@ void cut(const inputs::Case& given, const surface::Setting& setting,
 }
 
 /// The error of the same cut, bent by the force across the wall alone.
-surface::MeanAndExtremes straight_error(const inputs::Case& given,
+surface::MeanAndExtremes straight_error(const cases::Case& given,
                                         results::SurfaceResult r) {
   surface::Setting setting = wall_setting(given);
   setting.also_bends.clear();
@@ -51,7 +51,7 @@ surface::MeanAndExtremes straight_error(const inputs::Case& given,
 
 }  // namespace
 
-results::SurfaceResult surface(const inputs::Case& given, const Progress& progress) {
+results::SurfaceResult surface(const cases::Case& given, const Progress& progress) {
   const auto tell = [&](const char* what) { progress(what); };
   tell("Solving the wall");
   results::SurfaceResult r{.heading = heading_of(given),

@@ -4,7 +4,7 @@
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/dynamics/steady_state.h>
 #include <trochoid/dynamics/tool_point.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/results/modes.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/identify_actuator.h>
@@ -22,7 +22,7 @@ namespace trochoid::run {
 /// @throws base::InputError for files that cannot be read, too few lines, and a sensor
 ///         that points against the force
 std::vector<dynamics::MeasuredResponse> tool_responses(
-    const inputs::Case& given, std::vector<base::Warning>& warnings);
+    const cases::Case& given, std::vector<base::Warning>& warnings);
 
 /// @brief What a measured response cannot say about a chatter frequency.
 /// @param chatter  [rad/s]
@@ -30,11 +30,11 @@ std::vector<dynamics::MeasuredResponse> tool_responses(
 void warn_of_response(const dynamics::ToolPoint& point, double chatter, double step,
                       std::vector<base::Warning>& warnings);
 
-std::vector<base::Warning> stability_warnings(const inputs::Case& given,
+std::vector<base::Warning> stability_warnings(const cases::Case& given,
                                               const dynamics::StabilityOptions& options,
                                               const dynamics::Stability& stability);
 
-std::vector<base::Warning> motion_warnings(const inputs::Case& given,
+std::vector<base::Warning> motion_warnings(const cases::Case& given,
                                            const dynamics::SteadyState& steady,
                                            const std::optional<double>& linear_growth);
 

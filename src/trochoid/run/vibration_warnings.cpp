@@ -32,10 +32,10 @@ void warn_floor(const dynamics::Stability& stability, Warnings& warnings) {
   }
 }
 
-void warn_modes(const inputs::Case& given, Warnings& warnings) {
+void warn_modes(const cases::Case& given, Warnings& warnings) {
   const auto left_out = std::count_if(
       given.machine.modes.begin(), given.machine.modes.end(),
-      [](const inputs::Mode& mode) { return mode.axis == inputs::Axis::z; });
+      [](const cases::Mode& mode) { return mode.axis == cases::Axis::z; });
   if (left_out > 0) {
     warnings.push_back({"mode_along_z",
                         fmt::format("{} of the modes move along z, which the chip does "
@@ -87,7 +87,7 @@ std::string chatter_warning(const SteadyState& steady,
 
 }  // namespace
 
-Warnings stability_warnings(const inputs::Case& given,
+Warnings stability_warnings(const cases::Case& given,
                             const dynamics::StabilityOptions& options,
                             const dynamics::Stability& stability) {
   Warnings warnings;
@@ -105,7 +105,7 @@ Warnings stability_warnings(const inputs::Case& given,
   return warnings;
 }
 
-Warnings motion_warnings(const inputs::Case& given, const SteadyState& steady,
+Warnings motion_warnings(const cases::Case& given, const SteadyState& steady,
                          const std::optional<double>& linear_growth) {
   Warnings warnings;
   const bool chatter = dynamics::chatters(steady.verdict);
@@ -136,7 +136,7 @@ Warnings motion_warnings(const inputs::Case& given, const SteadyState& steady,
              "to be seen. The motion counts; ask for more revolutions.",
              *linear_growth)});
   }
-  const inputs::Sampling& sampling = given.sampling;
+  const cases::Sampling& sampling = given.sampling;
   if (sampling.start != 0 || !sampling.angles.empty()) {
     warnings.push_back(
         {"sampling_ignored",

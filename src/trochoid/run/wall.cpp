@@ -9,7 +9,7 @@ namespace trochoid::run {
 namespace {
 
 /// Where the reading lies along the wall, and how far the tool has fed since the phase.
-void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
+void set_place(const cases::Case& given, const files::SurfaceReading& read,
                surface::Reading& reading) {
   const double step =
       given.setup.cutter.teeth() * given.setup.cut.f_z / given.sampling.samples_per_rev;
@@ -20,8 +20,8 @@ void set_place(const inputs::Case& given, const inputs::SurfaceReading& read,
 }
 
 /// What is estimated of a file beside the coefficients.
-surface::Datum datum_of(const inputs::Case& given,
-                        const inputs::SurfaceMeasurement& m) {
+surface::Datum datum_of(const cases::Case& given,
+                        const cases::SurfaceMeasurement& m) {
   const bool pulse = given.machine.surface->model == surface::Model::quasi_static;
   surface::Datum datum{.decide = !m.form && !pulse};
   if (m.form) {
@@ -34,11 +34,11 @@ surface::Datum datum_of(const inputs::Case& given,
 
 }  // namespace
 
-std::optional<structure::Cantilever> wall_cutter(const inputs::MachineTables& machine) {
+std::optional<structure::Cantilever> wall_cutter(const cases::MachineTables& machine) {
   if (!machine.cutter_body) {
     return std::nullopt;
   }
-  const inputs::CutterBody& b = *machine.cutter_body;
+  const cases::CutterBody& b = *machine.cutter_body;
   return structure::Cantilever{.overhang = b.overhang,
                                .flute_length = b.flute_length.value_or(b.overhang),
                                .shank_diameter = b.shank_diameter.value_or(0.0),
@@ -46,11 +46,11 @@ std::optional<structure::Cantilever> wall_cutter(const inputs::MachineTables& ma
                                .youngs_modulus = b.youngs_modulus};
 }
 
-std::optional<structure::Plate> wall_plate(const inputs::MachineTables& machine) {
+std::optional<structure::Plate> wall_plate(const cases::MachineTables& machine) {
   if (!machine.wall) {
     return std::nullopt;
   }
-  const inputs::Wall& w = *machine.wall;
+  const cases::Wall& w = *machine.wall;
   return structure::Plate{.length = w.length,
                           .height = w.height,
                           .thickness = w.thickness,
@@ -59,8 +59,8 @@ std::optional<structure::Plate> wall_plate(const inputs::MachineTables& machine)
                           .ends = w.ends};
 }
 
-structure::WallLoads wall_loads(const inputs::Case& given) {
-  const inputs::Wall w = given.machine.wall.value_or(inputs::Wall{});
+structure::WallLoads wall_loads(const cases::Case& given) {
+  const cases::Wall w = given.machine.wall.value_or(cases::Wall{});
   return {.pressure = w.pressure.value_or(0.0),
           .edge_load = w.edge_load.value_or(0.0),
           .line_load = w.line_load.value_or(0.0),
@@ -70,12 +70,12 @@ structure::WallLoads wall_loads(const inputs::Case& given) {
           .y = w.loads_heights};
 }
 
-surface::BodyDimensions wall_dimensions(const inputs::Case& given) {
+surface::BodyDimensions wall_dimensions(const cases::Case& given) {
   return {wall_cutter(given.machine), wall_plate(given.machine), wall_position(given)};
 }
 
-surface::Setting wall_setting(const inputs::Case& given) {
-  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
+surface::Setting wall_setting(const cases::Case& given) {
+  const cases::Surface table = given.machine.surface.value_or(cases::Surface{});
   return {.setup = given.setup,
           .law = given.law,
           .bodies = surface::bodies_at(wall_cutter(given.machine),
@@ -87,10 +87,10 @@ surface::Setting wall_setting(const inputs::Case& given) {
           .also_bends = table.also_bends};
 }
 
-std::vector<surface::PassCut> wall_passes(const inputs::Case& given) {
+std::vector<surface::PassCut> wall_passes(const cases::Case& given) {
   const geometry::Cut& cut = given.setup.cut;
   std::vector<surface::PassCut> cuts;
-  for (const inputs::WallPass& pass : given.machine.passes) {
+  for (const cases::WallPass& pass : given.machine.passes) {
     cuts.push_back({pass.radial_depth.value_or(surface::radial_depth(cut.engagement)),
                     pass.feed_per_tooth.value_or(cut.f_z),
                     pass.below_edge.value_or(0.0)});
@@ -98,17 +98,17 @@ std::vector<surface::PassCut> wall_passes(const inputs::Case& given) {
   return cuts;
 }
 
-surface::Feedback wall_feedback(const inputs::Case& given) {
-  return given.machine.surface.value_or(inputs::Surface{})
+surface::Feedback wall_feedback(const cases::Case& given) {
+  return given.machine.surface.value_or(cases::Surface{})
       .feedback.value_or(surface::Feedback::none);
 }
 
-surface::FitOptions wall_fit(const inputs::Case& given) {
-  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
+surface::FitOptions wall_fit(const cases::Case& given) {
+  const cases::Surface table = given.machine.surface.value_or(cases::Surface{});
   const bool pulse = table.model == surface::Model::quasi_static;
   surface::FitOptions fit{
       .feedback = table.feedback,
-      .robust = table.outliers == inputs::Outliers::leave_out,
+      .robust = table.outliers == cases::Outliers::leave_out,
       .shared = !pulse && table.errors == identification::Errors::automatic};
   if (pulse && !fit.feedback) {
     fit.feedback = surface::Feedback::none;
@@ -116,12 +116,12 @@ surface::FitOptions wall_fit(const inputs::Case& given) {
   return fit;
 }
 
-double wall_position(const inputs::Case& given) {
+double wall_position(const cases::Case& given) {
   return given.machine.wall ? given.machine.wall->position : 0.0;
 }
 
-surface::MapOptions map_options(const inputs::Case& given) {
-  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
+surface::MapOptions map_options(const cases::Case& given) {
+  const cases::Surface table = given.machine.surface.value_or(cases::Surface{});
   return {.samples_per_turn = given.sampling.samples_per_rev,
           .turns = given.sampling.revolutions,
           .angles = given.sampling.angles,
@@ -132,23 +132,23 @@ surface::MapOptions map_options(const inputs::Case& given) {
           .tolerance = given.sampling.tolerance};
 }
 
-MeasuredWall measured_wall(const inputs::Case& given) {
+MeasuredWall measured_wall(const cases::Case& given) {
   MeasuredWall wall;
   std::vector<std::string> problems;
-  for (const inputs::SurfaceMeasurement& m : given.machine.surface_measurements) {
-    const inputs::SurfaceFile* read_file = nullptr;
+  for (const cases::SurfaceMeasurement& m : given.machine.surface_measurements) {
+    const files::SurfaceFile* read_file = nullptr;
     try {
       read_file = &m.surface.get();
     } catch (const base::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
       continue;
     }
-    const inputs::SurfaceFile& file = *read_file;
+    const files::SurfaceFile& file = *read_file;
     for (const base::Warning& note : file.notes) {
       wall.notes.push_back({note.code, m.source.file.path + ": " + note.message});
     }
     wall.counts.add(file.counts);
-    for (const inputs::SurfaceReading& read : file.readings) {
+    for (const files::SurfaceReading& read : file.readings) {
       surface::Reading reading{.height = read.height,
                                .error = read.error,
                                .tooth = read.tooth - 1,

@@ -16,7 +16,7 @@ using surface::CoefficientFit;
 using Warnings = std::vector<base::Warning>;
 
 /// A coefficient that is known worse than to half of itself.
-void judge_coefficients(const inputs::Case& given,
+void judge_coefficients(const cases::Case& given,
                         const surface::FoundCoefficients& found, Warnings& warnings) {
   const auto names = force::coefficient_quantities(given.law);
   const surface::Estimate* both[] = {&found.K_tc, &found.K_rc};
@@ -65,7 +65,7 @@ void judge_outliers(std::span<const surface::Reading> readings,
 }
 
 /// What the readings decided, where it was not clear.
-void judge_explanations(const inputs::Case& given,
+void judge_explanations(const cases::Case& given,
                         const surface::Calibration& calibration, Warnings& warnings) {
   constexpr double clear = 0.8;
   const auto& tried = calibration.explanations;
@@ -97,7 +97,7 @@ std::string full_name(const CoefficientFit& fit) {
 }
 
 /// Readings of the profile that differ by more than their errors.
-void compare_models(const inputs::Case& given, const surface::ModelFits& models,
+void compare_models(const cases::Case& given, const surface::ModelFits& models,
                     Warnings& warnings) {
   constexpr double visible = 0.05;
   const auto names = force::coefficient_quantities(given.law);
@@ -128,7 +128,7 @@ void compare_models(const inputs::Case& given, const surface::ModelFits& models,
   }
 }
 
-void judge_means(const inputs::Case& given, const surface::ModelFits& models,
+void judge_means(const cases::Case& given, const surface::ModelFits& models,
                  Warnings& warnings) {
   const auto uneven = std::count_if(models.nominal.begin(), models.nominal.end(),
                                     [](const surface::Nominal& n) { return !n.whole; });
@@ -149,7 +149,7 @@ void judge_means(const inputs::Case& given, const surface::ModelFits& models,
   }
 }
 
-void judge_runout(const inputs::Case& given, const surface::Calibration& calibration,
+void judge_runout(const cases::Case& given, const surface::Calibration& calibration,
                   Warnings& warnings) {
   const surface::RunoutFit& runout = calibration.runout;
   const auto& offsets = given.setup.runout.radial_offsets;
@@ -185,12 +185,12 @@ void judge_runout(const inputs::Case& given, const surface::Calibration& calibra
 }
 
 /// What is said of feedback in general does not help a fit that cannot take it in.
-void judge_bending(const inputs::Case& given, const surface::Calibration& calibration,
+void judge_bending(const cases::Case& given, const surface::Calibration& calibration,
                    double largest, Warnings& warnings) {
   Warnings bending;
   add_bending_warnings(given, largest,
                        surface::radial_depth(given.setup.cut.engagement), bending);
-  const bool decided = !given.machine.surface.value_or(inputs::Surface{}).feedback &&
+  const bool decided = !given.machine.surface.value_or(cases::Surface{}).feedback &&
                        !calibration.explanations.empty();
   for (base::Warning& warning : bending) {
     if (warning.code == "feedback" && decided) {
@@ -222,7 +222,7 @@ void add_load_warnings(const results::SurfaceResult& r, Warnings& warnings) {
 
 }  // namespace
 
-void add_bending_warnings(const inputs::Case& given, double largest, double a_e,
+void add_bending_warnings(const cases::Case& given, double largest, double a_e,
                           Warnings& warnings) {
   constexpr double visible = 0.01;
   if (given.machine.wall && largest > given.machine.wall->thickness / 2) {
@@ -244,7 +244,7 @@ void add_bending_warnings(const inputs::Case& given, double largest, double a_e,
   }
 }
 
-void add_surface_warnings(const inputs::Case& given, const results::SurfaceResult& r,
+void add_surface_warnings(const cases::Case& given, const results::SurfaceResult& r,
                           Warnings& warnings) {
   const surface::ErrorMap& map = r.map;
   const auto largest = [](const surface::MeanAndExtremes& error) {
@@ -292,7 +292,7 @@ void add_surface_warnings(const inputs::Case& given, const results::SurfaceResul
   }
 }
 
-void add_calibration_warnings(const inputs::Case& given,
+void add_calibration_warnings(const cases::Case& given,
                               std::span<const surface::Reading> readings,
                               const surface::Calibration& calibration,
                               Warnings& warnings) {

@@ -99,11 +99,11 @@ double size_of_file(const std::filesystem::path& file) {
   return error ? 0.0 : static_cast<double>(size);
 }
 
-std::vector<Work> simulate_work(const inputs::Case& given) {
+std::vector<Work> simulate_work(const cases::Case& given) {
   // Measured: a row is kept, printed, and shown in the report.
   constexpr double row_evaluations = 6;
   constexpr double row_bytes = 250;
-  const inputs::Sampling& s = given.sampling;
+  const cases::Sampling& s = given.sampling;
   const bool listed = !s.angles.empty();
   const double rows =
       listed ? static_cast<double>(s.angles.size()) : s.samples_per_rev * s.revolutions;
@@ -131,12 +131,12 @@ std::vector<Work> simulate_work(const inputs::Case& given) {
   return parts;
 }
 
-bool in_closed_form(const inputs::Case& given) {
+bool in_closed_form(const cases::Case& given) {
   return force::keeps_radius(given.setup) && !force::form(given.law).power;
 }
 
 /// Records are known by their size only.
-std::vector<Work> identify_work(const inputs::Case& given) {
+std::vector<Work> identify_work(const cases::Case& given) {
   // Measured, with text: a byte becomes five, and is read, turned and folded once.
   constexpr double byte_evaluations = 0.2;
   constexpr double byte_bytes = 5.5;
@@ -168,13 +168,13 @@ std::vector<Work> identify_work(const inputs::Case& given) {
   return parts;
 }
 
-std::vector<Work> plan_work(const inputs::Case& given) {
+std::vector<Work> plan_work(const cases::Case& given) {
   constexpr double derivatives = 10;
   constexpr double in_closed = 3;  // of an angle
-  const inputs::Plan& plan = given.plan;
+  const cases::Plan& plan = given.plan;
   std::size_t engagements = 0;
-  for (const inputs::PlannedEngagement kind : plan.engagements) {
-    const bool slot = kind == inputs::PlannedEngagement::slot;
+  for (const cases::PlannedEngagement kind : plan.engagements) {
+    const bool slot = kind == cases::PlannedEngagement::slot;
     engagements += slot ? 1 : plan.radial_depths.size();
   }
   const auto cuts =
@@ -194,21 +194,21 @@ std::vector<Work> plan_work(const inputs::Case& given) {
 }
 
 /// Each tooth feels what all the others left.
-double pairs_of_teeth(const inputs::Case& given) {
+double pairs_of_teeth(const cases::Case& given) {
   return static_cast<double>(given.setup.cutter.teeth() * given.setup.cutter.teeth());
 }
 
-bool is_regenerative(const inputs::Surface& surface) {
+bool is_regenerative(const cases::Surface& surface) {
   return surface.feedback == surface::Feedback::regenerative;
 }
 
-std::vector<Work> surface_work(const inputs::Case& given) {
+std::vector<Work> surface_work(const cases::Case& given) {
   // Measured: of a point of the map, and of the deflection that the chip feels again.
   constexpr double point = 4.5;
   constexpr double point_bytes = 60;
   constexpr double fed_back = 1.7e6;  // times the square of the teeth
-  const inputs::Surface table = given.machine.surface.value_or(inputs::Surface{});
-  const inputs::Sampling& s = given.sampling;
+  const cases::Surface table = given.machine.surface.value_or(cases::Surface{});
+  const cases::Sampling& s = given.sampling;
   const bool listed = !s.angles.empty();
   const double rows = listed ? static_cast<double>(s.angles.size())
                              : std::max(1.0, s.samples_per_rev * s.revolutions);
@@ -234,7 +234,7 @@ std::vector<Work> surface_work(const inputs::Case& given) {
 }
 
 /// Readings are known by their size only.
-std::vector<Work> calibrate_work(const inputs::Case& given) {
+std::vector<Work> calibrate_work(const cases::Case& given) {
   // Measured: many readings are folded, and fitted as some hundred.
   constexpr double fits = 1.7e7;  // times the square of the teeth
   constexpr double byte_evaluations = 2;
@@ -278,7 +278,7 @@ double periods_per_turn(const force::Setup& setup) {
   return alike && !offsets ? setup.cutter.teeth() : 1.0;
 }
 
-std::vector<Work> stability_work(const inputs::Case& given) {
+std::vector<Work> stability_work(const cases::Case& given) {
   // Measured: of a multiplier, and for each vibration in the period that it belongs to.
   constexpr double multiplier = 100;
   constexpr double vibration = 80;
@@ -286,7 +286,7 @@ std::vector<Work> stability_work(const inputs::Case& given) {
   constexpr double around_case = 60;      // depths that are looked at for its limit
   constexpr double along_limit = 15;      // multipliers a speed
   constexpr double by_frequency = 1.8e5;  // a speed, two solutions, of each order
-  const inputs::Stability& asked = *given.machine.stability;
+  const cases::Stability& asked = *given.machine.stability;
   const auto speeds = base::values(*asked.spindle_speed);
   const auto depths = asked.axial_depth->count;
   const dynamics::System system = chip_modes(given.machine.modes);
@@ -326,7 +326,7 @@ std::vector<Work> stability_work(const inputs::Case& given) {
 
 /// Of turns without chatter, which asks for more. Nothing where the steps are more than
 /// dynamics computes: it says that itself.
-std::vector<Work> dynamics_work(const inputs::Case& given) {
+std::vector<Work> dynamics_work(const cases::Case& given) {
   // Measured: of a step with one tooth, and what a step of a turn remembers.
   constexpr double step = 1;
   constexpr double step_bytes = 600;
@@ -358,7 +358,7 @@ std::vector<Work> dynamics_work(const inputs::Case& given) {
 }
 
 /// By the size of the file.
-std::vector<Work> measured_work(const inputs::Case& given) {
+std::vector<Work> measured_work(const cases::Case& given) {
   constexpr double byte_bytes = 12;
   constexpr double byte_evaluations = 2;
   std::vector<Work> parts;
@@ -377,7 +377,7 @@ std::vector<Work> measured_work(const inputs::Case& given) {
   return parts;
 }
 
-std::vector<Work> correct_work(const inputs::Case& given) {
+std::vector<Work> correct_work(const cases::Case& given) {
   // Measured: of the command itself, and of every speed of the map.
   constexpr double command = 7e6;
   constexpr double speed = 8e4;
@@ -419,9 +419,9 @@ std::string too_much(std::span<const Work> parts) {
       most.what, most_evaluations, most_bytes / gigabyte);
 }
 
-std::vector<Work> work_of(base::Command command, const inputs::Case& given) {
+std::vector<Work> work_of(base::Command command, const cases::Case& given) {
   using base::Command;
-  const bool of_wall = given.plan.of == inputs::PlanOf::wall;
+  const bool of_wall = given.plan.of == cases::PlanOf::wall;
   switch (command) {
     case Command::simulate:
       return simulate_work(given);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/base/command.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 
 #include <span>
 #include <string>
@@ -36,7 +36,7 @@ inline constexpr double seconds_per_evaluation = 1e-7;
 
 /// @brief What a command is going to take, judged by the keys of its case and the sizes of
 /// its files.
-std::vector<Work> work_of(base::Command command, const inputs::Case& given);
+std::vector<Work> work_of(base::Command command, const cases::Case& given);
 
 /// @brief Why the parts together are too much, and which value would do.
 /// @return one sentence or two; empty: they are not

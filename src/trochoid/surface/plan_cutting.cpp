@@ -9,7 +9,7 @@ namespace trochoid::surface {
 namespace {
 
 /// A map for its mean and its extremes only: the error is smooth over the height.
-constexpr int map_heights = 9;
+constexpr int heights_of_map = 9;
 constexpr int samples_in_a_tooth_feed = 12;
 /// Of the force: a map is read to per cents.
 constexpr double map_tolerance = 1e-4;
@@ -21,9 +21,9 @@ MapOptions coarse_map(const Setting& setting, double position, Feedback feedback
       .position = position,
       .feedback = feedback,
       .tolerance = setting.tolerance};
-  for (int i = 0; i < map_heights; ++i) {
-    out.heights.push_back(i + 1 < map_heights
-                              ? setting.setup.cut.a_p * i / (map_heights - 1)
+  for (int i = 0; i < heights_of_map; ++i) {
+    out.heights.push_back(i + 1 < heights_of_map
+                              ? setting.setup.cut.a_p * i / (heights_of_map - 1)
                               : setting.setup.cut.a_p);
   }
   out.influence_heights = {0.0};

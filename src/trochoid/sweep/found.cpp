@@ -3,8 +3,8 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/chip/model.h>
-#include <trochoid/inputs/inches.h>
-#include <trochoid/inputs/read_value.h>
+#include <trochoid/cases/inches.h>
+#include <trochoid/cases/read_value.h>
 #include <trochoid/results/joint.h>
 #include <trochoid/results/json.h>
 
@@ -20,36 +20,36 @@ namespace trochoid::sweep {
 
 namespace {
 
-using inputs::DrawnFile;
-using inputs::Members;
-using inputs::Node;
-using inputs::SweptKey;
+using cases::DrawnFile;
+using cases::Members;
+using cases::Node;
+using cases::SweptKey;
 using results::ReadJoint;
 
 /// A number of a table of a case, as it stands there; none: another value, or none.
 std::optional<double> number_in(const Node& table, std::string_view key) {
   const Node* node = find(table, key);
-  return node != nullptr ? inputs::number_in(*node) : std::nullopt;
+  return node != nullptr ? cases::number_in(*node) : std::nullopt;
 }
 
 /// Whether a case states any mode.
 bool has_modes(const Node& root) {
   const Node* modes = find(root, "mode");
   const auto* list =
-      modes != nullptr ? std::get_if<inputs::Array>(&modes->value) : nullptr;
+      modes != nullptr ? std::get_if<cases::Array>(&modes->value) : nullptr;
   return list != nullptr && !list->empty();
 }
 
 /// Where modes come from.
 struct ModesFile {
-  inputs::Location where;  ///< of what asks for them
+  cases::Location where;  ///< of what asks for them
   std::string file;        ///< that they are of, for messages
   bool takes_all = false;  ///< the case had no modes of its own: these are added to it
 };
 
 constexpr double near_enough = 0.05;  ///< of the frequency
 
-Node text_node(const std::string& text, const inputs::Location& where) {
+Node text_node(const std::string& text, const cases::Location& where) {
   return {.value = text, .where = where};
 }
 
@@ -71,15 +71,15 @@ std::optional<double> frequency_of(const Node& mode) {
 }
 
 /// The list of modes of a case; a new one where there is none.
-inputs::Array& modes_of(Node& root, const inputs::Location& where) {
+cases::Array& modes_of(Node& root, const cases::Location& where) {
   auto& members = std::get<Members>(root.value);
-  auto found = std::ranges::find(members, std::string("mode"), &inputs::Member::key);
+  auto found = std::ranges::find(members, std::string("mode"), &cases::Member::key);
   if (found == members.end() ||
-      !std::holds_alternative<inputs::Array>(found->node.value)) {
-    members.push_back({"mode", where, {.value = inputs::Array{}, .where = where}});
+      !std::holds_alternative<cases::Array>(found->node.value)) {
+    members.push_back({"mode", where, {.value = cases::Array{}, .where = where}});
     found = std::prev(members.end());
   }
-  return std::get<inputs::Array>(found->node.value);
+  return std::get<cases::Array>(found->node.value);
 }
 
 double number_of(const results::Joint& joint, std::size_t mode, const char* what) {
@@ -92,7 +92,7 @@ double number_of(const results::Joint& joint, std::size_t mode, const char* what
 
 /// Only the numbers that are drawn say what the mode is.
 void keep_direction(Node& mode) {
-  std::erase_if(std::get<Members>(mode.value), [](const inputs::Member& member) {
+  std::erase_if(std::get<Members>(mode.value), [](const cases::Member& member) {
     constexpr std::string_view numbers[] = {"mass_kg", "stiffness_N_per_m",
                                             "damping_Ns_per_m", "frequency_Hz",
                                             "damping_ratio"};
@@ -106,7 +106,7 @@ struct Nearest {
   std::optional<double> frequency;  ///< of the nearest one along that axis [Hz]
 };
 
-Nearest nearest_to(const inputs::Array& modes, const results::JointMode& wanted,
+Nearest nearest_to(const cases::Array& modes, const results::JointMode& wanted,
                    double frequency, const std::vector<std::size_t>& taken) {
   Nearest out;
   double least = std::numeric_limits<double>::infinity();
@@ -151,7 +151,7 @@ std::string whole_of(const std::string& key) {
 std::optional<double> number_at(const Node& root, const std::string& key) {
   const auto dot = key.find('.');
   const Node* table = find(root, key.substr(0, dot));
-  return table != nullptr && std::holds_alternative<inputs::Members>(table->value)
+  return table != nullptr && std::holds_alternative<cases::Members>(table->value)
              ? number_in(*table, key.substr(dot + 1))
              : std::nullopt;
 }
@@ -159,7 +159,7 @@ std::optional<double> number_at(const Node& root, const std::string& key) {
 std::string text_at(const Node& root, std::string_view table, std::string_view key,
                     const char* otherwise) {
   const Node* at = find(root, table);
-  const Node* node = at != nullptr && std::holds_alternative<inputs::Members>(at->value)
+  const Node* node = at != nullptr && std::holds_alternative<cases::Members>(at->value)
                          ? find(*at, key)
                          : nullptr;
   const auto* text = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
@@ -174,8 +174,8 @@ void put_modes(Node& root, results::Joint& joint, const ModesFile& from,
   if (joint.modes.empty()) {
     return;
   }
-  const inputs::Location& where = from.where;
-  inputs::Array& modes = modes_of(root, where);
+  const cases::Location& where = from.where;
+  cases::Array& modes = modes_of(root, where);
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < joint.modes.size(); ++i) {
     const results::JointMode& wanted = joint.modes[i];
@@ -243,7 +243,7 @@ class Putting {
   Found done(const std::vector<SweptKey>& over) {
     for (const SweptKey& key : over) {
       for (const SweptKey& other : found_.keys) {
-        if (whole_of(inputs::path_in_mm(key.key)) == whole_of(other.key)) {
+        if (whole_of(cases::path_in_mm(key.key)) == whole_of(other.key)) {
           problems_.push_back(fmt::format(
               "{}: sweep.over.{}: {} is drawn from `covariance`; either of them",
               to_string(key.where), key.key, other.key));
@@ -303,24 +303,24 @@ class Putting {
 
   /// Offsets need a list of the right length to go into.
   void make_offsets(const results::Joint& joint, const SweptKey& list) {
-    Node zeros{.value = inputs::Array(joint.teeth, {.value = 0.0, .where = list.where}),
+    Node zeros{.value = cases::Array(joint.teeth, {.value = 0.0, .where = list.where}),
                .where = list.where};
     const Node* runout = find(found_.root, "runout");
     const Node* given =
-        runout != nullptr && std::holds_alternative<inputs::Members>(runout->value)
+        runout != nullptr && std::holds_alternative<cases::Members>(runout->value)
             ? find(*runout, "radial_offsets_mm")
             : nullptr;
     const auto* entries =
-        given != nullptr ? std::get_if<inputs::Array>(&given->value) : nullptr;
+        given != nullptr ? std::get_if<cases::Array>(&given->value) : nullptr;
     if (entries == nullptr || entries->size() != joint.teeth) {
       set_key(found_.root, list, zeros);
       return;
     }
     // Found offsets are from tooth 1 on, and so must be those that stay.
     Node from_first{.value = *entries, .where = list.where};
-    const double first = inputs::number_in(entries->front()).value_or(0.0);
-    for (Node& entry : std::get<inputs::Array>(from_first.value)) {
-      if (const auto own = inputs::number_in(entry)) {
+    const double first = cases::number_in(entries->front()).value_or(0.0);
+    for (Node& entry : std::get<cases::Array>(from_first.value)) {
+      if (const auto own = cases::number_in(entry)) {
         entry.value = *own - first;
       }
     }
@@ -329,7 +329,7 @@ class Putting {
 
   void put_values(const results::Joint& joint) {
     const FoundSet& set = found_.sets.back();
-    const inputs::Location where = at_->where;
+    const cases::Location where = at_->where;
     const auto key_of = [&](std::string key) {
       return SweptKey{.key = std::move(key), .where = where, .values = {}};
     };
@@ -399,7 +399,7 @@ std::vector<double> as_keys(const FoundSet& set, std::span<const double> numbers
   return values;
 }
 
-Found find_all(const inputs::Sweep& sweep, const Node& root) {
+Found find_all(const cases::Sweep& sweep, const Node& root) {
   Putting putting(root);
   for (const DrawnFile& drawn : sweep.covariance) {
     putting.put(drawn);

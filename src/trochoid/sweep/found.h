@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/inputs/sweep.h>
+#include <trochoid/cases/sweep.h>
 #include <trochoid/sweep/distribution.h>
 
 #include <string>
@@ -18,9 +18,9 @@ struct FoundSet {
 /// @brief All that is drawn, and the case that it is put into.
 struct Found {
   std::vector<FoundSet> sets;
-  std::vector<inputs::SweptKey> keys;  ///< of all sets, in their order
-  std::vector<inputs::Node> values;    ///< as found, one for each key
-  inputs::Node root;                   ///< the case with the values as found
+  std::vector<cases::SweptKey> keys;  ///< of all sets, in their order
+  std::vector<cases::Node> values;    ///< as found, one for each key
+  cases::Node root;                   ///< the case with the values as found
   std::vector<base::Warning> warnings;
   std::string meaning;  ///< all that draws depend on beside the seed
 };
@@ -39,6 +39,6 @@ std::vector<double> as_keys(const FoundSet& set, std::span<const double> numbers
 /// without modes takes all. What was looked for and not found stays as the case has it.
 /// @param root  the case without its [sweep]
 /// @throws base::InputError with every problem
-Found find_all(const inputs::Sweep& sweep, const inputs::Node& root);
+Found find_all(const cases::Sweep& sweep, const cases::Node& root);
 
 }  // namespace trochoid::sweep

@@ -2,8 +2,8 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
-#include <trochoid/inputs/findings.h>
-#include <trochoid/inputs/inches.h>
+#include <trochoid/cases/findings.h>
+#include <trochoid/cases/inches.h>
 #include <trochoid/results/hdf5_table.h>
 #include <trochoid/results/provenance.h>
 #include <trochoid/run/answer.h>
@@ -18,10 +18,10 @@ namespace trochoid::sweep {
 
 namespace {
 
-using inputs::Node;
+using cases::Node;
 
-base::Command command_of(const inputs::CaseSource& source, const Request& request,
-                         const inputs::Sweep& sweep) {
+base::Command command_of(const cases::CaseSource& source, const Request& request,
+                         const cases::Sweep& sweep) {
   const std::string& name = request.command.empty() ? sweep.command : request.command;
   const auto command = base::named<base::Command>(name);
   if (!command) {
@@ -33,7 +33,7 @@ base::Command command_of(const inputs::CaseSource& source, const Request& reques
                                    "{}",
                                    fmt::join(names, ", "))
                      : fmt::format("command = \"{}\": there is no such command{}", name,
-                                   inputs::suggestion(name, names)))});
+                                   cases::suggestion(name, names)))});
   }
   return *command;
 }
@@ -58,10 +58,10 @@ void check_keys(const Study& study, const std::vector<Node>& first) {
 }
 
 /// The same key in inches and in millimetres is one key.
-void check_once(const std::vector<inputs::SweptKey>& over) {
+void check_once(const std::vector<cases::SweptKey>& over) {
   std::map<std::string, std::string> seen;
-  for (const inputs::SweptKey& key : over) {
-    const auto [before, fresh] = seen.emplace(inputs::path_in_mm(key.key), key.key);
+  for (const cases::SweptKey& key : over) {
+    const auto [before, fresh] = seen.emplace(cases::path_in_mm(key.key), key.key);
     if (!fresh) {
       throw base::InputError(
           {fmt::format("{}: sweep.over.{}: {} is swept as well; either of them",
@@ -86,7 +86,7 @@ void check_take(const Study& study, const results::Answer& answer) {
     if (!taken(answer, path)) {
       problems.push_back(fmt::format("{}: take = \"{}\": not in the answer of {}{}",
                                      study.file.string(), path, name_of(study.command),
-                                     inputs::suggestion(path, known)));
+                                     cases::suggestion(path, known)));
     }
   }
   if (!problems.empty()) {
@@ -95,27 +95,27 @@ void check_take(const Study& study, const results::Answer& answer) {
 }
 
 /// The case of the first row, with everything that is drawn as found.
-inputs::Case first_case(const Study& study, const Rows& rows,
+cases::Case first_case(const Study& study, const Rows& rows,
                         const std::filesystem::path& folder) {
   const Node root = root_of(study, rows.first());
-  return inputs::read_case(source_of(study, root), study.command, folder);
+  return cases::read_case(source_of(study, root), study.command, folder);
 }
 
 /// [sweep] with names of files as they count from the folder.
-std::string sweep_toml(inputs::Sweep plan, const std::filesystem::path& folder) {
+std::string sweep_toml(cases::Sweep plan, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  for (inputs::DrawnFile& drawn : plan.covariance) {
+  for (cases::DrawnFile& drawn : plan.covariance) {
     if (!folder.empty()) {
       drawn.path =
           drawn.path.lexically_relative(fs::absolute(folder).lexically_normal());
     }
   }
-  return inputs::sweep_toml(plan);
+  return cases::sweep_toml(plan);
 }
 
 /// What is known of the answer before the first row.
-results::SweepResult empty_result(const inputs::Sweep& plan, const Found& found,
-                                  const inputs::Case& first) {
+results::SweepResult empty_result(const cases::Sweep& plan, const Found& found,
+                                  const cases::Case& first) {
   const bool drawn = !found.sets.empty();
   results::SweepResult r{
       .heading = {.title = first.title, .warnings = found.warnings},
@@ -127,17 +127,17 @@ results::SweepResult empty_result(const inputs::Sweep& plan, const Found& found,
       .hdf5 = plan.hdf5};
   r.heading.warnings.insert(r.heading.warnings.end(), first.notes.begin(),
                             first.notes.end());
-  for (const inputs::SweptKey& key : plan.over) {
+  for (const cases::SweptKey& key : plan.over) {
     r.keys.push_back(key.key);
   }
-  for (const inputs::SweptKey& key : found.keys) {
+  for (const cases::SweptKey& key : found.keys) {
     r.drawn.push_back(key.key);
   }
   return r;
 }
 
-Study study_of(const inputs::CaseSource& source, const Request& request,
-               const inputs::Sweep& plan, const Found& found) {
+Study study_of(const cases::CaseSource& source, const Request& request,
+               const cases::Sweep& plan, const Found& found) {
   Study study{.command = command_of(source, request, plan),
               .root = found.root,
               .file = source.file,
@@ -145,8 +145,8 @@ Study study_of(const inputs::CaseSource& source, const Request& request,
               .take = request.take.empty() ? plan.take : request.take,
               .data = source.data,
               .base = source.base};
-  for (const std::vector<inputs::SweptKey>* keys : {&plan.over, &found.keys}) {
-    for (const inputs::SweptKey& key : *keys) {
+  for (const std::vector<cases::SweptKey>* keys : {&plan.over, &found.keys}) {
+    for (const cases::SweptKey& key : *keys) {
       study.over.push_back({.key = key.key, .where = key.where, .values = {}});
     }
   }
@@ -155,23 +155,23 @@ Study study_of(const inputs::CaseSource& source, const Request& request,
 
 }  // namespace
 
-Prepared prepare(const inputs::CaseSource& source, const Request& request,
+Prepared prepare(const cases::CaseSource& source, const Request& request,
                  const run::Progress& progress) {
-  inputs::Sweep plan = inputs::read_sweep(source.root, source.file);
+  cases::Sweep plan = cases::read_sweep(source.root, source.file);
   if (plan.hdf5 && !results::has_hdf5()) {
     throw base::InputError(
         {source.file.string() +
          ": sweep.hdf5 = true: this program was built without HDF5"});
   }
   check_once(plan.over);
-  const Found found = find_all(plan, inputs::without_sweep(source.root));
-  for (inputs::DrawnFile& drawn : plan.covariance) {
+  const Found found = find_all(plan, cases::without_sweep(source.root));
+  for (cases::DrawnFile& drawn : plan.covariance) {
     drawn.path = std::filesystem::absolute(drawn.path).lexically_normal();
   }
   Study study = study_of(source, request, plan, found);
   Rows rows(plan, found);
   check_keys(study, rows.first());
-  const inputs::Case first = first_case(study, rows, request.folder);
+  const cases::Case first = first_case(study, rows, request.folder);
   progress("The first row");
   const results::Answer answered = run::answer(study.command, first);
   if (answered.heading.ok || study.take.empty()) {
@@ -196,14 +196,14 @@ std::string case_toml(const Prepared& prepared, const std::filesystem::path& fol
 }
 
 std::string meaning_of(const Prepared& prepared) {
-  inputs::Sweep plan = prepared.plan;
+  cases::Sweep plan = prepared.plan;
   plan.hdf5 = false;  // the rows are the same
-  for (inputs::DrawnFile& drawn : plan.covariance) {
+  for (cases::DrawnFile& drawn : plan.covariance) {
     drawn.path.clear();  // what is drawn is told by its numbers, wherever it lies
   }
   std::string meaning =
       fmt::format("{} {}\n{}\n{}{}", results::version(), results::commit(),
-                  prepared.as_understood, inputs::sweep_toml(plan), prepared.meaning);
+                  prepared.as_understood, cases::sweep_toml(plan), prepared.meaning);
   for (const auto& [name, table] : prepared.study.data.records) {
     for (std::size_t i = 0; i < table->columns.size(); ++i) {
       const std::vector<double> samples = table->values(i);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/case_source.h>
+#include <trochoid/cases/case_source.h>
 #include <trochoid/run/progress.h>
 #include <trochoid/sweep/row.h>
 #include <trochoid/sweep/rows.h>
@@ -16,14 +16,14 @@ struct Prepared {
   Study study;
   Rows rows;
   results::SweepResult result;  ///< without rows; case_toml is that for Request::folder
-  inputs::Sweep plan;           ///< [sweep] as understood
+  cases::Sweep plan;           ///< [sweep] as understood
   std::string meaning;          ///< all that draws depend on beside the seed
   std::string as_understood;    ///< the case of the first row, without [sweep]
 };
 
 /// @brief Check a case with [sweep], and lay out its rows.
 /// @throws base::InputError where the case, a swept key or what is to be taken is wrong
-Prepared prepare(const inputs::CaseSource& source, const Request& request,
+Prepared prepare(const cases::CaseSource& source, const Request& request,
                  const run::Progress& progress);
 
 /// @brief The case as understood, [sweep] too, with names of files as they count from

@@ -39,7 +39,7 @@ std::optional<Cell> cell_of(const Value& value) {
                                                             : std::nullopt;
 }
 
-Cell cell_of(const inputs::Node& node) {
+Cell cell_of(const cases::Node& node) {
   if (const auto* real = std::get_if<double>(&node.value)) {
     return *real;
   }
@@ -140,27 +140,27 @@ std::vector<std::string> paths_of(const Answer& answer) {
   return paths;
 }
 
-inputs::Node root_of(const Study& study, std::span<const inputs::Node> values) {
-  inputs::Node root = study.root;
+cases::Node root_of(const Study& study, std::span<const cases::Node> values) {
+  cases::Node root = study.root;
   for (std::size_t k = 0; k < values.size(); ++k) {
     set_key(root, study.over[k], values[k]);
   }
   return root;
 }
 
-inputs::CaseSource source_of(const Study& study, const inputs::Node& root) {
+cases::CaseSource source_of(const Study& study, const cases::Node& root) {
   return {root, study.file, study.data, study.base};
 }
 
-results::SweepRow row_of(const Study& study, std::span<const inputs::Node> values) {
+results::SweepRow row_of(const Study& study, std::span<const cases::Node> values) {
   results::SweepRow row{.cells = {}, .status = "ok", .message = {}};
-  for (const inputs::Node& value : values) {
+  for (const cases::Node& value : values) {
     row.cells.push_back(cell_of(value));
   }
   row.cells.resize(values.size() + study.take.size(), none);
   try {
-    const inputs::Node root = root_of(study, values);
-    inputs::Case given = inputs::read_case(source_of(study, root), study.command);
+    const cases::Node root = root_of(study, values);
+    cases::Case given = cases::read_case(source_of(study, root), study.command);
     if (!compares(study)) {
       given.measurements.clear();
     }
@@ -183,7 +183,7 @@ results::SweepRow row_of(const Study& study, std::span<const inputs::Node> value
 
 std::vector<results::SweepRow> rows(
     const Study& study, std::size_t count,
-    const std::function<std::vector<inputs::Node>(std::size_t)>& values) {
+    const std::function<std::vector<cases::Node>(std::size_t)>& values) {
   std::vector<results::SweepRow> rows(count);
   numerics::for_each_index(
       count, [&](std::size_t i) { rows[i] = row_of(study, values(i)); }, 1);

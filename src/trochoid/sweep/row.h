@@ -1,8 +1,8 @@
 #pragma once
 
 #include <trochoid/base/command.h>
-#include <trochoid/inputs/case_source.h>
-#include <trochoid/inputs/sweep.h>
+#include <trochoid/cases/case_source.h>
+#include <trochoid/cases/sweep.h>
 #include <trochoid/results/sweep.h>
 
 #include <cstddef>
@@ -19,20 +19,20 @@ namespace trochoid::sweep {
 /// What all rows have in common.
 struct Study {
   base::Command command = base::Command::simulate;
-  inputs::Node root;                   ///< the case without its [sweep]
+  cases::Node root;                   ///< the case without its [sweep]
   std::filesystem::path file;          ///< of the case
-  std::vector<inputs::SweptKey> over;  ///< without their values
+  std::vector<cases::SweptKey> over;  ///< without their values
   std::vector<std::string> take;
-  inputs::DataInMemory data = {};
+  cases::DataInMemory data = {};
   std::filesystem::path base = {};  ///< as in CaseSource
 };
 
 /// The case of one row.
 /// @param values  one for each swept key
-inputs::Node root_of(const Study& study, std::span<const inputs::Node> values);
+cases::Node root_of(const Study& study, std::span<const cases::Node> values);
 
 /// A case of the study, where its files are.
-inputs::CaseSource source_of(const Study& study, const inputs::Node& root);
+cases::CaseSource source_of(const Study& study, const cases::Node& root);
 
 /// @brief The value at a path of an answer: `result.mean_N[1]`, entries from 1.
 /// @return none where the answer has no such value
@@ -46,12 +46,12 @@ std::vector<std::string> paths_of(const results::Answer& answer);
 ///
 /// Wrong input and no answer are a status of the row.
 /// @param values  one for each swept key
-results::SweepRow row_of(const Study& study, std::span<const inputs::Node> values);
+results::SweepRow row_of(const Study& study, std::span<const cases::Node> values);
 
 /// @brief Rows, on all threads; the same bits for every number of them.
 /// @param values  of row 0, 1 ... count - 1
 std::vector<results::SweepRow> rows(
     const Study& study, std::size_t count,
-    const std::function<std::vector<inputs::Node>(std::size_t)>& values);
+    const std::function<std::vector<cases::Node>(std::size_t)>& values);
 
 }  // namespace trochoid::sweep

@@ -10,13 +10,13 @@ namespace trochoid::sweep {
 
 namespace {
 
-using inputs::EvenValues;
-using inputs::ListedValues;
-using inputs::NormalValues;
-using inputs::SweepMethod;
-using inputs::SweptKey;
+using cases::EvenValues;
+using cases::ListedValues;
+using cases::NormalValues;
+using cases::SweepMethod;
+using cases::SweptKey;
 
-inputs::Node number(const SweptKey& key, double value) {
+cases::Node number(const SweptKey& key, double value) {
   return {.value = value, .where = key.where};
 }
 
@@ -25,7 +25,7 @@ double between(const EvenValues& even, double share) {
 }
 
 /// The i-th value of a key that has values of its own.
-inputs::Node value_at(const SweptKey& key, std::size_t i) {
+cases::Node value_at(const SweptKey& key, std::size_t i) {
   if (const auto* list = std::get_if<ListedValues>(&key.values)) {
     return list->values[i];
   }
@@ -41,7 +41,7 @@ inputs::Node value_at(const SweptKey& key, std::size_t i) {
 }
 
 /// Where a share `p` of the distribution of a key lies below.
-inputs::Node value_of_chance(const SweptKey& key, double p) {
+cases::Node value_of_chance(const SweptKey& key, double p) {
   if (const auto* list = std::get_if<ListedValues>(&key.values)) {
     const auto n = list->values.size();
     return list
@@ -65,7 +65,7 @@ constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15U;
 
 }  // namespace
 
-Samples::Samples(const inputs::Sweep& sweep) : sweep_(sweep) {
+Samples::Samples(const cases::Sweep& sweep) : sweep_(sweep) {
   std::mt19937_64 random(sweep.seed);
   if (by_chance(sweep.method)) {
     chance_ = chances(random, sweep.over.size(), sweep.rows,
@@ -85,8 +85,8 @@ std::vector<std::size_t> Samples::places_in_grid(std::size_t row) const {
   return place;
 }
 
-std::vector<inputs::Node> Samples::row(std::size_t row) const {
-  std::vector<inputs::Node> values;
+std::vector<cases::Node> Samples::row(std::size_t row) const {
+  std::vector<cases::Node> values;
   const std::size_t keys = sweep_.over.size();
   if (chance_.empty()) {
     const auto place = places_in_grid(row);
@@ -101,7 +101,7 @@ std::vector<inputs::Node> Samples::row(std::size_t row) const {
   return values;
 }
 
-Rows::Rows(const inputs::Sweep& sweep, Found found)
+Rows::Rows(const cases::Sweep& sweep, Found found)
     : samples_(sweep),
       found_(std::move(found)),
       draws_(found_.sets.empty() ? 0 : sweep.draws),
@@ -109,7 +109,7 @@ Rows::Rows(const inputs::Sweep& sweep, Found found)
   std::mt19937_64 random(sweep.seed ^ other_stream);
   for (const FoundSet& set : found_.sets) {
     chance_.push_back(chances(random, set.distribution.chances(), draws_,
-                              sweep.method == inputs::SweepMethod::latin_hypercube));
+                              sweep.method == cases::SweepMethod::latin_hypercube));
   }
 }
 
@@ -117,11 +117,11 @@ std::size_t Rows::size() const noexcept {
   return draws_ == 0 || of_each_row_ ? samples_.rows() : draws_ * samples_.rows();
 }
 
-std::vector<inputs::Node> Rows::row(std::size_t i) const {
+std::vector<cases::Node> Rows::row(std::size_t i) const {
   if (draws_ == 0) {
     return samples_.row(i);
   }
-  std::vector<inputs::Node> values = samples_.row(of_each_row_ ? i : i / draws_);
+  std::vector<cases::Node> values = samples_.row(of_each_row_ ? i : i / draws_);
   const std::size_t draw = i % draws_;
   auto key = found_.keys.begin();
   for (std::size_t s = 0; s < found_.sets.size(); ++s) {
@@ -138,8 +138,8 @@ std::vector<inputs::Node> Rows::row(std::size_t i) const {
   return values;
 }
 
-std::vector<inputs::Node> Rows::first() const {
-  std::vector<inputs::Node> values = samples_.row(0);
+std::vector<cases::Node> Rows::first() const {
+  std::vector<cases::Node> values = samples_.row(0);
   values.insert(values.end(), found_.values.begin(), found_.values.end());
   return values;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <trochoid/inputs/sweep.h>
+#include <trochoid/cases/sweep.h>
 #include <trochoid/sweep/found.h>
 
 #include <cstddef>
@@ -17,17 +17,17 @@ namespace trochoid::sweep {
 /// threads.
 class Samples {
  public:
-  explicit Samples(const inputs::Sweep& sweep);
+  explicit Samples(const cases::Sweep& sweep);
 
   [[nodiscard]] std::size_t rows() const noexcept { return sweep_.rows; }
   /// @param row  below rows()
   /// @return one value for each key, in their order
-  [[nodiscard]] std::vector<inputs::Node> row(std::size_t row) const;
+  [[nodiscard]] std::vector<cases::Node> row(std::size_t row) const;
 
  private:
   [[nodiscard]] std::vector<std::size_t> places_in_grid(std::size_t row) const;
 
-  inputs::Sweep sweep_;
+  cases::Sweep sweep_;
   /// By chance: from 0 to 1, shape (keys, rows); empty for grids and lists.
   std::vector<double> chance_;
 };
@@ -39,12 +39,12 @@ class Samples {
 /// its own.
 class Rows {
  public:
-  Rows(const inputs::Sweep& sweep, Found found);
+  Rows(const cases::Sweep& sweep, Found found);
 
   [[nodiscard]] std::size_t size() const noexcept;
-  [[nodiscard]] std::vector<inputs::Node> row(std::size_t i) const;
+  [[nodiscard]] std::vector<cases::Node> row(std::size_t i) const;
   /// The first row with everything as found.
-  [[nodiscard]] std::vector<inputs::Node> first() const;
+  [[nodiscard]] std::vector<cases::Node> first() const;
 
  private:
   Samples samples_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/base/stop.h>
-#include <trochoid/inputs/case_source.h>
+#include <trochoid/cases/case_source.h>
 #include <trochoid/results/sweep.h>
 #include <trochoid/run/progress.h>
 
@@ -29,7 +29,7 @@ std::filesystem::path part_file_of(const std::filesystem::path& folder);
 /// @throws base::InputError where the case, a swept key or what is to be taken is wrong
 /// @param stop  from when on no part is begun but the first: no answer, but rows that
 ///              are kept
-results::SweepResult sweep(const inputs::CaseSource& source, const Request& request,
+results::SweepResult sweep(const cases::CaseSource& source, const Request& request,
                            const run::Progress& progress, base::Stop stop = {});
 
 }  // namespace trochoid::sweep

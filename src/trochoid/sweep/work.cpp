@@ -84,14 +84,14 @@ std::filesystem::path part_file_of(const std::filesystem::path& folder) {
   return part.replace_filename(fmt::format(".{}.part", part.filename().string()));
 }
 
-results::SweepResult sweep(const inputs::CaseSource& source, const Request& request,
+results::SweepResult sweep(const cases::CaseSource& source, const Request& request,
                            const run::Progress& progress, base::Stop stop) {
   Work work(source, request, progress);
   work.go_on(progress, stop, part_time);
   return work.take_result();
 }
 
-Work::Work(const inputs::CaseSource& source, const Request& request,
+Work::Work(const cases::CaseSource& source, const Request& request,
            const run::Progress& progress)
     : prepared_(prepare(source, request, progress)),
       parts_(request.part_file, meaning_of(prepared_),

@@ -18,7 +18,7 @@ namespace trochoid::sweep {
 class Work {
  public:
   /// @throws base::InputError where the case, a swept key or what is to be taken is wrong
-  Work(const inputs::CaseSource& source, const Request& request,
+  Work(const cases::CaseSource& source, const Request& request,
        const run::Progress& progress);
 
   [[nodiscard]] const Prepared& prepared() const noexcept { return prepared_; }

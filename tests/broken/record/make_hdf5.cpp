@@ -1,9 +1,9 @@
 // Writes the HDF5 files of this folder, each wrong in one way, and a sound one for
 // fuzzing: make_broken_hdf5 tests/broken/record
-#include "../../unit/inputs/hdf5_made.h"
+#include "../../unit/files/hdf5_made.h"
 
-using trochoid::inputs::made::hdf5_file;
-using trochoid::inputs::made::Hdf5Set;
+using trochoid::cases::made::hdf5_file;
+using trochoid::cases::made::Hdf5Set;
 
 namespace {
 

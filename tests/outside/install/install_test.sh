@@ -54,7 +54,7 @@ c++ -std=c++20 $strict "$here/consumer/main.cpp" -o "$scratch/by_pkg_config" \
 (cd "$prefix/include" && find trochoid -name '*.h') >"$scratch/headers"
 sed 's/.*/#include <&>/' "$scratch/headers" >"$scratch/all_headers.cpp"
 c++ -std=c++20 -fsyntax-only $strict -I"$prefix/include" "$scratch/all_headers.cpp"
-for internal in numerics/dense.h inputs/schema.h dynamics/stepper.h report/page.h; do
+for internal in numerics/dense.h cases/schema.h dynamics/stepper.h report/page.h; do
   [ -f "$here/../../../src/trochoid/$internal" ]
   ! grep -qx "trochoid/$internal" "$scratch/headers" || { echo "$internal is installed"; exit 1; }
 done

@@ -1,6 +1,6 @@
 #include "machine_samples.h"
 
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/run/commands.h>
 #include <trochoid/run/modes.h>
 #include <trochoid/run/shared_modes.h>
@@ -18,49 +18,49 @@ const std::filesystem::path examples = TROCHOID_EXAMPLES;
 
 Answer modes() {
   return answer_of(trochoid::run::modes(
-      inputs::read_case(examples / "tap_test/case.toml", inputs::Command::modes)));
+      cases::read_case(examples / "tap_test/case.toml", cases::Command::modes)));
 }
 
 Answer shared_modes() {
-  inputs::MachineTables machine;
-  machine.frf = inputs::FrfTables{
-      .source = {.file = inputs::file_at(
+  cases::MachineTables machine;
+  machine.frf = cases::FrfTables{
+      .source = {.file = files::file_at(
                      (examples / "several_responses/tool.uff").string())},
       .modes = 2};
   return answer_of(trochoid::run::shared_modes(
-      inputs::bare_case(machine, inputs::Command::modes, {})));
+      cases::bare_case(machine, cases::Command::modes, {})));
 }
 
 Answer actuator() {
   return answer_of(trochoid::run::actuator(
-      inputs::read_case(examples / "tap_test/case.toml", inputs::Command::actuator)));
+      cases::read_case(examples / "tap_test/case.toml", cases::Command::actuator)));
 }
 
 Answer motion() {
   return answer_of(
-      trochoid::run::dynamics(inputs::read_case(examples / "runout_table_8mm/sine.toml",
-                                                inputs::Command::dynamics),
+      trochoid::run::dynamics(cases::read_case(examples / "runout_table_8mm/sine.toml",
+                                                cases::Command::dynamics),
                               {}));
 }
 
 Answer correction() {
   return answer_of(
-      trochoid::run::correct(inputs::read_case(examples / "runout_correction/case.toml",
-                                               inputs::Command::correct),
+      trochoid::run::correct(cases::read_case(examples / "runout_correction/case.toml",
+                                               cases::Command::correct),
                              true, {}));
 }
 
 Answer chatter() {
   return answer_of(
-      trochoid::run::dynamics(inputs::read_case(examples / "stability_922Hz/case.toml",
-                                                inputs::Command::dynamics),
+      trochoid::run::dynamics(cases::read_case(examples / "stability_922Hz/case.toml",
+                                                cases::Command::dynamics),
                               {}));
 }
 
 Answer tool_point() {
-  inputs::Case given = inputs::read_case(examples / "measured_frf/case.toml",
-                                         inputs::Command::stability);
-  inputs::Stability& diagram = *given.machine.stability;
+  cases::Case given = cases::read_case(examples / "measured_frf/case.toml",
+                                         cases::Command::stability);
+  cases::Stability& diagram = *given.machine.stability;
   diagram.spindle_speed->count = 9;
   diagram.axial_depth->count = 8;
   diagram.harmonics = 2;
@@ -69,7 +69,7 @@ Answer tool_point() {
 
 Answer plan() {
   return answer_of(trochoid::run::plan(
-      inputs::read_case(examples / "plan_next_cut/case.toml", inputs::Command::plan),
+      cases::read_case(examples / "plan_next_cut/case.toml", cases::Command::plan),
       {}));
 }
 

@@ -1,7 +1,7 @@
 #include "wall_samples.h"
 
 #include <trochoid/base/units.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/run/commands.h>
 
 #include <fstream>
@@ -103,11 +103,11 @@ void write_readings(const trochoid::surface::ErrorMap& map,
 }
 
 /// The wall, with runout.
-inputs::Case cut_wall(const char* model, const std::filesystem::path& folder) {
+cases::Case cut_wall(const char* model, const std::filesystem::path& folder) {
   const auto file =
       written(folder / "surface.toml", cut + material + wall_table +
                                            "position_mm = 30\n" + surface_table(model));
-  return inputs::read_case(file, inputs::Command::surface);
+  return cases::read_case(file, cases::Command::surface);
 }
 
 Answer calibrated(const std::string& model, bool number_teeth, double highest,
@@ -120,7 +120,7 @@ Answer calibrated(const std::string& model, bool number_teeth, double highest,
                   "\n[[surface_measurement]]\nfile = \"wall.csv\"\ndatum_offset = " +
                   (number_teeth ? "false\n" : "true\n"));
   return answer_of(trochoid::run::calibrate(
-      inputs::read_case(file, inputs::Command::calibrate), {}));
+      cases::read_case(file, cases::Command::calibrate), {}));
 }
 
 }  // namespace
@@ -131,9 +131,9 @@ Answer wall(const char* model, const std::filesystem::path& folder) {
 
 Answer lobes(const std::filesystem::path& folder) {
   const auto file =
-      written(folder / "stability.toml", inputs::new_case(inputs::Command::stability));
+      written(folder / "stability.toml", cases::new_case(cases::Command::stability));
   return answer_of(trochoid::run::stability(
-      inputs::read_case(file, inputs::Command::stability), {}));
+      cases::read_case(file, cases::Command::stability), {}));
 }
 
 Answer calibration(const char* model, bool number_teeth,
@@ -148,7 +148,7 @@ Answer wall_plan(const std::filesystem::path& folder) {
           "[plan]\nlargest_error_um = 40\nheights = [3, 7, 13]\nreadings_per_height = "
           "[3, 12, 36]\n");
   return answer_of(
-      trochoid::run::plan_wall(inputs::read_case(file, inputs::Command::plan), {}));
+      trochoid::run::plan_wall(cases::read_case(file, cases::Command::plan), {}));
 }
 
 Answer one_height(const std::filesystem::path& folder) {

@@ -16,7 +16,7 @@ TEST(Compare, FindsThePhaseAndNothingLeft) {
   folder.write("record.csv", csv_text(two_turns(0.3), Axis::angle));
   std::vector<base::Warning> warnings;
   const auto all =
-      compare(folder.read(inputs::test::slot + runout + measurement), warnings);
+      compare(folder.read(cases::test::slot + runout + measurement), warnings);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_TRUE(warnings.empty());
   EXPECT_NEAR(all[0].match.phase, 0.3, 1e-4);
@@ -33,7 +33,7 @@ TEST(Compare, ReadsTheChannelsAsTheDynamometerHasThem) {
   folder.write("record.csv", csv_text(record, Axis::angle));
   std::vector<base::Warning> warnings;
   const auto all =
-      compare(folder.read(inputs::test::slot + runout + measurement +
+      compare(folder.read(cases::test::slot + runout + measurement +
                           "[dynamometer]\naxes = [\"-y\", \"x\", \"z\"]\n"),
               warnings);
   ASSERT_EQ(all.size(), 1U);
@@ -44,7 +44,7 @@ TEST(Compare, SaysWhyItDoesNot) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(), Axis::angle));
   std::vector<base::Warning> warnings;
-  EXPECT_TRUE(compare(folder.read(inputs::test::slot + measurement +
+  EXPECT_TRUE(compare(folder.read(cases::test::slot + measurement +
                                   "[dynamometer]\naxes = \"auto\"\n"),
                       warnings)
                   .empty());

@@ -17,7 +17,7 @@ TEST(DescribeRecord, TellsTimesByTheStatedSpeed) {
   }
   record.channel_column = {"Fx", "Fy", "Fz"};
   record.time_column = "t";
-  inputs::Measurement measurement;
+  cases::Measurement measurement;
   measurement.cut.Omega = 600 * unit::rpm;
   EXPECT_EQ(describe_record(record, measurement),
             "a.csv: 1001 samples, 1 s at 1000 Hz, about 10.0 revolutions at the stated "

@@ -8,11 +8,11 @@ namespace trochoid::run {
 namespace {
 
 TEST(FitOptions, AreWhatTheCaseAsksFor) {
-  inputs::Case given;
+  cases::Case given;
   given.identify.runout = identification::RunoutUnknowns::eccentricity;
   given.identify.phase = 20 * unit::deg;
   given.identify.band_harmonics = 4;
-  given.identify.channel_offsets = inputs::ChannelOffset::fit;
+  given.identify.channel_offsets = cases::ChannelOffset::fit;
   const auto options = fit_options(given, chip::Model::feed);
   EXPECT_EQ(options.chip_model, chip::Model::feed);
   EXPECT_EQ(options.runout, identification::RunoutUnknowns::eccentricity);
@@ -23,16 +23,16 @@ TEST(FitOptions, AreWhatTheCaseAsksFor) {
 
 /// Offsets read off the idle parts are gone before anything is fitted.
 TEST(FitOptions, FitNoOffsetsThatWereTakenOut) {
-  inputs::Case given;
+  cases::Case given;
   for (const auto offsets :
-       {inputs::ChannelOffset::none, inputs::ChannelOffset::idle}) {
+       {cases::ChannelOffset::none, cases::ChannelOffset::idle}) {
     given.identify.channel_offsets = offsets;
     EXPECT_FALSE(fit_options(given, chip::Model::feed).fit_channel_offsets);
   }
 }
 
 TEST(AxesProblem, TakesTheLastOfTheModels) {
-  inputs::Case given;
+  cases::Case given;
   given.setup.cut.f_z = 0.1 * unit::mm;
   given.law = force::Power{};
   given.identify.chip_models = {chip::Model::none, chip::Model::feed};

@@ -11,8 +11,8 @@ namespace {
 
 using identification::Fit;
 
-inputs::Case given() {
-  inputs::Case out;
+cases::Case given() {
+  cases::Case out;
   out.setup.cutter.pitch = geometry::equal_pitch(2);
   out.setup.cut.f_z = 0.04 * unit::mm;
   return out;
@@ -25,7 +25,7 @@ Fit sound() {
   return fit;
 }
 
-std::vector<base::Warning> warnings(const Fit& fit, const inputs::Case& c = given(),
+std::vector<base::Warning> warnings(const Fit& fit, const cases::Case& c = given(),
                                     std::vector<Fit> others = {}) {
   others.push_back(fit);
   std::vector<base::Warning> out;
@@ -34,7 +34,7 @@ std::vector<base::Warning> warnings(const Fit& fit, const inputs::Case& c = give
 }
 
 /// The one code that a fit is warned of.
-std::string code(const Fit& fit, const inputs::Case& c = given(),
+std::string code(const Fit& fit, const cases::Case& c = given(),
                  std::vector<Fit> others = {}) {
   const auto all = warnings(fit, c, std::move(others));
   EXPECT_EQ(all.size(), 1U);

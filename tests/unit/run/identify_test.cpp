@@ -11,7 +11,7 @@ namespace trochoid::run {
 namespace {
 
 using namespace test;
-using inputs::Command;
+using cases::Command;
 using results::IdentifyResult;
 
 const std::string options = R"([identify]
@@ -24,7 +24,7 @@ IdentifyResult identified(const identification::Record& record,
   const CaseFolder folder;
   folder.write("record.csv", csv_text(record, Axis::angle));
   return identify(
-      folder.read(inputs::test::slot + measurement + text, Command::identify),
+      folder.read(cases::test::slot + measurement + text, Command::identify),
       [](const std::string&) {});
 }
 
@@ -52,7 +52,7 @@ TEST(Identify, WithoutTimeFitsTheModelThatDecidesAlone) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));
   const auto given = folder.read(
-      inputs::test::slot + measurement + "[identify]\nsweep_um = [-10, 10, 3]\n",
+      cases::test::slot + measurement + "[identify]\nsweep_um = [-10, 10, 3]\n",
       Command::identify);
   const IdentifyResult r = identify(
       given, [](const std::string&) {}, base::Stop{base::Stop::Clock::now()});
@@ -77,7 +77,7 @@ TEST(Identify, WithoutTimeFitsTheModelThatDecidesAlone) {
 TEST(Identify, WithoutWorkLeftFitsTheModelThatDecidesAlone) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));
-  const auto given = folder.read(inputs::test::slot + measurement, Command::identify);
+  const auto given = folder.read(cases::test::slot + measurement, Command::identify);
   base::Stop little;
   little.left = std::make_shared<std::atomic<std::int64_t>>(1);
   little.grace = 1'000'000'000;
@@ -95,7 +95,7 @@ TEST(Identify, WithoutWorkLeftFitsTheModelThatDecidesAlone) {
 TEST(Identify, EndsEvenTheFitThatDecidesWhereItTakesTooMuch) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));
-  const auto given = folder.read(inputs::test::slot + measurement, Command::identify);
+  const auto given = folder.read(cases::test::slot + measurement, Command::identify);
   const auto work = [&](std::int64_t grace) {
     base::Stop little;
     little.left = std::make_shared<std::atomic<std::int64_t>>(1);
@@ -119,7 +119,7 @@ TEST(Identify, TellsToolAndHolderApart) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(record, Axis::angle));
   const auto answer = [&](const std::string& phase) {
-    const std::string text = inputs::test::slot + measurement + options;
+    const std::string text = cases::test::slot + measurement + options;
     return identify(
         folder.read(
             std::string(text).replace(text.find("teeth = 2"), 9, "teeth = 3") +
@@ -158,9 +158,9 @@ TEST(Identify, SaysThatAnotherReadingOfTheChannelsFitsBetter) {
   const CaseFolder folder;
   const auto answer = [&](const char* axes) {
     folder.write("record.csv", csv_text(record, Axis::angle));
-    const std::string text = inputs::test::tool +
+    const std::string text = cases::test::tool +
                              "shape = \"bull_nose\"\ncorner_radius_mm = 3.0\n" +
-                             inputs::test::cut + inputs::test::force;
+                             cases::test::cut + cases::test::force;
     return identify(folder.read(text + measurement + options +
                                     "[dynamometer]\naxes = " + axes + "\n",
                                 Command::identify),
@@ -192,7 +192,7 @@ TEST(Identify, GoesWithoutAChannel) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(record, Axis::angle));
   const auto answer = [&](const std::string& dynamometer) {
-    return identify(folder.read(inputs::test::slot + measurement +
+    return identify(folder.read(cases::test::slot + measurement +
                                     "columns = [\"Fx_N\", \"Fy_N\"]\n" + options +
                                     "[dynamometer]\n" + dynamometer,
                                 Command::identify),

@@ -15,7 +15,7 @@ constexpr signal::Matrix3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// A case in memory and its record, channels = Q force.
 struct Made {
-  inputs::Case given;
+  cases::Case given;
   std::vector<MeasuredRun> runs;
 
   explicit Made(const signal::Matrix3& Q) {
@@ -60,7 +60,7 @@ TEST(LookAtChannels, NamesAReadingThatFitsBetter) {
   EXPECT_NE(found[0].message.find("the channels read x, z, y"), std::string::npos);
   EXPECT_TRUE(look(Made(identity)).empty());
   Made searched({{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}});
-  searched.given.dynamometer = inputs::Dynamometer{.automatic = true};
+  searched.given.dynamometer = cases::Dynamometer{.automatic = true};
   EXPECT_TRUE(look(searched).empty());
 }
 
@@ -106,8 +106,8 @@ TEST(LikelyCauses, ListTheOthersWhereNoAxesDo) {
   EXPECT_EQ(causes.find("spindle_rpm"), std::string::npos) << "angles were measured";
 
   made.runs[0].by_time = true;
-  made.given.dynamometer = inputs::Dynamometer{.automatic = true};
-  made.given.identify.channel_offsets = inputs::ChannelOffset::fit;
+  made.given.dynamometer = cases::Dynamometer{.automatic = true};
+  made.given.identify.channel_offsets = cases::ChannelOffset::fit;
   causes = made.causes();
   EXPECT_NE(causes.find("spindle_rpm = 875"), std::string::npos) << causes;
   EXPECT_EQ(causes.find("axes"), std::string::npos) << "all of them were tried";

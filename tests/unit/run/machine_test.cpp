@@ -11,16 +11,16 @@
 namespace trochoid::run {
 namespace {
 
-using inputs::Axis;
-using inputs::ModeBody;
+using cases::Axis;
+using cases::ModeBody;
 
-inputs::MachineTables table_on_actuator() {
-  inputs::MachineTables machine;
+cases::MachineTables table_on_actuator() {
+  cases::MachineTables machine;
   machine.modes = {
       {.axis = Axis::y, .stiffness = 8e6, .frequency = 2500, .damping_ratio = 0.025},
       {.axis = Axis::z, .mass = 1.0, .stiffness = 1e6, .damping = 10},
       {.body = ModeBody::table, .mass = 0.194, .stiffness = 1.7e7, .damping = 77.3}};
-  machine.actuator = inputs::Actuator{.gain = 0.99, .time_constants = {1e-3, 2e-3}};
+  machine.actuator = cases::Actuator{.gain = 0.99, .time_constants = {1e-3, 2e-3}};
   return machine;
 }
 
@@ -37,7 +37,7 @@ TEST(ChipModes, AreWhatTheChipFeels) {
 
 TEST(ChipModes, OfADirectionAskewMoveXAndY) {  // [D-1]
   const double angle = 30 * unit::deg;
-  const std::vector<inputs::Mode> modes = {
+  const std::vector<cases::Mode> modes = {
       {.angle = angle, .mass = 1.0, .stiffness = 1e6, .damping = 10},
       {.axis = Axis::y, .angle = angle, .mass = 1.0, .stiffness = 1e6, .damping = 10},
       {.body = ModeBody::table,
@@ -59,7 +59,7 @@ TEST(ChipModes, OfADirectionAskewMoveXAndY) {  // [D-1]
 }
 
 TEST(PlantOf, IsATableHeldByItsActuatorUnlessToldOtherwise) {
-  inputs::MachineTables machine = table_on_actuator();
+  cases::MachineTables machine = table_on_actuator();
   const correction::Plant held = plant_of(machine);
   EXPECT_EQ(held.k_s, 1.7e7);
   EXPECT_EQ(held.c_s, 77.3);
@@ -73,7 +73,7 @@ TEST(PlantOf, IsATableHeldByItsActuatorUnlessToldOtherwise) {
 }
 
 TEST(PlantOf, NeedsAnActuatorAndATable) {
-  inputs::MachineTables machine = table_on_actuator();
+  cases::MachineTables machine = table_on_actuator();
   machine.modes.pop_back();
   EXPECT_THROW(static_cast<void>(plant_of(machine)), std::invalid_argument);
   machine = table_on_actuator();
@@ -82,7 +82,7 @@ TEST(PlantOf, NeedsAnActuatorAndATable) {
 }
 
 TEST(LimitsOf, AreThoseOfTheActuator) {
-  inputs::Actuator actuator{
+  cases::Actuator actuator{
       .stroke = {10e-6, 50e-6}, .slew = 0.02, .push = 900, .highest_frequency = 300};
   const correction::ActuatorLimits limits = limits_of(actuator);
   EXPECT_EQ(limits.stroke_low, 10e-6);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "../identification/made_record.h"
-#include "../inputs/case_text.h"
+#include "../cases/case_text.h"
 
 #include <fmt/core.h>
 
@@ -10,12 +10,12 @@
 /// Case files with a record made by the program's own forces.
 namespace trochoid::run::test {
 
-using inputs::test::CaseFolder;
+using cases::test::CaseFolder;
 
 /// What is told of a record beside its channels.
 enum class Axis { angle, time };
 
-/// The cutter and the cut of inputs::test::slot.
+/// The cutter and the cut of cases::test::slot.
 inline force::Setup made_setup() {
   force::Setup setup = identification::slot_setup(2, 30.0, 2.0 * unit::mm);
   setup.runout.radial_offsets = {0.0, -8.0 * unit::um};

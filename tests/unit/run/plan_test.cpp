@@ -10,7 +10,7 @@ namespace trochoid::run {
 namespace {
 
 using namespace test;
-using inputs::Command;
+using cases::Command;
 using results::PlanResult;
 
 const auto silent = [](const std::string&) {};
@@ -19,7 +19,7 @@ const std::string one_model = "[identify]\nchip_models = [\"trochoidal\"]\n";
 PlanResult planned(const std::string& text) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 4.0), Axis::angle));
-  return plan(folder.read(inputs::test::slot + text, Command::plan), silent);
+  return plan(folder.read(cases::test::slot + text, Command::plan), silent);
 }
 
 bool warned(const PlanResult& r, const std::string& code) {
@@ -31,7 +31,7 @@ TEST(Plan, StartsFromWhatIdentifyAnswers) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 4.0), Axis::angle));
   const auto given =
-      folder.read(inputs::test::slot + measurement + one_model, Command::plan);
+      folder.read(cases::test::slot + measurement + one_model, Command::plan);
   const identification::Fit fit = identify(given, silent).fits.at(0);
   const PlanResult r = plan(given, silent);
   ASSERT_TRUE(r.heading.ok) << r.heading.message;
@@ -59,7 +59,7 @@ TEST(Plan, StartsFromWhatIdentifyAnswers) {
 TEST(Plan, GoesWithoutAChannel) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 4.0), Axis::angle));
-  const auto given = folder.read(inputs::test::slot + measurement +
+  const auto given = folder.read(cases::test::slot + measurement +
                                      "columns = [\"Fx_N\", \"Fy_N\"]\n" + one_model +
                                      "[plan]\nquantities = [\"coefficients\"]\n",
                                  Command::plan);
@@ -126,7 +126,7 @@ TEST(Plan, HasNoAnswerWhereTheRecordsHaveNone) {
   }
   folder.write("record.csv", csv_text(record, Axis::angle));
   const PlanResult r = plan(
-      folder.read(inputs::test::slot + measurement + one_model, Command::plan), silent);
+      folder.read(cases::test::slot + measurement + one_model, Command::plan), silent);
   EXPECT_FALSE(r.heading.ok);
   EXPECT_TRUE(r.heading.message.starts_with("the measurements so far"))
       << r.heading.message;
@@ -146,7 +146,7 @@ TEST(Plan, IsForTheLastGroup) {
   worn.K_tc *= 1.1;
   write("worn.csv", worn);
   const PlanResult r =
-      plan(folder.read(inputs::test::slot + measurement + "group = \"new\"\n" +
+      plan(folder.read(cases::test::slot + measurement + "group = \"new\"\n" +
                            "[[measurement]]\nfile = \"worn.csv\"\ngroup = \"worn\"\n" +
                            one_model,
                        Command::plan),

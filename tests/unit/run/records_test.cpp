@@ -14,7 +14,7 @@ namespace trochoid::run {
 namespace {
 
 using namespace test;
-using inputs::Command;
+using cases::Command;
 
 struct Read {
   std::vector<MeasuredRun> runs;
@@ -31,7 +31,7 @@ TEST(MeasuredRuns, TakeTheAnglesOfTheRecord) {
   const CaseFolder folder;
   const auto record = two_turns();
   folder.write("record.csv", csv_text(record, Axis::angle));
-  const Read got = read(folder, inputs::test::slot + measurement);
+  const Read got = read(folder, cases::test::slot + measurement);
   ASSERT_EQ(got.runs.size(), 1U);
   const MeasuredRun& run = got.runs.front();
   EXPECT_FALSE(run.by_time);
@@ -47,7 +47,7 @@ TEST(MeasuredRuns, FindTheSpeedOfARecordWithTimes) {
   const auto record = identification::made_record(
       made_setup(), made_law(), {.per_turn = 90, .turns = 20.0, .noise = 1.0});
   folder.write("record.csv", csv_text(record, Axis::time, 880.0));
-  const Read got = read(folder, inputs::test::slot + measurement);
+  const Read got = read(folder, cases::test::slot + measurement);
   ASSERT_EQ(got.runs.size(), 1U);
   EXPECT_TRUE(got.runs[0].by_time);
   EXPECT_NEAR(got.runs[0].Omega / unit::rpm, 880.0, 0.05);
@@ -64,7 +64,7 @@ TEST(MeasuredRuns, NameASpeedThatIsFarFromTheStatedOne) {
   const auto record = identification::made_record(
       made_setup(), made_law(), {.per_turn = 90, .turns = 20.0, .noise = 1.0});
   folder.write("record.csv", csv_text(record, Axis::time, 1100.0));  // 875 is stated
-  const Read got = read(folder, inputs::test::slot + measurement);
+  const Read got = read(folder, cases::test::slot + measurement);
   ASSERT_EQ(got.warnings.size(), 1U);
   EXPECT_EQ(got.warnings[0].code, "spindle_speed_unknown");
   EXPECT_NE(got.warnings[0].message.find("It repeats at 1100.0 rpm, +26 % off"),
@@ -81,7 +81,7 @@ TEST(MeasuredRuns, NameDeadAndClippedChannels) {
     F[2] = 12.5;
   }
   folder.write("record.csv", csv_text(record, Axis::angle));
-  const Read got = read(folder, inputs::test::slot + measurement);
+  const Read got = read(folder, cases::test::slot + measurement);
   ASSERT_EQ(got.warnings.size(), 2U);
   EXPECT_EQ(got.warnings[0].code, "clipped_channel");
   EXPECT_NE(got.warnings[0].message.find("channel 2 (column Fy_N) stays"),
@@ -96,7 +96,7 @@ TEST(MeasuredRuns, NameTheProblemsOfAllFiles) {
   folder.write("other.csv", "angle_deg,Fx_N,Fy_N\n0,1,2\n");
   const std::string other = "[[measurement]]\nfile = \"other.csv\"\n";
   try {
-    static_cast<void>(read(folder, inputs::test::slot + measurement + other));
+    static_cast<void>(read(folder, cases::test::slot + measurement + other));
     FAIL() << "read what cannot be read";
   } catch (const base::InputError& error) {
     const std::string what = error.what();
@@ -110,7 +110,7 @@ TEST(MeasuredRuns, RefuseAnAngleThatFalls) {
   folder.write("record.csv",
                "angle_deg,time_s,Fx_N,Fy_N,Fz_N\n"
                "30,0,1,2,3\n20,0.1,1,2,3\n10,0.2,1,2,3\n");
-  EXPECT_THROW(static_cast<void>(read(folder, inputs::test::slot + measurement)),
+  EXPECT_THROW(static_cast<void>(read(folder, cases::test::slot + measurement)),
                base::InputError);
 }
 
@@ -126,7 +126,7 @@ TEST(MeasuredRuns, TakeTheDriftOutWhereTheToolIdles) {
     record.force[i][0] += 50.0 + 0.02 * static_cast<double>(i);
   }
   folder.write("record.csv", csv_text(record, Axis::angle));
-  const Read got = read(folder, inputs::test::slot + measurement +
+  const Read got = read(folder, cases::test::slot + measurement +
                                     "[identify]\nchannel_offsets = \"idle\"\n");
   ASSERT_EQ(got.runs.size(), 1U);
   ASSERT_EQ(got.warnings.size(), 1U);
@@ -155,7 +155,7 @@ TEST(MeasuredRuns, UseTheLongestSteadyPassAndSaySo) {
   const CaseFolder folder;
   const auto record = two_passes();
   folder.write("record.csv", csv_text(record, Axis::time));
-  const Read got = read(folder, inputs::test::slot + measurement);
+  const Read got = read(folder, cases::test::slot + measurement);
   ASSERT_EQ(got.warnings.size(), 1U) << got.warnings.back().message;
   EXPECT_EQ(got.warnings[0].code, "part_used");
   // 875 rpm: a turn takes 68.6 ms; passes from 0.34 to 1.03 s and from 1.37 to 2.40 s.
@@ -176,18 +176,18 @@ TEST(MeasuredRuns, KeepTheTimesThatAreStated) {
   const auto record = two_passes();
   folder.write("record.csv", csv_text(record, Axis::time));
   const Read got =
-      read(folder, inputs::test::slot + measurement + "from_s = 0.5\nto_s = 0.9\n");
+      read(folder, cases::test::slot + measurement + "from_s = 0.5\nto_s = 0.9\n");
   EXPECT_TRUE(got.warnings.empty()) << got.warnings.front().message;
   EXPECT_NEAR(static_cast<double>(got.runs[0].run.angle.size()), 0.4 * 875 / 60 * 180,
               2.0);
   for (const char* wrong : {"from_s = 70\n", "from_s = 0.5\nto_s = 0.5\n"}) {
     EXPECT_THROW(
-        static_cast<void>(read(folder, inputs::test::slot + measurement + wrong)),
+        static_cast<void>(read(folder, cases::test::slot + measurement + wrong)),
         base::InputError);
   }
   folder.write("record.csv", csv_text(record, Axis::angle));
   EXPECT_THROW(static_cast<void>(
-                   read(folder, inputs::test::slot + measurement + "to_s = 0.9\n")),
+                   read(folder, cases::test::slot + measurement + "to_s = 0.9\n")),
                base::InputError);
 }
 
@@ -196,7 +196,7 @@ TEST(MeasuredRuns, ReadTheOffsetInTheAirUnlessToldOtherwise) {
   auto record = two_passes();
   for (auto& F : record.force) F[2] += 25.0;
   folder.write("record.csv", csv_text(record, Axis::time));
-  const std::string text = inputs::test::slot + measurement;
+  const std::string text = cases::test::slot + measurement;
   const auto mean = [&](const std::string& more) {
     const auto got = read(folder, text + more);
     const auto& z = got.runs[0].run.channel[2];
@@ -209,7 +209,7 @@ TEST(MeasuredRuns, ReadTheOffsetInTheAirUnlessToldOtherwise) {
 TEST(MeasuredRuns, LeaveTheOffsetWhereNothingIsIdle) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(), Axis::angle));
-  const Read got = read(folder, inputs::test::slot + measurement +
+  const Read got = read(folder, cases::test::slot + measurement +
                                     "[identify]\nchannel_offsets = \"idle\"\n");
   ASSERT_EQ(got.warnings.size(), 1U);
   EXPECT_EQ(got.warnings[0].code, "no_idle_part");

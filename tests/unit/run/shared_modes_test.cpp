@@ -1,5 +1,5 @@
-#include "../inputs/case_text.h"
-#include "../inputs/uff58_made.h"
+#include "../cases/case_text.h"
+#include "../files/uff58_made.h"
 #include "../structure/made_shapes.h"
 
 #include <trochoid/base/error.h>
@@ -17,8 +17,8 @@
 namespace trochoid::run {
 namespace {
 
-using inputs::Command;
-using inputs::test::CaseFolder;
+using cases::Command;
+using cases::test::CaseFolder;
 
 const made::Plane tilted{{{{1000, 0.03, 0.5, 30}, {1080, 0.025, 0.8, 120}}}};
 const made::Measuring coarse{.band = {600, 1600, 5}};
@@ -73,7 +73,7 @@ dynamics::System included(const CaseFolder& folder, const results::ModesResult& 
                                                "K_te_N_per_mm = 0\n"
                                                "K_re_N_per_mm = 0\n"
                                                "K_ae_N_per_mm = 0\n"));
-  return chip_modes(inputs::read_case(path, Command::stability).machine.modes);
+  return chip_modes(cases::read_case(path, Command::stability).machine.modes);
 }
 
 TEST(SharedModes, GoIntoACaseOfStabilityAsTheyLie) {  // [M-33]
@@ -82,7 +82,7 @@ TEST(SharedModes, GoIntoACaseOfStabilityAsTheyLie) {  // [M-33]
   folder.write("yy.csv", table("yy", "mm/N", 1e3));
   folder.write("xy.csv", table("xy", "m/N", 1));
   const auto given =
-      inputs::read_case(folder.write("case.toml", three), Command::modes);
+      cases::read_case(folder.write("case.toml", three), Command::modes);
   EXPECT_TRUE(modes_are_shared(given));
   const auto found = shared_modes(given);
   ASSERT_TRUE(found.heading.ok) << found.heading.message;
@@ -99,7 +99,7 @@ TEST(SharedModes, AResponseWithoutAUnitIsRefusedWithASentence) {
   folder.write("yy.csv", table("yy", "", 1));
   folder.write("xy.csv", table("xy", "m/N", 1));
   const auto given =
-      inputs::read_case(folder.write("case.toml", three), Command::modes);
+      cases::read_case(folder.write("case.toml", three), Command::modes);
   try {
     shared_modes(given);
     FAIL() << "taken";
@@ -115,7 +115,7 @@ std::string universal(const std::vector<std::string>& names, int node_of_last = 
   std::string text;
   for (const std::string& name : names) {
     const auto one = made::measured(tilted, name, coarse);
-    inputs::MadeSet set{.unit = "m", .kind = 8};
+    cases::MadeSet set{.unit = "m", .kind = 8};
     set.direction = name[0] == 'x' ? 1 : 2;
     set.reference = name[1] == 'x' ? -1 : 2;
     set.node = &name == &names.back() ? node_of_last : 7;
@@ -123,19 +123,19 @@ std::string universal(const std::vector<std::string>& names, int node_of_last = 
       set.x.push_back(one.response.omega[i] / unit::Hz);
       set.y.push_back(name[1] == 'x' ? -one.response.H[i] : one.response.H[i]);
     }
-    text += inputs::as_text(set);
+    text += cases::as_text(set);
   }
   return text;
 }
 
-inputs::Case bare(const CaseFolder& folder, const std::string& text) {
-  inputs::MachineTables machine;
-  machine.frf = inputs::FrfTables{
-      .source = {.file = inputs::file_at(folder.write("all.uff", text).string())},
+cases::Case bare(const CaseFolder& folder, const std::string& text) {
+  cases::MachineTables machine;
+  machine.frf = cases::FrfTables{
+      .source = {.file = files::file_at(folder.write("all.uff", text).string())},
       .modes = 2,
-      .residual_terms = inputs::ResidualTerms::no,
-      .shapes = inputs::Shapes::real};
-  return inputs::bare_case(machine, Command::modes, {});
+      .residual_terms = cases::ResidualTerms::no,
+      .shapes = cases::Shapes::real};
+  return cases::bare_case(machine, Command::modes, {});
 }
 
 TEST(SharedModes, SetsOfOneUniversalFileAreTakenTogetherWithTheirSigns) {
@@ -163,7 +163,7 @@ TEST(SharedModes, AWrongCalibrationOfOneCrossResponseIsSaid) {  // [M-34]
   folder.write("yy.csv", table("yy", "m/N", 1));
   folder.write("xy.csv", table("xy", "m/N", 1));
   folder.write("yx.csv", table("yx", "m/N", 1.1));
-  const auto found = shared_modes(inputs::read_case(
+  const auto found = shared_modes(cases::read_case(
       folder.write("case.toml", three + "[[measured_frf]]\nfile = \"yx.csv\"\n"
                                         "axis = \"y\"\nforce_axis = \"x\"\n"),
       Command::modes));

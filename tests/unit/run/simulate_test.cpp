@@ -29,7 +29,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(Simulate, AnswersTheForcesOfItsSamples) {
-  const auto r = simulated(inputs::test::slot + runout);
+  const auto r = simulated(cases::test::slot + runout);
   ASSERT_EQ(r.phi.size(), 720U);
   const auto expected = force::forces(made_setup(), made_law(), r.phi, 1e-10);
   const auto peak = std::max_element(
@@ -44,7 +44,7 @@ TEST(Simulate, AnswersTheForcesOfItsSamples) {
 }
 
 TEST(Simulate, GivesTheClosedFormWhereItHolds) {
-  const auto r = simulated(inputs::test::slot + "[chip]\nmodel = \"none\"\n");
+  const auto r = simulated(cases::test::slot + "[chip]\nmodel = \"none\"\n");
   ASSERT_TRUE(r.closed_form_mean.has_value());
   EXPECT_NEAR((*r.closed_form_mean)[2], r.force.mean[2],
               1e-3 * std::abs(r.force.mean[2]));
@@ -52,25 +52,25 @@ TEST(Simulate, GivesTheClosedFormWhereItHolds) {
 
 TEST(Simulate, SaysWhichToothIdles) {
   const auto r =
-      simulated(inputs::test::slot + "[runout]\nradial_offsets_mm = [0.0, -0.1]\n");
+      simulated(cases::test::slot + "[runout]\nradial_offsets_mm = [0.0, -0.1]\n");
   EXPECT_EQ(codes(r), std::vector<std::string>{"idle_tooth"});
   EXPECT_TRUE(r.engagement.teeth.at(1).arcs.empty());
 }
 
 TEST(Simulate, SaysThatNothingIsCutWithoutFeed) {
-  const auto r = simulated(replaced(inputs::test::slot, "feed_per_tooth_mm = 0.04",
+  const auto r = simulated(replaced(cases::test::slot, "feed_per_tooth_mm = 0.04",
                                     "feed_per_tooth_mm = 0"));
   EXPECT_EQ(codes(r), (std::vector<std::string>{"no_cut", "zero_feed"}));
 }
 
 TEST(Simulate, SaysWhatAHeightAboveTheCutMeans) {
   const auto r =
-      simulated(inputs::test::slot + "[sampling]\nedge_heights_mm = [1.0, 5.0]\n");
+      simulated(cases::test::slot + "[sampling]\nedge_heights_mm = [1.0, 5.0]\n");
   EXPECT_EQ(codes(r), std::vector<std::string>{"height_above_cut"});
 }
 
 TEST(Simulate, SaysThatOneToothBackDoesNotConserveTheVolume) {
-  const auto r = simulated(inputs::test::slot +
+  const auto r = simulated(cases::test::slot +
                            "[runout]\nradial_offsets_mm = [0.0, -0.1]\n"
                            "[chip]\nmodel = \"feed\"\nlookback = \"previous\"\n");
   const auto seen = codes(r);

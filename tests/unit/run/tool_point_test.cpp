@@ -1,4 +1,4 @@
-#include "../inputs/case_text.h"
+#include "../cases/case_text.h"
 #include "slot_case.h"
 
 #include <trochoid/base/error.h>
@@ -17,8 +17,8 @@
 namespace trochoid::run {
 namespace {
 
-using inputs::Command;
-using inputs::test::CaseFolder;
+using cases::Command;
+using cases::test::CaseFolder;
 
 const std::string slot =
     small_cut("engagement = \"slot\"", "0.3", 12000) + R"([stability]
@@ -58,7 +58,7 @@ results::StabilityResult answered(const std::string& csv,
   const CaseFolder folder;
   folder.write("x.csv", csv);
   return stability(
-      inputs::read_case(folder.write("case.toml", slot + more), Command::stability),
+      cases::read_case(folder.write("case.toml", slot + more), Command::stability),
       {});
 }
 
@@ -108,7 +108,7 @@ TEST(ToolPoint, ACrossResponseTellsHowModesLie) {  // [D-25]
     folder.write("y.csv", askew(true, true, turned));
     folder.write("xy.csv", askew(false, true, turned));
     std::vector<base::Warning> warnings;
-    const auto given = inputs::read_case(
+    const auto given = cases::read_case(
         folder.write("case.toml",
                      slot + along_x +
                          "[[measured_frf]]\nfile = \"y.csv\"\naxis = \"y\"\n"
@@ -135,7 +135,7 @@ TEST(ModesAskew, ChatterInTimeWhereTheMultiplierSaysSo) {  // [D-1] [D-2]
       "frequency_Hz = 1080\ndamping_ratio = 0.03\n";
   const CaseFolder folder;
   const auto limit = stability(
-      inputs::read_case(folder.write("case.toml", slot + modes), Command::stability),
+      cases::read_case(folder.write("case.toml", slot + modes), Command::stability),
       {});
   ASSERT_TRUE(limit.stability.limit);
   const auto verdict_at = [&](double factor) {
@@ -144,7 +144,7 @@ TEST(ModesAskew, ChatterInTimeWhereTheMultiplierSaysSo) {  // [D-1] [D-2]
     text.replace(text.find(depth), depth.size(),
                  fmt::format("axial_depth_mm = {}",
                              factor * limit.stability.limit->limit.depth / unit::mm));
-    return dynamics(inputs::read_case(folder.write("case.toml", text + modes),
+    return dynamics(cases::read_case(folder.write("case.toml", text + modes),
                                       Command::dynamics),
                     {})
         .steady->verdict;

@@ -1,4 +1,4 @@
-#include "../inputs/case_text.h"
+#include "../cases/case_text.h"
 #include "slot_case.h"
 
 #include <trochoid/base/units.h>
@@ -14,8 +14,8 @@
 namespace trochoid::run {
 namespace {
 
-using inputs::Command;
-using inputs::test::CaseFolder;
+using cases::Command;
+using cases::test::CaseFolder;
 
 const std::string benchmark =
     small_cut("engagement = \"slot\"", "0.2", 5000) + one_mode;
@@ -53,7 +53,7 @@ std::vector<std::string> codes(const std::vector<base::Warning>& warnings) {
 
 class Vibration : public testing::Test {
  protected:
-  [[nodiscard]] inputs::Case read(const std::string& text, Command command) const {
+  [[nodiscard]] cases::Case read(const std::string& text, Command command) const {
     return folder_.read(text, command);
   }
   CaseFolder folder_;

@@ -1,4 +1,4 @@
-#include "../inputs/case_text.h"
+#include "../cases/case_text.h"
 #include "slot_case.h"
 
 #include <trochoid/run/commands.h>
@@ -12,13 +12,13 @@
 namespace trochoid::run {
 namespace {
 
-using inputs::Command;
-using inputs::test::CaseFolder;
+using cases::Command;
+using cases::test::CaseFolder;
 
 const std::string cut =
     small_cut("engagement = \"down\"\nradial_depth_mm = 1", "0.2", 5000) + one_mode;
 
-inputs::Case read(const std::string& more, Command command) {
+cases::Case read(const std::string& more, Command command) {
   return CaseFolder().read(cut + more, command);
 }
 
@@ -99,7 +99,7 @@ TEST(WorkOf, RecordsAreTheirBytes) {
   const auto given =
       folder.read(cut + "[[measurement]]\nfile = \"record.csv\"", Command::identify);
   EXPECT_EQ(work_of(Command::identify, given).at(0).count, 1234);
-  inputs::Case bare;
+  cases::Case bare;
   bare.machine.frf.emplace().source.file.path = (folder.path() / "record.csv").string();
   EXPECT_EQ(work_of(Command::modes, bare).at(0).count, 1234);
   bare.machine.frf->source.file.path = (folder.path() / "none.csv").string();

@@ -15,8 +15,8 @@ namespace trochoid::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-using inputs::Members;
-using inputs::Node;
+using cases::Members;
+using cases::Node;
 using results::Joint;
 
 Node number(double value) {
@@ -37,7 +37,7 @@ struct FoundFile : testing::Test {
   FoundFile(const FoundFile&) = delete;
   FoundFile& operator=(const FoundFile&) = delete;
 
-  inputs::DrawnFile file(const Joint& joint, const char* command,
+  cases::DrawnFile file(const Joint& joint, const char* command,
                          const std::string& name = "found") {
     const fs::path path = folder / (name + "." + command + ".json");
     std::ofstream(path) << results::json_text(results::Object{
@@ -81,7 +81,7 @@ Node a_mode(const char* body, const char* axis, double f) {
                 {"damping_Ns_per_m", {}, number(10)}});
 }
 
-std::string problems_of(const inputs::Sweep& sweep, const Node& root) {
+std::string problems_of(const cases::Sweep& sweep, const Node& root) {
   try {
     find_all(sweep, root);
   } catch (const base::InputError& error) {
@@ -118,13 +118,13 @@ TEST_F(FoundFile, OfOffsetsMovesThoseThatStayToTheSameZero) {
                      .values = {-0.010},
                      .factors = {2},
                      .covariance = {1e-6}};
-  const Node own = {.value = inputs::Array{number(0.010), number(0.004), number(0.002)},
+  const Node own = {.value = cases::Array{number(0.010), number(0.004), number(0.002)},
                     .where = {}};
   const Node root = table({{"runout", {}, table({{"radial_offsets_mm", {}, own}})}});
   const Found found =
       find_all({.covariance = {file(second, "identify")}, .draws = 5}, root);
   const Node* list = find(*find(found.root, "runout"), "radial_offsets_mm");
-  const auto& offsets = std::get<inputs::Array>(list->value);
+  const auto& offsets = std::get<cases::Array>(list->value);
   ASSERT_EQ(offsets.size(), 3U);
   EXPECT_NEAR(std::get<double>(offsets[0].value), 0.0, 1e-15);
   EXPECT_NEAR(std::get<double>(offsets[1].value), -0.010, 1e-15);
@@ -134,7 +134,7 @@ TEST_F(FoundFile, OfOffsetsMovesThoseThatStayToTheSameZero) {
 TEST_F(FoundFile, OfAnEccentricityNearZeroIsDrawnByItsComponents) {
   Joint joint = slot();
   joint.values = {800, 0, 0};
-  const inputs::Sweep sweep{
+  const cases::Sweep sweep{
       .covariance = {file(joint, "identify")}, .draws = 4000, .rows = 1};
   const Found found = find_all(sweep, table({}));
   const Rows rows(sweep, found);
@@ -161,14 +161,14 @@ TEST_F(FoundFile, FindsItsModesAmongThoseOfTheCase) {
   const Node root = table(
       {{"mode",
         {},
-        {.value = inputs::Array{a_mode("tool", "y", 901), a_mode("tool", "x", 1510),
+        {.value = cases::Array{a_mode("tool", "y", 901), a_mode("tool", "x", 1510),
                                 a_mode("tool", "x", 890)},
          .where = {}}}});
   const Found found =
       find_all({.covariance = {file(two_modes(), "modes")}, .draws = 5}, root);
   EXPECT_EQ(found.keys[0].key, "mode[3].frequency_Hz");
   EXPECT_EQ(found.keys[5].key, "mode[2].mass_kg");
-  const auto& modes = std::get<inputs::Array>(find(found.root, "mode")->value);
+  const auto& modes = std::get<cases::Array>(find(found.root, "mode")->value);
   EXPECT_EQ(std::get<double>(find(modes[2], "frequency_Hz")->value), 900);
   EXPECT_EQ(std::get<double>(find(modes[2], "mass_kg")->value), 0.04);
   EXPECT_EQ(find(modes[2], "stiffness_N_per_m"), nullptr);
@@ -178,7 +178,7 @@ TEST_F(FoundFile, FindsItsModesAmongThoseOfTheCase) {
 TEST_F(FoundFile, GivesItsModesToACaseWithoutAny) {
   const Found found =
       find_all({.covariance = {file(two_modes(), "modes")}, .draws = 5}, table({}));
-  const auto& modes = std::get<inputs::Array>(find(found.root, "mode")->value);
+  const auto& modes = std::get<cases::Array>(find(found.root, "mode")->value);
   ASSERT_EQ(modes.size(), 2U);
   EXPECT_EQ(std::get<std::string>(find(modes[1], "body")->value), "tool");
   EXPECT_EQ(std::get<double>(find(modes[1], "frequency_Hz")->value), 1500);
@@ -191,13 +191,13 @@ TEST_F(FoundFile, ACaseWithoutModesTakesThoseOfEveryFile) {
       {.covariance = {file(two_modes(), "modes"), file(along_y, "modes", "other")},
        .draws = 5},
       table({}));
-  ASSERT_EQ(std::get<inputs::Array>(find(found.root, "mode")->value).size(), 4U);
+  ASSERT_EQ(std::get<cases::Array>(find(found.root, "mode")->value).size(), 4U);
   ASSERT_EQ(found.keys.size(), 12U);
   EXPECT_EQ(found.keys[6].key, "mode[3].frequency_Hz");
 }
 
 TEST_F(FoundFile, IsRefusedWhereTheCaseIsAnother) {
-  const inputs::Sweep sweep{.covariance = {file(slot(), "identify")}, .draws = 5};
+  const cases::Sweep sweep{.covariance = {file(slot(), "identify")}, .draws = 5};
   const Node power = table({{"force", {}, table({{"law", {}, text("power")}})}});
   EXPECT_NE(problems_of(sweep, power).find("linear_edge"), std::string::npos);
   const Node four = table(
@@ -206,16 +206,16 @@ TEST_F(FoundFile, IsRefusedWhereTheCaseIsAnother) {
   EXPECT_NE(why.find("case.toml:7:14"), std::string::npos);
   EXPECT_NE(why.find("runout of 2 teeth"), std::string::npos);
   const Node far = table(
-      {{"mode", {}, {.value = inputs::Array{a_mode("tool", "x", 700)}, .where = {}}}});
+      {{"mode", {}, {.value = cases::Array{a_mode("tool", "x", 700)}, .where = {}}}});
   EXPECT_NE(problems_of({.covariance = {file(two_modes(), "modes")}, .draws = 5}, far)
                 .find("none nearer than 700 Hz"),
             std::string::npos);
 }
 
 TEST_F(FoundFile, IsRefusedWhereAKeyIsSetTwice) {
-  inputs::Sweep sweep{.over = {{.key = "force.K_tc_MPa",
+  cases::Sweep sweep{.over = {{.key = "force.K_tc_MPa",
                                 .where = {"case.toml", 9, 1},
-                                .values = inputs::ListedValues{{number(1)}}}},
+                                .values = cases::ListedValues{{number(1)}}}},
                       .covariance = {file(slot(), "identify")},
                       .draws = 5};
   EXPECT_NE(problems_of(sweep, table({})).find("either of them"), std::string::npos);
@@ -225,9 +225,9 @@ TEST_F(FoundFile, IsRefusedWhereAKeyIsSetTwice) {
 }
 
 TEST_F(FoundFile, OfAGridHasTheSameDrawsAtEveryPoint) {
-  inputs::Sweep sweep{.over = {{.key = "cut.spindle_rpm",
+  cases::Sweep sweep{.over = {{.key = "cut.spindle_rpm",
                                 .where = {},
-                                .values = inputs::EvenValues{1000, 2000, 3}}},
+                                .values = cases::EvenValues{1000, 2000, 3}}},
                       .covariance = {file(slot(), "identify")},
                       .draws = 50,
                       .rows = 3};
@@ -247,12 +247,12 @@ TEST_F(FoundFile, OfAGridHasTheSameDrawsAtEveryPoint) {
 }
 
 TEST_F(FoundFile, ByChanceDoesNotGoWithTheSweptKeys) {
-  inputs::Sweep sweep{.over = {{.key = "cut.spindle_rpm",
+  cases::Sweep sweep{.over = {{.key = "cut.spindle_rpm",
                                 .where = {},
-                                .values = inputs::NormalValues{0, 1}}},
+                                .values = cases::NormalValues{0, 1}}},
                       .covariance = {file(slot(), "identify")},
                       .draws = 4000,
-                      .method = inputs::SweepMethod::random,
+                      .method = cases::SweepMethod::random,
                       .rows = 4000};
   const Found found = find_all(sweep, table({}));
   const Rows rows(sweep, found);

@@ -1,5 +1,5 @@
 #include <trochoid/base/error.h>
-#include <trochoid/inputs/sweep.h>
+#include <trochoid/cases/sweep.h>
 #include <trochoid/sweep/row.h>
 
 #include <gtest/gtest.h>
@@ -52,19 +52,19 @@ TEST(Taken, CanBeAllThatThePathsSay) {
   }
 }
 
-inputs::Node table(inputs::Members members) {
+cases::Node table(cases::Members members) {
   return {.value = std::move(members), .where = {}};
 }
 
-inputs::Node root() {
-  inputs::Array modes = {table({{"mass_kg", {}, {.value = 1.0, .where = {}}}}),
+cases::Node root() {
+  cases::Array modes = {table({{"mass_kg", {}, {.value = 1.0, .where = {}}}}),
                          table({{"mass_kg", {}, {.value = 2.0, .where = {}}}})};
   return table({{"cut", {}, table({{"feed", {}, {.value = 1.0, .where = {}}}})},
                 {"mode", {}, {.value = std::move(modes), .where = {}}}});
 }
 
 TEST(SetKey, ReplacesAddsAndGoesIntoLists) {
-  inputs::Node at = root();
+  cases::Node at = root();
   const auto set = [&](const char* key) {
     set_key(at, {.key = key, .where = {"case.toml", 3, 4}, .values = {}},
             {.value = 7.0, .where = {}});
@@ -77,7 +77,7 @@ TEST(SetKey, ReplacesAddsAndGoesIntoLists) {
   EXPECT_EQ(find(*find(at, "cut"), "feed")->where.line, 3);
   EXPECT_EQ(std::get<double>(find(*find(at, "cut"), "depth")->value), 7.0);
   EXPECT_EQ(std::get<double>(find(*find(at, "new"), "key")->value), 7.0);
-  const auto& modes = std::get<inputs::Array>(find(at, "mode")->value);
+  const auto& modes = std::get<cases::Array>(find(at, "mode")->value);
   EXPECT_EQ(std::get<double>(find(modes[0], "mass_kg")->value), 1.0);
   EXPECT_EQ(std::get<double>(find(modes[1], "mass_kg")->value), 7.0);
 }
@@ -85,7 +85,7 @@ TEST(SetKey, ReplacesAddsAndGoesIntoLists) {
 TEST(SetKey, RefusesPathsThatLeadNowhere) {
   for (const char* key : {"", "cut.", "mode[3].mass_kg", "mode[0].mass_kg", "mode[x]",
                           "mode[1", "cut[1].feed", "cut.feed.more", "mode.mass_kg"}) {
-    inputs::Node at = root();
+    cases::Node at = root();
     EXPECT_THROW(set_key(at, {.key = key, .where = {}, .values = {}},
                          {.value = 7.0, .where = {}}),
                  base::InputError)

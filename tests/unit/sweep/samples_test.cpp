@@ -9,13 +9,13 @@
 namespace trochoid::sweep {
 namespace {
 
-using inputs::EvenValues;
-using inputs::ListedValues;
-using inputs::NormalValues;
-using inputs::Sweep;
-using inputs::SweepMethod;
+using cases::EvenValues;
+using cases::ListedValues;
+using cases::NormalValues;
+using cases::Sweep;
+using cases::SweepMethod;
 
-double number(const inputs::Node& node) {
+double number(const cases::Node& node) {
   return std::get<double>(node.value);
 }
 

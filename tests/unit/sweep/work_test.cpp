@@ -1,5 +1,5 @@
-#include <trochoid/inputs/case.h>
-#include <trochoid/inputs/document.h>
+#include <trochoid/cases/case.h>
+#include <trochoid/cases/document.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/sweep/parts.h>
 #include <trochoid/sweep/work.h>
@@ -28,8 +28,8 @@ take = ["result.peak_xy_N"]
 
 struct WorkOfACase : testing::Test {
   WorkOfACase() {
-    std::ofstream(file) << inputs::new_case(base::Command::simulate) << swept;
-    root = inputs::load_document(file);
+    std::ofstream(file) << cases::new_case(base::Command::simulate) << swept;
+    root = cases::load_document(file);
   }
   ~WorkOfACase() override { fs::remove(file); }
   WorkOfACase(const WorkOfACase&) = delete;
@@ -40,7 +40,7 @@ struct WorkOfACase : testing::Test {
   }
 
   fs::path file = fs::temp_directory_path() / "trochoid_work_test.toml";
-  inputs::Node root;
+  cases::Node root;
 };
 
 std::string all_of(const results::SweepResult& result) {

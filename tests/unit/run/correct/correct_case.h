@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ inline const std::filesystem::path correction_example =
     std::filesystem::path(TROCHOID_SOURCE_DIR) / "examples/runout_correction";
 
 /// @param changes  each is done once, in their order
-inline inputs::Case correction_case(const Changes& changes = {},
+inline cases::Case correction_case(const Changes& changes = {},
                                     const char* file = "case.toml") {
   std::ostringstream read;
   read << std::ifstream(correction_example / file).rdbuf();
@@ -37,11 +37,11 @@ inline inputs::Case correction_case(const Changes& changes = {},
       std::filesystem::path(testing::TempDir()) /
       (std::string("trochoid_") + now->test_suite_name() + now->name() + ".toml");
   std::ofstream(path) << text;
-  return inputs::read_case(path, inputs::Command::correct);
+  return cases::read_case(path, cases::Command::correct);
 }
 
 /// The example whose runout is found in a record.
-inline inputs::Case measured_case() {
+inline cases::Case measured_case() {
   return correction_case({{"record.csv", (correction_example / "record.csv").string()}},
                          "measured.toml");
 }

@@ -8,7 +8,7 @@ namespace {
 
 using test::correction_case;
 
-correction::CorrectionProblem problem_of(const inputs::Case& given,
+correction::CorrectionProblem problem_of(const cases::Case& given,
                                          bool controller = false) {
   std::vector<base::Warning> warnings;
   return correction_problem(given, controller, warnings);
@@ -52,7 +52,7 @@ TEST(CorrectionProblem, TakesNoMoreSlicesThanAHelixLags) {
 }
 
 TEST(CorrectionProblem, HasAControllerWhereOneIsAskedFor) {
-  const inputs::Case given =
+  const cases::Case given =
       correction_case({{"encoder_counts = 4096", "encoder_counts = 100"}});
   EXPECT_FALSE(problem_of(given).controller);
   const auto with = problem_of(given, true).controller;

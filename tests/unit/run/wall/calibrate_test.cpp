@@ -39,12 +39,12 @@ std::string readings_at(const std::string& heights, double factor = 1.0) {
 }
 
 /// A calibration from such a file.
-inputs::Case calibrating(const std::string& file, const std::string& more = "") {
+cases::Case calibrating(const std::string& file, const std::string& more = "") {
   return case_of(cut_tables + cutter_table +
                      "[surface]\nmodel = \"imprint\"\nfeedback = \"none\"\n" + more +
                      "\n[[surface_measurement]]\nform = \"none\"\nfile = \"" + file +
                      "\"\n",
-                 inputs::Command::calibrate);
+                 cases::Command::calibrate);
 }
 
 const std::string heights = "[0.5, 1.0, 1.5, 2.0, 2.5]";
@@ -127,14 +127,14 @@ std::string profile_at(const std::string& x, double moved, double off,
   return file.string();
 }
 
-inputs::Case measuring(const std::string& file, const std::string& x,
+cases::Case measuring(const std::string& file, const std::string& x,
                        const std::string& surface_keys = "") {
   std::string text = cut_tables + cutter_table + wall_table + "[surface]\n" +
                      surface_keys + "\n[[surface_measurement]]\nfile = \"" + file +
                      "\"\nform = \"none\"\n";
   text.replace(text.find("position_mm = 20"), 16, "position_mm = " + x);
   text.replace(text.find("\"up\""), 4, "\"down\"");
-  return case_of(text, inputs::Command::calibrate);
+  return case_of(text, cases::Command::calibrate);
 }
 
 TEST(CalibrateWall, NamesReadingsFarOff) {  // [E-26]

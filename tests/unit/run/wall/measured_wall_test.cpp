@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-inputs::Case measured(const std::string& model, const std::string& readings,
+cases::Case measured(const std::string& model, const std::string& readings,
                       const std::string& keys = "") {
   const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
   const auto file = written(std::string(info->name()) + ".csv", readings);
@@ -20,7 +20,7 @@ inputs::Case measured(const std::string& model, const std::string& readings,
                      "[sampling]\nsamples_per_rev = 30\n[surface]\nmodel = \"" + model +
                      "\"\n[[surface_measurement]]\nfile = \"" + file.string() + "\"\n" +
                      keys,
-                 inputs::Command::calibrate);
+                 cases::Command::calibrate);
 }
 
 TEST(MeasuredWall, IsInSiWithItsTeethCountedFromZero) {
@@ -54,7 +54,7 @@ TEST(MeasuredWall, APulseIsAllMadeWhereTheCutterStands) {
 
 /// Repeats of two files are pooled; a place that both have stays two readings.
 TEST(MeasuredWall, CountsWhatWasLeftOutAndAveraged) {
-  inputs::Case given = measured("imprint",
+  cases::Case given = measured("imprint",
                                 "x_mm,height_mm,error_um,tooth\n"
                                 "10,0.5,20,1\n"
                                 "10,0.5,26,1\n"
@@ -74,7 +74,7 @@ TEST(MeasuredWall, CountsWhatWasLeftOutAndAveraged) {
 }
 
 TEST(MeasuredWall, NamesWhatIsWrongWithItsPlaces) {
-  const inputs::Case given = measured("imprint",
+  const cases::Case given = measured("imprint",
                                       "x_mm,height_mm,error_mm\n"
                                       "10,0.5,0.02\n"
                                       "10,5,0.02\n");

@@ -21,7 +21,7 @@ const std::string small =
     "feed_per_tooth_mm = [0.05, 0.1, 0.2]\nradial_depth_mm = [0.5, 1]\n";
 
 results::PlanWallResult planned(const std::string& text) {
-  return plan_wall(case_of(text, inputs::Command::plan), {});
+  return plan_wall(case_of(text, cases::Command::plan), {});
 }
 
 TEST(PlanWall, ChoosesTheFewestReadingsThatAreEnough) {

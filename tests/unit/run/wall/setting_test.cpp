@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 TEST(WallSetting, IsWhatTheCaseSaysInSi) {
-  const inputs::Case given = case_of(cut_tables + cutter_table + wall_table + R"(
+  const cases::Case given = case_of(cut_tables + cutter_table + wall_table + R"(
 [surface]
 model = "imprint"
 load = "concentrated"
@@ -35,7 +35,7 @@ probe_diameter_mm = 1
 }
 
 TEST(WallSetting, WhatIsNotThereIsRigid) {
-  const inputs::Case given = case_of(cut_tables);
+  const cases::Case given = case_of(cut_tables);
   const surface::Bodies bodies = wall_setting(given).bodies(0.0);
   EXPECT_FALSE(bodies.cutter || bodies.wall);
   EXPECT_EQ(wall_position(given), 0.0);

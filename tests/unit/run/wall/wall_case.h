@@ -1,7 +1,7 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/inputs/case.h>
+#include <trochoid/cases/case.h>
 
 #include <gtest/gtest.h>
 
@@ -62,10 +62,10 @@ inline std::filesystem::path written(const std::string& name, const std::string&
   return file;
 }
 
-inline inputs::Case case_of(const std::string& text,
-                            inputs::Command command = inputs::Command::surface) {
+inline cases::Case case_of(const std::string& text,
+                            cases::Command command = cases::Command::surface) {
   const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-  return inputs::read_case(written(std::string(test->name()) + ".toml", text), command);
+  return cases::read_case(written(std::string(test->name()) + ".toml", text), command);
 }
 
 template <class Result>

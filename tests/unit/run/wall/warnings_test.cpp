@@ -18,8 +18,8 @@ Estimate estimate(double value, double se) {
   return {value, se, value - 2 * se, value + 2 * se};
 }
 
-const inputs::Case& given(const std::string& feedback = "none") {
-  static inputs::Case read;
+const cases::Case& given(const std::string& feedback = "none") {
+  static cases::Case read;
   read = case_of(cut_tables + cutter_table + wall_table +
                  "[surface]\nmodel = \"envelope\"\nfeedback = \"" + feedback + "\"\n");
   return read;
@@ -39,7 +39,7 @@ surface::Calibration sound() {
   return c;
 }
 
-std::vector<base::Warning> warnings_of(const inputs::Case& read,
+std::vector<base::Warning> warnings_of(const cases::Case& read,
                                        const surface::Calibration& c,
                                        double error = 1e-6) {
   const std::vector<surface::Reading> readings = {{.error = error}, {.error = -error}};

@@ -1,0 +1,271 @@
+#include <trochoid/cases/read_value.h>
+#include <trochoid/cases/usual_values.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trochoid::cases {
+
+namespace {
+
+bool contains(const Range& range, double value) {
+  return (range.open_low ? value > range.low : value >= range.low) &&
+         (range.open_high ? value < range.high : value <= range.high);
+}
+
+/// `+x`, `x` or `-X`
+std::optional<files::Direction> axis_named(std::string_view text) {
+  const bool minus = text.starts_with('-');
+  if (minus || text.starts_with('+')) text.remove_prefix(1);
+  const auto at = std::string_view("xyzXYZ").find(text);
+  if (text.size() != 1 || at == std::string_view::npos) return std::nullopt;
+  files::Direction direction{};
+  direction[at % 3] = minus ? -1.0 : 1.0;
+  return direction;
+}
+
+struct ValueReader {
+  const Node& node;
+  const std::string& path;
+  const Key& key;
+  const Field& field;
+  Findings& findings;
+  Unit unit = unit_of(key.name);
+
+  /// @param at     the value that does not fit, or an entry of it
+  /// @param entry  1, 2 ... in a list; 0: not in a list
+  void refuse(const Node& at, std::size_t entry, std::string_view why) const {
+    const std::string what = entry > 0 ? fmt::format("{} entry {}", path, entry) : path;
+    report(findings, path, at.where,
+           fmt::format("{} = {}: {}; must be {} ({})", what, shown_value(key.name, at),
+                       why, expectation(key, field), key.meaning));
+  }
+  std::optional<double> number(const Node& at, std::size_t entry) const {
+    const auto value = number_in(at);
+    if (!value) {
+      refuse(at, entry, "not a number");
+    } else if (!std::isfinite(*value)) {
+      refuse(at, entry, "not a finite number");
+    } else if (!contains(key.range, *value)) {
+      refuse(at, entry, "out of range");
+    } else {
+      note_if_unusual(at, *value);
+      return *value * unit.factor;
+    }
+    return std::nullopt;
+  }
+  /// Once for a key, whatever the length of its list.
+  void note_if_unusual(const Node& at, double value) const {
+    const Range* usual = usual_range(path);
+    if (usual == nullptr || contains(*usual, value)) {
+      return;
+    }
+    const std::string start = path + " = ";
+    const auto same = [&](const base::Warning& note) {
+      return note.message.find(": " + start) != std::string::npos;
+    };
+    if (std::none_of(findings.notes.begin(), findings.notes.end(), same)) {
+      findings.notes.push_back(
+          {"unusual_value",
+           fmt::format(
+               "{}: {}{}: ordinary are {:g} to {:g} {} ({}); is the unit right?",
+               to_string(at.where), start, shown_value(key.name, at), usual->low,
+               usual->high, unit.symbol, key.meaning)});
+    }
+  }
+  [[nodiscard]] bool is_word() const {
+    const auto* text = std::get_if<std::string>(&node.value);
+    return text != nullptr && !key.word.empty() && *text == key.word;
+  }
+  const Array* list(std::size_t length) const {
+    const auto* entries = std::get_if<Array>(&node.value);
+    if (entries == nullptr) {
+      refuse(node, 0, "not a list");
+    } else if (entries->empty()) {
+      refuse(node, 0, "an empty list");
+      return nullptr;
+    } else if (length > 0 &&
+               (entries->size() > length || (entries->size() < length && !key.gaps))) {
+      refuse(node, 0, fmt::format("{} entries", entries->size()));
+      return nullptr;
+    }
+    return entries;
+  }
+  std::optional<int> chosen(const Node& at, std::size_t entry,
+                            std::span<const std::string_view> names) const {
+    const auto* text = std::get_if<std::string>(&at.value);
+    if (text == nullptr) {
+      refuse(at, entry, "not a text");
+      return std::nullopt;
+    }
+    const auto found = std::find(names.begin(), names.end(), *text);
+    if (found == names.end()) {
+      const std::string near =
+          nearest(*text, std::vector<std::string>(names.begin(), names.end()));
+      refuse(at, entry,
+             near.empty() ? "unknown"
+                          : fmt::format("unknown, did you mean \"{}\"?", near));
+      return std::nullopt;
+    }
+    return static_cast<int>(found - names.begin());
+  }
+
+  void operator()(bool* target) const {
+    if (const auto* value = std::get_if<bool>(&node.value)) {
+      *target = *value;
+    } else {
+      refuse(node, 0, "neither true nor false");
+    }
+  }
+  void operator()(int* target) const {
+    const auto value = number_in(node);
+    if (!value || (std::isfinite(*value) && *value != std::round(*value))) {
+      refuse(node, 0, "not a whole number");
+    } else if (const auto whole = number(node, 0)) {
+      *target = static_cast<int>(*whole);
+    }
+  }
+  void operator()(double* target) const { *target = number(node, 0).value_or(*target); }
+  void operator()(std::optional<double>* target) const {
+    if (is_word()) {
+      target->reset();
+    } else {
+      *target = number(node, 0);
+    }
+  }
+  void operator()(std::string* target) const {
+    const auto* value = std::get_if<std::string>(&node.value);
+    if (value == nullptr) {
+      refuse(node, 0, "not a text");
+    } else if (value->empty() && key.need == Need::always) {
+      refuse(node, 0, "an empty text");
+    } else {
+      *target = *value;
+    }
+  }
+  void operator()(files::FileRef* target) const { (*this)(&target->name); }
+  void operator()(std::vector<double>* target) const {
+    target->clear();
+    const Array* entries = list(key.count);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      target->push_back(number((*entries)[i], i + 1).value_or(0.0));
+    }
+  }
+  void operator()(std::optional<base::Steps>* target) const {
+    const Array* entries = list(3);
+    if (entries == nullptr) {
+      return;
+    }
+    const auto first = number((*entries)[0], 1);
+    const auto last = number((*entries)[1], 2);
+    const auto count = number_in((*entries)[2]);
+    if (!count) {
+      refuse((*entries)[2], 3, "not a number");
+    } else if (first && last) {
+      *target = {*first, *last, *count};
+    }
+  }
+  void operator()(std::vector<std::string>* target) const {
+    if (is_word()) {
+      *target = {std::string(key.word)};
+      return;
+    }
+    target->clear();
+    const Array* entries = list(key.count);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      const auto* text = std::get_if<std::string>(&(*entries)[i].value);
+      if (text == nullptr || (text->empty() && !key.gaps)) {
+        refuse((*entries)[i], i + 1, "not a text");
+      }
+      target->push_back(text == nullptr ? "" : *text);
+    }
+  }
+  void operator()(Rows* target) const {
+    target->clear();
+    const Array* rows = list(3);
+    for (std::size_t i = 0; rows != nullptr && i < rows->size(); ++i) {
+      const auto* row = std::get_if<Array>(&(*rows)[i].value);
+      if (row == nullptr || row->size() != 3) {
+        refuse((*rows)[i], i + 1, "not a row of 3 numbers");
+        continue;
+      }
+      auto& numbers = target->emplace_back();
+      for (std::size_t j = 0; j < 3; ++j) {
+        numbers[j] = number((*row)[j], 3 * i + j + 1).value_or(0.0);
+      }
+    }
+  }
+  void operator()(const Choice& choice) const {
+    if (const auto i = chosen(node, 0, choice.names)) {
+      choice.set(*i);
+    }
+  }
+  void operator()(const Choices& choices) const {
+    std::vector<int> all;
+    const Array* entries = list(0);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      const auto one = chosen((*entries)[i], i + 1, choices.names);
+      if (one && std::find(all.begin(), all.end(), *one) != all.end()) {
+        refuse((*entries)[i], i + 1, "twice in the list");
+      } else if (one) {
+        all.push_back(*one);
+      }
+    }
+    if (entries != nullptr) {
+      choices.set(all);
+    }
+  }
+  void operator()(std::optional<files::Direction>* target) const {
+    if (const auto* text = std::get_if<std::string>(&node.value)) {
+      *target = axis_named(*text);
+      if (!*target) refuse(node, 0, "no direction");
+      return;
+    }
+    const Array* entries = list(3);
+    if (entries == nullptr) return;
+    files::Direction direction{};
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto entry = number((*entries)[i], i + 1);
+      if (!entry) return;
+      direction[i] = *entry;
+      largest = std::max(largest, std::abs(*entry));
+    }
+    if (largest == 0.0) {
+      refuse(node, 0, "points nowhere");
+    } else {
+      *target = direction;
+    }
+  }
+  void operator()(std::optional<PreviousClamping>*) const {}  // read_table does it
+  void operator()(std::optional<files::SurfaceFrame>*) const {}      // so this
+  void operator()(CutTable*) const {}  // read_table does it: it needs [cut] as well
+};
+
+}  // namespace
+
+std::optional<double> number_in(const Node& node) {
+  if (const auto* whole = std::get_if<std::int64_t>(&node.value)) {
+    return static_cast<double>(*whole);
+  }
+  if (const auto* number = std::get_if<double>(&node.value)) {
+    return *number;
+  }
+  return std::nullopt;
+}
+
+std::string shown_value(std::string_view key, const Node& node) {
+  const std::string_view symbol = unit_of(key).symbol;
+  return number_in(node) && !symbol.empty()
+             ? fmt::format("{} {}", to_string(node), symbol)
+             : to_string(node);
+}
+
+void read_value(const Node& node, const std::string& path, const Key& key,
+                const Field& field, Findings& findings) {
+  std::visit(ValueReader{node, path, key, field, findings}, field);
+}
+
+}  // namespace trochoid::cases

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <trochoid/cases/tables.h>
+
+#include <string>
+
+namespace trochoid::cases {
+
+/// @brief The tables as a case file; reading it gives the same tables.
+std::string write_case(CaseTables& tables);
+
+/// @brief The same without the tables of a cut, for a case that has none.
+std::string write_machine_case(CaseTables& tables);
+
+}  // namespace trochoid::cases
