@@ -6,7 +6,7 @@
 option(TROCHOID_UNITY "Compile the files of a room together" ON)
 
 # trochoid_unity(TARGET [BYTES]): group the sources of a target by their folder under src or
-# tests; 60 kB a unit, or what BYTES says.
+# tests; 60 kB a unit, or what BYTES says. A source that has a UNITY_GROUP keeps it.
 function(trochoid_unity target)
   if(NOT TROCHOID_UNITY)
     return()
@@ -26,9 +26,10 @@ function(trochoid_unity target)
     set(room ${CMAKE_MATCH_2})
     get_source_file_property(alone ${source} TARGET_DIRECTORY ${target}
       SKIP_UNITY_BUILD_INCLUSION)
+    get_source_file_property(group ${source} TARGET_DIRECTORY ${target} UNITY_GROUP)
     # Highway compiles such a file once for each width of vectors.
     file(STRINGS ${source} vectors REGEX "foreach_target" LIMIT_COUNT 1)
-    if(vectors OR alone)
+    if(vectors OR alone OR group)
       continue()
     endif()
     file(SIZE ${source} bytes)

@@ -58,7 +58,8 @@ void read(const BrokenFile& broken) {
   } else if (broken.kind == "record") {
     static_cast<void>(files::read_record({.file = files::file_at(broken.file)}));
   } else {
-    static_cast<void>(files::read_surface({.file = files::file_at(broken.file)}, teeth));
+    static_cast<void>(
+        files::read_surface({.file = files::file_at(broken.file)}, teeth));
   }
 }
 

@@ -11,10 +11,10 @@
 
 namespace {
 
+using trochoid::cases::Command;
 using trochoid::fuzz::demand;
 using trochoid::fuzz::Folder;
 using trochoid::fuzz::write;
-using trochoid::cases::Command;
 
 /// The commands in their order, and none: that which the tables show.
 std::optional<Command> command_of(std::uint8_t byte) {

@@ -14,8 +14,8 @@
 
 namespace {
 
-using trochoid::fuzz::demand;
 using trochoid::files::RecordSource;
+using trochoid::fuzz::demand;
 
 /// The first byte chooses what the case file says about the record.
 RecordSource said_by(std::uint8_t byte) {

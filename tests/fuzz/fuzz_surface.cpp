@@ -10,9 +10,9 @@
 
 namespace {
 
-using trochoid::fuzz::demand;
 using trochoid::files::SurfaceFile;
 using trochoid::files::SurfaceReading;
+using trochoid::fuzz::demand;
 
 bool finite(const std::optional<double>& value) {
   return !value || std::isfinite(*value);
@@ -51,9 +51,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using trochoid::files::Direction;
     measurement.unit = trochoid::files::LengthUnit::mm;
     measurement.frame = trochoid::files::SurfaceFrame{{0.01, -0.005, 0.04},
-                                                       Direction{1, 0, 0},
-                                                       Direction{0, -1, 0},
-                                                       Direction{0, 0, 1}};
+                                                      Direction{1, 0, 0},
+                                                      Direction{0, -1, 0},
+                                                      Direction{0, 0, 1}};
   }
   std::istringstream in(std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
   try {

@@ -96,9 +96,9 @@ void expect_as_complete_fits(const Drawn& drawn) {
   const AxesChoice choice = find_axes(drawn.problem, drawn.runs, {});
   ASSERT_TRUE(choice.ok) << choice.message;
   const Complete complete = complete_fits(drawn);
-  EXPECT_TRUE(std::ranges::any_of(complete.readings, [&](const signal::AxesReading& reading) {
-    return reading.Q == choice.matrix;
-  }));
+  EXPECT_TRUE(std::ranges::any_of(
+      complete.readings,
+      [&](const signal::AxesReading& reading) { return reading.Q == choice.matrix; }));
   EXPECT_NEAR(choice.rms, complete.best, 1e-3 * complete.best);
   // A next that is near is searched as well as the best; one that is not, hardly.
   const bool near = complete.next < 2.0 * complete.best;

@@ -2,15 +2,15 @@
 
 #include <trochoid/base/command.h>
 #include <trochoid/base/warning.h>
-#include <trochoid/force/law.h>
-#include <trochoid/force/setup.h>
-#include <trochoid/identification/identify.h>
 #include <trochoid/cases/held.h>
 #include <trochoid/cases/machine_tables.h>
 #include <trochoid/cases/previous_clamping.h>
+#include <trochoid/cases/wall_plan.h>
 #include <trochoid/files/record_source.h>
 #include <trochoid/files/transmission_file.h>
-#include <trochoid/cases/wall_plan.h>
+#include <trochoid/force/law.h>
+#include <trochoid/force/setup.h>
+#include <trochoid/identification/identify.h>
 #include <trochoid/signal/record.h>
 
 #include <array>
@@ -36,9 +36,9 @@ struct Sampling {
 
 /// [dynamometer]: channel i = sum over j of matrix[i][j] times force j on the tool.
 struct Dynamometer {
-  bool automatic = false;           ///< axes = "auto": find the signed permutation
-  bool rigid = false;               ///< resonance = "none": none is looked for
-  files::FileRef frf;                      ///< measured response, channel over force; or none
+  bool automatic = false;  ///< axes = "auto": find the signed permutation
+  bool rigid = false;      ///< resonance = "none": none is looked for
+  files::FileRef frf;      ///< measured response, channel over force; or none
   Held<files::TransmissionFile> response;  ///< what it holds
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };

@@ -94,7 +94,9 @@ struct ValueSchema {
   Json operator()(const std::string*) const {
     return text_of(key.need != Need::always);
   }
-  Json operator()(const files::FileRef*) const { return text_of(key.need != Need::always); }
+  Json operator()(const files::FileRef*) const {
+    return text_of(key.need != Need::always);
+  }
   Json operator()(const std::vector<double>*) const {
     return list_of(number_of("number", key.range), key.gaps ? 0 : key.count, key.count);
   }

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <trochoid/base/steps.h>
+#include <trochoid/cases/response_tables.h>
 #include <trochoid/correction/controller_in_loop.h>
 #include <trochoid/correction/plan.h>
 #include <trochoid/dynamics/imposed_command.h>
 #include <trochoid/dynamics/stability.h>
-#include <trochoid/identification/identify.h>
-#include <trochoid/cases/response_tables.h>
 #include <trochoid/files/step_file.h>
 #include <trochoid/files/surface_file.h>
+#include <trochoid/identification/identify.h>
 #include <trochoid/structure/plate.h>
 #include <trochoid/surface/choices.h>
 #include <trochoid/surface/datum.h>
@@ -138,7 +138,7 @@ using dynamics::CommandShape;
 struct ImposedCommand {
   CommandShape shape = CommandShape::sine;
   std::optional<double> peak_to_peak;  ///< [m]; not of a table
-  files::FileRef file;                        ///< of a table
+  files::FileRef file;                 ///< of a table
   Held<dynamics::CommandTable> table;  ///< what it holds
   double lead = 0.0;                   ///< [s]
 };

@@ -1,12 +1,12 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cases/case_source.h>
-#include <trochoid/files/command_file.h>
 #include <trochoid/cases/read_table.h>
-#include <trochoid/files/record_file.h>
 #include <trochoid/cases/rules.h>
 #include <trochoid/cases/tables.h>
 #include <trochoid/cases/wall_readings.h>
 #include <trochoid/cases/write_case.h>
+#include <trochoid/files/command_file.h>
+#include <trochoid/files/record_file.h>
 
 #include <fmt/core.h>
 
@@ -265,8 +265,8 @@ Findings findings_of(const CaseSource& source) {
 /// Every file that the case names is read when its data are asked for.
 void hold_data(Case& c) {
   for (Measurement& m : c.measurements) {
-    m.record =
-        Held<signal::Record>::by([source = m.source] { return files::read_record(source); });
+    m.record = Held<signal::Record>::by(
+        [source = m.source] { return files::read_record(source); });
   }
   if (c.dynamometer && !c.dynamometer->frf.name.empty()) {
     c.dynamometer->response = Held<files::TransmissionFile>::by(

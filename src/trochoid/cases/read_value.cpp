@@ -239,8 +239,8 @@ struct ValueReader {
       *target = direction;
     }
   }
-  void operator()(std::optional<PreviousClamping>*) const {}  // read_table does it
-  void operator()(std::optional<files::SurfaceFrame>*) const {}      // so this
+  void operator()(std::optional<PreviousClamping>*) const {}     // read_table does it
+  void operator()(std::optional<files::SurfaceFrame>*) const {}  // so this
   void operator()(CutTable*) const {}  // read_table does it: it needs [cut] as well
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <trochoid/files/frf_file.h>
 #include <trochoid/cases/held.h>
+#include <trochoid/files/frf_file.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/mode.h>
@@ -53,7 +53,7 @@ struct FrfTables {
   files::FrfSource source;  ///< no file: the [[measured_frf]] together
   Held<files::FrfFile> response;
   Held<std::vector<files::DirectedFrf>> directed;  ///< where the file says directions
-  int modes = 0;                            ///< 0: their number is chosen
+  int modes = 0;                                   ///< 0: their number is chosen
   std::vector<double> band;  ///< lowest and highest line [Hz]; empty: all
   ResidualTerms residual_terms = ResidualTerms::choose;
   Shapes shapes = Shapes::choose;

@@ -1,9 +1,9 @@
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/geometry/meridian.h>
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/rules.h>
 #include <trochoid/cases/usual_values.h>
+#include <trochoid/geometry/meridian.h>
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 #include <trochoid/base/units.h>
-#include <trochoid/chip/intervals.h>
-#include <trochoid/force/oblique.h>
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/rules.h>
+#include <trochoid/chip/intervals.h>
+#include <trochoid/force/oblique.h>
 
 #include <fmt/core.h>
 

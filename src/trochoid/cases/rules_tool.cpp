@@ -1,7 +1,7 @@
 #include <trochoid/base/units.h>
-#include <trochoid/geometry/meridian.h>
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/rules.h>
+#include <trochoid/geometry/meridian.h>
 
 #include <fmt/core.h>
 

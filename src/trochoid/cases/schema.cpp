@@ -194,7 +194,9 @@ struct ValueWriter {
     return *v ? Text(direction_text(**v)) : Text{};
   }
   Text operator()(const std::optional<PreviousClamping>*) const { return {}; }
-  Text operator()(const std::optional<files::SurfaceFrame>*) const { return {}; }  // these
+  Text operator()(const std::optional<files::SurfaceFrame>*) const {
+    return {};
+  }                                                      // these
   Text operator()(const CutTable*) const { return {}; }  // write_case.cpp does it
 };
 

@@ -2,8 +2,8 @@
 
 #include <trochoid/base/command.h>
 #include <trochoid/base/steps.h>
-#include <trochoid/files/file_ref.h>
 #include <trochoid/cases/previous_clamping.h>
+#include <trochoid/files/file_ref.h>
 #include <trochoid/files/surface_frame.h>
 
 #include <array>
@@ -94,11 +94,12 @@ using Rows = std::vector<std::array<double, 3>>;
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field = std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
-                           files::FileRef*, std::vector<double>*, std::optional<base::Steps>*,
-                           std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
-                           std::optional<PreviousClamping>*,
-                           std::optional<files::SurfaceFrame>*, std::optional<files::Direction>*>;
+using Field =
+    std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
+                 files::FileRef*, std::vector<double>*, std::optional<base::Steps>*,
+                 std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
+                 std::optional<PreviousClamping>*, std::optional<files::SurfaceFrame>*,
+                 std::optional<files::Direction>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

@@ -1,6 +1,6 @@
-#include <trochoid/files/record_source.h>
 #include <trochoid/cases/schema_choice.h>
 #include <trochoid/cases/tables.h>
+#include <trochoid/files/record_source.h>
 
 namespace trochoid::cases {
 

@@ -10,9 +10,9 @@ namespace trochoid::cases {
 namespace {
 
 constexpr files::TableKind kind{.noun = "a table of cases",
-                         .files = "a CSV file",
-                         .row = "case",
-                         .example = "spindle_rpm,feed_mm"};
+                                .files = "a CSV file",
+                                .row = "case",
+                                .example = "spindle_rpm,feed_mm"};
 
 }  // namespace
 
@@ -23,7 +23,8 @@ std::vector<double> column_of_file(const std::filesystem::path& file,
       {.name = {}, .path = file.generic_string(), .location = location}, kind);
   files::TableText table(*in, file.string(), kind);
   const files::NamedTable read = files::read_named_table(
-      table, [&](const files::TableHead& head, files::Problems& problems, auto& /*notes*/) {
+      table,
+      [&](const files::TableHead& head, files::Problems& problems, auto& /*notes*/) {
         std::vector<std::optional<files::TableColumn>> wanted(1);
         std::vector<std::string> known;
         for (std::size_t i = 0; i < head.names.size(); ++i) {

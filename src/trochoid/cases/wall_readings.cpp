@@ -50,9 +50,11 @@ std::string likely_cause(const Extent& extent, double most,
   if (!unit) return "; frame in the case says how the wall lies";
   if (extent.high < 3.0 * most) return {};  // a reading or two too far
   const std::string said = unit->empty() ? "mm" : *unit;
-  const auto known = base::named<files::LengthUnit>(said).value_or(files::LengthUnit::mm);
-  for (const auto other : {files::LengthUnit::um, files::LengthUnit::mm, files::LengthUnit::m,
-                           files::LengthUnit::in, files::LengthUnit::thou}) {
+  const auto known =
+      base::named<files::LengthUnit>(said).value_or(files::LengthUnit::mm);
+  for (const auto other :
+       {files::LengthUnit::um, files::LengthUnit::mm, files::LengthUnit::m,
+        files::LengthUnit::in, files::LengthUnit::thou}) {
     if (other != known && fits(files::factor_of(other) / files::factor_of(known))) {
       return fmt::format("; in {} instead of {} all readings would lie inside",
                          name_of(other), said);
@@ -62,7 +64,8 @@ std::string likely_cause(const Extent& extent, double most,
 }
 
 template <class Value>
-Extent extent_of(const std::vector<files::SurfaceReading>& readings, const Value& value) {
+Extent extent_of(const std::vector<files::SurfaceReading>& readings,
+                 const Value& value) {
   Extent extent{std::numeric_limits<double>::infinity(),
                 -std::numeric_limits<double>::infinity()};
   for (const files::SurfaceReading& reading : readings) {
@@ -81,10 +84,11 @@ void keep_inside(files::SurfaceFile& surface, const WallLimits& limits,
   });
   const std::size_t outside = before - surface.readings.size();
   if (surface.readings.empty()) {
-    files::refuse(file,
-           "no point of the map lies inside the cut: x from 0 to the length of the "
-           "wall, height from 0 to the axial depth; frame = { origin_mm = [...], "
-           "feed = ..., normal = ..., up = ... } says how it lies");
+    files::refuse(
+        file,
+        "no point of the map lies inside the cut: x from 0 to the length of the "
+        "wall, height from 0 to the axial depth; frame = { origin_mm = [...], "
+        "feed = ..., normal = ..., up = ... } says how it lies");
   }
   if (outside > 0) {
     surface.counts.skipped += outside;
@@ -108,7 +112,8 @@ WallLimits wall_of(const Case& given) {
   return limits;
 }
 
-files::SurfaceFile read_wall(const files::SurfaceSource& source, const WallLimits& limits) {
+files::SurfaceFile read_wall(const files::SurfaceSource& source,
+                             const WallLimits& limits) {
   files::SurfaceFile surface = files::read_surface_file(source, limits.teeth);
   if (surface.map) keep_inside(surface, limits, source.file.path);
   auto misplaced = check_readings(surface, source.file.path, limits);
@@ -139,13 +144,15 @@ std::vector<std::string> check_readings(const files::SurfaceFile& surface,
           reading.line, 1,
           fmt::format("the height of {} mm is outside the cut: must be from 0 "
                       "to axial_depth_mm = {} mm, above the tip of the cutter{}",
-                      files::in_mm(reading.height), files::in_mm(limits.height), height_hint));
+                      files::in_mm(reading.height), files::in_mm(limits.height),
+                      height_hint));
     }
     if (misses_length(limits, reading)) {
-      problems.add(reading.line, 1,
-                   fmt::format("x = {} mm is outside the wall: must be from 0 to "
-                               "length_mm = {} mm{}",
-                               files::in_mm(*reading.x), files::in_mm(*limits.length), x_hint));
+      problems.add(
+          reading.line, 1,
+          fmt::format("x = {} mm is outside the wall: must be from 0 to "
+                      "length_mm = {} mm{}",
+                      files::in_mm(*reading.x), files::in_mm(*limits.length), x_hint));
     }
   }
   return problems.lines;

@@ -21,7 +21,8 @@ WallLimits wall_of(const Case& given);
 /// @brief A measured surface, with all that is wrong with it there (see check_readings);
 /// of a map the points inside the cut.
 /// @throws base::InputError
-files::SurfaceFile read_wall(const files::SurfaceSource& source, const WallLimits& limits);
+files::SurfaceFile read_wall(const files::SurfaceSource& source,
+                             const WallLimits& limits);
 
 /// @brief What is wrong with readings at the places where they were taken: heights
 /// outside the cut, and, unless the surface is quasi_static, x outside the wall; names the

@@ -44,13 +44,12 @@ cases::MachineTables frf_alone(const Options& options) {
                    !options.band.empty();
   refuse_for_case(options, any, "--kind, --modes, --band and --dataset", "[frf]");
   cases::MachineTables machine;
-  machine.frf =
-      cases::FrfTables{
-          .source = {.file = files::file_at(options.file.string()),
-                     .kind = base::named<structure::ResponseKind>(options.kind),
-                     .dataset = options.dataset},
-                        .modes = options.modes,
-                        .band = options.band};
+  machine.frf = cases::FrfTables{
+      .source = {.file = files::file_at(options.file.string()),
+                 .kind = base::named<structure::ResponseKind>(options.kind),
+                 .dataset = options.dataset},
+      .modes = options.modes,
+      .band = options.band};
   return machine;
 }
 
@@ -61,7 +60,7 @@ cases::MachineTables step_alone(const Options& options) {
   cases::MachineTables machine;
   machine.step =
       cases::StepTables{.source = {.file = files::file_at(options.file.string()),
-                                    .start = options.start_s}};
+                                   .start = options.start_s}};
   if (options.step_um) {
     machine.step->source.step = *options.step_um * 1e-6;
   }

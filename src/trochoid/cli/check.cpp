@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
-#include <trochoid/cli/given_case.h>
 #include <trochoid/cases/case_source.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/run/commands.h>
 #include <trochoid/run/records.h>
 
@@ -12,8 +12,7 @@ namespace trochoid::cli {
 namespace {
 
 /// The frequency response and the step that a case names.
-void check_machine_files(const cases::Case& given,
-                         std::vector<std::string>& problems) {
+void check_machine_files(const cases::Case& given, std::vector<std::string>& problems) {
   const auto look = [&](const auto& read) {
     try {
       read();

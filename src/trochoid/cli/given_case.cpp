@@ -1,8 +1,8 @@
 #include <trochoid/base/error.h>
-#include <trochoid/cli/deliver.h>
-#include <trochoid/cli/given_case.h>
 #include <trochoid/cases/case_source.h>
 #include <trochoid/cases/set_beside.h>
+#include <trochoid/cli/deliver.h>
+#include <trochoid/cli/given_case.h>
 #include <trochoid/results/folder.h>
 #include <trochoid/run/work.h>
 
@@ -81,8 +81,8 @@ cases::Node standard_input(const std::filesystem::path& name) {
 
 cases::Node document_of(const Options& options) {
   return cases::with_settings(options.from_input ? standard_input(options.file)
-                                                  : cases::load_document(options.file),
-                               options.set, options.file);
+                                                 : cases::load_document(options.file),
+                              options.set, options.file);
 }
 
 cases::Case given_case(const Options& options, base::Command command) {
@@ -93,7 +93,7 @@ cases::Case given_case(const Options& options, base::Command command) {
 }
 
 cases::Case bare_case(const Options& options, const cases::MachineTables& machine,
-                       base::Command command) {
+                      base::Command command) {
   return checked(options, command, [&](const std::filesystem::path& folder) {
     return cases::bare_case(machine, command, folder);
   });

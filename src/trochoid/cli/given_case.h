@@ -1,8 +1,8 @@
 #pragma once
 
-#include <trochoid/cli/commands.h>
 #include <trochoid/cases/case.h>
 #include <trochoid/cases/document.h>
+#include <trochoid/cli/commands.h>
 
 namespace trochoid::cli {
 
@@ -19,6 +19,6 @@ cases::Case given_case(const Options& options, base::Command command);
 
 /// @brief The same for a bare data file, which has no tables but these.
 cases::Case bare_case(const Options& options, const cases::MachineTables& machine,
-                       base::Command command);
+                      base::Command command);
 
 }  // namespace trochoid::cli

@@ -1,10 +1,10 @@
 #include <trochoid/base/error.h>
+#include <trochoid/cases/findings.h>
 #include <trochoid/cli/commands.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/interface.h>
 #include <trochoid/cli/manual.h>
 #include <trochoid/cli/system.h>
-#include <trochoid/cases/findings.h>
 #include <trochoid/numerics/thread_count.h>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include <trochoid/base/error.h>
-#include <trochoid/cli/commands.h>
 #include <trochoid/cases/case.h>
+#include <trochoid/cli/commands.h>
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@ namespace trochoid::cli {
 int new_case(base::Command command, const Options& options) {
   const std::filesystem::path& file = options.file;
   cases::NewCaseOptions given{.material = options.material,
-                               .folder = file.parent_path()};
+                              .folder = file.parent_path()};
   if (!options.tool.empty()) {
     given.tool = {options.tool, options.tool_number, options.tool_inches};
   }

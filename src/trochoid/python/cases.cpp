@@ -91,8 +91,7 @@ void bind_document(py::module_& m) {
                             fs::path(state[1].cast<std::string>()),
                             data_of_state(state[2])};
           }))
-      .def("check_keys",
-           [](const Document& self) { cases::check_keys(self.source()); })
+      .def("check_keys", [](const Document& self) { cases::check_keys(self.source()); })
       .def("to_dict", [](const Document& self) { return object_of(self.root); });
 }
 
@@ -107,7 +106,7 @@ struct BareOptions {
 };
 
 cases::Case bare_case(const std::string& file, base::Command command,
-                       const BareOptions& options, const fs::path& folder) {
+                      const BareOptions& options, const fs::path& folder) {
   cases::MachineTables machine;
   if (command == base::Command::modes) {
     machine.frf = cases::FrfTables{

@@ -1,6 +1,6 @@
 #include <trochoid/base/units.h>
-#include <trochoid/dynamics/multiplier.h>
 #include <trochoid/cases/case.h>
+#include <trochoid/dynamics/multiplier.h>
 #include <trochoid/python/bindings.h>
 #include <trochoid/run/problems.h>
 

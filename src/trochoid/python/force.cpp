@@ -1,7 +1,7 @@
 #include <trochoid/base/units.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/force/slice.h>
-#include <trochoid/cases/case.h>
 #include <trochoid/python/bindings.h>
 
 #include <pybind11/numpy.h>

@@ -184,10 +184,12 @@ std::vector<OfStrategy> columns_of_strategies(const correction::SpeedMap& map) {
                      return c.points[i].command_range;
                    }});
     if (curve.chosen.empty()) continue;
-    all.push_back({curve, "transition_deg",
-                   [](Of c, std::size_t i) -> ColumnValue { return c.chosen[i].width; }});
-    all.push_back({curve, "harmonics",
-                   [](Of c, std::size_t i) -> ColumnValue { return c.chosen[i].harmonics; }});
+    all.push_back({curve, "transition_deg", [](Of c, std::size_t i) -> ColumnValue {
+                     return c.chosen[i].width;
+                   }});
+    all.push_back({curve, "harmonics", [](Of c, std::size_t i) -> ColumnValue {
+                     return c.chosen[i].harmonics;
+                   }});
   }
   return all;
 }

@@ -110,9 +110,13 @@ const Fields<identification::RunoutForm>& form_fields() {
          return identification::name_of(f.stated ? f.first : f.better);
        }},
       {"decided_by", "`case` or `record`",
-       [](const identification::RunoutForm& f) { return f.stated ? "case" : "record"; }},
+       [](const identification::RunoutForm& f) {
+         return f.stated ? "case" : "record";
+       }},
       {"better", "that the records decide for",
-       [](const identification::RunoutForm& f) { return identification::name_of(f.better); }},
+       [](const identification::RunoutForm& f) {
+         return identification::name_of(f.better);
+       }},
       {"why", "in words", &identification::RunoutForm::why},
       {"tried", "each form that was tried", tried, &identification::RunoutForm::tried}};
   return all;

@@ -105,7 +105,8 @@ const Fields<PlanResult>& plan_fields() {
          }
          return cuts;
        }},
-      Field<PlanResult>{"before", "each quantity as known so far; `null` where it is not",
+      Field<PlanResult>{"before",
+                        "each quantity as known so far; `null` where it is not",
                         [](R r) {
                           Object before;
                           for (const PlannedQuantity& q : r.quantities) {

@@ -82,8 +82,7 @@ void withdraw_hidden_runout(const cases::Case& given, const surface::Setting& se
 
 }  // namespace
 
-results::CalibrateResult calibrate(const cases::Case& given,
-                                   const Progress& progress) {
+results::CalibrateResult calibrate(const cases::Case& given, const Progress& progress) {
   const auto tell = [&](const char* what) { progress(what); };
   MeasuredWall wall = measured_wall(given);
   const surface::Setting setting = wall_setting(given);

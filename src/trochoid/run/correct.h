@@ -1,8 +1,8 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/correction/correct.h>
 #include <trochoid/cases/case.h>
+#include <trochoid/correction/correct.h>
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
-#include <trochoid/cases/case.h>
 #include <trochoid/run/progress.h>
 #include <trochoid/run/records.h>
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <trochoid/cases/case.h>
+#include <trochoid/cases/machine_tables.h>
 #include <trochoid/correction/command.h>
 #include <trochoid/correction/plant.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/dynamics/system.h>
-#include <trochoid/cases/case.h>
-#include <trochoid/cases/machine_tables.h>
 
 #include <span>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
-#include <trochoid/identification/find_axes.h>
 #include <trochoid/cases/case.h>
+#include <trochoid/identification/find_axes.h>
 #include <trochoid/signal/overview.h>
 #include <trochoid/signal/record.h>
 

@@ -26,8 +26,7 @@ struct Source {
   std::vector<double> band;  ///< [Hz]; empty: all
 };
 
-std::vector<Source> sources_of(const cases::Case& given,
-                               const cases::FrfTables& frf) {
+std::vector<Source> sources_of(const cases::Case& given, const cases::FrfTables& frf) {
   std::vector<Source> out;
   if (!frf.source.file.name.empty()) {
     if (frf.source.dataset == 0) {

@@ -233,7 +233,8 @@ results::StabilityResult stability(const cases::Case& given, const Progress& pro
     point = dynamics::tool_point(tool_responses(given, r.heading.warnings), fit_modes);
     if (fit_modes) r.problem.system = point->modes;
     if (const auto& none = point->no_modes) {
-      const std::string& file = given.machine.measured_frfs[none->response].source.file.path;
+      const std::string& file =
+          given.machine.measured_frfs[none->response].source.file.path;
       r.no_modes = fmt::format("{}: {}", file, none->reason);
     }
   }

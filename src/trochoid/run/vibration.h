@@ -1,10 +1,10 @@
 #pragma once
 
 #include <trochoid/base/warning.h>
+#include <trochoid/cases/case.h>
 #include <trochoid/dynamics/stability.h>
 #include <trochoid/dynamics/steady_state.h>
 #include <trochoid/dynamics/tool_point.h>
-#include <trochoid/cases/case.h>
 #include <trochoid/results/modes.h>
 #include <trochoid/signal/tap_test.h>
 #include <trochoid/structure/identify_actuator.h>

@@ -20,8 +20,7 @@ void set_place(const cases::Case& given, const files::SurfaceReading& read,
 }
 
 /// What is estimated of a file beside the coefficients.
-surface::Datum datum_of(const cases::Case& given,
-                        const cases::SurfaceMeasurement& m) {
+surface::Datum datum_of(const cases::Case& given, const cases::SurfaceMeasurement& m) {
   const bool pulse = given.machine.surface->model == surface::Model::quasi_static;
   surface::Datum datum{.decide = !m.form && !pulse};
   if (m.form) {

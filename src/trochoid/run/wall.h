@@ -51,7 +51,7 @@ surface::MapOptions map_options(const cases::Case& given);
 struct MeasuredWall {
   std::vector<surface::Reading> readings;
   std::vector<surface::Datum> datum;  ///< of each file
-  files::SurfaceCounts counts;       ///< of all files
+  files::SurfaceCounts counts;        ///< of all files
   std::vector<base::Warning> notes;   ///< what was left out or averaged, by file
 };
 

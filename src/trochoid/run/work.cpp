@@ -415,8 +415,8 @@ std::string too_much(std::span<const Work> parts) {
       "of it for {:.6g} {}; more than {:g} evaluations or {:g} GB are computed with "
       "--anyway only",
       most.key.name, most.key.value, most.key.of, would_do(most, evaluations, bytes),
-      evaluations, time_needed(evaluations * seconds_per_evaluation), memory, most.count,
-      most.what, most_evaluations, most_bytes / gigabyte);
+      evaluations, time_needed(evaluations * seconds_per_evaluation), memory,
+      most.count, most.what, most_evaluations, most_bytes / gigabyte);
 }
 
 std::vector<Work> work_of(base::Command command, const cases::Case& given) {

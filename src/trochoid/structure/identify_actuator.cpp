@@ -20,9 +20,9 @@ namespace {
 constexpr double margin = 3.0;  ///< of M-14, in standard errors
 constexpr double steps_rank_tolerance = 1e-12;
 constexpr double least_of_step = 0.95;  ///< of the variance
-constexpr double unsettled = 0.02;        ///< of the step, left at the end
-constexpr double drifting = 0.05;         ///< of the step, over the last tenth
-constexpr double least_signal = 4.0;      ///< step over noise
+constexpr double unsettled = 0.02;      ///< of the step, left at the end
+constexpr double drifting = 0.05;       ///< of the step, over the last tenth
+constexpr double least_signal = 4.0;    ///< step over noise
 constexpr std::size_t least_samples = 10;
 
 /// The record in parts of the step, and of a time that is about that of the rise.

@@ -2,9 +2,9 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
-#include <trochoid/chip/model.h>
 #include <trochoid/cases/inches.h>
 #include <trochoid/cases/read_value.h>
+#include <trochoid/chip/model.h>
 #include <trochoid/results/joint.h>
 #include <trochoid/results/json.h>
 
@@ -42,7 +42,7 @@ bool has_modes(const Node& root) {
 
 /// Where modes come from.
 struct ModesFile {
-  cases::Location where;  ///< of what asks for them
+  cases::Location where;   ///< of what asks for them
   std::string file;        ///< that they are of, for messages
   bool takes_all = false;  ///< the case had no modes of its own: these are added to it
 };

@@ -96,7 +96,7 @@ void check_take(const Study& study, const results::Answer& answer) {
 
 /// The case of the first row, with everything that is drawn as found.
 cases::Case first_case(const Study& study, const Rows& rows,
-                        const std::filesystem::path& folder) {
+                       const std::filesystem::path& folder) {
   const Node root = root_of(study, rows.first());
   return cases::read_case(source_of(study, root), study.command, folder);
 }

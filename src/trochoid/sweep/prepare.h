@@ -16,7 +16,7 @@ struct Prepared {
   Study study;
   Rows rows;
   results::SweepResult result;  ///< without rows; case_toml is that for Request::folder
-  cases::Sweep plan;           ///< [sweep] as understood
+  cases::Sweep plan;            ///< [sweep] as understood
   std::string meaning;          ///< all that draws depend on beside the seed
   std::string as_understood;    ///< the case of the first row, without [sweep]
 };

@@ -20,7 +20,7 @@ namespace trochoid::sweep {
 struct Study {
   base::Command command = base::Command::simulate;
   cases::Node root;                   ///< the case without its [sweep]
-  std::filesystem::path file;          ///< of the case
+  std::filesystem::path file;         ///< of the case
   std::vector<cases::SweptKey> over;  ///< without their values
   std::vector<std::string> take;
   cases::DataInMemory data = {};

@@ -2,8 +2,8 @@
 // fuzzing: make_broken_hdf5 tests/broken/record
 #include "../../unit/files/hdf5_made.h"
 
-using trochoid::cases::made::hdf5_file;
-using trochoid::cases::made::Hdf5Set;
+using trochoid::files::made::hdf5_file;
+using trochoid::files::made::Hdf5Set;
 
 namespace {
 

@@ -10,7 +10,7 @@ namespace sample {
 namespace {
 
 using trochoid::results::Answer;
-namespace inputs = trochoid::inputs;
+namespace cases = trochoid::cases;
 
 const std::filesystem::path examples = TROCHOID_EXAMPLES;
 
@@ -24,7 +24,7 @@ Answer modes() {
 Answer shared_modes() {
   cases::MachineTables machine;
   machine.frf = cases::FrfTables{
-      .source = {.file = files::file_at(
+      .source = {.file = trochoid::files::file_at(
                      (examples / "several_responses/tool.uff").string())},
       .modes = 2};
   return answer_of(trochoid::run::shared_modes(
@@ -39,27 +39,27 @@ Answer actuator() {
 Answer motion() {
   return answer_of(
       trochoid::run::dynamics(cases::read_case(examples / "runout_table_8mm/sine.toml",
-                                                cases::Command::dynamics),
+                                               cases::Command::dynamics),
                               {}));
 }
 
 Answer correction() {
   return answer_of(
       trochoid::run::correct(cases::read_case(examples / "runout_correction/case.toml",
-                                               cases::Command::correct),
+                                              cases::Command::correct),
                              true, {}));
 }
 
 Answer chatter() {
   return answer_of(
       trochoid::run::dynamics(cases::read_case(examples / "stability_922Hz/case.toml",
-                                                cases::Command::dynamics),
+                                               cases::Command::dynamics),
                               {}));
 }
 
 Answer tool_point() {
-  cases::Case given = cases::read_case(examples / "measured_frf/case.toml",
-                                         cases::Command::stability);
+  cases::Case given =
+      cases::read_case(examples / "measured_frf/case.toml", cases::Command::stability);
   cases::Stability& diagram = *given.machine.stability;
   diagram.spindle_speed->count = 9;
   diagram.axial_depth->count = 8;

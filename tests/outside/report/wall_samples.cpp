@@ -14,7 +14,7 @@ namespace sample {
 namespace {
 
 using trochoid::results::Answer;
-namespace inputs = trochoid::inputs;
+namespace cases = trochoid::cases;
 
 const std::string cut = R"(title = "Thin wall <made up>"
 
@@ -119,8 +119,8 @@ Answer calibrated(const std::string& model, bool number_teeth, double highest,
               cut + wall_table + surface_table(model) +
                   "\n[[surface_measurement]]\nfile = \"wall.csv\"\ndatum_offset = " +
                   (number_teeth ? "false\n" : "true\n"));
-  return answer_of(trochoid::run::calibrate(
-      cases::read_case(file, cases::Command::calibrate), {}));
+  return answer_of(
+      trochoid::run::calibrate(cases::read_case(file, cases::Command::calibrate), {}));
 }
 
 }  // namespace
@@ -132,8 +132,8 @@ Answer wall(const char* model, const std::filesystem::path& folder) {
 Answer lobes(const std::filesystem::path& folder) {
   const auto file =
       written(folder / "stability.toml", cases::new_case(cases::Command::stability));
-  return answer_of(trochoid::run::stability(
-      cases::read_case(file, cases::Command::stability), {}));
+  return answer_of(
+      trochoid::run::stability(cases::read_case(file, cases::Command::stability), {}));
 }
 
 Answer calibration(const char* model, bool number_teeth,

@@ -1,6 +1,6 @@
-#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/force_balance.h>
 #include <trochoid/dynamics/growth.h>
+#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/past.h>
 #include <trochoid/dynamics/stepper.h>

@@ -1,6 +1,6 @@
 #include <trochoid/base/units.h>
-#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/cut_force.h>
+#include <trochoid/dynamics/make_grid.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/power_of.h>
 #include <trochoid/dynamics/propagator.h>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <trochoid/base/error.h>
-#include <trochoid/cases/case.h>
 #include <trochoid/files/record_file.h>
 
 #include <sstream>
@@ -13,9 +12,10 @@ namespace trochoid::files {
 struct RecordFrom {
   const char* name;
 
-  signal::Record operator()(const std::string& bytes, const cases::Measurement& m = {}) const {
+  signal::Record operator()(const std::string& bytes,
+                            const RecordSource& source = {}) const {
     std::istringstream in(bytes);
-    return read_record(in, name, m);
+    return read_record(in, name, source);
   }
 };
 
@@ -23,9 +23,10 @@ struct RecordFrom {
 struct RefusalFrom {
   const char* name;
 
-  std::string operator()(const std::string& bytes, const cases::Measurement& m = {}) const {
+  std::string operator()(const std::string& bytes,
+                         const RecordSource& source = {}) const {
     try {
-      RecordFrom{name}(bytes, m);
+      RecordFrom{name}(bytes, source);
     } catch (const base::InputError& error) {
       return error.what();
     }

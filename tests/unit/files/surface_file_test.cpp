@@ -119,7 +119,8 @@ constexpr double mm = 1e-3;
 cases::Case thin_wall() {
   cases::Case c;
   c.setup.cut.a_p = 3 * mm;
-  c.machine.wall = cases::Wall{.length = 60 * mm, .height = 30 * mm, .thickness = 2 * mm};
+  c.machine.wall =
+      cases::Wall{.length = 60 * mm, .height = 30 * mm, .thickness = 2 * mm};
   return c;
 }
 
@@ -131,19 +132,26 @@ TEST(SurfaceReadings, LieWithinTheCutAndTheWall) {
   const cases::Case c = thin_wall();
   for (const double x : {0.0, 30 * mm, 60000 * 1e-6}) {
     for (const double height : {0.0, 3 * mm, 3000 * 1e-6}) {
-      EXPECT_TRUE(cases::check_readings(one_reading(x, height), "w.csv", cases::wall_of(c)).empty());
+      EXPECT_TRUE(
+          cases::check_readings(one_reading(x, height), "w.csv", cases::wall_of(c))
+              .empty());
     }
   }
   EXPECT_EQ(cases::check_readings(one_reading(0, 3.1 * mm), "w.csv", cases::wall_of(c)),
             std::vector<std::string>{
                 "w.csv:5:1: the height of 3.1 mm is outside the cut: must be from 0 to "
                 "axial_depth_mm = 3 mm, above the tip of the cutter"});
-  EXPECT_EQ(cases::check_readings(one_reading(0, -0.1 * mm), "w.csv", cases::wall_of(c)).size(), 1U);
-  EXPECT_EQ(cases::check_readings(one_reading(60.1 * mm, mm), "w.csv", cases::wall_of(c)),
-            std::vector<std::string>{"w.csv:5:1: x = 60.1 mm is outside the wall: must "
-                                     "be from 0 to length_mm = 60 mm"});
-  EXPECT_EQ(cases::check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", cases::wall_of(c)).size(),
-            2U);
+  EXPECT_EQ(cases::check_readings(one_reading(0, -0.1 * mm), "w.csv", cases::wall_of(c))
+                .size(),
+            1U);
+  EXPECT_EQ(
+      cases::check_readings(one_reading(60.1 * mm, mm), "w.csv", cases::wall_of(c)),
+      std::vector<std::string>{"w.csv:5:1: x = 60.1 mm is outside the wall: must "
+                               "be from 0 to length_mm = 60 mm"});
+  EXPECT_EQ(
+      cases::check_readings(one_reading(-0.1 * mm, 4 * mm), "w.csv", cases::wall_of(c))
+          .size(),
+      2U);
 }
 
 TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {
@@ -170,12 +178,18 @@ TEST(SurfaceReadings, NameTheUnitInWhichAllWouldLieInside) {
 TEST(SurfaceReadings, AlongTheTurnOfAQuasiStaticModelOrARigidWallXIsFree) {
   cases::Case c = thin_wall();
   c.machine.surface.emplace().model = surface::Model::imprint;
-  EXPECT_EQ(cases::check_readings(one_reading(61 * mm, mm), "w.csv", cases::wall_of(c)).size(), 1U);
+  EXPECT_EQ(cases::check_readings(one_reading(61 * mm, mm), "w.csv", cases::wall_of(c))
+                .size(),
+            1U);
   c.machine.surface->model = surface::Model::quasi_static;
-  EXPECT_TRUE(cases::check_readings(one_reading(61 * mm, mm), "w.csv", cases::wall_of(c)).empty());
+  EXPECT_TRUE(
+      cases::check_readings(one_reading(61 * mm, mm), "w.csv", cases::wall_of(c))
+          .empty());
   c = thin_wall();
   c.machine.wall.reset();
-  EXPECT_TRUE(cases::check_readings(one_reading(61 * mm, mm), "w.csv", cases::wall_of(c)).empty());
+  EXPECT_TRUE(
+      cases::check_readings(one_reading(61 * mm, mm), "w.csv", cases::wall_of(c))
+          .empty());
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ TEST(SurfaceSdf, SaysWhatIsWrong) {
 TEST(SurfaceMaps, KeepWhatLiesInsideTheCut) {
   cases::Case c;
   c.setup.cut.a_p = 1.1 * mm;  // the first row of the map
-  c.machine.wall = cases::Wall{.length = 0.6 * mm, .height = 30 * mm, .thickness = 2 * mm};
+  c.machine.wall =
+      cases::Wall{.length = 0.6 * mm, .height = 30 * mm, .thickness = 2 * mm};
   const auto file = std::string(testing::TempDir()) + "trochoid_map_inside.x3p";
   {
     std::ofstream out(file, std::ios::binary);
@@ -164,7 +165,8 @@ TEST(SurfaceMaps, KeepWhatLiesInsideTheCut) {
   EXPECT_EQ(surface.readings.size(), 2U);
   EXPECT_EQ(surface.counts.skipped, 4U);
   c.setup.cut.a_p = 0.9 * mm;
-  EXPECT_THROW(static_cast<void>(cases::read_wall(m, cases::wall_of(c))), base::InputError);
+  EXPECT_THROW(static_cast<void>(cases::read_wall(m, cases::wall_of(c))),
+               base::InputError);
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ TEST(FitOptions, AreWhatTheCaseAsksFor) {
 /// Offsets read off the idle parts are gone before anything is fitted.
 TEST(FitOptions, FitNoOffsetsThatWereTakenOut) {
   cases::Case given;
-  for (const auto offsets :
-       {cases::ChannelOffset::none, cases::ChannelOffset::idle}) {
+  for (const auto offsets : {cases::ChannelOffset::none, cases::ChannelOffset::idle}) {
     given.identify.channel_offsets = offsets;
     EXPECT_FALSE(fit_options(given, chip::Model::feed).fit_channel_offsets);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "../identification/made_record.h"
 #include "../cases/case_text.h"
+#include "../identification/made_record.h"
 
 #include <fmt/core.h>
 

@@ -59,10 +59,10 @@ TEST(Plan, StartsFromWhatIdentifyAnswers) {
 TEST(Plan, GoesWithoutAChannel) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 4.0), Axis::angle));
-  const auto given = folder.read(cases::test::slot + measurement +
-                                     "columns = [\"Fx_N\", \"Fy_N\"]\n" + one_model +
-                                     "[plan]\nquantities = [\"coefficients\"]\n",
-                                 Command::plan);
+  const auto given =
+      folder.read(cases::test::slot + measurement + "columns = [\"Fx_N\", \"Fy_N\"]\n" +
+                      one_model + "[plan]\nquantities = [\"coefficients\"]\n",
+                  Command::plan);
   const identification::Fit fit = identify(given, silent).fits.at(0);
   const PlanResult r = plan(given, silent);
   ASSERT_TRUE(r.heading.ok) << r.heading.message;

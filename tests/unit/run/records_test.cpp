@@ -186,9 +186,9 @@ TEST(MeasuredRuns, KeepTheTimesThatAreStated) {
         base::InputError);
   }
   folder.write("record.csv", csv_text(record, Axis::angle));
-  EXPECT_THROW(static_cast<void>(
-                   read(folder, cases::test::slot + measurement + "to_s = 0.9\n")),
-               base::InputError);
+  EXPECT_THROW(
+      static_cast<void>(read(folder, cases::test::slot + measurement + "to_s = 0.9\n")),
+      base::InputError);
 }
 
 TEST(MeasuredRuns, ReadTheOffsetInTheAirUnlessToldOtherwise) {

@@ -81,8 +81,7 @@ TEST(SharedModes, GoIntoACaseOfStabilityAsTheyLie) {  // [M-33]
   folder.write("xx.csv", table("xx", "um/N", 1e6));
   folder.write("yy.csv", table("yy", "mm/N", 1e3));
   folder.write("xy.csv", table("xy", "m/N", 1));
-  const auto given =
-      cases::read_case(folder.write("case.toml", three), Command::modes);
+  const auto given = cases::read_case(folder.write("case.toml", three), Command::modes);
   EXPECT_TRUE(modes_are_shared(given));
   const auto found = shared_modes(given);
   ASSERT_TRUE(found.heading.ok) << found.heading.message;
@@ -98,8 +97,7 @@ TEST(SharedModes, AResponseWithoutAUnitIsRefusedWithASentence) {
   folder.write("xx.csv", table("xx", "um/N", 1e6));
   folder.write("yy.csv", table("yy", "", 1));
   folder.write("xy.csv", table("xy", "m/N", 1));
-  const auto given =
-      cases::read_case(folder.write("case.toml", three), Command::modes);
+  const auto given = cases::read_case(folder.write("case.toml", three), Command::modes);
   try {
     shared_modes(given);
     FAIL() << "taken";
@@ -115,7 +113,7 @@ std::string universal(const std::vector<std::string>& names, int node_of_last = 
   std::string text;
   for (const std::string& name : names) {
     const auto one = made::measured(tilted, name, coarse);
-    cases::MadeSet set{.unit = "m", .kind = 8};
+    files::MadeSet set{.unit = "m", .kind = 8};
     set.direction = name[0] == 'x' ? 1 : 2;
     set.reference = name[1] == 'x' ? -1 : 2;
     set.node = &name == &names.back() ? node_of_last : 7;
@@ -123,7 +121,7 @@ std::string universal(const std::vector<std::string>& names, int node_of_last = 
       set.x.push_back(one.response.omega[i] / unit::Hz);
       set.y.push_back(name[1] == 'x' ? -one.response.H[i] : one.response.H[i]);
     }
-    text += cases::as_text(set);
+    text += files::as_text(set);
   }
   return text;
 }

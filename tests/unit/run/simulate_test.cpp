@@ -58,8 +58,8 @@ TEST(Simulate, SaysWhichToothIdles) {
 }
 
 TEST(Simulate, SaysThatNothingIsCutWithoutFeed) {
-  const auto r = simulated(replaced(cases::test::slot, "feed_per_tooth_mm = 0.04",
-                                    "feed_per_tooth_mm = 0"));
+  const auto r = simulated(
+      replaced(cases::test::slot, "feed_per_tooth_mm = 0.04", "feed_per_tooth_mm = 0"));
   EXPECT_EQ(codes(r), (std::vector<std::string>{"no_cut", "zero_feed"}));
 }
 

@@ -58,8 +58,7 @@ results::StabilityResult answered(const std::string& csv,
   const CaseFolder folder;
   folder.write("x.csv", csv);
   return stability(
-      cases::read_case(folder.write("case.toml", slot + more), Command::stability),
-      {});
+      cases::read_case(folder.write("case.toml", slot + more), Command::stability), {});
 }
 
 bool warned(const results::StabilityResult& r, const char* code) {
@@ -145,7 +144,7 @@ TEST(ModesAskew, ChatterInTimeWhereTheMultiplierSaysSo) {  // [D-1] [D-2]
                  fmt::format("axial_depth_mm = {}",
                              factor * limit.stability.limit->limit.depth / unit::mm));
     return dynamics(cases::read_case(folder.write("case.toml", text + modes),
-                                      Command::dynamics),
+                                     Command::dynamics),
                     {})
         .steady->verdict;
   };

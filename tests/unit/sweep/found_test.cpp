@@ -38,7 +38,7 @@ struct FoundFile : testing::Test {
   FoundFile& operator=(const FoundFile&) = delete;
 
   cases::DrawnFile file(const Joint& joint, const char* command,
-                         const std::string& name = "found") {
+                        const std::string& name = "found") {
     const fs::path path = folder / (name + "." + command + ".json");
     std::ofstream(path) << results::json_text(results::Object{
         {"trochoid", results::Object{}},
@@ -162,7 +162,7 @@ TEST_F(FoundFile, FindsItsModesAmongThoseOfTheCase) {
       {{"mode",
         {},
         {.value = cases::Array{a_mode("tool", "y", 901), a_mode("tool", "x", 1510),
-                                a_mode("tool", "x", 890)},
+                               a_mode("tool", "x", 890)},
          .where = {}}}});
   const Found found =
       find_all({.covariance = {file(two_modes(), "modes")}, .draws = 5}, root);
@@ -214,10 +214,10 @@ TEST_F(FoundFile, IsRefusedWhereTheCaseIsAnother) {
 
 TEST_F(FoundFile, IsRefusedWhereAKeyIsSetTwice) {
   cases::Sweep sweep{.over = {{.key = "force.K_tc_MPa",
-                                .where = {"case.toml", 9, 1},
-                                .values = cases::ListedValues{{number(1)}}}},
-                      .covariance = {file(slot(), "identify")},
-                      .draws = 5};
+                               .where = {"case.toml", 9, 1},
+                               .values = cases::ListedValues{{number(1)}}}},
+                     .covariance = {file(slot(), "identify")},
+                     .draws = 5};
   EXPECT_NE(problems_of(sweep, table({})).find("either of them"), std::string::npos);
   sweep.over.clear();
   sweep.covariance.push_back(sweep.covariance.front());
@@ -226,11 +226,11 @@ TEST_F(FoundFile, IsRefusedWhereAKeyIsSetTwice) {
 
 TEST_F(FoundFile, OfAGridHasTheSameDrawsAtEveryPoint) {
   cases::Sweep sweep{.over = {{.key = "cut.spindle_rpm",
-                                .where = {},
-                                .values = cases::EvenValues{1000, 2000, 3}}},
-                      .covariance = {file(slot(), "identify")},
-                      .draws = 50,
-                      .rows = 3};
+                               .where = {},
+                               .values = cases::EvenValues{1000, 2000, 3}}},
+                     .covariance = {file(slot(), "identify")},
+                     .draws = 50,
+                     .rows = 3};
   const Found found = find_all(sweep, table({}));
   const Rows rows(sweep, found);
   ASSERT_EQ(rows.size(), 150U);
@@ -248,12 +248,12 @@ TEST_F(FoundFile, OfAGridHasTheSameDrawsAtEveryPoint) {
 
 TEST_F(FoundFile, ByChanceDoesNotGoWithTheSweptKeys) {
   cases::Sweep sweep{.over = {{.key = "cut.spindle_rpm",
-                                .where = {},
-                                .values = cases::NormalValues{0, 1}}},
-                      .covariance = {file(slot(), "identify")},
-                      .draws = 4000,
-                      .method = cases::SweepMethod::random,
-                      .rows = 4000};
+                               .where = {},
+                               .values = cases::NormalValues{0, 1}}},
+                     .covariance = {file(slot(), "identify")},
+                     .draws = 4000,
+                     .method = cases::SweepMethod::random,
+                     .rows = 4000};
   const Found found = find_all(sweep, table({}));
   const Rows rows(sweep, found);
   ASSERT_EQ(rows.size(), 4000U);

@@ -58,7 +58,7 @@ cases::Node table(cases::Members members) {
 
 cases::Node root() {
   cases::Array modes = {table({{"mass_kg", {}, {.value = 1.0, .where = {}}}}),
-                         table({{"mass_kg", {}, {.value = 2.0, .where = {}}}})};
+                        table({{"mass_kg", {}, {.value = 2.0, .where = {}}}})};
   return table({{"cut", {}, table({{"feed", {}, {.value = 1.0, .where = {}}}})},
                 {"mode", {}, {.value = std::move(modes), .where = {}}}});
 }

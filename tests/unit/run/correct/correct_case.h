@@ -22,7 +22,7 @@ inline const std::filesystem::path correction_example =
 
 /// @param changes  each is done once, in their order
 inline cases::Case correction_case(const Changes& changes = {},
-                                    const char* file = "case.toml") {
+                                   const char* file = "case.toml") {
   std::ostringstream read;
   read << std::ifstream(correction_example / file).rdbuf();
   std::string text = read.str();

@@ -128,7 +128,7 @@ std::string profile_at(const std::string& x, double moved, double off,
 }
 
 cases::Case measuring(const std::string& file, const std::string& x,
-                       const std::string& surface_keys = "") {
+                      const std::string& surface_keys = "") {
   std::string text = cut_tables + cutter_table + wall_table + "[surface]\n" +
                      surface_keys + "\n[[surface_measurement]]\nfile = \"" + file +
                      "\"\nform = \"none\"\n";

@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 
 cases::Case measured(const std::string& model, const std::string& readings,
-                      const std::string& keys = "") {
+                     const std::string& keys = "") {
   const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
   const auto file = written(std::string(info->name()) + ".csv", readings);
   return case_of(cut_tables + cutter_table + wall_table +
@@ -55,10 +55,10 @@ TEST(MeasuredWall, APulseIsAllMadeWhereTheCutterStands) {
 /// Repeats of two files are pooled; a place that both have stays two readings.
 TEST(MeasuredWall, CountsWhatWasLeftOutAndAveraged) {
   cases::Case given = measured("imprint",
-                                "x_mm,height_mm,error_um,tooth\n"
-                                "10,0.5,20,1\n"
-                                "10,0.5,26,1\n"
-                                "11,0.5,,1\n");
+                               "x_mm,height_mm,error_um,tooth\n"
+                               "10,0.5,20,1\n"
+                               "10,0.5,26,1\n"
+                               "11,0.5,,1\n");
   given.machine.surface_measurements.push_back(given.machine.surface_measurements[0]);
   const MeasuredWall wall = measured_wall(given);
   ASSERT_EQ(wall.readings.size(), 2U);
@@ -75,9 +75,9 @@ TEST(MeasuredWall, CountsWhatWasLeftOutAndAveraged) {
 
 TEST(MeasuredWall, NamesWhatIsWrongWithItsPlaces) {
   const cases::Case given = measured("imprint",
-                                      "x_mm,height_mm,error_mm\n"
-                                      "10,0.5,0.02\n"
-                                      "10,5,0.02\n");
+                                     "x_mm,height_mm,error_mm\n"
+                                     "10,0.5,0.02\n"
+                                     "10,5,0.02\n");
   try {
     static_cast<void>(measured_wall(given));
     FAIL() << "a reading above the cut was taken";

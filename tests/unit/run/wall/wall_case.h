@@ -63,7 +63,7 @@ inline std::filesystem::path written(const std::string& name, const std::string&
 }
 
 inline cases::Case case_of(const std::string& text,
-                            cases::Command command = cases::Command::surface) {
+                           cases::Command command = cases::Command::surface) {
   const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
   return cases::read_case(written(std::string(test->name()) + ".toml", text), command);
 }
