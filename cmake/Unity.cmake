@@ -1,6 +1,6 @@
 # Files of one room are compiled together, about 60 kB a unit: what they include is parsed
-# once a unit and not once a file, which halves the time of a build from nothing. Therefore
-# two files of a room have no names in common in their unnamed namespaces. The preset `dev`
+# once a unit and not once a file. Therefore two files of a room have no names in common in
+# their unnamed namespaces. The preset `dev`
 # and -DTROCHOID_UNITY=OFF compile every file by itself, and find the file that lacks an
 # include.
 option(TROCHOID_UNITY "Compile the files of a room together" ON)
