@@ -1,3 +1,4 @@
+#include <trochoid/base/unit_of_key.h>
 #include <trochoid/cases/case.h>
 #include <trochoid/cases/inches.h>
 #include <trochoid/cases/tables.h>
@@ -146,7 +147,7 @@ Json as_json(std::string_view toml) {
 
 std::string description_of(const Key& key) {
   std::string text = meaning_of(key);
-  if (const auto symbol = unit_of(key.name).symbol; !symbol.empty()) {
+  if (const auto symbol = unit::of_key(key.name).symbol; !symbol.empty()) {
     text += fmt::format(" [{}]", symbol);
   }
   return key.standard.empty() ? text

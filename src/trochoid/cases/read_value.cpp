@@ -1,3 +1,4 @@
+#include <trochoid/base/unit_of_key.h>
 #include <trochoid/cases/read_value.h>
 #include <trochoid/cases/usual_values.h>
 
@@ -32,7 +33,7 @@ struct ValueReader {
   const Key& key;
   const Field& field;
   Findings& findings;
-  Unit unit = unit_of(key.name);
+  unit::Named unit = unit::of_key(key.name);
 
   /// @param at     the value that does not fit, or an entry of it
   /// @param entry  1, 2 ... in a list; 0: not in a list
@@ -257,7 +258,7 @@ std::optional<double> number_in(const Node& node) {
 }
 
 std::string shown_value(std::string_view key, const Node& node) {
-  const std::string_view symbol = unit_of(key).symbol;
+  const std::string_view symbol = unit::of_key(key).symbol;
   return number_in(node) && !symbol.empty()
              ? fmt::format("{} {}", to_string(node), symbol)
              : to_string(node);

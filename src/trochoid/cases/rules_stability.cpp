@@ -1,3 +1,4 @@
+#include <trochoid/base/unit_of_key.h>
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/rules.h>
 
@@ -62,7 +63,7 @@ void check_steps(const std::optional<base::Steps>& steps, const std::string& key
   const double whole = std::round(steps->count);
   if (steps->first >= steps->last || steps->count != whole || whole < 2 ||
       whole > most) {
-    const double unit = unit_of(key).factor;
+    const double unit = unit::of_key(key).factor;
     report(findings, key,
            fmt::format(
                "{} = [{}, {}, {}]: no range; must be first < last, then a whole "

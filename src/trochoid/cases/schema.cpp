@@ -1,4 +1,4 @@
-#include <trochoid/base/units.h>
+#include <trochoid/base/unit_of_key.h>
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/schema.h>
 
@@ -10,34 +10,6 @@
 namespace trochoid::cases {
 
 namespace {
-
-struct Ending {
-  std::string_view text;
-  Unit unit;
-};
-
-/// An ending that ends another one stands after it.
-constexpr Ending endings[] = {
-    {"_mm_per_min", {unit::mm_per_min, "mm/min"}},
-    {"_um_per_s", {unit::um, "um/s"}},
-    {"_Ns_per_m", {unit::one, "N s/m"}},
-    {"_N_per_mm3", {unit::N_per_mm3, "N/mm^3"}},
-    {"_N_per_mm", {unit::N_per_mm, "N/mm"}},
-    {"_N_per_m", {unit::one, "N/m"}},
-    {"_MPa", {unit::MPa, "MPa"}},
-    {"_GPa", {unit::GPa, "GPa"}},
-    {"_kPa", {unit::kPa, "kPa"}},
-    {"_deg", {unit::deg, "deg"}},
-    {"_rpm", {unit::rpm, "rpm"}},
-    {"_mm", {unit::mm, "mm"}},
-    {"_um", {unit::um, "um"}},
-    {"_kg_m2", {unit::one, "kg m^2"}},
-    {"_Nm", {unit::one, "N m"}},
-    {"_kg", {unit::one, "kg"}},
-    {"_Hz", {unit::one, "Hz"}},
-    {"_N", {unit::one, "N"}},
-    {"_s", {unit::one, "s"}},
-};
 
 std::string in_words(const Range& range) {
   const std::string low = number_text(range.low);
@@ -75,7 +47,7 @@ struct Expectation {
   const Key& key;
 
   [[nodiscard]] std::string limits() const {
-    const std::string_view symbol = unit_of(key.name).symbol;
+    const std::string_view symbol = unit::of_key(key.name).symbol;
     const std::string words = in_words(key.range);
     if (words.empty()) {
       return symbol.empty() ? "" : fmt::format(" in {}", symbol);
@@ -132,7 +104,7 @@ struct Expectation {
 struct ValueWriter {
   using Text = std::optional<std::string>;
   const Key& key;
-  double factor = unit_of(key.name).factor;
+  double factor = unit::of_key(key.name).factor;
 
   Text operator()(const bool* v) const { return *v ? "true" : "false"; }
   Text operator()(const int* v) const { return std::to_string(*v); }
@@ -204,15 +176,6 @@ struct ValueWriter {
 
 std::string heading(const TableEntry& table) {
   return fmt::format(fmt::runtime(table.many ? "[[{}]]" : "[{}]"), table.name);
-}
-
-Unit unit_of(std::string_view key) {
-  for (const Ending& ending : endings) {
-    if (key.ends_with(ending.text)) {
-      return ending.unit;
-    }
-  }
-  return {};
 }
 
 std::string meaning_of(const Key& key) {

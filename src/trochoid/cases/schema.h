@@ -118,15 +118,6 @@ struct TableEntry {
 /// `[name]` or `[[name]]`
 std::string heading(const TableEntry& table);
 
-/// A unit of the file: factor to SI, and its symbol.
-struct Unit {
-  double factor = 1.0;
-  std::string_view symbol;  ///< empty: a plain number
-};
-
-/// @brief The unit that ends the name of a key; no unit: factor 1.
-Unit unit_of(std::string_view key);
-
 /// @brief What a key means, and for which choices alone; Markdown.
 std::string meaning_of(const Key& key);
 

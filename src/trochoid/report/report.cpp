@@ -4,7 +4,6 @@
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/names.h>
 #include <trochoid/results/json.h>
-#include <trochoid/results/words.h>
 
 #include <fmt/core.h>
 

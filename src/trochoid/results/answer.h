@@ -30,4 +30,8 @@ struct Answer {
                                       ///< include
 };
 
+/// @brief What the page says as the terminal does, and what it does not decide again: made
+/// from the numbers of a summary, which may have been read from a folder.
+Object words_of(const Answer& answer);
+
 }  // namespace trochoid::results

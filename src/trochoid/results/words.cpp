@@ -1,4 +1,4 @@
-#include <trochoid/results/words.h>
+#include <trochoid/results/answer.h>
 
 #include <trochoid/results/correct.h>
 #include <trochoid/surface/calibrate.h>

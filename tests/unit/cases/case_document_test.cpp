@@ -1,5 +1,6 @@
 #include "case_text.h"
 
+#include <trochoid/base/unit_of_key.h>
 #include <trochoid/cases/document.h>
 #include <trochoid/cases/findings.h>
 #include <trochoid/cases/schema.h>
@@ -94,12 +95,12 @@ TEST(CaseFindings, NearNames) {
 }
 
 TEST(CaseSchema, TheEndOfAKeyIsItsUnit) {
-  EXPECT_EQ(unit_of("feed_rate_mm_per_min").symbol, "mm/min");
-  EXPECT_EQ(unit_of("K_te_N_per_mm").factor, 1e3);
-  EXPECT_EQ(unit_of("stiffness_N_per_m").factor, 1.0);
-  EXPECT_EQ(unit_of("slew_um_per_s").symbol, "um/s");
-  EXPECT_EQ(unit_of("channel_offsets").symbol, "");
-  EXPECT_EQ(unit_of("samples_per_rev").symbol, "");
+  EXPECT_EQ(unit::of_key("feed_rate_mm_per_min").symbol, "mm/min");
+  EXPECT_EQ(unit::of_key("K_te_N_per_mm").factor, 1e3);
+  EXPECT_EQ(unit::of_key("stiffness_N_per_m").factor, 1.0);
+  EXPECT_EQ(unit::of_key("slew_um_per_s").symbol, "um/s");
+  EXPECT_EQ(unit::of_key("channel_offsets").symbol, "");
+  EXPECT_EQ(unit::of_key("samples_per_rev").symbol, "");
 }
 
 }  // namespace
