@@ -7,7 +7,7 @@ option(TROCHOID_UNITY "Compile the files of a room together" ON)
 
 # Rooms that read and write words. Their units are compiled with -O1 after the flags of a
 # release: a third of their time, and no command runs longer for it.
-set(rooms_of_words results cases report run sweep cli)
+set(rooms_of_words results cases report run sweep cli python)
 
 # trochoid_unity(TARGET [BYTES]): group the sources of a target by their folder under src or
 # tests; 120 kB a unit, or what BYTES says. A source that has a UNITY_GROUP keeps it.

@@ -27,7 +27,7 @@ namespace {
 using results::Answer;
 
 /// The same value that summary.json would show: what is not finite is None.
-py::object object_of(const results::Value& value) {
+py::object answer_object(const results::Value& value) {
   return std::visit(
       base::Overloaded{[](std::nullptr_t) -> py::object { return py::none(); },
                        [](double number) -> py::object {
@@ -37,13 +37,13 @@ py::object object_of(const results::Value& value) {
                        [](const results::Array& entries) -> py::object {
                          py::list list;
                          for (const results::Value& entry : entries)
-                           list.append(object_of(entry));
+                           list.append(answer_object(entry));
                          return list;
                        },
                        [](const results::Object& members) -> py::object {
                          py::dict dict;
                          for (const results::Member& member : members) {
-                           dict[py::str(member.key)] = object_of(member.value);
+                           dict[py::str(member.key)] = answer_object(member.value);
                          }
                          return dict;
                        },
@@ -142,7 +142,7 @@ void bind_results(py::module_& m) {
       .def("result",
            [](const Answer& a) {
              const bool none = std::holds_alternative<std::nullptr_t>(a.result.data);
-             return none ? py::dict() : object_of(a.result);
+             return none ? py::dict() : answer_object(a.result);
            })
       .def("tables", [](const py::object& self) { return tables_of(self); })
       .def("report_html",

@@ -99,7 +99,7 @@ void go_on(Work& work, const py::object& progress) {
 }
 
 /// The values of some rows, a tuple each.
-py::list values_of(const Work& work, std::size_t first, std::size_t count) {
+py::list rows_of(const Work& work, std::size_t first, std::size_t count) {
   py::list rows;
   for (std::size_t i = first; i < first + count; ++i) {
     py::list values;
@@ -175,7 +175,7 @@ void bind_sweep(py::module_& m) {
                              [](const Work& work) { return work.part_file().string(); })
       .def_property_readonly("study",
                              [](const Work& work) { return work.prepared().study; })
-      .def("values", &values_of)
+      .def("values", &rows_of)
       .def("add", &add)
       .def("go_on", &go_on)
       .def("case_toml",
