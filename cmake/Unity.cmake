@@ -1,8 +1,7 @@
 # Files of one room are compiled together, about 120 kB a unit: what they include is parsed
 # once a unit and not once a file. Therefore two files of a room have no names in common in
-# their unnamed namespaces. The preset `dev`
-# and -DTROCHOID_UNITY=OFF compile every file by itself, and find the file that lacks an
-# include.
+# their unnamed namespaces, and a test file has a namespace of its own. The preset `dev` and
+# -DTROCHOID_UNITY=OFF compile every file by itself, and find the file that lacks an include.
 option(TROCHOID_UNITY "Compile the files of a room together" ON)
 
 # Rooms that read and write words. Their units are compiled with -O1 after the flags of a

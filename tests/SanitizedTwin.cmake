@@ -64,6 +64,7 @@ function(trochoid_sanitized_twin name)
     target_compile_options(${name}_sanitized PRIVATE -O1)
   endif()
   target_precompile_headers(${name}_sanitized REUSE_FROM trochoid_test_headers_sanitized)
+  trochoid_unity(${name}_sanitized)
   target_include_directories(${name}_sanitized PRIVATE
     $<TARGET_PROPERTY:${name},INCLUDE_DIRECTORIES>)
   target_compile_definitions(${name}_sanitized PRIVATE

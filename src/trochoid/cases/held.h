@@ -9,10 +9,10 @@
 
 namespace trochoid::cases {
 
-/// @brief Data of a case, which its file is read for when they are first asked for: a
-/// command neither waits for nor fails on a file that it does not use.
+/// @brief Data of a case. Their file is read when they are first needed, so that a command
+/// neither waits for a file that it does not use nor fails on it.
 ///
-/// Copies share what was read.
+/// Copies share the data.
 template <class Data>
 class Held {
  public:

@@ -9,8 +9,7 @@
 #include <string>
 
 /// Texts that would end a parser or steer a terminal.
-namespace trochoid::base {
-namespace {
+namespace trochoid::base::hostile_text_test {
 
 std::string repeated(const std::string& text, int times) {
   std::string all;
@@ -75,5 +74,4 @@ TEST(ReadText, WhatTheDiskDoesNotGive) {
   std::filesystem::remove(file);
 }
 
-}  // namespace
-}  // namespace trochoid::base
+}  // namespace trochoid::base::hostile_text_test

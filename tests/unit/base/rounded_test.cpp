@@ -4,8 +4,7 @@
 
 #include <string>
 
-namespace trochoid::base {
-namespace {
+namespace trochoid::base::rounded_test {
 
 TEST(Rounded, ValuesHaveTheDigitsOfTheirError) {
   EXPECT_EQ(with_error(2596.31, 57.2), "2596 +- 57");
@@ -35,5 +34,4 @@ TEST(Rounded, AbsurdPartsAreNotKnown) {
   EXPECT_EQ(percent(std::stod("nan")), "not known");
 }
 
-}  // namespace
-}  // namespace trochoid::base
+}  // namespace trochoid::base::rounded_test

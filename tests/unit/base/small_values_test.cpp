@@ -8,8 +8,7 @@
 
 #include <set>
 
-namespace trochoid::base {
-namespace {
+namespace trochoid::base::small_values_test {
 
 TEST(Names, AreAllThereAndFindTheirEnumerator) {
   EXPECT_EQ(names<Command>.size(), 10U);
@@ -43,5 +42,4 @@ TEST(Units, AValueComesBackAsItStoodInTheFile) {
   EXPECT_EQ(unit::in(875 * unit::rpm, unit::rpm), 875.0);
 }
 
-}  // namespace
-}  // namespace trochoid::base
+}  // namespace trochoid::base::small_values_test

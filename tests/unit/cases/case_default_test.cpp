@@ -4,8 +4,7 @@
 
 #include <numbers>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_default_test {
 
 using test::CaseFolder;
 
@@ -136,5 +135,4 @@ peak_to_peak_um = 26
   EXPECT_EQ(c.machine.command->lead, 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_default_test

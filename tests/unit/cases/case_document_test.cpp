@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_document_test {
 
 using test::CaseFolder;
 
@@ -103,5 +102,4 @@ TEST(CaseSchema, TheEndOfAKeyIsItsUnit) {
   EXPECT_EQ(unit::of_key("samples_per_rev").symbol, "");
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_document_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_include_test {
 
 using test::CaseFolder;
 
@@ -127,5 +126,4 @@ TEST(CaseInclude, AFileIncludedTwiceIsNoCycle) {
   EXPECT_EQ(folder.read("include = \"./b.toml\"\n" + test::slot).title, "d");
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_include_test

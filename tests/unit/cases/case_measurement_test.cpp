@@ -4,8 +4,7 @@
 
 #include <numbers>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_measurement_test {
 
 using test::CaseFolder;
 
@@ -149,5 +148,4 @@ TEST_F(CaseMeasurement, PreviousIsAllowedWithTheModelWithoutRunout) {
             "");
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_measurement_test

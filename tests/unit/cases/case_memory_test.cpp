@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace trochoid::cases {
+namespace trochoid::cases::case_memory_test {
 
 namespace {
 
@@ -126,4 +126,4 @@ TEST(CaseInMemory, ATextStandsForTheFileThatItWouldBe) {
   EXPECT_NE(c.as_understood.find("file = \"tip\""), std::string::npos);
 }
 
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_memory_test

@@ -9,8 +9,7 @@
 #include <numbers>
 
 /// [orthogonal] in place of K_tc, K_rc and K_ac.
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_orthogonal_test {
 
 using test::CaseFolder;
 
@@ -125,5 +124,4 @@ spindle_rpm = 875
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_orthogonal_test

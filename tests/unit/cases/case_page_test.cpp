@@ -5,8 +5,7 @@
 #include <sstream>
 #include <vector>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_page_test {
 
 using test::CaseFolder;
 
@@ -172,5 +171,4 @@ TEST(CasePage, NewIdentifyShowsASecondRecordAndAxesFoundFromTheRecord) {
   EXPECT_EQ(folder.read(text, Command::identify).measurements.size(), 2U);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_page_test

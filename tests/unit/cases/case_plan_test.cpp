@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_plan_test {
 
 using test::CaseFolder;
 
@@ -98,5 +97,4 @@ TEST(CasePlan, NewPlanLacksOnlyItsRecord) {
   EXPECT_EQ(folder.problems(text, Command::identify), "");
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_plan_test

@@ -7,8 +7,7 @@
 
 #include <random>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_round_trip_test {
 
 using test::CaseFolder;
 
@@ -362,5 +361,4 @@ TEST(NumberText, AComputedDefaultSurvivesWriting) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_round_trip_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_surface_test {
 
 using test::CaseFolder;
 
@@ -163,5 +162,4 @@ TEST(CaseSurface, AFrameIsThreePerpendicularDirections) {
   EXPECT_NE(numbers.as_understood.find("normal = [-2, 2.004, 0]"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_surface_test

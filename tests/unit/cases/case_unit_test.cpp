@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_unit_test {
 
 using test::CaseFolder;
 constexpr double pi = std::numbers::pi;
@@ -237,5 +236,4 @@ TEST(CaseUnits, RoundedPitchesAreSpreadOverTheTurn) {
   EXPECT_NEAR(sum, 2 * pi, 1e-14);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_unit_test

@@ -8,8 +8,7 @@
 #include <set>
 
 /// Values that are taken, but hardly meant.
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_usual_test {
 
 using test::CaseFolder;
 
@@ -90,5 +89,4 @@ TEST(CaseUsual, AListIsNamedOnceAndEntriesOfTablesAreSeen) {
   EXPECT_EQ(usual_range("identify.sweep_um"), nullptr);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_usual_test

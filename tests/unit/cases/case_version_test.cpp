@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_version_test {
 
 using test::CaseFolder;
 
@@ -41,5 +40,4 @@ TEST(CaseVersion, BelowATableIsToldWhereItBelongs) {
   EXPECT_NE(said.find("schema stands above all tables"), std::string::npos) << said;
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_version_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::case_wall_plan_test {
 
 using test::CaseFolder;
 
@@ -101,5 +100,4 @@ TEST(CaseWallPlan, RefusesWhatBelongsToForces) {
        "plan.radial_depth_mm: not ascending");
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::case_wall_plan_test

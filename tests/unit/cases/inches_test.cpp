@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::inches_test {
 
 const Node& at(const Node& root, const char* table, const char* key) {
   return *find(*find(root, table), key);
@@ -89,5 +88,4 @@ TEST(Inches, AreSetBesideTheCaseAndSwept) {
   EXPECT_EQ(number_at(root, "cut", "axial_depth_mm"), 2.54);
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::inches_test

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::set_beside_test {
 
 using Settings = std::vector<std::string>;
 
@@ -80,5 +79,4 @@ TEST(WithSettings, NamesEveryOneThatLeadsNowhere) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::set_beside_test

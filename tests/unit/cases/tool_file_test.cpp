@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid::cases {
-namespace {
+namespace trochoid::cases::tool_file_test {
 
 using Keys = std::vector<std::string>;
 
@@ -118,5 +117,4 @@ TEST_F(ToolFile, ANewCaseWithItIsOne) {
       << text;
 }
 
-}  // namespace
-}  // namespace trochoid::cases
+}  // namespace trochoid::cases::tool_file_test

@@ -4,8 +4,7 @@
 
 #include <array>
 
-namespace trochoid::chip {
-namespace {
+namespace trochoid::chip::bent_slice_test {
 
 constexpr std::array models = {Model::none, Model::feed, Model::radial,
                                Model::trochoidal};
@@ -92,5 +91,4 @@ TEST(BentSlice, TheBoundaryIsWhereTheBentChipBegins) {  // [E-10]
   EXPECT_LT(before * after, 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::chip
+}  // namespace trochoid::chip::bent_slice_test

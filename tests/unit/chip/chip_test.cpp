@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::chip {
-namespace {
+namespace trochoid::chip::chip_test {
 
 constexpr std::array models{Model::none, Model::feed, Model::radial, Model::trochoidal};
 
@@ -156,5 +155,4 @@ TEST(Chip, StockBoundsTheChip) {  // [C-7] [G-11]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::chip
+}  // namespace trochoid::chip::chip_test

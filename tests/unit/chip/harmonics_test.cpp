@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::chip {
-namespace {
+namespace trochoid::chip::harmonics_test {
 
 using numerics::evaluate;
 
@@ -164,5 +163,4 @@ TEST(HarmonicPieces, AreWhereTheChipSaysSo) {
   EXPECT_GT(at_stock_edge, 100);
 }
 
-}  // namespace
-}  // namespace trochoid::chip
+}  // namespace trochoid::chip::harmonics_test

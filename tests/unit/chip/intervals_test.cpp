@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace trochoid::chip {
-namespace {
+namespace trochoid::chip::intervals_test {
 
 TEST(Intervals, OfThePaperAreThoseOfTheTheoryPage) {  // [C-5] [C-6]
   const MadeSlice s = paper_slice(Lookback::all);
@@ -67,5 +66,4 @@ TEST(Intervals, HoldAllThatCutsAndNothingElse) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::chip
+}  // namespace trochoid::chip::intervals_test

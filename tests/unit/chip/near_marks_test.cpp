@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace trochoid::chip {
-namespace {
+namespace trochoid::chip::near_marks_test {
 
 /// A cutter of many teeth at the largest feed that near_marks may be asked of.
 MadeSlice crowded_slice(std::mt19937& random) {
@@ -55,5 +54,4 @@ TEST(NearMarks, LeaveOutNoneThatBoundsAChip) {
   EXPECT_LT(3 * kept, all);
 }
 
-}  // namespace
-}  // namespace trochoid::chip
+}  // namespace trochoid::chip::near_marks_test

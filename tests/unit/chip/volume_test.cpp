@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::chip {
-namespace {
+namespace trochoid::chip::volume_test {
 
 double widest(const MadeSlice& s) {
   double R = 0.0;
@@ -64,5 +63,4 @@ TEST(Volume, NothingIsRemovedWithoutFeed) {
   EXPECT_EQ(removal(s.passage(), s.slice()).removed, 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::chip
+}  // namespace trochoid::chip::volume_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace trochoid::correction {
+namespace trochoid::correction::amplitude_test {
 
 namespace {
 
@@ -130,4 +130,4 @@ TEST(Amplitude, NoRunoutNeedsNoMotion) {
   EXPECT_LT(a.peak_difference, 1e-9);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::amplitude_test

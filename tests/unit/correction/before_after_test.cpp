@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace trochoid::correction {
+namespace trochoid::correction::before_after_test {
 
 namespace {
 
@@ -108,4 +108,4 @@ TEST(Reduction, IsOfADifferenceThatThereWas) {
   EXPECT_FALSE(reduction(cuts));
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::before_after_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::correction {
+namespace trochoid::correction::command_test {
 
 namespace {
 
@@ -378,4 +378,4 @@ TEST(ResidualMap, IsItsPoints) {
   }
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::command_test

@@ -11,9 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace trochoid {
-
-namespace {
+namespace trochoid::controlled_motion_test {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double rps = 20.0;
@@ -141,6 +139,4 @@ TEST(ControlledMotion, LearnsTheRunoutInFiveTurns) {  // [L-5] [L-6]
   }
 }
 
-}  // namespace
-
-}  // namespace trochoid
+}  // namespace trochoid::controlled_motion_test

@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid {
-
-namespace {
+namespace trochoid::controller_config_test {
 
 using Config = TrochoidControllerConfig;
 
@@ -111,6 +109,4 @@ TEST(ControllerConfig, EverythingHasAName) {
   EXPECT_STREQ(trochoid_refusal_reason(99), "unknown");
 }
 
-}  // namespace
-
-}  // namespace trochoid
+}  // namespace trochoid::controller_config_test

@@ -7,9 +7,7 @@
 #include <functional>
 #include <limits>
 
-namespace trochoid {
-
-namespace {
+namespace trochoid::controller_fault_test {
 
 using tests::Bench;
 using tests::sine_config;
@@ -295,6 +293,4 @@ TEST(ControllerFault, NoRunWhileTheProblemStays) {
   EXPECT_EQ(bench.last.command_m, bench.controller.middle_m);
 }
 
-}  // namespace
-
-}  // namespace trochoid
+}  // namespace trochoid::controller_fault_test

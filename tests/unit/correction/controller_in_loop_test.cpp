@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace trochoid::correction {
+namespace trochoid::correction::controller_in_loop_test {
 
 namespace {
 
@@ -276,4 +276,4 @@ TEST(ControllerInLoop, LearnsTheWavesOfFourFlutes) {  // [L-9] [L-10] [L-11]
   EXPECT_LE(loop.highest, 60e-6);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::controller_in_loop_test

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-namespace trochoid {
+namespace trochoid::controller_memory_test {
 
 namespace {
 
@@ -178,4 +178,4 @@ TEST(ControllerWaves, ThatAreNoNumbersAreABadInput) {
   EXPECT_TRUE(harmless(bench.last));
 }
 
-}  // namespace trochoid
+}  // namespace trochoid::controller_memory_test

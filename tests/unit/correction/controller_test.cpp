@@ -7,9 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace trochoid {
-
-namespace {
+namespace trochoid::controller_test {
 
 using tests::Bench;
 using tests::sine_config;
@@ -263,6 +261,4 @@ TEST(Controller, BeginsAnewWithItsOwnConfiguration) {
   EXPECT_LT(bench.until(TROCHOID_RUNNING), 1.0);
 }
 
-}  // namespace
-
-}  // namespace trochoid
+}  // namespace trochoid::controller_test

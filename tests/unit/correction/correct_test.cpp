@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid::correction {
+namespace trochoid::correction::correct_test {
 
 namespace {
 
@@ -109,4 +109,4 @@ TEST(CorrectACut, KeepsItsAnswerWhereTheControllerRefuses) {
   EXPECT_FALSE(c.plan.limits.ok);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::correct_test

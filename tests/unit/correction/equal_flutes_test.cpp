@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::correction {
+namespace trochoid::correction::equal_flutes_test {
 
 namespace {
 
@@ -159,4 +159,4 @@ TEST(EstimatorModel, TellsWhatAWaveAndAToothChange) {  // [R-31]
   EXPECT_GT(config.runout_model[1][1], 1e3);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::equal_flutes_test

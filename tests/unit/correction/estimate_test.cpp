@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace trochoid::correction {
+namespace trochoid::correction::estimate_test {
 
 namespace {
 
@@ -277,4 +277,4 @@ TEST(MovingCut, AgreesWithTheRigidCutWhereNothingGivesWay) {  // [R-1]
   }
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::estimate_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace trochoid {
+namespace trochoid::estimator_test {
 
 namespace {
 
@@ -291,4 +291,4 @@ TEST(Estimator, WrongConfigurationsAreRefused) {
             TROCHOID_ESTIMATOR_REFUSED_POINTER);
 }
 
-}  // namespace trochoid
+}  // namespace trochoid::estimator_test

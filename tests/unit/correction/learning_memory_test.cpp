@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace trochoid {
+namespace trochoid::learning_memory_test {
 
 namespace {
 
@@ -151,4 +151,4 @@ TEST(LearningMemory, MeanIsOfTheSamplesThatAreCounted) {
   EXPECT_NEAR(result.force_N[1], 100.0, 1e-6);
 }
 
-}  // namespace trochoid
+}  // namespace trochoid::learning_memory_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace trochoid::correction {
+namespace trochoid::correction::motion_of_table_test {
 
 namespace {
 
@@ -199,4 +199,4 @@ TEST(Shapes, FewerHarmonicsKeepTheMiddleOfThePass) {  // [R-24]
   EXPECT_GT(place_at(harmonics_of(square, 1), turn / 4), 16e-6);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::motion_of_table_test

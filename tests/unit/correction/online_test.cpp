@@ -9,9 +9,7 @@
 #include <set>
 #include <string>
 
-namespace trochoid {
-
-namespace {
+namespace trochoid::online_test {
 
 using tests::ClosedLoop;
 using tests::sine_config;
@@ -292,6 +290,4 @@ TEST(Online, WrongConfigurationsAreRefused) {
   EXPECT_EQ(trochoid_online_init(&online, nullptr), TROCHOID_ONLINE_REFUSED_POINTER);
 }
 
-}  // namespace
-
-}  // namespace trochoid
+}  // namespace trochoid::online_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::correction {
+namespace trochoid::correction::plan_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ TEST(CommandOptionsOf, ARateIsATimeBetweenSamples) {
   EXPECT_DOUBLE_EQ(command_options({.sample_rate = 500}).sample_time, 0.002);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::plan_test

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace trochoid::correction {
+namespace trochoid::correction::rigid_cut_test {
 
 namespace {
 
@@ -189,4 +189,4 @@ TEST(RigidCut, RefusesWhatIsNoCut) {
   EXPECT_THROW(RigidCut(bad, steep_law()), std::invalid_argument);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::rigid_cut_test

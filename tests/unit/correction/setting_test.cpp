@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace trochoid::correction {
+namespace trochoid::correction::setting_test {
 
 namespace {
 
@@ -137,4 +137,4 @@ TEST(MeasuredSetting, SaysWhyARecordTellsNothing) {
   EXPECT_EQ(reason(nothing).find("runout was not found in the record: "), 0U);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::setting_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace trochoid::correction {
+namespace trochoid::correction::speed_map_test {
 
 namespace {
 
@@ -110,4 +110,4 @@ TEST(SpeedMap, OfNoSpeedsIsEmpty) {
   EXPECT_TRUE(map.curves.empty());
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::speed_map_test

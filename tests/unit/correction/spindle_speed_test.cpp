@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace trochoid::correction {
+namespace trochoid::correction::spindle_speed_test {
 
 namespace {
 
@@ -112,4 +112,4 @@ TEST(SpindleSpeed, CannotTurnBack) {         // [R-32]
   EXPECT_LT(m.speed_change, 9.1);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::spindle_speed_test

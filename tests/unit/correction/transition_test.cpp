@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::correction {
+namespace trochoid::correction::transition_test {
 
 namespace {
 
@@ -129,4 +129,4 @@ TEST(Transition, ThePlanChoosesWhereNoneIsGiven) {
   EXPECT_FALSE(plan_correction(s, options).transition);
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::transition_test

@@ -15,7 +15,7 @@
 #include <sstream>
 #include <string>
 
-namespace trochoid::correction {
+namespace trochoid::correction::worked_test {
 
 namespace {
 
@@ -313,4 +313,4 @@ TEST(WorkedCorrection, InverseOfASineAndTheSpeedAtWhichItFillsTheStroke) {  // [
   }
 }
 
-}  // namespace trochoid::correction
+}  // namespace trochoid::correction::worked_test

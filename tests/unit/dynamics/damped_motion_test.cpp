@@ -13,8 +13,7 @@
 #include <cmath>
 
 /// Motion in time with a worn flank.
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::damped_motion_test {
 
 constexpr force::ProcessDamping worn{80e-6, 3e13, 0.3};
 constexpr double c_worn = 0.5 * 3e13 * 80e-6 * 80e-6;  // [N/m]
@@ -240,5 +239,4 @@ TEST(DampedMotion, OfASharpEdgeIsTheSameToTheLastBit) {  // [T-16]
   EXPECT_NE(motion(p).force, without.force);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::damped_motion_test

@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::directional_test {
 
 constexpr force::Power power_law{300e6, 120e6, 80e6, 0.3, 0.4, 0.2};
 
@@ -222,5 +221,4 @@ TEST(Directional, RunoutSendsATwoToothCutterToItsOwnMarkAtEntry) {  // [D-8]
   EXPECT_TRUE(cuts(1, pi + 1.1 * beta));
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::directional_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::edge_force_test {
 
 struct Points {
   std::vector<double> sine, cosine, width, edge, constant;
@@ -108,5 +107,4 @@ TEST(EdgeForce, TheLowestMarkIsMet) {  // [T-1]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::edge_force_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::force_balance_test {
 
 using Plane = std::array<double, 2>;
 
@@ -79,5 +78,4 @@ TEST(BalancedForce, OfAJumpIsOneOfBoth) {  // [T-12]
   EXPECT_NEAR(P[0] * found.F[0], -1e-9, 10e-9);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::force_balance_test

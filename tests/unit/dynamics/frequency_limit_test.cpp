@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::frequency_limit_test {
 
 using Complex = std::complex<double>;
 
@@ -216,5 +215,4 @@ TEST(FrequencyLimit, IsAbsentWhereAllDepthsAreStable) {  // [D-23]
                    .has_value());
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::frequency_limit_test

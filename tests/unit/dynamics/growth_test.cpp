@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::dynamics {
+namespace trochoid::dynamics::growth_test {
 
 namespace {
 
@@ -77,4 +77,4 @@ TEST(Growth, LateChangeTellsWhatDiesOutFromWhatStays) {
   EXPECT_FALSE(late_change(pair(1.0, 2.3, 8)));
 }
 
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::growth_test

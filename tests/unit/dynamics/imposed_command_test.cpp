@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::imposed_command_test {
 
 constexpr double Omega = 20 * unit::turn;  // a turn lasts 50 ms
 
@@ -43,5 +42,4 @@ TEST(ImposedCommand, OfATableIsAboutItsMean) {
   EXPECT_NEAR(command_at(table, 1.25 * unit::turn), 40e-6, 1e-15);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::imposed_command_test

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::lobes_test {
 
 std::vector<double> steps(double first, double last, int count) {
   std::vector<double> values;
@@ -169,5 +168,4 @@ TEST(Chatter, OfNoCutIsTheModeItself) {  // [D-12]
   EXPECT_NEAR(lines[0].frequency, 922 * std::sqrt(1 - 0.011 * 0.011), 1e-5);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::lobes_test

@@ -14,7 +14,7 @@
 
 /// The motion against what is known without it: analytic solutions, energy, forces of a
 /// rigid cut, multipliers.
-namespace trochoid::dynamics {
+namespace trochoid::dynamics::motion_checks_test {
 
 namespace {
 
@@ -398,4 +398,4 @@ TEST(Motion, WithoutFeedNothingIsCut) {
   EXPECT_EQ(m.peak, 0.0);
 }
 
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::motion_checks_test

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace trochoid::dynamics {
+namespace trochoid::dynamics::motion_test {
 
 namespace {
 
@@ -267,4 +267,4 @@ TEST(EngagedGrid, RefusesWhatItCannotShift) {
   EXPECT_THROW(engaged_grid(p.setup, {}, 1000), std::invalid_argument);
 }
 
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::motion_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::multiplier_test {
 
 TEST(Multiplier, OfTheBenchmark) {  // [D-11]
   struct Point {
@@ -201,5 +200,4 @@ TEST(Multiplier, OfManyCyclesATurnWithRunout) {  // [D-11]
   EXPECT_NEAR(std::abs(mu.value), std::abs(fine.value), 2e-8 * std::abs(fine.value));
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::multiplier_test

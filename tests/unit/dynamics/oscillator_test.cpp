@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::oscillator_test {
 
 /// Mass 0.5 kg, 300 rad/s, with a damping ratio.
 ChipMode damped(double ratio) {
@@ -125,5 +124,4 @@ TEST(DominantEigenvalue, OfSmallMatrices) {  // [D-10]
   EXPECT_EQ(std::abs(numerics::dominant_eigenvalue(zero, 5, 1e-9).value), 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::oscillator_test

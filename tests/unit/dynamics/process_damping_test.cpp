@@ -12,8 +12,7 @@
 #include <cmath>
 #include <utility>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::process_damping_test {
 
 constexpr force::ProcessDamping worn{80e-6, 3e13, 0.3};
 constexpr double c_worn = 0.5 * 3e13 * 80e-6 * 80e-6;  // [N/m]
@@ -266,5 +265,4 @@ TEST(ProcessDamping, OfASharpEdgeIsNone) {  // [D-30]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::process_damping_test

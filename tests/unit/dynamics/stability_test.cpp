@@ -7,8 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::stability_test {
 
 StabilityProblem benchmark(double depth_mm) {
   StabilityProblem p{.setup = straight_cut(2, geometry::Slot{}),
@@ -103,5 +102,4 @@ TEST(LinearGrowth, IsNotLookedForOverManyVibrations) {
   EXPECT_FALSE(linear_growth(p.setup, p.law, p.system));
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::stability_test

@@ -10,8 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::steady_state_test {
 
 /// The benchmark at an axial depth; it is stable up to about 0.36 mm.
 MotionProblem benchmark(double depth_mm) {
@@ -205,5 +204,4 @@ TEST(RelativeDifference, IsThatOfLargestAndSmallestOverTheLargest) {
   EXPECT_DOUBLE_EQ(area_difference(m), 0.75);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::steady_state_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace trochoid::dynamics {
+namespace trochoid::dynamics::surface_location_test {
 
 namespace {
 
@@ -92,4 +92,4 @@ TEST(SurfaceLocation, NeedsAWholeTurn) {
                std::invalid_argument);
 }
 
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::surface_location_test

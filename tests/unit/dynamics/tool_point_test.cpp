@@ -5,8 +5,7 @@
 #include <cmath>
 #include <complex>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::tool_point_test {
 
 constexpr double mass = 0.04;
 constexpr double stiffness = 1.5e6;
@@ -68,5 +67,4 @@ TEST(MeasuredResponse, HasItsPeakAtTheResonance) {
   EXPECT_LT(scatter(receptance_of(one_mode(0, 0))), 1e-9);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::tool_point_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::vibration_test {
 
 /// Sines of three frequencies over turns of 0.1 s, one a harmonic of the spindle.
 Motion three_sines(int turns, int per_turn) {
@@ -58,5 +57,4 @@ TEST(SpectrumSamples, SeeTheFastestModeAndTellTheSlowest) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::vibration_test

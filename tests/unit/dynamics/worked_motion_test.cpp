@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace trochoid::dynamics {
+namespace trochoid::dynamics::worked_motion_test {
 
 namespace {
 
@@ -112,4 +112,4 @@ TEST(WorkedMotion, AgreesWithTheMethodOfSteps) {
   EXPECT_GT(cases, 0);
 }
 
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::worked_motion_test

@@ -7,8 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-namespace trochoid::dynamics {
-namespace {
+namespace trochoid::dynamics::worked_stability_test {
 
 using nlohmann::json;
 
@@ -50,5 +49,4 @@ TEST(WorkedStability, OneModeInUpDownAndSlot) {  // [D-11]
   EXPECT_GE(cases.size(), 26U);
 }
 
-}  // namespace
-}  // namespace trochoid::dynamics
+}  // namespace trochoid::dynamics::worked_stability_test

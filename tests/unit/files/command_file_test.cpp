@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace trochoid::files {
+namespace trochoid::files::command_file_test {
 
 namespace {
 
@@ -65,4 +65,4 @@ TEST(CommandFile, SaysWhatIsWrong) {
   EXPECT_NE(problem("").find("no data"), std::string::npos);
 }
 
-}  // namespace trochoid::files
+}  // namespace trochoid::files::command_file_test

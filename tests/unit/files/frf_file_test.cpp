@@ -7,8 +7,7 @@
 #include <numbers>
 #include <string>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::frf_file_test {
 
 using structure::ResponseKind;
 
@@ -129,5 +128,4 @@ TEST(FrfFile, WhatIsWrongWithAUniversalFile) {
       "made.txt:1:1", "only 1 data set of other kinds (the first is a 15)");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::frf_file_test

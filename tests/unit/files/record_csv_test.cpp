@@ -11,8 +11,7 @@
 #include <sstream>
 #include <streambuf>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_csv_test {
 
 signal::Record read(const std::string& text, const RecordSource& measurement = {}) {
   std::istringstream in(text);
@@ -360,5 +359,4 @@ TEST(RecordCsv, RefusesAnotherFormatThanTheCaseFileSays) {
   EXPECT_NE(refusal("DynoWare,Version 2\nSampling rate [Hz]:,1\nFx,Fy,Fz\n", m), "");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_csv_test

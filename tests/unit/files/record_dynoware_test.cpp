@@ -5,8 +5,7 @@
 #include <fmt/core.h>
 #include <sstream>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_dynoware_test {
 
 struct Export {
   double rate = 10000;
@@ -118,5 +117,4 @@ TEST(RecordDynoWare, TakesTheRateOfTheCaseFileOnlyIfItAgrees) {
             "Hz: they must agree\n");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_dynoware_test

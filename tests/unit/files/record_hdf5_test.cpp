@@ -12,8 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_hdf5_test {
 
 constexpr RecordFrom read{"r.h5"};
 constexpr RefusalFrom refusal{"r.h5"};
@@ -184,5 +183,4 @@ TEST(ReadApart, BreaksDownWithoutWhatTheProgramDoesThen) {
   ::close(told_by[1]);
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_hdf5_test

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 #include <trochoid/files/record_source.h>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_lvm_test {
 
 constexpr RecordFrom read{"r.lvm"};
 constexpr RefusalFrom refusal{"r.lvm"};
@@ -93,5 +92,4 @@ TEST(RecordLvm, IsRefusedUnderAnotherName) {
             "format = \"tdms\": \"lvm\" is right\n");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_lvm_test

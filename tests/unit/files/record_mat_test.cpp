@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <trochoid/files/record_source.h>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_mat_test {
 
 constexpr RecordFrom read{"r.mat"};
 constexpr RefusalFrom refusal{"r.mat"};
@@ -114,5 +113,4 @@ TEST(RecordMat, NeverBreaksOnASingleWrongByte) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_mat_test

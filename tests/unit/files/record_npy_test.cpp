@@ -6,8 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_npy_test {
 
 constexpr RecordFrom read{"r.npy"};
 constexpr RefusalFrom refusal{"r.npy"};
@@ -167,5 +166,4 @@ TEST(RecordNpy, IsRefusedUnderAnotherName) {
       "\"npy\" is right\n");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_npy_test

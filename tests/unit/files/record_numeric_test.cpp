@@ -3,10 +3,10 @@
 #include <trochoid/base/units.h>
 #include <trochoid/files/numeric_table.h>
 
+#include <cmath>
 #include <limits>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_numeric_test {
 
 struct Made {
   NumericColumn column;
@@ -179,5 +179,4 @@ TEST(RecordNumeric, ScalesVoltsToNewtons) {
   EXPECT_EQ(record.channel[2], (std::vector{5000.0, 6000.0}));
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_numeric_test

@@ -5,8 +5,7 @@
 
 #include <filesystem>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_real_test {
 
 /// Exports that may not be shipped; they lie beside the project where they lie at all.
 const std::filesystem::path folder =
@@ -37,5 +36,4 @@ TEST(RealRecord, IsReadAndItsSpindleSpeedFound) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_real_test

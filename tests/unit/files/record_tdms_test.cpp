@@ -7,8 +7,7 @@
 
 #include <sstream>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_tdms_test {
 
 constexpr RecordFrom read{"r.tdms"};
 constexpr RefusalFrom refusal{"r.tdms"};
@@ -145,5 +144,4 @@ TEST(RecordTdms, NeverBreaksOnASingleWrongByte) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_tdms_test

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <trochoid/files/record_source.h>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::record_uff58_test {
 
 constexpr RecordFrom read{"r.uff"};
 constexpr RefusalFrom refusal{"r.uff"};
@@ -101,5 +100,4 @@ TEST(RecordUff58, IsRefusedUnderAnotherName) {
             "\"csv\": \"uff58\" is right\n");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::record_uff58_test

@@ -5,8 +5,7 @@
 #include <sstream>
 #include <string>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::step_file_test {
 
 StepFile read(const std::string& text, const StepSource& source = {}) {
   std::istringstream in(text);
@@ -67,5 +66,4 @@ TEST(StepFile, WhatIsWrongIsToldWithItsPlace) {
                  "must agree", other);
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::step_file_test

@@ -4,8 +4,7 @@
 
 #include <sstream>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::surface_file_test {
 
 std::vector<SurfaceReading> read(const std::string& text, int teeth = 0) {
   std::istringstream in(text);
@@ -192,5 +191,4 @@ TEST(SurfaceReadings, AlongTheTurnOfAQuasiStaticModelOrARigidWallXIsFree) {
           .empty());
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::surface_file_test

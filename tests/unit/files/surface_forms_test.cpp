@@ -7,8 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::surface_forms_test {
 
 constexpr double mm = 1e-3;
 constexpr double um = 1e-6;
@@ -270,5 +269,4 @@ TEST(SurfaceFile, TwoHundredThousandRowsAreReadWhole) {
   EXPECT_EQ(read(text).readings.size(), static_cast<std::size_t>(rows));
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::surface_forms_test

@@ -10,8 +10,7 @@
 
 #include "surface_made.h"
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::surface_map_test {
 
 using namespace made;
 
@@ -169,5 +168,4 @@ TEST(SurfaceMaps, KeepWhatLiesInsideTheCut) {
                base::InputError);
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::surface_map_test

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <string>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::tap_file_test {
 
 using structure::ResponseKind;
 
@@ -83,5 +82,4 @@ TEST(TapFile, WhatIsWrongIsSaid) {
   expect_problem(uneven, "made.csv:52:1: the times are not evenly spaced");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::tap_file_test

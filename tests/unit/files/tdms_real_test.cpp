@@ -8,8 +8,7 @@
 #include <fstream>
 #include <numeric>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::tdms_real_test {
 
 std::filesystem::path folder() {
   const char* const shared = std::getenv("TROCHOID_SHARED");
@@ -62,5 +61,4 @@ TEST(RealTdms, AgreesWithAnotherReader) {
   EXPECT_EQ(channels, 13);
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::tdms_real_test

@@ -9,8 +9,7 @@
 #include <string>
 
 /// The measured response of a dynamometer.
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::transmission_file_test {
 
 std::string problems_of(const std::string& text) {
   try {
@@ -84,5 +83,4 @@ TEST(TransmissionFile, IsRefusedWhereItIsNone) {
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::transmission_file_test

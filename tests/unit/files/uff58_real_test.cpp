@@ -9,8 +9,7 @@
 #include <map>
 #include <sstream>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::uff58_real_test {
 
 /// Files of several instruments, with what an independent reader makes of them. They
 /// lie beside the project where they lie at all.
@@ -110,5 +109,4 @@ TEST(RealUff58, FilesWithoutASet58ArePassedOver) {
   EXPECT_GT(files, 10);
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::uff58_real_test

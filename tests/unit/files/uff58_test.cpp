@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::uff58_test {
 
 MadeSet made(int type, bool even) {
   MadeSet set{.type = type, .even = even};
@@ -120,5 +119,4 @@ TEST(Uff58, WhatIsWrongIsToldWithItsPlace) {
   expect_problem(as_binary(nan, true), "made.uff:2:1", "byte ");
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::uff58_test

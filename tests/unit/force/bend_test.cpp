@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::bend_test {
 
 MadeCut down_cut() {
   MadeCut s = slot(geometry::cylinder(12e-3), 3, 45);
@@ -98,5 +97,4 @@ TEST(Bend, SeedsStandWhereTheEdgePassesTheStockAndTheFront) {  // [E-10]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::bend_test

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::edge_meetings_test {
 
 force::Setup eccentric_ball(int teeth) {
   force::Setup setup;
@@ -80,5 +79,4 @@ TEST(EdgeMeetings, AreNoneWhereChipsDoNotKnowOfThem) {
   EXPECT_TRUE(none(eccentric_ball(1)));
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::edge_meetings_test

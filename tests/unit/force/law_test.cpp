@@ -7,8 +7,7 @@
 #include <array>
 #include <set>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::law_test {
 
 TEST(Law, CoefficientsGoOutAndComeBack) {
   for (const Law& law : {Law(steel()), Law(aluminium()), Law(both())}) {
@@ -129,5 +128,4 @@ TEST(Law, AStraightToothIsPushedAgainstItsVelocityAndInwards) {  // [F-3]
   EXPECT_NEAR(G[1], -1e9 * h * s.cut.a_p * std::cos(theta), 1e-7);
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::law_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::loads_test {
 
 double mean_torque(const MadeCut& setup, const Law& law, int count) {
   double sum = 0.0;
@@ -93,5 +92,4 @@ TEST(Loads, ForcesAreThoseWithoutMoments) {
   EXPECT_LE(difference(F, other), 1e-8 * peak(F));
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::loads_test

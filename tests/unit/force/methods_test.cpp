@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::methods_test {
 
 /// A cylinder in any cut with any chip.
 MadeCut random_setup(std::mt19937& random) {
@@ -232,5 +231,4 @@ TEST(Methods, TurnsRepeatToTheLastBit) {
   EXPECT_LE(difference(forces(s, steel(), phi, 1e-8), once), 1e-7 * peak(once));
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::methods_test

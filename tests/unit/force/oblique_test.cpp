@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::oblique_test {
 
 using Vector = std::array<double, 3>;
 
@@ -77,5 +76,4 @@ TEST(MeanChip, OfASlot) {  // [F-18]
   EXPECT_NEAR(mean_chip(0.1, 0.3, 0.3 + 1e-4), 0.1 * std::sin(0.30005), 1e-10);
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::oblique_test

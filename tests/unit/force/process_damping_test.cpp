@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::process_damping_test {
 
 TEST(ProcessDamping, IsThatOfTheVolumeUnderTheLand) {  // [F-16]
   // 80 um of land at a slope of 1 in 50: a triangle of 80 um by 1.6 um over 2 mm
@@ -23,5 +22,4 @@ TEST(ProcessDamping, NeedsALandAndAMaterial) {  // [F-16]
   EXPECT_FALSE((ProcessDamping{80e-6, 0.0, 0.3}.acts()));
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::process_damping_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::slice_test {
 
 Setup setup_of(const geometry::Profile& profile) {
   Setup out;
@@ -76,5 +75,4 @@ TEST(ForceStatistics, AreThoseOfTheCourse) {
   EXPECT_EQ(m.peak_bending, 5.0);
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::slice_test

@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::force {
-namespace {
+namespace trochoid::force::turn_test {
 
 TurnPolynomial turn_of(const MadeCut& setup) {
   const auto teeth = turn_teeth(setup, 1e-12);
@@ -226,5 +225,4 @@ TEST(Turn, IsForCylindersOfConstantLeadOnly) {  // [F-10]
   EXPECT_FALSE(turn_teeth(s, 1e-9));
 }
 
-}  // namespace
-}  // namespace trochoid::force
+}  // namespace trochoid::force::turn_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::geometry {
-namespace {
+namespace trochoid::geometry::edge_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -138,5 +137,4 @@ TEST(Cut, RadialDepthsAreBandsOfTheStock) {  // [G-11]
   EXPECT_NEAR(down.y_hi, -2e-3, 1e-18);
 }
 
-}  // namespace
-}  // namespace trochoid::geometry
+}  // namespace trochoid::geometry::edge_test

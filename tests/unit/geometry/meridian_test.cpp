@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid::geometry {
-namespace {
+namespace trochoid::geometry::meridian_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double beta = 8 * unit::deg;
@@ -175,5 +174,4 @@ TEST(Meridian, WhatIsNoCutterIsRefused) {
   EXPECT_THROW(meridian(bull_nose(10e-3, 6e-3)), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::geometry
+}  // namespace trochoid::geometry::meridian_test

@@ -9,8 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace trochoid::geometry {
-namespace {
+namespace trochoid::geometry::runout_test {
 
 constexpr double r = 5e-3;
 
@@ -96,5 +95,4 @@ TEST(Runout, AToothWithoutARadiusLeavesNoMark) {
   EXPECT_LE(at[1].R, 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::geometry
+}  // namespace trochoid::geometry::runout_test

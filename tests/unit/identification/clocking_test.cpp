@@ -8,8 +8,7 @@
 #include <complex>
 #include <random>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::clocking_test {
 
 using Complex = std::complex<double>;
 
@@ -123,5 +122,4 @@ TEST(Clocking, TheLongestToothChangesAlongTheHelix) {  // [G-9]
   EXPECT_EQ(longest_tooth(cutter, runout, 0.0), 3);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::clocking_test

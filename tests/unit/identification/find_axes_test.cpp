@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::find_axes_test {
 
 using Names = std::array<std::string, 3>;
 
@@ -90,5 +89,4 @@ TEST(OnTool, TurnsChannelsIntoForces) {
   EXPECT_THROW(on_tool({&run, 1}, {}), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::find_axes_test

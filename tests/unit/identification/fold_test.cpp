@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::fold_test {
 
 Record ramp(int turns, int per_turn) {
   Record out;
@@ -96,5 +95,4 @@ TEST(Fold, VeryManyAnglesAreAveraged) {
   EXPECT_NEAR(samples, 20000.0, 1e-6);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::fold_test

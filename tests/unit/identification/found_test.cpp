@@ -4,8 +4,7 @@
 
 #include <array>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::found_test {
 
 /// Two coefficients and an eccentricity, of whose components one has no error.
 TEST(FoundTogether, HasNoComponentOfAnEccentricityAlone) {
@@ -31,5 +30,4 @@ TEST(FoundTogether, HasNoComponentOfAnEccentricityAlone) {
   EXPECT_EQ(found.covariance.size(), 4U);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::found_test

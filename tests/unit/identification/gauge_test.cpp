@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::gauge_test {
 
 Problem problem_of(const force::Setup& setup, const Record& run,
                    RunoutUnknowns runout) {
@@ -78,5 +77,4 @@ TEST(Gauge, UnequalPitchKeepsItsNumbers) {
   EXPECT_NEAR(p[0], 0.1, 1e-12);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::gauge_test

@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::groups_test {
 
 force::LinearEdge worn() {
   return {2700e6, 1700e6, 340e6, 15e3, 17e3, 2e3};
@@ -153,5 +152,4 @@ TEST_F(Groups, AreJudgedOneByOne) {
                                       "does"}));
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::groups_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::joint_fit_test {
 
 TEST(JointFit, OffsetPhaseAndCoefficientsComeBack) {  // [I-3]
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
@@ -215,5 +214,4 @@ TEST(JointFit, GivenPhaseIsKept) {
   EXPECT_NEAR(fit.runout.radial_offsets[1], -8e-6, 1e-11);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::joint_fit_test

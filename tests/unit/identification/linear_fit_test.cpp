@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::linear_fit_test {
 
 Options fixed_runout() {
   Options out;
@@ -166,5 +165,4 @@ TEST(LinearFit, SweepHasItsMinimumAtTheTrueOffset) {  // [I-5]
   EXPECT_NEAR(rms[3], identify(setup, steel(), runs, none).rms, 1e-6);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::linear_fit_test

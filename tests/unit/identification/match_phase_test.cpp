@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::match_phase_test {
 
 force::Setup with_runout() {
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
@@ -49,5 +48,4 @@ TEST(MatchPhase, TakesTheCutOfTheRun) {
   EXPECT_LT(match.rms, 1e-6 * match.measured_rms);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::match_phase_test

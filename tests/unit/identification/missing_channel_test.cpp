@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::missing_channel_test {
 
 constexpr signal::Matrix3 as_it_is = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -164,5 +163,4 @@ TEST(MissingChannel, GoesWhereTheAxesSay) {
   EXPECT_NE(choice.message.find("give the axes"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::missing_channel_test

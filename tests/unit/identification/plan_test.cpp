@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::plan_test {
 
 /// Three teeth in a quarter of the width, two feeds.
 class Plan : public testing::Test {
@@ -209,5 +208,4 @@ TEST_F(Plan, GoesOnFromWhatAFitKnows) {  // [I-20]
   EXPECT_LT(plan.cuts[0].se[0], *plan.quantities[0].se);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::plan_test

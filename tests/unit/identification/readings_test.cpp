@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::readings_test {
 
 std::size_t different(const std::vector<ReadingFamily>& families) {
   std::vector<signal::Matrix3> all;
@@ -55,5 +54,4 @@ TEST(Readings, ExchangeRowsAsTheyDoSamples) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::readings_test

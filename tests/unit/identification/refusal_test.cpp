@@ -6,8 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::refusal_test {
 
 void expect_no_numbers(const Fit& fit) {
   EXPECT_FALSE(fit.ok);
@@ -222,5 +221,4 @@ TEST(Refusal, PhaseOfTeethThatEnterBetweenSamplesIsNotKnownBetterThanThat) {
   EXPECT_NEAR(fit.phase[0], 0.3, 4.0 * *fit.phase_se[0]);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::refusal_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::reliability_test {
 
 using test::sound_fit;
 
@@ -46,5 +45,4 @@ TEST(Reliability, ReasonsMakeOneSentence) {
             "Do not use these numbers: this is so; that is so.");
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::reliability_test

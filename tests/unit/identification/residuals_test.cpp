@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::residuals_test {
 
 force::Setup paper_cut() {
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
@@ -156,5 +155,4 @@ TEST(Uncertainty, AnOffsetWhereAToothStopsCuttingHasNoStandardError) {  // [I-4]
   EXPECT_GT(known_at(-0.5).covariance[48], 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::residuals_test

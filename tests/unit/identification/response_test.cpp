@@ -10,8 +10,7 @@
 #include <complex>
 
 /// A dynamometer that reads forces through its own vibration.
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::response_test {
 
 TEST(Response, TurnsAmplitudesByAMatrixForEachHarmonic) {  // [I-16]
   // Force x: 2 + 3 cos phi + 4 sin phi; y: 5 cos phi. H_1 delays x by a quarter and reads
@@ -155,5 +154,4 @@ TEST(Resonance, IsNotLookedForInNoise) {
   EXPECT_TRUE(seen.views.empty());
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::response_test

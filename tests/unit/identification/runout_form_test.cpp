@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 /// The form of the runout that a record decides for.
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::runout_form_test {
 
 force::Setup four_flutes() {
   force::Setup setup = slot_setup(4, 40.0, 8.0 * unit::mm);
@@ -86,5 +85,4 @@ TEST(RunoutForm, OfAStatedFitIsComparedWithTheOthers) {  // [I-18]
   EXPECT_GT(choice.tried.front().excess, 4.0);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::runout_form_test

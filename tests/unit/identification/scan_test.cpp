@@ -9,8 +9,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::scan_test {
 
 force::Setup with_offset() {
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
@@ -113,5 +112,4 @@ TEST(PhaseGrid, OfPartOfATurnKeepTheirWeights) {
   EXPECT_EQ(cells.weight.back(), 0.0);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::scan_test

@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::search_test {
 
 force::Setup with_offsets(int teeth, double helix_deg) {
   force::Setup setup = slot_setup(teeth, helix_deg, 2.0 * unit::mm);
@@ -70,5 +69,4 @@ TEST(Search, OneStartServesAllNumbersOfTheTeeth) {
             0.7 * static_cast<double>(runout_starts(known).size()));
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::search_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::turn_force_test {
 
 TEST(TurnForce, MeetsTheForceBetweenItsNodes) {
   for (const double helix : {0.0, 30.0}) {
@@ -43,5 +42,4 @@ TEST(TurnForce, OfNothingIsNothing) {
   EXPECT_EQ(turn.at(1.0), force::Vector3{});
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::turn_force_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::turn_matrix_test {
 
 force::Setup with_offset(double helix_deg) {
   force::Setup setup = slot_setup(2, helix_deg, 2.0 * unit::mm);
@@ -92,5 +91,4 @@ TEST(TurnMatrix, JumpsOfAStraightEdgeAreFound) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::turn_matrix_test

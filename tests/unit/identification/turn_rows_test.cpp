@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::turn_rows_test {
 
 /// Angles that never come back, with the force of a tool.
 Record asynchronous(const force::Setup& setup, int samples, double noise) {
@@ -78,5 +77,4 @@ TEST(TurnRows, AsynchronousRecordsAnswerWithinTheirErrors) {
   EXPECT_NEAR(fit.rms, 10.0 * std::sqrt(31.0 / 6000.0), 0.3);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::turn_rows_test

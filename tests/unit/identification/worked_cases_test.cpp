@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::worked_cases_test {
 
 using nlohmann::json;
 
@@ -178,5 +177,4 @@ TEST_P(WorkedRefusal, IsNotAnsweredWithNumbers) {  // [I-6]
 
 INSTANTIATE_TEST_SUITE_P(ConstantForce, WorkedRefusal, testing::Values("I09"));
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::worked_cases_test

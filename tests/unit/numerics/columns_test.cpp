@@ -5,8 +5,7 @@
 #include <random>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::columns_test {
 
 std::vector<double> random_numbers(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
@@ -97,5 +96,4 @@ TEST(Columns, ProjectionLeavesWhatIsOrthogonal) {  // [I-1]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::columns_test

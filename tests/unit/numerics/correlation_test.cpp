@@ -4,8 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::correlation_test {
 
 /// Whatever is left over beside whole vectors.
 TEST(Correlation, IsTheSumAtEveryShift) {
@@ -28,5 +27,4 @@ TEST(Correlation, IsTheSumAtEveryShift) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::correlation_test

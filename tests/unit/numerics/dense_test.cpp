@@ -6,8 +6,7 @@
 #include <complex>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::dense_test {
 
 /// From rows, as one writes it.
 Matrix matrix(std::size_t n, const std::vector<double>& rows) {
@@ -107,5 +106,4 @@ TEST(Dense, ExponentialOfARotationAndAShear) {
   EXPECT_NEAR(sheared(1, 0), 0.0, 1e-15);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::dense_test

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::fourier_test {
 
 /// Three functions with known coefficients, at n steps.
 std::vector<double> sampled(int n) {
@@ -44,5 +43,4 @@ TEST(Fourier, RefusesWhatItCannotTransform) {
   EXPECT_THROW(fourier_coefficients({}, 0, 0), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::fourier_test

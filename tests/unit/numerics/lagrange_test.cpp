@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::lagrange_test {
 
 double cubic(double x) {
   return 3.0 - x + 0.5 * x * x - 2.0 * x * x * x;
@@ -89,5 +88,4 @@ TEST(Lagrange, OnePointIsAConstant) {
   EXPECT_DOUBLE_EQ(basis.value(values, 0.3), 5.0);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::lagrange_test

@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::least_squares_test {
 
 TEST(LeastSquares, LineThroughThreePoints) {  // [I-1]
   // y = 1 + 2 t at t = 0, 1, 2, the middle point lifted by 3: by hand, a = 2, b = 2.
@@ -103,5 +102,4 @@ TEST(LeastSquares, OrthonormalColumnsAreAsManyAsIndependentOnes) {
   EXPECT_EQ(orthonormal(A, 3, 1e-12).size(), 8U);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::least_squares_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::levenberg_marquardt_test {
 
 TEST(LevenbergMarquardt, FindsTheMinimumOfRosenbrock) {
   const Residuals valley = [](std::span<const double> p, std::span<double> r,
@@ -65,5 +64,4 @@ TEST(Student, QuantilesOfTheTables) {  // [I-8]
   EXPECT_THROW(student_t(0.975, 0), std::domain_error);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::levenberg_marquardt_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::padded_test {
 
 /// Chaotic: no two alike.
 class Numbers {
@@ -95,5 +94,4 @@ TEST(Padded, EliminationOfASingularMatrixIsNotFinite) {
   EXPECT_FALSE(std::isfinite(both.column(4)[0]));
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::padded_test

@@ -8,7 +8,7 @@
 #include <vector>
 
 // Run over parallel.cpp and over parallel_threads.cpp (CMakeLists.txt).
-namespace {
+namespace trochoid::numerics::parallel_test {
 
 using trochoid::numerics::for_each_index;
 using trochoid::numerics::on_one_thread;
@@ -91,4 +91,4 @@ TEST(Parallel, ALimitHoldsWhileItLives) {
   EXPECT_EQ(thread_count(), before);
 }
 
-}  // namespace
+}  // namespace trochoid::numerics::parallel_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::periodic_pieces_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -133,5 +132,4 @@ TEST(PeriodicPieces, EachFunctionHasItsOwnAccuracy) {
             PeriodicPieces(sines, fine).panels());
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::periodic_pieces_test

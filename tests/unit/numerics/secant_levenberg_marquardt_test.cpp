@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::secant_levenberg_marquardt_test {
 
 /// Counts what a fit asks for.
 struct Asked {
@@ -63,5 +62,4 @@ TEST(SecantLevenbergMarquardt, SaysWhyThereIsNoStart) {
   EXPECT_EQ(lost.p[0], -9.0);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::secant_levenberg_marquardt_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::semidefinite_test {
 
 using Values = std::vector<double>;
 
@@ -80,5 +79,4 @@ TEST(SemidefiniteRoot, IsNoneOfWhatIsNoCovariance) {
   EXPECT_FALSE(semidefinite_root(Values{1, .9, -.9, .9, 1, .9, -.9, .9, 1}, 3));
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::semidefinite_test

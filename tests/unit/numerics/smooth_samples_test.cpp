@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace trochoid::numerics {
+namespace trochoid::numerics::smooth_samples_test {
 
 namespace {
 
@@ -77,4 +77,4 @@ TEST(SmoothSamples, EachWhereTheyDoNotAscend) {
   EXPECT_EQ(asked(x, 1e-4, wave), 101);
 }
 
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::smooth_samples_test

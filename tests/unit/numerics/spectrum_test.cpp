@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace trochoid::numerics {
-namespace {
+namespace trochoid::numerics::spectrum_test {
 
 TEST(Spectrum, IsTheSumThatItStandsFor) {
   std::vector<double> x;
@@ -33,5 +32,4 @@ TEST(Spectrum, FastLengthsHaveSmallFactors) {
   EXPECT_EQ(fast_length(10007), 10000U);
 }
 
-}  // namespace
-}  // namespace trochoid::numerics
+}  // namespace trochoid::numerics::spectrum_test

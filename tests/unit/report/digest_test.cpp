@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace trochoid::report {
+namespace trochoid::report::digest_test {
 
 /// Of `printf TEXT | openssl dgst -sha256 -binary | base64`.
 TEST(Digest, IsThatOfOtherPrograms) {
@@ -20,4 +20,4 @@ TEST(Digest, IsThatOfOtherPrograms) {
             "AiotlNlTUvI6WX+Jh0HCqTrIxj5cESuT/zwr2dzbFqg=");
 }
 
-}  // namespace trochoid::report
+}  // namespace trochoid::report::digest_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace trochoid::report {
-namespace {
+namespace trochoid::report::drawn_test {
 
 base::Table wave(std::size_t count) {
   base::Table table{"forces.csv", {{"angle_deg", {}}, {"Fx_N", {}}}};
@@ -108,5 +107,4 @@ TEST(Drawn, MayBeNothing) {
   EXPECT_EQ(json.size(), 2U);
 }
 
-}  // namespace
-}  // namespace trochoid::report
+}  // namespace trochoid::report::drawn_test

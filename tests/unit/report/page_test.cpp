@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace trochoid::report {
-namespace {
+namespace trochoid::report::page_test {
 
 const std::string hostile =
     "</script><script>alert(1)</script> & \"x\" \xC2\xB5 {{case}}";
@@ -142,5 +141,4 @@ TEST(Page, HasAPlaceForEachOfItsParts) {
   EXPECT_EQ(html({}, "{}").find("{{"), std::string::npos) << "a place was not filled";
 }
 
-}  // namespace
-}  // namespace trochoid::report
+}  // namespace trochoid::report::page_test

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::calibrate_test {
 
 using base::Estimate;
 
@@ -198,5 +197,4 @@ TEST(CalibrateAnswer, ARefusalHoldsWhatIsKnownAllTheSame) {
   EXPECT_TRUE(answer.tables.empty() && answer.texts.empty());
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::calibrate_test

@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::compared_test {
 
 Object estimate(double value, double se) {
   return {{"value", value}, {"se", se}, {"low", value - 2 * se}};
@@ -103,5 +102,4 @@ TEST(Compared, LeavesOutWhatOnlyRepeatsAnInput) {
             "All 4 numbers of the two are the same within 0.1 %.");
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::compared_test

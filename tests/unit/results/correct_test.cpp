@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::correct_test {
 
 using correction::Correction;
 using test::column_of;
@@ -246,5 +245,4 @@ TEST(CorrectAnswer, KeepsItsNumbersWhereTheControllerRefuses) {
   EXPECT_EQ(answer.tables.size(), 3U);
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::correct_test

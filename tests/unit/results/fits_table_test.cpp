@@ -9,8 +9,7 @@
 
 #include <sstream>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::fits_table_test {
 
 using identification::Estimate;
 using identification::Fit;
@@ -60,5 +59,4 @@ TEST(FitValue, WhatCannotBeToldIsNull) {
             "\"the record does not hold it\"");
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::fits_table_test

@@ -10,8 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::folder_test {
 
 namespace fs = std::filesystem;
 
@@ -229,5 +228,4 @@ TEST_F(Folder, NamesTheLineOfABrokenTable) {
       << reason;
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::folder_test

@@ -8,8 +8,7 @@
 
 #include <hdf5.h>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::hdf5_table_test {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -83,5 +82,4 @@ TEST(Hdf5Table, MayHaveNoRows) {
   EXPECT_TRUE(file.numbers("a").empty());
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::hdf5_table_test

@@ -9,8 +9,7 @@
 
 #include <algorithm>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::identify_test {
 
 IdentifyResult made() {
   IdentifyResult r;
@@ -212,5 +211,4 @@ TEST(IdentifyAnswer, FoldsWhatHoldsTwoTurns) {
   EXPECT_EQ(folded->columns.back().values, std::vector{0.5});
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::identify_test

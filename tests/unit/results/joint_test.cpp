@@ -11,8 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::joint_test {
 
 using identification::Fit;
 using identification::made_record;
@@ -119,5 +118,4 @@ TEST(ReadJoint, ReadsBackTheSameBits) {
   std::filesystem::remove(file);
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::joint_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::json_test {
 
 TEST(JsonText, PutsListsOfSingleValuesOnOneLine) {
   const Value value = Object{{"force_N", std::array{1.0, -0.1, 2e300}},
@@ -43,5 +42,4 @@ TEST(JsonQuoted, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(json_quoted("a\xFF\"b"), "\"a\xEF\xBF\xBD\\\"b\"");
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::json_test

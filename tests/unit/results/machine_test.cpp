@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::machine_test {
 
 using structure::ResponseKind;
 using test::column_of;
@@ -123,5 +122,4 @@ TEST(ActuatorAnswer, OneThatMovesBackwardsIsNotForOtherCases) {
   EXPECT_TRUE(answer_of(r).texts.empty());
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::machine_test

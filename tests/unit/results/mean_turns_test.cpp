@@ -7,8 +7,7 @@
 #include <cmath>
 
 /// Long records are shown by their mean turn.
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::mean_turns_test {
 
 TEST(MeanTurns, AreTheMeansOfSamplesAtTheSameAngle) {
   identification::Run run;
@@ -35,5 +34,4 @@ TEST(MeanTurns, AreTheMeansOfSamplesAtTheSameAngle) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::mean_turns_test

@@ -6,8 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::page_test {
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -52,5 +51,4 @@ TEST(ResultsPage, SaysSomethingOfEveryKeyAndColumnOnce) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::page_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::plan_test {
 
 PlanResult made() {
   PlanResult r;
@@ -89,5 +88,4 @@ TEST(PlanAnswer, IsNoneWithoutACut) {
   EXPECT_TRUE(answer.tables.empty());
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::plan_test

@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::simulate_test {
 
 /// Two samples of a cut with two teeth, the second of which idles.
 SimulateResult made() {
@@ -129,5 +128,4 @@ TEST(SimulateAnswer, SetsMeasurementsBesideTheForces) {
   EXPECT_EQ(answer.tables.size(), 5U) << "the measured and the computed curves too";
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::simulate_test

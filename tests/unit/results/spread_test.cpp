@@ -6,8 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::spread_test {
 
 std::vector<double> counted(std::size_t n) {
   std::vector<double> values(n);
@@ -57,5 +56,4 @@ TEST(Spread, BoundsHoldTheTrueEndsAsOftenAsTheySay) {
   EXPECT_LT(held, 995);
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::spread_test

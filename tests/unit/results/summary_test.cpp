@@ -15,8 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::summary_test {
 
 std::string number(double value) {
   std::string text;
@@ -125,5 +124,4 @@ TEST(Csv, ALongTableIsHandedOnInPieces) {
   EXPECT_LT(pieces.longest, 300000);
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::summary_test

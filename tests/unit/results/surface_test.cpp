@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::surface_test {
 
 /// Two teeth, two heights, two places, one angle of the force.
 SurfaceResult made() {
@@ -179,5 +178,4 @@ TEST(SurfaceAnswer, TellsOfLoadsInTheirUnits) {
   EXPECT_EQ(find(answer_of(made()).result, "wall_loads"), nullptr);
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::surface_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::sweep_rows_test {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,5 +52,4 @@ TEST(SweepRows, AreCut) {
   EXPECT_EQ(rows.row(0).status, "ok");
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::sweep_rows_test

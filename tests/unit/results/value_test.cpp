@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::value_test {
 
 TEST(Value, IsMadeOfWhatAResultHolds) {
   EXPECT_EQ(json_text(std::optional<double>{}), "null");
@@ -49,5 +48,4 @@ TEST(AloneOrList, HasNoListOfOne) {
   EXPECT_EQ(json_text(alone_or_list({Value(1.0), Value(2.0)})), "[1, 2]");
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::value_test

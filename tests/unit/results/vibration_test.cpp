@@ -9,8 +9,7 @@
 #include <complex>
 #include <string>
 
-namespace trochoid::results {
-namespace {
+namespace trochoid::results::vibration_test {
 
 using dynamics::Bounded;
 using dynamics::Growing;
@@ -347,5 +346,4 @@ TEST(MotionAnswer, WithoutAMotionIsEmpty) {
   EXPECT_FALSE(answer.heading.ok);
 }
 
-}  // namespace
-}  // namespace trochoid::results
+}  // namespace trochoid::results::vibration_test

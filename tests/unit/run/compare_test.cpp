@@ -6,8 +6,7 @@
 
 #include <vector>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::compare_test {
 
 using namespace test;
 
@@ -53,5 +52,4 @@ TEST(Compare, SaysWhyItDoesNot) {
   EXPECT_NE(warnings[0].message.find("identification"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::compare_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::describe_record_test {
 
 TEST(DescribeRecord, TellsTimesByTheStatedSpeed) {
   signal::Record record{.file = "a.csv", .sample_rate = 1000.0};
@@ -44,5 +43,4 @@ TEST(DescribeRecord, CountsAnglesThatStartAnew) {
       << text;
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::describe_record_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::fit_options_test {
 
 TEST(FitOptions, AreWhatTheCaseAsksFor) {
   cases::Case given;
@@ -41,5 +40,4 @@ TEST(AxesProblem, TakesTheLastOfTheModels) {
   EXPECT_TRUE(std::holds_alternative<force::Power>(problem.law));
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::fit_options_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::fit_warnings_test {
 
 using identification::Fit;
 
@@ -146,5 +145,4 @@ TEST(FitWarnings, SayThatTheRunoutIsKnownToOneSideOnly) {
   EXPECT_EQ(code(fit), "runout_on_edge");
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::fit_warnings_test

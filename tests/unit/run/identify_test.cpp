@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::identify_test {
 
 using namespace test;
 using cases::Command;
@@ -255,5 +254,4 @@ TEST(Identify, SweepsTheOffset) {
       << "-10 um is nearest to -8";
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::identify_test

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::likely_causes_test {
 
 using namespace test;
 
@@ -114,5 +113,4 @@ TEST(LikelyCauses, ListTheOthersWhereNoAxesDo) {
   EXPECT_EQ(causes.find("channel_offsets"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::likely_causes_test

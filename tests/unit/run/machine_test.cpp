@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::machine_test {
 
 using cases::Axis;
 using cases::ModeBody;
@@ -93,5 +92,4 @@ TEST(LimitsOf, AreThoseOfTheActuator) {
   EXPECT_EQ(limits.most_frequency, 300);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::machine_test

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::plan_test {
 
 using namespace test;
 using cases::Command;
@@ -157,5 +156,4 @@ TEST(Plan, IsForTheLastGroup) {
   EXPECT_EQ(r.group, "\"worn\"");
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::plan_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::progress_test {
 
 TEST(Progress, SaysWhatIsDoneAndForHowLong) {
   EXPECT_EQ(progress_text("Fitting", 12.4, 3.0), "Fitting, 12 s");
@@ -31,5 +30,4 @@ TEST(Progress, ATextIsAStepOfUnknownShare) {
   EXPECT_EQ(said, "Reading, 1 s");
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::progress_test

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::records_test {
 
 using namespace test;
 using cases::Command;
@@ -215,5 +214,4 @@ TEST(MeasuredRuns, LeaveTheOffsetWhereNothingIsIdle) {
   EXPECT_EQ(got.warnings[0].code, "no_idle_part");
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::records_test

@@ -5,8 +5,7 @@
 
 #include <numbers>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::sampling_test {
 
 TEST(SampledAngles, StartWhereTheyAreToldAndFillTheRevolutions) {
   const auto phi = sampled_angles(
@@ -22,5 +21,4 @@ TEST(SampledAngles, AreTheGivenOnesInTheirOrder) {
   EXPECT_EQ(sampled_angles({.samples_per_rev = 720, .angles = given}), given);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::sampling_test

@@ -14,8 +14,7 @@
 #include <cmath>
 #include <string>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::shared_modes_test {
 
 using cases::Command;
 using cases::test::CaseFolder;
@@ -171,5 +170,4 @@ TEST(SharedModes, AWrongCalibrationOfOneCrossResponseIsSaid) {  // [M-34]
                   [](const base::Warning& w) { return w.code == "reciprocity_hurt"; }));
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::shared_modes_test

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::simulate_test {
 
 using namespace test;
 
@@ -77,5 +76,4 @@ TEST(Simulate, SaysThatOneToothBackDoesNotConserveTheVolume) {
   EXPECT_NE(std::find(seen.begin(), seen.end(), "volume"), seen.end());
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::simulate_test

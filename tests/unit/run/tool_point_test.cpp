@@ -14,8 +14,7 @@
 #include <complex>
 #include <random>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::tool_point_test {
 
 using cases::Command;
 using cases::test::CaseFolder;
@@ -180,5 +179,4 @@ TEST(ToolPoint, WithoutModesTheResponseDecides) {
   EXPECT_NE(r.heading.message.find("By the measured response"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::tool_point_test

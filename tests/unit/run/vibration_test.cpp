@@ -11,8 +11,7 @@
 
 #include <cmath>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::vibration_test {
 
 using cases::Command;
 using cases::test::CaseFolder;
@@ -305,5 +304,4 @@ TEST(GrowthMessage, SaysWhatGrowsAndHowItEnds) {
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::vibration_test

@@ -9,8 +9,7 @@
 #include <variant>
 
 /// What is estimated before a command is what the command then does, by counts.
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::work_test {
 
 using cases::Command;
 using cases::test::CaseFolder;
@@ -159,5 +158,4 @@ TEST(TooMuch, TakesWhatItNames) {
   EXPECT_NE(too_much(work_of(Command::simulate, given)), "");
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::work_test

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <set>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::axes_test {
 
 using Vector3 = std::array<double, 3>;
 
@@ -103,5 +102,4 @@ TEST(AxesClasses, HaveOneReadingWithPositiveCoefficients) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::axes_test

@@ -6,8 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::band_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
@@ -80,5 +79,4 @@ TEST(Band, RefusesNoAnglesAndOtherLengths) {
   EXPECT_THROW(Band(angles(5, 5.0), 1).project(none), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::band_test

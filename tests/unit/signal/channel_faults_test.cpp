@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::channel_faults_test {
 
 std::vector<double> sine(double amplitude, double limit) {
   std::vector<double> out;
@@ -43,5 +42,4 @@ TEST(ChannelFault, IsADeadChannel) {
   EXPECT_EQ(channel_fault(std::vector<double>(100, 0.0)), ChannelFault::constant);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::channel_faults_test

@@ -6,8 +6,7 @@
 
 #include <optional>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::drift_test {
 
 std::optional<Drift> drift_of(const Samples& s) {
   return idle_drift(s.channel, s.angle, passes_of(s.channel, s.angle).air);
@@ -69,5 +68,4 @@ TEST(RemoveDrift, TakesTheLineOut) {
   EXPECT_NEAR(s.channel[0][40 * a_turn + 25], 200.0, 1e-9);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::drift_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::overview_test {
 
 TEST(Overview, HoldsTheExtremesOfEachPieceAndWhatIsUsed) {
   Record record;
@@ -27,5 +26,4 @@ TEST(Overview, HoldsTheExtremesOfEachPieceAndWhatIsUsed) {
   EXPECT_FALSE(all.used[300]);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::overview_test

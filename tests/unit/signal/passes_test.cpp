@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::passes_test {
 
 /// One record after the other.
 Samples joined(const Samples& a, const Samples& b) {
@@ -131,5 +130,4 @@ TEST(Passes, DoNotTakeASlowEntryForAir) {
   EXPECT_LE(parts[0].end, 11u * a_turn);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::passes_test

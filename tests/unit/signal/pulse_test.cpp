@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::pulse_test {
 
 struct Made {
   std::vector<double> time;
@@ -110,5 +109,4 @@ TEST(Pulse, IsRefusedWhereItIsNotOneATurn) {
                std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::pulse_test

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <random>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::revolutions_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
@@ -127,5 +126,4 @@ TEST(Unwrapped, ContinuesTheAngleOfAnEncoderEitherWayRound) {
   EXPECT_NEAR(down[6], 6.1 - 2.0 * turn, 1e-12);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::revolutions_test

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::spindle_speed_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
@@ -159,5 +158,4 @@ TEST(SpindleSpeed, GivesTheAngleFromTheFirstSampleOn) {
   EXPECT_EQ(angle_from_time(time, 4.0), (std::vector{0.0, 2.0, 4.0}));
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::spindle_speed_test

@@ -8,8 +8,7 @@
 #include <complex>
 #include <numbers>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::tap_test_test {
 
 using Complex = std::complex<double>;
 using made::TapMode;
@@ -113,5 +112,4 @@ TEST(TapTest, SaysWhyThereIsNoResponse) {
   EXPECT_NE(frequency_response(twice, {}).fault.find("double hit"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::tap_test_test

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
-
-using namespace trochoid::structure;
+namespace trochoid::structure::actuator_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -94,4 +92,4 @@ TEST(Actuator, SlowCommandsAreLateByTheSumOfTheTimeConstants) {
               low_frequency_delay(actuator), 1e-9);
 }
 
-}  // namespace
+}  // namespace trochoid::structure::actuator_test

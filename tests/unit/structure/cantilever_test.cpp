@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::structure {
+namespace trochoid::structure::cantilever_test {
 
 namespace {
 
@@ -128,4 +128,4 @@ TEST(Cantilever, StandsStillInTheHolder) {  // [B-1]
   }
 }
 
-}  // namespace trochoid::structure
+}  // namespace trochoid::structure::cantilever_test

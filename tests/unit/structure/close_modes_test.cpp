@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace trochoid::structure::close_modes_test {
 
-using namespace trochoid::structure;
 using made::Hz;
 using made::mode_of;
 
@@ -141,4 +140,4 @@ TEST(CloseModes, OneIsNotTakenForTwo) {
   EXPECT_EQ(more, 0);
 }
 
-}  // namespace
+}  // namespace trochoid::structure::close_modes_test

@@ -5,9 +5,7 @@
 #include <random>
 #include <string>
 
-namespace {
-
-using namespace trochoid::structure;
+namespace trochoid::structure::identify_actuator_test {
 
 constexpr double step = 6e-6;
 
@@ -104,4 +102,4 @@ TEST(IdentifyActuator, AReversedActuatorHasANegativeGain) {
   EXPECT_NEAR(fit.dynamics.gain, -0.5, 1e-3);
 }
 
-}  // namespace
+}  // namespace trochoid::structure::identify_actuator_test

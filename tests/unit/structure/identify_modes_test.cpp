@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace {
-
-using namespace trochoid::structure;
+namespace trochoid::structure::identify_modes_test {
 
 constexpr double Hz = 2 * std::numbers::pi;
 
@@ -325,4 +323,4 @@ TEST(IdentifyModes, LeavesOutTheLineAtZero) {
   expect_mode(fit.modes[0], truth, 1e-7);
 }
 
-}  // namespace
+}  // namespace trochoid::structure::identify_modes_test

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace trochoid::structure::identify_shapes_test {
 
-using namespace trochoid::structure;
 using made::all_of;
 using made::Hz;
 using made::measured;
@@ -218,4 +217,4 @@ TEST(IdentifyShapes, NothingIsSaidOfNoise) {
   EXPECT_TRUE(fit.modes.empty());
 }
 
-}  // namespace
+}  // namespace trochoid::structure::identify_shapes_test

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace trochoid::structure::mode_test {
 
 using trochoid::structure::completed;
 using trochoid::structure::free_vibration;
@@ -103,4 +103,4 @@ TEST(Mode, MobilityAndAcceleranceAreDerivatives) {  // [M-4]
               1e-14);
 }
 
-}  // namespace
+}  // namespace trochoid::structure::mode_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace trochoid::structure {
+namespace trochoid::structure::patch_basis_test {
 
 namespace {
 
@@ -106,4 +106,4 @@ TEST(PatchBasis, MeansAreThoseOfTheShapes) {  // [B-5]
   EXPECT_EQ(combination(basis.means(0.7, 0.7)), w(0.7));
 }
 
-}  // namespace trochoid::structure
+}  // namespace trochoid::structure::patch_basis_test

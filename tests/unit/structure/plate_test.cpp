@@ -12,7 +12,7 @@
 #include "difference_plate.h"
 #include "even_basis.h"
 
-namespace trochoid::structure {
+namespace trochoid::structure::plate_test {
 
 namespace {
 
@@ -345,4 +345,4 @@ TEST(Plate, StandsStillAtItsClamps) {  // [B-4]
   EXPECT_NEAR(under_load(plate, 1, 0), 0, 1e-30);
 }
 
-}  // namespace trochoid::structure
+}  // namespace trochoid::structure::plate_test

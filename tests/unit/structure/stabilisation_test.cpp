@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
+namespace trochoid::structure::stabilisation_test {
 
-using namespace trochoid::structure;
 using made::Hz;
 using made::mode_of;
 
@@ -50,4 +49,4 @@ TEST(Stabilisation, AModeIsIndicatedAtItsNaturalFrequency) {  // [M-19]
   }
 }
 
-}  // namespace
+}  // namespace trochoid::structure::stabilisation_test

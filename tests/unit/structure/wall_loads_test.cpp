@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace trochoid::structure {
+namespace trochoid::structure::wall_loads_test {
 
 namespace {
 
@@ -67,4 +67,4 @@ TEST(WallLoads, PointsBesideTheWallAreRefused) {
                std::invalid_argument);
 }
 
-}  // namespace trochoid::structure
+}  // namespace trochoid::structure::wall_loads_test

@@ -6,8 +6,7 @@
 
 #include <stdexcept>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::also_bent_test {
 
 constexpr int points = 16;
 const force::Law all_forces = force::LinearEdge{800e6, 300e6, 200e6, 9e3, 4e3, 5e3};
@@ -137,5 +136,4 @@ TEST(AlsoBends, RefusesFeedback) {
       std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::also_bent_test

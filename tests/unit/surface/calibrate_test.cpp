@@ -9,8 +9,7 @@
 
 #include <stdexcept>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::calibrate_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 
@@ -182,5 +181,4 @@ TEST(Doubts, OfReadingsWhereTheCutterWasThereAreNone) {
   EXPECT_FALSE(origin_doubt(s, {}, c, 60e-3, 30e-3).has_value());
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::calibrate_test

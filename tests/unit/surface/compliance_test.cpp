@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::compliance_test {
 
 constexpr Coefficients K = {800e6, 300e6, 9e3, 4e3};
 
@@ -179,5 +178,4 @@ TEST(Turn, DownMillingLeavesMaterialUpMillingMayDigIn) {  // [E-1] [E-4]
   EXPECT_LT(lowest, -1e-6);  // -K_t sin + K_r cos
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::compliance_test

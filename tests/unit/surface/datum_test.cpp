@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::datum_test {
 
 /// Column of a datum parameter.
 std::vector<double> column(const DatumColumns& columns, std::size_t k) {
@@ -67,5 +66,4 @@ TEST(Datum, WithoutDegreesOfFreedomNothingIsKnownOfTheError) {  // [E-15]
   EXPECT_TRUE(std::isnan(e.low));
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::datum_test

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::deflected_shape_test {
 
 ErrorMap map_of(BodiesAt bodies, Load load, bool down = false) {
   Setting s = made_setting(Model::envelope, made_cut(down), std::move(bodies));
@@ -118,5 +117,4 @@ TEST(BodiesAt, SolvesTheWallWhereItIsAsked) {
   EXPECT_FALSE(nothing.cutter || nothing.wall);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::deflected_shape_test

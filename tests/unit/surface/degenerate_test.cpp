@@ -5,8 +5,7 @@
 #include <utility>
 
 /// What the data cannot tell apart is refused, never inverted.
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::degenerate_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 
@@ -241,5 +240,4 @@ TEST(Degenerate, AWholeSlotWideCutIsAnUpOrDownCutStill) {  // [E-12]
   EXPECT_NEAR(a.K_tc.value, K[0], 1e-4 * K[0]);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::degenerate_test

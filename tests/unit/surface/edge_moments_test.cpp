@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::edge_moments_test {
 
 constexpr int points = 16;
 
@@ -229,5 +228,4 @@ TEST(EdgeMoments, OfAStraightToothAreTabledUpToTheirJumps) {  // [E-3]
   EXPECT_NEAR(value_at(table, entry + 1e-5, y), 0.2e-3 * 3e-3 * sine * sine, 1e-12);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::edge_moments_test

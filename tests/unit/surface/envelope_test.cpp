@@ -4,8 +4,7 @@
 
 #include <set>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::envelope_test {
 
 /// A deflection made up for a test.
 numerics::PeriodicPieces course(const std::function<double(double)>& f) {
@@ -296,5 +295,4 @@ TEST(Envelope, OfThePaperIsKnown) {  // [E-9] imprint 54.66, envelope 48.22 um
   EXPECT_NEAR(mean_envelope(cut, 300), 48.217e-6, 5e-9);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::envelope_test

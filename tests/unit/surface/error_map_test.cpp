@@ -7,8 +7,7 @@
 
 #include <stdexcept>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::error_map_test {
 
 constexpr Coefficients K = {800e6, 300e6, 9e3, 4e3};
 
@@ -164,5 +163,4 @@ TEST(ErrorMap, ASlotHasNoSingleWall) {
                std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::error_map_test

@@ -6,8 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::error_statistics_test {
 
 TEST(ErrorStatistics, AreThoseOfAProfile) {
   const std::array error = {1e-6, 5e-6, 3e-6, 3e-6};
@@ -37,5 +36,4 @@ TEST(FeedWaves, AreToldApartOverWholeTurnsOnly) {
   EXPECT_FALSE(feed_waves(error, 0.0, teeth));
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::error_statistics_test

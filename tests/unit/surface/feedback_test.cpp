@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::feedback_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 constexpr double tolerance = 1e-5;
@@ -291,5 +290,4 @@ TEST(Feedback, ATooSoftCutterIsToldAndEnds) {  // [E-10]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::feedback_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::fit_models_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 
@@ -307,5 +306,4 @@ TEST(FitModels, AdviceNamesTheHeightThatHelpsMost) {  // [E-15]
   EXPECT_GT(std::abs(best - 1.55e-3), 0.5e-3);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::fit_models_test

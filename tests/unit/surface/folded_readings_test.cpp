@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::folded_readings_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 
@@ -158,5 +157,4 @@ TEST(FoldReadings, TheAnswerIsThatOfEveryReadingByItself) {  // [E-17] [E-19]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::folded_readings_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::march_test {
 
 constexpr Coefficients K = {800e6, 300e6, 2e3, 1e3};
 
@@ -70,5 +69,4 @@ TEST(March, BeginsFromAnotherTurn) {  // [E-25]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::march_test

@@ -6,8 +6,7 @@
 
 #include <stdexcept>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::pass_sequence_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0, 0};
 const structure::Plate plate{60e-3, 30e-3, 4e-3, 69e9, 0.33};
@@ -253,5 +252,4 @@ TEST(PassSequence, APulseIsNoSurface) {
                std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::pass_sequence_test

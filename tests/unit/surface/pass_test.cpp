@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::pass_test {
 
 TEST(Pass, DownMillingFinishesAtPiUpMillingAtZero) {  // [E-1]
   const Side down = *side_of(geometry::DownMilling{1e-3});
@@ -99,5 +98,4 @@ TEST(Pass, JustEnteringCounts) {  // [E-7]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::pass_test

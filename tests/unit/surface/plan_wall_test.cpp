@@ -8,8 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::plan_wall_test {
 
 constexpr double a_p = 3e-3;
 
@@ -262,5 +261,4 @@ TEST(PlannedCutting, NamesTheCutThatRemovesMostWithinTheLimit) {
   EXPECT_LE(tight.cells[*tight.best].peak, *limited.limit);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::plan_wall_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::probe_slopes_test {
 
 TEST(ProbeOnSlopes, FollowsAParabolaAtUnevenHeights) {  // [E-14]
   const std::vector<double> heights = {0.3e-3, 0.5e-3, 1.1e-3, 2.7e-3};
@@ -32,5 +31,4 @@ TEST(ProbeOnSlopes, OfTwoHeightsTakesTheChordOfOneNothing) {  // [E-14]
   EXPECT_EQ(readings_on_slopes(1e-3, one, one), std::vector<double>{0.0});
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::probe_slopes_test

@@ -6,8 +6,7 @@
 
 #include <numeric>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::probe_test {
 
 constexpr double R_e = 4.4e-3;
 constexpr double f = 0.2e-3;
@@ -113,5 +112,4 @@ TEST(Probe, OnALeaningWallASphereStandsOff) {  // [E-14]
   EXPECT_NEAR(reading_on_slope(r, 1e-9), 0.5 * r * 1e-18, 1e-6 * r * 1e-18);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::probe_test

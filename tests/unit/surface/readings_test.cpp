@@ -6,8 +6,7 @@
 
 #include <random>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::readings_test {
 
 constexpr double f_z = 0.2e-3;
 
@@ -143,5 +142,4 @@ TEST(Readings, EachIsInExactlyOneMean) {  // [E-11]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::readings_test

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::row_fit_test {
 
 constexpr std::size_t rows = 40;
 
@@ -89,5 +88,4 @@ TEST(FitRows, EndsWhereAStepGainsNothing) {
   EXPECT_LE(asked.values, 20);
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::row_fit_test

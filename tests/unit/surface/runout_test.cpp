@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::surface {
-namespace {
+namespace trochoid::surface::runout_test {
 
 constexpr Coefficients K = {800e6, 300e6, 0.0, 0.0};
 
@@ -202,5 +201,4 @@ TEST(FindRunout, UnevenPitchesAreTaken) {  // [E-17]
   }
 }
 
-}  // namespace
-}  // namespace trochoid::surface
+}  // namespace trochoid::surface::runout_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace trochoid::sweep {
-namespace {
+namespace trochoid::sweep::distribution_test {
 
 using results::Joint;
 using Values = std::vector<double>;
@@ -177,5 +176,4 @@ TEST(Distribution, IsNoneOfWhatIsNoCovariance) {
   EXPECT_FALSE(distribution_of(joint));
 }
 
-}  // namespace
-}  // namespace trochoid::sweep
+}  // namespace trochoid::sweep::distribution_test

@@ -11,8 +11,7 @@
 #include <fstream>
 #include <set>
 
-namespace trochoid::sweep {
-namespace {
+namespace trochoid::sweep::found_test {
 
 namespace fs = std::filesystem;
 using cases::Members;
@@ -266,5 +265,4 @@ TEST_F(FoundFile, ByChanceDoesNotGoWithTheSweptKeys) {
   EXPECT_NEAR(together, 0, 0.06);
 }
 
-}  // namespace
-}  // namespace trochoid::sweep
+}  // namespace trochoid::sweep::found_test

@@ -9,8 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace trochoid::sweep {
-namespace {
+namespace trochoid::sweep::parts_test {
 
 namespace fs = std::filesystem;
 using results::SweepRow;
@@ -95,5 +94,4 @@ TEST_F(PartsFile, AChangedByteIsNotBelieved) {
   EXPECT_EQ(done(), 4U);
 }
 
-}  // namespace
-}  // namespace trochoid::sweep
+}  // namespace trochoid::sweep::parts_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trochoid::sweep {
-namespace {
+namespace trochoid::sweep::row_test {
 
 using results::Answer;
 using results::Array;
@@ -93,5 +92,4 @@ TEST(SetKey, RefusesPathsThatLeadNowhere) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::sweep
+}  // namespace trochoid::sweep::row_test

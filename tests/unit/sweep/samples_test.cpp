@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trochoid::sweep {
-namespace {
+namespace trochoid::sweep::samples_test {
 
 using cases::EvenValues;
 using cases::ListedValues;
@@ -104,5 +103,4 @@ TEST(Samples, AreThoseOfTheSeed) {
   EXPECT_NE(first, column(sweep, 0));
 }
 
-}  // namespace
-}  // namespace trochoid::sweep
+}  // namespace trochoid::sweep::samples_test

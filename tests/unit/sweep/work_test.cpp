@@ -13,8 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace trochoid::sweep {
-namespace {
+namespace trochoid::sweep::work_test {
 
 namespace fs = std::filesystem;
 
@@ -129,5 +128,4 @@ TEST(Threads, AreOneWhereThatIsAsked) {
   EXPECT_GE(numerics::thread_count(), 1U);
 }
 
-}  // namespace
-}  // namespace trochoid::sweep
+}  // namespace trochoid::sweep::work_test

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::correct_test {
 
 using test::Changes;
 using test::correction_case;
@@ -138,5 +137,4 @@ TEST(CorrectController, GoesToMidStrokeWithoutIndexPulses) {
   EXPECT_GT(c.turns.back().difference, 0.3) << "no correction, no equal peaks";
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::correct_test

@@ -3,8 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/run/correct.h>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::problem_test {
 
 using test::correction_case;
 
@@ -77,5 +76,4 @@ TEST(CorrectionProblem, HasTheForcesOfAMeasurement) {
   EXPECT_NEAR(p.cut.setup.cut.Omega, 1200 * unit::rpm, 1e-9);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::problem_test

@@ -2,8 +2,7 @@
 
 #include <trochoid/run/correct.h>
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::warnings_test {
 
 using Codes = std::vector<std::string>;
 using test::codes;
@@ -116,5 +115,4 @@ TEST(CorrectionWarnings, SayThatTheCutRanAway) {
   EXPECT_EQ(codes(of(c)), Codes{"ran_away"});
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::warnings_test

@@ -11,8 +11,7 @@
 
 #include "wall_case.h"
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::calibrate_test {
 
 using namespace test;
 
@@ -191,5 +190,4 @@ TEST(CalibrateWall, WarnsOfARunoutThatWasGivenToo) {
   EXPECT_TRUE(warned(calibrate(calibrating(file, runout), {}), "runout_not_used"));
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::calibrate_test

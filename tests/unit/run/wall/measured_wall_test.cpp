@@ -7,8 +7,7 @@
 
 #include "wall_case.h"
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::measured_wall_test {
 
 using namespace test;
 
@@ -88,5 +87,4 @@ TEST(MeasuredWall, NamesWhatIsWrongWithItsPlaces) {
   }
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::measured_wall_test

@@ -5,8 +5,7 @@
 
 #include "wall_case.h"
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::setting_test {
 
 using namespace test;
 
@@ -74,5 +73,4 @@ TEST(MapOptions, HeightsOfChipsStandInForThoseOfTheWall) {
   EXPECT_EQ(options.heights, (std::vector<double>{1e-3, 2e-3}));
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::setting_test

@@ -11,8 +11,7 @@
 
 #include "wall_case.h"
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::surface_test {
 
 using namespace test;
 
@@ -213,5 +212,4 @@ TEST(Surface, AFreeEndGivesWayMore) {
   EXPECT_GT(free.map.rows[0].compliance, 2 * clamped.map.rows[0].compliance);
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::surface_test

@@ -7,8 +7,7 @@
 
 #include "wall_case.h"
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::warnings_test {
 
 using namespace test;
 
@@ -120,5 +119,4 @@ TEST(WallWarnings, MeasureTheDeflectionByThicknessAndDepth) {
   EXPECT_TRUE(warnings.empty());
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::warnings_test

@@ -8,8 +8,7 @@
 
 #include "wall_case.h"
 
-namespace trochoid::run {
-namespace {
+namespace trochoid::run::plan_wall_test {
 
 using namespace test;
 
@@ -132,5 +131,4 @@ TEST(PlanWall, RefusesWhatNoReadingsTell) {
       << r.heading.message;
 }
 
-}  // namespace
-}  // namespace trochoid::run
+}  // namespace trochoid::run::plan_wall_test
