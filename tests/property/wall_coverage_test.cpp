@@ -17,8 +17,9 @@
 namespace trochoid::surface {
 namespace {
 
-/// Beside noise: nothing; 1 % of the readings off by 50 um; a bow of 3 um over the height.
-enum class Flaw { none, outliers, bow };
+/// Beside noise: nothing; 1 % of the readings off by 50 um; a bow over the height of 3 um
+/// towards the cutter, or of 4 um away from it.
+enum class Flaw { none, outliers, bow, away };
 
 struct Wall {
   Feedback feedback = Feedback::none;
@@ -72,6 +73,9 @@ std::vector<Reading> measured(std::vector<Reading> readings, Flaw flaw, unsigned
     const double t = (r.height - 0.3e-3) / 2.4e-3;
     if (flaw == Flaw::bow) {
       r.error += 3e-6 * 4 * t * (1 - t);
+    }
+    if (flaw == Flaw::away) {
+      r.error -= 4e-6 * 4 * t * (1 - t);
     }
     if (flaw == Flaw::outliers && uniform(random) < 0.01) {
       r.error += uniform(random) < 0.5 ? 50e-6 : -50e-6;
@@ -138,6 +142,10 @@ TEST(WallCoverage, WithOutliers) {  // [E-26]
 
 TEST(WallCoverage, WithFormOverTheHeight) {  // [E-22] [E-24]
   expect_held({.flaw = Flaw::bow});
+}
+
+TEST(WallCoverage, WithFeedbackAndForm) {  // [E-22] [E-25] [E-27]
+  expect_held({.feedback = Feedback::regenerative, .flaw = Flaw::away});
 }
 
 TEST(WallCoverage, TheFeedbackOfARealWallIsNotMistakenForLessRunout) {  // [E-25]

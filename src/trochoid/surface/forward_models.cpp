@@ -153,6 +153,8 @@ ForwardModel joint_forward_model(const Setting& setting,
             return model->at(p, steps);
           },
           [model](std::span<const double> p) { return model->rebase(p); },
+          [model](std::span<const double> p) { return model->freeze(p); },
+          [model](std::span<const double> p) { return model->exact(p); },
           [model](std::span<const Reading> all, std::span<const double> p) {
             return model->predict(all, p);
           },
@@ -200,6 +202,8 @@ ForwardModel nominal_forward_model(const Setting& setting, const ModelFits& foun
   };
   return {at,
           [](std::span<const double>) { return 0.0; },
+          [](std::span<const double>) { return true; },
+          {},
           predict,
           {{fit.K_tc.value / coefficient_scale, fit.K_rc.value / coefficient_scale}}};
 }
@@ -223,36 +227,6 @@ RowFit fit_rebased(const RowProblem& problem, const ForwardModel& forward,
     fit = fit_rows(problem, forward.model, fit.p);
   }
   return fit;
-}
-
-RowFit fit_along_valley(const RowProblem& problem, const ForwardModel& forward,
-                        RowFit settled) {
-  constexpr double aside = 1.5;  // standard errors of K_tc
-  constexpr double gain = 0.3;   // of the cost
-  constexpr int most_rounds = 3;
-  RowFit best = std::move(settled);
-  for (int k = 0; best.ok && k < most_rounds; ++k) {
-    const std::size_t n = best.p.size();
-    const std::size_t width = best.own.size();
-    const std::size_t K_tc = n - 2;
-    const double before = best.cost;
-    const RowFit from = best;
-    for (const double side : {-aside, aside}) {
-      Values p = from.p;
-      for (std::size_t i = 0; i < n; ++i) {
-        p[i] += side * from.covariance[i * width + K_tc] /
-                std::sqrt(from.covariance[K_tc * width + K_tc]);
-      }
-      RowFit fit = fit_rebased(problem, forward, std::move(p));
-      if (fit.ok && fit.cost < best.cost) {
-        best = std::move(fit);
-      }
-    }
-    if (before - best.cost < gain) {
-      break;
-    }
-  }
-  return best;
 }
 
 }  // namespace trochoid::surface

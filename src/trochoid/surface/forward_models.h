@@ -13,6 +13,8 @@ namespace trochoid::surface {
 struct ForwardModel {
   RowModel model;
   std::function<double(std::span<const double>)> rebase;  ///< as of JointModel
+  std::function<bool(std::span<const double>)> freeze;    ///< as of JointModel
+  RowValues values;  ///< with the feedback as it is there; empty: slopes are exact
   std::function<std::vector<double>(std::span<const Reading>, std::span<const double>)>
       predict;
   std::vector<std::vector<double>> starts;
@@ -33,10 +35,5 @@ ForwardModel nominal_forward_model(const Setting& setting, const ModelFits& foun
 /// again.
 RowFit fit_rebased(const RowProblem& problem, const ForwardModel& forward,
                    std::vector<double> start);
-
-/// @brief What is settled again from either side along what is known least: the valley
-/// between coefficients and form is long and its floor rough.
-RowFit fit_along_valley(const RowProblem& problem, const ForwardModel& forward,
-                        RowFit settled);
 
 }  // namespace trochoid::surface

@@ -241,27 +241,41 @@ ForwardModel forward_model_of(const Given& wall, const FittedRows& rows,
                         : nominal_forward_model(wall.setting, wall.found, feedback);
 }
 
+/// More chi^2 than the best is hopeless: chances of one in 10^8.
+constexpr double hopeless = 40;
+
+/// From the best of several starts, each with the feedback as it is there.
+RowFit fit_from_starts(const RowProblem& problem, const ForwardModel& forward) {
+  RowFit best;
+  for (const Values& start : forward.starts) {
+    RowFit fit;
+    if (forward.freeze(start)) {
+      fit = fit_rows(problem, forward.model, start);
+    }
+    if (fit.ok && (!best.ok || fit.cost < best.cost)) {
+      best = std::move(fit);
+    }
+  }
+  return best;
+}
+
 /// The richest form with each feedback: what it leaves shows the scatter.
 std::vector<Tried> try_feedbacks(const Given& wall, const FittedRows& rows,
                                  std::span<const Feedback> feedbacks,
                                  const RowProblem& problem) {
+  constexpr double beyond_mending = 3 * hopeless;  // a frozen feedback is not far off
   std::vector<Tried> tried;
+  double least = std::numeric_limits<double>::infinity();
   for (const Feedback feedback : feedbacks) {
     Tried one{.what = {.feedback = feedback},
               .forward = forward_model_of(wall, rows, feedback)};
-    for (const Values& start : one.forward.starts) {
-      RowFit fit;
-      if (one.forward.rebase(start) >= 0) {
-        fit = fit_rows(problem, one.forward.model, start);
-      }
-      if (fit.ok && (!one.fit.ok || fit.cost < one.fit.cost)) {
-        one.fit = std::move(fit);
-      }
+    one.fit = fit_from_starts(problem, one.forward);
+    if (!one.fit.ok || one.fit.cost > least + beyond_mending) {
+      continue;
     }
+    one.fit = fit_rebased(problem, one.forward, one.fit.p);
     if (one.fit.ok) {
-      one.fit = fit_rebased(problem, one.forward, one.fit.p);
-    }
-    if (one.fit.ok) {
+      least = std::min(least, one.fit.cost);
       tried.push_back(std::move(one));
     }
   }
@@ -302,22 +316,30 @@ Scatter scatter_after(const Given& wall, const FittedRows& rows,
 
 /// Without the models that are beyond hope, the cheapest first.
 void drop_hopeless(std::vector<Tried>& tried) {
-  constexpr double hopeless = 40;  // chances of one in 10^8
   const double least = cheapest(tried).fit.cost;
   std::erase_if(tried, [&](const Tried& t) { return t.fit.cost > least + hopeless; });
   std::ranges::stable_sort(tried, {}, [](const Tried& t) { return t.fit.cost; });
 }
 
-/// Settled, and once more with more care where it may count among those tried: less
-/// evidence by so much is a chance of one in 10^5.
+/// Settled, and with more care where it may count among those tried: less evidence by so
+/// much is a chance of one in 10^5.
 RowFit fit_among(const RowProblem& problem, const ForwardModel& forward,
                  const Values& start, double& most_evidence) {
   constexpr double beyond_hope = 12.0;
-  RowFit fit = fit_rebased(problem, forward, start);
+  if (forward.rebase(start) < 0) {
+    return {};
+  }
+  RowFit fit = fit_rows(problem, forward.model, start);
+  if (!fit.ok || fit.evidence < most_evidence - 2 * beyond_hope) {
+    return fit;
+  }
+  fit = fit_rebased(problem, forward, fit.p);
   if (!fit.ok || fit.evidence < most_evidence - beyond_hope) {
     return fit;
   }
-  fit = fit_along_valley(problem, forward, std::move(fit));
+  if (forward.values) {
+    fit = fit_along_errors(problem, forward.values, std::move(fit));
+  }
   most_evidence = std::max(most_evidence, fit.evidence);
   return fit;
 }

@@ -127,6 +127,20 @@ double JointModel::rebase(std::span<const double> p) {
   return std::sqrt(moved / static_cast<double>(here.size()));
 }
 
+bool JointModel::freeze(std::span<const double> p) {
+  if (feedback_ == Feedback::none) {
+    return true;
+  }
+  std::vector<double> here = change(unpack(p), both(unpack(p)));
+  if (here.empty()) {
+    return false;
+  }
+  base_.assign(p.begin(), p.end());
+  slopes_.assign(here.size() * p.size(), 0.0);
+  change_ = std::move(here);
+  return true;
+}
+
 void JointModel::set_column(std::size_t k, std::span<const double> above,
                             std::span<const double> below, Slopes& slopes) {
   const std::size_t n = slopes.at.size();
@@ -218,6 +232,23 @@ Linearised JointModel::at(std::span<const double> p, std::span<const double> ste
     return slopes_at(at, with);
   };
   return out;
+}
+
+std::vector<double> JointModel::exact(std::span<const double> p) const {
+  const JointState here = unpack(p);
+  std::vector<double> f =
+      model_.predict(*forces_of(here.runout), here.K, here.runout, here.start);
+  if (feedback_ != Feedback::none) {
+    const std::vector<double> D = change(here, both(here));
+    if (D.empty()) {
+      return {};
+    }
+    std::transform(f.begin(), f.end(), D.begin(), f.begin(), std::plus<>());
+  }
+  for (double& e : f) {
+    e /= error_scale;
+  }
+  return f;
 }
 
 std::vector<double> JointModel::slopes_at(std::span<const double> p,

@@ -40,9 +40,17 @@ class JointModel {
   ///         square over the readings [m]; negative: no steady state was found
   double rebase(std::span<const double> p);
 
+  /// @brief Find D at p and take it as the same everywhere: enough to compare starts.
+  /// @return false: no steady state was found
+  bool freeze(std::span<const double> p);
+
   /// Of the readings, in units of `error_scale` [m].
   /// @param steps  of differences; empty: small ones
   [[nodiscard]] Linearised at(std::span<const double> p, std::span<const double> steps);
+
+  /// @brief Of the readings, in units of `error_scale` [m], with the feedback as it is at
+  /// p; empty: no steady state was found.
+  [[nodiscard]] std::vector<double> exact(std::span<const double> p) const;
 
   /// @brief Of any readings of this wall [m].
   [[nodiscard]] std::vector<double> predict(std::span<const Reading> readings,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace trochoid::surface {
 
@@ -151,7 +153,103 @@ void describe(const RowProblem& problem, Values rows, const Normal& normal,
                        [](double x) { return std::isfinite(x); });
 }
 
+/// L of C = L L^T, row-major; C the leading part of a covariance.
+/// @param width  of the covariance
+Values errors_of(const Values& covariance, std::size_t width, std::size_t n) {
+  Values L(n * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k <= i; ++k) {
+      double sum = covariance[i * width + k];
+      for (std::size_t j = 0; j < k; ++j) {
+        sum -= L[i * n + j] * L[k * n + j];
+      }
+      L[i * n + k] = i == k
+                         ? std::sqrt(std::max(sum, 1e-12 * covariance[i * (width + 1)]))
+                         : sum / L[k * n + k];
+    }
+  }
+  return L;
+}
+
+/// E-27, row-major, shape (rows, unknowns); empty where the model has no answer.
+Values slopes_along(const Values& L, const RowValues& values, const Values& p) {
+  const std::size_t n = p.size();
+  Values J;
+  for (std::size_t k = 0; k < n; ++k) {
+    Values above = p;
+    Values below = p;
+    for (std::size_t i = k; i < n; ++i) {
+      above[i] += L[i * n + k];
+      below[i] -= L[i * n + k];
+    }
+    const Values up = values(above);
+    const Values down = values(below);
+    if (up.empty() || down.empty()) {
+      return {};
+    }
+    J.resize(up.size() * n);
+    for (std::size_t row = 0; row < up.size(); ++row) {
+      J[row * n + k] = 0.5 * (up[row] - down[row]);
+    }
+  }
+  // From the directions to the unknowns: L is triangular.
+  for (std::size_t row = 0; row * n < J.size(); ++row) {
+    double* slope = J.data() + row * n;
+    for (std::size_t k = n; k-- > 0;) {
+      for (std::size_t i = k + 1; i < n; ++i) {
+        slope[k] -= slope[i] * L[i * n + k];
+      }
+      slope[k] /= L[k * n + k];
+    }
+  }
+  return J;
+}
+
 }  // namespace
+
+RowFit fit_along_errors(const RowProblem& problem, const RowValues& values,
+                        RowFit fit) {
+  constexpr int most_steps = 4;
+  constexpr int most_halvings = 4;
+  constexpr double negligible = 1e-2;  // of the cost: a step of 0.1 se
+  const std::size_t n = fit.p.size();
+  Values f = values(fit.p);
+  for (int step = 0; step < most_steps && !f.empty(); ++step) {
+    const Values J = slopes_along(errors_of(fit.covariance, n + problem.form.count, n),
+                                  values, fit.p);
+    if (J.empty()) {
+      return fit;
+    }
+    RowFit here{.p = fit.p};
+    std::tie(here.form, here.cost) = form_alone(problem, f);
+    Values rows = rows_of(problem, f, J);
+    const Normal normal = normal_of(problem, problem.scatter, rows, n);
+    const auto [x, go] = solved_from(normal, 0);
+    describe(problem, std::move(rows), normal, here);
+    if (!here.ok) {
+      return fit;
+    }
+    fit = std::move(here);
+    if (fit.cost - go <= negligible) {
+      return fit;
+    }
+    double better = fit.cost;
+    double share = 1.0;
+    Values p(n);
+    for (int k = 0; k < most_halvings && better >= fit.cost; ++k, share *= 0.5) {
+      for (std::size_t i = 0; i < n; ++i) {
+        p[i] = fit.p[i] + share * x[i];
+      }
+      f = values(p);
+      better = f.empty() ? fit.cost : form_alone(problem, f).second;
+    }
+    if (better >= fit.cost) {
+      return fit;
+    }
+    fit.p = p;
+  }
+  return fit;
+}
 
 RowFit fit_rows(const RowProblem& problem, const RowModel& model, Values start) {
   constexpr int most_steps = 40;

@@ -51,4 +51,18 @@ struct RowFit {
 RowFit fit_rows(const RowProblem& problem, const RowModel& model,
                 std::vector<double> start);
 
+/// The rows by the unknowns, shape (rows); empty: the model has no answer there.
+using RowValues = std::function<std::vector<double>(std::span<const double> p)>;
+
+/// @brief The same with slopes from the model itself, along directions that are known
+/// independently of one another.
+///
+/// Coefficients, runout and form nearly make up for one another. Slopes by one unknown
+/// after the other nearly cancel there, and what their errors leave would count as
+/// knowledge.
+/// @eq  E-27 J l_k = (f(p + l_k) - f(p - l_k))/2, l_k the columns of L, C = L L^T
+/// @src derived
+/// @param fit  where it begins, with its covariance; itself where the model has no answer
+RowFit fit_along_errors(const RowProblem& problem, const RowValues& values, RowFit fit);
+
 }  // namespace trochoid::surface

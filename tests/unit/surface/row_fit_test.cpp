@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <vector>
 
 namespace trochoid::surface::row_fit_test {
@@ -86,6 +87,55 @@ TEST(FitRows, EndsWhereAStepGainsNothing) {
   ASSERT_TRUE(fit.ok);
   EXPECT_NEAR(fit.p[0], 0.3, 5e-4);
   EXPECT_LE(asked.values, 20);
+}
+
+/// Two unknowns that nearly make up for one another: a x + b (x + 0.05 x^3).
+std::vector<double> valley(std::span<const double> p) {
+  std::vector<double> f;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double x = x_of(i);
+    f.push_back(p[0] * x + p[1] * (x + 0.05 * x * x * x));
+  }
+  return f;
+}
+
+/// @param error  of the slope by b, larger than what tells b from a
+RowModel valley_model(double error) {
+  return [error](std::span<const double> p, std::span<const double>) {
+    Linearised at{.f = valley(p), .slopes = {}};
+    at.slopes = [error] {
+      std::vector<double> J;
+      for (std::size_t i = 0; i < rows; ++i) {
+        const double x = x_of(i);
+        J.insert(J.end(), {x, x + 0.05 * x * x * x + (i % 3 == 0 ? error : -error)});
+      }
+      return J;
+    };
+    return at;
+  };
+}
+
+TEST(FitAlongErrors, WrongSlopesAreNoKnowledge) {  // [E-27]
+  const Line line(0.0, 1.0);                       // a = 1, b = 0
+  const RowProblem problem = line.problem();
+  const RowFit right = fit_rows(problem, valley_model(0.0), {0.0, 0.0});
+  const RowFit wrong = fit_rows(problem, valley_model(0.03), {0.0, 0.0});
+  ASSERT_TRUE(right.ok && wrong.ok);
+  EXPECT_LT(wrong.covariance[3], 0.5 * right.covariance[3]);
+  const RowFit fit = fit_along_errors(problem, valley, wrong);
+  ASSERT_TRUE(fit.ok);
+  EXPECT_NEAR(fit.covariance[3], right.covariance[3], 0.01 * right.covariance[3]);
+  EXPECT_NEAR(fit.cost, right.cost, 1e-2);
+}
+
+TEST(FitAlongErrors, StaysWhereTheModelHasNoAnswer) {  // [E-27]
+  const Line line(0.0, 1.0);
+  const RowFit fit = fit_rows(line.problem(), valley_model(0.0), {0.0, 0.0});
+  const RowFit same = fit_along_errors(
+      line.problem(), [](std::span<const double>) { return std::vector<double>(); },
+      fit);
+  EXPECT_EQ(same.p, fit.p);
+  EXPECT_EQ(same.covariance, fit.covariance);
 }
 
 }  // namespace trochoid::surface::row_fit_test
