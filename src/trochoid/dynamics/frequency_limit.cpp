@@ -218,20 +218,90 @@ OnsetPoint real_between(const RegenerativeLoop& loop, OnsetPoint a, OnsetPoint b
   return found;
 }
 
+/// All eigenvalues at a frequency; none where none can reach what is looked for.
+struct LoopAt {
+  double omega = 0.0;
+  std::vector<Complex> lambda;
+};
+
 /// The onset that an eigenvalue passes through from one frequency to the next.
-void take_crossings(const RegenerativeLoop& loop, double from,
-                    const std::vector<Complex>& before, const OnsetPoint& after,
-                    Onset& best) {
-  const Complex start = nearest(before, after.lambda);
+void take_crossings(const RegenerativeLoop& loop, const LoopAt& before,
+                    const OnsetPoint& after, Onset& best) {
+  const Complex start = nearest(before.lambda, after.lambda);
   const bool crosses = (start.imag() > 0) != (after.lambda.imag() > 0);
   const double larger = std::max(start.real(), after.lambda.real());
   if (!crosses || larger * best.factor < 1) {
     return;
   }
-  const OnsetPoint real = real_between(loop, {from, start}, after);
+  const OnsetPoint real = real_between(loop, {before.omega, start}, after);
   if (real.lambda.real() * best.factor > 1) {
     best = {1 / real.lambda.real(), real.omega};  // D-23
   }
+}
+
+/// A branch is followed where it moves by less than this fraction of itself in a step.
+constexpr double followed = 0.3;
+/// A step is halved so often to get there.
+constexpr int most_halvings = 6;
+
+/// Whether each eigenvalue that could be an onset has one at the other frequency that it
+/// may come from.
+bool leads_on(const std::vector<Complex>& one, const std::vector<Complex>& other,
+              const Onset& best) {
+  return std::all_of(one.begin(), one.end(), [&](Complex lambda) {
+    return std::abs(lambda) * best.factor < 1 ||
+           (!other.empty() &&
+            std::abs(nearest(other, lambda) - lambda) <= followed * std::abs(lambda));
+  });
+}
+
+/// Every branch from one frequency to the next, in as many steps as it takes.
+void follow(const RegenerativeLoop& loop, const LoopAt& a, const LoopAt& b,
+            int halvings, Onset& best) {
+  if (halvings > 0 &&
+      !(leads_on(a.lambda, b.lambda, best) && leads_on(b.lambda, a.lambda, best))) {
+    const double omega = 0.5 * (a.omega + b.omega);
+    const LoopAt middle{omega, loop.eigenvalues(omega, kept_beside / best.factor)};
+    follow(loop, a, middle, halvings - 1, best);
+    follow(loop, middle, b, halvings - 1, best);
+    return;
+  }
+  if (a.lambda.empty()) {
+    return;
+  }
+  for (const Complex& lambda : b.lambda) {
+    take_crossings(loop, a, {b.omega, lambda}, best);
+  }
+}
+
+/// Steps of the scan within a peak of the response.
+constexpr double steps_per_peak = 5.0;
+/// No step is shorter than this fraction of the distance of two lines.
+constexpr double steps_per_line = 3.0;
+
+/// @brief Frequencies from the begin of the band to its end: closer at every peak of the
+/// response, and everywhere close for the delay.
+/// @param longest  step [rad/s]
+std::vector<double> scan_frequencies(const PointResponse& point, double longest) {
+  const Band band = band_of(point);
+  std::vector<Peak> all;
+  for (const MeasuredReceptance& part : point.parts) {
+    const std::vector<Peak> of_part = peaks(part);
+    all.insert(all.end(), of_part.begin(), of_part.end());
+  }
+  const double shortest = line_distance(point) / steps_per_line;
+  std::vector<double> out;
+  for (double omega = band.from; omega < band.to;) {
+    out.push_back(omega);
+    double step = longest;
+    for (const Peak& peak : all) {
+      const double away = std::max(peak.width, std::abs(omega - peak.omega));
+      step = std::min(step, std::max(shortest, away / steps_per_peak));
+    }
+    omega += step;
+  }
+  out.push_back(band.to);
+  return out;
 }
 
 /// The strongest of the frequencies of a vibration: where the point is softest [Hz].
@@ -344,25 +414,16 @@ std::optional<FrequencyLimit> limit_at(const DepthHarmonics& forces,
 std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& point,
                            double Omega, int h, double most) {
   const RegenerativeLoop loop(forces, point, Omega, h);
-  const Band band = band_of(point);
   const double longest = forces.delays.empty() ? forces.period : forces.delays.back();
-  const double step =
-      std::min(std::max(line_distance(point), narrowest_peak(point) / 5),
-               unit::turn * Omega / longest / steps_per_wave);
-  const auto steps = static_cast<std::size_t>(std::ceil((band.to - band.from) / step));
   Onset best{.factor = most};
-  std::vector<Complex> before;
-  double last = band.from;
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double omega = std::min(band.from + step * static_cast<double>(i), band.to);
-    std::vector<Complex> now = loop.eigenvalues(omega, kept_beside / best.factor);
-    if (!before.empty()) {
-      for (const Complex& lambda : now) {
-        take_crossings(loop, last, before, {omega, lambda}, best);
-      }
+  LoopAt before;
+  for (const double omega :
+       scan_frequencies(point, unit::turn * Omega / longest / steps_per_wave)) {
+    LoopAt now{omega, loop.eigenvalues(omega, kept_beside / best.factor)};
+    if (before.omega > 0) {
+      follow(loop, before, now, most_halvings, best);
     }
     before = std::move(now);
-    last = omega;
   }
   return best.factor < most ? std::optional(best) : std::nullopt;
 }

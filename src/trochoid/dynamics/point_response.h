@@ -29,7 +29,12 @@ struct PointResponse {
 /// 2 x 2, row-major [m/N].
 using ComplexMatrix2 = std::array<std::complex<double>, 4>;
 
-/// @brief G at a frequency (D-20): between lines by the cubic through the four around.
+/// @brief G at a frequency (D-20).
+///
+/// @eq  D-34 between lines H (omega - p) is the parabola through the four around, p their
+///           pole: the third divided difference of H (omega - p) is 0; without a pole
+///           that the lines beside them see too, the cubic
+/// @src derived: one resonance and what varies slowly beside it
 /// @param omega  [rad/s], any sign
 ComplexMatrix2 receptance(const PointResponse& point, double omega) noexcept;
 
@@ -43,8 +48,21 @@ Band band_of(const PointResponse& point) noexcept;
 /// @brief The mean distance of two lines, of the part with the finest [rad/s].
 double line_distance(const PointResponse& point) noexcept;
 
-/// @brief Distance of the half-power points of the sharpest of the greatest peaks
-/// [rad/s].
-double narrowest_peak(const PointResponse& point) noexcept;
+/// A peak of a response.
+struct Peak {
+  double omega = 0.0;        ///< [rad/s]
+  double width = 0.0;        ///< between its half-power points [rad/s]
+  std::size_t lines = 0;     ///< there
+  double height = 0.0;       ///< |H| [m/N]
+  bool at_the_edge = false;  ///< of the band: a resonance may lie outside
+};
+
+/// @brief The peaks of a response that fall to half of their power on both sides, or
+/// to an end of the band: of a twentieth of the greatest at least, and above the scatter.
+std::vector<Peak> peaks(const MeasuredReceptance& part);
+
+/// @brief Scatter of the lines, from fourth differences: a resonance with several lines in
+/// it leaves little of them. The median keeps peaks out. [m/N]
+double scatter(const MeasuredReceptance& part);
 
 }  // namespace trochoid::dynamics

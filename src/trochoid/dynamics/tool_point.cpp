@@ -101,33 +101,6 @@ bool moves_against_force(const MeasuredReceptance& part) {
   return part.motion == part.force && work <= 0;
 }
 
-Peak greatest_peak(const MeasuredReceptance& part) {
-  const auto most = std::max_element(
-      part.H.begin(), part.H.end(),
-      [](const auto& a, const auto& b) { return std::norm(a) < std::norm(b); });
-  const auto peak = static_cast<std::size_t>(most - part.H.begin());
-  const double half_power = std::abs(*most) / std::sqrt(2.0);
-  const auto inside = std::count_if(part.H.begin(), part.H.end(), [&](const auto& H) {
-    return std::abs(H) >= half_power;
-  });
-  return {.omega = part.omega[peak],
-          .lines = static_cast<std::size_t>(inside),
-          .at_the_edge = peak == 0 || peak + 1 == part.H.size()};
-}
-
-double scatter(const MeasuredReceptance& part) {
-  constexpr double of_white_noise = 70.0;  // 1 + 16 + 36 + 16 + 1
-  constexpr double median_of_rayleigh = 1.1774;
-  std::vector<double> sizes;
-  for (std::size_t i = 2; i + 2 < part.H.size(); ++i) {
-    sizes.push_back(std::abs(part.H[i - 2] - 4.0 * part.H[i - 1] + 6.0 * part.H[i] -
-                             4.0 * part.H[i + 1] + part.H[i + 2]));
-  }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / median_of_rayleigh / std::sqrt(of_white_noise);
-}
-
 ToolPoint tool_point(std::span<const MeasuredResponse> measured, bool fit_modes) {
   ToolPoint point;
   for (const MeasuredResponse& one : measured) {

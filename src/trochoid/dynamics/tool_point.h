@@ -32,18 +32,6 @@ MeasuredReceptance receptance_of(const MeasuredResponse& measured);
 /// of all at a resonance. A cross response may have either sign.
 bool moves_against_force(const MeasuredReceptance& part);
 
-/// The greatest peak of a response.
-struct Peak {
-  double omega = 0.0;        ///< [rad/s]
-  std::size_t lines = 0;     ///< between the half-power points
-  bool at_the_edge = false;  ///< of the band: a resonance may lie outside
-};
-Peak greatest_peak(const MeasuredReceptance& part);
-
-/// @brief Scatter of the lines, from fourth differences: a resonance with several lines in
-/// it leaves little of them. The median keeps peaks out. [m/N]
-double scatter(const MeasuredReceptance& part);
-
 /// A response to which no modes could be fitted.
 struct NoModes {
   std::size_t response = 0;  ///< which

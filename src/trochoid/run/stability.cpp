@@ -73,23 +73,33 @@ void check(const cases::MeasuredFrf& frf, const MeasuredReceptance& part) {
   }
 }
 
-void warn_of_peak(const MeasuredReceptance& part, Warnings& warnings) {
-  const dynamics::Peak peak = dynamics::greatest_peak(part);
-  if (peak.lines < few_lines_in_peak) {
+void warn_of_peaks(const MeasuredReceptance& part, Warnings& warnings) {
+  std::string coarse;
+  std::size_t count = 0;
+  const dynamics::Peak* greatest = nullptr;
+  const std::vector<dynamics::Peak> all = dynamics::peaks(part);
+  for (const dynamics::Peak& peak : all) {
+    if (greatest == nullptr || peak.height > greatest->height) greatest = &peak;
+    if (peak.lines >= few_lines_in_peak) continue;
+    ++count;
+    coarse += fmt::format("{}{:.5g} Hz ({})", coarse.empty() ? "" : ", ",
+                          peak.omega / unit::Hz, peak.lines);
+  }
+  if (count > 0) {
     warnings.push_back(
         {"few_lines",
          fmt::format(
-             "Only {} lines of the response {} lie between the half-power "
-             "points of its peak at {:.5g} Hz: the limit depth hangs on them. A "
-             "longer record has a finer resolution.",
-             peak.lines, name_of_part(part), peak.omega / unit::Hz)});
+             "Few lines of the response {} lie between the half-power points of "
+             "its peak{} at {}: the limit depth hangs on them. A longer record "
+             "has a finer resolution.",
+             name_of_part(part), count == 1 ? "" : "s", coarse)});
   }
-  if (peak.at_the_edge) {
+  if (greatest != nullptr && greatest->at_the_edge) {
     warnings.push_back(
         {"peak_at_the_edge",
          fmt::format("The response {} is largest at the edge of its band, {:.5g} Hz: a "
                      "resonance may lie outside, which nothing here can see.",
-                     name_of_part(part), peak.omega / unit::Hz)});
+                     name_of_part(part), greatest->omega / unit::Hz)});
   }
 }
 
@@ -181,7 +191,7 @@ std::vector<MeasuredResponse> tool_responses(const cases::Case& given,
                    .of_table = frf.body == cases::ModeBody::table});
     const MeasuredReceptance part = dynamics::receptance_of(all.back());
     check(frf, part);
-    warn_of_peak(part, warnings);
+    warn_of_peaks(part, warnings);
   }
   return all;
 }

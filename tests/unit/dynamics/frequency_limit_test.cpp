@@ -207,6 +207,67 @@ TEST(FrequencyLimit, WithRunoutHasTheTurnForAPeriod) {  // [D-22]
   EXPECT_NEAR(limit->depth, exact, 0.02 * exact);
 }
 
+/// Two modes, the same along x and y, the sharp one with two lines between its half-power
+/// points where lines are 3.3 Hz apart.
+System two_modes_each_way() {
+  System system;
+  for (const double x : {1.0, 0.0}) {
+    const auto add = [&](double stiffness, double frequency_Hz, double ratio) {
+      const double mass = stiffness / std::pow(2 * pi * frequency_Hz, 2);
+      system.modes.push_back(mode_of(mass, frequency_Hz, ratio, x, 1 - x));
+    };
+    add(1.2e8, 292, 0.0115);
+    add(1.6e8, 1290, 0.03);
+  }
+  return system;
+}
+
+force::Setup half_immersion() {
+  force::Setup setup = straight_cut(4, geometry::DownMilling{8 * unit::mm});
+  setup.cutter.profile = geometry::cylinder(16 * unit::mm);
+  setup.cutter.lag_diameter = 16 * unit::mm;
+  return setup;
+}
+
+TEST(FrequencyLimit, FollowsEveryBranchBetweenCoarseLines) {  // [D-23] [D-34]
+  const DirectionalModel model(
+      half_immersion(), force::LinearEdge{.K_tc = 800e6, .K_rc = 250e6}, 1e-6, 1e-11);
+  const System system = two_modes_each_way();
+  const PointResponse point = tapped(system, 49.5, 2999.7, 895);
+  for (const double rpm : {7000.0, 8000.0, 9000.0, 11000.0, 14000.0}) {
+    const auto exact =
+        limit_depth(model, system, rpm * unit::rpm, steps(0.2e-3, 40e-3, 200), 1e-6);
+    const auto limit = frequency_limit(model, point, rpm * unit::rpm,
+                                       steps(0.4e-3, 40e-3, 100), {.harmonics = 4});
+    ASSERT_TRUE(exact.has_value());
+    ASSERT_TRUE(limit.has_value());
+    EXPECT_NEAR(limit->depth, exact->depth, 0.03 * exact->depth) << rpm;
+  }
+}
+
+TEST(PointResponse, FollowsAPeakWithTwoLines) {  // [D-34]
+  const System system{{mode_of(1.0, 292, 0.0115, 1, 0)}};
+  const PointResponse point = tapped(system, 49.5, 2999.7, 895);
+  const ChipMode& m = system.modes[0];
+  for (double f = 270; f < 320; f += 0.1) {
+    const double omega = 2 * pi * f;
+    const Complex H =
+        1.0 / Complex(m.stiffness - m.mass * omega * omega, m.damping * omega);
+    EXPECT_LT(std::abs(receptance(point, omega)[0] - H), 0.01 / (0.023 * m.stiffness))
+        << f;
+  }
+}
+
+TEST(PointResponse, HasAllPeaksThatStandOut) {
+  const PointResponse point = tapped(two_modes_each_way(), 49.5, 2999.7, 895);
+  const std::vector<Peak> found = peaks(point.parts.front());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].omega, 2 * pi * 292, 2 * pi * 3.3);
+  EXPECT_LE(found[0].lines, 3U);
+  EXPECT_NEAR(found[1].omega, 2 * pi * 1290, 2 * pi * 3.3);
+  EXPECT_NEAR(found[1].width, 2 * pi * 77, 2 * pi * 8);
+}
+
 TEST(FrequencyLimit, IsAbsentWhereAllDepthsAreStable) {  // [D-23]
   const DirectionalModel model(straight_cut(2, geometry::Slot{}), benchmark_law(), 1e-6,
                                1e-11);

@@ -60,7 +60,9 @@ TEST(MeasuredResponse, OfASensorTheWrongWayRoundMovesAgainstTheForce) {
 }
 
 TEST(MeasuredResponse, HasItsPeakAtTheResonance) {
-  const Peak peak = greatest_peak(receptance_of(one_mode(0, 0)));
+  const std::vector<Peak> all = peaks(receptance_of(one_mode(0, 0)));
+  ASSERT_EQ(all.size(), 1U);
+  const Peak& peak = all.front();
   EXPECT_NEAR(peak.omega, std::sqrt(stiffness / mass), 10);
   EXPECT_NEAR(static_cast<double>(peak.lines), damping / mass / 10, 2);
   EXPECT_FALSE(peak.at_the_edge);

@@ -166,6 +166,8 @@ TEST(ToolPoint, SaysWhatAResponseCannotSay) {
   EXPECT_TRUE(warned(answered(tapped({.to = 1200})), "band_short_above"));
   EXPECT_TRUE(warned(answered(tapped({.from = 800})), "band_short_below"));
   EXPECT_TRUE(warned(answered(tapped({.step = 7})), "few_lines"));
+  EXPECT_FALSE(warned(answered(tapped({.noise = 0.01})), "few_lines"))
+      << "a peak of noise is none";
   const auto cut_off = answered(tapped({.to = 921}));
   EXPECT_TRUE(warned(cut_off, "peak_at_the_edge"));
 }
