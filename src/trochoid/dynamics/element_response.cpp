@@ -11,25 +11,45 @@ namespace trochoid::dynamics {
 
 namespace {
 
-/// @param r      number of the mode
+/// A mode and where it moves the tool.
+struct MovingMode {
+  const ChipMode& mode;
+  std::size_t number = 0;
+  const std::array<double, 2>& direction;
+
+  /// What q has of a displacement and a velocity of the mode (D-35).
+  [[nodiscard]] double moved(double eta, double velocity) const noexcept {
+    return mode.in_phase * eta + mode.lead * velocity;
+  }
+};
+
 /// @param count  components of q
-void add_mode(ElementResponse& response, const DrivenMotion& motion, std::size_t r,
-              const std::array<double, 2>& direction, std::size_t count) {
-  const std::size_t n = motion.end_velocity.size();
+void add_mode(ElementResponse& response, const DrivenMotion& motion,
+              const MovingMode& moving, std::size_t count) {
+  const std::size_t n = motion.free.size();
+  const std::size_t r = moving.number;
+  const std::array<double, 2>& direction = moving.direction;
   const std::span<const double> at_end = std::span(motion.eta).last(n);
+  const std::span<const double> velocity_at_end = std::span(motion.velocity).last(n);
   const std::size_t state = count * n + 2 * r;
   for (std::size_t c = 0; c < count; ++c) {
     for (std::size_t i = 0; i < n; ++i) {
-      response.motion.column(state)[c * n + i] = direction[c] * motion.free[i][0];
-      response.motion.column(state + 1)[c * n + i] = direction[c] * motion.free[i][1];
+      const std::array<double, 4>& free = motion.free[i];
+      response.motion.column(state)[c * n + i] =
+          direction[c] * moving.moved(free[0], free[2]);
+      response.motion.column(state + 1)[c * n + i] =
+          direction[c] * moving.moved(free[1], free[3]);
       response.end.column(c * n + i)[2 * r] = direction[c] * at_end[i];
-      response.end.column(c * n + i)[2 * r + 1] = direction[c] * motion.end_velocity[i];
+      response.end.column(c * n + i)[2 * r + 1] = direction[c] * velocity_at_end[i];
     }
     for (std::size_t b = 0; b < count; ++b) {
       const double factor = direction[c] * direction[b];
       for (std::size_t k = 0; k < n && factor != 0; ++k) {
         double* const column = response.motion.column(b * n + k) + c * n;
-        for (std::size_t i = 0; i < n; ++i) column[i] += factor * motion.eta[i * n + k];
+        for (std::size_t i = 0; i < n; ++i) {
+          column[i] +=
+              factor * moving.moved(motion.eta[i * n + k], motion.velocity[i * n + k]);
+        }
       }
     }
   }
@@ -55,7 +75,7 @@ ElementResponse element_response(const std::vector<ChipMode>& modes,
       motion = driven_motion(modes[r], degree, duration);
     }
     if (motion) {
-      add_mode(response, *motion, r, components.modes[r], components.count);
+      add_mode(response, *motion, {modes[r], r, components.modes[r]}, components.count);
     }
     const auto over = free_motion(modes[r], duration);
     for (std::size_t i = 0; i < 4; ++i) {

@@ -34,17 +34,18 @@ DrivenMotion driven_motion(const ChipMode& mode, int n, double duration) {
   const std::size_t count = nodes.t.size();
   const double half = 0.5 * duration;
   DrivenMotion motion{
-      std::vector<double>(count * count), std::vector<double>(count), {}};
+      std::vector<double>(count * count), std::vector<double>(count * count), {}};
   motion.free.push_back({1.0, 0.0, 0.0, 1.0});
-  std::vector<double>& velocity = motion.end_velocity;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double to = nodes.t[i + 1];
     const auto step = free_motion(mode, half * (to - nodes.t[i]));
     const double* before = &motion.eta[i * count];
     double* after = &motion.eta[(i + 1) * count];
+    const double* velocity_before = &motion.velocity[i * count];
+    double* velocity = &motion.velocity[(i + 1) * count];
     for (std::size_t k = 0; k < count; ++k) {
-      after[k] = step[0] * before[k] + step[1] * velocity[k];
-      velocity[k] = step[2] * before[k] + step[3] * velocity[k];
+      after[k] = step[0] * before[k] + step[1] * velocity_before[k];
+      velocity[k] = step[2] * before[k] + step[3] * velocity_before[k];
     }
     for (std::size_t g = i * gauss_count; g < (i + 1) * gauss_count; ++g) {
       const double* row = &nodes.at_gauss[g * count];

@@ -20,7 +20,7 @@ std::array<double, 4> free_motion(const ChipMode& mode, double t) noexcept;
 struct DrivenMotion {
   std::vector<double>
       eta;  ///< of the force at the nodes, row-major, shape (n + 1, n + 1)
-  std::vector<double> end_velocity;  ///< the same for eta' at the end, shape (n + 1)
+  std::vector<double> velocity;             ///< the same of eta'
   std::vector<std::array<double, 4>> free;  ///< D-3 from the start to each node
 };
 

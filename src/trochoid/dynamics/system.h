@@ -17,9 +17,13 @@ struct ChipMode {
   double x = 1.0;          ///< unit direction; tool modes +, table modes -
   double y = 0.0;
   bool of_table = false;  ///< the work moves, against its direction in q
+  // Of a complex mode, whose residue is turned; of a real one 1 and 0.
+  double in_phase = 1.0;  ///< of D-35
+  double lead = 0.0;      ///< [s]
 };
 
-/// @eq D-2 q = sum over modes of (x, y) eta: tool minus work
+/// @eq D-2  q = sum over modes of (x, y) eta: tool minus work
+/// @eq D-35 of complex modes q = sum of (x, y) (in_phase eta + lead eta')
 struct System {
   std::vector<ChipMode> modes;
 };

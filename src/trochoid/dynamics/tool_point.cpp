@@ -37,48 +37,132 @@ void add_transposed(ToolPoint& point) {
   }
 }
 
+/// What was found along one axis.
+struct ModesAlong {
+  std::vector<FittedMode> real;
+  std::vector<FittedMode> complex;  ///< empty: the real ones describe it
+};
+
+/// Complex modes are taken where their criterion is less by so much: odds of 150 to 1.
+constexpr double very_strong = 10.0;
+
 /// Modes of one body along one axis; none where it was not measured.
-std::vector<FittedMode> modes_along(std::size_t axis, bool of_table,
-                                    std::span<const MeasuredResponse> all,
-                                    ToolPoint& point) {
+/// @param complex_too  whether complex ones are of use
+ModesAlong modes_along(std::size_t axis, bool of_table, bool complex_too,
+                       std::span<const MeasuredResponse> all, ToolPoint& point) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const MeasuredResponse& one = all[i];
     if (one.of_table != of_table || one.motion != axis || one.force != axis) continue;
     structure::ModesFit fit = structure::identify_modes(one.response, {});
+    ModesAlong out{.real = fit.modes, .complex = {}};
     if (!fit.ok && !point.no_modes) {
       point.no_modes = NoModes{i, fit.reason};
     }
-    return std::move(fit.modes);
+    if (!complex_too) return out;
+    if (const auto check = structure::complex_check(fit);
+        check && check->evidence > very_strong) {
+      out.complex = check->fit.modes;
+    }
+    return out;
   }
   return {};
 }
 
-/// Modes of one body, as the chip feels them; a cross response couples the axes.
-void add_modes(bool of_table, std::span<const MeasuredResponse> all, ToolPoint& point) {
-  const auto x = modes_along(0, of_table, all, point);
-  const auto y = modes_along(1, of_table, all, point);
-  const double sign = of_table ? -1.0 : 1.0;
-  const auto add = [&](const structure::Mode& m, double to_x, double to_y) {
-    point.modes.modes.push_back(
-        {m.mass, m.damping, m.stiffness, sign * to_x, sign * to_y, of_table});
+/// The modes of one axis, in both systems.
+void add_along(const ModesAlong& found, double x, double y, bool of_table,
+               ToolPoint& point) {
+  const auto add = [&](const structure::Mode& m, System& to) {
+    to.modes.push_back({m.mass, m.damping, m.stiffness, x, y, of_table});
   };
-  for (const MeasuredResponse& one : all) {
-    if (one.of_table == of_table && one.motion != one.force) {
-      for (const auto& m : structure::coupled_modes(x, y, one.response)) {
-        add(m.mode, m.x, m.y);
-      }
-      return;
-    }
+  for (const FittedMode& m : found.real) {
+    add(m.mode(), point.real_modes);
+    if (found.complex.empty()) add(m.mode(), point.modes);
   }
-  for (const FittedMode& m : x) {
-    add(m.mode(), 1.0, 0.0);
-  }
-  for (const FittedMode& m : y) {
-    add(m.mode(), 0.0, 1.0);
+  for (const FittedMode& m : found.complex) {
+    point.modes.modes.push_back(complex_mode(m, x, y));
+    point.modes.modes.back().of_table = of_table;
+    point.complex_modes = true;
   }
 }
 
+/// Modes of one body, as the chip feels them; a cross response couples the axes.
+void add_modes(bool of_table, std::span<const MeasuredResponse> all, ToolPoint& point) {
+  const auto cross = std::ranges::find_if(all, [&](const MeasuredResponse& one) {
+    return one.of_table == of_table && one.motion != one.force;
+  });
+  const bool coupled = cross != all.end();
+  const ModesAlong x = modes_along(0, of_table, !coupled, all, point);
+  const ModesAlong y = modes_along(1, of_table, !coupled, all, point);
+  const double sign = of_table ? -1.0 : 1.0;
+  if (!coupled) {
+    add_along(x, sign, 0.0, of_table, point);
+    add_along(y, 0.0, sign, of_table, point);
+    return;
+  }
+  for (const auto& m : structure::coupled_modes(x.real, y.real, cross->response)) {
+    const ChipMode mode{m.mode.mass, m.mode.damping, m.mode.stiffness,
+                        sign * m.x,  sign * m.y,     of_table};
+    point.modes.modes.push_back(mode);
+    point.real_modes.modes.push_back(mode);
+  }
+}
+
+/// The receptance of modes along one axis.
+std::complex<double> receptance(const System& system, std::size_t axis, double omega) {
+  std::complex<double> sum;
+  for (const ChipMode& m : system.modes) {
+    const double along = axis == 0 ? m.x : m.y;
+    const std::complex<double> moved(m.in_phase, m.lead * omega);
+    sum +=
+        along * along * moved /
+        std::complex<double>(m.stiffness - m.mass * omega * omega, m.damping * omega);
+  }
+  return sum;
+}
+
 }  // namespace
+
+ChipMode complex_mode(const FittedMode& mode, double x, double y) {
+  const std::complex<double> Z = mode.phi.front() * mode.phi.front();
+  const double omega = mode.omega.value;
+  const double zeta = mode.zeta.value;
+  const double mass = 1 / std::abs(Z);
+  const double q = std::sqrt(1 - zeta * zeta);
+  ChipMode out{mass, 2 * mass * zeta * omega, mass * omega * omega, x, y};
+  out.lead = mass * Z.imag() / (omega * q);  // D-35
+  out.in_phase = mass * Z.real() + zeta * omega * out.lead;
+  return out;
+}
+
+Misfit misfit_near(const ToolPoint& point, const System& modes, double omega) {
+  constexpr double near = 0.1;
+  Misfit worst;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    // Tool and table add up along an axis, in the response as in the modes.
+    std::vector<double> lines;
+    double noise = 0.0;
+    for (std::size_t p = 0; p < point.response.parts.size(); ++p) {
+      const MeasuredReceptance& part = point.response.parts[p];
+      if (part.motion != axis || part.force != axis) continue;
+      noise += point.noise[p] * point.noise[p];
+      for (const double w : part.omega) {
+        if (std::abs(w / omega - 1) < near) lines.push_back(w);
+      }
+    }
+    double gap = 0.0;
+    double size = 0.0;
+    for (const double w : lines) {
+      const std::complex<double> H = receptance(point.response, w)[3 * axis];
+      gap += std::norm(receptance(modes, axis, w) - H);
+      size += std::norm(H);
+    }
+    if (!(size > 0)) continue;
+    const Misfit own{std::sqrt(gap / size),
+                     std::sqrt(noise * static_cast<double>(lines.size()) / size)};
+    if (own.modes > worst.modes) worst = own;
+  }
+  return worst;
+}
 
 MeasuredReceptance receptance_of(const MeasuredResponse& measured) {
   MeasuredReceptance part{measured.motion, measured.force, {}, {}};

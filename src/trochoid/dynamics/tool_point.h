@@ -3,6 +3,7 @@
 #include <trochoid/dynamics/point_response.h>
 #include <trochoid/dynamics/system.h>
 #include <trochoid/structure/frequency_response.h>
+#include <trochoid/structure/modes_fit.h>
 
 #include <cstddef>
 #include <optional>
@@ -42,16 +43,41 @@ struct NoModes {
 struct ToolPoint {
   PointResponse response;
   std::vector<double> noise;  ///< scatter of each part of the response [m/N]
-  System modes;  ///< of the direct responses; empty where none were looked for
+  /// Of the direct responses, those that describe them best; empty where none were
+  /// looked for.
+  System modes;
+  System real_modes;           ///< the same, or the real ones where those are complex
+  bool complex_modes = false;  ///< some of them are
   std::optional<NoModes> no_modes;  ///< the first without; nothing: all have some
 };
 
 /// @brief The tool point from the responses of tool and table.
 ///
 /// A cross response that is given in one of its two directions serves for both: structures
-/// without gyroscopic forces are symmetric. With one, modes lie askew (D-25).
+/// without gyroscopic forces are symmetric. With one, modes lie askew (D-25) and are real.
+/// Without, complex modes take the place of real ones where these do not describe the
+/// response (M-30).
 /// @param measured   each with fewest_lines lines at least
 /// @param fit_modes  look for the modes, too
 ToolPoint tool_point(std::span<const MeasuredResponse> measured, bool fit_modes);
+
+/// @brief A complex mode of one direction as the chip feels it.
+///
+/// @eq  D-35 Z of M-30, m = 1/|Z|, in_phase + lead s = m (Re Z + Im Z (s + zeta omega_0)/
+///           omega_d)
+/// @src derived: M-30 over 1/m of D-1
+/// @param x  of the direction in which it moves the tool; tool modes +, table modes -
+ChipMode complex_mode(const structure::FittedMode& mode, double x, double y);
+
+/// How far modes are from a response near a frequency.
+struct Misfit {
+  double modes = 0.0;  ///< root mean square of modes less response, over that of it
+  double noise = 0.0;  ///< the scatter of its lines, over the same
+};
+
+/// @brief Of the direct response that is farthest from its modes, its lines within a tenth
+/// of a frequency.
+/// @param omega  [rad/s]
+Misfit misfit_near(const ToolPoint& point, const System& modes, double omega);
 
 }  // namespace trochoid::dynamics

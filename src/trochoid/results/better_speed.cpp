@@ -19,21 +19,32 @@ constexpr double near_speed = 0.3;
 constexpr double worth_it = 1.2;
 
 /// Limits of the diagram by speed; where every depth is stable, its greatest.
-std::vector<BetterSpeed> limits_by_speed(const Stability& s) {
+std::vector<BetterSpeed> limits_by_speed(const StabilityResult& r) {
   std::vector<BetterSpeed> curve;
-  for (const dynamics::LimitPoint& point : s.limit_curve) {
+  for (const dynamics::LimitPoint& point : judged_curve(r)) {
     curve.push_back({point.limit.Omega, point.limit.depth});
   }
+  if (curve.empty() && !r.by_modes()) return curve;
+  const std::vector<BetterSpeed> limited = curve;
+  const Stability& s = r.stability;
   const std::size_t depths = s.lobes.depth.size();
-  for (std::size_t i = 0; i < s.lobes.Omega.size(); ++i) {
+  const auto is_stable = [&](std::size_t i) {
+    if (!r.by_modes()) {
+      return std::ranges::none_of(limited, [&](const BetterSpeed& one) {
+        return one.Omega == r.problem.spindle_speeds[i];
+      });
+    }
     const auto row =
         s.lobes.multiplier.begin() + static_cast<std::ptrdiff_t>(i * depths);
-    const bool stable =
-        std::all_of(row, row + static_cast<std::ptrdiff_t>(depths),
-                    [](const std::complex<double>& mu) { return std::abs(mu) < 1; });
-    if (stable) {
-      curve.push_back({s.lobes.Omega[i], s.lobes.depth.back()});
-    }
+    return std::all_of(row, row + static_cast<std::ptrdiff_t>(depths),
+                       [](const std::complex<double>& mu) { return std::abs(mu) < 1; });
+  };
+  const std::vector<double>& speeds =
+      r.by_modes() ? s.lobes.Omega : r.problem.spindle_speeds;
+  const double greatest =
+      r.by_modes() && depths > 0 ? s.lobes.depth.back() : judged_to(r);
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    if (is_stable(i)) curve.push_back({speeds[i], greatest});
   }
   std::ranges::sort(curve, {}, &BetterSpeed::Omega);
   return curve;
@@ -65,22 +76,22 @@ double least_near(const std::vector<BetterSpeed>& curve, double Omega) {
 }  // namespace
 
 std::optional<double> limit_of_a_spindle(const StabilityResult& r) {
-  const Stability& s = r.stability;
-  const auto curve = limits_by_speed(s);
+  const auto limit = judged_limit(r);
+  const auto curve = limits_by_speed(r);
   const double here = r.problem.setup.cut.Omega;
-  if (!s.limit || !s.whole || curve.size() < 2 || here < curve.front().Omega ||
+  if (!limit || !r.stability.whole || curve.size() < 2 || here < curve.front().Omega ||
       here > curve.back().Omega) {
     return std::nullopt;
   }
-  return std::min(least_near(curve, here), s.limit->limit.depth);
+  return std::min(least_near(curve, here), *limit);
 }
 
 std::optional<BetterSpeed> better_speed(const StabilityResult& r) {
-  const Stability& s = r.stability;
-  if (!s.limit || !s.whole) {
+  const auto limit = judged_limit(r);
+  if (!limit || !r.stability.whole) {
     return std::nullopt;
   }
-  const auto curve = limits_by_speed(s);
+  const auto curve = limits_by_speed(r);
   const double here = r.problem.setup.cut.Omega;
   std::optional<BetterSpeed> best;
   for (const BetterSpeed& one : curve) {
@@ -92,12 +103,12 @@ std::optional<BetterSpeed> better_speed(const StabilityResult& r) {
       best = {one.Omega, worst};
     }
   }
-  const double now = limit_of_a_spindle(r).value_or(s.limit->limit.depth);
+  const double now = limit_of_a_spindle(r).value_or(*limit);
   return best && best->depth > worth_it * now ? best : std::nullopt;
 }
 
 std::optional<SpeedRange> speeds_looked_at(const StabilityResult& r) {
-  const auto curve = limits_by_speed(r.stability);
+  const auto curve = limits_by_speed(r);
   if (curve.size() < 2) {
     return std::nullopt;
   }

@@ -106,6 +106,13 @@ const Fields<dynamics::ChipMode>& chip_mode_fields() {
        [](Of mode) {
          return Array{mode.x, mode.y};
        }},
+      {"turned_deg", "by which the residue of a complex mode is turned (M-30)",
+       [omega](Of m) {
+         const double zeta = 0.5 * m.damping / (m.mass * omega(m));
+         return std::atan2(m.lead * omega(m) * std::sqrt(1 - zeta * zeta),
+                           m.in_phase - zeta * omega(m) * m.lead);
+       },
+       [](Of m) { return m.lead != 0; }},
       {"frequency_Hz", "natural frequency",
        [omega](Of mode) { return omega(mode) / unit::turn; }},
       {"damping_ratio", "of critical damping",
@@ -187,25 +194,16 @@ const Fields<StabilityResult>& measured_fields() {
        [](R r) {
          return LimitByFrequency{r.measured->multi_frequency, r, true};
        }},
+      {"multiplier_limit_depth_mm",
+       "limit depth by the Floquet multiplier of the modes, `null` where there is none",
+       [](R r) {
+         const auto& modes = r.stability.limit;
+         return has_modes(r) && modes ? Value(modes->limit.depth) : Value();
+       }},
       {"modes_fitted",
        "the modes of the multiplier are fitted to the response, and `modes.toml` has them",
        [](R r) { return r.measured->modes_fitted; }}};
   return all;
-}
-
-/// Without modes: what the measured response says alone.
-bool stable_without_modes(const StabilityResult& r) {
-  const auto& limit = r.measured->multi_frequency.limit;
-  return !limit || limit->depth > r.problem.setup.cut.a_p;
-}
-
-Value limit_depth_value(const StabilityResult& r) {
-  if (!has_modes(r)) {
-    const auto& limit = r.measured->multi_frequency.limit;
-    return limit ? Value(limit->depth) : Value();
-  }
-  const auto& limit = r.stability.limit;
-  return limit ? Value(limit->limit.depth) : Value();
 }
 
 const Fields<StabilityResult>& stability_fields() {
@@ -232,16 +230,16 @@ const Fields<StabilityResult>& stability_fields() {
   static const Fields<StabilityResult> measured{
       {"measured_frf",
        "with `[[measured_frf]]`. Where no modes could be fitted, `multiplier` and `modes` "
-       "are `null`, `verdict` and `limit_depth_mm` are those of `multi_frequency`",
+       "are `null`",
        measured_fields(), [](R r) { return &r; },
        [](R r) { return r.measured.has_value(); }}};
   static const Fields<StabilityResult> all{
       {"multiplier", "Floquet multiplier of the case", multiplier_fields(),
        [](R r) { return has_modes(r) ? &r : nullptr; }},
-      {"stable", "whether `absolute` is below 1",
+      {"stable", "whether `absolute` is below 1, or as `judged_by` has it",
        [](R r) {
-         return has_modes(r) ? std::abs(r.stability.multiplier.value) < 1
-                             : stable_without_modes(r);
+         return r.by_modes() ? std::abs(r.stability.multiplier.value) < 1
+                             : judged_verdict(r) == dynamics::StabilityVerdict::stable;
        }},
       {"chip_floor",
        "in a power law: the Floquet multiplier at half and twice the floor", floor,
@@ -249,26 +247,31 @@ const Fields<StabilityResult>& stability_fields() {
       {"verdict",
        "`stable`, `unstable` or `marginal`: within `margin` of 1, or, in a power law, with "
        "another answer at half or twice `chip_floor_um`",
-       [](R r) -> std::string_view {
-         if (has_modes(r)) return name_of(r.stability.verdict);
-         return stable_without_modes(r) ? "stable" : "unstable";
-       }},
+       [](R r) { return name_of(judged_verdict(r)); }},
+      {"judged_by",
+       "with `[[measured_frf]]`, what verdict, limit depth, better speed and limit.csv come "
+       "from: `modes`, `complex_modes`, or the measured `response` itself, which modes do "
+       "not describe (`multi_frequency`)",
+       [](R r) { return name_of(r.judged_by); },
+       [](R r) { return r.measured.has_value(); }},
       {"limit_depth_mm",
        "limit depth: least unstable axial depth at the speed of the case (D-13); `null` if "
        "there is none up to `greatest_depth_mm`",
-       limit_depth_value},
+       [](R r) {
+         const auto depth = judged_limit(r);
+         return depth ? Value(*depth) : Value();
+       }},
       {"limit", "how stability is lost there", limit, [](R r) { return &r; },
        [](R r) { return has_modes(r) && r.stability.limit; }},
       {"better_speed",
        "`null` where what it allows is not 1.2 times the limit within 2 % of the speed of "
        "the case; no such key where the time was up before",
        better_speed_fields(), better_speed,
-       [](R r) { return has_modes(r) && r.stability.whole; }},
-      {"greatest_depth_mm", "up to which was looked",
        [](R r) {
-         return given(has_modes(r) ? r.stability.greatest_depth
-                                   : r.measured->greatest_depth);
+         return r.stability.whole && (has_modes(r) || !judged_curve(r).empty());
        }},
+      {"greatest_depth_mm", "up to which was looked",
+       [](R r) { return given(judged_to(r)); }},
       {"spindle_rpm", "of the case",
        [](R r) { return given(r.problem.setup.cut.Omega); }},
       {"axial_depth_mm", "of the case",
@@ -300,25 +303,50 @@ std::string measured_table(const StabilityResult& r) {
       "limit by the measured response: {} with the mean force (zeroth order), {} with "
       "{} harmonics (multi-frequency)\n{}",
       limit_text(m.zeroth_order), limit_text(m.multi_frequency), m.harmonics,
-      m.modes_fitted ? fmt::format("the multiplier is that of {} mode{} fitted to it\n",
-                                   r.problem.system.modes.size(),
-                                   r.problem.system.modes.size() == 1 ? "" : "s")
-                     : "");
+      m.modes_fitted
+          ? fmt::format("the multiplier is that of {} {}mode{} fitted to it\n",
+                        r.problem.system.modes.size(),
+                        m.complex_modes ? "complex " : "",
+                        r.problem.system.modes.size() == 1 ? "" : "s")
+          : "");
+}
+
+/// Verdict, limit and better speed by the measured response.
+std::string judged_table(const StabilityResult& r) {
+  const geometry::Cut& cut = r.problem.setup.cut;
+  const double speed = unit::in(cut.Omega, unit::rpm);
+  const auto limit = judged_limit(r);
+  std::string text =
+      fmt::format("{}, by the measured response: ", name_of(judged_verdict(r)));
+  text +=
+      limit ? fmt::format(
+                  "at {:g} rpm unstable from {:.5g} mm axial depth on; here {:g} mm\n",
+                  speed, *limit / unit::mm, unit::in(cut.a_p, unit::mm))
+            : fmt::format("at {:g} rpm no axial depth up to {:g} mm is unstable\n",
+                          speed, unit::in(judged_to(r), unit::mm));
+  if (const auto better = better_speed(r)) {
+    text += fmt::format("near it, {:.5g} rpm allows {:.3g} mm\n",
+                        better->Omega / unit::rpm, better->depth / unit::mm);
+  }
+  return text;
 }
 
 std::string multiplier_table(const StabilityResult& r) {
   const Stability& s = r.stability;
   const geometry::Cut& cut = r.problem.setup.cut;
   const double growth = std::abs(s.multiplier.value);
+  const std::string_view verdict =
+      r.by_modes() ? name_of(s.verdict) : "by the modes fitted";
   std::string text =
       fmt::format("{}: a small vibration {} to {:.6f} of itself in each {} ({})\n",
-                  name_of(s.verdict), growth < 1 ? "fades" : "grows", growth,
-                  period_name(s), type_of(s.multiplier.value));
+                  verdict, growth < 1 ? "fades" : "grows", growth, period_name(s),
+                  type_of(s.multiplier.value));
   text += "frequencies [Hz], strongest first:";
   for (const ChatterLine& line : s.lines) {
     text += fmt::format(" {:.2f}", line.frequency);
   }
   text += '\n';
+  if (!r.by_modes()) return text + judged_table(r);
   const double speed = unit::in(cut.Omega, unit::rpm);
   if (!s.limit) {
     return text + fmt::format("at {:g} rpm no axial depth up to {:g} mm is unstable\n",
@@ -352,8 +380,8 @@ std::string damping_table(const StabilityResult& r) {
 }
 
 std::string short_table(const StabilityResult& r) {
-  return (r.no_modes.empty() ? multiplier_table(r) : std::string()) + damping_table(r) +
-         (r.measured ? measured_table(r) : std::string());
+  return (r.no_modes.empty() ? multiplier_table(r) : judged_table(r)) +
+         damping_table(r) + (r.measured ? measured_table(r) : std::string());
 }
 
 /// The limit depth over the speed, by the measured response.
@@ -434,14 +462,56 @@ std::string modes_toml(const dynamics::System& system) {
 
 }  // namespace
 
+std::optional<double> judged_limit(const StabilityResult& r) {
+  if (!r.by_modes()) {
+    const auto& limit = r.measured->multi_frequency.limit;
+    return limit ? std::optional(limit->depth) : std::nullopt;
+  }
+  const auto& limit = r.stability.limit;
+  return limit ? std::optional(limit->limit.depth) : std::nullopt;
+}
+
+dynamics::StabilityVerdict judged_verdict(const StabilityResult& r) {
+  if (r.by_modes()) return r.stability.verdict;
+  const auto limit = judged_limit(r);
+  return limit && *limit < r.problem.setup.cut.a_p
+             ? dynamics::StabilityVerdict::unstable
+             : dynamics::StabilityVerdict::stable;
+}
+
+std::vector<dynamics::LimitPoint> judged_curve(const StabilityResult& r) {
+  if (r.by_modes()) return r.stability.limit_curve;
+  const geometry::Cutter& cutter = r.problem.setup.cutter;
+  const double period =  // of the cut, if the modes did not tell
+      r.stability.period > 0 ? r.stability.period
+                             : unit::turn / static_cast<double>(cutter.pitch.size());
+  std::vector<dynamics::LimitPoint> curve;
+  for (const dynamics::FrequencyLimit& one : r.measured->multi_frequency.curve) {
+    const double angle =
+        unit::turn * one.chatter_frequency * period / one.Omega;  // D-12
+    curve.push_back({.limit = {.Omega = one.Omega,
+                               .depth = one.depth,
+                               .multiplier = std::polar(
+                                   1.0, std::abs(std::remainder(angle, unit::turn)))},
+                     .chatter_frequency = one.chatter_frequency});
+  }
+  return curve;
+}
+
+double judged_to(const StabilityResult& r) {
+  return r.by_modes() ? r.stability.greatest_depth : r.measured->greatest_depth;
+}
+
 Answer answer_of(const StabilityResult& r) {
   Answer answer{.command = "stability",
                 .heading = r.heading,
                 .result = stability_fields().object(r),
                 .short_table = short_table(r)};
   if (r.no_modes.empty()) {
-    answer.tables = {lobe_columns().table(r.stability.lobes),
-                     limit_columns().table(r.stability.limit_curve)};
+    answer.tables = {lobe_columns().table(r.stability.lobes)};
+  }
+  if (r.no_modes.empty() || !judged_curve(r).empty()) {
+    answer.tables.push_back(limit_columns().table(judged_curve(r)));
   }
   if (r.measured) {
     answer.tables.push_back(
@@ -449,7 +519,7 @@ Answer answer_of(const StabilityResult& r) {
     answer.tables.push_back(frequency_columns(multi_frequency_file)
                                 .table(r.measured->multi_frequency.curve));
     if (r.measured->modes_fitted) {
-      answer.texts.push_back({"modes.toml", modes_toml(r.problem.system)});
+      answer.texts.push_back({"modes.toml", modes_toml(r.measured->real_modes)});
     }
   }
   return answer;

@@ -70,9 +70,9 @@ std::string verdict_of(StabilityVerdict verdict, const Asked& asked,
 /// Whether a spindle that does not keep its speed makes a stable cut chatter.
 std::string off_speed(const StabilityResult& r) {
   const auto limit = limit_of_a_spindle(r);
-  if (!limit || r.stability.verdict != StabilityVerdict::stable ||
+  if (!limit || judged_verdict(r) != StabilityVerdict::stable ||
       *limit >= r.problem.setup.cut.a_p ||
-      r.stability.limit->limit.depth < r.problem.setup.cut.a_p) {
+      judged_limit(r).value_or(0.0) < r.problem.setup.cut.a_p) {
     return {};
   }
   return fmt::format(" With the spindle 2 % off it may chatter from {:.2g} mm on.",
@@ -81,9 +81,8 @@ std::string off_speed(const StabilityResult& r) {
 
 /// Which speed near it allows more; empty where no lobes were asked for, or not all done.
 std::string speeds_near(const StabilityResult& r) {
-  const dynamics::Stability& s = r.stability;
   const auto range = speeds_looked_at(r);
-  if (!s.limit || !s.whole || s.limit_curve.size() < 2 || !range) {
+  if (!judged_limit(r) || !r.stability.whole || judged_curve(r).size() < 2 || !range) {
     return {};
   }
   const geometry::Cut& cut = r.problem.setup.cut;
@@ -102,33 +101,34 @@ std::string speeds_near(const StabilityResult& r) {
       better->depth < cut.a_p ? "; less than the cut asks for" : "");
 }
 
+std::string limit_words(const std::optional<double>& limit) {
+  return limit ? fmt::format("the limit is {:.3g} mm", *limit / unit::mm)
+               : std::string("no depth chatters");
+}
+
 /// What the measured response says by itself, beside the modes.
 std::string by_response(const StabilityResult& r) {
   const auto& limit = r.measured->multi_frequency.limit;
-  const std::string at =
-      limit ? fmt::format("the limit is {:.3g} mm", limit->depth / unit::mm)
-            : std::string("no depth chatters");
-  return fmt::format(" By the measured response itself {}.", at);
+  return fmt::format(" By the measured response itself {}.",
+                     limit_words(limit ? std::optional(limit->depth) : std::nullopt));
+}
+
+/// What the modes say that do not describe the response that judges.
+std::string by_modes(const StabilityResult& r) {
+  if (!r.no_modes.empty()) return {};
+  const auto& limit = r.stability.limit;
+  return fmt::format(
+      " By the modes fitted to it, which do not describe it, {}.",
+      limit_words(limit ? std::optional(limit->limit.depth) : std::nullopt));
 }
 
 }  // namespace
 
 std::string stability_sentence(const StabilityResult& r) {
-  const Asked asked = asked_of(r);
-  if (!r.no_modes.empty()) {
-    const auto& limit = r.measured->multi_frequency.limit;
-    const bool chatters = limit && limit->depth < asked.depth;
-    return "By the measured response: " +
-           verdict_of(chatters ? StabilityVerdict::unstable : StabilityVerdict::stable,
-                      asked, limit ? std::optional(limit->depth) : std::nullopt,
-                      r.measured->greatest_depth);
-  }
-  const dynamics::Stability& s = r.stability;
   const std::string text =
-      verdict_of(s.verdict, asked,
-                 s.limit ? std::optional(s.limit->limit.depth) : std::nullopt,
-                 s.greatest_depth) +
+      verdict_of(judged_verdict(r), asked_of(r), judged_limit(r), judged_to(r)) +
       off_speed(r) + speeds_near(r);
+  if (!r.by_modes()) return "By the measured response: " + text + by_modes(r);
   return text + (r.measured ? by_response(r)
                             : " This is as sure as the modes and coefficients of the "
                               "case.");

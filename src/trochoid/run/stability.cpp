@@ -139,6 +139,8 @@ MeasuredStability measured_stability(const cases::Case& given,
   MeasuredStability out{.band = dynamics::band_of(point.response),
                         .harmonics = given.machine.stability->harmonics,
                         .modes_fitted = given.machine.modes.empty() && !point.no_modes,
+                        .complex_modes = point.complex_modes,
+                        .real_modes = point.real_modes,
                         .greatest_depth = problem.depths.empty()
                                               ? a_p
                                               : std::max(a_p, problem.depths.back())};
@@ -147,6 +149,78 @@ MeasuredStability measured_stability(const cases::Case& given,
   out.multi_frequency = by_frequency(problem, point.response, out.harmonics,
                                      out.greatest_depth, progress);
   return out;
+}
+
+/// Limits that differ by more than this fraction are not one answer.
+constexpr double same_limit = 0.05;
+/// Modes that leave more than this fraction of the response near the chatter frequency,
+/// and so many times its scatter, do not describe it.
+constexpr double worst_misfit = 0.03;
+constexpr double beyond_noise = 3.0;
+
+/// The limits of both solutions where they differ; of one depth only where the other has
+/// none.
+struct TwoLimits {
+  double by_modes = 0.0;     ///< [m]; 0: none
+  double by_response = 0.0;  ///< the same
+  double frequency = 0.0;    ///< of the lower [Hz]
+};
+
+std::optional<TwoLimits> different_limits(const results::StabilityResult& r) {
+  const auto& modes = r.stability.limit;
+  const auto& response = r.measured->multi_frequency.limit;
+  if (!r.no_modes.empty() || (!modes && !response)) {
+    return std::nullopt;
+  }
+  TwoLimits out;
+  if (modes) {
+    out.by_modes = modes->limit.depth;
+    out.frequency = modes->lines.empty() ? 0.0 : modes->lines.front().frequency;
+  }
+  if (response) {
+    const bool lower = !modes || response->depth < out.by_modes;
+    out.by_response = response->depth;
+    out.frequency = lower ? response->chatter_frequency : out.frequency;
+  }
+  const bool alike = modes && response &&
+                     std::abs(out.by_response - out.by_modes) <=
+                         same_limit * std::min(out.by_modes, out.by_response);
+  return alike ? std::nullopt : std::optional(out);
+}
+
+/// What judges the cut, and a warning where the other solution says something else.
+results::JudgedBy judged_by(const results::StabilityResult& r,
+                            const dynamics::ToolPoint& point, Warnings& warnings) {
+  using results::JudgedBy;
+  if (!r.no_modes.empty()) {
+    return JudgedBy::response;
+  }
+  const JudgedBy modes = r.measured->modes_fitted && r.measured->complex_modes
+                             ? JudgedBy::complex_modes
+                             : JudgedBy::modes;
+  const auto limits = different_limits(r);
+  if (!limits) {
+    return modes;
+  }
+  const dynamics::Misfit misfit =
+      dynamics::misfit_near(point, r.problem.system, limits->frequency * unit::Hz);
+  const bool poor =
+      misfit.modes > worst_misfit && misfit.modes > beyond_noise * misfit.noise;
+  const bool by_response = poor && r.measured->modes_fitted;
+  const auto words = [](double depth) {
+    return depth > 0 ? fmt::format("{:.3g} mm", depth / unit::mm)
+                     : std::string("no limit");
+  };
+  warnings.push_back(
+      {"solutions_differ",
+       fmt::format(
+           "The Floquet multiplier of the modes gives {}, the measured response by "
+           "itself {}. Near {:.5g} Hz the modes leave {:.1f} % of the response{}. "
+           "Verdict and diagram are those of {}.",
+           words(limits->by_modes), words(limits->by_response), limits->frequency,
+           100 * misfit.modes, poor ? "" : ", little more than its noise",
+           by_response ? "the response" : "the modes")});
+  return by_response ? JudgedBy::response : modes;
 }
 
 void warn_of(const results::StabilityResult& r, const dynamics::ToolPoint& point,
@@ -240,7 +314,9 @@ results::StabilityResult stability(const cases::Case& given, const Progress& pro
   std::optional<dynamics::ToolPoint> point;
   if (!given.machine.measured_frfs.empty()) {
     const bool fit_modes = given.machine.modes.empty();
-    point = dynamics::tool_point(tool_responses(given, r.heading.warnings), fit_modes);
+    const auto responses = tool_responses(given, r.heading.warnings);
+    if (fit_modes) progress("Fitting the modes");
+    point = dynamics::tool_point(responses, fit_modes);
     if (fit_modes) r.problem.system = point->modes;
     if (const auto& none = point->no_modes) {
       const std::string& file =
@@ -258,6 +334,7 @@ results::StabilityResult stability(const cases::Case& given, const Progress& pro
   if (point) {
     r.measured = measured_stability(given, r.problem, *point, progress);
     warn_of(r, *point, r.heading.warnings);
+    r.judged_by = judged_by(r, *point, r.heading.warnings);
   }
   if (!r.no_modes.empty()) {
     r.heading.warnings.push_back(

@@ -144,6 +144,7 @@ ModesFit identify_modes(const FrequencyResponse& response,
                                100 * (1 - fit.responses.front().explained)));
   }
   const Alternative other = alternative_to(chosen, criterion, search.orders);
+  fit.criterion = criterion;
   fit.alternative = other.count;
   fit.alternative_odds = other.odds;
   fit.orders = std::move(search.orders);

@@ -55,13 +55,15 @@ ModesFit identify_shapes(const std::vector<DirectedResponse>& all,
 
 /// Whether complex modes describe a response better than the real ones found in it.
 struct ComplexCheck {
+  ModesFit fit;            ///< with complex shapes
   double evidence = 0.0;   ///< criterion of real modes less that of complex ones
   double omega = 0.0;      ///< of the mode whose shape is the most imaginary [rad/s]
   double imaginary = 0.0;  ///< |Im phi|/|phi| there
 };
 
-/// @brief The fit of one response once more with complex shapes, from its own modes.
-/// @return none: it has terms with a negative mass outside of the band, or no answer
+/// @brief The response of a fit once more with complex shapes, their number chosen anew:
+/// real modes stand for a turned one by several, one with a negative mass among them.
+/// @return none: there are no complex ones
 std::optional<ComplexCheck> complex_check(const ModesFit& fit);
 
 }  // namespace trochoid::structure

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace trochoid::structure {
@@ -100,9 +101,6 @@ std::string refusal(Responses all, const ModesOptions& options) {
   return turned.empty() ? opposite_signs(all) : turned;
 }
 
-/// Change of a parameter that ends the fits of a check, in standard errors.
-constexpr double closely = 1e-3;
-
 }  // namespace
 
 ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
@@ -146,6 +144,7 @@ ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
     fit.complex_evidence = evidence;
   }
   const Alternative other = alternative_to(chosen, criterion, tried.orders);
+  fit.criterion = criterion;
   fit.alternative = other.count;
   fit.alternative_odds = other.odds;
   fit.orders = std::move(tried.orders);
@@ -154,23 +153,7 @@ ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
 }
 
 std::optional<ComplexCheck> complex_check(const ModesFit& fit) {
-  if (!fit.ok) {
-    return std::nullopt;
-  }
   const FittedResponse& only = fit.responses.front();
-  ModesModel real{.form = ModeForm::real_shapes,
-                  .residual_terms = fit.residual_terms,
-                  .residual = {only.residual},
-                  .terms = {}};
-  for (const auto& modes : {fit.modes, fit.outside, fit.unresolved}) {
-    for (const FittedMode& mode : modes) {
-      if (!(mode.mass.value > 0) || mode.zeta.value >= 0.9) {
-        return std::nullopt;
-      }
-      real.terms.push_back(
-          {mode.omega.value, mode.zeta.value, {std::sqrt(1 / mode.mass.value)}});
-    }
-  }
   const std::vector<DirectedResponse> all = {
       {.response = {.kind = only.kind,
                     .omega = only.omega,
@@ -178,21 +161,16 @@ std::optional<ComplexCheck> complex_check(const ModesFit& fit) {
                     .noise_bandwidth = only.noise_bandwidth},
        .decay = only.decay,
        .name = {}}};
-  const AllWeights even = even_weights(all, real.form);
-  const ModesTrial as_real = settle(all, real, even, closely);
-  ModesModel model = as_real.solution.model;
-  model.form = ModeForm::complex_shapes;
-  const ModesTrial as_complex = settle(all, model, weights_of(all, as_real), closely);
-  if (!as_real.solution.converged || !as_complex.solution.converged) {
+  ComplexCheck out{.fit = identify_shapes(all, {.complex_shapes = true})};
+  if (!out.fit.ok) {
     return std::nullopt;
   }
-  ComplexCheck out{.evidence = as_real.criterion - as_complex.criterion};
-  for (std::size_t r = 0; r < fit.modes.size(); ++r) {
-    const ModeTerm& term = as_complex.solution.model.terms[r];
-    const double imaginary = std::abs(term.phi[0].imag()) / std::abs(term.phi[0]);
-    if (imaginary >= out.imaginary) {
-      out.imaginary = imaginary;
-      out.omega = term.omega;
+  out.evidence = fit.ok ? fit.criterion - out.fit.criterion
+                        : std::numeric_limits<double>::infinity();
+  for (const FittedMode& mode : out.fit.modes) {
+    if (mode.imaginary.value >= out.imaginary) {
+      out.imaginary = mode.imaginary.value;
+      out.omega = mode.omega.value;
     }
   }
   return out;

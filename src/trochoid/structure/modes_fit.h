@@ -121,6 +121,7 @@ struct ModesFit {
   std::vector<FittedMode> unresolved;
   std::vector<std::string> left_out;  ///< why, one for each
   std::vector<ModesOrder> orders;     ///< all that were tried
+  double criterion = 0.0;             ///< of the one chosen
   int alternative = 0;            ///< another number of modes that is likely; 0: none
   double alternative_odds = 0.0;  ///< how many times likelier the answer is
 };

@@ -1,13 +1,16 @@
 #include <trochoid/dynamics/frequency_limit.h>
 
 #include <trochoid/dynamics/lobes.h>
+#include <trochoid/dynamics/tool_point.h>
 
 #include "milling_cut.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace trochoid::dynamics::frequency_limit_test {
 
@@ -33,7 +36,8 @@ PointResponse tapped(const System& system, double from_Hz, double to_Hz, int lin
         Complex H;
         for (const ChipMode& m : system.modes) {
           const double shape = (motion == 0 ? m.x : m.y) * (force == 0 ? m.x : m.y);
-          H += shape / Complex(m.stiffness - m.mass * omega * omega, m.damping * omega);
+          H += shape * Complex(m.in_phase, m.lead * omega) /
+               Complex(m.stiffness - m.mass * omega * omega, m.damping * omega);
           moves = moves || shape != 0;
         }
         part.omega.push_back(omega);
@@ -242,6 +246,38 @@ TEST(FrequencyLimit, FollowsEveryBranchBetweenCoarseLines) {  // [D-23] [D-34]
     ASSERT_TRUE(exact.has_value());
     ASSERT_TRUE(limit.has_value());
     EXPECT_NEAR(limit->depth, exact->depth, 0.03 * exact->depth) << rpm;
+  }
+}
+
+/// A mode of 800 Hz along y with a residue that is turned.
+System turned_mode(double turned) {
+  const double omega = 2 * pi * 800;
+  structure::FittedMode mode;
+  mode.omega.value = omega;
+  mode.zeta.value = 0.03;
+  mode.phi = {std::polar(std::sqrt(omega * omega / 2e7), 0.5 * turned)};
+  return {{complex_mode(mode, 0.0, 1.0)}};
+}
+
+TEST(ComplexMode, HasItsLimitWhereAnIndependentProgramFindsIt) {  // [D-35]
+  force::Setup setup = straight_cut(2, geometry::DownMilling{6 * unit::mm});
+  setup.cutter.profile = geometry::cylinder(12 * unit::mm);
+  setup.cutter.lag_diameter = 12 * unit::mm;
+  const DirectionalModel model(setup, force::LinearEdge{.K_tc = 700e6, .K_rc = 200e6},
+                               1e-6, 1e-11);
+  const double Omega = 9000 * unit::rpm;
+  const std::array<std::pair<double, double>, 4> known{
+      {{-20, 5.851e-3}, {-10, 6.729e-3}, {0, 8.01e-3}, {10, 9.91e-3}}};
+  for (const auto& [turned, expected] : known) {
+    const System system = turned_mode(turned * unit::deg);
+    const auto limit =
+        limit_depth(model, system, Omega, steps(0.1e-3, 12e-3, 120), 1e-6);
+    ASSERT_TRUE(limit.has_value());
+    EXPECT_NEAR(limit->depth, expected, 0.005 * expected) << turned;
+    const auto measured = frequency_limit(model, tapped(system, 300, 3000, 2701), Omega,
+                                          steps(0.1e-3, 12e-3, 120), {.harmonics = 6});
+    ASSERT_TRUE(measured.has_value());
+    EXPECT_NEAR(measured->depth, limit->depth, 0.01 * limit->depth) << turned;
   }
 }
 

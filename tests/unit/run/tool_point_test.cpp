@@ -151,6 +151,76 @@ TEST(ModesAskew, ChatterInTimeWhereTheMultiplierSaysSo) {  // [D-1] [D-2]
   EXPECT_TRUE(dynamics::chatters(verdict_at(1.3)));
 }
 
+/// One mode of 800 Hz whose residue is turned, as of a damper in one place.
+std::string turned_response(double turned) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const double omega = 800 * unit::Hz;
+  const double damped = omega * std::sqrt(1 - 0.03 * 0.03);
+  const std::complex<double> pole(-0.03 * omega, damped);
+  const std::complex<double> residue = omega * omega / 2e7 /
+                                       std::complex<double>(0, 2 * damped) *
+                                       std::polar(1.0, turned * unit::deg);
+  std::string text = "freq_Hz,re_m/N,im_m/N\n";
+  for (double f = 300; f <= 2000; f += 2) {
+    const std::complex<double> s(0, f * unit::Hz);
+    std::complex<double> H =
+        residue / (s - pole) + std::conj(residue) / (s - std::conj(pole));
+    H += (0.005 * std::abs(H) + 2e-10) *
+         std::complex<double>(normal(random), normal(random));
+    text += fmt::format("{},{:.6g},{:.6g}\n", f, H.real(), H.imag());
+  }
+  return text;
+}
+
+const std::string half_immersion =
+    "[tool]\nteeth = 2\ndiameter_mm = 12\nhelix_deg = 0\n[cut]\nengagement = \"down\"\n"
+    "radial_depth_mm = 6\naxial_depth_mm = 7\nfeed_per_tooth_mm = 0.05\n"
+    "spindle_rpm = 9000\n[force]\nK_tc_MPa = 700\nK_rc_MPa = 200\nK_ac_MPa = 0\n"
+    "K_te_N_per_mm = 0\nK_re_N_per_mm = 0\nK_ae_N_per_mm = 0\n"
+    "[[measured_frf]]\nfile = \"y.csv\"\naxis = \"y\"\n"
+    "[stability]\nspindle_rpm = [9000, 9000, 1]\naxial_depth_mm = [0.05, 12, 40]\n";
+
+TEST(ToolPoint, OfComplexModesIsJudgedByThem) {  // [D-35] [M-30]
+  for (const auto& [turned, limit] :
+       {std::pair{-20.0, 5.851e-3}, {-10.0, 6.729e-3}, {10.0, 9.91e-3}}) {
+    const CaseFolder folder;
+    folder.write("y.csv", turned_response(turned));
+    const auto r = stability(
+        cases::read_case(folder.write("case.toml", half_immersion), Command::stability),
+        {});
+    EXPECT_EQ(r.judged_by, results::JudgedBy::complex_modes) << turned;
+    ASSERT_TRUE(results::judged_limit(r)) << turned;
+    EXPECT_NEAR(*results::judged_limit(r), limit, 0.02 * limit) << turned;
+    EXPECT_EQ(results::judged_verdict(r), limit < 7e-3
+                                              ? dynamics::StabilityVerdict::unstable
+                                              : dynamics::StabilityVerdict::stable);
+    EXPECT_FALSE(warned(r, "solutions_differ")) << turned;
+  }
+}
+
+TEST(ToolPoint, WhatNoModesDescribeIsJudgedByItsResponse) {
+  // With a cross response modes are real, and these do not describe a turned residue.
+  const CaseFolder folder;
+  const Tap stiff{.from = 300, .to = 2000};
+  folder.write("y.csv", turned_response(-20));
+  folder.write("x.csv", tapped(stiff, 2.0, 1700));
+  folder.write("xy.csv", tapped({.scale = 0.01, .from = 300, .to = 2000}, 2.0, 1700));
+  const std::string more =
+      "[[measured_frf]]\nfile = \"xy.csv\"\naxis = \"x\"\nforce_axis = \"y\"\n";
+  const auto r = stability(
+      cases::read_case(folder.write("case.toml", half_immersion + along_x + more),
+                       Command::stability),
+      {});
+  EXPECT_EQ(r.judged_by, results::JudgedBy::response);
+  EXPECT_TRUE(warned(r, "solutions_differ"));
+  ASSERT_TRUE(results::judged_limit(r));
+  EXPECT_NEAR(*results::judged_limit(r), 5.85e-3, 0.1e-3);
+  EXPECT_EQ(results::judged_verdict(r), dynamics::StabilityVerdict::unstable);
+  EXPECT_TRUE(r.heading.message.starts_with("By the measured response: Unstable"))
+      << r.heading.message;
+}
+
 TEST(ToolPoint, RefusesASensorThatPointsAgainstTheForce) {
   EXPECT_THROW(answered(tapped({.scale = -1})), base::InputError);
 }

@@ -2,7 +2,7 @@
 
 const stabilityKnown = ['multiplier', 'stable', 'verdict', 'limit_depth_mm', 'limit', 'chip_floor',
   'greatest_depth_mm', 'spindle_rpm', 'axial_depth_mm', 'modes', 'better_speed', 'measured_frf',
-  'process_damping'];
+  'process_damping', 'judged_by'];
 
 const bifurcations = {
   hopf: 'Hopf: a vibration with a frequency of its own',
@@ -38,12 +38,18 @@ function dampingProse({ process_damping: damping }) {
     ...(isNumber(without) ? ['Without it this cut would chatter from ', el('b', {}, `${number(without)} mm`), ' on.'] : []));
 }
 
+const judges = {
+  complex_modes: 'Verdict and diagram are those of complex modes, which real ones do not describe. ',
+  response: 'Verdict and limit are those of the measured response, which modes do not describe. ',
+};
+
 /** The limit by the measured response beside that of the multiplier. */
 function measuredSection(report) {
   const measured = report.result.measured_frf;
   if (!measured) return null;
   const curves = [
-    ['Floquet multiplier', 'limit.csv', '--s1', 1.8],
+    [report.result.judged_by === 'response' ? 'decides: the measured response' : 'Floquet multiplier',
+      'limit.csv', '--s1', 1.8],
     ['zeroth order', 'zeroth_order.csv', '--s2', 1.4],
     [`multi-frequency, ${measured.multi_frequency.harmonics} harmonics`, 'multi_frequency.csv', '--s3', 1.8],
   ].map(([name, file, color, width]) => {
@@ -57,8 +63,8 @@ function measuredSection(report) {
     : ['none', '']);
   const signed = (v) => (isNumber(v) ? `${v > 0 ? '+' : ''}${number(v, 2)} %` : '');
   const rows = [
-    result.multiplier && ['Floquet multiplier', isNumber(result.limit_depth_mm)
-      ? `${number(result.limit_depth_mm)} mm` : 'none',
+    result.multiplier && ['Floquet multiplier', isNumber(measured.multiplier_limit_depth_mm)
+      ? `${number(measured.multiplier_limit_depth_mm)} mm` : 'none',
     isNumber(result.limit?.chatter_frequencies_Hz?.[0])
       ? `${number(result.limit.chatter_frequencies_Hz[0], 5)} Hz` : '', '', ''],
     ...[['zeroth order', measured.zeroth_order], ['multi-frequency', measured.multi_frequency]]
@@ -69,6 +75,7 @@ function measuredSection(report) {
     '(zeroth order) and with harmonics of it (multi-frequency), ' +
     `${number(measured.band_Hz[0])} to ${number(measured.band_Hz[1])} Hz; and the Floquet multiplier of modes ` +
     (measured.modes_fitted ? 'fitted to it. ' : 'given in the case. ') +
+    (judges[result.judged_by] || '') +
     'Where multi-frequency and multiplier part, the modes are not the whole response; where zeroth order ' +
     'parts from both, teeth cut too briefly for a mean force.');
   const numbers = table(['solution', 'limit depth here', 'chatter frequency', 'difference', 'median over speeds'], rows);
