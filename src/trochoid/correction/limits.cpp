@@ -15,8 +15,13 @@ namespace {
 /// How far above the speed of the case its limit is looked for.
 constexpr double speeds_searched = 50;
 
+/// A limit that a command was made to keep is kept to the last digits.
+constexpr double rounding = 1e-9;
+
 Limit limit_of(LimitKind kind, double value, double limit, std::string reason) {
-  return {kind, value, limit, limit - value, true, value <= limit, std::move(reason)};
+  const bool kept = value <= limit * (1 + rounding);
+  const double margin = kept ? std::max(limit - value, 0.0) : limit - value;
+  return {kind, value, limit, margin, true, kept, std::move(reason)};
 }
 
 Limit unknown(LimitKind kind, double value, std::string reason) {

@@ -270,6 +270,19 @@ TEST(Limits, SpeedIsWhereTheCommandFillsTheStroke) {
   EXPECT_FALSE(speed_limit(over, x, plant, fast, {}).ok);
 }
 
+TEST(Limits, KeptToTheLastBitAreKept) {
+  const RigidCut cut = paper_cut();
+  const double Omega = 3000 * unit::rpm;
+  Command c{.ok = true, .wave = Harmonics{0.0, {{0.0, -13e-6}}}, .n_max = 5};
+  ActuatorLimits limits;
+  limits.most_frequency = std::nextafter(5 * Omega / unit::turn, 0.0);
+  for (const Limit& l : check_limits(c, paper_plant(), Omega, limits, cut).limits) {
+    if (l.kind != LimitKind::resonance) continue;
+    EXPECT_TRUE(l.ok) << l.reason;
+    EXPECT_GE(l.margin, 0.0);
+  }
+}
+
 TEST(Limits, BrokenOnesAreSaid) {
   const RigidCut cut = paper_cut();
   const Command c{.ok = true, .wave = table_motion(cut, Shape::square, {})};
