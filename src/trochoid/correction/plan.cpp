@@ -81,9 +81,11 @@ Made make(const Design& design, const CorrectionOptions& options,
   CommandOptions allowed = command_options(options);
   Made made{.motion = motion};
   if (options.strategy == Method::inverse || options.strategy == Method::learning) {
+    ActuatorLimits limits = s.limits;  // the motion has no more than the command
+    limits.most_harmonics = std::min(limits.most_harmonics, allowed.n_max);
     const Followed part =
-        followed(design.rigid, motion, s.cut.plant, design.Omega, s.limits);
-    allowed.n_max = std::min(allowed.n_max, part.n_max);
+        followed(design.rigid, motion, s.cut.plant, design.Omega, limits);
+    allowed.n_max = part.n_max;
     made.motion = part.motion;
   }
   made.command =
@@ -94,12 +96,25 @@ Made make(const Design& design, const CorrectionOptions& options,
   return made;
 }
 
+/// A motion through the levels of which the actuator makes the size asked for. It may
+/// follow other harmonics of a larger one, so that is looked at again.
+PeriodicMotion as_large(const Design& design, const CorrectionOptions& options,
+                        const PeriodicMotion& through) {
+  constexpr int looks = 3;
+  PeriodicMotion motion = through;
+  for (int i = 0; i < looks; ++i) {
+    const double made = range_of(make(design, options, motion).motion).peak_to_peak();
+    motion = scaled(motion, *options.peak_to_peak / made);
+  }
+  return motion;
+}
+
 /// A motion through the levels, as large as the target asks; none with the reason.
 std::optional<PeriodicMotion> sized(const Design& design,
                                     const CorrectionOptions& options,
                                     const PeriodicMotion& through, Plan& plan) {
   if (options.peak_to_peak) {
-    return scaled(through, *options.peak_to_peak / range_of(through).peak_to_peak());
+    return as_large(design, options, through);
   }
   FluteModels models;
   CorrectionOptions straight = options;  // what learning would learn, the inverse has

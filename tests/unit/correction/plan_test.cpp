@@ -43,6 +43,32 @@ TEST(Plan, MakesThePeaksOfTheFlutesEqual) {  // [R-9]
   }
 }
 
+TEST(Plan, WantsNoMotionThatItsCommandDoesNotMake) {
+  for (const Shape shape : {Shape::square, Shape::trapezoid, Shape::sine}) {
+    SCOPED_TRACE(name_of(shape));
+    const Plan plan = plan_correction(
+        paper_setting(),
+        {.shape = shape, .transition = 0.5, .harmonics = 1, .peak_to_peak = 22e-6});
+    ASSERT_TRUE(plan.ok) << plan.reason;
+    EXPECT_EQ(plan.command.n_max, 1);
+    EXPECT_EQ(std::get<Harmonics>(plan.motion).c.size(), 1U);
+    EXPECT_NEAR(range(plan.motion), 22e-6, 0.05e-6);
+    const Setting& s = paper_setting();
+    const Harmonics made =
+        table_response(s.cut.plant, plan.command.wave, s.cut.setup.cut.Omega, 15);
+    EXPECT_NEAR(range(made), range(plan.motion), 0.05e-6);
+  }
+}
+
+TEST(Plan, SaysAtWhichSpeedTheStrokeEnds) {
+  const Plan plan = plan_correction(paper_setting(), {.strategy = Method::inverse});
+  const auto speed =
+      std::ranges::find(plan.limits.limits, LimitKind::speed, &Limit::kind);
+  ASSERT_NE(speed, plan.limits.limits.end());
+  EXPECT_GT(speed->limit, paper_setting().cut.setup.cut.Omega);
+  EXPECT_TRUE(speed->ok);
+}
+
 /// [diez2010]: 30 um for a runout that is read as 26 um.
 TEST(Plan, TellsTheActuatorAsMuchAsThePaper) {
   const Plan plan = plan_correction(paper_setting(), {.strategy = Method::lead});
