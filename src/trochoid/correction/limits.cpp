@@ -150,8 +150,15 @@ Limit speed_limit(const Command& command, const PeriodicMotion& motion,
                    "the range of this command does not grow with the speed");
   }
   const int n = command.n_max;
-  const double most =
-      stroke_speed(motion, plant, limits, n, speeds_searched * std::max(Omega, 100.0));
+  const double highest = speeds_searched * std::max(Omega, 100.0);
+  const double most = stroke_speed(motion, plant, limits, n, highest);
+  if (most >= highest) {
+    return unknown(
+        LimitKind::speed, Omega,
+        fmt::format("the inverse of {} harmonics keeps the stroke of {:.2f} um "
+                    "up to {:.0f} rpm",
+                    n, stroke, highest / unit::rpm));
+  }
   return limit_of(
       LimitKind::speed, Omega, most,
       fmt::format("the inverse of {} harmonics fills the stroke of {:.2f} um "

@@ -194,6 +194,12 @@ Plan plan_correction(const Setting& setting, const CorrectionOptions& options) {
   }
   plan.limits = check_limits(plan.command, setting.cut.plant, design.Omega,
                              setting.limits, design.rigid);
+  if (plan.command.n_max > 0) {
+    const Limit speed = speed_limit(plan.command, plan.motion, setting.cut.plant,
+                                    design.Omega, setting.limits);
+    plan.limits.limits.push_back(speed);
+    plan.limits.ok = plan.limits.ok && speed.ok;
+  }
   plan.ok = true;
   return plan;
 }
