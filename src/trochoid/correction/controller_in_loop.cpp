@@ -6,6 +6,7 @@
 #include <trochoid/dynamics/steady_state.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -113,6 +114,10 @@ class Loop {
     }
     out_.finite = finite;
     out_.ok = true;
+    const auto most = std::ranges::max_element(held_);
+    out_.held_by = static_cast<int>(most - held_.begin());
+    out_.held_part = waited_ > 0 ? *most / waited_ : 0.0;
+    out_.coarse_speed = options_.rate / options_.counts / (omega_ / unit::turn);
     return std::move(out_);
   }
 
@@ -158,6 +163,12 @@ class Loop {
   void keep(double time) {
     out_.samples.push_back(
         {time, result_.command_m, table_, result_.gain, result_.state});
+    if (result_.state == TROCHOID_WAITING) {
+      ++waited_;
+      if (result_.problem != TROCHOID_NO_PROBLEM) {
+        ++held_[static_cast<std::size_t>(result_.problem)];
+      }
+    }
     out_.lowest = std::min(out_.lowest, result_.command_m);
     out_.highest = std::max(out_.highest, result_.command_m);
     if (result_.state != TROCHOID_FAULT) {
@@ -239,6 +250,9 @@ class Loop {
   double angle_ = 0.0;
   double position_ = 0.0;
   double table_ = 0.0;
+  std::array<double, TROCHOID_BAD_MEMORY + 1>
+      held_{};  ///< steps of waiting, by problem
+  double waited_ = 0.0;
   ControllerInLoop out_;
 };
 

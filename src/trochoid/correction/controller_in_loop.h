@@ -53,8 +53,11 @@ struct ControllerInLoop {
   std::string reason;  ///< when not ok: why it refuses its configuration
   std::vector<LoopTurn> turns;
   std::vector<LoopSample> samples;
-  int fault = TROCHOID_NO_PROBLEM;  ///< the first one
-  double fault_time = 0.0;          ///< [s]
+  int fault = TROCHOID_NO_PROBLEM;    ///< the first one
+  double fault_time = 0.0;            ///< [s]
+  int held_by = TROCHOID_NO_PROBLEM;  ///< what was wrong most often while it waited
+  double held_part = 0.0;             ///< of the steps in which it waited
+  double coarse_speed = 0.0;  ///< one count of the encoder in one step, over the speed
   /// From the fault to rest at mid-stroke [s]; none: it never came there.
   std::optional<double> time_to_safe;
   double lowest = 0.0;   ///< command [m]

@@ -261,6 +261,13 @@ const Fields<ControllerInLoop>& controller_fields() {
        [fault](Run run) {
          return fault(run) ? Value(trochoid_problem_name(run.fault)) : Value();
        }},
+      {"held_by",
+       "where it never runs, what was wrong most often while it waited, or `null`",
+       [](Run run) {
+         const bool held =
+             last_running(run) == nullptr && run.held_by != TROCHOID_NO_PROBLEM;
+         return held ? Value(trochoid_problem_name(run.held_by)) : Value();
+       }},
       {"fault_time_s", "of it, or `null`",
        [fault](Run run) { return fault(run) ? Value(run.fault_time) : Value(); }},
       {"time_to_safe_s", "from there to rest at mid-stroke, or `null`",

@@ -120,6 +120,40 @@ std::string headline(const correction::BeforeAfter& cuts) {
       100 * dynamics::peak_difference(cuts.before.motion));
 }
 
+/// A speed read from so coarse an encoder jumps by as much from step to step.
+constexpr double coarse = 0.5;
+
+/// Why a controller that waits never began.
+std::string never_running(const correction::ControllerInLoop& run) {
+  std::string text = "The controller never runs in the turns simulated";
+  if (run.held_by == TROCHOID_NO_PROBLEM) {
+    return text + ": they end before it has seen enough of them in order.";
+  }
+  text += fmt::format(": in {:.0f} % of the steps in which it waits, {}.",
+                      100 * run.held_part, trochoid_problem_name(run.held_by));
+  if (run.coarse_speed > coarse) {
+    text += fmt::format(
+        " A count of the encoder in one step of the loop is {:.0f} % of the speed: with "
+        "so few counts (encoder_counts), or so fast a loop, the speed that it reads jumps.",
+        100 * run.coarse_speed);
+  }
+  return text;
+}
+
+/// What the controller made of the cut, by its last turn.
+std::string controller_words(const correction::ControllerInLoop& run) {
+  const correction::LoopTurn* running = correction::last_running(run);
+  if (running == nullptr && run.fault == TROCHOID_NO_PROBLEM) {
+    return never_running(run);
+  }
+  if (run.fault != TROCHOID_NO_PROBLEM) {
+    return fmt::format("The controller stops at {:.3f} s: {}.", run.fault_time,
+                       trochoid_problem_name(run.fault));
+  }
+  return fmt::format("Under the controller they differ by {:.2f} %.",
+                     100 * running->difference);
+}
+
 /// The limit that the command comes nearest to; empty: none is known.
 std::string nearest_limit(const correction::LimitReport& report) {
   const correction::Limit* nearest = nullptr;
@@ -180,6 +214,10 @@ void add_correction_warnings(const correction::Correction& c, Warnings& warnings
   warn_flutes(c.cuts, warnings);
   warn_axes(c.axes, warnings);
   warn_estimate(c.setting, warnings);
+  if (c.controller && !c.controller->turns.empty() &&
+      correction::last_running(*c.controller) == nullptr) {
+    warnings.push_back({"never_running", never_running(*c.controller)});
+  }
   if (c.controller && !c.controller->finite) {
     warnings.push_back(
         {"ran_away", "Under the controller the cut grew beyond all bounds."});
@@ -208,6 +246,12 @@ results::CorrectResult correct(const cases::Case& given, bool controller,
   r.heading.ok = !c.controller || c.controller->ok;
   r.heading.message = r.heading.ok ? headline(c.cuts) + nearest_limit(c.plan.limits)
                                    : c.controller->reason;
+  if (r.heading.ok && c.controller) {
+    const bool runs = correction::last_running(*c.controller) != nullptr;
+    // What a command alone would do is no answer where none is given.
+    r.heading.message = runs ? r.heading.message + ' ' + controller_words(*c.controller)
+                             : controller_words(*c.controller);
+  }
   return r;
 }
 

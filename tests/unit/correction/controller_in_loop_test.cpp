@@ -94,6 +94,17 @@ TEST(ControllerInLoop, SuffersFromFewCountsAndFromJitter) {
   EXPECT_LT(left(late), 0.1) << "yet far better than no command";
 }
 
+TEST(ControllerInLoop, SaysWhyItNeverRuns) {
+  LoopOptions few = quick();
+  few.counts = 60;
+  const ControllerInLoop loop = run(few);
+  EXPECT_EQ(last_running(loop), nullptr);
+  EXPECT_EQ(loop.fault, TROCHOID_NO_PROBLEM);
+  EXPECT_NE(loop.held_by, TROCHOID_NO_PROBLEM);
+  EXPECT_GT(loop.held_part, 0.01);
+  EXPECT_GT(loop.coarse_speed, 1.0);
+}
+
 /// The command follows the angle, not the time.
 TEST(ControllerInLoop, IsNotMisledByARippleOfTheSpeed) {
   LoopOptions uneven = quick();
