@@ -3,8 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace trochoid::files {
@@ -22,6 +24,150 @@ constexpr std::array step_time_names = {"time"sv, "t"sv};
 constexpr std::array step_command_names = {"command"sv, "setpoint"sv, "reference"sv};
 constexpr std::array step_position_names = {"position"sv, "displacement"sv,
                                             "response"sv};
+
+/// A change of the command from one level to another.
+struct CommandStep {
+  std::size_t before = 0;  ///< last sample of the old level
+  std::size_t after = 0;   ///< first sample of the new one
+  double height = 0.0;     ///< [m]
+};
+
+/// Of the range of a command, below which a change is none.
+constexpr double least_change = 1e-3;
+/// A command that was recorded scatters: so many times what nine of ten samples differ by
+/// from the one before.
+constexpr double above_scatter = 4.0;
+/// Fewer samples show no scatter.
+constexpr std::size_t samples_with_scatter = 20;
+/// A filter before a converter spreads a step over some samples: no more than a hundredth
+/// of the record, and than these.
+constexpr std::size_t longest_change = 3;
+/// Steps within this fraction of the highest are as high.
+constexpr double as_high = 0.95;
+/// Of the level before a step, where an earlier step has died out.
+constexpr std::size_t part_at_rest = 10;
+
+double middle_of(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+/// What two samples of one level may differ by.
+double slack_of(const std::vector<double>& command) {
+  const auto [least, most] = std::ranges::minmax(command);
+  const double slack = least_change * (most - least);
+  if (command.size() < samples_with_scatter) return slack;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < command.size(); ++i) {
+    steps.push_back(std::abs(command[i] - command[i - 1]));
+  }
+  const auto ninth = steps.begin() + static_cast<std::ptrdiff_t>(9 * steps.size() / 10);
+  std::nth_element(steps.begin(), ninth, steps.end());
+  return slack + above_scatter * *ninth;
+}
+
+/// The steps of a command; empty: it is not made of steps.
+std::vector<CommandStep> steps_of(const std::vector<double>& command) {
+  const double slack = slack_of(command);
+  const std::size_t n = command.size();
+  const std::size_t longest = std::clamp<std::size_t>(n / 100, 1, longest_change);
+  std::vector<CommandStep> steps;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (std::abs(command[i + 1] - command[i]) <= slack) continue;
+    CommandStep step{.before = i, .after = i + 1};
+    while (step.after + 1 < n &&
+           std::abs(command[step.after + 1] - command[step.after]) > slack) {
+      ++step.after;
+    }
+    if (step.after - step.before > longest) return {};
+    i = step.after - 1;
+    steps.push_back(step);
+  }
+  double level = 0.0;
+  for (std::size_t k = 0; k <= steps.size(); ++k) {
+    const std::size_t from = k == 0 ? 0 : steps[k - 1].after;
+    const std::size_t end = k == steps.size() ? n : steps[k].before + 1;
+    const std::span<const double> flat = std::span(command).subspan(from, end - from);
+    const double own = middle_of(flat);
+    if (std::ranges::any_of(
+            flat, [&](double value) { return std::abs(value - own) > 1.5 * slack; })) {
+      return {};
+    }
+    if (k > 0) steps[k - 1].height = own - level;
+    level = own;
+  }
+  return steps;
+}
+
+/// Which of several steps is meant: the one that starts where it was said, or the first
+/// of the highest.
+std::size_t meant(const std::vector<CommandStep>& steps, const StepFile& file,
+                  const std::optional<double>& start) {
+  const auto away = [&](const CommandStep& step) {
+    return std::abs(file.record.time[step.before] - *start);
+  };
+  double highest = 0.0;
+  for (const CommandStep& step : steps) {
+    highest = std::max(highest, std::abs(step.height));
+  }
+  const auto found = start ? std::ranges::min_element(steps, {}, away)
+                           : std::ranges::find_if(steps, [&](const CommandStep& step) {
+                               return std::abs(step.height) >= as_high * highest;
+                             });
+  return static_cast<std::size_t>(found - steps.begin());
+}
+
+template <class T>
+void keep(std::vector<T>& values, std::size_t from, std::size_t end) {
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(from));
+}
+
+/// Keep of a record with several steps what belongs to one, and say so.
+CommandStep only(const std::vector<CommandStep>& steps, std::size_t k, StepFile& out) {
+  CommandStep step = steps[k];
+  const std::size_t since = k == 0 ? 0 : steps[k - 1].after;
+  const std::size_t rest = (step.before + 1 - since) / part_at_rest + 1;
+  const std::size_t from = k == 0 ? 0 : step.before + 1 - rest;
+  const std::size_t end =
+      k + 1 < steps.size() ? steps[k + 1].before + 1 : out.command.size();
+  out.notes.push_back(
+      {"several_steps",
+       fmt::format(
+           "The command has {} steps: the one of {:.4g} um at {:g} s was taken, up "
+           "to the next one. `start_s` chooses another.",
+           steps.size(), step.height * 1e6, out.record.time[step.after])});
+  keep(out.command, from, end);
+  keep(out.record.time, from, end);
+  keep(out.record.position, from, end);
+  step.before -= from;
+  step.after -= from;
+  return step;
+}
+
+void no_step(const StepFile& out, std::size_t last_line, Problems& problems) {
+  const std::vector<double>& c = out.command;
+  const double slack = slack_of(c);
+  std::size_t before = 0;
+  std::size_t after = c.size() - 1;
+  while (before + 1 < c.size() && std::abs(c[before + 1] - c.front()) <= slack)
+    ++before;
+  while (after > 0 && std::abs(c[after - 1] - c.back()) <= slack) --after;
+  if (std::abs(c.back() - c.front()) <= slack && before + 1 == c.size()) {
+    problems.add(
+        last_line, 1,
+        "the command is the same at the end as at the beginning: one step from "
+        "one value to another is needed");
+    return;
+  }
+  problems.add(1, 1,
+               fmt::format("the command is no step: it leaves its first value after "
+                           "{:g} s and reaches its last one at {:g} s",
+                           out.record.time[before], out.record.time[after]));
+}
+
 /// Where the command changes, and by how much.
 void settle_command(const StepSource& source, std::size_t last_line, StepFile& out,
                     Problems& problems) {
@@ -29,36 +175,25 @@ void settle_command(const StepSource& source, std::size_t last_line, StepFile& o
   record.start = source.start;
   if (source.step) record.step = *source.step;
   if (out.command.empty()) return;
-  const double first = out.command.front();
-  const double last = out.command.back();
-  const double height = last - first;
-  if (height == 0) {
-    problems.add(
-        last_line, 1,
-        "the command is the same at the end as at the beginning: one step from "
-        "one value to another is needed");
+  const std::vector<CommandStep> steps = steps_of(out.command);
+  if (steps.empty()) {
+    no_step(out, last_line, problems);
     return;
   }
-  std::size_t before = 0;
-  std::size_t after = out.command.size() - 1;
-  const double slack = 1e-3 * std::abs(height);
-  while (std::abs(out.command[before + 1] - first) <= slack) ++before;
-  while (std::abs(out.command[after - 1] - last) <= slack) --after;
-  if (after != before + 1) {
-    problems.add(1, 1,
-                 fmt::format("the command is no step: it leaves its first value after "
-                             "{:g} s and reaches its last one at {:g} s",
-                             record.time[before], record.time[after]));
-    return;
+  CommandStep step = steps.front();
+  if (steps.size() > 1) {
+    step = only(steps, meant(steps, out, source.start), out);
   }
-  record.change = {record.time[before], record.time[after]};
+  record.change = {record.time[step.before], record.time[step.after]};
+  const double slack =
+      std::max(least_change * std::abs(step.height), slack_of(out.command));
   if (!source.step) {
-    record.step = height;
-  } else if (std::abs(*source.step - height) > slack) {
+    record.step = step.height;
+  } else if (std::abs(*source.step - step.height) > slack) {
     problems.add(1, 1,
                  fmt::format("the command steps by {:g} um, but step_um = {:g}: they "
                              "must agree",
-                             height * 1e6, *source.step * 1e6));
+                             step.height * 1e6, *source.step * 1e6));
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace trochoid::files::step_file_test {
 
@@ -31,6 +33,49 @@ TEST(StepFile, OrTheyAreGiven) {
   EXPECT_EQ(file.record.step, 6e-6);
   EXPECT_EQ(file.record.start, 0.001);
   EXPECT_DOUBLE_EQ(file.record.position[1], 5e-6);
+}
+
+/// A second of samples 1 ms apart: the command, recorded with what a converter adds to it.
+std::string recorded(const std::vector<std::pair<int, double>>& steps, double scatter) {
+  std::string text = "time_s,command_um,position_um\n";
+  double level = 0.0;
+  std::size_t next = 0;
+  for (int i = 0; i < 1000; ++i) {
+    if (next < steps.size() && i >= steps[next].first) level = steps[next++].second;
+    const double off = scatter * (i * 7 % 3 - 1);
+    text += std::to_string(0.001 * i) + ',' + std::to_string(level + off) + ",0\n";
+  }
+  return text;
+}
+
+TEST(StepFile, ACommandRecordedThroughAConverterIsAStep) {
+  const auto file = read(recorded({{200, 10.0}}, 0.01));
+  EXPECT_NEAR(file.record.step, 10e-6, 1e-9);
+  ASSERT_TRUE(file.record.change);
+  EXPECT_NEAR((*file.record.change)[0], 0.199, 1e-9);
+  EXPECT_NEAR((*file.record.change)[1], 0.2, 1e-9);
+  EXPECT_TRUE(file.notes.empty());
+}
+
+TEST(StepFile, OfSeveralStepsInARowOneIsTaken) {
+  const std::string text = recorded({{100, 5.0}, {400, -5.0}, {700, 5.0}}, 0.01);
+  const auto file = read(text);
+  EXPECT_NEAR(file.record.step, -10e-6, 1e-8);
+  EXPECT_EQ(file.record.time.size(), file.command.size());
+  EXPECT_NEAR(file.record.time.front(), 0.369, 1e-9);
+  EXPECT_NEAR(file.record.time.back(), 0.699, 1e-9);
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_EQ(file.notes.front().code, "several_steps");
+  StepSource last;
+  last.start = 0.7;
+  EXPECT_NEAR(read(text, last).record.step, 10e-6, 1e-8);
+}
+
+TEST(StepFile, ARampIsNoStep) {
+  std::vector<std::pair<int, double>> ramp;
+  for (int i = 200; i < 300; ++i) ramp.emplace_back(i, 0.1 * (i - 199));
+  EXPECT_THROW(read(recorded(ramp, 0.0)), base::InputError);
+  EXPECT_THROW(read(recorded(ramp, 0.01)), base::InputError);
 }
 
 void expect_problem(const std::string& text, const std::string& place,
