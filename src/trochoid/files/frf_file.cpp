@@ -68,6 +68,7 @@ struct FrfColumns {
   std::size_t first = 1;
   std::size_t second = 2;
   bool polar = false;
+  bool decibels = false;  ///< of the magnitude
   double phase_unit = 1.0;
   std::string unit;  ///< of the response; empty: not said
   std::size_t unit_column = 1;
@@ -92,6 +93,17 @@ bool positional(const FrfTable& table, Problems& problems) {
   return true;
 }
 
+/// The unit that decibels are over: of `dB re 1 m/N)` m/N.
+std::string reference_of(std::string text) {
+  std::erase_if(text,
+                [](char c) { return c == ' ' || c == '[' || c == ']' || c == '_'; });
+  for (const std::string_view word : {"rel."sv, "ref."sv, "ref"sv, "re"sv, "1"sv}) {
+    if (text.starts_with(word)) text = text.substr(word.size());
+  }
+  if (std::ranges::count(text, ')') > std::ranges::count(text, '(')) text.pop_back();
+  return text;
+}
+
 FrfColumns find_columns(const FrfTable& table, Problems& problems) {
   FrfColumns out;
   if (positional(table, problems)) return out;
@@ -112,6 +124,10 @@ FrfColumns find_columns(const FrfTable& table, Problems& problems) {
   out.first = out.polar ? mag->index : re->index;
   out.second = out.polar ? phase->index : im->index;
   out.unit = out.polar ? mag->unit : re->unit;
+  if (const auto begin = out.unit.find("dB"); out.polar && begin != std::string::npos) {
+    out.decibels = true;
+    out.unit = reference_of(out.unit.substr(begin + 2));
+  }
   out.unit_column = table.name_columns[out.first];
   if (out.polar) {
     const bool radians = phase->unit.find("rad") != std::string::npos;
@@ -150,7 +166,8 @@ FrfFile from_table(const std::string& text, const std::string& name,
       {columns.unit, table.names_line, columns.unit_column}, source, out, problems);
   for (const auto& row : table.rows) {
     out.response.omega.push_back(row[columns.frequency] * unit::Hz);
-    const double a = row[columns.first];
+    const double a =
+        columns.decibels ? std::pow(10.0, row[columns.first] / 20) : row[columns.first];
     const double b = row[columns.second];
     out.response.H.push_back(factor * (columns.polar
                                            ? a * std::polar(1.0, b * columns.phase_unit)

@@ -18,7 +18,9 @@ struct Motion {
   ResponseUnit unit;
 };
 
-constexpr std::array<Motion, 10> motions = {{
+constexpr double inch = 0.0254;
+
+constexpr std::array<Motion, 16> motions = {{
     {"m", {ResponseKind::receptance, 1.0}},
     {"mm", {ResponseKind::receptance, 1e-3}},
     {"um", {ResponseKind::receptance, 1e-6}},
@@ -29,10 +31,19 @@ constexpr std::array<Motion, 10> motions = {{
     {"mm/s2", {ResponseKind::accelerance, 1e-3}},
     {"g", {ResponseKind::accelerance, g}},
     {"gn", {ResponseKind::accelerance, g}},
+    {"in", {ResponseKind::receptance, inch}},
+    {"inch", {ResponseKind::receptance, inch}},
+    {"in/s", {ResponseKind::mobility, inch}},
+    {"in/s2", {ResponseKind::accelerance, inch}},
+    {"in/s/s", {ResponseKind::accelerance, inch}},
+    {"in/sec2", {ResponseKind::accelerance, inch}},
 }};
 
-constexpr std::array<std::pair<std::string_view, double>, 3> forces = {
-    {{"n", 1.0}, {"kn", 1e-3}, {"lbf", 1 / 4.4482216152605}}};
+constexpr std::array<std::pair<std::string_view, double>, 4> forces = {
+    {{"n", 1.0},
+     {"kn", 1e-3},
+     {"lbf", 1 / 4.4482216152605},
+     {"lb", 1 / 4.4482216152605}}};
 
 /// Small letters, without blanks, brackets, `^` and the like; a raised 2 is a 2.
 std::string simplified(std::string_view text) {

@@ -26,12 +26,62 @@ constexpr double slack = 0.6;
 constexpr std::size_t least_samples = 64;
 constexpr int time_record = 1;  ///< function type of a set 58
 
+/// A name without what stands in brackets at its end, and that.
+struct BracketedName {
+  std::string_view name;
+  std::string_view unit;  ///< empty: no brackets
+};
+
+BracketedName bracketed(std::string_view name) {
+  name = trimmed(name);
+  if (name.empty() || (name.back() != ')' && name.back() != ']')) return {name, {}};
+  const bool round = name.back() == ')';
+  int depth = 0;
+  for (std::size_t i = name.size(); i-- > 0;) {
+    if (name[i] == (round ? ')' : ']')) ++depth;
+    if (name[i] == (round ? '(' : '[') && --depth == 0) {
+      return {trimmed(name.substr(0, i)), name.substr(i + 1, name.size() - i - 2)};
+    }
+  }
+  return {name, {}};
+}
+
+/// Whether a word of several letters is one of those.
+bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
+  const std::string text = small_letters(word);
+  return word.size() > 1 && std::ranges::find(words, text) != words.end();
+}
+
+/// @brief The unit of a channel that has one of the words in its name: `force_N`, `Force
+/// (N)`, `Hammer force [N]`, `tip acc_g`.
+/// @return none: it has none of them
+std::optional<std::string> unit_in_name(std::string_view name,
+                                        std::span<const std::string_view> words) {
+  const BracketedName in = bracketed(name);
+  std::optional<std::string> rest = unit_after(in.name, words);
+  std::string_view left = in.name;
+  while (!rest && !left.empty()) {
+    const std::size_t end = std::min(left.find_first_of(" _-."), left.size());
+    const std::string_view word = left.substr(0, end);
+    left = left.substr(std::min(end + 1, left.size()));
+    if (is_one_of(word, words)) rest = std::string(left);
+  }
+  if (!rest) return std::nullopt;
+  if (!in.unit.empty()) return std::string(in.unit);
+  // A second word says what it is once more: `hammer force`.
+  const bool no_unit =
+      is_one_of(*rest, hammer_names) || is_one_of(*rest, response_names);
+  return no_unit ? std::string() : *rest;
+}
+
 std::string unit_of(const TapColumn& column, const std::string& rest) {
   std::string unit = column.unit.empty() ? rest : column.unit;
   std::erase_if(unit, [](char c) { return c == '[' || c == ']' || c == ' '; });
   const auto open = std::count(unit.begin(), unit.end(), '(');
   const auto shut = std::count(unit.begin(), unit.end(), ')');
   if (shut > open && unit.ends_with(')')) unit.pop_back();
+  if (unit.starts_with('(') && unit.ends_with(')'))
+    unit = unit.substr(1, unit.size() - 2);
   return unit;
 }
 
@@ -43,8 +93,10 @@ double force_factor(const TapColumn& column, const std::string& unit, FrfFile& o
         {"unit_assumed", "The force says no unit; newtons were assumed."});
     return 1.0;
   }
-  for (const auto& [name, factor] :
-       {std::pair{"N"sv, 1.0}, {"kN"sv, 1e3}, {"lbf"sv, 4.4482216152605}}) {
+  for (const auto& [name, factor] : {std::pair{"N"sv, 1.0},
+                                     {"kN"sv, 1e3},
+                                     {"lbf"sv, 4.4482216152605},
+                                     {"lb"sv, 4.4482216152605}}) {
     if (unit == name) return factor;
   }
   problems.add(column.line, column.at,
@@ -57,7 +109,7 @@ double force_factor(const TapColumn& column, const std::string& unit, FrfFile& o
 double rate_of(const TapColumn& time, Problems& problems) {
   const std::vector<double>& t = time.values;
   const std::string unit =
-      unit_of(time, unit_after(time.name, tap_time_names).value_or(""));
+      unit_of(time, unit_in_name(time.name, tap_time_names).value_or(""));
   const double factor = unit == "ms" ? 1e-3 : (unit == "us" ? 1e-6 : 1.0);
   if (factor == 1.0 && !unit.empty() && unit != "s") {
     problems.add(time.line, time.at,
@@ -117,9 +169,9 @@ struct Roles {
 Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
   Roles roles;
   for (const TapColumn& column : columns) {
-    if (unit_after(column.name, tap_time_names)) {
+    if (unit_in_name(column.name, tap_time_names)) {
       roles.time = roles.time == nullptr ? &column : roles.time;
-    } else if (unit_after(column.name, hammer_names)) {
+    } else if (unit_in_name(column.name, hammer_names)) {
       if (roles.force != nullptr) {
         problems.add(
             column.line, column.at,
@@ -128,7 +180,7 @@ Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
                         excerpt(roles.force->name), excerpt(column.name)));
       }
       roles.force = &column;
-    } else if (unit_after(column.name, response_names)) {
+    } else if (unit_in_name(column.name, response_names)) {
       roles.responses.push_back(&column);
     }
   }
@@ -139,7 +191,7 @@ Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
 double settle_response(const TapColumn& column, const FrfSource& source, FrfFile& out,
                        Problems& problems) {
   const std::string text =
-      unit_of(column, unit_after(column.name, response_names).value_or(""));
+      unit_of(column, unit_in_name(column.name, response_names).value_or(""));
   const auto unit = response_unit("(" + text + ")/N");
   if (unit && source.kind && *source.kind != unit->kind) {
     problems.add(column.line, column.at,
@@ -168,7 +220,7 @@ double settle_response(const TapColumn& column, const FrfSource& source, FrfFile
 bool is_tap(const std::vector<std::string>& names) {
   const auto any = [&](std::span<const std::string_view> words) {
     return std::any_of(names.begin(), names.end(), [&](const auto& name) {
-      return unit_after(name, words).has_value();
+      return unit_in_name(name, words).has_value();
     });
   };
   return any(tap_time_names) && any(hammer_names);
@@ -189,9 +241,9 @@ std::vector<TapColumn> tap_columns(const NumericTable& table) {
   std::vector<TapColumn> out;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const NumericColumn& column = table.columns[k];
-    const bool wanted = unit_after(column.name, tap_time_names) ||
-                        unit_after(column.name, hammer_names) ||
-                        unit_after(column.name, response_names);
+    const bool wanted = unit_in_name(column.name, tap_time_names) ||
+                        unit_in_name(column.name, hammer_names) ||
+                        unit_in_name(column.name, response_names);
     if (wanted && column.count >= least_samples) {
       out.push_back({.name = column.name,
                      .unit = column.unit,
@@ -262,7 +314,7 @@ FrfFile tap_file(std::vector<TapColumn> columns, const FrfSource& source,
   }
   const double newtons = force_factor(
       *roles.force,
-      unit_of(*roles.force, unit_after(roles.force->name, hammer_names).value_or("")),
+      unit_of(*roles.force, unit_in_name(roles.force->name, hammer_names).value_or("")),
       out, problems);
   const double factor = settle_response(*response, source, out, problems);
   for (std::size_t i = 0; i < n; ++i) {

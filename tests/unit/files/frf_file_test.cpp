@@ -27,6 +27,8 @@ TEST(FrfFile, UnitsOfAResponse) {
   EXPECT_EQ(unit("m/s\xC2\xB2/N").kind, ResponseKind::accelerance);
   EXPECT_EQ(unit("(1/N)*(m/s\xB2)").kind, ResponseKind::accelerance);
   EXPECT_DOUBLE_EQ(unit("[g/kN]").factor, 9.80665e-3);
+  EXPECT_DOUBLE_EQ(unit("in/lbf").factor, 0.0254 / 4.4482216152605);
+  EXPECT_EQ(unit("in/s^2/lbf").kind, ResponseKind::accelerance);
   EXPECT_FALSE(response_unit("N/m"));
   EXPECT_FALSE(response_unit("m"));
   EXPECT_FALSE(response_unit("V/N"));
@@ -39,6 +41,20 @@ TEST(FrfFile, TableWithNamesAndUnits) {
   EXPECT_DOUBLE_EQ(file.response.omega[1], 20 * Hz);
   EXPECT_EQ(file.response.H[0], std::complex<double>(1e-3, -2e-3));
   EXPECT_TRUE(file.notes.empty());
+}
+
+TEST(FrfFile, MagnitudesMayBeDecibels) {
+  for (const auto* const name :
+       {"mag_dB re 1 m/N", "Magnitude (dB ref 1 m/N)", "Magnitude [dB re m/N]"}) {
+    const auto file = read(std::string("f_Hz;") + name + ";phase_deg\n5;-120;90\n");
+    EXPECT_EQ(file.response.kind, ResponseKind::receptance) << name;
+    EXPECT_NEAR(std::abs(file.response.H[0] - std::complex<double>(0, 1e-6)), 0.0,
+                1e-15)
+        << name;
+  }
+  const auto silent =
+      read("f_Hz;mag_dB;phase_deg\n5;-20;0\n", {.kind = ResponseKind::mobility});
+  EXPECT_NEAR(silent.response.H[0].real(), 0.1, 1e-12);
 }
 
 TEST(FrfFile, MagnitudeAndPhaseInAnyOrder) {

@@ -44,7 +44,10 @@ TEST(TapFile, ATableWithTimeAndForceIsBlows) {
 TEST(TapFile, UnitsMayStandInBrackets) {
   for (const auto* const head :
        {"time [s],force [N],acceleration [m/s^2]", "t(s),Fx(N),acceleration_(m/s2)",
-        "Time_s,Force_N,Acceleration_m/s/s"}) {
+        "Time_s,Force_N,Acceleration_m/s/s", "Time (s),Force (N),Acceleration (m/s^2)",
+        "Time (s),Hammer force (N),Tip acceleration (m/s^2)",
+        "time [s],Impact hammer [N],Response acceleration [m/s2]",
+        "Time (s),Hammer_N,tip acc_m/s2"}) {
     const FrfFile file = read_frf(record(head), "made.csv", FrfSource{});
     ASSERT_TRUE(file.tap) << head;
     EXPECT_EQ(file.tap->response[3], 3.0) << head;
@@ -54,6 +57,15 @@ TEST(TapFile, UnitsMayStandInBrackets) {
   EXPECT_EQ(file.response.kind, ResponseKind::receptance);
   EXPECT_NEAR(file.tap->response[3], 3e-6, 1e-18);
   EXPECT_NEAR(file.tap->sample_rate, 1e6, 1e-3);
+}
+
+TEST(TapFile, UnitsMayBePoundsAndInches) {
+  const FrfFile file =
+      read_frf(record("Time (s),Hammer force (lbf),Acceleration (in/s^2)"), "made.csv",
+               FrfSource{});
+  ASSERT_TRUE(file.tap);
+  EXPECT_NEAR(file.tap->force[20], 100 * 4.4482216152605, 1e-9);
+  EXPECT_NEAR(file.tap->response[3], 3 * 0.0254, 1e-12);
 }
 
 TEST(TapFile, OneOfSeveralResponsesIsChosen) {
