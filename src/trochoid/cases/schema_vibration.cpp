@@ -147,8 +147,8 @@ void describe(const Visitor& v, FrfTables& t) {
   v({.name = "shapes",
      .meaning =
          "real: a mode moves all directions in step; complex: a damper in one "
-         "place puts them out of step; choose: whichever is likelier where there "
-         "are several responses, real with a warning where there is one"},
+         "place puts them out of step; choose: whichever is likelier, of blows in "
+         "time real with a warning"},
     choice(t.shapes));
   v({.name = "estimator",
      .meaning = "of hammer blows in time: H1 lets the noise of the sensor average out, "

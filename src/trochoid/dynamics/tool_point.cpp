@@ -43,9 +43,6 @@ struct ModesAlong {
   std::vector<FittedMode> complex;  ///< empty: the real ones describe it
 };
 
-/// Complex modes are taken where their criterion is less by so much: odds of 150 to 1.
-constexpr double very_strong = 10.0;
-
 /// Modes of one body along one axis; none where it was not measured.
 /// @param complex_too  whether complex ones are of use
 ModesAlong modes_along(std::size_t axis, bool of_table, bool complex_too,
@@ -59,8 +56,7 @@ ModesAlong modes_along(std::size_t axis, bool of_table, bool complex_too,
       point.no_modes = NoModes{i, fit.reason};
     }
     if (!complex_too) return out;
-    if (const auto check = structure::complex_check(fit);
-        check && check->evidence > very_strong) {
+    if (const auto check = structure::complex_check(fit); check && check->complex()) {
       out.complex = check->fit.modes;
     }
     return out;

@@ -3,6 +3,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/run/mode_words.h>
+#include <trochoid/run/shared_modes.h>
 #include <trochoid/run/tap_response.h>
 #include <trochoid/run/vibration.h>
 
@@ -69,7 +70,13 @@ results::ModesResult modes(const cases::Case& given) {
     return r;
   }
   add_modes_warnings(r, r.heading.warnings);
-  if (const auto complex = structure::complex_check(r.fit)) {
+  if (auto complex = structure::complex_check(r.fit)) {
+    // Real modes of a complex one are no answer: there are too many of them.
+    if (complex->complex() && !r.tap && frf.modes == 0 &&
+        frf.shapes == cases::Shapes::choose) {
+      complex->fit.complex_evidence = complex->evidence;
+      return shared_modes(given, std::move(complex->fit));
+    }
     add_complex_warning(*complex, r.heading.warnings);
   }
   r.heading.message = fmt::format("{}. {} ({} lines).", mode_words(r.fit.modes),

@@ -150,14 +150,15 @@ void add_modes_warnings(const results::ModesResult& r, Warnings& warnings) {
 }
 
 void add_complex_warning(const structure::ComplexCheck& check, Warnings& warnings) {
-  if (check.evidence > 10) {
+  if (check.complex()) {
     warnings.push_back(
         {"complex_modes",
          fmt::format(
-             "Real modes do not describe this response: complex ones are likelier, "
-             "their criterion is less by {:.0f}; at {} the imaginary part is "
+             "Real modes do not describe this response: {} complex one{} likelier, "
+             "the criterion is less by {:.0f}; at {} the imaginary part is "
              "{:.1f} % of the shape. A damper in one place does that, and so does "
              "a delay between the channels. [frf] shapes = \"complex\" fits them.",
+             check.fit.modes.size(), check.fit.modes.size() == 1 ? " is" : "s are",
              check.evidence, hertz(check.omega), 100 * check.imaginary)});
   }
 }

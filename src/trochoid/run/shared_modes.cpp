@@ -134,7 +134,8 @@ bool modes_are_shared(const cases::Case& given) {
   return frf->source.dataset == 0 && !frf->directed.get().empty();
 }
 
-results::ModesResult shared_modes(const cases::Case& given) {
+results::ModesResult shared_modes(const cases::Case& given,
+                                  std::optional<structure::ModesFit> known) {
   const cases::FrfTables frf = given.machine.frf.value_or(cases::FrfTables{});
   results::ModesResult r{.heading = heading_of(given)};
   r.shared = true;
@@ -148,7 +149,8 @@ results::ModesResult shared_modes(const cases::Case& given) {
   }
   number_directions(r, all);
   if (fault.empty()) {
-    r.fit = structure::identify_shapes(all, shared_options(frf));
+    r.fit = known ? *std::move(known)
+                  : structure::identify_shapes(all, shared_options(frf));
   } else {
     r.fit.reason = fault;
     for (const DirectedResponse& one : all) {

@@ -2,6 +2,9 @@
 
 #include <trochoid/cases/case.h>
 #include <trochoid/results/modes.h>
+#include <trochoid/structure/modes_fit.h>
+
+#include <optional>
 
 namespace trochoid::run {
 
@@ -14,6 +17,8 @@ bool modes_are_shared(const cases::Case& given);
 
 /// @brief Modes that several responses share.
 /// @throws base::InputError when a file cannot be read
-results::ModesResult shared_modes(const cases::Case& given);
+/// @param known  the fit, where it is there already
+results::ModesResult shared_modes(const cases::Case& given,
+                                  std::optional<structure::ModesFit> known = {});
 
 }  // namespace trochoid::run

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <string>
@@ -61,6 +62,13 @@ struct FrequencyResponse {
   std::vector<std::complex<double>> H;  ///< in SI, shape (n)
   /// Over how many lines a window spreads the noise of one; 1: each has its own.
   double noise_bandwidth = 1.0;
+  /// How many lines each is the mean of; empty: each stands for itself.
+  std::vector<double> averaged = {};
+
+  /// By how much the scatter of a line is below that of one measured line.
+  [[nodiscard]] double calmer(std::size_t line) const {
+    return averaged.empty() ? 1.0 : std::sqrt(averaged[line]);
+  }
 };
 
 /// A response of a structure in one direction to a force in another or the same.

@@ -2,6 +2,7 @@
 #include <trochoid/structure/identify_modes.h>
 #include <trochoid/structure/modes_answer.h>
 #include <trochoid/structure/modes_order.h>
+#include <trochoid/structure/thinned.h>
 
 #include <fmt/core.h>
 
@@ -38,7 +39,9 @@ ModesFit refused(ModesFit fit, std::string reason) {
 }
 
 /// What cannot be answered whatever the fit; empty: nothing.
-std::string refusal(const FrequencyResponse& lines, int count) {
+/// @param few  the lines thinned
+std::string refusal(const FrequencyResponse& lines, const FrequencyResponse& few,
+                    int count) {
   const std::size_t needed = lines_needed(std::max(count, 1));
   if (lines.omega.size() < needed) {
     return fmt::format(
@@ -49,7 +52,8 @@ std::string refusal(const FrequencyResponse& lines, int count) {
   if (!(power(lines) > 0)) {
     return "the response is zero in the whole band";
   }
-  return fault_of_kind(lines, 1, certain);
+  const std::string lone = fault_of_a_line(lines);
+  return lone.empty() ? fault_before_search(few) : lone;
 }
 
 /// Fill in a fit from what was chosen.
@@ -106,16 +110,18 @@ ModesFit identify_modes(const FrequencyResponse& response,
   const std::vector<DirectedResponse> only = {
       {.response = in_band(response, options), .name = {}}};
   const Responses all = only;
-  const FrequencyResponse& lines = only.front().response;
+  const std::vector<DirectedResponse> few = thinned(all, for_a_search);
+  const std::vector<DirectedResponse> many = thinned(all, for_a_fit);
+  const FrequencyResponse& lines = few.front().response;
   ModesFit fit;
   fit.responses = {measured_response(only.front())};
   fit.responses.front().decay = options.window_decay;
-  const std::string why = refusal(lines, options.count);
+  const std::string why = refusal(only.front().response, lines, options.count);
   if (!why.empty()) {
     return refused(std::move(fit), why);
   }
   OrderSearch search;
-  search_orders(all, options, ModeForm::residue, search);
+  search_orders(few, all, options, ModeForm::residue, search);
   Candidate& chosen = search.best.front();
   const std::size_t count = chosen.trial.solution.model.terms.size();
   const std::string kind =
@@ -127,7 +133,7 @@ ModesFit identify_modes(const FrequencyResponse& response,
     return refused(std::move(fit), search.first_fault);
   }
   const double criterion = chosen.trial.criterion;
-  chosen.trial = settle_exactly(all, chosen.trial.solution.model, chosen.trial);
+  chosen.trial = settle_exactly(many, chosen.trial.solution.model, chosen.trial);
   take(all, chosen, options.window_decay, fit);
   const std::string undamped = without_damping(fit);
   if (!undamped.empty()) {

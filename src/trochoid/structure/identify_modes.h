@@ -59,10 +59,18 @@ struct ComplexCheck {
   double evidence = 0.0;   ///< criterion of real modes less that of complex ones
   double omega = 0.0;      ///< of the mode whose shape is the most imaginary [rad/s]
   double imaginary = 0.0;  ///< |Im phi|/|phi| there
+
+  /// Whether the modes are complex: the evidence is very strong, odds of 150 to 1, and a
+  /// shape is imaginary by more than a hundredth.
+  [[nodiscard]] bool complex() const noexcept {
+    return evidence > 10 && imaginary > 0.01;
+  }
 };
 
 /// @brief The response of a fit once more with complex shapes, their number chosen anew:
 /// real modes stand for a turned one by several, one with a negative mass among them.
+/// Where each mode stands for itself, and the same modes turned are no better, that is
+/// not looked for.
 /// @return none: there are no complex ones
 std::optional<ComplexCheck> complex_check(const ModesFit& fit);
 

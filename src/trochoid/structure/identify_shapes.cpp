@@ -3,6 +3,7 @@
 #include <trochoid/structure/modes_answer.h>
 #include <trochoid/structure/modes_order.h>
 #include <trochoid/structure/reciprocity.h>
+#include <trochoid/structure/thinned.h>
 
 #include <fmt/core.h>
 
@@ -15,11 +16,11 @@ namespace trochoid::structure {
 
 namespace {
 
-/// A direct response that is not of its kind, or against the force; empty: none.
-std::string fault_of_direct(Responses all, int count, double explained) {
+/// The first fault of a direct response that a check finds; empty: none.
+template <class Check>
+std::string fault_of_direct(Responses all, const Check& check) {
   for (const DirectedResponse& one : all) {
-    const std::string fault =
-        one.direct() ? fault_of_kind(one.response, count, explained) : std::string();
+    const std::string fault = one.direct() ? check(one.response) : std::string();
     if (!fault.empty()) {
       return fmt::format("response {}: {}", one.name, fault);
     }
@@ -40,7 +41,8 @@ ModesTrial as_real(Responses all, const ModesTrial& trial) {
 }
 
 /// Fill in a fit from what was chosen.
-void take(Responses all, const Candidate& chosen, ModesFit& fit) {
+/// @param many  the lines it was fitted to
+void take(Responses all, Responses many, const Candidate& chosen, ModesFit& fit) {
   const ModesModel& model = chosen.trial.solution.model;
   const std::vector<std::size_t> answers = answers_of(chosen);
   for (const std::size_t r : answers) {
@@ -49,7 +51,7 @@ void take(Responses all, const Candidate& chosen, ModesFit& fit) {
   fit.real_modes = fit.modes;
   fit.covariance = shape_covariance(chosen.trial.solution, answers);
   if (model.complex_shapes()) {
-    const ModesTrial real = as_real(all, chosen.trial);
+    const ModesTrial real = as_real(many, chosen.trial);
     fit.real_modes.clear();
     for (const std::size_t r : answers) {
       fit.real_modes.push_back(shape_mode(all, real.solution, r));
@@ -70,7 +72,7 @@ void take(Responses all, const Candidate& chosen, ModesFit& fit) {
     fit.responses.push_back(fitted_response(all, chosen.trial, q));
     fit.responses.back().residues = residues_of(chosen.trial.solution, all[q], answers);
   }
-  fit.reciprocity = reciprocity_of(all, chosen.trial);
+  fit.reciprocity = reciprocity_of(many, chosen.trial);
 }
 
 ModesFit refused(Responses all, std::string reason) {
@@ -83,7 +85,8 @@ ModesFit refused(Responses all, std::string reason) {
 }
 
 /// What cannot be answered whatever the fit; empty: nothing.
-std::string refusal(Responses all, const ModesOptions& options) {
+/// @param few  the lines thinned
+std::string refusal(Responses all, Responses few, const ModesOptions& options) {
   for (const DirectedResponse& one : all) {
     const std::size_t needed = lines_needed(std::max(options.count, 1));
     if (one.response.omega.size() < needed) {
@@ -97,7 +100,11 @@ std::string refusal(Responses all, const ModesOptions& options) {
       return fmt::format("the response {} is zero in the whole band", one.name);
     }
   }
-  const std::string turned = fault_of_direct(all, 1, certain);
+  const std::string lone = fault_of_direct(all, fault_of_a_line);
+  if (!lone.empty()) {
+    return lone;
+  }
+  const std::string turned = fault_of_direct(few, fault_before_search);
   return turned.empty() ? opposite_signs(all) : turned;
 }
 
@@ -106,14 +113,16 @@ std::string refusal(Responses all, const ModesOptions& options) {
 ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
                          const ModesOptions& options) {
   const Responses all = responses;
-  const std::string why = refusal(all, options);
+  const std::vector<DirectedResponse> few = thinned(all, for_a_search);
+  const std::vector<DirectedResponse> many = thinned(all, for_a_fit);
+  const std::string why = refusal(all, few, options);
   if (!why.empty()) {
     return refused(all, why);
   }
   OrderSearch tried;
   for (const bool complex_shapes : {false, true}) {
     if (options.complex_shapes.value_or(complex_shapes) == complex_shapes) {
-      search_orders(all, options,
+      search_orders(few, all, options,
                     complex_shapes ? ModeForm::complex_shapes : ModeForm::real_shapes,
                     tried);
     }
@@ -124,13 +133,15 @@ ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
   Candidate chosen =
       !real.found() || (complex.found() && evidence > very_strong) ? complex : real;
   if (!chosen.found()) {
-    const std::string other = fault_of_direct(all, 1, least_explained);
+    const std::string other = fault_of_direct(few, [](const auto& lines) {
+      return fault_of_kind(lines, 1, least_explained);
+    });
     return refused(all, other.empty() ? tried.first_fault : other);
   }
   const double criterion = chosen.trial.criterion;
-  chosen.trial = settle_exactly(all, chosen.trial.solution.model, chosen.trial);
+  chosen.trial = settle_exactly(many, chosen.trial.solution.model, chosen.trial);
   ModesFit fit;
-  take(all, chosen, fit);
+  take(all, many, chosen, fit);
   for (std::size_t q = 0; q < all.size(); ++q) {
     if (all[q].direct() && fit.responses[q].explained < least_explained) {
       return refused(
@@ -152,6 +163,48 @@ ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
   return fit;
 }
 
+namespace {
+
+/// Modes this many half-power widths from their neighbours do not stand for another.
+constexpr double well_apart = 3.0;
+constexpr double most_damping_of_one = 0.2;
+/// Change of a parameter that ends the fits of a check, in standard errors.
+constexpr double nearly = 0.03;
+
+/// Whether each mode stands for itself. A turned residue is fitted by two real modes near
+/// each other, by a broad one, or by what lies outside of the band.
+bool stand_for_themselves(const ModesFit& fit) {
+  if (!fit.ok || !fit.outside.empty() || !fit.unresolved.empty()) return false;
+  for (std::size_t r = 0; r < fit.modes.size(); ++r) {
+    const FittedMode& a = fit.modes[r];
+    if (a.zeta.value > most_damping_of_one) return false;
+    if (r + 1 == fit.modes.size()) break;
+    const FittedMode& b = fit.modes[r + 1];
+    const double width = a.zeta.value * a.omega.value + b.zeta.value * b.omega.value;
+    if (b.omega.value - a.omega.value < well_apart * width) return false;
+  }
+  return true;
+}
+
+/// By how much the criterion falls where the same modes may be complex.
+double gain_of_turning(Responses all, const ModesFit& fit) {
+  ModesModel real{.form = ModeForm::real_shapes,
+                  .residual_terms = fit.residual_terms,
+                  .residual = {fit.responses.front().residual},
+                  .terms = {}};
+  for (const FittedMode& mode : fit.modes) {
+    real.terms.push_back(
+        {mode.omega.value, mode.zeta.value, {std::sqrt(1 / mode.mass.value)}});
+  }
+  const ModesTrial as_real = settle(all, real, even_weights(all, real.form), nearly);
+  ModesModel turned = as_real.solution.model;
+  turned.form = ModeForm::complex_shapes;
+  return as_real.criterion -
+         settle(all, turned, weights_of(all, as_real), nearly).criterion;
+}
+
+}  // namespace
+
 std::optional<ComplexCheck> complex_check(const ModesFit& fit) {
   const FittedResponse& only = fit.responses.front();
   const std::vector<DirectedResponse> all = {
@@ -161,6 +214,10 @@ std::optional<ComplexCheck> complex_check(const ModesFit& fit) {
                     .noise_bandwidth = only.noise_bandwidth},
        .decay = only.decay,
        .name = {}}};
+  if (stand_for_themselves(fit) &&
+      gain_of_turning(thinned(all, for_a_search), fit) < very_strong) {
+    return std::nullopt;
+  }
   ComplexCheck out{.fit = identify_shapes(all, {.complex_shapes = true})};
   if (!out.fit.ok) {
     return std::nullopt;

@@ -20,6 +20,8 @@ using Complex = std::complex<double>;
 constexpr double worst_mass = 1.0 / 3;
 constexpr int least_lines_in_peak = 2;
 constexpr double least_part = 0.01;  ///< of a response, that a resonance makes
+/// Below this fraction a term is no more than the digits in which lines are written.
+constexpr double of_rounding = 1e-3;
 /// A shape more imaginary than this has residues turned by 60 deg and more.
 constexpr double most_imaginary = 0.5;
 /// A residue turned by more than this belongs to another kind of response.
@@ -152,6 +154,10 @@ TermVerdict verdict_on(Responses all, const ModesSolution& solution, std::size_t
   if (!wrong.empty()) {
     return {TermRole::none, wrong};
   }
+  if (part_of(all, solution.model, t) < of_rounding) {
+    return {TermRole::none, fmt::format("the term at {} makes nothing of the response",
+                                        hertz(t.omega))};
+  }
   const std::string why = unresolved(all, solution.model, t);
   if (!mass_known(all, solution, r)) {
     return {
@@ -193,6 +199,56 @@ std::string fault_of_kind(const FrequencyResponse& lines, int count, double expl
       "what {} {} of a mode with a mass above 0 has there.{}",
       hertz(omega), turned * 180 / std::numbers::pi, given == 2 ? "an" : "a",
       names[static_cast<std::size_t>(given)], may);
+}
+
+namespace {
+
+/// By how much a response is turned as a whole: receptances weighed by their size.
+double turned_as_a_whole(const FrequencyResponse& lines) {
+  Complex sum;
+  for (std::size_t i = 0; i < lines.omega.size(); ++i) {
+    const Complex H = lines.H[i] / factor(lines.kind, lines.omega[i]);
+    sum += H * std::abs(H);
+  }
+  return std::arg(sum * Complex(0.0, 1.0));
+}
+
+}  // namespace
+
+std::string fault_before_search(const FrequencyResponse& lines) {
+  constexpr int most_poles = 8;
+  constexpr double explained = 0.9;
+  if (std::abs(turned_as_a_whole(lines)) < most_turned) {
+    return {};
+  }
+  for (int count = 1; count <= most_poles; ++count) {
+    if (find_poles(lines, count, true).explained >= explained) {
+      return fault_of_kind(lines, count, explained);
+    }
+  }
+  return {};
+}
+
+std::string fault_of_a_line(const FrequencyResponse& lines) {
+  constexpr double out_of_proportion = 1e6;
+  std::size_t largest = 0;
+  double next = 0.0;
+  for (std::size_t i = 1; i < lines.H.size(); ++i) {
+    const double size = std::abs(lines.H[i]);
+    if (size > std::abs(lines.H[largest])) {
+      next = std::abs(lines.H[largest]);
+      largest = i;
+    } else {
+      next = std::max(next, size);
+    }
+  }
+  const double most = std::abs(lines.H[largest]);
+  return next > 0 && most > out_of_proportion * next
+             ? fmt::format(
+                   "the line at {} is {:.2g} times as large as any other: no "
+                   "resonance does that, so leave it out",
+                   hertz(lines.omega[largest]), most / next)
+             : std::string();
 }
 
 std::size_t count_of(std::span<const TermVerdict> terms, TermRole role) noexcept {

@@ -26,6 +26,9 @@ struct TermVerdict {
 /// @param solution  with its covariance, if all of it can be told
 TermVerdict verdict_on(Responses all, const ModesSolution& solution, std::size_t r);
 
+/// @brief A line that is out of all proportion to all others; empty: there is none.
+std::string fault_of_a_line(const FrequencyResponse& lines);
+
 /// @brief How many terms are of a kind.
 std::size_t count_of(std::span<const TermVerdict> terms, TermRole role) noexcept;
 
@@ -41,5 +44,9 @@ std::string fault_of(std::span<const TermVerdict> terms, int count,
 /// @return if not, what it may be instead; else empty
 std::string fault_of_kind(const FrequencyResponse& lines, int count,
                           double explained = 0.8);
+
+/// @brief The same without a fit of modes: as many poles as explain nine tenths of the
+/// response, which has to be turned as a whole.
+std::string fault_before_search(const FrequencyResponse& lines);
 
 }  // namespace trochoid::structure

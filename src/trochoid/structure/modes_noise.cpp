@@ -50,8 +50,10 @@ Squares squares_of(const FrequencyResponse& lines, std::span<const Complex> left
   for (std::size_t i = 0; i < left.size(); ++i) {
     const Complex turned = left[i] * turn_of(lines.H[i] - left[i]);
     s.power[i] /= s.scale;
-    s.along_raw.push_back(turned.real() * turned.real() / s.scale);
-    s.across_raw.push_back(turned.imag() * turned.imag() / s.scale);
+    const double calmer = lines.calmer(i);  // all in the noise of one line
+    const double scale = s.scale / (calmer * calmer);
+    s.along_raw.push_back(turned.real() * turned.real() / scale);
+    s.across_raw.push_back(turned.imag() * turned.imag() / scale);
     s.along.push_back(s.along_raw.back() / kept(2 * i));
     s.across.push_back(s.across_raw.back() / kept(2 * i + 1));
   }

@@ -12,8 +12,6 @@
 namespace trochoid::structure {
 
 constexpr double least_explained = 0.7;  ///< of the sum of |H|^2
-/// What one pole explains where there is one mode and no doubt.
-constexpr double certain = 0.9;
 /// Difference of the criterion above which evidence is very strong: odds of 150 to 1.
 constexpr double very_strong = 10.0;
 
@@ -41,8 +39,10 @@ std::size_t lines_needed(int count) noexcept;
 /// @brief One mode after the other, with residual terms and without (M-16, M-17).
 ///
 /// The search ends where some modes more have bettered nothing.
-void search_orders(Responses all, const ModesOptions& options, ModeForm form,
-                   OrderSearch& out);
+/// @param measured  the lines that `all` were thinned from: they say what is resolved
+// five parameters: what is searched in, and how
+void search_orders(Responses all, Responses measured, const ModesOptions& options,
+                   ModeForm form, OrderSearch& out);
 
 /// @brief The last fit, until nothing moves any more.
 /// @param rough  the one before, whose noises are the first weights

@@ -288,7 +288,10 @@ AllWeights even_weights(Responses all, ModeForm form) {
     }
     const bool by_size = form != ModeForm::residue && largest > 0;
     const std::size_t n = one.response.omega.size();
-    const std::vector<double> weight(n, by_size ? 1 / largest : 1.0);
+    std::vector<double> weight;
+    for (std::size_t i = 0; i < n; ++i) {
+      weight.push_back((by_size ? 1 / largest : 1.0) * one.response.calmer(i));
+    }
     out.push_back(
         {.turn = std::vector<Complex>(n, 1.0), .along = weight, .across = weight});
   }

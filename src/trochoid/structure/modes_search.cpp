@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace trochoid::structure {
@@ -14,9 +13,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr int first_iterations = 4;  ///< of every start
 constexpr int scout_iterations = 12;
+constexpr std::size_t starts_followed = 3;  ///< the best after the first iterations
 constexpr int fit_iterations = 60;
 constexpr int most_rounds = 60;
+/// Thinned lines need no digit that more rounds would settle.
+constexpr int most_rounds_of_thinned = 12;
 constexpr double roughly = 0.03;  ///< of a standard error, while modes are sought
 
 /// Whether all modes inside the band could be resonances, and there is one.
@@ -49,21 +52,33 @@ void fit_linear(Responses all, const AllWeights& weights, ModesModel& start) {
   start.residual = {found.residual};
 }
 
-/// The best of some starts after a few steps: plausible ones first.
+/// A start after some steps.
+struct Scout {
+  ModesModel model;
+  std::pair<bool, double> rank;  ///< plausible ones first
+};
+
+Scout scout(Responses all, const AllWeights& weights, const ModesModel& start,
+            int iterations) {
+  ModesSolution found = fit_modes(all, weights, start, iterations);
+  const bool sound = plausible(all, found.model);
+  return {std::move(found.model), {!sound, found.cost}};
+}
+
+/// The best of some starts after a few steps; the best after fewer steps take more.
 ModesModel scouted(Responses all, const AllWeights& weights,
                    const std::vector<ModesModel>& starts) {
-  ModesModel best;
-  std::pair<bool, double> rank{true, std::numeric_limits<double>::infinity()};
+  std::vector<Scout> first;
   for (ModesModel start : starts) {
     fit_linear(all, weights, start);
-    ModesSolution found = fit_modes(all, weights, start, scout_iterations);
-    const std::pair<bool, double> own{!plausible(all, found.model), found.cost};
-    if (own < rank || best.terms.empty()) {
-      rank = own;
-      best = std::move(found.model);
-    }
+    first.push_back(scout(all, weights, start, first_iterations));
   }
-  return best;
+  std::ranges::stable_sort(first, {}, &Scout::rank);
+  first.resize(std::min(first.size(), starts_followed));
+  for (Scout& one : first) {
+    one = scout(all, weights, one.model, scout_iterations - first_iterations);
+  }
+  return std::move(std::ranges::min_element(first, {}, &Scout::rank)->model);
 }
 
 /// Largest change of a pole, a residue or a shape between two models, in standard errors.
@@ -98,11 +113,11 @@ AllWeights weights_of(Responses all, const ModesTrial& trial) {
     out.push_back(weights_of(modelled(model, all[q], q), trial.noise[q]));
     // Lines that share their noise count for fewer (M-23); one response alone has the
     // same share everywhere, and its covariance takes it.
-    const double share =
-        model.is_residue() ? 1.0 : std::sqrt(all[q].response.noise_bandwidth);
+    const FrequencyResponse& lines = all[q].response;
+    const double share = model.is_residue() ? 1.0 : std::sqrt(lines.noise_bandwidth);
     for (std::size_t i = 0; i < out.back().along.size(); ++i) {
-      out.back().along[i] /= share;
-      out.back().across[i] /= share;
+      out.back().along[i] *= lines.calmer(i) / share;
+      out.back().across[i] *= lines.calmer(i) / share;
     }
   }
   return out;
@@ -115,7 +130,10 @@ ModesTrial settle(Responses all, const ModesModel& start, AllWeights weights,
   double deviance = 0.0;
   double n = 0.0;
   int noise_parameters = 0;
-  for (int round = 0; round < most_rounds; ++round) {
+  const bool is_thinned = std::ranges::any_of(
+      all, [](const DirectedResponse& one) { return !one.response.averaged.empty(); });
+  const int rounds = is_thinned ? most_rounds_of_thinned : most_rounds;
+  for (int round = 0; round < rounds; ++round) {
     ModesSolution next = fit_modes(all, weights, model, fit_iterations);
     describe(all, weights, next);
     const bool stands = round > 1 && moved(out.solution, next) < tolerance;

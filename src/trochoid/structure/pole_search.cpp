@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trochoid::structure {
 
@@ -12,6 +13,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int rounds = 15;
+/// Poles that move by less than this part of themselves stand.
+constexpr double settled_poles = 1e-9;
 constexpr double first_damping = 0.01;
 constexpr double renewed_damping = 0.1;
 constexpr double pole_rank_tolerance = 1e-13;
@@ -167,8 +170,14 @@ Poles find_poles(const FrequencyResponse& response, int count, bool residual_ter
     const double at = low + (1 - low) * (r + 0.5) / count;
     poles.emplace_back(-first_damping * at, at);
   }
-  for (int round = 0; round < rounds; ++round) {
-    poles = relocated(lines, poles, residual_terms);
+  double moved = 1.0;
+  for (int round = 0; round < rounds && moved > settled_poles; ++round) {
+    std::vector<Complex> next = relocated(lines, poles, residual_terms);
+    moved = 0.0;
+    for (std::size_t r = 0; r < poles.size(); ++r) {
+      moved = std::max(moved, std::abs(next[r] - poles[r]) / std::abs(next[r]));
+    }
+    poles = std::move(next);
   }
   Poles out = with_residues(lines, poles, residual_terms);
   const auto peak = [&](const Pole& pole) {

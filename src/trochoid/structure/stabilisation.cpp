@@ -1,5 +1,6 @@
 #include <trochoid/structure/pole_search.h>
 #include <trochoid/structure/stabilisation.h>
+#include <trochoid/structure/thinned.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,10 @@ PoleStanding standing_of(const TriedPole& pole, const std::vector<TriedPole>& be
 
 }  // namespace
 
-std::vector<TriedPole> stabilisation(const FrequencyResponse& lines, int highest) {
+std::vector<TriedPole> stabilisation(const FrequencyResponse& response, int highest) {
+  const FrequencyResponse lines = response.omega.size() > for_a_search.lines
+                                      ? thinned(response, for_a_search.tolerance)
+                                      : response;
   std::vector<TriedPole> out;
   std::vector<TriedPole> before;
   for (int order = 1; order <= highest; ++order) {

@@ -22,10 +22,10 @@ struct TriedPole {
 /// @eq  M-18  same frequency: |omega - omega'| < 0.01 omega;  stable: |zeta - zeta'| <
 ///            0.05 zeta as well, primes for the nearest of the order before
 /// @src derived; the limits are those usual in laboratories
-/// @param lines    without the line at 0 Hz
+/// @param response  without the line at 0 Hz; many lines are thinned (M-35)
 /// @param highest  number of pairs
 /// @return those inside the band with zeta below 0.5, by order and frequency
-std::vector<TriedPole> stabilisation(const FrequencyResponse& lines, int highest);
+std::vector<TriedPole> stabilisation(const FrequencyResponse& response, int highest);
 
 /// @brief Where a response is all in quadrature: 1 there, 0 where it is in phase.
 ///
