@@ -22,6 +22,9 @@ constexpr std::array<double, 2> steady_small = {0.95, 1.05};
 constexpr double persistent = 0.02;
 /// How often the number of turns is doubled until the motion tells.
 constexpr int most_doublings = 3;
+/// A period of its own is there to stay where it has lost no more of its size than this
+/// after twice the turns.
+constexpr double lost_size = 0.05;
 /// Changes from turn to turn, as fractions of the feed per tooth. Below the first no tooth
 /// leaves the cut, and nothing limits a vibration that grows; above the second teeth do.
 constexpr double small_turn_change = 0.2;
@@ -140,6 +143,30 @@ double difference_of(const Motion& m, double FluteMotion::*value) {
   return relative_difference(values);
 }
 
+/// How large what a vibration with a period of its own adds to that of the cut is [m]: to
+/// and fro from turn to turn, or from tooth to tooth within the turn.
+double own_size(const Motion& m) {
+  const auto [least, most] = std::ranges::minmax(m.flutes, {}, &FluteMotion::peak_chip);
+  return std::max(late_size(m.once), most.peak_chip - least.peak_chip);
+}
+
+/// Whether a period of its own was no larger in a shorter run. A transient that goes round
+/// in nearly so many teeth repeats within the tolerance while it fades.
+class PeriodOfItsOwn {
+ public:
+  bool confirmed(const MotionProblem& problem, const Motion& m) {
+    const double size = own_size(m);
+    const bool stays = passes_ == *m.passes && size >= (1 - lost_size) * size_;
+    passes_ = *m.passes;
+    size_ = size;
+    return stays || size < no_change * std::abs(problem.setup.cut.f_z);
+  }
+
+ private:
+  int passes_ = 0;
+  double size_ = 0.0;
+};
+
 }  // namespace
 
 double relative_difference(std::span<const double> values) noexcept {
@@ -183,6 +210,8 @@ bool walls_repeat(const SteadyState& steady) {
 }
 
 SteadyState steady_state(MotionProblem problem, const TurnsProgress& progress) {
+  problem.revolutions = std::max(problem.revolutions, fewest_turns);
+  PeriodOfItsOwn own;
   for (int doubled = 0;; ++doubled) {
     if (progress) {
       progress(problem.revolutions);
@@ -192,13 +221,16 @@ SteadyState steady_state(MotionProblem problem, const TurnsProgress& progress) {
       const auto growth = growth_of(m);
       return {std::move(m), Growing{growth}};
     }
-    if (m.passes && has_settled(problem, m)) {
+    const bool repeats = m.passes && has_settled(problem, m);
+    if (repeats) {
       const Periodic verdict = periodic_of(problem, m);
-      return {std::move(m), verdict};
+      if (!verdict.several_periods() || own.confirmed(problem, m)) {
+        return {std::move(m), verdict};
+      }
     }
     const Trend trend = trend_of(problem, m);
     const bool saturated = trend == Trend::stays && grows(m);
-    if (saturated || doubled == most_doublings) {
+    if ((saturated && !repeats) || doubled == most_doublings) {
       Verdict verdict = verdict_after(problem, m, trend);
       return {std::move(m), std::move(verdict)};
     }

@@ -16,6 +16,9 @@ inline constexpr double chatter_growth = 1.02;
 /// which a motion that is not periodic is chatter even where it grows no more.
 inline constexpr double chatter_change = 0.1;
 
+/// No verdict rests on fewer turns: transients look like anything in a few.
+inline constexpr int fewest_turns = 20;
+
 /// @brief (largest - smallest)/largest of values; 0 where none is above 0.
 double relative_difference(std::span<const double> values) noexcept;
 
@@ -49,8 +52,10 @@ using TurnsProgress = std::function<void(int turns)>;
 
 /// @brief The motion of a cut, followed until it repeats, has run away or grows no more.
 ///
-/// Where it does none of these within the turns asked for, they are doubled, three times
-/// at most. A vibration so small that no tooth leaves the cut and that still grows then is
+/// It is followed for the turns asked for, and for 20 at least: what it comes to does not
+/// depend on how many were asked for. Where it does none of these within them, they are
+/// doubled, three times at most; one that repeats with a period of its own has to do so as
+/// largely after twice the turns. A vibration so small that no tooth leaves the cut and that still grows then is
 /// `Growing`; one that is limited by teeth that leave the cut is `Bounded`, with its
 /// amplitudes and frequencies (T-13, T-14) over the last turns, in which the flutes are
 /// watched as well; so is one whose transients still die out.

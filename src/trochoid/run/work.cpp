@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/correction/moving_cut.h>
 #include <trochoid/dynamics/motion.h>
+#include <trochoid/dynamics/steady_state.h>
 #include <trochoid/run/problems.h>
 #include <trochoid/run/wall.h>
 
@@ -340,7 +341,8 @@ std::vector<Work> dynamics_work(const cases::Case& given) {
   }
   const double teeth = given.setup.cutter.teeth();
   const double turn = steps * teeth;
-  const double turns = given.sampling.revolutions;
+  const double turns =
+      std::max<double>(given.sampling.revolutions, dynamics::fewest_turns);
   const double rpm = given.setup.cut.Omega / unit::rpm;
   return {{.what = "steps of the motion",
            .count = turns * turn,
