@@ -27,6 +27,16 @@ void describe_response_file(const Visitor& v, files::FrfSource& t, Need need) {
                 "only one",
      .range = between(0, 100000)},
     &t.dataset);
+  v({.name = "scale",
+     .meaning =
+         "of hammer blows in time, whatever units the columns name: newtons per "
+         "unit of the force, and m, m/s or m/s^2, as `kind` says, per unit of the "
+         "response: of volts one over the sensitivity",
+     .range = between(-1e12, 1e12),
+     .count = 2,
+     .standard = "by the unit of each column",
+     .example = "[444.8, 98.07]"},
+    &t.scale);
 }
 
 template <class Table>

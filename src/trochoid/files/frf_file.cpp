@@ -228,7 +228,13 @@ std::vector<DirectedFrf> read_directed_frfs(const FrfSource& source) {
 }
 
 FrfFile read_frf(const FrfSource& source) {
-  return read_frf(bytes_of(source.file, frf_kind), source.file.path, source);
+  FrfFile file = read_frf(bytes_of(source.file, frf_kind), source.file.path, source);
+  if (!source.scale.empty() && !file.tap) {
+    throw base::InputError({source.file.path +
+                            ": scale is for hammer blows in time, and this is a "
+                            "frequency response: leave it out"});
+  }
+  return file;
 }
 
 }  // namespace trochoid::files

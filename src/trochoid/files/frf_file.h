@@ -19,6 +19,9 @@ struct FrfSource {
   std::optional<structure::ResponseKind> kind;
   int dataset = 0;  ///< of the frequency responses of a universal file, from 1; 0: the
                     ///< only one
+  /// Of blows in time: newtons per unit of the force, and SI units per unit of the
+  /// response, whatever units the file names; empty: by those.
+  std::vector<double> scale = {};
 };
 
 struct FrfFile {

@@ -47,7 +47,7 @@ BracketedName bracketed(std::string_view name) {
 }
 
 /// Whether a word of several letters is one of those.
-bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
+bool is_word_of(std::string_view word, std::span<const std::string_view> words) {
   const std::string text = small_letters(word);
   return word.size() > 1 && std::ranges::find(words, text) != words.end();
 }
@@ -64,13 +64,13 @@ std::optional<std::string> unit_in_name(std::string_view name,
     const std::size_t end = std::min(left.find_first_of(" _-."), left.size());
     const std::string_view word = left.substr(0, end);
     left = left.substr(std::min(end + 1, left.size()));
-    if (is_one_of(word, words)) rest = std::string(left);
+    if (is_word_of(word, words)) rest = std::string(left);
   }
   if (!rest) return std::nullopt;
   if (!in.unit.empty()) return std::string(in.unit);
   // A second word says what it is once more: `hammer force`.
   const bool no_unit =
-      is_one_of(*rest, hammer_names) || is_one_of(*rest, response_names);
+      is_word_of(*rest, hammer_names) || is_word_of(*rest, response_names);
   return no_unit ? std::string() : *rest;
 }
 
@@ -187,6 +187,24 @@ Roles roles_of(const std::vector<TapColumn>& columns, Problems& problems) {
   return roles;
 }
 
+/// Newtons and SI units that stand for a unit of each column.
+struct TapScale {
+  double force = 1.0;
+  double response = 1.0;
+};
+
+/// By what the user says, whatever units the columns name.
+TapScale stated_scale(const TapColumn& response, const FrfSource& source, FrfFile& out,
+                      Problems& problems) {
+  if (!source.kind) {
+    problems.add(response.line, response.at,
+                 "scale says by how much, and nothing says of what: kind = "
+                 "\"accelerance\", \"mobility\" or \"receptance\" is needed as well");
+  }
+  out.response.kind = source.kind.value_or(structure::ResponseKind::accelerance);
+  return {source.scale[0], source.scale[1]};
+}
+
 /// Kind and factor of a response, from its unit or from what the user says.
 double settle_response(const TapColumn& column, const FrfSource& source, FrfFile& out,
                        Problems& problems) {
@@ -213,6 +231,16 @@ double settle_response(const TapColumn& column, const FrfSource& source, FrfFile
   out.response.kind =
       unit ? unit->kind : source.kind.value_or(structure::ResponseKind::accelerance);
   return unit ? unit->factor : 1.0;
+}
+
+// five parameters: both columns with what the user says, and where it goes
+TapScale scale_of_units(const Roles& roles, const TapColumn& response,
+                        const FrfSource& source, FrfFile& out, Problems& problems) {
+  const TapColumn& force = *roles.force;
+  const std::string unit =
+      unit_of(force, unit_in_name(force.name, hammer_names).value_or(""));
+  return {.force = force_factor(force, unit, out, problems),
+          .response = settle_response(response, source, out, problems)};
 }
 
 }  // namespace
@@ -312,14 +340,12 @@ FrfFile tap_file(std::vector<TapColumn> columns, const FrfSource& source,
     problems.add(1, 1,
                  "no column is the time (time_s), and no sampling rate is stated");
   }
-  const double newtons = force_factor(
-      *roles.force,
-      unit_of(*roles.force, unit_in_name(roles.force->name, hammer_names).value_or("")),
-      out, problems);
-  const double factor = settle_response(*response, source, out, problems);
+  const TapScale scale = source.scale.size() == 2
+                             ? stated_scale(*response, source, out, problems)
+                             : scale_of_units(roles, *response, source, out, problems);
   for (std::size_t i = 0; i < n; ++i) {
-    record.force.push_back(newtons * roles.force->values[i]);
-    record.response.push_back(factor * response->values[i]);
+    record.force.push_back(scale.force * roles.force->values[i]);
+    record.response.push_back(scale.response * response->values[i]);
   }
   out.description = fmt::format("{} over {}, {} samples at {:g} Hz", response->name,
                                 roles.force->name, n, record.sample_rate);

@@ -68,6 +68,19 @@ TEST(TapFile, UnitsMayBePoundsAndInches) {
   EXPECT_NEAR(file.tap->response[3], 3 * 0.0254, 1e-12);
 }
 
+TEST(TapFile, VoltsNeedAScaleAndAKind) {
+  const std::string volts = record("Time (s),Hammer (V),Accelerometer (V)");
+  const FrfFile file = read_frf(
+      volts, "made.csv", {.kind = ResponseKind::accelerance, .scale = {400, 98}});
+  ASSERT_TRUE(file.tap);
+  EXPECT_EQ(file.response.kind, ResponseKind::accelerance);
+  EXPECT_DOUBLE_EQ(file.tap->force[20], 40e3);
+  EXPECT_DOUBLE_EQ(file.tap->response[3], 3 * 98);
+  EXPECT_TRUE(file.notes.empty());
+  expect_problem(volts, "no unit of a force");
+  expect_problem(volts, "kind", {.scale = {400, 98}});
+}
+
 TEST(TapFile, OneOfSeveralResponsesIsChosen) {
   const std::string two = record("time_s,force_N,acc_g,velocity_m/s", ",5");
   expect_problem(two, "2 responses: choose one by --dataset");
