@@ -13,9 +13,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace trochoid::structure::thinned_test {
 
-using namespace trochoid::structure;
 using made::Hz;
 
 const std::vector<Mode>& four() {
@@ -161,4 +160,4 @@ TEST(IdentifyModes, SaysBeforeTheSearchThatASensorPointsTheOtherWay) {
   EXPECT_NE(fit.reason.find("against the force"), std::string::npos) << fit.reason;
 }
 
-}  // namespace
+}  // namespace trochoid::structure::thinned_test
