@@ -99,6 +99,9 @@ std::size_t refused_bytes() noexcept {
 
 }  // namespace trochoid::cli
 
+// All forms are here, not some: memory of a form that a library or a sanitizer replaced
+// by itself must not come back to a form that is replaced here.
+
 void* operator new(std::size_t size) {
   void* memory = std::malloc(size > 0 ? size : 1);
   if (memory == nullptr) {
@@ -108,10 +111,39 @@ void* operator new(std::size_t size) {
   return memory;
 }
 
+/// Who asks like this goes on without: nothing was refused that ends the program.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return std::malloc(size > 0 ? size : 1);
+}
+
+void* operator new[](std::size_t size) {
+  return operator new(size);
+}
+
+void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
+  return operator new(size, tag);
+}
+
 void operator delete(void* memory) noexcept {
   std::free(memory);
 }
 
 void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept {
+  std::free(memory);
+}
+
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+
+void operator delete[](void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+
+void operator delete[](void* memory, const std::nothrow_t& /*tag*/) noexcept {
   std::free(memory);
 }
