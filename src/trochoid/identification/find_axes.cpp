@@ -78,6 +78,58 @@ std::vector<Run> as_forces(std::span<const ChannelRun> runs) {
   return out;
 }
 
+/// A reading with the coefficients that it takes.
+struct Judged {
+  signal::Matrix3 Q;
+  const Family* family = nullptr;
+  double rms = 0.0;
+  Vector3 K{};  ///< cutting coefficients t, r, a; 0: not told
+  Vector3 K_se{};
+};
+
+/// The readings of a family, in its order.
+std::vector<Judged> judged(const Family& family) {
+  Vector3 K{};
+  Vector3 se{};
+  const auto& found = family.fit.coefficients;
+  for (std::size_t q = 0; q < std::min(K.size(), found.size()); ++q) {
+    if (!found[q]) continue;
+    K[q] = found[q]->value;
+    se[q] = found[q]->se;
+  }
+  std::vector<Judged> out;
+  for (const signal::AxesReading& reading : family.readings) {
+    const Vector3 turned_se = turned(reading.turn, se);
+    out.push_back(
+        {reading.Q,
+         &family,
+         family.rms,
+         turned(reading.turn, K),
+         {std::abs(turned_se[0]), std::abs(turned_se[1]), std::abs(turned_se[2])}});
+  }
+  return out;
+}
+
+int positive(const Judged& r) {
+  // The tangential force decides first, then the radial one.
+  return (r.K[0] > 0 ? 4 : 0) + (r.K[1] > 0 ? 2 : 0) + (r.K[2] > 0 ? 1 : 0);
+}
+
+/// The one of several that leave the same whose signs are most those of a cut.
+Judged best_by_signs(const std::vector<Judged>& readings) {
+  return *std::ranges::max_element(readings, {}, positive);
+}
+
+/// Whether the signs of a reading are those of a cut: it is driven, and neither pushed nor
+/// pulled where it should not be. Along the axis a cut may pull either way.
+bool sound(const Judged& r) {
+  return r.K[0] > 0 && !(r.K[1] + 2 * r.K_se[1] < 0);
+}
+
+bool sound(const Family& family) {
+  return sound(best_by_signs(judged(family)));
+}
+
 /// What the records become within the low harmonics, whatever the channels read.
 class Search {
  public:
@@ -144,7 +196,9 @@ class Search {
 
  private:
   [[nodiscard]] double rms_of(double rss) const {
-    return std::sqrt(std::max(0.0, rss + scatter_) / samples_);
+    // What is not a number must stand behind all others, not before them.
+    return std::isfinite(rss) ? std::sqrt(std::max(0.0, rss + scatter_) / samples_)
+                              : INFINITY;
   }
 
   /// Fits of the averaged data: near enough to compare.
@@ -161,6 +215,7 @@ class Search {
   bool settle_next(std::vector<Family>& families) {
     std::ranges::stable_sort(families, {}, &Family::rms);
     const double best = families.front().rms;
+    if (!std::isfinite(best)) return false;  // none converges: nothing to compare
     const double limit = worth_searching * best;
     const bool alone = families.size() > 1 && !(families[1].rms <= limit);
     for (Family& family : families) {
@@ -169,8 +224,13 @@ class Search {
       settle(family, clear ? std::vector<Candidate>{} : family.candidates);
       return true;
     }
+    // Where what the best ones take no cut has, the next may be the true one.
+    const bool doubtful = std::ranges::none_of(families, [&](const Family& family) {
+      return family.rms <= nearly_best * best && (!family.fitted || sound(family));
+    });
+    const double within = (doubtful ? close_rms : nearly_best) * best;
     for (Family& family : families) {
-      if (family.fitted || !(family.rms <= nearly_best * best)) continue;
+      if (family.fitted || !(family.rms <= within)) continue;
       fit(family);
       return true;
     }
@@ -193,7 +253,6 @@ class Search {
 
   void fit(Family& family) {
     family.fitted = true;
-    if (!std::isfinite(family.rms)) return;
     const signal::Matrix3& Q = family.readings.front().Q;
     Problem problem = read_by(channels_, Q);
     restrict_eccentricity(problem, family.minimum.p);
@@ -216,48 +275,61 @@ class Search {
   std::string message_;
 };
 
-/// A reading with the coefficients that it takes.
-struct Judged {
-  signal::Matrix3 Q;
-  const Family* family = nullptr;
-  double rms = 0.0;
-  Vector3 K{};  ///< cutting coefficients t, r, a
-  Vector3 K_se{};
-};
-
-/// All readings of the families, in their order.
-std::vector<Judged> judged(const std::vector<Family>& families) {
-  std::vector<Judged> out;
-  for (const Family& family : families) {
-    Vector3 K{};
-    Vector3 se{};
-    for (std::size_t q = 0; q < 3 && family.fitted; ++q) {
-      const std::optional<Estimate>& found = family.fit.coefficients[q];
-      if (found) {
-        K[q] = found->value;
-        se[q] = found->se;
-      }
-    }
-    for (const signal::AxesReading& reading : family.readings) {
-      const Vector3 turned_se = turned(reading.turn, se);
-      out.push_back(
-          {reading.Q,
-           &family,
-           family.rms,
-           turned(reading.turn, K),
-           {std::abs(turned_se[0]), std::abs(turned_se[1]), std::abs(turned_se[2])}});
-    }
-  }
-  return out;
-}
-
 bool lacks_a_channel(const ChannelRun& run) {
   return !std::ranges::all_of(run.measured, std::identity());
 }
 
-int positive(const Judged& r) {
-  // The tangential force decides first, then the radial one.
-  return (r.K[0] > 0 ? 4 : 0) + (r.K[1] > 0 ? 2 : 0) + (r.K[2] > 0 ? 1 : 0);
+/// Best reading of each group of families that leave the same, the one that leaves least
+/// first.
+struct Ranked {
+  Judged reading;
+  std::size_t same = 1;  ///< readings that leave as much
+};
+
+std::vector<Ranked> ranked(const std::vector<Family>& families) {
+  std::vector<Ranked> out;
+  for (std::size_t i = 0; i < families.size();) {
+    const double most = families[i].rms * (1 + same_rms) + 1e-9;
+    std::vector<Judged> alike;
+    for (; i < families.size() && !(families[i].rms > most); ++i) {
+      const std::vector<Judged> more = judged(families[i]);
+      alike.insert(alike.end(), more.begin(), more.end());
+    }
+    out.push_back({best_by_signs(alike), alike.size()});
+  }
+  return out;
+}
+
+/// The reading that leaves least, or, where its signs are none of a cut, the first that
+/// leaves hardly more and has them.
+void choose(const std::vector<Family>& families, const std::string& refusal,
+            AxesChoice& choice) {
+  const std::vector<Ranked> all = ranked(families);
+  const double best = all.front().reading.rms;
+  const auto better_signs = std::ranges::find_if(all, [&](const Ranked& one) {
+    return one.reading.rms <= close_rms * best && sound(one.reading);
+  });
+  const std::size_t at = better_signs == all.end()
+                             ? 0
+                             : static_cast<std::size_t>(better_signs - all.begin());
+  const Judged& chosen = all[at].reading;
+  choice.rms = chosen.rms;
+  if (!std::isfinite(chosen.rms) || positive(chosen) == 0) {
+    choice.message = refusal;
+    return;
+  }
+  choice.ok = true;
+  choice.matrix = chosen.Q;
+  if (at > 0) {
+    const Judged& first = all.front().reading;
+    choice.passed_over = {first.Q, first.rms, first.K};
+  }
+  const std::size_t next = at + 1;
+  choice.next_rms = next < all.size() ? all[next].reading.rms : INFINITY;
+  const bool clear = positive(chosen) == 7 && chosen.K[0] > 2 * chosen.K_se[0] &&
+                     chosen.K[1] > 2 * chosen.K_se[1];
+  choice.signs_clear = clear || all[at].same == 1;
+  choice.start = {chosen.family->fit.runout, chosen.family->fit.phase};
 }
 
 }  // namespace
@@ -310,26 +382,7 @@ AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> run
   }
   std::vector<Family> families = search.scanned(reading_families(problem.setup));
   search.compare(families, told);
-  const std::vector<Judged> readings = judged(families);
-  const double best = readings.front().rms;
-  const auto other = std::ranges::find_if(
-      readings, [&](const Judged& r) { return r.rms > best * (1 + same_rms) + 1e-9; });
-  const Judged& chosen = *std::max_element(
-      readings.begin(), other,
-      [](const Judged& a, const Judged& b) { return positive(a) < positive(b); });
-  if (!std::isfinite(chosen.rms) || positive(chosen) == 0) {
-    choice.message = none + search.message();
-    choice.rms = chosen.rms;
-    return choice;
-  }
-  choice.ok = true;
-  choice.matrix = chosen.Q;
-  choice.rms = chosen.rms;
-  choice.next_rms = other == readings.end() ? INFINITY : other->rms;
-  const bool clear = positive(chosen) == 7 && chosen.K[0] > 2 * chosen.K_se[0] &&
-                     chosen.K[1] > 2 * chosen.K_se[1];
-  choice.signs_clear = clear || other - readings.begin() <= 1;
-  choice.start = {chosen.family->fit.runout, chosen.family->fit.phase};
+  choose(families, none + search.message(), choice);
   return choice;
 }
 

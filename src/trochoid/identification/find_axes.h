@@ -40,15 +40,24 @@ struct AxesProblem {
       options;  ///< their band limit is an upper one: axes show in the low harmonics
 };
 
+/// A reading of the channels that leaves less than the chosen one, but takes coefficients
+/// that no cut has.
+struct PassedOver {
+  signal::Matrix3 matrix{};   ///< channels = matrix times force on the tool
+  double rms = 0.0;           ///< of the low band [N]
+  std::array<double, 3> K{};  ///< cutting coefficients t, r, a [of the law]
+};
+
 /// What the channels of a record read, found from the record alone.
 struct AxesChoice {
   bool ok = false;
   std::string message;       ///< when not ok, why
   signal::Matrix3 matrix{};  ///< channels = matrix times force on the tool
   double rms = 0.0;          ///< of the low band with this choice [N]; infinite: no fit
-  double next_rms = 0.0;     ///< of the best choice that is not the same data [N]
-  bool signs_clear = true;   ///< false: decided by coefficients that may be negative
-  Start start;               ///< runout and phases of the fit with this choice
+  double next_rms = 0.0;     ///< of the next best choice that is not the same data [N]
+  std::optional<PassedOver> passed_over = {};  ///< left less, with signs of no cut
+  bool signs_clear = true;  ///< false: decided by coefficients that may be negative
+  Start start;              ///< runout and phases of the fit with this choice
 };
 
 /// @brief Try the signed permutations of the channels.
@@ -58,7 +67,9 @@ struct AxesChoice {
 /// (I-12), and fitted in the order of the scan until the rest could change neither the
 /// choice nor what is said about it. Readings that no residual can tell apart (on a
 /// cylinder always eight, else two: the same with all signs turned) are decided by K_tc,
-/// K_rc, K_ac > 0. Without one of the channels there is no choice.
+/// K_rc, K_ac > 0. Where the reading that leaves least takes a negative K_tc or a clearly
+/// negative K_rc, which no cut has, the first within 1.5 times of it that does not stands
+/// before it. Without one of the channels there is no choice.
 /// @param told  the part that is done, from 0 to 1, at every step; may be empty
 AxesChoice find_axes(const AxesProblem& problem, std::span<const ChannelRun> runs,
                      const std::function<void(double)>& told);

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -79,6 +82,41 @@ TEST(FindAxes, SaysWhereSignsDecideNothing) {
   const AxesChoice choice = find_axes(problem(setup), {&run, 1}, {});
   ASSERT_TRUE(choice.ok) << choice.message;
   EXPECT_FALSE(choice.signs_clear);
+}
+
+/// Which reading leaves least is then chance: that of a cut is taken, and the other told.
+TEST(FindAxes, PutsReadingsWithSignsOfNoCutBehindThoseOfACut) {
+  force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
+  setup.cutter.profile = geometry::ball(8.0 * unit::mm);
+  const force::LinearEdge no_cut{340e6, -376e6, -1249e6, 7e3, -3e3, -1e3};
+  const Record record =
+      made_record(setup, no_cut, {.phase = 0.2, .turns = 4.0, .noise = 60.0});
+  ChannelRun run{record.cut, record.angle, {}};
+  for (const auto& F : record.force) {
+    for (std::size_t c = 0; c < 3; ++c) run.channel[c].push_back(F[c]);
+  }
+  AxesProblem ball = problem(setup);
+  ball.options = {.chip_model = chip::Model::none, .phase = 0.2};
+  const AxesChoice choice = find_axes(ball, {&run, 1}, {});
+  ASSERT_TRUE(choice.ok) << choice.message;
+  ASSERT_TRUE(choice.passed_over);
+  EXPECT_LT(choice.passed_over->K[1], 0.0);
+  EXPECT_LT(choice.passed_over->rms, choice.rms);
+  EXPECT_LT(choice.rms, 1.5 * choice.passed_over->rms);
+  EXPECT_NE(choice.passed_over->matrix, choice.matrix);
+}
+
+/// As where no reading converges: there is nothing to choose from, and that is said.
+TEST(FindAxes, RefusesWhereNoReadingConverges) {
+  const force::Setup setup = with_runout();
+  const ChannelRun run = channels(setup, steel(), reading({"x", "y", "z"}));
+  AxesProblem hopeless = problem(setup);
+  hopeless.options.stop.left = std::make_shared<std::atomic<std::int64_t>>(0);
+  const AxesChoice choice = find_axes(hopeless, {&run, 1}, {});
+  EXPECT_FALSE(choice.ok);
+  EXPECT_NE(choice.message.find("did not converge"), std::string::npos)
+      << choice.message;
+  EXPECT_FALSE(std::isfinite(choice.rms));
 }
 
 TEST(OnTool, TurnsChannelsIntoForces) {
