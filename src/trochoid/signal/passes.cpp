@@ -1,6 +1,7 @@
 #include <trochoid/signal/passes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/signal/turn_lines.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 using Channels = std::array<std::vector<double>, 3>;
 
-constexpr std::size_t a_turn = 4;  ///< steps
+constexpr std::size_t a_turn = quarters_of_turn;  ///< steps
 /// Fewer steps in a row are no air: two turns.
 constexpr std::size_t least_air = 8;
 constexpr std::size_t least_samples = 12;  ///< of a turn
@@ -22,6 +23,8 @@ constexpr double nothing = 1e-3;      ///< of the cut: what a program may leave 
 constexpr double twice_quietest = 2;  ///< of the quietest turn: at most this in air
 constexpr double like_most = 0.9;   ///< of the upper quartile: at least this if steady
 constexpr double told_apart = 0.7;  ///< of the upper quartile: entry or exit below
+constexpr double most_lines = 12;   ///< two for each tooth of most cutters
+constexpr double samples_a_line = 3;
 
 /// Sample at which each quarter of a turn begins, and the end of the last. Where samples
 /// are missing, quarters are counted anew.
@@ -87,6 +90,14 @@ struct Turns {
   [[nodiscard]] std::size_t quarters() const { return begins.size() - 1; }
 };
 
+Windows windows_of(const Steps& s) {
+  return {s.from, s.to - a_turn + 1};
+}
+
+Steps steps_of(const Windows& w) {
+  return {w.begin, w.end - 1 + a_turn};
+}
+
 /// Runs of turns for which `holds`, as steps.
 template <class Holds>
 std::vector<Steps> runs_where(std::size_t first, std::size_t last, const Holds& holds) {
@@ -140,29 +151,43 @@ std::vector<Steps> bridged(const std::vector<Steps>& runs) {
 /// Quarters of a pass that can spare nearly a turn at either end.
 constexpr std::size_t long_pass = 6 * a_turn;
 
-/// The steady part of a pass; a turn with a part of the entry in it may still be like
-/// most, half a turn where the dynamometer rings on, so that as much as can be spared is left
-/// out there.
-std::vector<Part> steady_in(const Turns& turns, const Steps& pass) {
-  if (pass.to < pass.from + a_turn) {
-    return {};
-  }
+/// The steady part of a pass of a few turns, by how much they vary.
+Steps steady_of_few(const Turns& turns, const Steps& pass) {
   const std::size_t last = pass.to - a_turn + 1;
   const std::vector<double> level(
       turns.level.begin() + static_cast<std::ptrdiff_t>(pass.from),
       turns.level.begin() + static_cast<std::ptrdiff_t>(last));
   const double usual = quantile(level, 0.75);
-  Steps best = pass;
-  Steps ends{0, turns.quarters()};  // that nothing need be left out at
-  if (*std::min_element(level.begin(), level.end()) < told_apart * usual) {
-    const auto runs = bridged(runs_where(pass.from, last, [&](std::size_t k) {
-      return turns.level[k] >= like_most * usual;
-    }));
-    best = *std::max_element(
-        runs.begin(), runs.end(),
-        [](const Steps& a, const Steps& b) { return a.to - a.from < b.to - b.from; });
-    ends = pass;
+  if (*std::min_element(level.begin(), level.end()) >= told_apart * usual) return pass;
+  const auto runs = bridged(runs_where(pass.from, last, [&](std::size_t k) {
+    return turns.level[k] >= like_most * usual;
+  }));
+  return *std::max_element(
+      runs.begin(), runs.end(),
+      [](const Steps& a, const Steps& b) { return a.to - a.from < b.to - b.from; });
+}
+
+/// The steady part of a pass; a turn with a part of the entry in it may still be like
+/// most, half a turn where the dynamometer rings on, so that as much as can be spared is left
+/// out there.
+std::vector<Part> steady_in(const Turns& turns, const TurnLines& lines,
+                            const Steps& pass) {
+  if (pass.to < pass.from + a_turn) {
+    return {};
   }
+  Steps best = pass;
+  bool sure = true;  // that nothing of what is beside air is like most by chance
+  if (pass.to - pass.from < long_pass) {
+    best = steady_of_few(turns, pass);
+    sure = best.from == pass.from && best.to == pass.to;
+  } else {
+    const Windows steady =
+        steady_windows(lines, {.windows = windows_of(pass),
+                               .air_before = pass.from > 0,
+                               .air_after = pass.to < turns.quarters()});
+    best = steps_of(steady);
+  }
+  const Steps ends = sure ? Steps{0, turns.quarters()} : pass;
   const bool is_long = best.to - best.from >= long_pass;
   const std::size_t margin = is_long ? 3 : (best.from == pass.from ? 0 : 1);
   const std::size_t margin_after = is_long ? 3 : (best.to == pass.to ? 0 : 1);
@@ -181,6 +206,13 @@ std::vector<Steps> between(const std::vector<Steps>& air, std::size_t quarters) 
   }
   if (quarters > from) passes.push_back({from, quarters});
   return passes;
+}
+
+/// As many lines as the samples of a turn tell apart.
+int lines_of(const Turns& turns) {
+  const double per_turn = static_cast<double>(turns.begins.back() * a_turn) /
+                          static_cast<double>(turns.quarters());
+  return static_cast<int>(std::clamp(per_turn / samples_a_line, 1.0, most_lines));
 }
 
 void keep(const Part& part, std::vector<double>& values) {
@@ -210,10 +242,17 @@ Passes passes_of(const Channels& channels, std::span<const double> angle) {
   for (std::size_t k = 0; k + a_turn <= turns.quarters(); ++k) {
     turns.level.push_back(variation(channels, turns.part({k, k + a_turn})));
   }
-  const std::vector<Steps> air = air_in(turns);
+  TurnLines lines = turn_lines(channels, angle, turns.begins, lines_of(turns));
+  std::vector<Steps> air = air_in(turns);
+  if (air.empty()) {
+    std::ranges::transform(air_by_means(lines), std::back_inserter(air), steps_of);
+  }
+  std::vector<Windows> idle;
+  std::ranges::transform(air, std::back_inserter(idle), windows_of);
+  take_idle_out(idle, lines);
   Passes found;
   for (const Steps& pass : between(air, turns.quarters())) {
-    for (const Part& part : steady_in(turns, pass)) found.steady.push_back(part);
+    for (const Part& part : steady_in(turns, lines, pass)) found.steady.push_back(part);
   }
   if (found.steady.empty()) return whole;
   for (Steps s : air) {  // the turn next to a cut still rings
