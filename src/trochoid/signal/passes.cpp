@@ -134,6 +134,21 @@ std::vector<Steps> air_in(const Turns& turns) {
   return runs;
 }
 
+/// Whether the quietest turn varies so much that noise alone may pass for a cut.
+bool noise_hides_air(const Turns& turns) {
+  const double least = *std::min_element(turns.level.begin(), turns.level.end());
+  return twice_quietest * least > quiet * usual_cut(turns.level);
+}
+
+/// By how much turns vary, or else by their means.
+std::vector<Steps> air_of(const Turns& turns, const TurnLines& lines) {
+  std::vector<Steps> by_level = air_in(turns);
+  if (!by_level.empty() && !noise_hides_air(turns)) return by_level;
+  std::vector<Steps> by_means;
+  std::ranges::transform(air_by_means(lines), std::back_inserter(by_means), steps_of);
+  return by_means.empty() ? by_level : by_means;
+}
+
 /// Runs with less than two turns between them as one: with few samples a turn, or much
 /// noise, single turns vary less than most.
 std::vector<Steps> bridged(const std::vector<Steps>& runs) {
@@ -243,10 +258,7 @@ Passes passes_of(const Channels& channels, std::span<const double> angle) {
     turns.level.push_back(variation(channels, turns.part({k, k + a_turn})));
   }
   TurnLines lines = turn_lines(channels, angle, turns.begins, lines_of(turns));
-  std::vector<Steps> air = air_in(turns);
-  if (air.empty()) {
-    std::ranges::transform(air_by_means(lines), std::back_inserter(air), steps_of);
-  }
+  const std::vector<Steps> air = air_of(turns, lines);
   std::vector<Windows> idle;
   std::ranges::transform(air, std::back_inserter(idle), windows_of);
   take_idle_out(idle, lines);
