@@ -19,11 +19,29 @@ function stockOf(cut, radius) {
   return [-1, 1];
 }
 
-/** @param given a case, as read @returns a picture, or null without a tool */
+/** Whether a value is a length that can be drawn: what the case's rules refuse is not. */
+function isLength(value, most = 1e4) {
+  return typeof value === 'number' && Number.isFinite(value) && value > 0 && value <= most;
+}
+
+function areNumbers(values) {
+  return Array.isArray(values) && values.every((v) => typeof v === 'number' && Number.isFinite(v));
+}
+
+/** Whether tool and cut are what the case's rules take, as far as the drawing needs them. */
+function isDrawable(tool, cut) {
+  const whole = Number.isInteger(tool.teeth) && tool.teeth >= 1 && tool.teeth <= 64;
+  const depth = cut.radial_depth_mm;
+  return whole && isLength(tool.diameter_mm) && (depth === undefined || isLength(depth)) &&
+         (tool.pitch_deg === undefined || areNumbers(tool.pitch_deg)) &&
+         (cut.stock_y_mm === undefined || areNumbers(cut.stock_y_mm));
+}
+
+/** @param given a case, as read @returns a picture, or null without a tool or of one that cannot be */
 function drawCut(given) {
-  const tool = inMm(given.tool);
-  const cut = inMm(given.cut);
-  if (!(tool.diameter_mm > 0) || !(tool.teeth >= 1)) return null;
+  const tool = inMm(given.tool ?? {});
+  const cut = inMm(given.cut ?? {});
+  if (!isDrawable(tool, cut)) return null;
   const radius = tool.diameter_mm / 2;
   const R = 62;
   const [low, high] = stockOf(cut, radius).map((y) => Math.max(-1.25, Math.min(1.25, y)));
@@ -38,7 +56,7 @@ function drawCut(given) {
   svg.append(shape('circle', { class: 'tool', r: R }));
   const pitch = tool.pitch_deg?.length === tool.teeth ? tool.pitch_deg : Array(tool.teeth).fill(360 / tool.teeth);
   let angle = 0;
-  for (let j = 0; j < Math.min(tool.teeth, 64); ++j) {
+  for (let j = 0; j < tool.teeth; ++j) {
     const a = (-angle * Math.PI) / 180;  // tooth 2 follows tooth 1: against the rotation
     svg.append(shape('line', { class: 'tooth', x1: 0.35 * R * Math.sin(a), y1: -0.35 * R * Math.cos(a),
                                x2: R * Math.sin(a), y2: -R * Math.cos(a) }));
@@ -62,3 +80,5 @@ function caption(tool, cut) {
   if (cut.spindle_rpm !== undefined) parts.push(`${cut.spindle_rpm} rpm`);
   return parts.join(', ');
 }
+
+if (typeof module !== 'undefined') module.exports = { stockOf, shape, isLength, isDrawable, drawCut };

@@ -70,10 +70,10 @@ function edgesSeen(tool, profile, height) {
 
 /** @param given a case, as read @returns a picture, or null without tool or depth */
 function drawSide(given) {
-  const tool = inMm(given.tool);
-  const cut = inMm(given.cut);
+  const tool = inMm(given.tool ?? {});
+  const cut = inMm(given.cut ?? {});
   const depth = cut.axial_depth_mm;
-  if (!(tool.diameter_mm > 0) || !(tool.teeth >= 1) || !(depth > 0)) return null;
+  if (!isDrawable(tool, cut) || !isLength(depth)) return null;
   const radius = tool.diameter_mm / 2;
   const height = Math.max(1.35 * depth, 1.3 * radius);
   const profile = profileOf(tool, height);
@@ -97,4 +97,4 @@ function drawSide(given) {
   return svg;
 }
 
-if (typeof module !== 'undefined') module.exports = { profileOf, radiusAt, edgesSeen };
+if (typeof module !== 'undefined') module.exports = { profileOf, radiusAt, edgesSeen, drawSide };

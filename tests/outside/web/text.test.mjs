@@ -13,7 +13,9 @@ const { tablesOf, withKey, withoutTable, withToolOf, tomlOf, keyOf } = need(`${r
 Object.assign(globalThis, { tablesOf, withKey, tomlOf, keyOf });  // the page has one scope
 const { inchKeyOf, withUnit, inMm } = need(`${root}/web/lengths.js`);
 const { valuesTyped, valuesShown, numbersOf, withSwept } = need(`${root}/web/swept.js`);
-const { profileOf, radiusAt, edgesSeen } = need(`${root}/web/side_view.js`);
+const { stockOf, shape, isLength, isDrawable, drawCut } = need(`${root}/web/drawing.js`);
+Object.assign(globalThis, { inMm, stockOf, shape, isLength, isDrawable });
+const { profileOf, radiusAt, edgesSeen, drawSide } = need(`${root}/web/side_view.js`);
 const { typed, mistakesOf, rangeOf, unitOf } = need(`${root}/web/form.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
@@ -176,4 +178,29 @@ test('a new case takes the tool of another along', () => {
   const text = withToolOf('# a\n[tool]\nteeth = 2 # of it\n\n# the cut\n[cut]\nspindle_rpm = 1\n', 'title = "b"\n[tool]\nteeth = 4\npitch_deg = [80,\n100, 90, 90]\n\n# more\n[cut]\n');
   assert.equal(text, '# a\n[tool]\nteeth = 4\npitch_deg = [80,\n100, 90, 90]\n\n# the cut\n[cut]\nspindle_rpm = 1\n');
   assert.equal(withToolOf('[step]\n', '[tool]\n'), '[step]\n');
+});
+
+test('what no case may hold is not drawn, and breaks nothing', () => {
+  globalThis.document = { createElementNS: () => ({ setAttribute() {}, append() {}, prepend() {} }) };
+  const sound = { tool: { shape: 'bull_nose', teeth: 4, diameter_mm: 10, corner_radius_mm: 1, helix_deg: 30 },
+                  cut: { engagement: 'up', radial_depth_mm: 3, axial_depth_mm: 2, feed_per_tooth_mm: 0.1, spindle_rpm: 3000 } };
+  assert.ok(drawCut(sound) && drawSide(sound));
+  for (const teeth of [7.25, 1e9, 65, 0, -3, NaN, '4', null]) {
+    const given = { ...sound, tool: { ...sound.tool, teeth } };
+    assert.equal(drawCut(given), null, `${teeth} teeth`);
+    assert.equal(drawSide(given), null, `${teeth} teeth`);
+  }
+  const odd = [7.25, 1e9, 1e308, -1, 0, NaN, Infinity, '', 'x', true, null, [], [1, 'a'], [1e9, -1e9], {}];
+  const schema = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8'));
+  for (const table of ['tool', 'cut']) {
+    for (const key of Object.keys(schema.properties[table].properties)) {
+      for (const value of odd) {
+        const given = { ...sound, [table]: { ...sound[table], [key]: value } };
+        assert.doesNotThrow(() => [drawCut(given), drawSide(given)], `${table}.${key} = ${JSON.stringify(value)}`);
+      }
+    }
+  }
+  for (const given of [{}, { tool: 3 }, { tool: sound.tool }, { cut: [] , tool: [] }]) {
+    assert.doesNotThrow(() => [drawCut(given), drawSide(given)]);
+  }
 });
