@@ -45,13 +45,17 @@ std::optional<double> number_before(std::string_view& text) {
   return value;
 }
 
-/// `5.0000 mm`, `0.25 in`, `0.25"` [m].
+/// `5.0000 mm`, `0.25 in`, `0.25"`, and as FreeCAD writes what is short, `635.0 um` with a
+/// Greek letter [m].
 std::optional<double> length_in(std::string_view text) {
   text = without_space(text);
   const auto value = number_before(text);
   const std::string_view symbol = without_space(text);
   if (!value) return std::nullopt;
   if (symbol == "mm") return *value * unit::mm;
+  for (const std::string_view um : {"um", "\xC2\xB5m", "\xCE\xBCm"}) {
+    if (symbol == um) return *value * unit::um;
+  }
   if (symbol == "in" || symbol == "\"") return *value * unit::inch;
   return std::nullopt;
 }
@@ -96,10 +100,20 @@ Shape shape_of(const Json& bit, const std::string& file) {
   });
   if (shape == "endmill") return Shape::cylinder;
   if (shape == "ballend") return Shape::ball;
-  if (shape == "bullnose") return Shape::bull_nose;
+  if (shape == "bullnose" || shape == "torus") return Shape::bull_nose;
   refuse_tool(file, fmt::format("the tool is of the shape \"{}\"; must be an end mill: "
-                                "endmill, ballend or bullnose",
+                                "endmill, ballend, bullnose or torus",
                                 shape));
+}
+
+/// Of a bull nose: as it stands, or what is left beside the flat in its middle.
+std::optional<double> corner_radius_of(const Json& bit, double diameter) {
+  for (const char* key : {"CornerRadius", "TorusRadius"}) {
+    if (const auto radius = length_in(text_in(bit, key))) return radius;
+  }
+  const auto flat = length_in(text_in(bit, "FlatRadius"));
+  if (!flat || !(*flat >= 0.0 && *flat < 0.5 * diameter)) return std::nullopt;
+  return 0.5 * diameter - *flat;
 }
 
 FoundTool tool_of_bit(const std::string& text, const std::string& file) {
@@ -118,7 +132,7 @@ FoundTool tool_of_bit(const std::string& text, const std::string& file) {
   }
   tool.diameter = *length;
   if (tool.shape == Shape::bull_nose) {
-    tool.corner_radius = length_in(text_in(bit, "CornerRadius"));
+    tool.corner_radius = corner_radius_of(bit, tool.diameter);
   }
   const std::string flutes = text_in(bit, "Flutes");
   std::string_view rest = without_space(flutes);
@@ -146,6 +160,13 @@ TableLine line_of_table(std::string_view line) {
     const char letter =
         static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
     line.remove_prefix(1);
+    // As it is written of a tool that has no pocket: `T1 P X0`.
+    const bool without_number =
+        line.empty() || line.front() == ' ' || line.front() == '\t';
+    if (without_number && letter != 'T' && letter != 'D') {
+      line = without_space(line);
+      continue;
+    }
     const auto value = number_before(line);
     if (!value) return {};
     if (letter == 'T' && *value >= 0 && *value < most_number) {

@@ -60,6 +60,30 @@ TEST_F(ToolFile, CornersAndInches) {
   EXPECT_EQ(bull.teeth, std::nullopt);
 }
 
+/// As FreeCAD 0.19 to 1.0 write them.
+TEST_F(ToolFile, OfFreeCadInItsOlderWords) {
+  const FoundTool flat = read(
+      R"({"shape": "bullnose.fcstd", "parameter": {"Diameter": "6.00 mm", "FlatRadius": "1.50 mm"}})");
+  EXPECT_EQ(flat.shape, Shape::bull_nose);
+  EXPECT_DOUBLE_EQ(flat.corner_radius.value(), 1.5 * unit::mm);
+  const FoundTool torus = read(
+      R"({"shape": "torus.fcstd", "parameter": {"Diameter": "6.00 mm", "TorusRadius": "0.50 mm"}})");
+  EXPECT_EQ(torus.shape, Shape::bull_nose);
+  EXPECT_DOUBLE_EQ(torus.corner_radius.value(), 0.5 * unit::mm);
+  for (const std::string mu : {"u", "\xC2\xB5", "\xCE\xBC"}) {
+    const FoundTool small =
+        read(R"({"shape": "endmill.fcstd", "parameter": {"Diameter": "635.0 )" + mu +
+             R"(m"}})");
+    EXPECT_DOUBLE_EQ(small.diameter, 0.635 * unit::mm);
+  }
+}
+
+TEST_F(ToolFile, OfLinuxCncWithoutAPocket) {
+  const std::string table = "T1 P X0 Y0 D4.00 I0 ; 4mm\nT2 P0 X0 D6.00 ;6mm\n";
+  EXPECT_DOUBLE_EQ(read(table, 1).diameter, 4 * unit::mm);
+  EXPECT_EQ(refused(table), ": which tool? --tool-number, one of 1, 2");
+}
+
 TEST_F(ToolFile, OfLinuxCnc) {
   const std::string table =
       "T1 P1 D0.125000 Z+0.511000 ;1/8 end mill\r\n;a comment\n"
@@ -78,16 +102,16 @@ TEST_F(ToolFile, OfLinuxCnc) {
 TEST_F(ToolFile, WhatIsNoEndMillIsRefused) {
   EXPECT_EQ(
       refused(R"({"shape": "drill.fcstd", "parameter": {"Diameter": "5 mm"}})"),
-      ": the tool is of the shape \"drill\"; must be an end mill: endmill, ballend "
-      "or bullnose");
+      ": the tool is of the shape \"drill\"; must be an end mill: endmill, ballend, "
+      "bullnose or torus");
   EXPECT_EQ(
       refused(R"({"shape": "endmill.fcstd", "parameter": {"Diameter": "5"}})"),
       ": \"Diameter\" = \"5\": must be a length such as \"6.0 mm\" or \"0.25 in\"");
   EXPECT_EQ(refused("{\"tool\": 1"),
             ": this is no tool bit of FreeCAD, which is JSON with a \"shape\"");
   EXPECT_EQ(refused(R"({"shape": 3, "name": null})"),
-            ": the tool is of the shape \"\"; must be an end mill: endmill, ballend or "
-            "bullnose");
+            ": the tool is of the shape \"\"; must be an end mill: endmill, ballend, "
+            "bullnose or torus");
   EXPECT_EQ(refused("time_s,Fx_N\n0,1\n").substr(0, 29),
             ": no tool with a diameter is ");
   EXPECT_EQ(refused("T1 D1e400\nT2 Dnan\nT1e30 D1\nT3 Dinf\nT4 D1e-300\n").substr(0, 9),
