@@ -20,6 +20,17 @@ double natural_frequency(const Mode& mode) {
 
 namespace {
 
+/// What mass and stiffness make of a frequency that is given as well.
+std::string contradiction(const Mode& mode) {
+  if (!mode.mass || !mode.stiffness || !mode.frequency || !(*mode.mass > 0.0) ||
+      !(*mode.frequency > 0.0)) {
+    return "";
+  }
+  const double made = std::sqrt(*mode.stiffness / *mode.mass) / unit::turn;
+  return fmt::format(" (stiffness and mass make {:.4g} Hz, {:+.2g} % off {:g} Hz)", made,
+                     100.0 * (made / *mode.frequency - 1.0), *mode.frequency);
+}
+
 void check_mode(const Mode& mode, const std::string& path, Findings& findings) {
   if (!sound(findings,
              {path + ".mass_kg", path + ".stiffness_N_per_m", path + ".frequency_Hz",
@@ -32,8 +43,8 @@ void check_mode(const Mode& mode, const std::string& path, Findings& findings) {
     report(
         findings, path,
         fmt::format("{}: {} of mass_kg, stiffness_N_per_m and frequency_Hz are given; "
-                    "must be 2, the third follows",
-                    path, given));
+                    "must be 2, the third follows{}",
+                    path, given, contradiction(mode)));
   }
   const double frequency = natural_frequency(mode);
   if (given == 2 && !mode.frequency &&
