@@ -1,6 +1,7 @@
 #include <trochoid/files/numeric_table.h>
 
 #include <trochoid/base/error.h>
+#include <trochoid/files/channel_starts.h>
 #include <trochoid/files/record_file_columns.h>
 #include <trochoid/files/record_file_pulse.h>
 #include <trochoid/files/record_file_time.h>
@@ -176,6 +177,51 @@ void read_columns(const NumericTable& table, const RecordColumns& found,
   }
 }
 
+/// What one column of a record is read into.
+std::vector<double>* values_of(const TableColumn& column, const RecordColumns& found,
+                               signal::Record& record, std::vector<double>& pulse) {
+  const auto is = [&](const std::optional<TableColumn>& other) {
+    return other && other->index == column.index;
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (is(found.force[c])) return &record.channel[c];
+  }
+  if (is(found.angle)) return &record.angle;
+  return is(found.pulse) ? &pulse : nullptr;
+}
+
+/// Bring columns that start at different times together; the times of a column of times
+/// are those of all.
+void align(const NumericTable& table, const RecordColumns& found,
+           signal::Record& record, std::vector<double>& pulse, SampleRates& rates,
+           Problems& problems) {
+  const double rate = rates.given > 0.0 ? rates.given : rates.stated;
+  if (found.time || !(rate > 0.0)) return;
+  std::vector<StartedColumn> started;
+  for (const TableColumn& column : used_of(found).columns) {
+    const double start = table.columns[column.index].first_time;
+    if (!std::isfinite(start)) {
+      problems.add(0, 0,
+                   fmt::format("column {} begins at {} s: a number is needed",
+                               excerpt(column.name), start));
+      return;
+    }
+    started.push_back({column.name, start, values_of(column, found, record, pulse)});
+  }
+  const Starts starts = align_starts(started, rate);
+  if (!starts.problem.empty()) {
+    problems.add(0, 0, starts.problem);
+    return;
+  }
+  rates.first_time = starts.first;
+  if (starts.note.empty()) return;
+  record.notes.push_back({"channels_aligned", starts.note});
+  const std::size_t count = started.front().values->size();
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!record.measured[c]) record.channel[c].assign(count, 0.0);
+  }
+}
+
 }  // namespace
 
 void refuse(const std::string& name, const std::string& why) {
@@ -200,15 +246,18 @@ signal::Record record_of(const NumericTable& table, const std::string& name,
   throw_if_any(problems);
   const auto used = used_of(found);
   check_lengths(table, used, problems);
-  const auto rates = rates_of(table, used, source, problems);
+  auto rates = rates_of(table, used, source, problems);
   throw_if_any(problems);
   read_columns(table, found, record, problems);
+  std::vector<double> pulse;
+  if (found.pulse) pulse = values_in_si(table, *found.pulse, problems);
+  throw_if_any(problems);
+  align(table, found, record, pulse, rates, problems);
   throw_if_any(problems);
   settle_time(record, {.values = record.time, .lines = {}}, rates, problems);
   throw_if_any(problems);
   if (found.pulse) {
-    take_pulses(record, found.pulse->name, values_in_si(table, *found.pulse, problems),
-                problems);
+    take_pulses(record, found.pulse->name, pulse, problems);
     throw_if_any(problems);
   }
   return record;

@@ -113,7 +113,15 @@ std::vector<double> values_of(std::istream& in, const TdmsObject& object,
   return values;
 }
 
-NumericColumn column_of(const TdmsObject& object) {
+/// When the first of all channels was started; others count from there.
+double started(const std::vector<TdmsObject>& objects) {
+  for (const TdmsObject& object : objects) {
+    if (const auto time = number(object, "wf_start_time")) return *time;
+  }
+  return 0.0;
+}
+
+NumericColumn column_of(const TdmsObject& object, double begin) {
   NumericColumn column{.name = object.channel,
                        .path = fmt::format("{}/{}", object.group, object.channel),
                        .unit = text(object, "unit_string"),
@@ -121,7 +129,9 @@ NumericColumn column_of(const TdmsObject& object) {
   const double step = number(object, "wf_increment").value_or(0.0);
   if (step > 0.0) {
     column.sample_rate = 1.0 / step;
-    column.first_time = number(object, "wf_start_offset").value_or(0.0);
+    // The difference first: seconds since 1904 leave no digits for an offset.
+    column.first_time = number(object, "wf_start_offset").value_or(0.0) +
+                        (number(object, "wf_start_time").value_or(begin) - begin);
   }
   const bool times =
       !object.runs.empty() && object.runs.front().kind == NumberKind::timestamp;
@@ -141,7 +151,10 @@ NumericTable tdms_table(std::istream& in, const std::string& name) {
     return object.channel.empty() || object.runs.empty() || object.count() == 0;
   });
   NumericTable table;
-  for (const auto& object : file.objects) table.columns.push_back(column_of(object));
+  const double begin = started(file.objects);
+  for (const auto& object : file.objects) {
+    table.columns.push_back(column_of(object, begin));
+  }
   if (file.unfinished) {
     table.notes.push_back({"part_of_record",
                            "The file was not closed by the program that wrote it: its "
