@@ -27,6 +27,11 @@ constexpr std::array units = {
     Unit{"s", Quantity::time, 1.0},
     Unit{"sec", Quantity::time, 1.0},
     Unit{"Seconds", Quantity::time, 1.0},
+    Unit{"seconds", Quantity::time, 1.0},
+    Unit{"second", Quantity::time, 1.0},
+    Unit{"Second", Quantity::time, 1.0},
+    Unit{"msec", Quantity::time, 1e-3},
+    Unit{"usec", Quantity::time, 1e-6},
     Unit{"ms", Quantity::time, 1e-3},
     Unit{"us", Quantity::time, 1e-6},
     Unit{"\xC2\xB5s", Quantity::time, 1e-6},
@@ -233,6 +238,10 @@ bool is_unit_row(std::span<const Field> row) {
   return any;
 }
 
+bool is_unit(std::string_view text) {
+  return find_unit(without_brackets(text)) != nullptr;
+}
+
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -259,8 +268,8 @@ bool lacks_names(const ColumnSearch& search, std::string_view example) {
   }
   search.problems.add(search.head.names_line, 1,
                       fmt::format("the first row holds numbers: a row of names, for "
-                                  "example {}, must come before them",
-                                  example));
+                                  "example {}, must come before them{}",
+                                  example, search.without_names));
   return true;
 }
 

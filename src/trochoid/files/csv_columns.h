@@ -21,6 +21,9 @@ enum class Quantity {
 /// @brief Whether a row below the names holds units: texts, and no number at all.
 bool is_unit_row(std::span<const Field> row);
 
+/// @brief Whether a text is a unit, of whatever quantity, perhaps in brackets.
+bool is_unit(std::string_view text);
+
 /// @brief A name as it is compared: small letters, no blanks, `_` or `-`.
 std::string plain(std::string_view text);
 
@@ -34,6 +37,7 @@ struct ColumnSearch {
   std::function<bool(std::string_view)> known;  ///< a `plain` name without its unit
   std::string_view advice;                      ///< where several columns would do
   double length_unit = 0.0;  ///< to SI, of lengths that name none; 0: they must
+  std::string_view without_names = {};  ///< what else helps where there are no names
 };
 
 /// @brief A name of a column without its unit, as `plain` makes it.

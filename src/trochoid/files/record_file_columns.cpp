@@ -10,16 +10,29 @@ namespace trochoid::files {
 namespace {
 
 using namespace std::string_view_literals;
-constexpr std::array time_names = {"time"sv, "t"sv};
+constexpr std::array time_names = {"time"sv,
+                                   "t"sv,
+                                   "zeit"sv,
+                                   "temps"sv,
+                                   "tiempo"sv,
+                                   "tempo"sv,
+                                   "tijd"sv,
+                                   "xaxis"sv,
+                                   "xvalue"sv,
+                                   "\xE6\x97\xB6\xE9\x97\xB4"sv,  // in Chinese
+                                   "\xCA\xB1\xBC\xE4"sv};         // the same in GBK
 constexpr std::array angle_names = {"angle"sv, "phi"sv, "spindleangle"sv};
 constexpr std::array force_names = {
     std::array{"fx"sv, "forcex"sv, "channel1"sv},
     std::array{"fy"sv, "forcey"sv, "channel2"sv},
     std::array{"fz"sv, "forcez"sv, "channel3"sv},
 };
-constexpr std::size_t usual = 2;  // the rest of force_names is second choice
+constexpr std::size_t usual = 2;  // the rest of the names is second choice
 
 constexpr std::string_view advice = "say in the case file which one is meant";
+constexpr std::string_view by_number =
+    "; or name the columns by their numbers: columns = [\"2\", \"3\", \"4\"] and "
+    "time_column = \"1\" in the case file";
 
 bool is_known_name(std::string_view name) {
   const auto among = [&](NameList list) {
@@ -29,8 +42,19 @@ bool is_known_name(std::string_view name) {
          std::any_of(force_names.begin(), force_names.end(), among);
 }
 
+/// What helps with names that a case file cannot spell.
+std::string_view numbers_help(const ColumnSearch& search) {
+  const auto foreign = [](const Field& field) {
+    return std::ranges::any_of(
+        field.text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  };
+  return std::ranges::any_of(search.head.names, foreign)
+             ? "; their numbers, from \"1\" on, name them, too"
+             : "";
+}
+
 /// A column named in the case file: as written, else whatever the case of its letters,
-/// else without the unit.
+/// else without the unit, else by its number, the first being 1.
 std::optional<std::size_t> named_column(const ColumnSearch& search,
                                         const std::string& name) {
   const auto shown = excerpt(name);
@@ -42,19 +66,28 @@ std::optional<std::size_t> named_column(const ColumnSearch& search,
   if (const auto at = only_column(search, exact, shown)) return at;
   if (const auto at = only_column(search, folded, shown)) return at;
   if (const auto at = only_column(search, base, shown)) return at;
+  const bool digits = !name.empty() && name.size() < 5 &&
+                      name.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t number = digits ? std::stoul(name) : 0;
+  if (number >= 1 && number <= search.head.names.size()) return number - 1;
   search.problems.add(search.head.names_line, 1,
-                      fmt::format("there is no column {}: the columns are {}", shown,
-                                  all_names(search.head)));
+                      fmt::format("there is no column {}: the columns are {}{}", shown,
+                                  all_names(search.head), numbers_help(search)));
   return std::nullopt;
 }
 
 std::optional<TableColumn> find_axis(const ColumnSearch& search,
                                      const std::string& given, NameList names,
                                      Quantity quantity) {
-  const auto at =
-      given.empty() ? usual_column(search, names) : named_column(search, given);
-  if (!at) return std::nullopt;
-  return column_at(search, *at, quantity);
+  if (!given.empty()) {
+    const auto at = named_column(search, given);
+    return at ? std::optional(column_at(search, *at, quantity)) : std::nullopt;
+  }
+  // Names of other tongues and programs are second choice.
+  const std::size_t first = std::min(usual, names.size());
+  auto at = usual_column(search, names.first(first));
+  if (!at) at = usual_column(search, names.subspan(first));
+  return at ? std::optional(column_at(search, *at, quantity)) : std::nullopt;
 }
 
 /// @param channel  from 0
@@ -72,6 +105,22 @@ bool begins_some_name(const ColumnSearch& search, std::string_view force) {
   });
 }
 
+/// A name without what is written before it in letters beyond ASCII, as `(cutting force)Fx`.
+std::string_view ascii_end(std::string_view text) {
+  const auto last = std::find_if(text.rbegin(), text.rend(), [](char c) {
+    return static_cast<unsigned char>(c) >= 0x80;
+  });
+  return text.substr(static_cast<std::size_t>(text.rend() - last));
+}
+
+std::optional<std::size_t> foreign_column(const ColumnSearch& search, NameList names) {
+  const auto passes = [&](std::string_view text) {
+    const std::string end = base_name(search, ascii_end(text));
+    return std::find(names.begin(), names.end(), end) != names.end();
+  };
+  return only_column(search, passes, excerpt(names.front()));
+}
+
 std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& search) {
   std::array<std::optional<std::size_t>, 3> found;
   if (lacks_names(search, "angle_deg,Fx_N,Fy_N,Fz_N")) {
@@ -85,14 +134,19 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
       found[i] = usual_column(search, NameList(force_names[i]).subspan(usual));
     }
   }
+  if (!found[0] && !found[1] && !found[2]) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      found[i] = foreign_column(search, NameList(force_names[i]).first(usual));
+    }
+  }
   constexpr std::array shown = {"Fx", "Fy", "Fz"};
   if (!found[0] && !found[1] && !found[2]) {
     search.problems.add(
         search.head.names_line, 1,
         fmt::format(
             "no column is named Fx, Fy or Fz: the columns are {}; columns = "
-            "[...] in the case file names the three forces, time_column the time",
-            all_names(search.head)));
+            "[...] in the case file names the three forces, time_column the time{}",
+            all_names(search.head), numbers_help(search)));
     return found;
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -130,7 +184,8 @@ bool names_force(std::string_view name) {
 
 RecordColumns find_columns(const TableHead& head, const RecordSource& source,
                            Problems& problems, std::vector<base::Warning>& notes) {
-  const ColumnSearch search{head, problems, notes, is_known_name, advice};
+  const ColumnSearch search{head,   problems, notes,    is_known_name,
+                            advice, 0.0,      by_number};
   RecordColumns columns;
   columns.count = head.names.size();
   std::array<std::optional<std::size_t>, 3> forces;

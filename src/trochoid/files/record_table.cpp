@@ -1,10 +1,13 @@
 #include <trochoid/files/record_table.h>
 
+#include <trochoid/files/csv_columns.h>
 #include <trochoid/files/csv_table.h>
 #include <trochoid/files/dynoware.h>
 #include <trochoid/files/record_file_columns.h>
 #include <trochoid/files/record_file_pulse.h>
 #include <trochoid/files/record_file_time.h>
+#include <trochoid/files/record_head.h>
+#include <trochoid/files/time_stamp.h>
 
 #include <fmt/core.h>
 
@@ -30,7 +33,9 @@ struct RecordReading {
   RecordColumns columns;
   std::vector<double> pulse;
   std::vector<std::size_t> row_lines;
-  std::size_t time_column = 1;  ///< in the last row
+  std::optional<RecordHead> found_head;  ///< of a table that other lines stand before
+  std::optional<TimeStamp> first_stamp;  ///< of times that are times of a day
+  std::size_t time_column = 1;           ///< in the last row
   double time_step = std::numeric_limits<double>::infinity();
 };
 
@@ -47,6 +52,21 @@ std::optional<std::string> first_content(RecordReading& reading) {
         "angle_deg,Fx_N,Fy_N,Fz_N, and rows of numbers are needed");
   }
   return std::nullopt;
+}
+
+/// A time in seconds; those of a day are counted from the whole second of the first.
+double time_in_row(RecordReading& reading, const std::vector<Field>& fields) {
+  const TableColumn& column = *reading.columns.time;
+  const std::string_view text = fields[column.index].text;
+  const auto stamp = parse_number(text).fault == NumberFault::not_a_number
+                         ? time_of_stamp(text)
+                         : std::nullopt;
+  if (!stamp) return number_in_row(reading.text, fields, column);
+  if (!reading.first_stamp) {
+    reading.first_stamp = stamp;
+    reading.first_stamp->seconds = std::floor(stamp->seconds);
+  }
+  return stamp->since(*reading.first_stamp);
 }
 
 void read_row(RecordReading& reading, std::vector<Field>& fields) {
@@ -66,10 +86,11 @@ void read_row(RecordReading& reading, std::vector<Field>& fields) {
   }
   if (columns.time) {
     const auto& field = fields[columns.time->index];
-    record.time.push_back(number_in_row(reading.text, fields, *columns.time));
+    record.time.push_back(time_in_row(reading, fields));
     reading.time_column = field.column;
+    const std::string_view seconds = field.text.substr(field.text.rfind(':') + 1);
     reading.time_step =
-        std::min(reading.time_step, last_decimal(field.text) * columns.time->factor);
+        std::min(reading.time_step, last_decimal(seconds) * columns.time->factor);
   }
   reading.row_lines.push_back(reading.text.lines.number());
 }
@@ -105,16 +126,16 @@ void read_rows(RecordReading& reading, TableHead& head) {
   std::vector<Field> fields;
   auto line = next_content(reading.text);
   if (line) {
-    split(*line, reading.text.separator, fields);
-    take_units(reading.text, fields, head);
+    split_row(reading.text, *line, fields);
+    if (!reading.found_head) take_units(reading.text, fields, head);
   }
   // The texts of the unit row end with the next line.
   reading.columns =
       find_columns(head, reading.source, reading.text.problems, reading.record.notes);
   keep_names(reading.columns, reading.record);
-  if (!head.units.empty()) line = next_content(reading.text);
+  if (!head.units.empty() && !reading.found_head) line = next_content(reading.text);
   for (bool first = true; line; first = false) {
-    split(*line, reading.text.separator, fields);
+    split_row(reading.text, *line, fields);
     if (first) note_text_columns(reading, head, fields);
     read_row(reading, fields);
     if (reading.text.problems.full()) return;
@@ -181,6 +202,75 @@ void check_record(RecordReading& reading) {
   }
 }
 
+/// Where nothing tells angle or time, the columns that might are named.
+void check_axis(RecordReading& reading, const TableHead& head) {
+  if (!reading.text.problems.lines.empty()) return;
+  const RecordColumns& columns = reading.columns;
+  const bool rate = reading.source.sample_rate.has_value() ||
+                    (reading.header && reading.header->sample_rate > 0.0);
+  if (columns.time || columns.angle || columns.pulse || rate) return;
+  TableHead others;
+  for (std::size_t i = 0; i < head.names.size(); ++i) {
+    const bool force = std::ranges::any_of(columns.force, [&](const auto& column) {
+      return column && column->index == i;
+    });
+    if (!force) others.names.push_back(head.names[i]);
+  }
+  if (others.names.empty()) return;  // settle_time says what is lacking
+  reading.text.problems.add(
+      head.names_line, 1,
+      fmt::format(
+          "neither angles nor times nor a sampling rate are known: add a column "
+          "angle_deg or time_s, or sample_rate_Hz in the case file, or "
+          "time_column there, if that is one of {}",
+          all_names(others)));
+  throw_problems(reading.text);
+}
+
+/// Three or four columns without names, which are those of an array of NumPy.
+void assume_names(RecordReading& reading, const TableHead& head) {
+  RecordHead& found = *reading.found_head;
+  const std::size_t count = head.names.size();
+  if (found.named() || !reading.source.columns.empty() || count < 3 || count > 4) {
+    return;
+  }
+  const bool time = count == 4 && reading.source.time_column.empty();
+  if (count == 4 && !time) return;
+  const char mark = found.separator;
+  found.names =
+      fmt::format("{}Fx{}Fy{}Fz", time ? std::string("time") + mark : "", mark, mark);
+  reading.record.notes.push_back(
+      {"columns_assumed",
+       fmt::format("The columns have no names; they were taken for {}Fx, Fy, Fz.",
+                   time ? "time, " : "")});
+}
+
+/// A table that does not begin with a row of names.
+signal::Record read_below(RecordReading& reading) {
+  const RecordHead& found = *reading.found_head;
+  LineReader& lines = reading.text.lines;
+  while (lines.number() + 1 < found.data_line && lines.next()) {
+  }
+  reading.text.separator = found.separator;
+  TableHead head{.names_line = found.names_line, .units_line = found.units_line};
+  split_row(reading.text, found.names, head.names);
+  assume_names(reading, head);
+  split_row(reading.text, found.names, head.names);
+  if (!found.units.empty()) split_row(reading.text, found.units, head.units);
+  head.units.resize(found.units.empty() ? 0 : head.names.size());
+  if (found.names_line > 1 && found.named()) {
+    reading.record.notes.push_back(
+        {"lines_passed_over",
+         fmt::format("The columns are named in line {}; what stands before it is not "
+                     "looked at.",
+                     found.names_line)});
+  }
+  read_rows(reading, head);
+  check_axis(reading, head);
+  check_record(reading);
+  return std::move(reading.record);
+}
+
 /// @param names  the row of names
 signal::Record read_table(RecordReading& reading, const std::string& names) {
   throw_problems(reading.text);
@@ -195,6 +285,7 @@ signal::Record read_table(RecordReading& reading, const std::string& names) {
     throw_problems(reading.text);
   }
   read_rows(reading, head);
+  check_axis(reading, head);
   check_record(reading);
   return std::move(reading.record);
 }
@@ -203,7 +294,10 @@ signal::Record read_table(RecordReading& reading, const std::string& names) {
 
 signal::Record read_csv_record(std::istream& in, const std::string& name,
                                const RecordSource& source) {
+  constexpr std::size_t longest_head = std::size_t{1} << 16;
   RecordReading reading(in, name, source);
+  reading.found_head = find_record_head(first_bytes(in, longest_head));
+  if (reading.found_head) return read_below(reading);
   const auto line = first_content(reading);
   return read_table(reading, line ? names_row(reading.text, *line) : std::string());
 }

@@ -50,6 +50,72 @@ TEST(RecordCsv, TakesEverySeparator) {
   EXPECT_EQ(read("sep=;\nangle_deg;Fx_N;Fy_N;Fz_N\n0;1;2;3\n1;1;2;3\n").size(), 2u);
 }
 
+/// numpy.savetxt, save -ascii of MATLAB, and tables with names.
+TEST(RecordCsv, TakesBlanksBetweenNumbers) {
+  const auto named = read("time Fx (N) Fy [N] Fz\n0.0 1.5 -2 3\n1e-3  4\t5e1 .5\n");
+  EXPECT_EQ(named.channel[1], (std::vector{-2.0, 50.0}));
+  EXPECT_DOUBLE_EQ(named.sample_rate, 1e3);
+  const auto bare = read("  0.0e+00 1.5 -2 3\n  1.0e-03 4 5e1 .5\n");
+  EXPECT_EQ(bare.channel[0], (std::vector{1.5, 4.0}));
+  EXPECT_EQ(bare.time[1], 1e-3);
+  ASSERT_FALSE(bare.notes.empty());
+  EXPECT_EQ(bare.notes[0].code, "columns_assumed");
+}
+
+TEST(RecordCsv, TakesColumnsByTheirNumber) {
+  const RecordSource numbers{.columns = {"3", "4", "5"}, .time_column = "2"};
+  const auto bare = read("7,0,1,2,3\n7,0.001,4,5,6\n", numbers);
+  EXPECT_EQ(bare.channel[0], (std::vector{1.0, 4.0}));
+  EXPECT_EQ(bare.time[1], 1e-3);
+  const RecordSource few{.columns = {"2", "3", "4"}, .time_column = "1"};
+  const auto named =
+      read("\xCA\xB1,\xC7\xD0,\xCF\xF7,\xC1\xA6\n0,1,2,3\n0.001,4,5,6\n", few);
+  EXPECT_EQ(named.channel[2], (std::vector{3.0, 6.0}));
+  EXPECT_NE(refusal("0,1,2,3,4\n1,1,2,3,4\n").find("time_column = \"1\""),
+            std::string::npos);
+}
+
+TEST(RecordCsv, PassesOverWhatStandsBeforeTheNames) {
+  const auto tabs = read(
+      "Sample rate:\t1000 Hz\nDate:\t2023-01-01\n\nTime\tFx\tFy\tFz\ns\tN\tkN\tN\n"
+      "0\t1\t2\t3\n0.001\t4\t5\t6\n");
+  EXPECT_EQ(tabs.channel[1], (std::vector{2e3, 5e3}));
+  ASSERT_EQ(tabs.notes.size(), 1u);
+  EXPECT_EQ(tabs.notes[0].code, "lines_passed_over");
+  const auto semicolons = read(
+      "started at: 04.05.2023 12:00:00\nSample rate: 1000\n\n"
+      "Time (s);Fx (N);Fy (N);Fz (N)\n0,000;1,5;2;3\n0,001;4;5;6\n");
+  EXPECT_EQ(semicolons.channel[0], (std::vector{1.5, 4.0}));
+  const auto comment = read(
+      "# channels: 4\n# name:  Time  name: Fx name: Fy name: Fz\n"
+      "0,1,2,3\n0.001,4,5,6\n");
+  EXPECT_EQ(comment.channel[2], (std::vector{3.0, 6.0}));
+}
+
+TEST(RecordCsv, TakesTimesOfADay) {
+  for (const std::string day : {"", "2023-05-04 ", "04.05.2023T", "5/4/2023 "}) {
+    const auto record = read("Time,Fx_N,Fy_N,Fz_N\n" + day + "23:59:59.9990,1,2,3\n" +
+                             day + "23:59:59.9995,4,5,6\n");
+    ASSERT_EQ(record.size(), 2u) << day;
+    EXPECT_NEAR(record.time[1] - record.time[0], 5e-4, 1e-9) << day;
+  }
+  const auto midnight = read(
+      "Time,Fx_N,Fy_N,Fz_N\n2023-12-31 23:59:59.5,1,2,3\n"
+      "2024-01-01 00:00:00.0,4,5,6\n");
+  EXPECT_NEAR(midnight.time[1] - midnight.time[0], 0.5, 1e-9);
+  const RecordSource rated{.sample_rate = 1e3};
+  EXPECT_EQ(
+      read("Time,Fx_N,Fy_N,Fz_N\n12:00:00,1,2,3\n12:00:00,4,5,6\n", rated).sample_rate,
+      1e3);
+}
+
+TEST(RecordCsv, ListsTheColumnsWhereNoTimeIsFound) {
+  EXPECT_NE(refusal("secs,Fx_N,Fy_N,Fz_N\n0,1,2,3\n1,1,2,3\n")
+                .find("time_column there, if that is one of \"secs\""),
+            std::string::npos);
+  EXPECT_EQ(read("Zeit [s];Fx [N];Fy [N];Fz [N]\n0,0;1;2;3\n0,1;1;2;3\n").size(), 2u);
+}
+
 TEST(RecordCsv, FindsTheUnitInTheNameOrBelow) {
   const auto in_name = read("phi [rad];Fx [kN];Fy (N);Fz / mN\n1;2;3;4\n2;2;3;4\n");
   EXPECT_EQ(in_name.channel[0][0], 2e3);
