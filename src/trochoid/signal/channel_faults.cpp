@@ -1,6 +1,8 @@
 #include <trochoid/signal/channel_faults.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace trochoid::signal {
 
@@ -10,6 +12,9 @@ constexpr std::size_t fewest_samples = 30;
 constexpr std::size_t stay = 3;         ///< samples in a row
 constexpr std::size_t least_stays = 3;  ///< places
 constexpr double least_share = 0.01;    ///< of all samples
+constexpr double heaped = 5.0;          ///< times as often as at the next number
+constexpr std::size_t still = 6;        ///< samples in a row of a dropout
+constexpr double most_lost = 0.5;       ///< of all samples
 
 bool stays_at(std::span<const double> values, double limit) {
   std::size_t stays = 0;
@@ -24,10 +29,27 @@ bool stays_at(std::span<const double> values, double limit) {
                                      least_share * static_cast<double>(values.size());
 }
 
+/// Whether a channel stands at a limit much more often than at the number next to it.
+bool heaps_at(std::span<const double> values, double limit) {
+  double next = std::numeric_limits<double>::infinity();  // away from the limit
+  std::size_t at_limit = 0;
+  std::size_t at_next = 0;
+  for (const double v : values) {
+    const double off = std::abs(v - limit);
+    at_limit += off == 0.0 ? 1 : 0;
+    if (off == 0.0 || off > next) continue;
+    at_next = off < next ? 1 : at_next + 1;
+    next = off;
+  }
+  return static_cast<double>(at_limit) >= heaped * static_cast<double>(at_next);
+}
+
+bool clipped_at(std::span<const double> values, double limit) {
+  return limit != 0 && stays_at(values, limit) && heaps_at(values, limit);
+}
+
 /// Whether a signal whose samples nearly always differ stands still for a moment.
 bool drops_out(std::span<const double> values) {
-  constexpr std::size_t still = 6;
-  constexpr double most = 0.1;
   constexpr double alike_elsewhere = 0.02;  // of pairs of neighbours
   std::size_t held = 0;                     // samples of stretches that stand still
   std::size_t alike = 0;                    // other pairs that agree
@@ -41,7 +63,7 @@ bool drops_out(std::span<const double> values) {
     row = 1;
   }
   const auto n = static_cast<double>(values.size());
-  return held > 0 && static_cast<double>(held) < most * n &&
+  return held > 0 && static_cast<double>(held) < most_lost * n &&
          static_cast<double>(alike) < alike_elsewhere * n;
 }
 
@@ -55,10 +77,19 @@ ChannelFault channel_fault(std::span<const double> values) {
   if (lo == hi) {
     return ChannelFault::constant;
   }
-  const bool clipped =
-      (lo != 0 && stays_at(values, lo)) || (hi != 0 && stays_at(values, hi));
-  if (clipped) return ChannelFault::clipped;
+  if (clipped_at(values, lo) || clipped_at(values, hi)) return ChannelFault::clipped;
   return drops_out(values) ? ChannelFault::dropouts : ChannelFault::none;
+}
+
+std::vector<Part> lost_samples(std::span<const double> values) {
+  std::vector<Part> out;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= values.size(); ++i) {
+    if (i < values.size() && values[i] == values[i - 1]) continue;
+    if (i - begin >= still) out.push_back({begin + 1, i});
+    begin = i;
+  }
+  return out;
 }
 
 }  // namespace trochoid::signal
