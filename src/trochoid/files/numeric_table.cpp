@@ -177,24 +177,29 @@ void read_columns(const NumericTable& table, const RecordColumns& found,
   }
 }
 
+/// What is read of a record.
+struct Columns {
+  signal::Record& record;
+  std::vector<double> pulse = {};
+};
+
 /// What one column of a record is read into.
 std::vector<double>* values_of(const TableColumn& column, const RecordColumns& found,
-                               signal::Record& record, std::vector<double>& pulse) {
+                               Columns& read) {
   const auto is = [&](const std::optional<TableColumn>& other) {
     return other && other->index == column.index;
   };
   for (std::size_t c = 0; c < 3; ++c) {
-    if (is(found.force[c])) return &record.channel[c];
+    if (is(found.force[c])) return &read.record.channel[c];
   }
-  if (is(found.angle)) return &record.angle;
-  return is(found.pulse) ? &pulse : nullptr;
+  if (is(found.angle)) return &read.record.angle;
+  return is(found.pulse) ? &read.pulse : nullptr;
 }
 
 /// Bring columns that start at different times together; the times of a column of times
 /// are those of all.
-void align(const NumericTable& table, const RecordColumns& found,
-           signal::Record& record, std::vector<double>& pulse, SampleRates& rates,
-           Problems& problems) {
+void align(const NumericTable& table, const RecordColumns& found, Columns& read,
+           SampleRates& rates, Problems& problems) {
   const double rate = rates.given > 0.0 ? rates.given : rates.stated;
   if (found.time || !(rate > 0.0)) return;
   std::vector<StartedColumn> started;
@@ -206,7 +211,7 @@ void align(const NumericTable& table, const RecordColumns& found,
                                excerpt(column.name), start));
       return;
     }
-    started.push_back({column.name, start, values_of(column, found, record, pulse)});
+    started.push_back({column.name, start, values_of(column, found, read)});
   }
   const Starts starts = align_starts(started, rate);
   if (!starts.problem.empty()) {
@@ -215,10 +220,10 @@ void align(const NumericTable& table, const RecordColumns& found,
   }
   rates.first_time = starts.first;
   if (starts.note.empty()) return;
-  record.notes.push_back({"channels_aligned", starts.note});
+  read.record.notes.push_back({"channels_aligned", starts.note});
   const std::size_t count = started.front().values->size();
   for (std::size_t c = 0; c < 3; ++c) {
-    if (!record.measured[c]) record.channel[c].assign(count, 0.0);
+    if (!read.record.measured[c]) read.record.channel[c].assign(count, 0.0);
   }
 }
 
@@ -249,15 +254,15 @@ signal::Record record_of(const NumericTable& table, const std::string& name,
   auto rates = rates_of(table, used, source, problems);
   throw_if_any(problems);
   read_columns(table, found, record, problems);
-  std::vector<double> pulse;
-  if (found.pulse) pulse = values_in_si(table, *found.pulse, problems);
+  Columns read{record};
+  if (found.pulse) read.pulse = values_in_si(table, *found.pulse, problems);
   throw_if_any(problems);
-  align(table, found, record, pulse, rates, problems);
+  align(table, found, read, rates, problems);
   throw_if_any(problems);
   settle_time(record, {.values = record.time, .lines = {}}, rates, problems);
   throw_if_any(problems);
   if (found.pulse) {
-    take_pulses(record, found.pulse->name, pulse, problems);
+    take_pulses(record, found.pulse->name, read.pulse, problems);
     throw_if_any(problems);
   }
   return record;
