@@ -351,6 +351,13 @@ void ForceMatrix::evaluate_columns(std::span<const double> phi,
   }
 }
 
+std::optional<Vector3> mean_force(const Setup& setup, const Law& law,
+                                  double tolerance) {
+  const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance));
+  if (!teeth) return std::nullopt;
+  return mean(turn_polynomial(*teeth, force_weights(terms(law))));
+}
+
 std::vector<Vector3> forces(const Setup& setup, const Law& law,
                             std::span<const double> phi, double tolerance) {
   std::vector<Vector3> out(phi.size());

@@ -47,6 +47,13 @@ class ForceMatrix {
   std::shared_ptr<const Parts> parts_;
 };
 
+/// @brief Mean force on the tool over a turn, by integrals: that of samples misses what a
+/// straight edge does between them.
+/// @param tolerance  as of forces
+/// @return [N], workpiece frame; absent where there are no integrals: a power law, edges
+///         that change their radius, chips of many harmonics
+std::optional<Vector3> mean_force(const Setup& setup, const Law& law, double tolerance);
+
 /// @brief Force on the tool [N] at the angles phi of the tip of tooth 1 [rad].
 /// @param tolerance  relative to the largest force that the feed and depth could make
 /// @return shape (n, 3), workpiece frame

@@ -71,11 +71,15 @@ const Fields<SimulateResult>& simulate_fields() {
   using R = SimulateResult;
   const auto moment = [](const R& r) { return r.gauge_length.has_value(); };
   static const Fields<R> all{
-      {"mean_N", "mean force along x, y, z, over the rows of forces.csv",
+      {"mean_N",
+       "mean force along x, y, z: of whole turns by integrals where the edges allow it (a "
+       "cylinder, no power law), else over the rows of forces.csv",
        [](const R& r) { return r.force.mean; }},
-      {"min_N", "smallest, axis by axis", [](const R& r) { return r.force.min; }},
-      {"max_N", "largest, axis by axis", [](const R& r) { return r.force.max; }},
-      {"rms_N", "root mean square, axis by axis",
+      {"min_N", "smallest of the rows of forces.csv, axis by axis",
+       [](const R& r) { return r.force.min; }},
+      {"max_N", "largest of them, axis by axis",
+       [](const R& r) { return r.force.max; }},
+      {"rms_N", "root mean square of them, axis by axis",
        [](const R& r) { return r.force.rms; }},
       {"peak_xy_N", "largest force in the plane of the table",
        [](const R& r) { return r.force.peak_xy; }},

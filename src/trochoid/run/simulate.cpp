@@ -76,6 +76,12 @@ void warn_volume(const cases::Case& given, const chip::Removal& removal,
   }
 }
 
+/// Whether the samples are of turns, and not of a part of one.
+bool whole_turns(const cases::Sampling& sampling) {
+  return sampling.angles.empty() &&
+         sampling.revolutions == std::floor(sampling.revolutions);
+}
+
 }  // namespace
 
 std::vector<double> sampled_angles(const cases::Sampling& sampling) {
@@ -138,6 +144,10 @@ results::SimulateResult simulate(const cases::Case& given) {
   r.loads = force::loads(setup, given.law, r.phi, given.gauge_length.value_or(0.0),
                          sampling.tolerance);
   r.force = force::force_statistics(r.loads);
+  if (whole_turns(sampling)) {
+    const auto mean = force::mean_force(setup, given.law, sampling.tolerance);
+    r.force.mean = mean.value_or(r.force.mean);
+  }
   r.moments = force::moment_statistics(r.loads);
   if (given.dynamometer && !given.dynamometer->automatic) {
     r.channels = given.dynamometer->matrix;

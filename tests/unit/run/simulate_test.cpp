@@ -27,6 +27,37 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
+/// Printed in a forum and found by closed integrals.
+TEST(Simulate, AnswersTheMeanOfTheTurnAndNotOfItsSamples) {
+  for (const char* samples : {"360", "720", "1000"}) {
+    const auto r = simulated(std::string(R"([tool]
+teeth = 3
+diameter_mm = 20
+helix_deg = 0
+[cut]
+engagement = "up"
+radial_depth_mm = 8
+axial_depth_mm = 15
+feed_per_tooth_mm = 0.1
+spindle_rpm = 3000
+[chip]
+model = "feed"
+[force]
+K_tc_MPa = 800
+K_rc_MPa = 200
+K_ac_MPa = 0
+K_te_N_per_mm = 10
+K_re_N_per_mm = 10
+K_ae_N_per_mm = 0
+[sampling]
+revolutions = 10
+samples_per_rev = )") + samples +
+                             "\n");
+    EXPECT_NEAR(r.force.mean[0], -486.5325, 1e-3) << samples;
+    EXPECT_NEAR(r.force.mean[1], 254.5452, 1e-3) << samples;
+  }
+}
+
 TEST(Simulate, AnswersTheForcesOfItsSamples) {
   const auto r = simulated(cases::test::slot + runout);
   ASSERT_EQ(r.phi.size(), 720U);
