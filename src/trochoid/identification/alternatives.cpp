@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <variant>
@@ -62,6 +63,37 @@ bool reverse(geometry::Engagement& engagement) {
   return false;
 }
 
+/// The runs with x and y turned back, so many times as far as the spindle turned.
+std::vector<Run> turned_back(std::span<const Run> runs, int times) {
+  std::vector<Run> out(runs.begin(), runs.end());
+  for (Run& run : out) {
+    for (std::size_t i = 0; i < run.angle.size(); ++i) {
+      const double c = std::cos(times * run.angle[i]);
+      const double s = std::sin(times * run.angle[i]);
+      auto& F = run.force[i];
+      F = {c * F[0] + s * F[1], -s * F[0] + c * F[1], F[2]};
+    }
+  }
+  return out;
+}
+
+/// Where its axes stood is not known: on a cylinder that mixes tangential and radial
+/// coefficients and changes nothing of what is left.
+std::optional<BetterCut> turning_dynamometer(const StatedCut& stated) {
+  const double now = stated.left(stated.setup, stated.runs, RunoutUnknowns::none);
+  double least = least_of_other_cut * now;
+  std::optional<BetterCut> found;
+  for (const int times : {1, -1}) {
+    const double other = stated.left(stated.setup, turned_back(stated.runs, times),
+                                     RunoutUnknowns::none);
+    if (!(other < least)) continue;
+    least = other;
+    found = BetterCut{
+        .teeth = {}, .turns_with_spindle = times, .rms = other, .stated_rms = now};
+  }
+  return found;
+}
+
 /// Offsets would let a cutter of too many teeth explain everything: some never cut.
 std::optional<BetterCut> better_count(const StatedCut& stated) {
   const double now = stated.left(stated.setup, stated.runs, RunoutUnknowns::none);
@@ -110,12 +142,25 @@ std::optional<BetterAxes> better_axes(const AxesProblem& problem,
   return BetterAxes{other.matrix, other.rms, now};
 }
 
+bool fits_better(const AxesProblem& problem, std::span<const ChannelRun> runs,
+                 const signal::Matrix3& M, const signal::Matrix3& other, double least) {
+  const auto left = [&](const signal::Matrix3& reading) {
+    const Fit fit =
+        identify(problem.setup, problem.law, on_tool(runs, reading), problem.options);
+    return fit.ok ? fit.rms : std::numeric_limits<double>::infinity();
+  };
+  return left(other) < least * left(M);
+}
+
 std::optional<BetterCut> better_cut(const force::Setup& setup, const force::Law& law,
                                     std::span<const Run> runs, const Options& options) {
   StatedCut stated{setup, law, runs, options};
   stated.setup.runout = {};
   const auto direction = better_direction(stated);
-  return direction ? direction : better_count(stated);
+  if (direction) return direction;
+  const auto count = better_count(stated);
+  const auto turning = turning_dynamometer(stated);
+  return turning && (!count || turning->rms < count->rms) ? turning : count;
 }
 
 }  // namespace trochoid::identification

@@ -33,10 +33,17 @@ base::Warning likely(std::string message) {
 std::string better_axes(const cases::Case& given, const std::vector<MeasuredRun>& runs,
                         const signal::Matrix3& M, double least,
                         const Progress& progress) {
-  const auto other =
-      identification::better_axes(axes_problem(given), channels_of(runs), M, least,
-                                  [&](double part) { progress(axes_progress(part)); });
+  const auto problem = axes_problem(given);
+  const auto channels = channels_of(runs);
+  const auto other = identification::better_axes(
+      problem, channels, M, least, [&](double part) { progress(axes_progress(part)); });
   if (!other) return "";
+  // A fit that may be used is doubted only for what shows in all of it.
+  const bool usable = least > much_better;
+  if (usable &&
+      !identification::fits_better(problem, channels, M, other->matrix, least)) {
+    return "";
+  }
   const auto names = signal::axes_names(other->matrix);
   std::string times;
   if (std::isfinite(other->stated_rms)) {
@@ -64,6 +71,15 @@ std::string better_cut(const cases::Case& given, const std::vector<MeasuredRun>&
       fit_options(given, given.identify.chip_models.back()));
   if (!found) return "";
   const std::string less = how_much(found->stated_rms, found->rms);
+  if (found->turns_with_spindle != 0) {
+    const bool with = found->turns_with_spindle > 0;
+    return fmt::format(
+        "The dynamometer: x and y seem to turn with the spindle, as those of a rotating "
+        "dynamometer do, which is not read. With Fx cos phi {} Fy sin phi and Fy cos phi "
+        "{} Fx sin phi in their place, phi the spindle angle of each sample, the fit "
+        "leaves {} less.",
+        with ? "+" : "-", with ? "-" : "+", less);
+  }
   return found->teeth
              ? fmt::format(
                    "The number of teeth: with teeth = {} (and the same feed in a turn) "

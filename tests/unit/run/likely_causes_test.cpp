@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trochoid::run::likely_causes_test {
 
@@ -75,6 +76,27 @@ TEST(LookAtCut, NamesTheNumberOfTeeth) {
       << found[0].message;
   EXPECT_NE(found[0].message.find("leaves far less than with 4"), std::string::npos)
       << found[0].message << " (with 4 nothing is explained)";
+}
+
+TEST(LookAtCut, NamesADynamometerThatTurnsWithTheSpindle) {
+  for (const int times : {1, -1}) {
+    Made made(identity);
+    auto& run = made.runs[0].run;
+    for (std::size_t i = 0; i < run.angle.size(); ++i) {
+      const double c = std::cos(times * run.angle[i] + 0.7);
+      const double s = std::sin(times * run.angle[i] + 0.7);
+      const double x = run.channel[0][i];
+      const double y = run.channel[1][i];
+      run.channel[0][i] = c * x - s * y;
+      run.channel[1][i] = s * x + c * y;
+    }
+    const auto found = look_at_cut(made.given, made.runs, identity);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NE(found[0].message.find(times > 0 ? "With Fx cos phi + Fy sin phi"
+                                              : "With Fx cos phi - Fy sin phi"),
+              std::string::npos)
+        << found[0].message;
+  }
 }
 
 TEST(LookAtCut, NamesUpThatWasTakenForDown) {
