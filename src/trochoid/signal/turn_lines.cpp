@@ -18,6 +18,7 @@ using Complex = std::complex<double>;
 constexpr std::size_t least_windows = 6 * quarters_of_turn;  ///< of a pass
 constexpr std::size_t most_turns = 8;                        ///< that are averaged
 constexpr double tolerance = 0.004;                          ///< of the force
+constexpr double little = 0.003;      ///< of the force: beyond it a rest of an entry
 constexpr double drift = 0.25;        ///< the same of the means, where no air tells it
 constexpr double slow_change = 0.1;   ///< of the force over the pass: wear, no entry
 constexpr double chance = 4.0;        ///< standard errors
@@ -191,10 +192,11 @@ double force_of(const Reference& reference, const Pass& pass) {
       amplitudes += 0.5 * v * v;
     }
   }
+  constexpr double least_of_means = 0.01;  // squared: of what may be offsets
   const bool known = pass.air_before || pass.air_after;
-  return std::sqrt(
-      amplitudes +
-      (known ? means : std::min(means, most_mean * most_mean * amplitudes)));
+  return std::sqrt(amplitudes + (known ? means
+                                       : std::clamp(most_mean * most_mean * amplitudes,
+                                                    least_of_means * means, means)));
 }
 
 Reference reference_of(const TurnLines& lines, const Averages& mean, const Pass& pass) {
@@ -279,6 +281,76 @@ double difference_at(const TurnLines& lines, const Reference& reference,
     out = std::max(out, std::abs(lines.at(window)[i] - reference.value[i]));
   }
   return out;
+}
+
+/// Features as straight lines over the middle half of a steady part: what wears slowly
+/// stays on them.
+class SteadyLines {
+ public:
+  SteadyLines(const TurnLines& lines, const Averages& mean, const Windows& steady)
+      : middle_{steady.begin + steady.size() / 4,
+                steady.begin + steady.size() / 4 + steady.size() / 2} {
+    const std::size_t half = middle_.begin + middle_.size() / 2;
+    const double apart = 0.5 * static_cast<double>(middle_.size());
+    for (std::size_t i = 0; i < lines.features(); ++i) {
+      value_.push_back(mean.of(i, middle_));
+      slope_.push_back(
+          (mean.of(i, {half, middle_.end}) - mean.of(i, {middle_.begin, half})) /
+          apart);
+      se_.push_back(turn_error(lines, i, middle_));
+    }
+  }
+
+  [[nodiscard]] const Windows& middle() const noexcept { return middle_; }
+
+  /// Whether the mean over some windows is off the lines.
+  [[nodiscard]] bool left_by(const Averages& mean, const Windows& w,
+                             double least) const {
+    const double off = 0.5 * (static_cast<double>(w.begin + w.end) -
+                              static_cast<double>(middle_.begin + middle_.end));
+    const auto length = static_cast<double>(middle_.size());
+    const double turns = 1.0 + static_cast<double>(w.size() - 1) / quarters_of_turn;
+    const double of_mean =
+        std::sqrt(1.0 / turns + quarters_of_turn / length *
+                                    (1.0 + 12.0 * off * off / (length * length)));
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      if (std::abs(mean.of(i, w) - value_[i] - slope_[i] * off) >
+          least + chance * of_mean * se_[i]) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  Windows middle_;
+  std::vector<double> value_;
+  std::vector<double> slope_;
+  std::vector<double> se_;
+};
+
+/// What is left of a steady part without what its ends still hold of entry and exit.
+Windows without_rest(const TurnLines& lines, const Averages& mean,
+                     const Windows& steady, double force) {
+  if (steady.size() < least_windows) return steady;
+  const SteadyLines straight(lines, mean, steady);
+  const Windows middle = straight.middle();
+  Windows out = steady;
+  for (std::size_t turns = 1; turns <= most_turns; turns *= 2) {
+    const std::size_t width = quarters_of_turn * (turns - 1) + 1;
+    if (4 * width > steady.size()) break;
+    for (std::size_t k = steady.begin; k + width <= steady.end; ++k) {
+      const bool before = k < middle.begin;
+      const bool after = k + width > middle.end;
+      if ((!before && !after) ||
+          !straight.left_by(mean, {k, k + width}, little * force)) {
+        continue;
+      }
+      if (before) out.begin = std::max(out.begin, k + (width + 1) / 2);
+      if (after && !before) out.end = std::min(out.end, k + (width + 1) / 2);
+    }
+  }
+  return {std::min(out.begin, middle.begin), std::max(out.end, middle.end)};
 }
 
 /// Steps from the means of the first two turns to those in the middle of the record.
@@ -401,7 +473,10 @@ Windows steady_windows(const TurnLines& lines, const Pass& pass) {
   }
   before = std::min(before + before / unseen, static_cast<std::size_t>(inner));
   after = std::min(after + after / unseen, static_cast<std::size_t>(outer));
-  return {all.begin + before, all.end - after};
+  const Windows steady{all.begin + before, all.end - after};
+  const Windows rest = without_rest(lines, mean, steady, reference.force);
+  return {before > 0 || pass.air_before ? rest.begin : steady.begin,
+          after > 0 || pass.air_after ? rest.end : steady.end};
 }
 
 void take_idle_out(std::span<const Windows> air, TurnLines& lines) {
