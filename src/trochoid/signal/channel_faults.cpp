@@ -14,7 +14,9 @@ constexpr std::size_t least_stays = 3;  ///< places
 constexpr double least_share = 0.01;    ///< of all samples
 constexpr double heaped = 5.0;          ///< times as often as at the next number
 constexpr std::size_t still = 6;        ///< samples in a row of a dropout
+constexpr double few_lost = 0.1;        ///< of all samples: whatever the stretches are
 constexpr double most_lost = 0.5;       ///< of all samples
+constexpr double longest_lost = 0.05;   ///< of all samples, of one stretch
 
 bool stays_at(std::span<const double> values, double limit) {
   std::size_t stays = 0;
@@ -48,6 +50,22 @@ bool clipped_at(std::span<const double> values, double limit) {
   return limit != 0 && stays_at(values, limit) && heaps_at(values, limit);
 }
 
+/// Whether many stretches are lost samples, and not air without noise: each is short, and
+/// stands at a number of its own.
+bool differ(std::span<const double> values) {
+  const std::vector<Part> parts = lost_samples(values);
+  std::vector<double> numbers;
+  for (const Part& part : parts) {
+    if (static_cast<double>(part.size()) >
+        longest_lost * static_cast<double>(values.size())) {
+      return false;
+    }
+    numbers.push_back(values[part.begin]);
+  }
+  std::ranges::sort(numbers);
+  return numbers.size() >= 3 && std::ranges::adjacent_find(numbers) == numbers.end();
+}
+
 /// Whether a signal whose samples nearly always differ stands still for a moment.
 bool drops_out(std::span<const double> values) {
   constexpr double alike_elsewhere = 0.02;  // of pairs of neighbours
@@ -64,6 +82,7 @@ bool drops_out(std::span<const double> values) {
   }
   const auto n = static_cast<double>(values.size());
   return held > 0 && static_cast<double>(held) < most_lost * n &&
+         (static_cast<double>(held) < few_lost * n || differ(values)) &&
          static_cast<double>(alike) < alike_elsewhere * n;
 }
 

@@ -22,7 +22,8 @@ enum class ChannelFault {
 /// at least five times as often as at the next number: a converter of few bits stays at the
 /// top of a peak, too, but hardly twice as often as one step below. At zero, where nothing
 /// cuts, it may. It drops out where it stays at any one number for six samples or more, in
-/// less than half of all, although its neighbours nearly always differ.
+/// less than a tenth of all, or half where no two such stretches agree and none is long,
+/// although its neighbours nearly always differ.
 /// @param values  [N], shape (n)
 ChannelFault channel_fault(std::span<const double> values);
 

@@ -235,7 +235,8 @@ Growth growth_of_force(const Channels& channels, std::span<const double> angle) 
     rest += bow * bow / 1.5;
   }
   const double variance = rest / static_cast<double>(n - 2);
-  return {line.back() - line.front(),
+  const double turns_of_record = (angle.back() - angle.front()) / unit::turn;
+  return {(line.back() - line.front()) * turns_of_record / static_cast<double>(n - 1),
           std::sqrt(12.0 * variance / static_cast<double>(n))};
 }
 
