@@ -204,7 +204,9 @@ void align(const NumericTable& table, const RecordColumns& found, Columns& read,
   if (found.time || !(rate > 0.0)) return;
   std::vector<StartedColumn> started;
   for (const TableColumn& column : used_of(found).columns) {
-    const double start = table.columns[column.index].first_time;
+    // A column that says no rate says no start either.
+    const NumericColumn& own = table.columns[column.index];
+    const double start = own.sample_rate > 0.0 ? own.first_time : rates.first_time;
     if (!std::isfinite(start)) {
       problems.add(0, 0,
                    fmt::format("column {} begins at {} s: a number is needed",
