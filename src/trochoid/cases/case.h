@@ -55,7 +55,7 @@ struct Measurement {
 
 /// What is done about a constant or slowly drifting reading of each channel.
 enum class ChannelOffset {
-  automatic,  ///< as idle where the record has air, else as none
+  automatic,  ///< as idle where the records have air, else as fit
   none,       ///< the record is taken as it stands
   idle,       ///< estimated where nothing cuts
   fit,        ///< one constant and one slope a channel, found with the coefficients

@@ -201,8 +201,9 @@ void describe(const Visitor& v, IdentifyTable& t) {
     &t.band_harmonics);
   v({.name = "channel_offsets",
      .meaning =
-         "constant and drift of the channels: taken from where nothing cuts (auto: if "
-         "there is air in the record), fitted, or left as they are"},
+         "constant and drift of the channels: idle: taken from where nothing cuts; fit: "
+         "found with the coefficients; none: left as they are; auto: idle where the "
+         "records have air, else fit"},
     choice(t.channel_offsets));
   v({.name = "errors",
      .meaning = "standard errors and intervals: auto counts residuals that agree with "

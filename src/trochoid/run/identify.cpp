@@ -92,7 +92,28 @@ void warn_form(const std::optional<identification::RunoutForm>& form,
   }
 }
 
-void warn_axes(const AxesChoice& axes, std::vector<base::Warning>& warnings) {
+/// A reading that leaves less, but with signs that no cut has.
+base::Warning passed_over(const AxesChoice& axes, const force::Law& law) {
+  const identification::PassedOver& other = *axes.passed_over;
+  const auto names = signal::axes_names(other.matrix);
+  const auto K = force::coefficient_quantities(law);
+  std::vector<std::string> values;
+  for (std::size_t q = 0; q < other.K.size(); ++q) {
+    values.push_back(fmt::format("{} {:.4g}", K[q].key, other.K[q] / K[q].unit));
+  }
+  return {
+      "axes_by_signs",
+      fmt::format("Read as {}, {}, {} of the force on the tool the channels would "
+                  "leave {:.2f} times less, but with {}, which no cut has: the "
+                  "reading that was chosen has the signs of a cut. Check the axes of "
+                  "the dynamometer.",
+                  names[0], names[1], names[2], axes.rms / other.rms,
+                  fmt::join(values, ", "))};
+}
+
+void warn_axes(const AxesChoice& axes, const force::Law& law,
+               std::vector<base::Warning>& warnings) {
+  if (axes.passed_over) warnings.push_back(passed_over(axes, law));
   if (!axes.signs_clear) {
     warnings.push_back(
         {"axes_signs",
@@ -168,7 +189,7 @@ std::string find_axes(const Task& task, IdentifyResult& r) {
     }
     return axes.message;
   }
-  warn_axes(axes, r.heading.warnings);
+  warn_axes(axes, task.given.law, r.heading.warnings);
   r.channels = axes.matrix;
   r.axes = axes;
   return "";
@@ -344,6 +365,31 @@ IdentifyResult identified(const Task& task, IdentifyResult r) {
   return r;
 }
 
+/// @brief The same with the offsets of the channels as the records allow: where one has no
+/// air to read them off, they are found with the coefficients.
+IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
+  using cases::ChannelOffset;
+  const bool all_taken_out =
+      std::ranges::all_of(task.measured, &MeasuredRun::offset_taken_out);
+  if (task.given.identify.channel_offsets != ChannelOffset::automatic ||
+      all_taken_out) {
+    return identified(task, std::move(r));
+  }
+  cases::Case given = task.given;
+  given.identify.channel_offsets = ChannelOffset::fit;
+  IdentifyResult out =
+      identified({given, task.progress, task.stop, task.measured}, std::move(r));
+  if (!out.chosen) {
+    out.heading.warnings.push_back(
+        {"offsets_not_told",
+         "Nothing in the record is free of cutting, so the offsets of the channels are to "
+         "be found with the coefficients, and it may not tell both. Record some air before "
+         "the cut; where the channels surely read zero without force, say "
+         "channel_offsets = \"none\" in [identify]."});
+  }
+  return out;
+}
+
 }  // namespace
 
 identification::Options fit_options(const cases::Case& given, chip::Model model) {
@@ -377,7 +423,7 @@ IdentifyResult identify(const cases::Case& given, const Progress& progress,
   r.edge_length = given.setup.edge_length;
   progress("reading the measurements");
   const std::vector<MeasuredRun> measured = measured_runs(given, r.heading.warnings);
-  return identified({given, progress, stop, measured}, std::move(r));
+  return identified_with_offsets({given, progress, stop, measured}, std::move(r));
 }
 
 }  // namespace trochoid::run

@@ -4,9 +4,11 @@
 #include <trochoid/base/units.h>
 #include <trochoid/signal/channel_faults.h>
 #include <trochoid/signal/drift.h>
+#include <trochoid/signal/foreign_line.h>
 #include <trochoid/signal/passes.h>
 #include <trochoid/signal/revolutions.h>
 #include <trochoid/signal/spindle_speed.h>
+#include <trochoid/signal/wander.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -71,17 +73,85 @@ void compare_speed(const MeasuredRun& run, Warnings& warnings) {
 
 /// @brief What a record that is not periodic near the stated speed repeats at; empty:
 /// nothing that explains most of it.
+///
+/// Where teeth are alike, fractions of the speed explain as much: the nearest is taken.
 std::string far_speed(const signal::Record& record, double Omega, int teeth) {
   constexpr double range = 0.45;  // a half or a double would look periodic, too
   constexpr double most = 0.5;    // of the variance
-  const signal::SpeedEstimate found =
-      signal::spindle_speed(record, {.Omega = Omega, .range = range, .teeth = teeth});
+  constexpr double as_much = 0.98;
+  const auto within = [&](double r) {
+    return signal::spindle_speed(record, {.Omega = Omega, .range = r, .teeth = teeth});
+  };
+  signal::SpeedEstimate found = within(range);
   if (!found.ok || found.explained < most) {
     return "";
+  }
+  for (const double nearer : {0.1, 0.15, 0.2, 0.3}) {
+    const signal::SpeedEstimate other = within(nearer);
+    if (!other.ok || other.explained < as_much * found.explained) continue;
+    found = other;
+    break;
   }
   return fmt::format(
       " It repeats at {:.1f} rpm, {:+.0f} % off: check spindle_rpm, and with it the feed.",
       found.Omega / unit::rpm, 100 * (found.Omega / Omega - 1));
+}
+
+/// Follow a speed that is not the same all the time.
+void follow_wander(const signal::Record& record, MeasuredRun& run, Warnings& warnings) {
+  signal::Wander wander = signal::follow_speed(record.channel, run.run.angle);
+  if (wander.angle.empty()) return;
+  warnings.push_back(
+      {"speed_wanders",
+       fmt::format(
+           "{}: the spindle does not turn evenly: its speed goes from {:.1f} to "
+           "{:.1f} rpm. The forces tell the angle from turn to turn, and are laid "
+           "over it.",
+           run.file, wander.slowest * run.Omega / unit::rpm,
+           wander.fastest * run.Omega / unit::rpm)});
+  run.run.angle = std::move(wander.angle);
+  run.wanders = true;
+}
+
+/// A force that is not the same in the first turns and the last.
+void warn_growth(const signal::Record& record, const MeasuredRun& run,
+                 Warnings& warnings) {
+  constexpr double worth_a_word = 0.03;
+  constexpr double clear = 4.0;  // standard errors
+  const auto [growth, se] = signal::growth_of_force(record.channel, run.run.angle);
+  if (std::abs(growth) < std::max(worth_a_word, clear * se)) return;
+  warnings.push_back(
+      {"changes_within",
+       fmt::format(
+           "{}: the force {} by {:.0f} % from the first turn to the last, as of {}: "
+           "the coefficients are those in the middle. from_s and to_s in "
+           "[[measurement]] choose a part.",
+           run.file, growth > 0 ? "grows" : "falls", 100 * std::abs(growth),
+           growth > 0 ? "a tool that wears or a depth that grows"
+                      : "a depth or a feed that falls")});
+}
+
+/// Chatter and hum, by their frequency.
+void warn_foreign_line(const signal::Record& record, const MeasuredRun& run,
+                       Warnings& warnings) {
+  if (run.wanders) return;  // its harmonics are no lines
+  const auto line = signal::foreign_line(record.channel, record.sample_rate, run.Omega);
+  if (!line) return;
+  const auto of_mains = [&](double mains) {
+    const double harmonic = std::round(line->frequency / mains);
+    return harmonic >= 1.0 && harmonic <= 3.0 &&
+           std::abs(line->frequency - harmonic * mains) < 0.01 * mains * harmonic;
+  };
+  const bool hum = of_mains(50.0) || of_mains(60.0);
+  warnings.push_back(
+      {"chatter",
+       fmt::format(
+           "{}: channel {} holds a line at {:.1f} Hz, {:.0f} % of the force (rms), "
+           "which is no harmonic of the spindle: {}.",
+           run.file, line->channel + 1, line->frequency, 100 * line->share,
+           hum ? "hum of the mains"
+               : "chatter, if it is there in the cut only; else another source of "
+                 "vibration")});
 }
 
 /// Angle and speed of a run.
@@ -119,18 +189,21 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
                                       far_speed(record, run.Omega, teeth)});
   }
   angle = signal::angle_from_time(record.time, run.Omega);
+  if (found.ok) follow_wander(record, run, warnings);
 }
 
 /// Where nothing cuts a channel reads its offset.
-void take_drift_out(const cases::Case& given, std::span<const double> angle,
+/// @return whether there was any such place
+bool take_drift_out(const cases::Case& given, std::span<const double> angle,
                     std::span<const signal::Part> air, signal::Record& record,
                     Warnings& warnings) {
   using cases::ChannelOffset;
   const ChannelOffset how = given.identify.channel_offsets;
   if (how != ChannelOffset::idle && how != ChannelOffset::automatic) {
-    return;
+    return false;
   }
-  if (const auto drift = signal::idle_drift(record.channel, angle, air)) {
+  const auto drift = signal::idle_drift(record.channel, angle, air);
+  if (drift) {
     signal::remove_drift(record.channel, *drift);
   } else if (how == ChannelOffset::idle) {
     warnings.push_back({"no_idle_part",
@@ -139,6 +212,7 @@ void take_drift_out(const cases::Case& given, std::span<const double> angle,
                             "of the channels cannot be read off it; it is left in. "
                             "channel_offsets = \"fit\" estimates it with the rest."});
   }
+  return drift.has_value();
 }
 
 /// Code of the warning, and what the channel does.
@@ -153,15 +227,31 @@ std::pair<std::string_view, std::string_view> in_words(signal::ChannelFault faul
               "beyond its range. Measure in a wider one."};
     case signal::ChannelFault::dropouts:
       return {"dropouts",
-              "stands still for several samples now and then: samples were lost there. "
-              "Choose another part by from_s and to_s."};
+              "stands still for several samples now and then: samples were lost there, "
+              "and are left out."};
     case signal::ChannelFault::none:
       break;
   }
   return {};
 }
 
-void warn_faults(const signal::Record& record, Warnings& warnings) {
+/// Leave out of all columns the samples that are lost in one.
+void leave_out(const std::vector<bool>& lost, signal::Record& record) {
+  const auto thin_out = [&](std::vector<double>& values) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!lost[i]) values[kept++] = values[i];
+    }
+    values.resize(kept);
+  };
+  thin_out(record.angle);
+  thin_out(record.time);
+  for (auto& values : record.channel) thin_out(values);
+}
+
+/// Say what channels do that no force does, and leave lost samples out.
+void look_for_faults(signal::Record& record, Warnings& warnings) {
+  std::vector<bool> lost(record.size(), false);
   for (std::size_t c = 0; c < record.channel.size(); ++c) {
     if (!record.measured[c]) continue;
     const signal::ChannelFault fault = signal::channel_fault(record.channel[c]);
@@ -172,7 +262,12 @@ void warn_faults(const signal::Record& record, Warnings& warnings) {
     warnings.push_back(
         {std::string(code), fmt::format("{}: channel {} (column {}) {}", record.file,
                                         c + 1, record.channel_column[c], what)});
+    if (fault != signal::ChannelFault::dropouts) continue;
+    for (const signal::Part& part : signal::lost_samples(record.channel[c])) {
+      for (std::size_t i = part.begin; i < part.end; ++i) lost[i] = true;
+    }
   }
+  if (std::ranges::find(lost, true) != lost.end()) leave_out(lost, record);
 }
 
 /// `0.83 s`, or the number of the turn where a record has no times.
@@ -244,6 +339,34 @@ std::vector<double> stated_angle(const signal::Record& record,
                               : signal::unwrapped(record.angle);
 }
 
+/// @brief Refuse times without a unit that are none in seconds, but in a smaller unit.
+/// @throws base::InputError
+void check_unit_of_time(const signal::Record& record, const geometry::Cut& cut) {
+  constexpr double least_by_time = 2.0;  // samples a turn: fewer tell no speed
+  constexpr double least = 8.0;          // of a sound record
+  constexpr double most = 1e5;
+  const std::string column =
+      fmt::format("Column \"{}\" says no unit", record.time_column);
+  const bool assumed =
+      std::ranges::any_of(record.notes, [&](const base::Warning& note) {
+        return note.code == "unit_assumed" && note.message.starts_with(column);
+      });
+  if (!record.angle.empty() || !assumed || record.size() < 2) return;
+  const double step = (record.time.back() - record.time.front()) /
+                      static_cast<double>(record.size() - 1);
+  const double a_turn = unit::turn / (cut.Omega * step);
+  if (a_turn >= least_by_time) return;
+  for (const auto& [name, parts] : {std::pair{"ms", 1e3}, std::pair{"us", 1e6}}) {
+    if (!(a_turn * parts >= least && a_turn * parts <= most)) continue;
+    throw base::InputError({fmt::format(
+        "{}: column \"{}\" says no unit: in s there are {:.2g} samples to a turn of the "
+        "stated {:g} rpm, in {} {:.4g}: write the unit into its name, for example "
+        "time_{}",
+        record.file, record.time_column, a_turn, unit::in(cut.Omega, unit::rpm), name,
+        a_turn * parts, name)});
+  }
+}
+
 /// Which part of a record is fitted.
 struct UsedPart {
   signal::Part part;
@@ -264,14 +387,58 @@ UsedPart used_part(const signal::Record& record, std::span<const double> angle,
                        : ""};
 }
 
+/// A record told apart, over the angle by which that was done.
+struct ToldApart {
+  std::vector<double> angle;
+  signal::Passes passes;
+};
+
+/// The middle of the steady cut, as long as it takes to know the speed.
+signal::Record middle_of_cut(const signal::Record& record,
+                             std::span<const double> angle, const signal::Part& cut) {
+  constexpr double most_turns = 32.0;
+  const std::size_t middle = cut.begin + cut.size() / 2;
+  const std::size_t half = cut.size() / 4;
+  signal::Part part{middle - half, middle + half};
+  const double reach = 0.5 * most_turns * unit::turn;
+  while (part.size() > 2 && angle[middle] - angle[part.begin] > reach) ++part.begin;
+  while (part.size() > 2 && angle[part.end - 1] - angle[middle] > reach) --part.end;
+  signal::Record out;
+  const auto piece = [&](const std::vector<double>& all) {
+    return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(part.begin),
+                               all.begin() + static_cast<std::ptrdiff_t>(part.end));
+  };
+  out.time = piece(record.time);
+  for (std::size_t c = 0; c < 3; ++c) out.channel[c] = piece(record.channel[c]);
+  return out;
+}
+
+/// @brief Air and cut of a record.
+///
+/// The lines of turns tell entry from cut where turns are turns: not by a stated speed that
+/// is off, but by the one in the middle of the cut.
+ToldApart told_apart(const signal::Record& record, const geometry::Cut& cut) {
+  ToldApart out{.angle = stated_angle(record, cut), .passes = {}};
+  out.passes = signal::passes_of(record.channel, out.angle);
+  if (!record.angle.empty()) return out;
+  const signal::Record middle =
+      middle_of_cut(record, out.angle, signal::longest_steady(out.passes));
+  // Of one tooth all low orders are looked at, those of any number of teeth.
+  const signal::SpeedEstimate found =
+      signal::spindle_speed(middle, {.Omega = cut.Omega, .teeth = 1});
+  if (!found.ok || std::abs(found.Omega / cut.Omega - 1.0) <= speed_slack) return out;
+  out.angle = signal::angle_from_time(record.time, found.Omega);
+  out.passes = signal::passes_of(record.channel, out.angle);
+  return out;
+}
+
 /// The steady cut of a record, without the offset of its channels.
 void keep_cut(const cases::Case& given, const cases::Measurement& measurement,
               signal::Record& record, MeasuredRun& run, Warnings& warnings) {
-  const std::vector<double> angle = stated_angle(record, measurement.cut);
-  const signal::Passes passes = signal::passes_of(record.channel, angle);
+  const auto [angle, passes] = told_apart(record, measurement.cut);
   const UsedPart used = used_part(record, angle, passes, measurement);
   run.overview = signal::overview_of(record, angle, used.part);
-  take_drift_out(given, angle, passes.air, record, warnings);
+  run.offset_taken_out = take_drift_out(given, angle, passes.air, record, warnings);
   if (!used.why.empty()) {
     warnings.push_back({"part_used", record.file + ": " + used.why});
   }
@@ -340,9 +507,14 @@ std::vector<MeasuredRun> measured_runs(const cases::Case& given, Warnings& warni
     for (const base::Warning& note : record.notes) {
       warnings.push_back({note.code, run.file + ": " + note.message});
     }
-    warn_faults(record, warnings);
+    check_unit_of_time(record, given.measurements[i].cut);
+    look_for_faults(record, warnings);
     keep_cut(given, given.measurements[i], record, run, warnings);
     lay_over_angle(record, given.setup.cutter.teeth(), run, warnings);
+    if (!run.by_time || run.Omega_se > 0.0) {  // else turns are no turns
+      warn_growth(record, run, warnings);
+      warn_foreign_line(record, run, warnings);
+    }
     run.run.channel = std::move(record.channel);
     run.run.measured = record.measured;
     runs.push_back(std::move(run));
@@ -366,9 +538,8 @@ std::string describe_record(const signal::Record& record,
       fmt::format("{}: {} samples, {}, {}\n", record.file, record.size(),
                   duration_text(record), revolutions_text(record, measurement.cut));
   text += axis_text(record);
-  const std::vector<double> angle = stated_angle(record, measurement.cut);
-  const UsedPart used =
-      used_part(record, angle, signal::passes_of(record.channel, angle), measurement);
+  const auto [angle, passes] = told_apart(record, measurement.cut);
+  const UsedPart used = used_part(record, angle, passes, measurement);
   if (!used.why.empty()) {
     text += "  " + used.why + "\n";
   }
@@ -382,7 +553,7 @@ std::string describe_record(const signal::Record& record,
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) /
                         static_cast<double>(values.size());
     text +=
-        fmt::format("  channel {} from column {}: {:.1f} to {:.1f} N, mean {:.1f} N\n",
+        fmt::format("  channel {} from column {}: {:.4g} to {:.4g} N, mean {:.4g} N\n",
                     c + 1, record.channel_column[c], *lo, *hi, mean);
   }
   return text;

@@ -18,6 +18,8 @@ struct MeasuredRun {
   bool by_time = false;            ///< its angles follow from its times
   double Omega = 0.0;              ///< found in the record, else as stated [rad/s]
   double Omega_se = 0.0;           ///< [rad/s]; 0: not estimated
+  bool wanders = false;            ///< its speed, which was followed
+  bool offset_taken_out = false;   ///< what the channels read where nothing cuts
   signal::Overview overview = {};  ///< of the whole record
 };
 

@@ -22,9 +22,9 @@ TEST(DescribeRecord, TellsTimesByTheStatedSpeed) {
             "a.csv: 1001 samples, 1 s at 1000 Hz, about 10.0 revolutions at the stated "
             "600 rpm\n"
             "  time from column t\n"
-            "  channel 1 from column Fx: -10.0 to 30.0 N, mean 30.0 N\n"
-            "  channel 2 from column Fy: -10.0 to 30.0 N, mean 30.0 N\n"
-            "  channel 3 from column Fz: -10.0 to 30.0 N, mean 30.0 N\n");
+            "  channel 1 from column Fx: -10 to 30 N, mean 29.96 N\n"
+            "  channel 2 from column Fy: -10 to 30 N, mean 29.96 N\n"
+            "  channel 3 from column Fz: -10 to 30 N, mean 29.96 N\n");
 }
 
 TEST(DescribeRecord, CountsAnglesThatStartAnew) {

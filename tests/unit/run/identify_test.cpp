@@ -47,6 +47,27 @@ TEST(Identify, FindsWhatTheRecordWasMadeWith) {
   ASSERT_TRUE(r.curve.has_value());
 }
 
+/// Left in, they pass for cutting forces.
+TEST(Identify, FitsOffsetsThatNoAirTells) {
+  auto record = identification::made_record(
+      made_setup(), made_law(),
+      {.phase = 0.3, .per_turn = 180, .turns = 10.0, .noise = 2.0});
+  for (auto& F : record.force) {
+    F[0] += 60.0;
+    F[1] -= 90.0;
+  }
+  const IdentifyResult r = identified(record, options);
+  ASSERT_TRUE(r.heading.ok) << r.heading.message;
+  const identification::Fit& fit = r.fits.at(*r.chosen);
+  ASSERT_EQ(fit.channel_offsets.size(), 1U);
+  EXPECT_NEAR(fit.channel_offsets[0][0].constant, 60.0, 5.0);
+  EXPECT_NEAR(fit.coefficients[0]->value, 2620e6, 4 * fit.coefficients[0]->se);
+  EXPECT_NEAR(fit.coefficients[1]->value, 1560e6, 4 * fit.coefficients[1]->se);
+  const IdentifyResult left_in =
+      identified(record, options + "channel_offsets = \"none\"\n");
+  EXPECT_TRUE(left_in.fits.at(*left_in.chosen).channel_offsets.empty());
+}
+
 TEST(Identify, WithoutTimeFitsTheModelThatDecidesAlone) {
   const CaseFolder folder;
   folder.write("record.csv", csv_text(two_turns(0.3, 2.0), Axis::angle));

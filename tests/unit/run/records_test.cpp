@@ -72,6 +72,91 @@ TEST(MeasuredRuns, NameASpeedThatIsFarFromTheStatedOne) {
   EXPECT_DOUBLE_EQ(got.runs[0].Omega / unit::rpm, 875.0);
 }
 
+/// Teeth that are alike look periodic at other speeds, too.
+TEST(MeasuredRuns, NameTheNearestSpeedThatExplainsAsMuch) {
+  const CaseFolder folder;
+  force::Setup alike = made_setup();
+  alike.runout = {};
+  const auto record = identification::made_record(
+      alike, made_law(), {.per_turn = 90, .turns = 30.0, .noise = 1.0});
+  folder.write("record.csv", csv_text(record, Axis::time, 0.93 * 875.0));
+  const Read got = read(folder, cases::test::slot + measurement);
+  ASSERT_EQ(got.warnings.size(), 1U);
+  EXPECT_NE(got.warnings[0].message.find("-7 % off"), std::string::npos)
+      << got.warnings[0].message;
+}
+
+TEST(MeasuredRuns, LeaveLostSamplesOut) {
+  const CaseFolder folder;
+  auto record = identification::made_record(
+      made_setup(), made_law(), {.per_turn = 90, .turns = 20.0, .noise = 1.0});
+  std::size_t lost = 0;
+  for (std::size_t i = 100; i + 20 < record.force.size(); i += 60) {
+    for (std::size_t k = 1; k < 12; ++k, ++lost) record.force[i + k] = record.force[i];
+  }
+  folder.write("record.csv", csv_text(record, Axis::time));
+  const Read got = read(folder, cases::test::slot + measurement);
+  ASSERT_FALSE(got.warnings.empty());
+  EXPECT_EQ(got.warnings[0].code, "dropouts");
+  EXPECT_EQ(got.runs[0].run.angle.size(), record.force.size() - lost);
+  EXPECT_NEAR(got.runs[0].Omega / unit::rpm, 875.0, 0.1);
+}
+
+TEST(MeasuredRuns, RefuseMillisecondsReadAsSeconds) {
+  const CaseFolder folder;
+  const auto record = identification::made_record(
+      made_setup(), made_law(), {.per_turn = 90, .turns = 20.0, .noise = 1.0});
+  std::string text = csv_text(record, Axis::time, 875.0 / 1000.0);
+  text.replace(0, 6, "Time");
+  folder.write("record.csv", text);
+  try {
+    static_cast<void>(read(folder, cases::test::slot + measurement));
+    FAIL() << "taken for seconds";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("in ms 90: write the unit into its name"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(MeasuredRuns, FollowASpeedThatSags) {
+  const CaseFolder folder;
+  const auto record = identification::made_record(
+      made_setup(), made_law(), {.per_turn = 90, .turns = 60.0, .noise = 1.0});
+  auto sagging = record;  // its times are stretched towards the end
+  for (double& phi : sagging.angle) phi *= 1.0 + 0.01 * phi / (60.0 * unit::turn);
+  folder.write("record.csv", csv_text(sagging, Axis::time));
+  const Read got = read(folder, cases::test::slot + measurement);
+  ASSERT_FALSE(got.warnings.empty());
+  EXPECT_EQ(got.warnings.back().code, "speed_wanders");
+  const auto& found = got.runs[0].run.angle;
+  ASSERT_EQ(found.size(), record.angle.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    worst = std::max(
+        worst, std::abs((found[i] - found[0]) - (record.angle[i] - record.angle[0])));
+  }
+  EXPECT_LT(worst, 0.02);
+}
+
+TEST(MeasuredRuns, SayThatAForceGrows) {
+  const CaseFolder folder;
+  auto record = identification::made_record(
+      made_setup(), made_law(), {.per_turn = 90, .turns = 60.0, .noise = 1.0});
+  for (std::size_t i = 0; i < record.force.size(); ++i) {
+    for (double& f : record.force[i]) {
+      f *= 1.0 +
+           0.08 * static_cast<double>(i) / static_cast<double>(record.force.size());
+    }
+  }
+  folder.write("record.csv", csv_text(record, Axis::time));
+  const Read got = read(folder, cases::test::slot + measurement);
+  ASSERT_EQ(got.warnings.size(), 1U);
+  EXPECT_EQ(got.warnings[0].code, "changes_within");
+  EXPECT_NE(got.warnings[0].message.find("grows by 8 %"), std::string::npos)
+      << got.warnings[0].message;
+}
+
 TEST(MeasuredRuns, NameDeadAndClippedChannels) {
   const CaseFolder folder;
   auto record = two_turns();
