@@ -29,7 +29,7 @@ constexpr double hardest = 20000 * unit::MPa;
 constexpr double much_ringing = 0.2;
 
 /// Warnings that cast a doubt on the numbers, and how to say it in a few words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> care{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> care{{
     {"clipped_channel", "a channel was driven beyond its range"},
     {"dead_channel", "a channel is dead"},
     {"cut_fits_better", "another cut than the stated one fits better"},
@@ -38,6 +38,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 19> care{{
     {"axes_signs", "the signs of the channels are not certain"},
     {"axes_by_signs",
      "another reading of the channels leaves less, with signs of no cut"},
+    {"offsets_left_in", "offsets of the channels may be in the forces"},
     {"changes_within", "the force changes within a record"},
     {"axes_close", "another reading of the channels fits nearly as well"},
     {"axial_sign", "z may be reversed"},

@@ -365,6 +365,14 @@ IdentifyResult identified(const Task& task, IdentifyResult r) {
   return r;
 }
 
+/// Whether a fit without offsets explains so much more than one with them that the search
+/// with them went astray: they only add freedom.
+bool explains_far_more(const IdentifyResult& without, const IdentifyResult& with) {
+  constexpr double far_less = 0.7;  // of what is left (rms)
+  return without.chosen &&
+         without.fits[*without.chosen].rms < far_less * with.fits[*with.chosen].rms;
+}
+
 /// @brief The same with the offsets of the channels as the records allow: where one has no
 /// air to read them off, they are found with the coefficients.
 IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
@@ -377,8 +385,23 @@ IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
   }
   cases::Case given = task.given;
   given.identify.channel_offsets = ChannelOffset::fit;
-  IdentifyResult out =
-      identified({given, task.progress, task.stop, task.measured}, std::move(r));
+  IdentifyResult out = identified({given, task.progress, task.stop, task.measured}, r);
+  if (out.chosen && out.fits[*out.chosen].unexplained.in_band > worth_a_look) {
+    given.identify.channel_offsets = ChannelOffset::none;
+    IdentifyResult left_in =
+        identified({given, task.progress, task.stop, task.measured}, std::move(r));
+    if (!explains_far_more(left_in, out)) return out;
+    left_in.heading.warnings.push_back(
+        {"offsets_left_in",
+         "Nothing in the record is free of cutting, and no good fit was found together "
+         "with offsets of the channels: they are left in, and bias the coefficients where "
+         "there are any. Record some air before the cut."});
+    if (left_in.reasons_against.empty()) {
+      left_in.reasons_for_care = reasons_for_care(left_in.heading.warnings);
+    }
+    left_in.heading.message = results::identification_sentence(left_in);
+    return left_in;
+  }
   if (!out.chosen) {
     out.heading.warnings.push_back(
         {"offsets_not_told",

@@ -21,7 +21,7 @@ constexpr std::size_t samples_of_turn = 12;  ///< of a turn
 constexpr int lines_at_most = 12;
 constexpr double samples_of_line = 3.0;
 constexpr double clearly = 0.7;  ///< of what a constant speed foretells, in squares
-constexpr double least_wander = 1e-3;  ///< [rad], rms: less changes nothing
+constexpr double least_wander = 5e-3;  ///< [rad], rms: less changes nothing
 
 /// Lines of one turn, channel by channel, order by order from 1.
 using Lines = std::vector<Complex>;
