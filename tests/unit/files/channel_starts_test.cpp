@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trochoid::files {
-namespace {
+namespace trochoid::files::channel_starts_test {
 
 constexpr double rate = 1e4;
 
@@ -82,5 +81,4 @@ TEST(ChannelStarts, ThatAreTooFarApartAreRefused) {
       << three.starts.problem;
 }
 
-}  // namespace
-}  // namespace trochoid::files
+}  // namespace trochoid::files::channel_starts_test

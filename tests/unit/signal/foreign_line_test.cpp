@@ -6,8 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::foreign_line_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double rate = 1e4;
@@ -45,5 +44,4 @@ TEST(ForeignLine, IsNoneOfACutThatOnlyTurns) {
   EXPECT_FALSE(foreign_line({}, rate, turn * spindle));
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::foreign_line_test

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace trochoid::signal {
-namespace {
+namespace trochoid::signal::wander_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
@@ -92,5 +91,4 @@ TEST(FollowSpeed, NeedsTurnsToCompare) {
   EXPECT_TRUE(follow_speed({}, {}).angle.empty());
 }
 
-}  // namespace
-}  // namespace trochoid::signal
+}  // namespace trochoid::signal::wander_test
