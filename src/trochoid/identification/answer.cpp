@@ -271,12 +271,25 @@ void fill_groups(const Problem& problem, const force::Law& law,
   fit.coefficients = fit.groups.front().coefficients;
 }
 
+void fill_resonances(const Problem& problem, const Point& point, Reasons& reasons,
+                     Fit& fit) {
+  std::size_t i = index(problem.linear() + problem.unknowns.first_resonance());
+  fit.resonances = point.resonances;
+  for (auto& one : fit.resonances) {
+    if (!one) continue;
+    if (reasons.determined(i)) one->omega_se = one->omega * reasons.se(i);
+    if (reasons.determined(i + 1)) one->zeta_se = one->zeta * reasons.se(i + 1);
+    i += 2;
+  }
+}
+
 void fill_phases(const Problem& problem, Reasons& reasons, Fit& fit) {
   const Unknowns& u = problem.unknowns;
   const std::size_t first = index(problem.linear() + u.first_phase());
   for (std::size_t r = 0; r < index(u.phases); ++r) {
     if (!reasons.determined(first + r)) continue;
-    const double se = reasons.se(first + r);
+    const double se =
+        std::hypot(reasons.se(first + r), problem.runs[r].lever_se);  // I-23
     if (se > pi / u.teeth) {
       reasons.refuse(
           reasons.name(first + r),
@@ -364,6 +377,7 @@ void fill_estimates(const Problem& problem, std::span<const double> p,
   fit.phase = point.phase;
   fit.phase_se.assign(point.phase.size(), std::nullopt);
   fill_phases(problem, reasons, fit);
+  fill_resonances(problem, point, reasons, fit);
   fit.found = found_together(problem, p, K, known);
 }
 

@@ -24,6 +24,10 @@ void Derivatives::find(int i, const Step& step, std::span<double> out) const {
     find_by_phase(index(i - u.first_phase()), step.phase, out);
     return;
   }
+  if (i >= u.first_resonance()) {
+    find_by_resonance(index(i - u.first_resonance()), out);
+    return;
+  }
   const auto from_turn = [](const FoldedRun& run) { return !run.turn_map.empty(); };
   if (std::ranges::any_of(problem_.runs, from_turn)) {
     find_by_evaluation(i, step.parameter, out);
@@ -74,6 +78,20 @@ void Derivatives::find_by_evaluation(int i, double step, std::span<double> out) 
   numerics::add_combination(design(problem_, moved).first(K_.size()), K_, 1.0 / step,
                             out);
   numerics::add_combination({force_, force_.size()}, {{1.0}}, -1.0 / step, out);
+}
+
+/// Where a resonance is searched, all rows are from the turn.
+void Derivatives::find_by_resonance(std::size_t i, std::span<double> out) const {
+  const std::size_t rows = index(problem_.rows());
+  for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
+    const std::size_t first = first_row(problem_, r);
+    const std::size_t own = index(problem_.runs[r].rows);
+    const std::span<const double> K = coefficients(r);
+    std::vector<double> C(rows * K.size());
+    fill_resonance_slope(problem_, at_, r, i, C);
+    numerics::add_combination(numerics::Columns(C, own, rows).first(K.size()), K, 1.0,
+                              out.subspan(first, own));
+  }
 }
 
 void Derivatives::find_by_phase(std::size_t r, double step,

@@ -31,6 +31,7 @@ class Derivatives {
                  std::span<double> out) const;
   void find_by_evaluation(int i, double step, std::span<double> out) const;
   void find_by_phase(std::size_t r, double step, std::span<double> out) const;
+  void find_by_resonance(std::size_t i, std::span<double> out) const;
 
   const Problem& problem_;
   const Evaluation& at_;

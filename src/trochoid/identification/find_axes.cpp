@@ -360,7 +360,8 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
       throw std::invalid_argument(
           "a channel is missing: no force can be told by a matrix");
     }
-    out.push_back({run.cut, run.angle, std::move(*force), run.group, *measured});
+    out.push_back(
+        {run.cut, run.angle, std::move(*force), run.group, *measured, run.Omega_se});
   }
   return out;
 }

@@ -20,6 +20,7 @@ struct ChannelRun {
   std::array<std::vector<double>, 3> channel;  ///< [N], shape (n) each
   std::string group = {};                      ///< as of Run
   std::array<bool, 3> measured = {true, true, true};  ///< channels that there are
+  double Omega_se = 0.0;                              ///< as of Run
 };
 
 /// @brief Whether the force in x, y and z follows from the channels that are measured;

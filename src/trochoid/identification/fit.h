@@ -24,6 +24,9 @@ struct Run {
   std::string group = {};
   /// Whether the force in x, y and z was measured; what was not is no equation.
   std::array<bool, 3> measured = {true, true, true};
+  /// Standard error of the speed by which the angles follow from times [rad/s]; 0: they
+  /// were measured.
+  double Omega_se = 0.0;
 };
 
 /// What is not searched is kept as the setup gives it: with `offsets` a given
@@ -98,6 +101,8 @@ struct Options {
   /// What the dynamometer makes of the force, one a run; empty: it is rigid. With it the
   /// fit is by harmonics, up to the last one given.
   std::vector<Response> response = {};
+  /// Of the dynamometer beside its `response`: found with the rest, from these values.
+  Resonances resonances = {};
   /// Absent: the runout of the setup, where there is one, at any phase. Where it does not
   /// lead to a good fit nearby, everything is searched.
   std::optional<Start> start = std::nullopt;

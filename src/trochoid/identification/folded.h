@@ -38,6 +38,9 @@ struct FoldedRun {
   /// Of the three rows of each angle or wave; what is not measured has rows of zeros.
   std::array<bool, 3> measured = {true, true, true};
 
+  /// What the error of the speed adds to that of the phase at the first sample [rad].
+  double lever_se = 0.0;
+
   int rows = 0;           ///< of b and drift
   std::vector<double> b;  ///< measured force, shape (rows)
   std::vector<double>

@@ -203,6 +203,7 @@ Knowledge knowledge_of(const force::Setup& setup, const force::Law& law,
   trial.options = fit.options;
   trial.options.start.reset();
   trial.options.response.clear();  // of the runs measured
+  trial.options.resonances = {};
   trial.noise = effective_noise(fit, runs);
   trial.measured = fit.measured;
   return known;

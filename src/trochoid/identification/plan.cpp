@@ -40,7 +40,7 @@ Sorted sorted(const Problem& problem, std::span<const double> J, std::size_t gro
   for (std::size_t c = 0; c < J.size() / rows; ++c) {
     const std::span<const double> from = J.subspan(c * rows, rows);
     const bool own = c / columns == group && c < index(problem.force_columns());
-    const bool shared = c >= linear && c < linear + index(u.first_phase());
+    const bool shared = c >= linear && c < linear + index(u.first_resonance());
     const bool runout = shared && c < linear + index(u.runout_count());
     const bool drift = c >= index(problem.force_columns()) && c < linear;
     if (drift && !slopes && (c - index(problem.force_columns())) % 2 == 1) continue;
@@ -74,7 +74,7 @@ std::optional<Information> inverse_of(const Problem& problem, const Uncertainty&
   const Unknowns& u = problem.unknowns;
   std::vector<std::size_t> asked;   // places among the unknowns
   std::vector<std::size_t> places;  // and among the parameters
-  const std::size_t count = columns + index(u.first_phase());
+  const std::size_t count = columns + index(u.first_resonance());
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t own = c < columns ? group * columns + c : linear + c - columns;
     if (known.unmeasured[own]) continue;  // zero in rows and columns: nothing is known
@@ -227,7 +227,7 @@ Information information_of(const force::Setup& setup, const force::Law& law,
   }
   Problem problem = *prepared.problem;
   problem.tolerance = final_tolerance;
-  const Point point{fit.runout, fit.law, fit.phase};
+  const Point point{fit.runout, fit.law, fit.phase, fit.resonances};
   Evaluation at = evaluate(problem, parameters_of(problem, point));
   const numerics::LeastSquares linear =
       numerics::least_squares(design(problem, at), measured(problem), rank_tolerance);

@@ -57,6 +57,7 @@ Unknowns unknowns_of(const force::Setup& setup, const force::Law& law,
   out.length = 0.0;
   for (const Run& run : runs) out.length = std::max(out.length, run.cut.f_z);
   out.phases = options.phase ? 0 : static_cast<int>(runs.size());
+  for (std::size_t q = 0; q < 3; ++q) out.rings[q] = options.resonances[q].has_value();
   return out;
 }
 
@@ -73,6 +74,7 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
         fold(runs[r], options,
              r < options.response.size() ? options.response[r] : Response{}));
   }
+  out.resonances = options.resonances;
   set_groups(runs, out);
   out.fixed_phase = options.phase.value_or(0.0);
   out.stop = options.stop;

@@ -71,11 +71,44 @@ void fill_drift(const Problem& problem, std::span<double> D) {
   }
 }
 
-/// Whether two points have the same matrices, before the phases.
+/// Whether two points have the same matrices, before resonances and phases.
 bool same_matrices(const Problem& problem, std::span<const double> a,
                    std::span<const double> b) {
-  const std::size_t n = index(problem.unknowns.first_phase());
+  const std::size_t n = index(problem.unknowns.first_resonance());
   return a.size() == b.size() && std::ranges::equal(a.first(n), b.first(n));
+}
+
+bool same_resonances(const Problem& problem, std::span<const double> a,
+                     std::span<const double> b) {
+  const std::size_t first = index(problem.unknowns.first_resonance());
+  const std::size_t n = index(problem.unknowns.resonance_count());
+  return std::ranges::equal(a.subspan(first, n), b.subspan(first, n));
+}
+
+/// What the dynamometer makes of the force of a run.
+const Response& response_at(const Problem& problem, const Evaluation& at,
+                            std::size_t r) {
+  return at.response.empty() ? problem.runs[r].response : at.response[r];
+}
+
+/// Less damping is not believed: near a harmonic, amplitude alone would tell it. More than
+/// all but that of an amplifier's low-pass is none of a spring.
+constexpr std::array damping_range{0.01, 1.5};
+/// A resonance is not searched further from its start than this, in ln omega.
+constexpr double farthest_resonance = 1.0;
+
+bool resonances_in_range(const Problem& problem, std::span<const double> p) {
+  std::size_t i = index(problem.unknowns.first_resonance());
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (!problem.unknowns.rings[q]) continue;
+    const double zeta = problem.resonances[q]->zeta * std::exp(p[i + 1]);
+    if (!(std::abs(p[i]) < farthest_resonance) || !(zeta >= damping_range[0]) ||
+        !(zeta <= damping_range[1])) {
+      return false;
+    }
+    i += 2;
+  }
+  return true;
 }
 
 }  // namespace
@@ -118,6 +151,13 @@ Point point_of(const Problem& problem, std::span<const double> p) {
     const std::size_t at = index(u.runout_count());
     out.law = force::with_exponents(out.law, p.subspan(at).first<3>());
   }
+  std::size_t i = index(u.first_resonance());
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (!u.rings[q]) continue;
+    const Resonance& start = *problem.resonances[q];
+    out.resonances[q] = {start.omega * std::exp(p[i]), start.zeta * std::exp(p[i + 1])};
+    i += 2;
+  }
   out.phase.assign(problem.runs.size(), problem.fixed_phase);
   for (int r = 0; r < u.phases; ++r)
     out.phase[index(r)] = p[index(u.first_phase() + r)];
@@ -147,6 +187,13 @@ std::vector<double> parameters_of(const Problem& problem, const Point& point) {
     const auto m = force::form(point.law).m;
     p.insert(p.end(), m.begin(), m.end());
   }
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (!u.rings[q]) continue;
+    const Resonance& start = *problem.resonances[q];
+    const Resonance& here = point.resonances[q].value_or(start);
+    p.push_back(std::log(here.omega / start.omega));
+    p.push_back(std::log(here.zeta / start.zeta));
+  }
   p.insert(p.end(), point.phase.begin(), point.phase.begin() + u.phases);
   return p;
 }
@@ -159,9 +206,9 @@ bool in_range(const Problem& problem, std::span<const double> p) {
     const double v = p[index(i)];
     if (!std::isfinite(v)) return false;
     if (i < runout && std::abs(v) > limit) return false;
-    if (i >= runout && i < u.first_phase() && (v >= 0.98 || v < -0.5)) return false;
+    if (i >= runout && i < u.first_resonance() && (v >= 0.98 || v < -0.5)) return false;
   }
-  return true;
+  return resonances_in_range(problem, p);
 }
 
 bool enters_suddenly(const Problem& problem, const FoldedRun& run, double step) {
@@ -188,7 +235,7 @@ std::size_t first_row(const Problem& problem, std::size_t r) noexcept {
 std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
                                   std::size_t r) {
   std::vector<double> out = at_phase(at.turn[r], at.point.phase[r]);
-  respond(problem.runs[r].response, index(problem.columns), out);
+  respond(response_at(problem, at, r), index(problem.columns), out);
   return out;
 }
 
@@ -228,9 +275,25 @@ void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
 void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
                       std::span<double> C) {
   std::vector<double> slopes = slope_at_phase(at.turn[r], at.point.phase[r]);
-  respond(problem.runs[r].response, index(problem.columns), slopes);
+  respond(response_at(problem, at, r), index(problem.columns), slopes);
   by_columns(rows_of_turn(problem.runs[r], slopes, problem.columns),
              index(problem.columns), index(problem.rows()), C);
+  leave_out(problem, r, C);
+}
+
+void fill_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                          std::size_t i, std::span<double> C) {
+  std::size_t axis = 0;
+  std::size_t passed = i / 2;  // axes that ring before that of the unknown
+  while (!problem.unknowns.rings[axis] || passed-- > 0) ++axis;
+  const FoldedRun& run = problem.runs[r];
+  std::vector<double> slopes = at_phase(at.turn[r], at.point.phase[r]);
+  respond(slope_of_resonance(
+              run.response, at.point.resonances, run.cut.Omega, axis,
+              i % 2 == 0 ? ResonanceUnknown::ln_omega : ResonanceUnknown::ln_zeta),
+          index(problem.columns), slopes);
+  by_columns(rows_of_turn(run, slopes, problem.columns), index(problem.columns),
+             index(problem.rows()), C);
   leave_out(problem, r, C);
 }
 
@@ -241,6 +304,7 @@ numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept 
 void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at) {
   Point point = point_of(problem, p);
   const bool again = !at.matrix.empty() && same_matrices(problem, p, at.p);
+  const bool rings_as_before = again && same_resonances(problem, p, at.p);
   if (!again) {
     at.matrix.clear();
     at.turn.clear();
@@ -254,9 +318,16 @@ void evaluate(const Problem& problem, std::span<const double> p, Evaluation& at)
     at.D.assign(rows * index(problem.linear()), 0.0);
     fill_drift(problem, at.D);
   }
+  if (problem.unknowns.resonance_count() > 0 && !rings_as_before) {
+    at.response.clear();
+    for (const FoldedRun& run : problem.runs) {
+      at.response.push_back(
+          with_resonances(run.response, at.point.resonances, run.cut.Omega));
+    }
+  }
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const FoldedRun& run = problem.runs[r];
-    if (again && at.point.phase[r] == point.phase[r]) continue;
+    if (rings_as_before && at.point.phase[r] == point.phase[r]) continue;
     if (!again) {
       at.matrix.emplace_back(setup_of(problem, at.point, run), at.point.law,
                              problem.tolerance);

@@ -3,9 +3,11 @@
 #include <trochoid/base/stop.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/identification/folded.h>
+#include <trochoid/identification/response.h>
 #include <trochoid/identification/turn_matrix.h>
 #include <trochoid/numerics/columns.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -16,9 +18,10 @@
 namespace trochoid::identification {
 
 /// @brief What the nonlinear unknowns p mean, in
-/// their order: runout, exponents, phases.
+/// their order: runout, exponents, resonances (ln omega, ln zeta of each axis), phases.
 ///
-/// p is scaled to about one: runout by `length`, the phases in radians.
+/// p is scaled to about one: runout by `length`, resonances over where their search begins,
+/// the phases in radians.
 struct Unknowns {
   RunoutUnknowns runout = RunoutUnknowns::none;
   int teeth = 1;
@@ -26,12 +29,19 @@ struct Unknowns {
   /// The eccentricity is searched along this angle only [rad].
   std::optional<double> direction;
   bool exponents = false;
+  std::array<bool, 3> rings{};  ///< axes of which a resonance is searched
   int phases = 0;
 
   [[nodiscard]] int runout_count() const noexcept;
   [[nodiscard]] int exponent_count() const noexcept { return exponents ? 3 : 0; }
-  [[nodiscard]] int first_phase() const noexcept {
+  [[nodiscard]] int resonance_count() const noexcept {
+    return 2 * (int{rings[0]} + int{rings[1]} + int{rings[2]});
+  }
+  [[nodiscard]] int first_resonance() const noexcept {
     return runout_count() + exponent_count();
+  }
+  [[nodiscard]] int first_phase() const noexcept {
+    return first_resonance() + resonance_count();
   }
   [[nodiscard]] int count() const noexcept { return first_phase() + phases; }
 };
@@ -41,6 +51,7 @@ struct Point {
   geometry::Runout runout;
   force::Law law;
   std::vector<double> phase;  ///< [rad], one a run
+  Resonances resonances = {};
 };
 
 /// @brief A fit to be made: data, model and unknowns. Constant once made.
@@ -49,8 +60,9 @@ struct Problem {
   force::Law law;
   std::vector<FoldedRun> runs;
   Unknowns unknowns;
-  double fixed_phase = 0.0;  ///< [rad], where the phases are not unknown
-  double tolerance = 1e-7;   ///< of the force matrix
+  double fixed_phase = 0.0;    ///< [rad], where the phases are not unknown
+  Resonances resonances = {};  ///< where the search for them begins
+  double tolerance = 1e-7;     ///< of the force matrix
   /// At so many angles of the turn at least the matrix of a run is evaluated that has
   /// its rows from the turn; at four times as many on a cylinder whose edges lag, where
   /// they cost little.
@@ -84,7 +96,8 @@ struct Evaluation {
   double tolerance = 0.0;  ///< of the force matrices
   Point point;             ///< the same, in words
   std::vector<force::ForceMatrix> matrix;
-  std::vector<TurnMatrix> turn;  ///< empty where the rows are not from the turn
+  std::vector<TurnMatrix> turn;    ///< empty where the rows are not from the turn
+  std::vector<Response> response;  ///< with the resonances, where they are searched
   std::vector<double> D;  ///< with its channel columns, by columns: (linear, rows);
                           ///< with room for the derivatives beside it
 };
@@ -108,6 +121,10 @@ void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
 /// @brief Their derivatives by the phase, where the rows are from the turn.
 void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
                       std::span<double> C);
+
+/// @brief Their derivatives by an unknown of a resonance.
+void fill_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                          std::size_t i, std::span<double> C);
 
 /// [D] at an evaluation.
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept;

@@ -2,11 +2,19 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
+#include <trochoid/identification/prepare.h>
+#include <trochoid/identification/search.h>
 #include <trochoid/identification/spectrum.h>
+#include <trochoid/identification/uncertainty.h>
+#include <trochoid/numerics/columns.h>
+#include <trochoid/numerics/least_squares.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
 
 namespace trochoid::identification {
 
@@ -16,142 +24,274 @@ using base::index;
 using std::complex;
 
 constexpr int most_resolved = 60;
-/// Slower ones than this harmonic are those of the machine, not of a dynamometer.
-constexpr int first_harmonic = 3;
-/// Less damping is not believed: near a harmonic, amplitude alone would tell it.
-constexpr double least_damping = 0.02;
-constexpr std::array dampings{0.02, 0.03, 0.05, 0.08, 0.12, 0.2};
-/// A resonance that explains less of what is left is none.
-constexpr double least_explained_left = 0.3;
 /// What a rigid fit leaves must repeat turn by turn so much beyond what scatter makes of it.
 constexpr double repeating = 1.2;
-/// The second time the force is better known.
-constexpr int rounds_of_fits = 2;
+/// A resonance must explain so many times what an equation does by chance: with all
+/// frequencies and dampings tried, noise alone reaches about 10.
+constexpr double least_gain = 16.0;
 
-/// Measured and computed amplitude of one axis at one harmonic.
-struct Line {
-  double omega = 0.0;  ///< [rad/s]
-  complex<double> measured;
-  complex<double> force;
+/// Where resonances are looked for, in harmonics of the slowest spindle. Slower ones are those
+/// of the machine; an amplifier's low-pass may well be slower than a resonance.
+constexpr double first_resonance = 3.0;
+constexpr double first_low_pass = 1.5;
+/// A damping of this and more is that of a low-pass.
+constexpr double low_pass = 0.5;
+/// Beyond the last harmonic a resonance still amplifies those below it.
+constexpr double beyond_last = 1.5;
+constexpr int grid_steps = 100;
+constexpr std::array dampings{0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.35, 0.7};
+constexpr double least_damping = 0.015;
+
+/// @brief The lines of all runs as a model that is linear near a fit has them: columns of
+/// the coefficients, and of what else is searched.
+///
+/// A resonance multiplies the lines of its axis alone, and so the products of the columns at
+/// each harmonic by |H|^2: what it leaves with all unknowns at their best costs one small
+/// system of equations.
+class LinearLines {
+ public:
+  LinearLines(const Problem& problem, std::span<const double> p) {
+    Evaluation at = evaluate(problem, p);
+    const std::vector<double> b = measured(problem);
+    const numerics::LeastSquares linear =
+        numerics::least_squares(design(problem, at), b, rank_tolerance);
+    const std::size_t rows = index(problem.rows());
+    const std::vector<double> all = jacobian_of(problem, std::move(at), linear.x);
+    const std::vector<double> J = without_drift(problem, all);
+    columns_ = J.size() / rows;
+    for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+      const FoldedRun& run = problem.runs[r];
+      const std::size_t first = first_row(problem, r);
+      add_run(run, {std::span(J).subspan(first), index(run.rows), rows},
+              {std::span(b).subspan(first), index(run.rows), rows});
+    }
+    for (const Harmonic& line : lines_) {
+      total_.add(line, 1.0, 1.0);
+      squares_ += std::norm(line.measured);
+    }
+    for (std::size_t c = 0; c < columns_; ++c) {
+      const double norm = std::sqrt(total_.gram[c * columns_ + c]);
+      scale_.push_back(norm > 0.0 ? 1.0 / norm : 0.0);
+    }
+  }
+
+  /// Sum of squares that is left when an axis rings besides [N^2].
+  [[nodiscard]] double left(std::size_t axis, const Resonance& resonance) const {
+    Products sum = total_;
+    for (const Harmonic& line : lines_) {
+      if (line.axis != axis || line.omega == 0.0) continue;
+      const complex<double> H = oscillation(line.omega, resonance);
+      sum.add(line, std::norm(H) - 1.0, std::conj(H) - 1.0);
+    }
+    return left_of(sum);
+  }
+
+  [[nodiscard]] double left() const { return left_of(total_); }
+
+  [[nodiscard]] double equations_to_spare() const {
+    return 2.0 * static_cast<double>(lines_.size()) - static_cast<double>(columns_);
+  }
+
+ private:
+  /// Of one axis of one run.
+  struct Harmonic {
+    std::size_t axis = 0;
+    double omega = 0.0;  ///< [rad/s]
+    complex<double> measured;
+    std::vector<complex<double>> model;  ///< shape (columns)
+    std::vector<double> gram;            ///< Re(conj(x) x^T)
+  };
+
+  /// G and g of the normal equations.
+  struct Products {
+    std::vector<double> gram;
+    std::vector<double> right;
+
+    void add(const Harmonic& line, double square, complex<double> factor) {
+      const std::size_t n = line.model.size();
+      gram.resize(n * n, 0.0);
+      right.resize(n, 0.0);
+      for (std::size_t i = 0; i < n * n; ++i) gram[i] += square * line.gram[i];
+      const complex<double> m = factor * line.measured;
+      for (std::size_t c = 0; c < n; ++c) {
+        right[c] += (std::conj(line.model[c]) * m).real();
+      }
+    }
+  };
+
+  /// Constants and slopes of the channels are in no harmonic.
+  static std::vector<double> without_drift(const Problem& problem,
+                                           std::span<const double> J) {
+    const std::size_t rows = index(problem.rows());
+    const std::size_t force = rows * index(problem.force_columns());
+    std::vector<double> out(J.begin(), J.begin() + static_cast<std::ptrdiff_t>(force));
+    const std::span<const double> rest = J.subspan(rows * index(problem.linear()));
+    out.insert(out.end(), rest.begin(), rest.end());
+    return out;
+  }
+
+  void add_run(const FoldedRun& run, const numerics::Columns& J,
+               const numerics::Columns& b) {
+    Spectrum shape;
+    shape.highest = (run.band - 1) / 2;
+    const std::vector<double> X = harmonic_rows(run, shape, J);
+    const std::vector<double> F = harmonic_rows(run, shape, b);
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (!run.measured[q]) continue;
+      const std::size_t none = run.drift.empty() ? 0 : 1;  // of the mean
+      for (int k = static_cast<int>(none); k <= shape.highest; ++k) {
+        Harmonic& line = lines_.emplace_back();
+        line.axis = q;
+        line.omega = k * run.cut.Omega;
+        const std::size_t c = q * shape.lines() + index(k == 0 ? 0 : 2 * k - 1);
+        const auto amplitude = [&](std::span<const double> values, std::size_t width,
+                                   std::size_t column) {
+          return complex<double>(values[c * width + column],
+                                 k == 0 ? 0.0 : -values[(c + 1) * width + column]);
+        };
+        line.measured = amplitude(F, 1, 0);
+        for (std::size_t j = 0; j < columns_; ++j) {
+          line.model.push_back(amplitude(X, columns_, j));
+        }
+        for (const complex<double>& one : line.model) {
+          for (const complex<double>& other : line.model) {
+            line.gram.push_back((std::conj(one) * other).real());
+          }
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] double left_of(const Products& sum) const {
+    const std::size_t n = columns_;
+    std::vector<double> G(sum.gram);
+    std::vector<double> g(sum.right);
+    for (std::size_t i = 0; i < n; ++i) {
+      g[i] *= scale_[i];
+      for (std::size_t j = 0; j < n; ++j) G[i * n + j] *= scale_[i] * scale_[j];
+    }
+    std::vector<double> x(n);
+    return squares_ - numerics::solve_normal(G, g, x);
+  }
+
+  std::size_t columns_ = 0;
+  std::vector<Harmonic> lines_;
+  Products total_;
+  double squares_ = 0.0;
+  std::vector<double> scale_;
 };
 
-complex<double> gain(double omega, double omega_n, double zeta) {
-  const double x = omega / omega_n;
-  return 1.0 / complex<double>(1.0 - x * x, 2.0 * zeta * x);
-}
+/// The range in which resonances are looked for.
+struct Range {
+  double slowest = 0.0;  ///< spindle [rad/s]
+  double highest = 0.0;  ///< line of all runs [rad/s]
+};
 
-double squares(std::span<const Line> lines, double omega_n, double zeta) {
-  double sum = 0.0;
-  for (const Line& l : lines) {
-    sum += std::norm(l.measured - gain(l.omega, omega_n, zeta) * l.force);
-  }
-  return sum;
-}
-
-/// Lines of each axis over all runs.
-std::array<std::vector<Line>, 3> lines_of(
-    std::span<const Run> runs,
-    std::span<const std::vector<std::array<double, 3>>> fitted,
-    std::span<const Response> response) {
-  std::array<std::vector<Line>, 3> out;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const int highest = resolved_harmonics(runs[r]);
-    const auto measured = turn_lines(runs[r].angle, runs[r].force, highest);
-    const auto computed = turn_lines(runs[r].angle, fitted[r], highest);
-    for (std::size_t q = 0; q < 3; ++q) {
-      for (std::size_t k = 1; k < measured[q].size(); ++k) {
-        complex<double> force = computed[q][k];
-        if (r < response.size() && k < response[r].harmonic.size()) {
-          force /= response[r].harmonic[k][4 * q];
-        }
-        out[q].push_back(
-            {static_cast<double>(k) * runs[r].cut.Omega, measured[q][k], force});
-      }
-    }
-  }
-  return out;
-}
-
-/// Sum of squares of the lines of each axis that scatter makes [N^2].
-std::array<double, 3> noise_of(
-    std::span<const Run> runs,
-    std::span<const std::vector<std::array<double, 3>>> fitted) {
-  std::array<double, 3> out{};
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const Spectrum one = spectrum_of(runs[r], fitted[r], 0);
-    if (one.highest < 0) continue;
-    // A row is sqrt(n/2) times the cosine or sine part of a line.
-    const double lines = resolved_harmonics(runs[r]);
-    const double scale = 2.0 / static_cast<double>(runs[r].angle.size());
-    for (std::size_t q = 0; q < 3; ++q) {
-      double sum = 0.0;
-      for (std::size_t k = 1; k < one.lines(); ++k) {
-        sum += scale * one.scatter[q * one.lines() + k];
-      }
-      out[q] += sum * lines / one.highest;
-    }
-  }
-  return out;
-}
+/// A resonance that was tried.
+struct Tried {
+  std::size_t axis = 0;
+  Resonance resonance;
+  double left = std::numeric_limits<double>::infinity();  ///< [N^2]
+};
 
 /// The best of a grid, then smaller and smaller steps about it.
-Resonance best_resonance(std::span<const Line> lines, double lowest, double highest,
-                         double noise) {
-  constexpr int steps = 160;
-  Resonance best;
-  double least = INFINITY;
-  const auto try_one = [&](double omega_n, double zeta) {
-    if (zeta < least_damping) return false;
-    const double s = squares(lines, omega_n, zeta);
-    if (!(s < least)) return false;
-    least = s;
-    best.omega = omega_n;
-    best.zeta = zeta;
-    return true;
+Tried best_resonance(const LinearLines& lines, std::size_t axis, const Range& range) {
+  Tried best{axis, {}};
+  const auto try_one = [&](double omega, double zeta) {
+    const double lowest =
+        range.slowest * (zeta < low_pass ? first_resonance : first_low_pass);
+    if (zeta < least_damping || zeta > 1.0 || omega < lowest) return;
+    const double left = lines.left(axis, {omega, zeta});
+    if (left < best.left) best = {axis, {omega, zeta}, left};
   };
-  for (int i = 0; i <= steps; ++i) {
-    const double omega_n = lowest * std::pow(highest / lowest, i / double(steps));
-    for (const double zeta : dampings) try_one(omega_n, zeta);
+  const double lowest = first_low_pass * range.slowest;
+  const double ratio = beyond_last * range.highest / lowest;
+  for (int i = 0; i <= grid_steps; ++i) {
+    const double omega = lowest * std::pow(ratio, i / double(grid_steps));
+    for (const double zeta : dampings) try_one(omega, zeta);
   }
-  double step = 0.02;
-  while (step > 1e-5) {
-    const Resonance at = best;
+  for (double step = 0.02; step > 1e-4; step *= 0.6) {
+    const Resonance at = best.resonance;
     for (const double f : {1.0 - step, 1.0 + step}) {
       try_one(at.omega * f, at.zeta);
       try_one(at.omega, at.zeta * (1.0 + 10.0 * (f - 1.0)));
     }
-    step *= 0.6;
   }
-  double before = 0.0;
-  for (const Line& l : lines) before += std::norm(l.measured - l.force);
-  best.explained = before > noise ? (before - least) / (before - noise) : 0.0;
   return best;
 }
 
-std::vector<Response> responses(std::span<const Run> runs, const Resonances& found) {
-  std::vector<Response> out;
-  for (const Run& run : runs) {
-    out.push_back(response_of(found, run.cut.Omega, resolved_harmonics(run)));
+/// Of the axes that do not ring yet, the one that explains most by ringing.
+Tried best_of_axes(const LinearLines& lines, const Resonances& found,
+                   const Range& range) {
+  Tried best;
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (found[q]) continue;
+    Tried one = best_resonance(lines, q, range);
+    if (one.left < best.left) best = one;
   }
+  return best;
+}
+
+Range range_of(std::span<const Run> runs, int harmonics) {
+  double slowest = runs.front().cut.Omega;
+  for (const Run& run : runs) slowest = std::min(slowest, run.cut.Omega);
+  return {slowest, harmonics * slowest};
+}
+
+/// A fit and its dynamometer, before the numbers of an answer.
+struct Ringing {
+  Options options;
+  Point point;
+  double rss = 0.0;  ///< of the rows of its problem
+};
+
+/// One more axis that rings; nothing where none explains more than chance.
+std::optional<Ringing> with_one_more(const force::Setup& setup, const force::Law& law,
+                                     std::span<const Run> runs, const Ringing& now) {
+  const Prepared before = prepare(setup, law, runs, now.options);
+  if (!before.refusal.empty()) return std::nullopt;
+  const LinearLines lines(*before.problem, parameters_of(*before.problem, now.point));
+  const Tried best = best_of_axes(lines, now.options.resonances,
+                                  range_of(runs, now.options.band_harmonics));
+  const double by_chance =
+      least_gain * best.left / std::max(1.0, lines.equations_to_spare());
+  if (!(lines.left() - best.left > by_chance)) return std::nullopt;
+  Ringing next = now;
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (now.point.resonances[q]) next.options.resonances[q] = now.point.resonances[q];
+  }
+  next.options.resonances[best.axis] = best.resonance;
+  const Prepared prepared = prepare(setup, law, runs, next.options);
+  const Problem& problem = *prepared.problem;
+  const Minimum minimum = settle(problem, parameters_of(problem, now.point));
+  const double rss = minimum.rss;
+  if (!minimum.converged || !(now.rss - rss > by_chance)) return std::nullopt;
+  next.point = point_of(problem, minimum.p);
+  next.rss = rss;
+  return next;
+}
+
+/// The rigid fit, with rows that a resonance can be put into.
+std::optional<Ringing> rigid_by_harmonics(const force::Setup& setup,
+                                          const force::Law& law,
+                                          std::span<const Run> runs, const Fit& rigid) {
+  Ringing out{rigid.options, {rigid.runout, rigid.law, rigid.phase}};
+  Options& options = out.options;
+  options.band_harmonics = most_resolved;
+  for (const Run& run : runs) {
+    options.band_harmonics = std::min(options.band_harmonics, resolved_harmonics(run));
+  }
+  if (options.band_harmonics < std::max(setup.cutter.teeth(), 6)) return std::nullopt;
+  for (const Run& run : runs) {
+    options.response.push_back(response_of({}, run.cut.Omega, options.band_harmonics));
+  }
+  const Prepared prepared = prepare(setup, law, runs, options);
+  if (!prepared.refusal.empty()) return std::nullopt;
+  const Minimum minimum =
+      settle(*prepared.problem, parameters_of(*prepared.problem, out.point));
+  out.point = point_of(*prepared.problem, minimum.p);
+  out.rss = minimum.rss;
   return out;
-}
-
-/// The harmonics below the slowest resonance that bear it: its frequency is known to a
-/// per cent, by which the amplification then changes by little more.
-int band_below(std::span<const Run> runs, const Resonances& found) {
-  constexpr double bearable = 0.7;
-  double highest = most_resolved;
-  for (const Run& run : runs) {
-    highest = std::min(highest, double(resolved_harmonics(run)));
-    for (const auto& r : found) {
-      if (r) highest = std::min(highest, bearable * r->omega / run.cut.Omega);
-    }
-  }
-  return static_cast<int>(highest);
-}
-
-bool any(const Resonances& found) {
-  return std::ranges::any_of(found, [](const auto& r) { return r.has_value(); });
 }
 
 }  // namespace
@@ -177,61 +317,23 @@ int resolved_harmonics(const Run& run) {
   return static_cast<int>(std::clamp(0.4 * per_turn, 1.0, double(most_resolved)));
 }
 
-Resonances find_resonances(std::span<const Run> runs,
-                           std::span<const std::vector<std::array<double, 3>>> fitted,
-                           std::span<const Response> response) {
-  double slowest = INFINITY;
-  double highest = INFINITY;
-  for (const Run& run : runs) {
-    slowest = std::min(slowest, run.cut.Omega);
-    highest = std::min(highest, resolved_harmonics(run) * run.cut.Omega);
-  }
-  Resonances out;
-  const double lowest = first_harmonic * slowest;
-  if (!(highest > 2.0 * lowest)) return out;
-  const auto lines = lines_of(runs, fitted, response);
-  const auto noise = noise_of(runs, fitted);
-  for (std::size_t q = 0; q < 3; ++q) {
-    const Resonance best = best_resonance(lines[q], lowest, 1.5 * highest, noise[q]);
-    if (best.explained > least_explained_left) out[q] = best;
-  }
-  return out;
-}
-
-Response response_of(const Resonances& resonances, double Omega, int highest) {
-  Response out;
-  for (int k = 0; k <= highest; ++k) {
-    Response::Matrix H{};
-    for (std::size_t q = 0; q < 3; ++q) {
-      H[4 * q] = resonances[q]
-                     ? gain(k * Omega, resonances[q]->omega, resonances[q]->zeta)
-                     : 1.0;
-    }
-    out.harmonic.push_back(H);
-  }
-  return out;
-}
-
 std::optional<Fit> fit_through_resonance(const force::Setup& setup,
                                          const force::Law& law,
                                          std::span<const Run> runs, const Fit& rigid) {
-  Resonances found = find_resonances(runs, rigid.fitted, {});
-  if (!any(found)) return std::nullopt;
-  std::optional<Fit> fit;
-  for (int i = 0; i < rounds_of_fits; ++i) {
-    const Fit& from = fit ? *fit : rigid;
-    Options options = rigid.options;
-    options.response = responses(runs, found);
-    options.band_harmonics = band_below(runs, found);
-    options.start = Start{from.runout, from.phase};
-    if (!any(found) || options.band_harmonics < setup.cutter.teeth()) break;
-    Fit next = identify(setup, law, runs, options);
-    if (!next.ok) break;
-    next.resonances = found;
-    found = find_resonances(runs, next.fitted, options.response);
-    fit = std::move(next);
+  std::optional<Ringing> now = rigid_by_harmonics(setup, law, runs, rigid);
+  bool found = false;
+  for (int axis = 0; now && axis < 3 && !rigid.options.stop.wanted(); ++axis) {
+    std::optional<Ringing> next = with_one_more(setup, law, runs, *now);
+    if (!next) break;
+    found = true;
+    now = std::move(next);
   }
-  return fit;
+  if (!found) return std::nullopt;
+  Options options = now->options;
+  options.resonances = now->point.resonances;
+  options.start = Start{now->point.runout, now->point.phase};
+  Fit fit = identify(setup, law, runs, options);
+  return fit.ok ? std::optional(std::move(fit)) : std::nullopt;
 }
 
 }  // namespace trochoid::identification

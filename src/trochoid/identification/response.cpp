@@ -44,6 +44,48 @@ signal::Matrix3 inverse_of(const signal::Matrix3& Q) {
 
 }  // namespace
 
+std::complex<double> oscillation(double omega, const Resonance& resonance) {
+  const double x = omega / resonance.omega;
+  return 1.0 / std::complex<double>(1.0 - x * x, 2.0 * resonance.zeta * x);  // I-17
+}
+
+Response response_of(const Resonances& resonances, double Omega, int highest) {
+  const Response::Matrix rigid{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  return with_resonances({std::vector(static_cast<std::size_t>(highest + 1), rigid)},
+                         resonances, Omega);
+}
+
+Response with_resonances(Response response, const Resonances& resonances,
+                         double Omega) {
+  for (std::size_t k = 0; k < response.harmonic.size(); ++k) {
+    const double omega = static_cast<double>(k) * Omega;
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (!resonances[q]) continue;
+      const std::complex<double> H = oscillation(omega, *resonances[q]);
+      for (std::size_t j = 0; j < 3; ++j) response.harmonic[k][3 * q + j] *= H;
+    }
+  }
+  return response;
+}
+
+Response slope_of_resonance(Response response, const Resonances& resonances,
+                            double Omega, std::size_t axis, ResonanceUnknown unknown) {
+  const Resonance& one = *resonances[axis];
+  for (std::size_t k = 0; k < response.harmonic.size(); ++k) {
+    const double x = static_cast<double>(k) * Omega / one.omega;
+    const std::complex<double> H = oscillation(x * one.omega, one);
+    // d(1/H)/d ln omega_n, d(1/H)/d ln zeta
+    const std::complex<double> slope =
+        unknown == ResonanceUnknown::ln_omega
+            ? std::complex<double>(2.0 * x * x, -2.0 * one.zeta * x)
+            : std::complex<double>(0.0, 2.0 * one.zeta * x);
+    for (std::size_t i = 0; i < 9; ++i) {
+      response.harmonic[k][i] *= i / 3 == axis ? -H * H * slope : 0.0;
+    }
+  }
+  return response;
+}
+
 void respond(const Response& response, std::size_t columns,
              std::span<double> coefficients) {
   if (response.rigid()) return;

@@ -27,16 +27,35 @@ struct Response {
   }
 };
 
-/// @brief A resonance of a dynamometer in one axis of the tool.
+/// @brief A resonance of a dynamometer, or the low-pass of its amplifier, in one axis of the
+/// tool.
 struct Resonance {
-  double omega = 0.0;  ///< natural angular frequency [rad/s]
-  double zeta = 0.0;   ///< damping ratio
-  /// Part of the sum of squares left before by harmonics, less that of scatter, that it
-  /// explains.
-  double explained = 0.0;
+  double omega = 0.0;                   ///< natural angular frequency [rad/s]
+  double zeta = 0.0;                    ///< damping ratio
+  std::optional<double> omega_se = {};  ///< [rad/s]
+  std::optional<double> zeta_se = {};
 };
 
 using Resonances = std::array<std::optional<Resonance>, 3>;
+
+/// What is searched of a resonance.
+enum class ResonanceUnknown { ln_omega, ln_zeta };
+
+/// @brief What one oscillator reads of a force of unit amplitude.
+/// @eq I-17 H = 1/(1 - x^2 + 2 i zeta x), x = omega/omega_n
+std::complex<double> oscillation(double omega, const Resonance& resonance);
+
+/// @brief What a dynamometer with these resonances reads.
+/// @param Omega    spindle speed [rad/s]
+/// @param highest  harmonic
+Response response_of(const Resonances& resonances, double Omega, int highest);
+
+/// @brief A response whose axes ring besides.
+Response with_resonances(Response response, const Resonances& resonances, double Omega);
+
+/// @brief The derivative of with_resonances by an unknown of one of its axes.
+Response slope_of_resonance(Response response, const Resonances& resonances,
+                            double Omega, std::size_t axis, ResonanceUnknown unknown);
 
 /// @brief Turn Fourier coefficients of forces into those of readings.
 /// @eq I-16 a'_m - i b'_m = H(m Omega) (a_m - i b_m)

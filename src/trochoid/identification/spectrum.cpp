@@ -18,7 +18,6 @@ constexpr int most_lines = 48;
 constexpr double fewest_turns = 4.0;
 /// More blocks of turns tell no more.
 constexpr double most_blocks = 64.0;
-constexpr std::size_t most_bins = 720;
 
 /// Whole turns of a run, in blocks of as many turns each.
 struct Blocks {
@@ -48,73 +47,48 @@ Blocks blocks_of(const Run& run) {
   return out;
 }
 
-/// Cosines and sines of a bin of the turn, for the lines of a spectrum.
-std::vector<double> waves(double angle, std::size_t lines) {
-  std::vector<double> out(lines);
+/// Cosines and sines of an angle, for the lines of a spectrum.
+void fill_waves(double angle, std::span<double> out) {
   out[0] = 1.0;
   double c = 1.0;
   double s = 0.0;
   const double c1 = std::cos(angle);
   const double s1 = std::sin(angle);
-  for (std::size_t k = 1; k < lines; k += 2) {
+  for (std::size_t k = 1; k < out.size(); k += 2) {
     const double next = c * c1 - s * s1;
     s = s * c1 + c * s1;
     c = next;
     out[k] = c;
     out[k + 1] = s;
   }
-  return out;
 }
 
-/// BlockSums over the samples of each bin of each block.
-struct BlockSums {
-  std::vector<std::array<double, 3>> sum;  ///< shape (blocks, bins)
-  std::vector<double> samples;             ///< shape (blocks)
-  std::size_t bins = 1;
-};
-
+/// @brief Mean of the values times each wave, each sample at its own angle: one moved to
+/// the middle of a bin has an error of angle that repeats with the bins, and makes lines
+/// that are not there.
 /// @param value  of a sample, by its number
+/// @return of each block, shape (blocks, 3 lines)
 template <class Value>
-BlockSums sums_of(std::span<const double> angle, const Value& value,
-                  const Blocks& blocks) {
-  BlockSums out;
-  out.bins = std::clamp(static_cast<std::size_t>(std::round(4.0 * blocks.per_turn)),
-                        std::size_t{90}, most_bins);
-  out.sum.assign(blocks.count * out.bins, {});
-  out.samples.assign(blocks.count, 0.0);
+std::vector<double> means_of(std::span<const double> angle, const Value& value,
+                             const Blocks& blocks, std::size_t lines) {
+  const std::size_t rows = 3 * lines;
+  std::vector<double> out(blocks.count * rows, 0.0);
+  std::vector<double> samples(blocks.count, 0.0);
+  std::vector<double> wave(lines);
   for (std::size_t i = 0; i < angle.size(); ++i) {
     const std::size_t block = blocks.of(angle[i]);
     if (block >= blocks.count) break;
-    const double turns = angle[i] / unit::turn;
-    const double at = (turns - std::floor(turns)) * static_cast<double>(out.bins);
-    const std::size_t bin = static_cast<std::size_t>(std::round(at)) % out.bins;
+    fill_waves(angle[i], wave);
     const std::array<double, 3> of_sample = value(i);
     for (std::size_t q = 0; q < 3; ++q) {
-      out.sum[block * out.bins + bin][q] += of_sample[q];
+      double* const to = &out[block * rows + q * lines];
+      const double v = of_sample[q];
+      for (std::size_t k = 0; k < lines; ++k) to[k] += v * wave[k];
     }
-    out.samples[block] += 1.0;
+    samples[block] += 1.0;
   }
-  return out;
-}
-
-/// @return of each block the mean of the values times each wave, shape (blocks, rows)
-std::vector<double> means_of(const BlockSums& sums, std::size_t lines) {
-  const std::size_t blocks = sums.samples.size();
-  const std::size_t rows = 3 * lines;
-  std::vector<double> out(blocks * rows, 0.0);
-  for (std::size_t bin = 0; bin < sums.bins; ++bin) {
-    const std::vector<double> wave = waves(
-        unit::turn * static_cast<double>(bin) / static_cast<double>(sums.bins), lines);
-    for (std::size_t b = 0; b < blocks; ++b) {
-      const auto& d = sums.sum[b * sums.bins + bin];
-      for (std::size_t q = 0; q < 3; ++q) {
-        const double part = d[q] / std::max(1.0, sums.samples[b]);
-        if (part == 0.0) continue;
-        for (std::size_t k = 0; k < lines; ++k) {
-          out[b * rows + q * lines + k] += part * wave[k];
-        }
-      }
-    }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] /= std::max(1.0, samples[i / rows]);
   }
   return out;
 }
@@ -149,8 +123,7 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
     for (std::size_t q = 0; q < 3; ++q) d[q] -= fitted[i][q];
     return d;
   };
-  const std::vector<double> means =
-      means_of(sums_of(run.angle, left, blocks), out.lines());
+  const std::vector<double> means = means_of(run.angle, left, blocks, out.lines());
   const auto n = static_cast<double>(run.angle.size());
   std::vector<double> own(blocks.count);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -171,39 +144,47 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
   return out;
 }
 
-std::array<std::vector<std::complex<double>>, 3> turn_lines(
-    std::span<const double> angle, std::span<const std::array<double, 3>> values,
-    int highest) {
-  const std::size_t lines = index(2 * highest + 1);
-  const double span = angle.back() - angle.front();
-  const Blocks whole{1, std::max(1.0, std::floor(span / unit::turn + 1e-6)),
-                     angle.front(),
-                     static_cast<double>(angle.size() - 1) * unit::turn / span};
-  const std::vector<double> means =
-      means_of(sums_of(
-                   angle, [&](std::size_t i) { return values[i]; }, whole),
-               lines);
-  std::array<std::vector<std::complex<double>>, 3> out;
-  for (std::size_t q = 0; q < 3; ++q) {
-    const double* const c = &means[q * lines];
-    out[q].emplace_back(c[0]);
-    for (std::size_t k = 1; k < lines; k += 2) {
-      out[q].emplace_back(2.0 * c[k], -2.0 * c[k + 1]);
+namespace {
+
+/// What one orthonormal column of the band is by lines, shape (lines, band): the columns
+/// span the harmonics, each of them is none.
+std::vector<double> lines_of_band(const FoldedRun& folded, std::size_t lines) {
+  const std::size_t band = index(folded.band);
+  std::vector<double> out(lines * band, 0.0);
+  std::vector<double> wave(lines);
+  double n = 0.0;
+  for (std::size_t g = 0; g < folded.angle.size(); ++g) {
+    const double w = folded.weight[g];
+    n += w * w;
+    fill_waves(folded.angle[g], wave);
+    for (std::size_t l = 0; l < lines; ++l) {
+      for (std::size_t k = 0; k < band; ++k) {
+        out[l * band + k] += w * wave[l] * folded.basis[g * band + k];
+      }
     }
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] *= std::sqrt((i < band ? 1.0 : 2.0) / n);
   }
   return out;
 }
+
+}  // namespace
 
 std::vector<double> harmonic_rows(const FoldedRun& folded, const Spectrum& spectrum,
                                   const numerics::Columns& J) {
   const std::size_t lines = spectrum.lines();
   const std::size_t columns = J.count();
   std::vector<double> out(spectrum.rows() * columns, 0.0);
-  if (folded.band > 0) {  // its rows are these already
+  if (folded.band > 0) {
+    const std::vector<double> map = lines_of_band(folded, lines);
+    const std::size_t band = index(folded.band);
     for (std::size_t c = 0; c < columns; ++c) {
-      for (std::size_t k = 0; k < lines; ++k) {
-        for (std::size_t q = 0; q < 3; ++q) {
-          out[(q * lines + k) * columns + c] = J[c][3 * k + q];
+      for (std::size_t l = 0; l < lines; ++l) {
+        for (std::size_t k = 0; k < band; ++k) {
+          for (std::size_t q = 0; q < 3; ++q) {
+            out[(q * lines + l) * columns + c] += map[l * band + k] * J[c][3 * k + q];
+          }
         }
       }
     }
@@ -211,8 +192,9 @@ std::vector<double> harmonic_rows(const FoldedRun& folded, const Spectrum& spect
   }
   double n = 0.0;
   for (const double w : folded.weight) n += w * w;
+  std::vector<double> wave(lines);
   for (std::size_t g = 0; g < folded.angle.size(); ++g) {
-    const std::vector<double> wave = waves(folded.angle[g], lines);
+    fill_waves(folded.angle[g], wave);
     for (std::size_t q = 0; q < 3; ++q) {
       for (std::size_t c = 0; c < columns; ++c) {
         const double v = folded.weight[g] * J[c][3 * g + q];

@@ -5,7 +5,6 @@
 #include <trochoid/numerics/columns.h>
 
 #include <array>
-#include <complex>
 #include <span>
 #include <vector>
 
@@ -42,13 +41,6 @@ constexpr int harmonic_of(std::size_t line) noexcept {
 /// @param band    as FoldedRun::band: rows of the band, 0: no limit
 Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitted,
                      int band);
-
-/// @brief Complex amplitudes of the mean turn of each component: sum over k of
-/// Re(c_k e^(i k phi)), from 0 to a highest harmonic.
-/// @param values  at the angles, shape (n)
-std::array<std::vector<std::complex<double>>, 3> turn_lines(
-    std::span<const double> angle, std::span<const std::array<double, 3>> values,
-    int highest);
 
 /// @brief Columns of the problem in the rows of a spectrum.
 /// @param J  rows of this run

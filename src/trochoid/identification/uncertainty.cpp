@@ -232,6 +232,12 @@ std::vector<std::string> names_of(const Problem& problem) {
     if (!u.direction) out.emplace_back("angle_deg");
   }
   if (u.exponents) out.insert(out.end(), {"m_t", "m_r", "m_a"});
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (!u.rings[q]) continue;
+    out.push_back(fmt::format("resonances.{}.frequency_Hz", axes[q]));
+    out.push_back(fmt::format("resonances.{}.damping_ratio", axes[q]));
+  }
   for (int r = 0; r < u.phases; ++r) {
     out.push_back(u.phases == 1 ? "phase_deg" : fmt::format("phase_deg[{}]", r + 1));
   }

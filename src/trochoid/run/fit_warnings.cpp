@@ -163,8 +163,9 @@ void warn_resonance(const Fit& chosen, Warnings& warnings) {
     warnings.push_back(
         {"dynamometer_resonance",
          fmt::format(
-             "The dynamometer rings at {} of the tool. This is in the model, and "
-             "the mean and the first {} harmonics, below it, are fitted.",
+             "The dynamometer rings at {} of the tool, or its amplifier filters "
+             "there. This is in the model and fitted with the rest, to the "
+             "mean and the first {} harmonics.",
              fmt::join(found, ", "), chosen.options.band_harmonics)});
   }
 }

@@ -528,6 +528,8 @@ std::vector<identification::ChannelRun> channels_of(
   runs.reserve(measured.size());
   for (const MeasuredRun& one : measured) {
     runs.push_back(one.run);
+    runs.back().cut.Omega = one.Omega;  // at which a dynamometer reads its harmonics
+    runs.back().Omega_se = one.by_time ? one.Omega_se : 0.0;
   }
   return runs;
 }

@@ -1,5 +1,6 @@
 #include <trochoid/identification/resonance.h>
 #include <trochoid/identification/response.h>
+#include <trochoid/identification/spectrum.h>
 #include <trochoid/identification/views.h>
 
 #include "made_record.h"
@@ -152,6 +153,91 @@ TEST(Resonance, IsNotLookedForInNoise) {
   const Viewed seen = fit_as_seen(without_runout(setup), steel(), runs, options);
   EXPECT_TRUE(seen.fit.options.response.empty());
   EXPECT_TRUE(seen.views.empty());
+}
+
+/// Rates at which a sample stands elsewhere in the turn every time.
+constexpr std::array odd_rates{131.0, 200.0, 10000.0 / 2800.0 * 60.0, 300.0};
+
+/// Forty turns of 100 N cos(k phi) in y.
+Record wave_record(double per_turn, int k) {
+  Record out;
+  for (int i = 0; i < static_cast<int>(40 * per_turn); ++i) {
+    out.angle.push_back(2 * pi * i / per_turn);
+    out.force.push_back({0.0, 100.0 * std::cos(k * out.angle.back()), 0.0});
+  }
+  return out;
+}
+
+TEST(Spectrum, HasNoLinesThatAreNotThere) {  // [I-14]
+  for (const double per_turn : odd_rates) {
+    const Record run = wave_record(per_turn, 2);
+    const std::vector<std::array<double, 3>> nothing(run.force.size());
+    const Spectrum all = spectrum_of(run, nothing, 0);
+    ASSERT_GT(all.highest, 40);
+    const double there = all.left[all.lines() + 3];
+    for (std::size_t line = 0; line < all.lines(); ++line) {
+      if (line == 3) continue;
+      EXPECT_LT(std::abs(all.left[all.lines() + line]), 0.005 * there)
+          << per_turn << " samples a turn, line " << line;
+    }
+  }
+}
+
+TEST(Spectrum, RowsOfABandAreSortedByHarmonics) {  // [I-14]
+  for (const double per_turn : odd_rates) {
+    const Record run = wave_record(per_turn, 5);
+    Options options;
+    options.band_harmonics = 8;
+    const FoldedRun folded = fold(run, options);
+    Spectrum shape;
+    shape.highest = 8;
+    const std::vector<double> lines =
+        harmonic_rows(folded, shape, numerics::Columns(folded.b, folded.b.size()));
+    const double there = lines[shape.lines() + 9];
+    EXPECT_NEAR(there, 100.0 * std::sqrt(static_cast<double>(run.force.size()) / 2),
+                0.01 * std::abs(there));
+    for (std::size_t line = 0; line < shape.lines(); ++line) {
+      if (line == 9) continue;
+      EXPECT_LT(std::abs(lines[shape.lines() + line]), 0.01 * std::abs(there))
+          << per_turn << " samples a turn, line " << line;
+    }
+  }
+}
+
+TEST(Resonance, SlopesAreDerivatives) {  // [I-17]
+  const double Omega = 300.0;
+  const Resonances at{std::nullopt, Resonance{4000.0, 0.06}, std::nullopt};
+  constexpr double step = 1e-6;
+  for (const auto unknown : {ResonanceUnknown::ln_omega, ResonanceUnknown::ln_zeta}) {
+    Resonances moved = at;
+    double& number =
+        unknown == ResonanceUnknown::ln_omega ? moved[1]->omega : moved[1]->zeta;
+    number *= std::exp(step);
+    const Response here = response_of(at, Omega, 20);
+    const Response there = response_of(moved, Omega, 20);
+    const Response slope =
+        slope_of_resonance(response_of({}, Omega, 20), at, Omega, 1, unknown);
+    for (std::size_t k = 0; k <= 20; ++k) {
+      for (std::size_t i = 0; i < 9; ++i) {
+        const auto want = (there.harmonic[k][i] - here.harmonic[k][i]) / step;
+        EXPECT_LT(std::abs(slope.harmonic[k][i] - want), 1e-3 * (1 + std::abs(want)));
+      }
+    }
+  }
+}
+
+TEST(Phase, HoldsTheErrorOfTheSpeed) {  // [I-23]
+  force::Setup setup = two_flutes();
+  Record run = made_record(setup, steel(),
+                           {.per_turn = 120, .turns = 8, .noise = 10.0, .seed = 3});
+  const auto se = [&](double Omega_se) {
+    run.Omega_se = Omega_se;
+    const std::vector<Record> runs{run};
+    return *identify(without_runout(setup), steel(), runs, {}).phase_se[0];
+  };
+  const double span = run.angle.back() - run.angle.front();
+  const double lever = 1e-3 * 0.5 * span;
+  EXPECT_NEAR(se(1e-3 * setup.cut.Omega), std::hypot(se(0.0), lever), 1e-9);
 }
 
 }  // namespace trochoid::identification::response_test
