@@ -1,5 +1,7 @@
 #include <trochoid/identification/fits.h>
 
+#include <trochoid/identification/resonance.h>
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -35,7 +37,14 @@ Fit first_fit(const Records& records, const FitRequest& request, Options options
     rigid.response.clear();
     const Fit near = records.fit(rigid);
     if (near.ok) options.start = Start{near.runout, near.phase};
-    return records.fit(options);
+    Fit as_given = records.fit(options);
+    if (!as_given.ok || request.options.stop.wanted()) return as_given;
+    const auto scaled = with_scaled_response(records.runs, as_given.options);
+    if (!scaled) return as_given;
+    Options about = *scaled;
+    about.start = Start{as_given.runout, as_given.phase};
+    Fit fit = records.fit(about);
+    return fit.ok ? fit : as_given;
   }
   if (!request.view_open) {
     return records.fit(options);

@@ -358,7 +358,9 @@ void map_turn(FoldedRun& run, std::size_t few_angles) {
   const bool angles_serve =
       run.harmonics > widest_mapped_band || run.angle.size() <= few_angles;
   if (run.band == 0 || (run.response.rigid() && angles_serve)) return;
-  run.highest = highest_of(run.harmonics);
+  // A response reads nothing beyond its last harmonic.
+  run.highest =
+      run.response.rigid() ? highest_of(run.harmonics) : run.response.highest();
   const std::size_t terms = 2 * index(run.highest) + 1;
   const std::size_t band = index(run.band);
   run.turn_map.assign(band * terms, 0.0);

@@ -37,10 +37,19 @@ constexpr double first_low_pass = 1.5;
 /// A damping of this and more is that of a low-pass.
 constexpr double low_pass = 0.5;
 /// Beyond the last harmonic a resonance still amplifies those below it.
-constexpr double beyond_last = 1.5;
+constexpr double beyond_last = 1.25;
 constexpr int grid_steps = 100;
 constexpr std::array dampings{0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.35, 0.7};
 constexpr double least_damping = 0.015;
+constexpr double most_damping = 1.2;
+
+/// In place of an axis: the same resonance in all.
+constexpr std::size_t every_axis = 3;
+
+/// By how much slow forces are read too late [s].
+double late_by(const Resonance& resonance) {
+  return 2.0 * resonance.zeta / resonance.omega;
+}
 
 /// @brief The lines of all runs as a model that is linear near a fit has them: columns of
 /// the coefficients, and of what else is searched.
@@ -75,12 +84,18 @@ class LinearLines {
     }
   }
 
-  /// Sum of squares that is left when an axis rings besides [N^2].
+  /// @brief Sum of squares that is left when an axis rings besides [N^2].
+  ///
+  /// All axes together, as behind one amplifier, are late alike, which a rigid fit takes for
+  /// its phase: they are looked at about the phase without that.
+  /// @param axis  or every_axis
   [[nodiscard]] double left(std::size_t axis, const Resonance& resonance) const {
     Products sum = total_;
+    const double late = axis == every_axis ? late_by(resonance) : 0.0;
     for (const Harmonic& line : lines_) {
-      if (line.axis != axis || line.omega == 0.0) continue;
-      const complex<double> H = oscillation(line.omega, resonance);
+      if ((axis != every_axis && line.axis != axis) || line.omega == 0.0) continue;
+      const complex<double> H =
+          oscillation(line.omega, resonance) * std::polar(1.0, line.omega * late);
       sum.add(line, std::norm(H) - 1.0, std::conj(H) - 1.0);
     }
     return left_of(sum);
@@ -200,7 +215,8 @@ Tried best_resonance(const LinearLines& lines, std::size_t axis, const Range& ra
   const auto try_one = [&](double omega, double zeta) {
     const double lowest =
         range.slowest * (zeta < low_pass ? first_resonance : first_low_pass);
-    if (zeta < least_damping || zeta > 1.0 || omega < lowest) return;
+    const double least = axis == every_axis ? low_pass : least_damping;
+    if (zeta < least || zeta > 1.0 || omega < lowest) return;
     const double left = lines.left(axis, {omega, zeta});
     if (left < best.left) best = {axis, {omega, zeta}, left};
   };
@@ -220,10 +236,15 @@ Tried best_resonance(const LinearLines& lines, std::size_t axis, const Range& ra
   return best;
 }
 
-/// Of the axes that do not ring yet, the one that explains most by ringing.
+/// Of the axes that do not ring yet, or all, what explains most by ringing.
+/// @param filtered  whether all may be behind a low-pass: their phases are free
 Tried best_of_axes(const LinearLines& lines, const Resonances& found,
-                   const Range& range) {
+                   const Range& range, bool filtered) {
   Tried best;
+  const auto rings = [](const auto& one) { return one.has_value(); };
+  if (filtered && std::ranges::none_of(found, rings)) {
+    best = best_resonance(lines, every_axis, range);
+  }
   for (std::size_t q = 0; q < 3; ++q) {
     if (found[q]) continue;
     Tried one = best_resonance(lines, q, range);
@@ -245,14 +266,24 @@ struct Ringing {
   double rss = 0.0;  ///< of the rows of its problem
 };
 
+/// Whether no resonance has run away: far beyond the last line, or with much damping, it is
+/// but a delay.
+bool believable(const Resonances& found, const Range& range) {
+  return std::ranges::all_of(found, [&](const auto& one) {
+    return !one ||
+           (one->zeta < most_damping && one->omega < beyond_last * range.highest);
+  });
+}
+
 /// One more axis that rings; nothing where none explains more than chance.
 std::optional<Ringing> with_one_more(const force::Setup& setup, const force::Law& law,
                                      std::span<const Run> runs, const Ringing& now) {
   const Prepared before = prepare(setup, law, runs, now.options);
   if (!before.refusal.empty()) return std::nullopt;
   const LinearLines lines(*before.problem, parameters_of(*before.problem, now.point));
-  const Tried best = best_of_axes(lines, now.options.resonances,
-                                  range_of(runs, now.options.band_harmonics));
+  const Range range = range_of(runs, now.options.band_harmonics);
+  const Tried best = best_of_axes(lines, now.options.resonances, range,
+                                  before.problem->unknowns.phases > 0);
   const double by_chance =
       least_gain * best.left / std::max(1.0, lines.equations_to_spare());
   if (!(lines.left() - best.left > by_chance)) return std::nullopt;
@@ -260,15 +291,21 @@ std::optional<Ringing> with_one_more(const force::Setup& setup, const force::Law
   for (std::size_t q = 0; q < 3; ++q) {
     if (now.point.resonances[q]) next.options.resonances[q] = now.point.resonances[q];
   }
-  next.options.resonances[best.axis] = best.resonance;
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (best.axis == q || best.axis == every_axis) {
+      next.options.resonances[q] = best.resonance;
+    }
+  }
+  for (std::size_t r = 0; best.axis == every_axis && r < runs.size(); ++r) {
+    next.point.phase[r] += runs[r].cut.Omega * late_by(best.resonance);
+  }
   const Prepared prepared = prepare(setup, law, runs, next.options);
   const Problem& problem = *prepared.problem;
-  const Minimum minimum = settle(problem, parameters_of(problem, now.point));
-  const double rss = minimum.rss;
-  if (!minimum.converged || !(now.rss - rss > by_chance)) return std::nullopt;
+  const Minimum minimum = settle(problem, parameters_of(problem, next.point));
+  if (!minimum.converged || !(now.rss - minimum.rss > by_chance)) return std::nullopt;
   next.point = point_of(problem, minimum.p);
-  next.rss = rss;
-  return next;
+  next.rss = minimum.rss;
+  return believable(next.point.resonances, range) ? std::optional(next) : std::nullopt;
 }
 
 /// The rigid fit, with rows that a resonance can be put into.
@@ -334,6 +371,61 @@ std::optional<Fit> fit_through_resonance(const force::Setup& setup,
   options.start = Start{now->point.runout, now->point.phase};
   Fit fit = identify(setup, law, runs, options);
   return fit.ok ? std::optional(std::move(fit)) : std::nullopt;
+}
+
+namespace {
+
+/// A response that amplifies no more than this has no resonance within its lines.
+constexpr double amplified = 1.2;
+
+/// @brief The oscillator that a diagonal of the response is most like: 1/H is linear in
+/// 1/omega_n^2 and zeta/omega_n.
+std::optional<Resonance> main_resonance(const Response& response, double Omega,
+                                        std::size_t axis) {
+  double highest = 0.0;
+  std::array<double, 4> sums{};
+  for (std::size_t k = 1; k < response.harmonic.size(); ++k) {
+    const complex<double> H = response.harmonic[k][4 * axis];
+    if (!(std::abs(H) > 0.0)) continue;
+    highest = std::max(highest, std::abs(H));
+    const double w = std::norm(H) * std::norm(H);  // as errors of H count
+    const double omega = static_cast<double>(k) * Omega;
+    const complex<double> inverse = 1.0 / H;
+    sums[0] += w * omega * omega * (1.0 - inverse.real());
+    sums[1] += w * std::pow(omega, 4);
+    sums[2] += w * omega * inverse.imag();
+    sums[3] += w * omega * omega;
+  }
+  if (!(highest > amplified) || !(sums[0] > 0.0) || !(sums[2] > 0.0)) return {};
+  const double omega_n = std::sqrt(sums[1] / sums[0]);
+  const double zeta = 0.5 * omega_n * sums[2] / sums[3];
+  const double last = static_cast<double>(response.highest()) * Omega;
+  const bool there = omega_n < last && zeta > least_damping && zeta < low_pass;
+  return there ? std::optional(Resonance{omega_n, zeta}) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Options> with_scaled_response(std::span<const Run> runs,
+                                            Options options) {
+  bool any = false;
+  for (std::size_t q = 0; q < 3; ++q) {
+    options.resonances[q] =
+        main_resonance(options.response.front(), runs.front().cut.Omega, q);
+    any = any || options.resonances[q];
+  }
+  if (!any) return std::nullopt;
+  for (std::size_t r = 0; r < runs.size(); ++r) {  // I-25
+    Response& response = options.response[r];
+    const Response held =
+        response_of(options.resonances, runs[r].cut.Omega, response.highest());
+    for (std::size_t k = 0; k < response.harmonic.size(); ++k) {
+      for (std::size_t i = 0; i < 9; ++i) {
+        response.harmonic[k][i] /= held.harmonic[k][4 * (i / 3)];
+      }
+    }
+  }
+  return options;
 }
 
 }  // namespace trochoid::identification

@@ -30,4 +30,13 @@ std::optional<Fit> fit_through_resonance(const force::Setup& setup,
                                          const force::Law& law,
                                          std::span<const Run> runs, const Fit& rigid);
 
+/// @brief Options by which a given response of the dynamometer may be off: in each axis in
+/// which it has a resonance, frequency and damping of that are found with the rest.
+///
+/// @eq I-25 H_qj(omega) h(omega; omega_n, zeta)/h(omega; omega_0, zeta_0), h the oscillator of
+///          I-17, omega_0 and zeta_0 those of the given H_qq
+/// @param options  with the response of each run
+/// @return nothing where it has no resonance within the harmonics of the runs
+std::optional<Options> with_scaled_response(std::span<const Run> runs, Options options);
+
 }  // namespace trochoid::identification

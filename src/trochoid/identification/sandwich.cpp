@@ -17,12 +17,17 @@ constexpr double enough = 12.0;
 /// With fewer of one channel and kind, all rows of the run share one power.
 constexpr double too_few_rows = 5.0;
 
+/// What an oscillator that is not quite the dynamometer leaves has the shape of a response:
+/// lines agree with their neighbours, and two say no more than one.
+constexpr double lines_alike = 2.0;
+
 /// A run by harmonics.
 struct Harmonics {
   Spectrum spectrum;
   std::vector<double> x;    ///< shape (rows, unknowns)
   std::vector<double> h;    ///< leverage of each row
   std::vector<bool> tooth;  ///< of each line: a harmonic of the teeth
+  double alike = 1.0;       ///< lines that repeat and speak as one
 };
 
 /// Power of a row, and the degrees of freedom of its estimate.
@@ -92,7 +97,8 @@ std::vector<Power> powers(const Harmonics& run) {
     Excess own = near(run, row / lines, row % lines);
     if (own.freedom < too_few_rows) own = all;
     const double scatter = run.spectrum.scatter[row];
-    const double repeats = std::max(0.0, own.squares / std::max(own.freedom, 1e-9));
+    const double repeats =
+        run.alike * std::max(0.0, own.squares / std::max(own.freedom, 1e-9));
     const double value = scatter + repeats;
     const double s = value > 0 ? scatter / value : 1.0;
     const double spread = s * s / (2.0 * (run.spectrum.turns - 1.0)) +
@@ -107,6 +113,7 @@ Harmonics harmonics_of(const Problem& problem, const Spectrum& spectrum,
                        std::span<const double> G) {
   Harmonics out{spectrum, harmonic_rows(folded, spectrum, J), {}, {}};
   out.h = leverages(out.x, G);
+  if (problem.unknowns.resonance_count() > 0) out.alike = lines_alike;
   const int teeth = geometry::equally_pitched(problem.setup.cutter.pitch)
                         ? problem.setup.cutter.teeth()
                         : 1;

@@ -144,6 +144,53 @@ TEST(Resonance, IsFoundWithTheForces) {  // [I-17]
   EXPECT_FALSE(seen.views[1].resonant);
 }
 
+TEST(Resonance, MayBeTheLowPassOfAnAmplifier) {  // [I-17]
+  Ringing ringing;
+  const Resonance filter{4.0 * ringing.setup.cut.Omega, std::sqrt(0.5)};
+  const Resonances truth{filter, filter, filter};
+  std::vector<Record> runs;
+  for (const double f_z : {30e-6, 60e-6}) {
+    ringing.setup.cut.f_z = f_z;
+    runs.push_back(read_through(
+        truth, made_record(ringing.setup, steel(), {.per_turn = 120, .turns = 8})));
+  }
+  const Fit fit = fit_as_seen(without_runout(ringing.setup), steel(), runs, {}).fit;
+  ASSERT_TRUE(fit.ok);
+  for (std::size_t q = 0; q < 3; ++q) {
+    ASSERT_TRUE(fit.resonances[q]) << q;
+    EXPECT_NEAR(fit.resonances[q]->omega / filter.omega, 1.0, 0.05) << q;
+  }
+  const auto K = force::coefficients(steel());
+  for (std::size_t c = 0; c < K.size(); ++c) {
+    EXPECT_NEAR(fit.coefficients[c]->value / K[c], 1.0, 0.05) << c;
+  }
+  EXPECT_NEAR(fit.phase[0], 0.0, 0.01);
+}
+
+TEST(Resonance, OfAGivenResponseIsScaled) {  // [I-25]
+  const Ringing ringing;
+  Resonances given = ringing.truth;
+  for (std::size_t q = 0; q < 2; ++q) given[q]->omega *= 1.01;
+  Options options = ringing.options();
+  for (const Record& run : ringing.runs) {
+    options.response.push_back(
+        response_of(given, run.cut.Omega, resolved_harmonics(run)));
+  }
+  const auto scaled = with_scaled_response(ringing.runs, options);
+  ASSERT_TRUE(scaled);
+  for (std::size_t q = 0; q < 2; ++q) {
+    ASSERT_TRUE(scaled->resonances[q]);
+    EXPECT_NEAR(scaled->resonances[q]->omega / given[q]->omega, 1.0, 1e-6);
+    EXPECT_NEAR(scaled->resonances[q]->zeta, given[q]->zeta, 1e-6);
+  }
+  EXPECT_FALSE(scaled->resonances[2]) << "this axis is rigid";
+  const Fit fit =
+      identify(without_runout(ringing.setup), steel(), ringing.runs, *scaled);
+  ASSERT_TRUE(fit.ok) << fit.message;
+  EXPECT_NEAR(fit.resonances[0]->omega / ringing.truth[0]->omega, 1.0, 1e-3);
+  EXPECT_NEAR(fit.coefficients[0]->value / steel().K_tc, 1.0, 3e-3);
+}
+
 TEST(Resonance, IsNotLookedForInNoise) {
   force::Setup setup = two_flutes();
   const std::vector<Record> runs = {made_record(
