@@ -14,6 +14,20 @@ namespace trochoid::identification {
 namespace {
 
 constexpr double too_much_unexplained = 0.5;
+/// Of a coefficient, half of its interval: more is no knowledge, and more asks for care.
+constexpr double unknown = 0.5;
+constexpr double uncertain = 0.1;
+/// A coefficient that is small beside the tangential one need not be known better than a
+/// part of that.
+constexpr double small_coefficient = 0.3;
+/// Intervals so many times as wide as noise would make them stand on what is left, which then
+/// is no noise at all; of coefficients that are known better than this it does not matter.
+constexpr double much_wider = 10.0;
+constexpr double well_known = 0.01;
+
+double half_interval(const Estimate& K) {
+  return 0.5 * (K.high - K.low);
+}
 
 /// What speaks against the coefficients of one group.
 /// @param whose  ends the name of a coefficient
@@ -23,6 +37,10 @@ void add_reasons(const Group& group, const std::string& whose,
   const auto& K_t = group.coefficients[0];
   if (K_t && K_t->low <= 0 && K_t->high >= 0) {
     reasons.push_back(fmt::format("{}{} may be zero", names[0].key, whose));
+  } else if (K_t && half_interval(*K_t) > unknown * std::abs(K_t->value)) {
+    reasons.push_back(
+        fmt::format("{}{} is known to {} only", names[0].key, whose,
+                    base::percent(half_interval(*K_t) / std::abs(K_t->value))));
   }
   for (std::size_t q = 0; q < 2; ++q) {  // tangential and radial, cutting
     const auto& K = group.coefficients[q];
@@ -54,6 +72,34 @@ std::vector<std::string> reasons_against(const Fit& fit) {
     add_reasons(group, of_group(fit, group), reasons);
   }
   return reasons;
+}
+
+std::vector<std::string> poorly_known(const Fit& fit) {
+  std::vector<std::string> out;
+  double worst = 0.0;
+  for (const Group& group : groups_of(fit)) {
+    const auto names = force::coefficient_quantities(group.law);
+    const auto& K_t = group.coefficients[0];
+    for (std::size_t q = 0; q < 3 && q < group.coefficients.size(); ++q) {
+      const auto& K = group.coefficients[q];
+      if (!K) continue;
+      const double least = K_t ? small_coefficient * std::abs(K_t->value) : 0.0;
+      const double half = half_interval(*K);
+      const double part = half / std::max(std::abs(K->value), least);
+      worst = std::max(worst, part);
+      if (!(part > uncertain)) continue;
+      const std::string name = fmt::format("{}{}", names[q].key, of_group(fit, group));
+      out.push_back(K->low <= 0.0 && K->high >= 0.0
+                        ? name + " may be zero"
+                        : fmt::format("{} is known to {} only", name,
+                                      base::percent(half / std::abs(K->value))));
+    }
+  }
+  if (out.empty() && fit.widening > much_wider && worst > well_known) {
+    out.push_back(fmt::format("the intervals are {:.0f} times wider than by noise",
+                              fit.widening));
+  }
+  return out;
 }
 
 std::string do_not_use(const std::vector<std::string>& reasons) {

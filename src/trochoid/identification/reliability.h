@@ -21,10 +21,15 @@ double correlation_factor(double r) noexcept;
 /// @brief What speaks against using the numbers of a fit at all; empty: nothing.
 ///
 /// More than half of the force (rms, within the band of the fit) stays unexplained and
-/// is not white noise; or the tangential cutting coefficient may be zero; or it or the
-/// radial one is negative by more than its interval.
+/// is not white noise; or the tangential cutting coefficient may be zero, or is known to no
+/// more than half of it; or it or the radial one is negative by more than its interval.
 /// @eq I-9 u_band > 1/2 and (band limit or r > 0.3)
 std::vector<std::string> reasons_against(const Fit& fit);
+
+/// @brief Which cutting coefficients are known too little to be used without care, one phrase
+/// each: to 10 % only, of itself or of a third of the tangential one, or by intervals ten
+/// times as wide as noise would make them.
+std::vector<std::string> poorly_known(const Fit& fit);
 
 /// @brief One sentence for a person: `Do not use these numbers: ...`.
 std::string do_not_use(const std::vector<std::string>& reasons);

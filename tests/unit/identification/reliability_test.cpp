@@ -40,6 +40,29 @@ TEST(Reliability, NegativeCuttingCoefficientsAreWrong) {
   EXPECT_TRUE(reasons_against(fit).empty()) << "the axial force may pull either way";
 }
 
+TEST(Reliability, WhatIsHardlyKnownIsNamed) {
+  Fit fit = sound_fit();
+  EXPECT_TRUE(poorly_known(fit).empty());
+  fit.coefficients[0] = Estimate{2600e6, 195e6, 2210e6, 2990e6};
+  ASSERT_EQ(poorly_known(fit).size(), 1U);
+  EXPECT_EQ(poorly_known(fit)[0], "K_tc_MPa is known to 15 % only");
+  EXPECT_TRUE(reasons_against(fit).empty());
+  fit.coefficients[0] = Estimate{2600e6, 780e6, 1040e6, 4160e6};
+  ASSERT_EQ(reasons_against(fit).size(), 1U);
+  EXPECT_EQ(reasons_against(fit)[0], "K_tc_MPa is known to 60 % only");
+  fit = sound_fit();  // K_ac is 330 MPa, a tenth of a third of K_tc is 78 MPa
+  fit.coefficients[2] = Estimate{330e6, 35e6, 260e6, 400e6};
+  EXPECT_TRUE(poorly_known(fit).empty()) << "small beside K_tc";
+  fit.coefficients[2] = Estimate{330e6, 50e6, 230e6, 430e6};
+  EXPECT_EQ(poorly_known(fit).size(), 1U);
+  fit.coefficients[2] = Estimate{50e6, 50e6, -50e6, 150e6};
+  ASSERT_EQ(poorly_known(fit).size(), 1U);
+  EXPECT_EQ(poorly_known(fit)[0], "K_ac_MPa may be zero");
+  fit = sound_fit();
+  fit.widening = 12.0;
+  EXPECT_EQ(poorly_known(fit)[0], "the intervals are 12 times wider than by noise");
+}
+
 TEST(Reliability, ReasonsMakeOneSentence) {
   EXPECT_EQ(do_not_use({"this is so", "that is so"}),
             "Do not use these numbers: this is so; that is so.");
