@@ -100,6 +100,7 @@ struct Identify {
   std::optional<int> band_harmonics;  ///< 0: all; absent: chosen from the record
   ChannelOffset channel_offsets = ChannelOffset::automatic;
   identification::Errors errors = identification::Errors::automatic;
+  identification::Tolerances tolerances = {};
   Shared shared = Shared::runout;  ///< by groups of measurements
   std::optional<PreviousClamping> previous_clamping;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]

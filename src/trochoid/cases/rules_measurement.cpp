@@ -102,6 +102,21 @@ void check_columns(const std::vector<std::string>& columns, const std::string& k
 
 }  // namespace
 
+namespace {
+
+identification::Tolerances tolerances_of(const CaseTables& tables) {
+  identification::Tolerances out{.axial_depth = tables.cut.axial_depth_sd,
+                                 .radial_depth = tables.cut.radial_depth_sd,
+                                 .feed = tables.cut.feed_per_tooth_sd};
+  if (tables.dynamometer) {
+    out.gain = tables.dynamometer->gain_sd;
+    out.turn = tables.dynamometer->turn_sd;
+  }
+  return out;
+}
+
+}  // namespace
+
 Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   Dynamometer result;
   if (!sound(findings, {"dynamometer.axes", "dynamometer.matrix"})) {
@@ -181,6 +196,7 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                   .band_harmonics = std::nullopt,
                   .channel_offsets = table.channel_offsets,
                   .errors = table.errors,
+                  .tolerances = tolerances_of(tables),
                   .shared = table.shared,
                   .previous_clamping = table.previous_clamping};
   if (table.band_harmonics && sound(findings, {"identify.band_harmonics"})) {

@@ -119,6 +119,36 @@ void describe(const Visitor& v, geometry::Runout& t) {
     choice(t.order));
 }
 
+namespace {
+
+/// What the intervals of identify hold besides noise.
+void describe_tolerances(const Visitor& v, CutTable& t) {
+  v({.name = "axial_depth_sd_mm",
+     .meaning = "standard deviation of axial_depth_mm: the intervals of identify then "
+                "hold it",
+     .range = above_up_to(0, longest_mm),
+     .standard = "in no interval",
+     .example = "0.02"},
+    &t.axial_depth_sd);
+  v({.name = "radial_depth_sd_mm",
+     .meaning = "standard deviation of radial_depth_mm: the intervals of identify then "
+                "hold it",
+     .range = above_up_to(0, longest_mm),
+     .only = {"engagement", {"up", "down"}},
+     .standard = "in no interval",
+     .example = "0.05"},
+    &t.radial_depth_sd);
+  v({.name = "feed_per_tooth_sd_mm",
+     .meaning = "standard deviation of the feed per tooth: the intervals of identify "
+                "then hold it",
+     .range = above_up_to(0, 1000),
+     .standard = "in no interval",
+     .example = "0.0005"},
+    &t.feed_per_tooth_sd);
+}
+
+}  // namespace
+
 void describe(const Visitor& v, CutTable& t) {
   v({.name = "engagement",
      .meaning = "which part of the cutter's width is in the stock",
@@ -162,6 +192,7 @@ void describe(const Visitor& v, CutTable& t) {
      .range = above_up_to(0, 1e6),
      .need = Need::always},
     &t.spindle_speed);
+  describe_tolerances(v, t);
 }
 
 void describe(const Visitor& v, chip::ChipModel& t) {

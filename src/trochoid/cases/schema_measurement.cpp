@@ -55,6 +55,21 @@ void describe(const Visitor& v, DynamometerTable& t) {
      .rival = "axes",
      .example = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"},
     &t.matrix);
+  v({.name = "gain_sd",
+     .meaning =
+         "standard deviation of the gain of each channel, 0.01 for one per cent: "
+         "the intervals then hold it",
+     .range = above_up_to(0, 1),
+     .standard = "in no interval",
+     .example = "0.01"},
+    &t.gain_sd);
+  v({.name = "turn_sd_deg",
+     .meaning = "standard deviation of the angle by which the dynamometer is turned "
+                "about z: the intervals then hold it",
+     .range = above_up_to(0, 45),
+     .standard = "in no interval",
+     .example = "0.5"},
+    &t.turn_sd);
   v({.name = "frf",
      .meaning =
          "measured response of the channels, reading over force, through which the "

@@ -67,9 +67,12 @@ struct ToolTable {
 struct CutTable {
   EngagementKind engagement = EngagementKind::slot;
   std::optional<double> radial_depth;
+  std::optional<double> radial_depth_sd;
   std::vector<double> stock_y;
   double axial_depth = 0.0;
+  std::optional<double> axial_depth_sd;
   std::optional<double> feed_per_tooth;
+  std::optional<double> feed_per_tooth_sd;
   std::optional<double> feed_rate;
   double spindle_speed = 0.0;
 };
@@ -114,6 +117,8 @@ constexpr std::string_view name_of(Resonance resonance) noexcept {
 struct DynamometerTable {
   std::vector<std::string> axes;
   Rows matrix;
+  std::optional<double> gain_sd;
+  std::optional<double> turn_sd;
   files::FileRef frf;
   Resonance resonance = Resonance::automatic;
 };

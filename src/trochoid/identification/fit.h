@@ -83,6 +83,16 @@ constexpr std::string_view name_of(Errors errors) noexcept {
   return {};
 }
 
+/// @brief By how much dynamometer and cut may be off what is stated, as standard deviations;
+/// absent: it is in no interval.
+struct Tolerances {
+  std::optional<double> gain;          ///< of each reading, a part of it
+  std::optional<double> turn;          ///< of the dynamometer about z [rad]
+  std::optional<double> axial_depth;   ///< [m]
+  std::optional<double> radial_depth;  ///< [m]
+  std::optional<double> feed;          ///< per tooth [m]
+};
+
 /// Where to search first.
 struct Start {
   geometry::Runout runout;
@@ -98,6 +108,7 @@ struct Options {
   bool fit_channel_offsets = false;  ///< one constant and one slope a channel and run
   bool fit_exponents = true;         ///< of a Power law; false: as given
   Errors errors = Errors::automatic;
+  Tolerances tolerances = {};
   /// What the dynamometer makes of the force, one a run; empty: it is rigid. With it the
   /// fit is by harmonics, up to the last one given.
   std::vector<Response> response = {};

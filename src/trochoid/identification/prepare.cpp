@@ -75,6 +75,7 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
              r < options.response.size() ? options.response[r] : Response{}));
   }
   out.resonances = options.resonances;
+  out.tolerances = options.tolerances;
   set_groups(runs, out);
   out.fixed_phase = options.phase.value_or(0.0);
   out.stop = options.stop;

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/stop.h>
 #include <trochoid/force/forces.h>
+#include <trochoid/identification/fit.h>
 #include <trochoid/identification/folded.h>
 #include <trochoid/identification/response.h>
 #include <trochoid/identification/turn_matrix.h>
@@ -72,6 +73,7 @@ struct Problem {
       ""};                            ///< names of those with coefficients of their own
   std::vector<std::size_t> group_of;  ///< place of the group of each run; empty: all 0
   std::optional<Point> start;         ///< where to search first
+  Tolerances tolerances = {};         ///< that the intervals hold
   base::Stop stop = {};               ///< when late, the best so far is enough
 
   /// Coefficients of all groups.

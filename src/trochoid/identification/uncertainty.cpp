@@ -3,6 +3,7 @@
 #include <trochoid/identification/local_minimum.h>
 #include <trochoid/identification/problem.h>
 #include <trochoid/identification/reliability.h>
+#include <trochoid/identification/systematic_columns.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/columns.h>
 #include <trochoid/numerics/least_squares.h>
@@ -273,6 +274,8 @@ Uncertainty uncertainty(const Problem& problem, Evaluation at,
   const std::vector<std::string> names = names_of(problem);
   const std::size_t width = names.size();
   const std::size_t linear = index(problem.linear());
+  const std::vector<double> p = at.p;
+  const std::vector<double> force = force_rows(problem, at, K);
   const auto [all, on_edge] = full_jacobian(problem, std::move(at), K);
   const numerics::Columns J(all, index(problem.rows()));
   const std::vector<double> b = measured(problem);
@@ -293,10 +296,10 @@ Uncertainty uncertainty(const Problem& problem, Evaluation at,
   out.quantile_freedom = out.freedom;
   const std::vector<double> some =
       kept.size() < width ? keep_columns(J, kept) : std::vector<double>{};
-  const std::vector<double> covariance = covariance_of(
-      problem,
-      {some.empty() ? J : numerics::Columns(some, J.rows), kept, fit.inverse_gram},
-      left, out);
+  const numerics::Columns own = some.empty() ? J : numerics::Columns(some, J.rows);
+  std::vector<double> covariance =
+      covariance_of(problem, {own, kept, fit.inverse_gram}, left, out);
+  add_tolerances({problem, p, K, force}, own, covariance);
   out.covariance.assign(width * width, 0.0);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     for (std::size_t j = 0; j < kept.size(); ++j) {

@@ -10,6 +10,7 @@
 #include <trochoid/results/material.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -122,6 +123,100 @@ const Fields<identification::RunoutForm>& form_fields() {
   return all;
 }
 
+/// How much of a systematic is told of, in words and in SI.
+struct Untold {
+  const identification::SystematicEffect& effect;
+  const Fit& fit;
+
+  [[nodiscard]] double amount() const {
+    using enum identification::SystematicKind;
+    switch (effect.systematic.kind) {
+      case turn:
+        return unit::deg;
+      case gain:
+      case cross_talk:
+      case all_gains:
+        return 0.01;
+      case axial_depth:
+      case radial_depth:
+        return 0.1 * unit::mm;
+      case feed:
+        break;
+    }
+    return 0.001 * unit::mm;
+  }
+  [[nodiscard]] std::string_view what() const {
+    using enum identification::SystematicKind;
+    switch (effect.systematic.kind) {
+      case turn:
+        return "1 deg of the dynamometer about z";
+      case gain:
+        return "1 % of one gain";
+      case cross_talk:
+        return "1 % of cross talk";
+      case all_gains:
+        return "1 % of all gains";
+      case axial_depth:
+        return "0.1 mm of axial depth";
+      case radial_depth:
+        return "0.1 mm of radial depth";
+      case feed:
+        break;
+    }
+    return "0.001 mm of feed per tooth";
+  }
+  /// Of a coefficient [SI].
+  [[nodiscard]] double change(std::size_t q) const {
+    return effect.on_coefficients[q] * amount();
+  }
+};
+
+std::vector<Untold> untold_of(const IdentifyResult& r) {
+  std::vector<Untold> out;
+  for (const auto& effect : r.not_in_intervals) {
+    out.push_back({effect, r.fits[*r.chosen]});
+  }
+  return out;
+}
+
+/// The coefficients that make most of the force.
+constexpr std::size_t told_coefficients = 2;
+
+const Fields<Untold>& untold_fields() {
+  static const Fields<Untold> all{
+      {"what", "how much of what was not told", &Untold::what},
+      Field<Untold>{"effect", "by how much the coefficients are then found too large",
+                    [](const Untold& one) {
+                      Object out;
+                      const auto names = force::coefficient_quantities(one.fit.law);
+                      for (std::size_t q = 0; q < told_coefficients; ++q) {
+                        set(out, names[q].key, one.change(q) / names[q].unit);
+                      }
+                      return as_named(out);
+                    }}
+          .with({{".K_*", "in the unit of its key"}})};
+  return all;
+}
+
+/// `not in the intervals: 1 deg of the dynamometer about z: K_tc -0.8 %, K_rc +4.2 %; ...`
+std::string untold_line(const IdentifyResult& r) {
+  if (r.not_in_intervals.empty()) return "";
+  std::vector<std::string> parts;
+  for (const Untold& one : untold_of(r)) {
+    const auto names = force::coefficient_quantities(one.fit.law);
+    std::vector<std::string> changes;
+    for (std::size_t q = 0; q < told_coefficients; ++q) {
+      const auto& K = one.fit.coefficients[q];
+      if (!K || K->value == 0.0) continue;
+      changes.push_back(fmt::format("{} {:+.2g} %",
+                                    names[q].key.substr(0, names[q].key.find('_', 2)),
+                                    100 * one.change(q) / K->value));
+    }
+    parts.push_back(fmt::format("{}: {}", one.what(), fmt::join(changes, ", ")));
+  }
+  return fmt::format("not in the intervals: {}\n", fmt::join(parts, "; "));
+}
+
 Array views_value(const IdentifyResult& r) {
   const auto name = force::coefficient_quantities(r.fits.front().law).front();
   Array out;
@@ -218,6 +313,11 @@ const Fields<Identified>& identified_fields() {
                  {"[].K_*.low", "of the 95 % confidence interval"},
                  {"[].K_*.high", "of the 95 % confidence interval"},
                  {"[].unexplained", "part of the whole force"}}),
+      {"not_in_the_intervals",
+       "what the record cannot tell, so that no interval holds it, and what it would "
+       "make of the coefficients (I-24)",
+       untold_fields(), [](Of of) { return untold_of(of.r); },
+       [](Of of) { return of.r.chosen && !of.r.not_in_intervals.empty(); }},
       {"curves",
        "`whole`, or `mean turn` where the records are long and `fitted.csv`, "
        "`residual.csv` hold the mean turn of each (`--curves` keeps every sample)",
@@ -269,7 +369,7 @@ std::string short_table(const IdentifyResult& r) {
   const std::string gauge =
       r.clocking ? clocking_lines(*r.clocking, factor_of(r)) : std::string();
   return identification_verdict(r) + "\n\n" + groups + fits_table(r.fits) +
-         form_line(r) + gauge + signal_lines(r);
+         form_line(r) + untold_line(r) + gauge + signal_lines(r);
 }
 
 constexpr std::array<const char*, 3> axis_words = {"Fx", "Fy", "Fz"};

@@ -5,6 +5,7 @@
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/identification/runout_form.h>
+#include <trochoid/identification/systematic.h>
 #include <trochoid/identification/views.h>
 #include <trochoid/results/answer.h>
 #include <trochoid/signal/overview.h>
@@ -56,6 +57,8 @@ struct IdentifyResult {
   /// What other bands, or a rigid dynamometer, would answer; empty: nothing else to see.
   std::vector<identification::View> views;
   std::optional<identification::RunoutForm> runout_form;  ///< where one was searched
+  /// What no interval of the chosen fit holds; empty: not looked at.
+  std::vector<identification::SystematicEffect> not_in_intervals;
   std::vector<RecordSummary> records;  ///< empty where they could not be used
   signal::Matrix3 channels{};          ///< channels = matrix times force on the tool
   std::optional<identification::AxesChoice> axes;  ///< where they were searched for

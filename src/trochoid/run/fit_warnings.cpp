@@ -51,6 +51,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> care{{
     {"few_equations", "hardly more equations than unknowns"},
     {"runout_above_feed", "the teeth differ by more than the feed"},
     {"spindle_speed_unknown", "the spindle speed could not be found"},
+    {"channel_gain", "the gain of a channel does not fit the others"},
+    {"cross_talk", "a channel reads part of another force"},
+    {"response_scaled", "the given response does not fit the record"},
 }};
 
 void warn_correlation(const Fit& chosen, Warnings& warnings) {
@@ -170,6 +173,29 @@ void warn_resonance(const Fit& chosen, Warnings& warnings) {
   }
 }
 
+/// A given response whose resonances the record has elsewhere.
+void warn_response(const Fit& chosen, Warnings& warnings) {
+  constexpr double clear = 3.0;  // standard errors
+  constexpr double small = 0.003;
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t q = 0; q < 3; ++q) {
+    const auto& given = chosen.options.resonances[q];
+    const auto& found = chosen.resonances[q];
+    if (!given || !found || !found->omega_se) continue;
+    const double off = found->omega / given->omega - 1.0;
+    const double se = *found->omega_se / given->omega;
+    if (std::abs(off) < std::max(small, clear * se)) continue;
+    warnings.push_back(
+        {"response_scaled",
+         fmt::format(
+             "The resonance in {} of the tool, {:.1f} Hz by the given response, "
+             "comes out at {:.1f} Hz ({:+.2f} +- {:.2f} %), which is used: was "
+             "the response measured with this workpiece and clamping?",
+             axes[q], given->omega / unit::turn, found->omega / unit::turn, 100 * off,
+             200 * se)});
+  }
+}
+
 void warn_freedom(const Fit& chosen, Warnings& warnings) {
   if (chosen.freedom < 10) {
     warnings.push_back(
@@ -247,12 +273,67 @@ void add_fit_warnings(const cases::Case& given, std::span<const Fit> fits,
     warn_size(chosen, group, warnings);
   }
   warn_correlation(chosen, warnings);
-  warn_resonance(chosen, warnings);
+  if (given.dynamometer && !given.dynamometer->frf.name.empty()) {
+    warn_response(chosen, warnings);
+  } else {
+    warn_resonance(chosen, warnings);
+  }
   warn_ringing(given, chosen, warnings);
   warn_freedom(chosen, warnings);
   warn_other_model(fits, chosen, warnings);
   warn_large_runout(given, chosen, warnings);
   warn_edge(chosen, warnings);
+}
+
+namespace {
+
+/// `y`, with its channel where one channel reads it alone.
+std::string reading_words(std::size_t axis, const signal::Matrix3& M) {
+  constexpr std::array axes{"x", "y", "z"};
+  std::string channel;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const bool alone =
+        std::abs(std::abs(M[c][axis]) - 1.0) < 1e-12 &&
+        std::abs(M[c][(axis + 1) % 3]) + std::abs(M[c][(axis + 2) % 3]) < 1e-12;
+    if (alone) channel = fmt::format(" (channel {})", c + 1);
+  }
+  return axes[axis] + channel;
+}
+
+std::string fault_words(const identification::SensorFault& fault, const Fit& chosen,
+                        const signal::Matrix3& M) {
+  constexpr std::array axes{"x", "y", "z"};
+  const auto& one = fault.systematic;
+  const bool gain = one.kind == identification::SystematicKind::gain;
+  const std::string size = base::with_error(
+      100 * (gain ? std::abs(fault.value) : fault.value), 200 * fault.se);
+  const std::string what =
+      gain ? fmt::format("the reading of {} is {} % too {}",
+                         reading_words(one.reading, M), size,
+                         fault.value > 0 ? "large" : "small")
+           : fmt::format("the reading of {} holds {} % of the force in {}",
+                         reading_words(one.reading, M), size, axes[one.force]);
+  const auto names = force::coefficient_quantities(chosen.law);
+  return fmt::format("{}; with that told {} = {:.4g} and {} = {:.4g}", what,
+                     names[0].key, fault.coefficients[0] / names[0].unit, names[1].key,
+                     fault.coefficients[1] / names[1].unit);
+}
+
+}  // namespace
+
+void warn_sensor(std::span<const identification::SensorFault> faults, const Fit& chosen,
+                 const signal::Matrix3& M, Warnings& warnings) {
+  if (faults.empty()) return;
+  std::vector<std::string> words;
+  for (const auto& fault : faults) words.push_back(fault_words(fault, chosen, M));
+  const bool gain =
+      faults.front().systematic.kind == identification::SystematicKind::gain;
+  warnings.push_back(
+      {gain ? "channel_gain" : "cross_talk",
+       fmt::format(
+           "The dynamometer is not what the case says: {}. Check its calibration; "
+           "[dynamometer] matrix tells what a channel reads.",
+           fmt::join(words, "; or "))});
 }
 
 std::vector<std::string> reasons_for_care(std::span<const base::Warning> warnings) {

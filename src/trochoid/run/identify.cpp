@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace trochoid::run {
 
@@ -257,6 +258,43 @@ void look_at_alternatives(const Task& task, const Fit& chosen, IdentifyResult& r
   }
 }
 
+/// Whether the intervals hold a systematic.
+bool told(identification::SystematicKind kind,
+          const identification::Tolerances& tolerances) {
+  using enum identification::SystematicKind;
+  switch (kind) {
+    case gain:
+    case cross_talk:
+    case all_gains:
+      return tolerances.gain.has_value();
+    case turn:
+      return tolerances.turn.has_value();
+    case axial_depth:
+      return tolerances.axial_depth.has_value();
+    case radial_depth:
+      return tolerances.radial_depth.has_value();
+    case feed:
+      return tolerances.feed.has_value();
+  }
+  return false;
+}
+
+/// What no interval holds, and a dynamometer that is not what it says.
+void look_for_systematics(const Task& task, const Fit& chosen, IdentifyResult& r,
+                          std::vector<std::string>& left_out) {
+  if (task.stop.wanted()) {
+    left_out.emplace_back("a look at gains and cross talk");
+    return;
+  }
+  identification::Systematics found =
+      identification::systematics(task.given.setup, task.given.law, r.runs, chosen);
+  r.not_in_intervals = std::move(found.untold);
+  std::erase_if(r.not_in_intervals, [&](const auto& one) {
+    return told(one.systematic.kind, task.given.identify.tolerances);
+  });
+  warn_sensor(found.faults, chosen, r.channels, r.heading.warnings);
+}
+
 /// What there was no time for is said after the verdict.
 void add_left_out(const std::vector<std::string>& left_out, const base::Stop& stop,
                   std::vector<base::Warning>& warnings) {
@@ -286,7 +324,10 @@ void judge(const Task& task, IdentifyResult& r, std::vector<std::string>& left_o
     add_causes(task, r, left_out);
   } else {
     look_at_alternatives(task, chosen, r, left_out);
-    r.reasons_for_care = reasons_for_care(warnings);
+    look_for_systematics(task, chosen, r, left_out);
+    r.reasons_for_care = identification::poorly_known(chosen);
+    std::ranges::copy(reasons_for_care(warnings),
+                      std::back_inserter(r.reasons_for_care));
   }
   r.heading.message = results::identification_sentence(r);
   put_notes_last(warnings);
@@ -423,7 +464,8 @@ identification::Options fit_options(const cases::Case& given, chip::Model model)
       .band_harmonics = given.identify.band_harmonics.value_or(0),
       .fit_channel_offsets =
           given.identify.channel_offsets == cases::ChannelOffset::fit,
-      .errors = given.identify.errors};
+      .errors = given.identify.errors,
+      .tolerances = given.identify.tolerances};
 }
 
 identification::AxesProblem axes_problem(const cases::Case& given) {

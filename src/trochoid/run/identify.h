@@ -4,6 +4,7 @@
 #include <trochoid/cases/case.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
+#include <trochoid/identification/systematic.h>
 #include <trochoid/run/progress.h>
 #include <trochoid/run/records.h>
 
@@ -29,6 +30,13 @@ void add_fit_warnings(const cases::Case& given,
                       std::span<const identification::Fit> fits,
                       const identification::Fit& chosen,
                       std::vector<base::Warning>& warnings);
+
+/// @brief A dynamometer that the record says is not what the case says: warnings with the
+/// codes `channel_gain` and `cross_talk`, or none.
+/// @param M  matrix of the dynamometer that was used
+void warn_sensor(std::span<const identification::SensorFault> faults,
+                 const identification::Fit& chosen, const signal::Matrix3& M,
+                 std::vector<base::Warning>& warnings);
 
 /// @brief Why numbers that may be used are to be used with care: one phrase for each warning
 /// that says so, in their order; empty: none does.
