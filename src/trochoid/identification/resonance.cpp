@@ -30,6 +30,14 @@ constexpr double repeating = 1.2;
 /// frequencies and dampings tried, noise alone reaches about 10.
 constexpr double least_gain = 16.0;
 
+/// Of what repeats turn by turn in the axes that ring, oscillators that leave less describe
+/// them; such that leave more describe nothing.
+constexpr double well_explained = 0.25;
+constexpr double hardly_explained = 0.85;
+/// Of the slowest resonance: below, an error of its frequency changes the amplification by
+/// little more.
+constexpr double bearable = 0.7;
+
 /// Where resonances are looked for, in harmonics of the slowest spindle. Slower ones are those
 /// of the machine; an amplifier's low-pass may well be slower than a resonance.
 constexpr double first_resonance = 3.0;
@@ -308,6 +316,62 @@ std::optional<Ringing> with_one_more(const force::Setup& setup, const force::Law
   return believable(next.point.resonances, range) ? std::optional(next) : std::nullopt;
 }
 
+/// Sum of squares of each axis that repeats turn by turn, by the same harmonics [N^2].
+std::array<double, 3> repeating_squares(std::span<const Run> runs, const Fit& fit,
+                                        int harmonics) {
+  std::array<double, 3> out{};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Spectrum one = spectrum_of(runs[r], fit.fitted[r], 2 * harmonics + 1);
+    for (std::size_t i = 0; i < one.rows(); ++i) {
+      out[i / one.lines()] += one.left[i] * one.left[i] - one.scatter[i];
+    }
+  }
+  return out;
+}
+
+/// What the resonances leave of what repeats in their axes, from 0 to 1.
+double part_left(std::span<const Run> runs, const Fit& rigid, const Fit& fit) {
+  const int harmonics = fit.options.band_harmonics;
+  const auto before = repeating_squares(runs, rigid, harmonics);
+  const auto after = repeating_squares(runs, fit, harmonics);
+  double all_before = 0.0;
+  double all_after = 0.0;
+  for (std::size_t q = 0; q < 3; ++q) {
+    if (!fit.resonances[q]) continue;
+    all_before += std::max(before[q], 0.0);
+    all_after += std::max(after[q], 0.0);
+  }
+  return all_before > 0.0 ? all_after / all_before : 1.0;
+}
+
+/// @brief Where the dynamometer is more than one oscillator in an axis, no more is believed
+/// than what lies below the slowest, which it amplifies in any case.
+std::optional<Fit> below_resonances(const force::Setup& setup, const force::Law& law,
+                                    std::span<const Run> runs, const Fit& all) {
+  Options options = all.options;
+  options.resonances = {};
+  options.start = Start{all.runout, all.phase};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double Omega = runs[r].cut.Omega;
+    options.response[r] =
+        response_of(all.resonances, Omega, all.options.response[r].highest());
+    for (const auto& one : all.resonances) {
+      if (!one) continue;
+      const double band = bearable * one->omega / Omega;
+      options.band_harmonics =
+          static_cast<int>(std::min<double>(options.band_harmonics, band));
+    }
+  }
+  if (options.band_harmonics < setup.cutter.teeth()) return std::nullopt;
+  Fit fit = identify(setup, law, runs, options);
+  if (!fit.ok) return std::nullopt;
+  fit.resonances = all.resonances;
+  for (auto& one : fit.resonances) {
+    if (one) one = Resonance{one->omega, one->zeta};  // errors of another model
+  }
+  return fit;
+}
+
 /// The rigid fit, with rows that a resonance can be put into.
 std::optional<Ringing> rigid_by_harmonics(const force::Setup& setup,
                                           const force::Law& law,
@@ -370,7 +434,11 @@ std::optional<Fit> fit_through_resonance(const force::Setup& setup,
   options.resonances = now->point.resonances;
   options.start = Start{now->point.runout, now->point.phase};
   Fit fit = identify(setup, law, runs, options);
-  return fit.ok ? std::optional(std::move(fit)) : std::nullopt;
+  if (!fit.ok) return std::nullopt;
+  const double left = part_left(runs, rigid, fit);
+  if (left < well_explained) return fit;
+  if (left > hardly_explained) return std::nullopt;
+  return below_resonances(setup, law, runs, fit);
 }
 
 namespace {

@@ -103,6 +103,10 @@ int band_of(const Fit& fit) {
   return band;
 }
 
+Value in_turns(const std::optional<double>& omega) {
+  return omega ? Value(*omega / unit::turn) : Value();
+}
+
 /// Of the dynamometer, in the axes of the tool; null where none was found.
 Object resonances_value(const Fit& fit) {
   Object out;
@@ -111,7 +115,9 @@ Object resonances_value(const Fit& fit) {
     const auto& one = fit.resonances[q];
     set(out, axes[q],
         one ? Value(Object{{"frequency_Hz", one->omega / unit::turn},
-                           {"damping_ratio", one->zeta}})
+                           {"frequency_se_Hz", in_turns(one->omega_se)},
+                           {"damping_ratio", one->zeta},
+                           {"damping_ratio_se", Value(one->zeta_se)}})
             : Value());
   }
   return out;
@@ -207,13 +213,16 @@ const Fields<Fit>& quality_fields() {
       Field<Fit>{
           "resonances",
           "of the dynamometer, where its response is in the model: for `x`, `y`, "
-          "`z` of the tool, or `null` where none was found or the response was "
-          "given (I-17)",
+          "`z` of the tool, or `null` where none was found; of a given response the "
+          "one that was scaled with the fit (I-17, I-25)",
           [](const Fit& f) { return as_named(resonances_value(f)); },
           [](const Fit& f) { return f.ok && !f.options.response.empty(); }}
           .with({{".*", "of each axis"},
                  {".*.frequency_Hz", "natural frequency"},
-                 {".*.damping_ratio", "of critical damping"}})};
+                 {".*.frequency_se_Hz",
+                  "its standard error; `null` where it was not found with the rest"},
+                 {".*.damping_ratio", "of critical damping"},
+                 {".*.damping_ratio_se", "its standard error, as above"}})};
   return all;
 }
 
