@@ -15,7 +15,7 @@ namespace {
 
 constexpr double too_much_unexplained = 0.5;
 /// Of a coefficient, half of its interval: more is no knowledge, and more asks for care.
-constexpr double unknown = 0.5;
+constexpr double unknown = 2.0 / 3.0;
 constexpr double uncertain = 0.1;
 /// A coefficient that is small beside the tangential one need not be known better than a
 /// part of that.

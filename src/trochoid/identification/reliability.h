@@ -22,7 +22,7 @@ double correlation_factor(double r) noexcept;
 ///
 /// More than half of the force (rms, within the band of the fit) stays unexplained and
 /// is not white noise; or the tangential cutting coefficient may be zero, or is known to no
-/// more than half of it; or it or the radial one is negative by more than its interval.
+/// better than two thirds of it; or it or the radial one is negative by more than its interval.
 /// @eq I-9 u_band > 1/2 and (band limit or r > 0.3)
 std::vector<std::string> reasons_against(const Fit& fit);
 

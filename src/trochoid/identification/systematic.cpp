@@ -181,6 +181,7 @@ std::optional<SensorFault> tried(const LinearFit& linear, const Systematic& one,
   const double part = rest.excess > 0.0 ? std::min(gained / rest.excess, 1.0) : 0.0;
   const double left = part * rest.variance + (1.0 - part) * rest.chance;
   out.se = std::sqrt(left / effect.rss);
+  out.part = part;
   // What something else leaves is not taken for a fault, however much there is of it.
   out.explained = gained / (part >= most_of_excess ? rest.variance : rest.chance);
   out.coefficients = linear.coefficients();

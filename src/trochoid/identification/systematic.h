@@ -40,6 +40,7 @@ struct SensorFault {
   double value = 0.0;                ///< part of the reading
   double se = 0.0;                   ///< its standard error
   double explained = 0.0;            ///< in what one unknown explains by chance
+  double part = 0.0;                 ///< of what repeats turn by turn, from 0 to 1
   std::vector<double> coefficients;  ///< of the first group, with it told
 };
 

@@ -1,6 +1,7 @@
 #include <trochoid/identification/views.h>
 
 #include <trochoid/identification/resonance.h>
+#include <trochoid/identification/systematic.h>
 
 #include <algorithm>
 
@@ -25,6 +26,16 @@ std::vector<int> bands(const force::Setup& setup, std::span<const Run> runs) {
   return out;
 }
 
+/// A gain or cross talk that explains so much of what repeats is its cause, not a resonance
+/// that mimics it.
+constexpr double explains_most = 0.8;
+
+bool is_sensor_fault(const force::Setup& setup, const force::Law& law,
+                     std::span<const Run> runs, const Fit& rigid) {
+  const std::vector<SensorFault> faults = systematics(setup, law, runs, rigid).faults;
+  return !faults.empty() && faults.front().part > explains_most;
+}
+
 }  // namespace
 
 Viewed fit_as_seen(const force::Setup& setup, const force::Law& law,
@@ -41,7 +52,8 @@ Viewed fit_as_seen(const force::Setup& setup, const force::Law& law,
       out.views.push_back(view_of(fit));
     }
   }
-  if (auto fit = fit_through_resonance(setup, law, runs, out.fit)) {
+  auto fit = fit_through_resonance(setup, law, runs, out.fit);
+  if (fit && !is_sensor_fault(setup, law, runs, out.fit)) {
     out.views.insert(out.views.begin(), view_of(*fit));
     out.fit = std::move(*fit);
   }
