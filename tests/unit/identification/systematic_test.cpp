@@ -8,8 +8,7 @@
 #include <stdexcept>
 
 /// A dynamometer or a cut that is not what the case says.
-namespace trochoid::identification {
-namespace {
+namespace trochoid::identification::systematic_test {
 
 force::Setup two_flutes_with_runout() {
   force::Setup setup = slot_setup(2, 30.0, 2.0 * unit::mm);
@@ -125,5 +124,4 @@ TEST(Systematic, CrossTalkIsTold) {  // [I-24]
   EXPECT_TRUE(named);
 }
 
-}  // namespace
-}  // namespace trochoid::identification
+}  // namespace trochoid::identification::systematic_test
