@@ -211,6 +211,17 @@ Reference reference_of(const TurnLines& lines, const Averages& mean, const Pass&
   return out;
 }
 
+/// Whether anything in it turns with the spindle: a constant has no entry.
+bool turns(const Reference& reference) {
+  constexpr double nothing_turns = 1e-12;  // of the squares
+  double means = 0.0;
+  double lines = 0.0;
+  for (std::size_t i = 0; i < reference.value.size(); ++i) {
+    (i < 3 ? means : lines) += reference.value[i] * reference.value[i];
+  }
+  return lines > nothing_turns * means;
+}
+
 /// How far the middles of some windows are from one another.
 double distance(const Windows& a, const Windows& b) {
   return 0.5 * std::abs(static_cast<double>(a.begin + a.end) -
@@ -456,7 +467,7 @@ Windows steady_windows(const TurnLines& lines, const Pass& pass) {
   if (all.size() < least_windows) return all;
   const Averages mean(lines);
   const Reference reference = reference_of(lines, mean, pass);
-  if (!(reference.force > 0.0)) return all;
+  if (!(reference.force > 0.0) || !turns(reference)) return all;
   const Different differs = different(mean, reference, all);
   const auto inner = static_cast<std::ptrdiff_t>(reference.windows.begin - all.begin);
   const auto outer = static_cast<std::ptrdiff_t>(all.end - reference.windows.end);

@@ -56,7 +56,7 @@ TEST(RecordNumeric, TakesTheRateThatTheColumnsState) {
   auto made =
       std::vector{column("Fx", "N", {1, 2, 3}, 1e4), column("Fy", "N", {1, 2, 3}, 1e4),
                   column("Fz", "N", {1, 2, 3}, 1e4)};
-  made[0].column.first_time = 0.5;
+  for (auto& one : made) one.column.first_time = 0.5;
   const auto record = record_of(table_of(made), "r.bin", {});
   EXPECT_EQ(record.sample_rate, 1e4);
   EXPECT_DOUBLE_EQ(record.time[2], 0.5002);
