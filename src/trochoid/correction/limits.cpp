@@ -16,10 +16,10 @@ namespace {
 constexpr double speeds_searched = 50;
 
 /// A limit that a command was made to keep is kept to the last digits.
-constexpr double rounding = 1e-9;
+constexpr double by_rounding = 1e-9;
 
 Limit limit_of(LimitKind kind, double value, double limit, std::string reason) {
-  const bool kept = value <= limit * (1 + rounding);
+  const bool kept = value <= limit * (1 + by_rounding);
   const double margin = kept ? std::max(limit - value, 0.0) : limit - value;
   return {kind, value, limit, margin, true, kept, std::move(reason)};
 }

@@ -242,7 +242,7 @@ void take_crossings(const RegenerativeLoop& loop, const LoopAt& before,
 /// A branch is followed where it moves by less than this fraction of itself in a step.
 constexpr double followed = 0.3;
 /// A step is halved so often to get there.
-constexpr int most_halvings = 6;
+constexpr int most_bisections = 6;
 
 /// Whether each eigenvalue that could be an onset has one at the other frequency that it
 /// may come from.
@@ -421,7 +421,7 @@ std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& po
        scan_frequencies(point, unit::turn * Omega / longest / steps_per_wave)) {
     LoopAt now{omega, loop.eigenvalues(omega, kept_beside / best.factor)};
     if (before.omega > 0) {
-      follow(loop, before, now, most_halvings, best);
+      follow(loop, before, now, most_bisections, best);
     }
     before = std::move(now);
   }

@@ -29,7 +29,7 @@ constexpr double hardest = 20000 * unit::MPa;
 constexpr double much_ringing = 0.2;
 
 /// Warnings that cast a doubt on the numbers, and how to say it in a few words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 20> care{{
+constexpr auto care = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"clipped_channel", "a channel was driven beyond its range"},
     {"dead_channel", "a channel is dead"},
     {"cut_fits_better", "another cut than the stated one fits better"},
@@ -54,7 +54,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> care{{
     {"channel_gain", "the gain of a channel does not fit the others"},
     {"cross_talk", "a channel reads part of another force"},
     {"response_scaled", "the given response does not fit the record"},
-}};
+});
 
 void warn_correlation(const Fit& chosen, Warnings& warnings) {
   const double r = chosen.residual_correlation;
