@@ -123,14 +123,11 @@ void make_band(FoldedRun& run) {
     run.band = 0;  // fewer samples than harmonics: the band holds everything
     return;
   }
-  std::vector<double> A;
-  A.reserve(run.angle.size() * columns);
+  std::vector<double> A(run.angle.size() * columns);
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
-    A.push_back(run.weight[g]);
-    for (int k = 1; k <= harmonics; ++k) {
-      A.push_back(run.weight[g] * std::cos(k * run.angle[g]));
-      A.push_back(run.weight[g] * std::sin(k * run.angle[g]));
-    }
+    const std::span<double> row = std::span(A).subspan(g * columns, columns);
+    fill_waves(run.angle[g], row);
+    for (double& wave : row) wave *= run.weight[g];
   }
   run.basis = numerics::orthonormal(A, run.band, 0.0);
   run.band = static_cast<int>(run.basis.size() / run.angle.size());
@@ -233,6 +230,21 @@ void leave_out_unmeasured(const FoldedRun& run, std::span<double> column) {
   for (std::size_t q = 0; q < 3; ++q) {
     if (run.measured[q]) continue;
     for (std::size_t i = q; i < column.size(); i += 3) column[i] = 0.0;
+  }
+}
+
+void fill_waves(double angle, std::span<double> out) noexcept {
+  out[0] = 1.0;
+  double c = 1.0;
+  double s = 0.0;
+  const double c1 = std::cos(angle);
+  const double s1 = std::sin(angle);
+  for (std::size_t k = 1; k + 1 < out.size(); k += 2) {
+    const double next = c * c1 - s * s1;
+    s = s * c1 + c * s1;
+    c = next;
+    out[k] = c;
+    out[k + 1] = s;
   }
 }
 
@@ -354,6 +366,24 @@ int highest_of(int harmonics) noexcept {
 
 }  // namespace
 
+std::vector<double> band_by_waves(const FoldedRun& run, std::size_t terms) {
+  const std::size_t n = run.angle.size();
+  const std::size_t band = index(run.band);
+  std::vector<double> waves(terms * n);
+  std::vector<double> basis(band * n);
+  std::vector<double> wave(terms);
+  for (std::size_t g = 0; g < n; ++g) {
+    fill_waves(run.angle[g], wave);
+    for (std::size_t i = 0; i < terms; ++i) waves[i * n + g] = wave[i];
+    for (std::size_t k = 0; k < band; ++k) {
+      basis[k * n + g] = run.weight[g] * run.basis[g * band + k];
+    }
+  }
+  std::vector<double> out(band * terms);
+  numerics::inner_products({basis, n}, {waves, n}, out);
+  return out;
+}
+
 void map_turn(FoldedRun& run, std::size_t few_angles) {
   const bool angles_serve =
       run.harmonics > widest_mapped_band || run.angle.size() <= few_angles;
@@ -363,24 +393,7 @@ void map_turn(FoldedRun& run, std::size_t few_angles) {
       run.response.rigid() ? highest_of(run.harmonics) : run.response.highest();
   const std::size_t terms = 2 * index(run.highest) + 1;
   const std::size_t band = index(run.band);
-  run.turn_map.assign(band * terms, 0.0);
-  std::vector<double> wave(terms);
-  for (std::size_t g = 0; g < run.angle.size(); ++g) {
-    const double c = std::cos(run.angle[g]);
-    const double s = std::sin(run.angle[g]);
-    wave[0] = 1.0;
-    wave[1] = c;
-    wave[2] = s;
-    for (std::size_t i = 3; i + 1 < terms; i += 2) {
-      wave[i] = wave[i - 2] * c - wave[i - 1] * s;
-      wave[i + 1] = wave[i - 1] * c + wave[i - 2] * s;
-    }
-    for (std::size_t k = 0; k < band; ++k) {  // I-11
-      const double factor = run.weight[g] * run.basis[g * band + k];
-      double* const row = &run.turn_map[k * terms];
-      for (std::size_t i = 0; i < terms; ++i) row[i] += factor * wave[i];
-    }
-  }
+  run.turn_map = band_by_waves(run, terms);
 }
 
 std::vector<double> rows_of_turn(const FoldedRun& run,

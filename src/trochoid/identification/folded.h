@@ -47,6 +47,10 @@ struct FoldedRun {
       drift;  ///< channel constants and slopes, shape (rows, 6); or empty
 };
 
+/// @brief 1 and the cosines and sines of an angle and its multiples.
+/// @param[out] out  odd in length
+void fill_waves(double angle, std::span<double> out) noexcept;
+
 /// The slope column at sample i of n: from -1/2 to 1/2.
 double slope_at(std::size_t i, std::size_t n) noexcept;
 
@@ -74,6 +78,9 @@ int measured_count(const FoldedRun& run) noexcept;
 /// @brief Make the rows of forces that are not measured zero.
 /// @param column  rows of the run, x, y and z by turns
 void leave_out_unmeasured(const FoldedRun& run, std::span<double> column);
+
+/// @brief t_km of I-11 for the first waves, shape (band, terms).
+std::vector<double> band_by_waves(const FoldedRun& run, std::size_t terms);
 
 /// @brief Let the rows of a run in a band be read off the Fourier coefficients of the
 /// force; nothing without a band, and where there are so few angles that they are

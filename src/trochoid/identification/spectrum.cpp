@@ -47,22 +47,6 @@ Blocks blocks_of(const Run& run) {
   return out;
 }
 
-/// Cosines and sines of an angle, for the lines of a spectrum.
-void fill_waves(double angle, std::span<double> out) {
-  out[0] = 1.0;
-  double c = 1.0;
-  double s = 0.0;
-  const double c1 = std::cos(angle);
-  const double s1 = std::sin(angle);
-  for (std::size_t k = 1; k < out.size(); k += 2) {
-    const double next = c * c1 - s * s1;
-    s = s * c1 + c * s1;
-    c = next;
-    out[k] = c;
-    out[k + 1] = s;
-  }
-}
-
 /// @brief Mean of the values times each wave, each sample at its own angle: one moved to
 /// the middle of a bin has an error of angle that repeats with the bins, and makes lines
 /// that are not there.
@@ -150,21 +134,20 @@ namespace {
 /// span the harmonics, each of them is none.
 std::vector<double> lines_of_band(const FoldedRun& folded, std::size_t lines) {
   const std::size_t band = index(folded.band);
-  std::vector<double> out(lines * band, 0.0);
-  std::vector<double> wave(lines);
+  const bool mapped =
+      !folded.turn_map.empty() && 2 * index(folded.highest) + 1 >= lines;
+  const std::vector<double> own =
+      mapped ? std::vector<double>{} : band_by_waves(folded, lines);
+  const std::vector<double>& map = mapped ? folded.turn_map : own;
+  const std::size_t terms = map.size() / band;
   double n = 0.0;
-  for (std::size_t g = 0; g < folded.angle.size(); ++g) {
-    const double w = folded.weight[g];
-    n += w * w;
-    fill_waves(folded.angle[g], wave);
-    for (std::size_t l = 0; l < lines; ++l) {
-      for (std::size_t k = 0; k < band; ++k) {
-        out[l * band + k] += w * wave[l] * folded.basis[g * band + k];
-      }
+  for (const double w : folded.weight) n += w * w;
+  std::vector<double> out(lines * band);
+  for (std::size_t l = 0; l < lines; ++l) {
+    const double scale = std::sqrt((l == 0 ? 1.0 : 2.0) / n);
+    for (std::size_t k = 0; k < band; ++k) {
+      out[l * band + k] = scale * map[k * terms + l];
     }
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] *= std::sqrt((i < band ? 1.0 : 2.0) / n);
   }
   return out;
 }
@@ -180,12 +163,14 @@ std::vector<double> harmonic_rows(const FoldedRun& folded, const Spectrum& spect
     const std::vector<double> map = lines_of_band(folded, lines);
     const std::size_t band = index(folded.band);
     for (std::size_t c = 0; c < columns; ++c) {
+      const std::span<const double> column = J[c];
       for (std::size_t l = 0; l < lines; ++l) {
+        std::array<double, 3> sum{};
         for (std::size_t k = 0; k < band; ++k) {
-          for (std::size_t q = 0; q < 3; ++q) {
-            out[(q * lines + l) * columns + c] += map[l * band + k] * J[c][3 * k + q];
-          }
+          const double share = map[l * band + k];
+          for (std::size_t q = 0; q < 3; ++q) sum[q] += share * column[3 * k + q];
         }
+        for (std::size_t q = 0; q < 3; ++q) out[(q * lines + l) * columns + c] = sum[q];
       }
     }
     return out;
