@@ -65,7 +65,8 @@ class Plan(unittest.TestCase):
         np.savetxt(file, np.column_stack([np.degrees(angle), F]), delimiter=",",
                    header="angle_deg,Fx_N,Fy_N,Fz_N", comments="", fmt="%.17g")
         unknown = {k: v for k, v in given.items() if k != "runout"}
-        result = self.plan("after", {**unknown, "identify": {"chip_models": ["trochoidal"]},
+        result = self.plan("after", {**unknown, "identify": {"channel_offsets": "none",
+                                                        "chip_models": ["trochoidal"]},
                                      "plan": PLAN}, [{"file": "record.csv"}]).result
         start = [0.009, -0.006, 20.0]
         fit = ident.joint(case, angle, F, NAMES + ["phase"], start)

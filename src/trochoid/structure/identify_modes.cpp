@@ -121,7 +121,7 @@ ModesFit identify_modes(const FrequencyResponse& response,
     return refused(std::move(fit), why);
   }
   OrderSearch search;
-  search_orders(few, all, options, ModeForm::residue, search);
+  search_orders({few, many, all}, options, ModeForm::residue, search);
   Candidate& chosen = search.best.front();
   const std::size_t count = chosen.trial.solution.model.terms.size();
   const std::string kind =

@@ -122,7 +122,7 @@ ModesFit identify_shapes(const std::vector<DirectedResponse>& responses,
   OrderSearch tried;
   for (const bool complex_shapes : {false, true}) {
     if (options.complex_shapes.value_or(complex_shapes) == complex_shapes) {
-      search_orders(few, all, options,
+      search_orders({few, many, all}, options,
                     complex_shapes ? ModeForm::complex_shapes : ModeForm::real_shapes,
                     tried);
     }

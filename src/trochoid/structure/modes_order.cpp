@@ -94,6 +94,52 @@ bool taken(Candidate& best, Candidate next, int wanted) {
   return true;
 }
 
+bool is_thinned(Responses all) {
+  return std::any_of(all.begin(), all.end(), [](const DirectedResponse& one) {
+    return !one.response.averaged.empty();
+  });
+}
+
+/// A candidate without a fault, and its place among the orders.
+struct Sound {
+  std::size_t order = 0;
+  Candidate candidate;
+};
+
+/// Orders whose criterion is above the least by more are not judged again.
+constexpr double near_the_best = 40.0;
+
+/// The best of those that are near it in few lines, by many.
+/// @param[in,out] best    becomes that of many lines
+/// @param[in,out] orders  get the criterion of many; far ones keep their distance
+void judge_in_many(const SearchLines& lines, const ModesOptions& options,
+                   const std::vector<Sound>& sound, Candidate& best,
+                   std::vector<ModesOrder>& orders) {
+  const double least = best.trial.criterion;
+  const bool complex_shapes = best.trial.solution.model.complex_shapes();
+  std::vector<std::size_t> again;
+  Candidate found;
+  double shift = 0.0;
+  for (const auto& [order, rough] : sound) {
+    const double behind = rough.trial.criterion - least;
+    if (behind > near_the_best) continue;
+    Candidate next = judged(
+        lines.all, settle_exactly(lines.many, rough.trial.solution.model, rough.trial),
+        options);
+    if (behind <= 0) shift = next.trial.criterion - least;
+    orders[order] = order_of(next);
+    again.push_back(order);
+    taken(found, std::move(next), options.count);
+  }
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const bool done = std::ranges::find(again, i) != again.end();
+    if (!done && orders[i].complex_shapes == complex_shapes) {
+      orders[i].criterion += shift;
+    }
+  }
+  if (found.found()) best = std::move(found);
+}
+
 /// A model without modes, from which a search begins.
 ModesTrial empty(Responses all, ModeForm form, bool residual_terms) {
   ModesTrial out;
@@ -111,15 +157,17 @@ std::size_t lines_needed(int count) noexcept {
   return static_cast<std::size_t>(4 * count + 4);
 }
 
-void search_orders(Responses all, Responses measured, const ModesOptions& options,
-                   ModeForm form, OrderSearch& out) {
+void search_orders(const SearchLines& lines, const ModesOptions& options, ModeForm form,
+                   OrderSearch& out) {
+  const Responses few = lines.few;
   Candidate& best = out.best[form == ModeForm::complex_shapes ? 1 : 0];
   const int more = options.residual_terms.value_or(true) ? most_outside : 0;
   const int last = options.count > 0 ? options.count + more : most_modes;
-  std::array<ModesTrial, 2> before = {empty(all, form, false), empty(all, form, true)};
+  std::array<ModesTrial, 2> before = {empty(few, form, false), empty(few, form, true)};
+  std::vector<Sound> sound;
   int since = 0;
-  for (int count = 1; count <= last && enough_lines(all, count); ++count) {
-    if (given_up(all, form, best, since, count)) {
+  for (int count = 1; count <= last && enough_lines(few, count); ++count) {
+    if (given_up(few, form, best, since, count)) {
       break;
     }
     since += count >= options.count ? 1 : 0;
@@ -128,24 +176,26 @@ void search_orders(Responses all, Responses measured, const ModesOptions& option
         continue;
       }
       ModesTrial& trial = before[terms ? 1 : 0];
-      trial = with_one_more(all, trial);
-      Candidate next = judged(measured, trial, options);
+      trial = with_one_more(few, trial);
+      Candidate next = judged(lines.all, trial, options);
       out.orders.push_back(order_of(next));
       if (!next.fault.empty() &&
           (out.first_fault.empty() || count <= std::max(options.count, 1))) {
         out.first_fault = next.fault;
       }
+      if (next.fault.empty()) sound.push_back({out.orders.size() - 1, next});
       since = taken(best, std::move(next), options.count) ? 0 : since;
     }
+  }
+  if (is_thinned(few) && best.found()) {
+    judge_in_many(lines, options, sound, best, out.orders);
   }
 }
 
 ModesTrial settle_exactly(Responses all, const ModesModel& start,
                           const ModesTrial& rough) {
-  const bool is_thinned = std::any_of(
-      all.begin(), all.end(),
-      [](const DirectedResponse& one) { return !one.response.averaged.empty(); });
-  return settle(all, start, weights_of(all, rough), is_thinned ? closely : exactly);
+  return settle(all, start, weights_of(all, rough),
+                is_thinned(all) ? closely : exactly);
 }
 
 std::vector<std::size_t> answers_of(const Candidate& chosen) {

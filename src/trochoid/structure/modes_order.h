@@ -36,13 +36,19 @@ struct OrderSearch {
 /// residual terms, and some to tell the noise.
 std::size_t lines_needed(int count) noexcept;
 
+/// The lines of a search.
+struct SearchLines {
+  Responses few;   ///< thinned for the search
+  Responses many;  ///< thinned for the last fit
+  Responses all;   ///< as measured: they say what is resolved
+};
+
 /// @brief One mode after the other, with residual terms and without (M-16, M-17).
 ///
-/// The search ends where some modes more have bettered nothing.
-/// @param measured  the lines that `all` were thinned from: they say what is resolved
-// five parameters: what is searched in, and how
-void search_orders(Responses all, Responses measured, const ModesOptions& options,
-                   ModeForm form, OrderSearch& out);
+/// The search ends where some modes more have bettered nothing. Thinned lines tell less of
+/// how many modes there are: orders that are near the best in them are judged in many.
+void search_orders(const SearchLines& lines, const ModesOptions& options, ModeForm form,
+                   OrderSearch& out);
 
 /// @brief The last fit, until nothing moves any more.
 /// @param rough  the one before, whose noises are the first weights
