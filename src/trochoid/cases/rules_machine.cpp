@@ -27,8 +27,8 @@ std::string contradiction(const Mode& mode) {
     return "";
   }
   const double made = std::sqrt(*mode.stiffness / *mode.mass) / unit::turn;
-  return fmt::format(" (stiffness and mass make {:.4g} Hz, {:+.2g} % off {:g} Hz)", made,
-                     100.0 * (made / *mode.frequency - 1.0), *mode.frequency);
+  return fmt::format(" (stiffness and mass make {:.4g} Hz, {:+.2g} % off {:g} Hz)",
+                     made, 100.0 * (made / *mode.frequency - 1.0), *mode.frequency);
 }
 
 void check_mode(const Mode& mode, const std::string& path, Findings& findings) {

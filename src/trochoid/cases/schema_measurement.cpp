@@ -218,7 +218,7 @@ void describe(const Visitor& v, IdentifyTable& t) {
      .meaning =
          "constant and drift of the channels: idle: taken from where nothing cuts; fit: "
          "found with the coefficients; none: left as they are; auto: idle where the "
-         "records have air, else fit"},
+         "records have air, else fit where they have four turns"},
     choice(t.channel_offsets));
   v({.name = "errors",
      .meaning = "standard errors and intervals: auto counts residuals that agree with "

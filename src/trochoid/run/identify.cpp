@@ -410,28 +410,47 @@ IdentifyResult identified(const Task& task, IdentifyResult r) {
 /// with them went astray: they only add freedom.
 bool explains_far_more(const IdentifyResult& without, const IdentifyResult& with) {
   constexpr double far_less = 0.7;  // of what is left (rms)
-  return without.chosen &&
-         without.fits[*without.chosen].rms < far_less * with.fits[*with.chosen].rms;
+  return without.chosen && (!with.chosen || without.fits[*without.chosen].rms <
+                                                far_less * with.fits[*with.chosen].rms);
+}
+
+IdentifyResult with_advice_on_offsets(IdentifyResult out) {
+  if (!out.chosen) {
+    out.heading.warnings.push_back(
+        {"offsets_not_told",
+         "Nothing in the record is free of cutting, so the offsets of the channels are to "
+         "be found with the coefficients, and it may not tell both. Record some air before "
+         "the cut; where the channels surely read zero without force, say "
+         "channel_offsets = \"none\" in [identify]."});
+  }
+  return out;
+}
+
+/// Whether the offsets of a record are to be found with the coefficients: no air tells
+/// them, and it is long enough to tell them from the cut.
+bool has_offsets_to_find(const MeasuredRun& one) {
+  constexpr double fewest_turns = 4.0;
+  const std::vector<double>& angle = one.run.angle;
+  return !one.offset_taken_out && !angle.empty() &&
+         std::abs(angle.back() - angle.front()) > fewest_turns * unit::turn;
 }
 
 /// @brief The same with the offsets of the channels as the records allow: where one has no
 /// air to read them off, they are found with the coefficients.
 IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
   using cases::ChannelOffset;
-  const bool all_taken_out =
-      std::ranges::all_of(task.measured, &MeasuredRun::offset_taken_out);
   if (task.given.identify.channel_offsets != ChannelOffset::automatic ||
-      all_taken_out) {
+      std::ranges::none_of(task.measured, has_offsets_to_find)) {
     return identified(task, std::move(r));
   }
   cases::Case given = task.given;
   given.identify.channel_offsets = ChannelOffset::fit;
   IdentifyResult out = identified({given, task.progress, task.stop, task.measured}, r);
-  if (out.chosen && out.fits[*out.chosen].unexplained.in_band > worth_a_look) {
+  if (!out.chosen || out.fits[*out.chosen].unexplained.in_band > worth_a_look) {
     given.identify.channel_offsets = ChannelOffset::none;
     IdentifyResult left_in =
         identified({given, task.progress, task.stop, task.measured}, std::move(r));
-    if (!explains_far_more(left_in, out)) return out;
+    if (!explains_far_more(left_in, out)) return with_advice_on_offsets(std::move(out));
     left_in.heading.warnings.push_back(
         {"offsets_left_in",
          "Nothing in the record is free of cutting, and no good fit was found together "
@@ -442,14 +461,6 @@ IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
     }
     left_in.heading.message = results::identification_sentence(left_in);
     return left_in;
-  }
-  if (!out.chosen) {
-    out.heading.warnings.push_back(
-        {"offsets_not_told",
-         "Nothing in the record is free of cutting, so the offsets of the channels are to "
-         "be found with the coefficients, and it may not tell both. Record some air before "
-         "the cut; where the channels surely read zero without force, say "
-         "channel_offsets = \"none\" in [identify]."});
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
 namespace trochoid::structure {
@@ -20,6 +21,8 @@ constexpr double above_scatter = 1.5;
 constexpr double sure = 3.0;
 /// Bias of a mean, of its standard error.
 constexpr double most_bias = 0.2;
+/// Fewer tell neither noise nor number of modes: then all stay.
+constexpr std::size_t fewest_lines = 100;
 /// Lines over which scatter is looked at.
 constexpr std::size_t scatter_block = 32;
 
@@ -160,9 +163,9 @@ std::vector<DirectedResponse> thinned(std::span<const DirectedResponse> all,
                                       Thinning enough) {
   std::vector<DirectedResponse> out(all.begin(), all.end());
   for (DirectedResponse& one : out) {
-    if (one.response.omega.size() > enough.lines) {
-      one.response = thinned(one.response, enough.tolerance);
-    }
+    if (one.response.omega.size() <= enough.lines) continue;
+    FrequencyResponse few = thinned(one.response, enough.tolerance);
+    if (few.omega.size() >= fewest_lines) one.response = std::move(few);
   }
   return out;
 }
