@@ -392,7 +392,6 @@ void map_turn(FoldedRun& run, std::size_t few_angles) {
   run.highest =
       run.response.rigid() ? highest_of(run.harmonics) : run.response.highest();
   const std::size_t terms = 2 * index(run.highest) + 1;
-  const std::size_t band = index(run.band);
   run.turn_map = band_by_waves(run, terms);
 }
 

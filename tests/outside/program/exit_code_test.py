@@ -205,7 +205,7 @@ class ExitCode(InFolder):
         low, high = min(r[1] for r in rows), max(r[1] for r in rows)
         for part in ("cut.toml: no mistakes found", "record.csv: 120 samples",
                      "0.99 revolutions by their angles", "angle from column angle_deg",
-                     f"channel 1 from column Fx_N: {low:.1f} to {high:.1f} N"):
+                     f"channel 1 from column Fx_N: {low:.4g} to {high:.4g} N"):
             self.assertIn(part, said)
         self.assertFalse(list(self.folder.glob("cut.*/")))
         self.assertEqual(self.run_program("check", "cut.toml", "-q").stdout, "")
