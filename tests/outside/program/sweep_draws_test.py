@@ -72,7 +72,7 @@ class Draws(InFolder):
 
     def test_draws_are_those_of_the_covariance_and_carry_the_force(self):  # [U-4]
         found = self.identified()["covariance"]
-        self.case('covariance = "known.identify"\ndraws = 1600\nmethod = "latin_hypercube"')
+        self.case('covariance = "known.identify"\ndraws = 1000\nmethod = "latin_hypercube"')
         printed = self.run_program("sweep", "next.toml", "--no-report").stdout
         self.assertIn("95 % from", printed)
         self.assertIn("the lower one lies within", printed)
