@@ -148,6 +148,16 @@ TEST(WallCoverage, WithFeedbackAndForm) {  // [E-22] [E-25] [E-27]
   expect_held({.feedback = Feedback::regenerative, .flaw = Flaw::away});
 }
 
+TEST(WallCoverage, AWallWithFeedbackAndABowIsKnownNoBetterThanItIs) {  // [E-27]
+  // By the slopes that the fit went by K_tc was 574 +- 80 MPa here.
+  const auto readings = measured(clean_readings(Feedback::regenerative), Flaw::away, 1);
+  const std::array datum{Datum{.decide = true}};
+  const Calibration c = calibrate(measured_wall(), readings, datum,
+                                  {.feedback = {}, .robust = true, .shared = true});
+  EXPECT_TRUE(holds(c.coefficients.K_tc, K_tc)) << c.coefficients.K_tc.value;
+  EXPECT_TRUE(holds(c.coefficients.K_rc, K_rc)) << c.coefficients.K_rc.value;
+}
+
 TEST(WallCoverage, TheFeedbackOfARealWallIsNotMistakenForLessRunout) {  // [E-25]
   // Without it the best fit is 1.2 +- 0.1 um, far from 4 um.
   const auto readings = measured(clean_readings(Feedback::regenerative), Flaw::none, 1);

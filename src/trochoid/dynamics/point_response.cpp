@@ -1,4 +1,5 @@
 #include <trochoid/dynamics/point_response.h>
+#include <trochoid/structure/thinned.h>
 
 #include <algorithm>
 #include <cmath>
@@ -150,27 +151,13 @@ constexpr double least_peak = 0.05;
 /// And so many times the scatter of the lines: its flanks then are six times as far below.
 constexpr double above_scatter = 20.0;
 
-/// Scatter of some of the lines.
-double scatter(std::span<const Complex> H) {
-  constexpr double of_white_noise = 70.0;  // 1 + 16 + 36 + 16 + 1
-  constexpr double median_of_rayleigh = 1.1774;
-  std::vector<double> sizes;
-  for (std::size_t i = 2; i + 2 < H.size(); ++i) {
-    sizes.push_back(
-        std::abs(H[i - 2] - 4.0 * H[i - 1] + 6.0 * H[i] - 4.0 * H[i + 1] + H[i + 2]));
-  }
-  if (sizes.empty()) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / median_of_rayleigh / std::sqrt(of_white_noise);
-}
-
-/// The same around a line: noise of an accelerometer grows towards slow lines. So many
+/// Scatter around a line: noise of an accelerometer grows towards slow lines. So many
 /// lines that a coarse peak among them is not their median.
 double scatter_around(std::span<const Complex> H, std::size_t line) {
   constexpr std::size_t beside = 20;
   const std::size_t from = line > beside ? line - beside : 0;
-  return scatter(H.subspan(from, std::min(2 * beside + 1, H.size() - from)));
+  return structure::scatter_of_lines(
+      H.subspan(from, std::min(2 * beside + 1, H.size() - from)));
 }
 
 /// @brief From a line down the flank of a peak, to the last above half of its power.
@@ -210,10 +197,6 @@ std::vector<Peak> peaks(const MeasuredReceptance& part) {
                      .at_the_edge = top == 0 || top + 1 == size.size()});
   }
   return found;
-}
-
-double scatter(const MeasuredReceptance& part) {
-  return scatter(std::span(part.H));
 }
 
 double line_distance(const PointResponse& point) noexcept {

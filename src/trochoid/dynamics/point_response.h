@@ -61,8 +61,4 @@ struct Peak {
 /// to an end of the band: of a twentieth of the greatest at least, and above the scatter.
 std::vector<Peak> peaks(const MeasuredReceptance& part);
 
-/// @brief Scatter of the lines, from fourth differences: a resonance with several lines in
-/// it leaves little of them. The median keeps peaks out. [m/N]
-double scatter(const MeasuredReceptance& part);
-
 }  // namespace trochoid::dynamics

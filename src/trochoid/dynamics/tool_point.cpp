@@ -2,6 +2,7 @@
 
 #include <trochoid/structure/coupled_modes.h>
 #include <trochoid/structure/identify_modes.h>
+#include <trochoid/structure/thinned.h>
 
 #include <algorithm>
 #include <cmath>
@@ -185,7 +186,7 @@ ToolPoint tool_point(std::span<const MeasuredResponse> measured, bool fit_modes)
   ToolPoint point;
   for (const MeasuredResponse& one : measured) {
     MeasuredReceptance part = receptance_of(one);
-    point.noise.push_back(scatter(part));
+    point.noise.push_back(structure::scatter_of_lines(part.H));
     point.response.parts.push_back(std::move(part));
   }
   if (fit_modes) {

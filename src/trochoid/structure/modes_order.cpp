@@ -1,4 +1,5 @@
 #include <trochoid/structure/modes_order.h>
+#include <trochoid/structure/thinned.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,12 +93,6 @@ bool taken(Candidate& best, Candidate next, int wanted) {
   }
   best = std::move(next);
   return true;
-}
-
-bool is_thinned(Responses all) {
-  return std::any_of(all.begin(), all.end(), [](const DirectedResponse& one) {
-    return !one.response.averaged.empty();
-  });
 }
 
 /// A candidate without a fault, and its place among the orders.

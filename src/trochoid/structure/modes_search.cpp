@@ -2,6 +2,7 @@
 
 #include <trochoid/structure/modes_start.h>
 #include <trochoid/structure/pole_search.h>
+#include <trochoid/structure/thinned.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,9 +131,7 @@ ModesTrial settle(Responses all, const ModesModel& start, AllWeights weights,
   double deviance = 0.0;
   double n = 0.0;
   int noise_parameters = 0;
-  const bool is_thinned = std::ranges::any_of(
-      all, [](const DirectedResponse& one) { return !one.response.averaged.empty(); });
-  const int rounds = is_thinned ? most_rounds_of_thinned : most_rounds;
+  const int rounds = is_thinned(all) ? most_rounds_of_thinned : most_rounds;
   for (int round = 0; round < rounds; ++round) {
     ModesSolution next = fit_modes(all, weights, model, fit_iterations);
     describe(all, weights, next);

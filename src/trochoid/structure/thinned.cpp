@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,31 +22,23 @@ constexpr double above_scatter = 1.5;
 constexpr double sure = 3.0;
 /// Bias of a mean, of its standard error.
 constexpr double most_bias = 0.2;
-/// Fewer tell neither noise nor number of modes: then all stay.
+/// Fewer tell neither noise nor number of modes: then the tolerance is that of a fit, and
+/// where that leaves as few, all stay.
 constexpr std::size_t fewest_lines = 100;
 /// Lines over which scatter is looked at.
 constexpr std::size_t scatter_block = 32;
 
-/// Scatter of the lines of each block: the median of fourth differences keeps peaks out.
+/// Scatter of the lines of each block.
 std::vector<double> scatter_of_blocks(const std::vector<Complex>& H) {
-  constexpr double of_white_noise = 70.0;  // 1 + 16 + 36 + 16 + 1
-  constexpr double median_of_rayleigh = 1.1774;
+  constexpr std::size_t beside = 2;  // that a fourth difference reaches out
   std::vector<double> out;
   for (std::size_t from = 0; from < H.size(); from += scatter_block) {
-    std::vector<double> sizes;
-    const std::size_t end = std::min(from + scatter_block, H.size());
-    for (std::size_t i = std::max<std::size_t>(from, 2); i + 2 < H.size() && i < end;
-         ++i) {
-      sizes.push_back(
-          std::abs(H[i - 2] - 4.0 * H[i - 1] + 6.0 * H[i] - 4.0 * H[i + 1] + H[i + 2]));
-    }
-    if (sizes.empty()) {
-      out.push_back(out.empty() ? 0.0 : out.back());
-      continue;
-    }
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    out.push_back(*middle / median_of_rayleigh / std::sqrt(of_white_noise));
+    const std::size_t first = from - std::min(from, beside);
+    const std::size_t end = std::min(from + scatter_block + beside, H.size());
+    const bool enough = end - first > 2 * beside;
+    out.push_back(enough ? scatter_of_lines(std::span(H).subspan(first, end - first))
+                  : out.empty() ? 0.0
+                                : out.back());
   }
   return out;
 }
@@ -128,6 +121,20 @@ void add_thirds(const FrequencyResponse& lines, const Part& part, double scatter
 
 }  // namespace
 
+double scatter_of_lines(std::span<const Complex> H) {
+  constexpr double of_white_noise = 70.0;  // 1 + 16 + 36 + 16 + 1
+  constexpr double median_of_rayleigh = 1.1774;
+  std::vector<double> sizes;
+  for (std::size_t i = 2; i + 2 < H.size(); ++i) {
+    sizes.push_back(
+        std::abs(H[i - 2] - 4.0 * H[i - 1] + 6.0 * H[i] - 4.0 * H[i + 1] + H[i + 2]));
+  }
+  if (sizes.empty()) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / median_of_rayleigh / std::sqrt(of_white_noise);
+}
+
 FrequencyResponse thinned(const FrequencyResponse& response, double tolerance) {
   if (response.noise_bandwidth > 1 || !response.averaged.empty() ||
       response.omega.size() < shortest_part) {
@@ -164,10 +171,20 @@ std::vector<DirectedResponse> thinned(std::span<const DirectedResponse> all,
   std::vector<DirectedResponse> out(all.begin(), all.end());
   for (DirectedResponse& one : out) {
     if (one.response.omega.size() <= enough.lines) continue;
-    FrequencyResponse few = thinned(one.response, enough.tolerance);
-    if (few.omega.size() >= fewest_lines) one.response = std::move(few);
+    for (const double tolerance : {enough.tolerance, for_a_fit.tolerance}) {
+      FrequencyResponse few = thinned(one.response, tolerance);
+      if (few.omega.size() >= fewest_lines) {
+        one.response = std::move(few);
+        break;
+      }
+    }
   }
   return out;
+}
+
+bool is_thinned(std::span<const DirectedResponse> all) {
+  return std::ranges::any_of(
+      all, [](const DirectedResponse& one) { return !one.response.averaged.empty(); });
 }
 
 }  // namespace trochoid::structure

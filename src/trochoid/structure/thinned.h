@@ -2,12 +2,18 @@
 
 #include <trochoid/structure/frequency_response.h>
 
+#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 /// A response with as many lines as it needs.
 namespace trochoid::structure {
+
+/// @brief Scatter of lines one after the other, from fourth differences: a resonance with
+/// several lines in it leaves little of them, and the median keeps peaks out.
+/// @param H  of five lines at least; of fewer it is 0
+double scatter_of_lines(std::span<const std::complex<double>> H);
 
 /// @brief A response with fewer lines, where neighbours say the same.
 ///
@@ -30,8 +36,12 @@ struct Thinning {
 inline constexpr Thinning for_a_search{1000, 0.1};
 inline constexpr Thinning for_a_fit{3000, 0.005};
 
-/// @brief Those of several responses that have too many lines.
+/// @brief Those of several responses that have too many lines; where the tolerance leaves
+/// hardly any, with that of a fit, and else as they are.
 std::vector<DirectedResponse> thinned(std::span<const DirectedResponse> all,
                                       Thinning enough);
+
+/// Whether any of them has.
+bool is_thinned(std::span<const DirectedResponse> all);
 
 }  // namespace trochoid::structure
