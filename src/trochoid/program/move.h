@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace trochoid::program {
+
+enum class MoveKind : std::uint8_t { rapid, line, arc, chord, dwell };
+
+/// Where a move comes from, if not from words that name its end.
+enum class MoveNote : std::uint8_t {
+  none,
+  cycle,    ///< of a drilling cycle
+  retract,  ///< to a place that is not in the program: G28, G30, G53, SUPA
+};
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// @brief One move of the machine. It begins where the move before it ends.
+///
+/// Places are in the frame of the stock; NaN stands for a coordinate that is not known.
+struct Move {
+  std::array<double, 3> end{unknown, unknown, unknown};  ///< [m]
+  std::array<double, 2> center{unknown, unknown};        ///< of an arc [m]
+  double turn =
+      0.0;  ///< of an arc [rad], positive counter-clockwise, |turn| may exceed 2 pi
+  double time = 0.0;        ///< that the move takes [s]
+  double feed = 0.0;        ///< along the path [m/s]; 0 of rapids and dwells
+  double spindle = 0.0;     ///< speed [rad/s], 0: it stands
+  std::uint32_t line = 0;   ///< in the text, from 1
+  std::int32_t block = -1;  ///< N number, -1: none
+  std::int16_t tool = -1;   ///< index in `Program::tools`, -1: neither T nor M6 before
+  MoveKind kind = MoveKind::rapid;
+  MoveNote note = MoveNote::none;
+};
+
+enum class Dialect : std::uint8_t { iso, linuxcnc, sinumerik };
+
+/// What a text in G code makes the machine do.
+struct Program {
+  Dialect dialect = Dialect::iso;
+  std::vector<Move> moves;
+  std::vector<std::string>
+      tools;  ///< numbers or names, in the order of their first use
+};
+
+}  // namespace trochoid::program
