@@ -61,4 +61,6 @@ function(trochoid_install_licences component)
       DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL
       OPTIONAL)
   endforeach()
+  install(FILES ${PROJECT_SOURCE_DIR}/node_modules/uplot/LICENSE RENAME uplot
+    DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()

@@ -56,7 +56,18 @@ function examples() {
 const scripts = ['files.js', 'kept_files.js', 'case_text.js', 'lengths.js', 'drawing.js', 'side_view.js', 'swept.js', 'form.js', 'program.js', 'cases.js', 'app.js'].map((file) => text(here, file));
 const smol = `/*!\n${text(root, 'node_modules/smol-toml/LICENSE')}*/\nconst smolToml = (() => { const module = { exports: {} };\n${text(root, 'node_modules/smol-toml/dist/index.cjs')}\nreturn module.exports; })();`;
 const inScript = (script) => script.replaceAll('</script', '<\\/script');
+/** Licences of all that is in the page: of the scripts, and of what was compiled into the program. */
+function licences() {
+  const scripts = ['smol-toml', 'uplot'].map((name) => [name, path.join(root, 'node_modules', name, 'LICENSE')]);
+  const compiled = ['libeigen3-dev', 'libfmt-dev', 'nlohmann-json3-dev', 'libtomlplusplus-dev', 'libcli11-dev', 'libboost-dev', 'libhwy-dev', 'emscripten']
+    .map((name) => [name, `/usr/share/doc/${name}/copyright`]);
+  const all = [['Trochoid', path.join(root, 'LICENSE')], ...scripts, ...compiled].filter(([, file]) => fs.existsSync(file));
+  const escaped = (words) => words.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
+  return all.map(([name, file]) => `== ${name} ==\n\n${escaped(text(file))}`).join('\n\n');
+}
+
 const parts = {
+  licences: licences(),
   style: text(here, 'style.css'),
   schema: inScript(JSON.stringify(JSON.parse(text(root, 'docs/formats/case.schema.json')))),
   wasm: packed(fs.readFileSync(path.join(engine, 'trochoid.wasm'))),

@@ -127,8 +127,8 @@ void add_data_options(CLI::App& app, Command command, Options& options) {
 CLI::App* add_sweep(CLI::App& app, Options& options) {
   CLI::App* sweep = app.add_subcommand(
       "sweep",
-      "One case over many values of its keys ([sweep]): a table, a row a case; goes on "
-      "where it was stopped");
+      "Parameter sweep ([sweep]): one row per case in one table; resumes where it was "
+      "stopped");
   add_common(*sweep, options);
   add_output(*sweep, options);
   sweep
@@ -191,13 +191,26 @@ void take_input(Options& options) {
   }
 }
 
-std::string footer() {
+/// What to type first, and what the program then ends with.
+template <class Steps>
+std::string footer(const Steps& steps) {
   std::vector<std::string> codes;
   for (const auto& [code, meaning] : exit_codes) {
     codes.push_back(fmt::format("{} {}", code, meaning));
   }
-  return fmt::format("Start with\n  {}\nExit codes: {}.",
-                     fmt::join(first_steps, "\n  "), fmt::join(codes, ", "));
+  return fmt::format("Start with\n  {}\nExit codes: {}.", fmt::join(steps, "\n  "),
+                     fmt::join(codes, ", "));
+}
+
+std::vector<std::string> first_steps_of(Command command) {
+  const std::string_view name = name_of(command);
+  std::vector<std::string> steps{fmt::format("trochoid new {} mycase.toml", name),
+                                 fmt::format("trochoid {} mycase.toml", name)};
+  if (command == Command::modes) steps.emplace_back("trochoid modes tap_test.uff");
+  if (command == Command::actuator) {
+    steps.emplace_back("trochoid actuator step.csv --step-um 6");
+  }
+  return steps;
 }
 
 }  // namespace
@@ -205,7 +218,7 @@ std::string footer() {
 void add_interface(CLI::App& app, Chosen& chosen) {
   app.name("trochoid");
   app.description("What a milling cutter with runout really does.");
-  app.footer(footer());
+  app.footer(footer(first_steps));
   app.set_version_flag("--version", std::string(results::version()));
   app.require_subcommand(1);
   Options& options = chosen.options;
@@ -214,6 +227,7 @@ void add_interface(CLI::App& app, Chosen& chosen) {
                                        std::string(purpose_of(command)));
     add_case(*sub, options, file_of(command));
     add_data_options(*sub, command, options);
+    sub->footer(footer(first_steps_of(command)));
     sub->callback([&chosen, command] {
       take_input(chosen.options);
       chosen.command = [&chosen, command] {
@@ -222,6 +236,9 @@ void add_interface(CLI::App& app, Chosen& chosen) {
     });
   }
   CLI::App* sweep = add_sweep(app, options);
+  sweep->footer(
+      footer(std::array{"trochoid sweep mycase.toml --command simulate",
+                        "trochoid sweep mycase.toml   # goes on after a stop"}));
   sweep->callback([&chosen] {
     take_input(chosen.options);
     chosen.command = [&chosen] { return cli::sweep(chosen.options); };
@@ -231,6 +248,7 @@ void add_interface(CLI::App& app, Chosen& chosen) {
       "Read a case file and its measurements and name every mistake in them; "
       "nothing is written");
   add_case(*check, options);
+  check->footer(footer(std::array{"trochoid check mycase.toml"}));
   check->add_option("--for", options.command, "The command that the case is meant for")
       ->check(CLI::IsMember(std::vector<std::string>(base::names<Command>.begin(),
                                                      base::names<Command>.end())));
@@ -239,6 +257,7 @@ void add_interface(CLI::App& app, Chosen& chosen) {
     chosen.command = [&chosen] { return cli::check(chosen.options); };
   });
   CLI::App* fresh = add_new(app, chosen.wanted, options);
+  fresh->footer(footer(first_steps));
   fresh->callback([&chosen] {
     chosen.command = [&chosen] {
       return new_case(*base::named<Command>(chosen.wanted), chosen.options);
@@ -248,6 +267,8 @@ void add_interface(CLI::App& app, Chosen& chosen) {
       "report",
       "Make report.html of a result folder again from its files, or a page that compares "
       "two of them");
+  report->footer(footer(std::array{"trochoid report mycase.identify",
+                                   "trochoid report first.identify second.identify"}));
   report->add_option("FOLDER", options.file, "The result folder")
       ->required()
       ->type_name(std::string(types::folder));

@@ -9,6 +9,7 @@ std::string_view page_html();  ///< the page, with places `{{name}}` to be fille
 std::string_view uplot_css();
 std::string_view page_css();
 std::string_view uplot_js();
+std::string_view uplot_licence();
 
 // The scripts of page/, each needs those above it.
 std::string_view text_js();      ///< numbers, names and elements

@@ -175,6 +175,7 @@ std::string value_of(std::string_view name, const results::Answer& answer,
   if (name == "style") return std::string(uplot_css()) + std::string(page_css());
   if (name == "data") return data_json(answer, summary);
   if (name == "uplot") return std::string(uplot_js());
+  if (name == "uplot_licence") return std::string(uplot_licence());
   if (name == "script") return page_scripts();
   if (name == "scripts_allowed") return scripts_allowed();
   return {};

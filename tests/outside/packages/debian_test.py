@@ -71,6 +71,11 @@ class Debian(unittest.TestCase):
                or ".identify/" in f or "/local/" in f]
         self.assertEqual(odd, [])
 
+    def test_it_names_the_licences_of_what_is_in_it(self):
+        notice = (self.root / "usr/share/doc/trochoid/copyright").read_text()
+        self.assertIn("Leon Sorokin", notice)
+        self.assertTrue((self.root / "usr/share/doc/trochoid/docs/licences.md").exists())
+
     def test_all_of_it_may_be_read_and_belongs_to_root(self):
         for line in run("dpkg-deb", "-c", self.package).splitlines():
             rights, owner = line.split()[:2]

@@ -1,10 +1,17 @@
 // What a browser lets a page do, whatever would ever stand in it.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { closeBrowser, open, openBrowser, samples } from './pages.mjs';
+
+test('every report contains the licence of the plots in it', () => {
+  for (const name of readdirSync(samples)) {
+    const file = path.join(samples, name, 'report.html');
+    if (existsSync(file)) assert.match(readFileSync(file, 'utf8'), /Copyright \(c\) 2022 Leon Sorokin[^]*AS IS[^]*uPlot=function/, file);
+  }
+});
 
 before(openBrowser);
 after(closeBrowser);

@@ -83,7 +83,7 @@ def sweep(
     progress: Optional[Callable[[int, int], object]] = None,
     **options: Any,
 ) -> Answer:
-    """One case over many values of its keys: a row a case, as ``trochoid sweep``.
+    """Parameter sweep: one row per case, as ``trochoid sweep``.
 
     Parameters
     ----------
