@@ -1,6 +1,6 @@
 # trochoid_alone: the program that needs nothing of its system but the kernel, not even the
 # C library. The objects are those of the program; what Debian has no static library of
-# (TBB, fmt, toml++, Highway) comes from files of ours, which the linker takes first. It is
+# (fmt, toml++, Highway) comes from files of ours, which the linker takes first. It is
 # for ./run packages, and there is none where a static library is missing.
 if(NOT CMAKE_SYSTEM_NAME STREQUAL Linux OR TROCHOID_SANITIZE OR BUILD_SHARED_LIBS)
   return()
@@ -34,8 +34,7 @@ set(sources ${PROJECT_SOURCE_DIR}/src/trochoid)
 add_executable(trochoid_alone EXCLUDE_FROM_ALL $<TARGET_OBJECTS:trochoid_cli>
   ${sources}/cli/alone/format.cpp
   ${sources}/cli/alone/toml.cpp
-  ${sources}/cli/alone/vectors.cpp
-  ${sources}/numerics/parallel_threads.cpp)
+  ${sources}/cli/alone/vectors.cpp)
 set_target_properties(trochoid_alone PROPERTIES OUTPUT_NAME trochoid CXX_EXTENSIONS OFF
   RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/alone)
 target_compile_features(trochoid_alone PRIVATE cxx_std_20)

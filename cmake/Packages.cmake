@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libtbb-dev, libfmt-dev, libhwy-dev, libtomlplusplus-dev, \
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libhwy-dev, libtomlplusplus-dev, \
 nlohmann-json3-dev, zlib1g-dev, libhdf5-dev, pkg-config, python3-matplotlib, python3-pandas")
 if(TARGET trochoid_python)
   get_property(minor GLOBAL PROPERTY TROCHOID_PYTHON_MINOR)

@@ -14,7 +14,7 @@ ONLY = {"report": {"base", "results"}}
 EIGEN = re.compile(r"(unsupported/)?Eigen/")
 EIGEN_AT = ("numerics/", "structure/ritz.cpp")
 # Headers that are slow to compile stay in .cpp files.
-HEAVY = re.compile(r"toml\+\+/|nlohmann/(?!json_fwd)|CLI/|boost/|tbb/|Eigen/")
+HEAVY = re.compile(r"toml\+\+/|nlohmann/(?!json_fwd)|CLI/|boost/|Eigen/")
 
 ROW = re.compile(r"^\|\s*(\d+)\s*\|([^|]*)\|")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]*)>|"([^"]*)")')

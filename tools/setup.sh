@@ -12,7 +12,6 @@ export PATH=$PATH:/usr/sbin:/sbin
 libraries=(
   libeigen3-dev        # linear algebra
   libboost-dev         # Boost.Math: Student's t, quadrature, roots
-  libtbb-dev           # threads
   libfmt-dev           # number formatting
   libhwy-dev           # vectors of whatever width the machine has
   libtomlplusplus-dev  # case files

@@ -25,10 +25,10 @@ project() {
 strict="-Wall -Wextra -Werror"
 project consumer -DCMAKE_CXX_FLAGS="$strict"
 # In C nothing else may be looked for, nor the C++ library linked.
-absent=$(printf -- '-DCMAKE_DISABLE_FIND_PACKAGE_%s=ON ' TBB fmt hwy tomlplusplus nlohmann_json)
+absent=$(printf -- '-DCMAKE_DISABLE_FIND_PACKAGE_%s=ON ' fmt hwy tomlplusplus nlohmann_json)
 for components in "" controller; do
   project c_consumer -DCMAKE_C_FLAGS="$strict -std=c99" -DCOMPONENTS="$components" $absent
-  if ldd "$scratch/build/c_consumer" | grep -E 'stdc|tbb|fmt|hwy|toml'; then
+  if ldd "$scratch/build/c_consumer" | grep -E 'stdc|fmt|hwy|toml'; then
     echo "a project in C links more than C"
     exit 1
   fi
@@ -38,7 +38,7 @@ PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name trochoid.pc)")
 export PKG_CONFIG_PATH
 [ "$(pkg-config --modversion trochoid)" = "$version" ]
 flags=$(pkg-config --libs trochoid-controller)
-for part in tbb fmt hwy toml stdc; do
+for part in fmt hwy toml stdc; do
   [[ $flags != *$part* ]] || { echo "the controller brings $part: $flags"; exit 1; }
 done
 [[ " $flags " == *" -lm "* ]]

@@ -58,7 +58,7 @@ class Debian(unittest.TestCase):
         self.assertEqual(self.field("Architecture"),
                          run("dpkg", "--print-architecture").strip())
         needs = self.field("Depends")
-        for library in ("libc6 (>=", "libtbb12", "libstdc++6"):
+        for library in ("libc6 (>=", "libfmt", "libstdc++6"):
             self.assertIn(library, needs)
         self.assertNotIn("-dev", needs)
         self.assertNotIn("python", needs)

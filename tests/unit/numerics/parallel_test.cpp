@@ -7,7 +7,6 @@
 #include <thread>
 #include <vector>
 
-// Run over parallel.cpp and over parallel_threads.cpp (CMakeLists.txt).
 namespace trochoid::numerics::parallel_test {
 
 using trochoid::numerics::for_each_index;
