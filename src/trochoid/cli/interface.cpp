@@ -213,6 +213,58 @@ std::vector<std::string> first_steps_of(Command command) {
   return steps;
 }
 
+void add_sweep_command(CLI::App& app, Chosen& chosen) {
+  Options& options = chosen.options;
+  CLI::App* sweep = add_sweep(app, options);
+  sweep->footer(
+      footer(std::array{"trochoid sweep mycase.toml --command simulate",
+                        "trochoid sweep mycase.toml   # goes on after a stop"}));
+  sweep->callback([&chosen] {
+    take_input(chosen.options);
+    chosen.command = [&chosen] { return cli::sweep(chosen.options); };
+  });
+}
+
+void add_check_command(CLI::App& app, Chosen& chosen) {
+  Options& options = chosen.options;
+  CLI::App* check = app.add_subcommand(
+      "check",
+      "Read a case file and its measurements and name every mistake in them; "
+      "nothing is written");
+  add_case(*check, options);
+  check->footer(footer(std::array{"trochoid check mycase.toml"}));
+  check->add_option("--for", options.command, "The command that the case is meant for")
+      ->check(CLI::IsMember(std::vector<std::string>(base::names<Command>.begin(),
+                                                     base::names<Command>.end())));
+  check->callback([&chosen] {
+    take_input(chosen.options);
+    chosen.command = [&chosen] { return cli::check(chosen.options); };
+  });
+}
+
+void add_report_command(CLI::App& app, Chosen& chosen) {
+  Options& options = chosen.options;
+  CLI::App* report = app.add_subcommand(
+      "report",
+      "Make report.html of a result folder again from its files, or a page that compares "
+      "two of them");
+  report->footer(footer(std::array{"trochoid report mycase.identify",
+                                   "trochoid report first.identify second.identify"}));
+  report->add_option("FOLDER", options.file, "The result folder")
+      ->required()
+      ->type_name(std::string(types::folder));
+  report->add_option("OTHER", options.other, "Another folder, to be compared with it")
+      ->type_name(std::string(types::folder));
+  report
+      ->add_option("-o,--output", options.folder,
+                   "File for the comparison (default: compare.html)")
+      ->type_name(std::string(types::file));
+  report->add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  report->callback([&chosen] {
+    chosen.command = [&chosen] { return cli::report(chosen.options); };
+  });
+}
+
 }  // namespace
 
 void add_interface(CLI::App& app, Chosen& chosen) {
@@ -235,27 +287,8 @@ void add_interface(CLI::App& app, Chosen& chosen) {
       };
     });
   }
-  CLI::App* sweep = add_sweep(app, options);
-  sweep->footer(
-      footer(std::array{"trochoid sweep mycase.toml --command simulate",
-                        "trochoid sweep mycase.toml   # goes on after a stop"}));
-  sweep->callback([&chosen] {
-    take_input(chosen.options);
-    chosen.command = [&chosen] { return cli::sweep(chosen.options); };
-  });
-  CLI::App* check = app.add_subcommand(
-      "check",
-      "Read a case file and its measurements and name every mistake in them; "
-      "nothing is written");
-  add_case(*check, options);
-  check->footer(footer(std::array{"trochoid check mycase.toml"}));
-  check->add_option("--for", options.command, "The command that the case is meant for")
-      ->check(CLI::IsMember(std::vector<std::string>(base::names<Command>.begin(),
-                                                     base::names<Command>.end())));
-  check->callback([&chosen] {
-    take_input(chosen.options);
-    chosen.command = [&chosen] { return cli::check(chosen.options); };
-  });
+  add_sweep_command(app, chosen);
+  add_check_command(app, chosen);
   CLI::App* fresh = add_new(app, chosen.wanted, options);
   fresh->footer(footer(first_steps));
   fresh->callback([&chosen] {
@@ -263,25 +296,7 @@ void add_interface(CLI::App& app, Chosen& chosen) {
       return new_case(*base::named<Command>(chosen.wanted), chosen.options);
     };
   });
-  CLI::App* report = app.add_subcommand(
-      "report",
-      "Make report.html of a result folder again from its files, or a page that compares "
-      "two of them");
-  report->footer(footer(std::array{"trochoid report mycase.identify",
-                                   "trochoid report first.identify second.identify"}));
-  report->add_option("FOLDER", options.file, "The result folder")
-      ->required()
-      ->type_name(std::string(types::folder));
-  report->add_option("OTHER", options.other, "Another folder, to be compared with it")
-      ->type_name(std::string(types::folder));
-  report
-      ->add_option("-o,--output", options.folder,
-                   "File for the comparison (default: compare.html)")
-      ->type_name(std::string(types::file));
-  report->add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
-  report->callback([&chosen] {
-    chosen.command = [&chosen] { return cli::report(chosen.options); };
-  });
+  add_report_command(app, chosen);
 }
 
 }  // namespace trochoid::cli
