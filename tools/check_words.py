@@ -33,7 +33,6 @@ PHRASES = tuple((re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), instead) for 
     ("comes along", "is included"),
     ("hangs? together", "be correlated"),
     ("whoever", "say who: you, a user, the shop"),
-    ("in words|all at once", "with a message, in one list"),
 ))
 
 # What may stay: page, words in its line, and why.
