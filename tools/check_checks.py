@@ -8,6 +8,7 @@ import check_equations
 import check_layers
 import check_references
 import check_sizes
+import check_words
 
 SOUND = {
     "ARCHITECTURE.md": "| rank | rooms |\n|---|---|\n| 0 | base |\n| 2 | chip |\n"
@@ -157,6 +158,8 @@ class References(unittest.TestCase):
     def test_nothing_listed(self):
         found = answers(check_references.gaps, files={"docs/references.md": "none\n"})
         self.assertIn("no reference found", found[-1])
+
+
 class Sizes(unittest.TestCase):
     def refused(self, name, text):
         found = answers(check_sizes.violations, files={name: text})
@@ -207,6 +210,62 @@ class Sizes(unittest.TestCase):
         self.refused("src/a.cpp", f"// six parameters: far away\n\nint x;\n{six}")
         seven = six.replace("T,", "T, int,")
         self.refused("src/a.cpp", f"// six parameters: more than that\n{seven}")
+
+
+class Words(unittest.TestCase):
+    def found(self, text, name="docs/guide/sweep.md"):
+        return answers(check_words.faults, files={name: text})
+
+    def refused(self, text):
+        found = self.found(text)
+        self.assertEqual(len(found), 1, found)
+        return found[0]
+
+    def test_sound_tree_is_accepted(self):
+        self.assertEqual(answers(check_words.faults), [])
+
+    def test_phrases(self):
+        for text, phrase in (("The limit is that of the case.", "that of"),
+                             ("What is wrong is told before.", "is told"),
+                             ("The interval holds the truth.", "holds"),
+                             ("The table stands beside it.", "beside it"),
+                             ("One table, a row a case.", "a row a case"),
+                             ("What the steps of it come to.", "What the steps of it come to")):
+            with self.subTest(text):
+                said = self.refused(f"# Sweep\n\n{text}\n")
+                self.assertIn(f"docs/guide/sweep.md:3: '{phrase}'", said)
+
+    def test_long_sentence(self):
+        self.assertEqual(self.found(40 * "word " + ".\n"), [])
+        self.assertIn("sweep.md:2: a sentence of 41 words",
+                      self.refused("\n" + 20 * "word " + "\n" + 21 * "word " + ".\n"))
+
+    def test_cells_and_entries_are_sentences_of_their_own(self):
+        for line in ("| " + 21 * "word " + "| " + 21 * "word " + "|\n", "* " + 30 * "word " + "\n"):
+            self.assertEqual(self.found(2 * line), [])
+
+    def test_semicolons(self):
+        self.assertEqual(self.found("One; two.\n"), [])
+        self.assertIn("2 semicolons", self.refused("One; two; three.\n"))
+
+    def test_code_and_formulas_are_no_prose(self):
+        self.assertEqual(self.found("```c\na; b; c; it is told\n```\n\n`a; b; c` $a; b; c$\n\n"
+                                    "$$a;b;c \\tag{C-1}$$\n\nx\n$$a;\nb;c$$\n\n    a; b; c\n"), [])
+
+    def test_after_code_the_page_goes_on(self):
+        self.assertIn("sweep.md:6: 'is told'", self.refused("```\na\n```\n$$x\n\\tag{C-1}$$\nIt is told.\n"))
+
+    def test_exception_that_is_not_needed(self):
+        allowed, check_words.ALLOWED = check_words.ALLOWED, (("docs/guide/sweep.md", "is told", "why"),)
+        try:
+            self.assertEqual(self.found("It is told.\n"), [])
+            self.assertIn("needs no exception", self.refused("It says so.\n"))
+        finally:
+            check_words.ALLOWED = allowed
+
+    def test_no_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertIn("no page found", list(check_words.faults(pathlib.Path(folder)))[0])
 
 
 if __name__ == "__main__":

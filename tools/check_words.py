@@ -42,7 +42,8 @@ ALLOWED = ()
 NOT_PROSE = ("docs/formats/case.md", "docs/formats/results.md", "docs/references.md",
              "docs/gallery.md")
 # Pages that are not rewritten yet: take a page off when it is.
-STILL_TO_DO = ()
+STILL_TO_DO = ("README.md", *(f"docs/guide/{page}.md" for page in (
+    "identify", "modes", "stability", "thin_wall")))
 
 FENCE = re.compile(r"^\s*(```|~~~|\$\$)")
 WORD = re.compile(r"[^\W_][\w'’.,/-]*")
