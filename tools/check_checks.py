@@ -263,6 +263,14 @@ class Words(unittest.TestCase):
         finally:
             check_words.ALLOWED = allowed
 
+    def test_texts_of_the_program(self):
+        for line, count in (('say("It is told at once.");', 1), ("// It is told.", 0),
+                            ('#include "held/a b.h"', 0), ('key("held");', 0)):
+            found = answers(check_words.faults_of_messages,
+                            files={"src/trochoid/chip/m.cpp": f"\n{line}\n"})
+            self.assertEqual(len(found), count, found)
+            self.assertTrue(all(f.startswith("src/trochoid/chip/m.cpp:2: 'is told'") for f in found))
+
     def test_no_page(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertIn("no page found", list(check_words.faults(pathlib.Path(folder)))[0])

@@ -5,9 +5,10 @@ sentence, few semicolons.
 Read are docs/, README.md and examples/*/README.md without their code. The phrases and what to
 write instead are PHRASES. A phrase may stay in the places of ALLOWED. The pages of STILL_TO_DO
 wait for their turn and are not checked.
-Usage: check_words.py [--counts] [REPOSITORY]. Each finding is printed as file:line: reason.
---counts prints semicolons, "what", "that of" and "hold" per 1000 words instead, and how long
-sentences are.
+Usage: check_words.py [--counts | --messages] [REPOSITORY]. Each finding is printed as
+file:line: reason. --counts prints semicolons, "what", "that of" and "hold" per 1000 words
+instead, and how long sentences are. --messages looks for the phrases in what the program
+prints, the texts of src: a list to work through, which no test demands to be empty.
 """
 import pathlib
 import re
@@ -45,6 +46,7 @@ NOT_PROSE = ("docs/formats/case.md", "docs/formats/results.md", "docs/references
 STILL_TO_DO = ("README.md", *(f"docs/guide/{page}.md" for page in (
     "identify", "modes", "stability", "thin_wall")))
 
+TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"')  # of C++ on one line
 FENCE = re.compile(r"^\s*(```|~~~|\$\$)")
 WORD = re.compile(r"[^\W_][\w'’.,/-]*")
 START = re.compile(r"^\s*([*+-]|\d+\.|#+|>)\s+")
@@ -155,6 +157,17 @@ def faults(top):
         yield f"{top}:1: no page found, so nothing was checked"
 
 
+def faults_of_messages(top):
+    for file in sorted((top / "src/trochoid").rglob("*.cpp")):
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            if line.lstrip().startswith(("//", "#include")):
+                continue
+            text = " ".join(t for t in TEXT.findall(line) if " " in t)
+            for phrase, instead in PHRASES:
+                for found in phrase.finditer(text):
+                    yield f"{file.relative_to(top)}:{number}: '{found[0]}': {instead}"
+
+
 def counts(read):
     """How plain some pages are, as one line."""
     lines = [line for _, text in read for _, line in prose(text)]
@@ -167,7 +180,7 @@ def counts(read):
 
 
 def main():
-    arguments = [a for a in sys.argv[1:] if a != "--counts"]
+    arguments = [a for a in sys.argv[1:] if not a.startswith("--")]
     top = pathlib.Path(arguments[0] if arguments else ".")
     if "--counts" in sys.argv:
         read = list(pages(top))
@@ -176,7 +189,7 @@ def main():
             print(counts([(name, text)]), name)
         print(counts(read), "all")
         return 0
-    found = list(faults(top))
+    found = list(faults_of_messages(top) if "--messages" in sys.argv else faults(top))
     print("\n".join(found) or "words ok")
     return 1 if found else 0
 
