@@ -235,6 +235,9 @@ class Words(unittest.TestCase):
                 said = self.refused(f"# Sweep\n\n{text}\n")
                 self.assertIn(f"docs/guide/sweep.md:3: '{phrase}'", said)
 
+    def test_phrase_over_the_end_of_a_line(self):
+        self.assertIn("sweep.md:2: 'that of'", self.refused("\nThe limit is that\nof the case.\n"))
+
     def test_long_sentence(self):
         self.assertEqual(self.found(40 * "word " + ".\n"), [])
         self.assertIn("sweep.md:2: a sentence of 41 words",

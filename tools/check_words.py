@@ -122,12 +122,13 @@ def pages(top):
 
 def faults_of(name, text, allowed):
     words = semicolons = 0
-    for number, line in prose(text):
+    lines = list(prose(text))
+    for (number, line), (_, following) in zip(lines, [*lines[1:], (0, "")]):
         words += length(line)
         semicolons += line.count(";")
         for phrase, instead in PHRASES:
-            for found in phrase.finditer(line):
-                if not allowed(name, line):
+            for found in phrase.finditer(f"{line} {following.strip()}"):
+                if found.start() < len(line) and not allowed(name, line):
                     yield f"{name}:{number}: '{found[0]}': {instead}"
     for number, sentence in sentences(text):
         if length(sentence) > LONGEST and not allowed(name, sentence):
