@@ -18,6 +18,7 @@ enum class Command {
   dynamics,
   correct,
   plan,
+  program,
 };
 
 constexpr std::string_view name_of(Command command) noexcept {
@@ -42,6 +43,8 @@ constexpr std::string_view name_of(Command command) noexcept {
       return "correct";
     case Command::plan:
       return "plan";
+    case Command::program:
+      return "program";
   }
   return {};
 }
@@ -79,6 +82,9 @@ constexpr std::string_view purpose_of(Command command) noexcept {
     case Command::plan:
       return "Which cut to measure next: the one that narrows cutting coefficients and "
              "runout most; or how to measure a wall, and how to cut it";
+    case Command::program:
+      return "The moves of a whole NC program in G code: every word is executed, known to "
+             "be without effect, or told with its line and column";
   }
   return {};
 }

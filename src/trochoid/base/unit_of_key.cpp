@@ -13,6 +13,9 @@ struct Ending {
 
 /// An ending that ends another one stands after it.
 constexpr Ending endings[] = {
+    {"_m_per_s2", {one, "m/s^2"}},
+    {"_m_per_s3", {one, "m/s^3"}},
+    {"_mm3_per_s", {mm * mm * mm, "mm^3/s"}},
     {"_mm_per_min", {mm_per_min, "mm/min"}},
     {"_um_per_s", {um, "um/s"}},
     {"_Ns_per_m", {one, "N s/m"}},
@@ -33,8 +36,10 @@ constexpr Ending endings[] = {
     {"_kg_m2", {one, "kg m^2"}},
     {"_Nm", {one, "N m"}},
     {"_kg", {one, "kg"}},
+    {"_mm3", {mm * mm * mm, "mm^3"}},
     {"_Hz", {one, "Hz"}},
     {"_N", {one, "N"}},
+    {"_W", {one, "W"}},
     {"_s", {one, "s"}},
 };
 

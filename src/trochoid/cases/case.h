@@ -5,6 +5,7 @@
 #include <trochoid/cases/held.h>
 #include <trochoid/cases/machine_tables.h>
 #include <trochoid/cases/previous_clamping.h>
+#include <trochoid/cases/program_tables.h>
 #include <trochoid/cases/wall_plan.h>
 #include <trochoid/files/record_source.h>
 #include <trochoid/files/transmission_file.h>
@@ -157,6 +158,7 @@ struct Case {
   Identify identify;
   Plan plan;
   MachineTables machine;             ///< of other commands
+  ProgramTables nc;                  ///< of a whole NC program
   std::vector<base::Warning> notes;  ///< values that are hardly meant
   std::string as_understood;         ///< TOML with every default filled in
 };

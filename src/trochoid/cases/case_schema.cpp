@@ -67,7 +67,7 @@ Json closed(const Json& keys) {
   Json out{{"type", "object"}, {"properties", keys}, {"additionalProperties", false}};
   if (!inches.empty()) {
     out["patternProperties"] = {
-        {"^(" + inches + ")$", {{"type", {"number", "array"}}}}};
+        {"^(" + inches + ")$", {{"type", {"number", "array", "object"}}}}};
   }
   return out;
 }
@@ -112,7 +112,34 @@ struct ValueSchema {
     return list_of(text_of(key.gaps), key.gaps ? 0 : key.count, key.count);
   }
   Json operator()(const Rows*) const {
-    return list_of(list_of(number_of("number", key.range), 3, 3), 3, 3);
+    const std::size_t rows = key.count > 0 ? key.count : 3;
+    return list_of(list_of(number_of("number", key.range), 3, 3), rows, rows);
+  }
+  Json operator()(const Pairs*) const {
+    return list_of(list_of(number_of("number", key.range), 2, 2), 1, 0);
+  }
+  Json operator()(const std::optional<StockCylinder>*) const {
+    const Json number = number_of("number", key.range);
+    return {{"type", "object"},
+            {"properties",
+             {{"axis_xy", list_of(number, 2, 2)},
+              {"radius", number_of("number", {0.0, key.range.high, true, false})},
+              {"z", list_of(number, 2, 2)}}},
+            {"required", {"axis_xy", "radius", "z"}},
+            {"additionalProperties", false}};
+  }
+  Json operator()(const ToolName*) const {
+    return {{"anyOf", {Json{{"type", "integer"}, {"minimum", 0}}, text_of(false)}}};
+  }
+  Json operator()(const std::vector<ToolName>*) const {
+    return list_of((*this)(static_cast<const ToolName*>(nullptr)), 1, 0);
+  }
+  Json operator()(const NamedPlaces*) const {
+    return {{"type", "object"},
+            {"additionalProperties", list_of(number_of("number", key.range), 3, 3)}};
+  }
+  Json operator()(const NamedFiles*) const {
+    return {{"type", "object"}, {"additionalProperties", text_of(false)}};
   }
   Json operator()(const Choice& choice) const { return {{"enum", choice.names}}; }
   Json operator()(const Choices& choices) const {

@@ -28,6 +28,8 @@ struct CaseSource {
   /// What relative names of case files count from, where that is not the folder in which
   /// the process runs: names of files are found from anywhere.
   std::filesystem::path base = {};
+  /// Of a program only the tool is asked for: [tool], [runout], [force].
+  bool tool_only = false;
 };
 
 /// @brief As read_case of a file.

@@ -99,6 +99,8 @@ void convert(Node& value, bool counted) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       if (!counted || i != count) convert((*list)[i], false);
     }
+  } else if (auto* table = std::get_if<Members>(&value.value)) {
+    for (Member& member : *table) convert(member.node, false);
   } else if (const auto* number = std::get_if<double>(&value.value)) {
     value.value = millimetres(*number);
   } else if (const auto* whole = std::get_if<std::int64_t>(&value.value)) {

@@ -195,6 +195,18 @@ CaseTables plan_example() {
   return t;
 }
 
+/// A slot along a program of its own: the moves stand in `part.nc` beside the case.
+CaseTables program_example() {
+  CaseTables t = simulate_example();
+  t.title = "Forces along part.nc, 8 mm end mill";
+  NcProgram& program = t.nc.program.emplace();
+  program.file.name = "part.nc";
+  program.tool_number.text = "1";
+  t.nc.stock.emplace().box = {{0.0, 0.0, -20 * unit::mm},
+                              {80 * unit::mm, 60 * unit::mm, 0.0}};
+  return t;
+}
+
 /// What a new case of a command shows.
 struct Template {
   CaseTables tables;
@@ -233,6 +245,9 @@ Template template_for(Command command) {
       return {modes_example(), {"frf"}};
     case Command::actuator:
       return {actuator_example(), {"step"}};
+    case Command::program:
+      return {program_example(),
+              {"tool", "runout", "chip", "force", "program", "stock"}};
     case Command::simulate:
       break;
   }

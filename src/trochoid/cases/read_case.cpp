@@ -6,6 +6,7 @@
 #include <trochoid/cases/wall_readings.h>
 #include <trochoid/cases/write_case.h>
 #include <trochoid/files/command_file.h>
+#include <trochoid/files/program_file.h>
 #include <trochoid/files/record_file.h>
 
 #include <fmt/core.h>
@@ -25,6 +26,9 @@ Command purpose_of(std::optional<Command> command, const Node& root) {
   };
   if (command) {
     return *command;
+  }
+  if (has("program")) {
+    return Command::program;
   }
   if (has("plan")) {
     return Command::plan;
@@ -130,14 +134,15 @@ Reading reading_for(Command purpose, const Node& root) {
           .coefficients_needed =
               purpose == Command::simulate || purpose == Command::surface ||
               purpose == Command::stability || purpose == Command::dynamics ||
-              (purpose == Command::correct && !fitted) ||
+              purpose == Command::program || (purpose == Command::correct && !fitted) ||
               (purpose == Command::plan && !fitted &&
                find(root, "surface_measurement") == nullptr)};
 }
 
-/// @param purpose  none: nothing is missing
+/// @param purpose    none: nothing is missing
+/// @param tool_only  of a program only the tool is needed
 CaseTables read_tables(const Node& given, std::optional<Command> purpose,
-                       Findings& findings) {
+                       Findings& findings, bool tool_only = false) {
   CaseTables tables;
   const Node root = without_outvoted_coefficients(given);
   const Node* cut = find(root, "cut");
@@ -151,6 +156,8 @@ CaseTables read_tables(const Node& given, std::optional<Command> purpose,
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
+    } else if (tool_only && (entry.name == "program" || entry.name == "stock")) {
+      continue;
     } else if (purpose && std::count(entry.needed_by.begin(), entry.needed_by.end(),
                                      *purpose) > 0) {
       findings.wrong.insert(std::string(entry.name));
@@ -195,7 +202,9 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   settle_order(t, purpose, findings);
   check_runout(t.runout, t.tool, findings);
   c.setup.runout = t.runout;
-  c.setup.cut = cut_of(t.cut, "cut", c.setup.cutter, findings);
+  if (purpose != Command::program) {
+    c.setup.cut = cut_of(t.cut, "cut", c.setup.cutter, findings);
+  }
   check_chip(t.chip, findings);
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
@@ -238,6 +247,8 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   if (purpose == Command::plan) {
     check_plan(t, findings);
   }
+  check_program(t, findings);
+  c.nc = t.nc;
   c.plan = t.plan.value_or(Plan{});
   c.machine = t.machine;
   for (std::size_t i = 0; i < c.machine.surface_measurements.size(); ++i) {
@@ -260,6 +271,26 @@ Findings findings_of(const CaseSource& source) {
   return {.file = source.file.string(),
           .first_line = std::min(1, source.root.where.line),
           .base = source.base};
+}
+
+/// The cases of further tools of a program, each with all its problems.
+/// @return  these problems
+std::vector<std::string> read_tools(NcProgram& program, const Findings& findings) {
+  std::vector<std::string> problems;
+  for (const auto& [name, file] : program.tools) {
+    if (!sound(findings, {"program.tools." + name})) continue;
+    try {
+      const Node root =
+          file.bytes ? parse_text(*file.bytes, file.name) : load_document(file.path);
+      const CaseSource source{
+          .root = root, .file = file.path, .data = {}, .tool_only = true};
+      program.cases_of_tools[name] =
+          std::make_shared<const Case>(read_case(source, Command::program));
+    } catch (const base::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  return problems;
 }
 
 /// Every file that the case names is read when its data are asked for.
@@ -290,6 +321,12 @@ void hold_data(Case& c) {
     machine.step->step = Held<files::StepFile>::by(
         [source = machine.step->source] { return files::read_step(source); });
   }
+  if (c.nc.program) {
+    c.nc.program->text = Held<files::ProgramFile>::by(
+        [file = c.nc.program->file, options = read_options(c.nc)] {
+          return files::read_program(file, options);
+        });
+  }
   if (machine.command && machine.command->shape == CommandShape::table) {
     machine.command->table = Held<dynamics::CommandTable>::by(
         [file = machine.command->file] { return files::read_command(file); });
@@ -317,7 +354,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   const Node& root = source.root;
   Findings findings = findings_of(source);
   const Command purpose = purpose_of(command, root);
-  CaseTables tables = read_tables(root, purpose, findings);
+  CaseTables tables = read_tables(root, purpose, findings, source.tool_only);
   settle_files(tables, source.data, findings);
   if (purpose == Command::modes && !tables.machine.measured_frfs.empty() &&
       !tables.machine.frf) {
@@ -331,14 +368,26 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   if (purpose == Command::modes) {
     check_shared_modes(c.machine, findings);
   }
-  if (!findings.problems.empty()) {
-    throw base::InputError(lines(findings));
+  std::vector<std::string> problems = lines(findings);
+  if (c.nc.program && !source.tool_only) {
+    const auto of_tools = read_tools(*c.nc.program, findings);
+    problems.insert(problems.end(), of_tools.begin(), of_tools.end());
+  }
+  if (!problems.empty()) {
+    throw base::InputError(std::move(problems));
+  }
+  if (purpose == Command::program && find(root, "cut") != nullptr &&
+      !source.tool_only) {
+    findings.notes.push_back(
+        {"cut_not_used", "[cut] is not used: the program is the cut"});
   }
   c.file = source.file;
   hold_data(c);
   c.notes = std::move(findings.notes);
   name_files_from(result_folder, tables);
-  c.as_understood = no_cut ? write_machine_case(tables) : write_case(tables);
+  c.as_understood = no_cut                        ? write_machine_case(tables)
+                    : purpose == Command::program ? write_program_case(tables)
+                                                  : write_case(tables);
   return c;
 }
 

@@ -185,7 +185,7 @@ struct ValueReader {
   }
   void operator()(Rows* target) const {
     target->clear();
-    const Array* rows = list(3);
+    const Array* rows = list(key.count > 0 ? key.count : 3);
     for (std::size_t i = 0; rows != nullptr && i < rows->size(); ++i) {
       const auto* row = std::get_if<Array>(&(*rows)[i].value);
       if (row == nullptr || row->size() != 3) {
@@ -238,6 +238,89 @@ struct ValueReader {
       refuse(node, 0, "points nowhere");
     } else {
       *target = direction;
+    }
+  }
+  void operator()(Pairs* target) const {
+    target->clear();
+    const Array* rows = list(key.count);
+    for (std::size_t i = 0; rows != nullptr && i < rows->size(); ++i) {
+      if (const auto pair = pair_in((*rows)[i], i)) target->push_back(*pair);
+    }
+  }
+  /// @param row  from 0
+  std::optional<std::array<double, 2>> pair_in(const Node& at, std::size_t row) const {
+    const auto* pair = std::get_if<Array>(&at.value);
+    if (pair == nullptr || pair->size() != 2) {
+      refuse(at, row + 1, "not a pair of numbers");
+      return std::nullopt;
+    }
+    const auto first = number((*pair)[0], 2 * row + 1);
+    const auto second = number((*pair)[1], 2 * row + 2);
+    if (!first || !second) return std::nullopt;
+    return std::array{*first, *second};
+  }
+  void operator()(std::optional<StockCylinder>* target) const {
+    const auto* table = std::get_if<Members>(&node.value);
+    const Node* axis = table != nullptr ? find(node, "axis_xy") : nullptr;
+    const Node* radius = table != nullptr ? find(node, "radius") : nullptr;
+    const Node* z = table != nullptr ? find(node, "z") : nullptr;
+    if (axis == nullptr || radius == nullptr || z == nullptr || table->size() != 3) {
+      return refuse(node, 0, "not a table with axis_xy, radius and z");
+    }
+    const auto center = pair_in(*axis, 0);
+    const auto heights = pair_in(*z, 0);
+    const auto size = number(*radius, 0);
+    if (size && !(*size > 0)) return refuse(*radius, 0, "a radius that is not above 0");
+    if (center && heights && size) target->emplace(*center, *size, *heights);
+  }
+  std::optional<ToolName> tool_in(const Node& at, std::size_t entry) const {
+    const auto* text = std::get_if<std::string>(&at.value);
+    const auto* whole = std::get_if<std::int64_t>(&at.value);
+    if (whole != nullptr && *whole >= 0) return ToolName{std::to_string(*whole)};
+    if (text != nullptr && !text->empty()) return ToolName{*text};
+    refuse(at, entry, "no number and no name of a tool");
+    return std::nullopt;
+  }
+  void operator()(ToolName* target) const {
+    if (auto tool = tool_in(node, 0)) *target = *std::move(tool);
+  }
+  void operator()(std::vector<ToolName>* target) const {
+    target->clear();
+    const Array* entries = list(0);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+      if (auto tool = tool_in((*entries)[i], i + 1)) {
+        target->push_back(*std::move(tool));
+      }
+    }
+  }
+  void operator()(NamedPlaces* target) const {
+    const auto* table = std::get_if<Members>(&node.value);
+    if (table == nullptr) return refuse(node, 0, "not a table");
+    target->clear();
+    for (const Member& member : *table) {
+      const auto* place = std::get_if<Array>(&member.node.value);
+      if (place == nullptr || place->size() != 3) {
+        refuse(member.node, 0, "not a place of 3 numbers");
+        continue;
+      }
+      auto& numbers = (*target)[member.key];
+      for (std::size_t i = 0; i < 3; ++i) {
+        numbers[i] = number((*place)[i], i + 1).value_or(0.0);
+      }
+    }
+  }
+  void operator()(NamedFiles* target) const {
+    const auto* table = std::get_if<Members>(&node.value);
+    if (table == nullptr) return refuse(node, 0, "not a table");
+    target->clear();
+    for (const Member& member : *table) {
+      const auto* name = std::get_if<std::string>(&member.node.value);
+      if (name == nullptr || name->empty()) {
+        refuse(member.node, 0, "not a text");
+        continue;
+      }
+      (*target)[member.key].name = *name;
+      findings.places[path + "." + member.key] = member.node.where;
     }
   }
   void operator()(std::optional<PreviousClamping>*) const {}     // read_table does it

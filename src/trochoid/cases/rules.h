@@ -75,6 +75,13 @@ void check_correct(CaseTables& tables, Findings& findings);
 /// @brief What a plan needs: cuts to look at and what they are to tell; fills in [plan].
 void check_plan(CaseTables& tables, Findings& findings);
 
+/// @brief What the tables of a whole NC program must fulfil together; settles names of
+/// offsets and words.
+void check_program(CaseTables& tables, Findings& findings);
+
+/// @brief What is known of the program beside its text.
+program::ReadOptions read_options(const ProgramTables& nc);
+
 /// @brief Whether [plan] is of forces or of a wall, if it does not say so itself; what
 /// belongs to the other kind is reported.
 void settle_plan(CaseTables& tables, Findings& findings);

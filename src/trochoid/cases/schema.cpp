@@ -80,7 +80,26 @@ struct Expectation {
   std::string operator()(const std::vector<std::string>*) const {
     return list("texts");
   }
-  std::string operator()(const Rows*) const { return "3 rows of 3 numbers" + limits(); }
+  std::string operator()(const Rows*) const {
+    return fmt::format("{} rows of 3 numbers", key.count > 0 ? key.count : 3) +
+           limits();
+  }
+  std::string operator()(const Pairs*) const {
+    return "a list of pairs of numbers" + limits();
+  }
+  std::string operator()(const std::optional<StockCylinder>*) const {
+    return "a table { axis_xy = [x, y], radius = r, z = [low, high] }";
+  }
+  std::string operator()(const ToolName*) const { return "a whole number or a text"; }
+  std::string operator()(const std::vector<ToolName>*) const {
+    return "a list of whole numbers or texts";
+  }
+  std::string operator()(const NamedPlaces*) const {
+    return "a table { name = [x, y, z], ... }";
+  }
+  std::string operator()(const NamedFiles*) const {
+    return "a table { name = \"file\", ... }";
+  }
   std::string operator()(const Choice& c) const {
     return fmt::format("one of \"{}\"", fmt::join(c.names, "\", \""));
   }
@@ -151,6 +170,54 @@ struct ValueWriter {
                                  number_text(r[1], factor), number_text(r[2], factor)));
     }
     return v->empty() ? Text{} : fmt::format("[{}]", fmt::join(rows, ", "));
+  }
+  Text operator()(const Pairs* v) const {
+    std::vector<std::string> rows;
+    rows.reserve(v->size());
+    for (const auto& pair : *v) rows.push_back(pair_text(pair));
+    return v->empty() ? Text{} : fmt::format("[{}]", fmt::join(rows, ", "));
+  }
+  [[nodiscard]] std::string pair_text(const std::array<double, 2>& pair) const {
+    return fmt::format("[{}, {}]", number_text(pair[0], factor),
+                       number_text(pair[1], factor));
+  }
+  Text operator()(const std::optional<StockCylinder>* v) const {
+    if (!*v) return std::nullopt;
+    return fmt::format("{{ axis_xy = {}, radius = {}, z = {} }}", pair_text((*v)->axis),
+                       number_text((*v)->radius, factor), pair_text((*v)->z));
+  }
+  /// A number where it is one.
+  static std::string tool_text(const ToolName& tool) {
+    constexpr std::size_t longest = 9;
+    const bool number = tool.text.size() <= longest &&
+                        (tool.text.size() == 1 || !tool.text.starts_with('0')) &&
+                        tool.text.find_first_not_of("0123456789") == std::string::npos;
+    return number ? tool.text : toml_string(tool.text);
+  }
+  Text operator()(const ToolName* v) const {
+    return v->text.empty() ? Text{} : Text(tool_text(*v));
+  }
+  Text operator()(const std::vector<ToolName>* v) const {
+    std::vector<std::string> all;
+    all.reserve(v->size());
+    for (const ToolName& tool : *v) all.push_back(tool_text(tool));
+    return v->empty() ? Text{} : fmt::format("[{}]", fmt::join(all, ", "));
+  }
+  Text operator()(const NamedPlaces* v) const {
+    std::vector<std::string> all;
+    for (const auto& [name, p] : *v) {
+      all.push_back(fmt::format("{} = [{}, {}, {}]", toml_string(name),
+                                number_text(p[0], factor), number_text(p[1], factor),
+                                number_text(p[2], factor)));
+    }
+    return all.empty() ? Text{} : fmt::format("{{ {} }}", fmt::join(all, ", "));
+  }
+  Text operator()(const NamedFiles* v) const {
+    std::vector<std::string> all;
+    for (const auto& [name, file] : *v) {
+      all.push_back(fmt::format("{} = {}", toml_string(name), toml_string(file.name)));
+    }
+    return all.empty() ? Text{} : fmt::format("{{ {} }}", fmt::join(all, ", "));
   }
   Text operator()(const Choice& c) const {
     return toml_string(c.names[static_cast<std::size_t>(c.get())]);

@@ -3,6 +3,7 @@
 #include <trochoid/base/command.h>
 #include <trochoid/base/steps.h>
 #include <trochoid/cases/previous_clamping.h>
+#include <trochoid/cases/program_tables.h>
 #include <trochoid/files/file_ref.h>
 #include <trochoid/files/surface_frame.h>
 
@@ -66,7 +67,7 @@ struct Key {
   std::string_view meaning;
   Range range = {};
   Need need = Need::optional;
-  std::size_t count = 0;  ///< entries of a list; 0: any number
+  std::size_t count = 0;  ///< entries of a list, or rows; 0: any number, 3 rows
   bool gaps = false;      ///< entries may be empty, and missing at the end of a list
   Only only = {};
   std::optional<double> neutral = {};  ///< accepted even where the key has no meaning
@@ -99,7 +100,9 @@ using Field =
                  files::FileRef*, std::vector<double>*, std::optional<base::Steps>*,
                  std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
                  std::optional<PreviousClamping>*, std::optional<files::SurfaceFrame>*,
-                 std::optional<files::Direction>*>;
+                 std::optional<files::Direction>*, Pairs*,
+                 std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*,
+                 NamedPlaces*, NamedFiles*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/cases/machine_tables.h>
+#include <trochoid/cases/program_tables.h>
 #include <trochoid/cases/schema.h>
 
 namespace trochoid::cases {
@@ -20,5 +21,10 @@ void describe(const Visitor& v, Correction& t);
 void describe(const Visitor& v, Spindle& t);
 void describe(const Visitor& v, Controller& t);
 void describe(const Visitor& v, Stability& t);
+void describe(const Visitor& v, NcProgram& t);
+void describe(const Visitor& v, Stock& t);
+void describe(const Visitor& v, ForceLimits& t);
+void describe(const Visitor& v, MachineDrives& t);
+void describe(const Visitor& v, FeedRules& t);
 
 }  // namespace trochoid::cases

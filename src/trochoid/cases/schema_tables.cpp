@@ -49,13 +49,16 @@ std::vector<TableEntry> tables_of_cut(CaseTables& t) {
   const Commands all_commands{Command::simulate,  Command::identify,  Command::surface,
                               Command::calibrate, Command::stability, Command::dynamics,
                               Command::correct,   Command::plan};
+  Commands with_program = all_commands;
+  with_program.push_back(Command::program);
   return {
-      one("tool", "the cutter", t.tool, all_commands),
+      one("tool", "the cutter", t.tool, with_program),
       one("runout", "how the teeth stand out; left out: no runout", t.runout),
       one("cut", "the cut; the tool feeds along +x", t.cut, all_commands),
       one("chip", "the model of the uncut chip thickness", t.chip),
       one("force", "the force law and its coefficients, as forces on the tool", t.force,
-          {Command::simulate, Command::surface, Command::stability, Command::dynamics}),
+          {Command::simulate, Command::surface, Command::stability, Command::dynamics,
+           Command::program}),
       perhaps(
           "orthogonal",
           "what orthogonal cutting told of the material, in place of K_tc, K_rc and "
@@ -117,11 +120,28 @@ std::vector<TableEntry> tables_of_machine(CaseTables& t) {
   };
 }
 
+/// A whole NC program.
+std::vector<TableEntry> tables_of_program(CaseTables& t) {
+  return {
+      perhaps("program", "a whole NC program in G code, and what is known of it",
+              t.nc.program, {Command::program}),
+      perhaps(
+          "stock",
+          "the workpiece before the program; exactly one of box_mm, cylinder_mm and "
+          "file",
+          t.nc.stock, {Command::program}),
+      perhaps("limits", "what no step of the program may exceed", t.nc.limits),
+      perhaps("machine", "the drives and the spindle of the machine", t.nc.machine),
+      perhaps("feed", "how the feed of the program is to be changed", t.nc.feed),
+  };
+}
+
 }  // namespace
 
 std::vector<TableEntry> tables_of(CaseTables& t) {
   std::vector<TableEntry> tables = tables_of_cut(t);
   for (TableEntry& table : tables_of_machine(t)) tables.push_back(std::move(table));
+  for (TableEntry& table : tables_of_program(t)) tables.push_back(std::move(table));
   return tables;
 }
 

@@ -158,6 +158,7 @@ struct CaseTables {
   std::optional<IdentifyTable> identify;
   std::optional<Plan> plan;
   MachineTables machine;
+  ProgramTables nc;
 };
 
 void describe(const Visitor& v, ToolTable& t);

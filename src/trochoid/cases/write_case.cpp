@@ -49,7 +49,14 @@ bool is_of_a_cut(std::string_view table) {
   return std::find(std::begin(names), std::end(names), table) != std::end(names);
 }
 
-std::string written(CaseTables& tables, bool with_cut) {
+/// What a case about a whole program leaves out.
+bool is_of_one_cut(std::string_view table) {
+  return table == "cut" || table == "sampling";
+}
+
+using Left = bool (*)(std::string_view table);
+
+std::string written(CaseTables& tables, Left left_out) {
   std::string text;
   const Visitor key_line = [&text](const Key& key, const Field& field) {
     if (const auto value = value_text(key, field)) {
@@ -58,7 +65,7 @@ std::string written(CaseTables& tables, bool with_cut) {
   };
   describe(key_line, tables);
   for (const TableEntry& table : tables_of(tables)) {
-    if (!with_cut && is_of_a_cut(table.name)) {
+    if (left_out != nullptr && left_out(table.name)) {
       continue;
     }
     for (std::size_t i = 0; i < table.count(); ++i) {
@@ -73,11 +80,15 @@ std::string written(CaseTables& tables, bool with_cut) {
 }  // namespace
 
 std::string write_case(CaseTables& tables) {
-  return written(tables, true);
+  return written(tables, nullptr);
 }
 
 std::string write_machine_case(CaseTables& tables) {
-  return written(tables, false);
+  return written(tables, is_of_a_cut);
+}
+
+std::string write_program_case(CaseTables& tables) {
+  return written(tables, is_of_one_cut);
 }
 
 }  // namespace trochoid::cases

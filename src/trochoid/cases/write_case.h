@@ -12,4 +12,7 @@ std::string write_case(CaseTables& tables);
 /// @brief The same without the tables of a cut, for a case that has none.
 std::string write_machine_case(CaseTables& tables);
 
+/// @brief The same of a case about a whole program: [cut] and [sampling] say nothing there.
+std::string write_program_case(CaseTables& tables);
+
 }  // namespace trochoid::cases

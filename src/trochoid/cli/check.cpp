@@ -26,6 +26,9 @@ void check_machine_files(const cases::Case& given, std::vector<std::string>& pro
   if (given.machine.step) {
     look([&] { given.machine.step->step.get(); });
   }
+  if (given.nc.program) {
+    look([&] { given.nc.program->text.get(); });
+  }
 }
 
 }  // namespace

@@ -4,11 +4,29 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::program {
 
 enum class MoveKind : std::uint8_t { rapid, line, arc, chord, dwell };
+
+/// Names of files.
+constexpr std::string_view name_of(MoveKind kind) noexcept {
+  switch (kind) {
+    case MoveKind::rapid:
+      return "rapid";
+    case MoveKind::line:
+      return "line";
+    case MoveKind::arc:
+      return "arc";
+    case MoveKind::chord:
+      return "chord";
+    case MoveKind::dwell:
+      return "dwell";
+  }
+  return {};
+}
 
 /// Where a move comes from, if not from words that name its end.
 enum class MoveNote : std::uint8_t {
@@ -16,6 +34,19 @@ enum class MoveNote : std::uint8_t {
   cycle,    ///< of a drilling cycle
   retract,  ///< to a place that is not in the program: G28, G30, G53, SUPA
 };
+
+/// Names of files.
+constexpr std::string_view name_of(MoveNote note) noexcept {
+  switch (note) {
+    case MoveNote::none:
+      return "";
+    case MoveNote::cycle:
+      return "cycle";
+    case MoveNote::retract:
+      return "retract";
+  }
+  return {};
+}
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,6 +69,19 @@ struct Move {
 };
 
 enum class Dialect : std::uint8_t { iso, linuxcnc, sinumerik };
+
+/// Names of files.
+constexpr std::string_view name_of(Dialect dialect) noexcept {
+  switch (dialect) {
+    case Dialect::iso:
+      return "iso";
+    case Dialect::linuxcnc:
+      return "linuxcnc";
+    case Dialect::sinumerik:
+      return "sinumerik";
+  }
+  return {};
+}
 
 /// What a text in G code makes the machine do.
 struct Program {

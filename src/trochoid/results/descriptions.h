@@ -26,6 +26,7 @@ Description description_of_actuator();
 Description description_of_correct();
 Description description_of_plan();
 Description description_of_wall_plan();
+Description description_of_program();
 
 /// @brief Of the commands that are described.
 std::vector<Description> descriptions();

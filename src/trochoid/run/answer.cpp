@@ -56,6 +56,9 @@ results::Answer answer(base::Command command, const cases::Case& given,
       return answer_of(dynamics(given, progress));
     case Command::correct:
       return answer_of(correct(given, options.simulate_controller, progress));
+    case Command::program:
+      progress("Reading the program");
+      return answer_of(program(given));
     case Command::plan:
       return given.plan.of == cases::PlanOf::wall
                  ? answer_of(plan_wall(given, progress))

@@ -9,6 +9,7 @@
 #include <trochoid/results/identify.h>
 #include <trochoid/results/plan.h>
 #include <trochoid/results/plan_wall.h>
+#include <trochoid/results/program.h>
 #include <trochoid/results/simulate.h>
 #include <trochoid/results/stability.h>
 #include <trochoid/results/surface.h>
@@ -81,5 +82,9 @@ results::ActuatorResult actuator(const cases::Case& given);
 /// @throws base::InputError when a measurement cannot be read
 results::CorrectResult correct(const cases::Case& given, bool controller,
                                const Progress& progress);
+
+/// @brief The moves of a whole NC program.
+/// @throws base::InputError when it cannot be read
+results::ProgramResult program(const cases::Case& given);
 
 }  // namespace trochoid::run

@@ -379,6 +379,19 @@ std::vector<Work> measured_work(const cases::Case& given) {
   return parts;
 }
 
+/// By the size of the text: its moves are not known before it is read.
+std::vector<Work> program_work(const cases::Case& given) {
+  // Measured: of a byte, and of the moves that it becomes.
+  constexpr double byte_evaluations = 1;
+  constexpr double byte_bytes = 25;
+  const double size = size_of_file(given.nc.program->file.path);
+  return {{.what = "bytes of the program",
+           .count = size,
+           .evaluations = size * byte_evaluations,
+           .bytes = size * byte_bytes,
+           .key = {.name = "program.file", .value = size / megabyte, .of = " MB"}}};
+}
+
 std::vector<Work> correct_work(const cases::Case& given) {
   // Measured: of the command itself, and of every speed of the map.
   constexpr double command = 7e6;
@@ -442,6 +455,8 @@ std::vector<Work> work_of(base::Command command, const cases::Case& given) {
       return dynamics_work(given);
     case Command::correct:
       return correct_work(given);
+    case Command::program:
+      return program_work(given);
     case Command::plan:
       return of_wall ? calibrate_work(given) : plan_work(given);
   }

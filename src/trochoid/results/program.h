@@ -1,0 +1,16 @@
+#pragma once
+
+#include <trochoid/program/move.h>
+#include <trochoid/results/answer.h>
+
+namespace trochoid::results {
+
+/// @brief What `program` answers: the moves of a whole NC program.
+struct ProgramResult {
+  Heading heading;
+  program::Program program;
+};
+
+Answer answer_of(const ProgramResult& result);
+
+}  // namespace trochoid::results
