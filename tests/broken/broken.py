@@ -29,7 +29,7 @@ import subprocess
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-KINDS = ("case", "record", "surface")
+KINDS = ("case", "program", "record", "surface")
 OF_THIS_FILE = re.compile(r"\d+:\d+: ")
 
 

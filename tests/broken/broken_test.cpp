@@ -2,6 +2,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
 #include <trochoid/cases/case.h>
+#include <trochoid/files/program_file.h>
 #include <trochoid/files/record_file.h>
 #include <trochoid/files/surface_file.h>
 
@@ -55,6 +56,8 @@ void read(const BrokenFile& broken) {
   constexpr int teeth = 3;
   if (broken.kind == "case") {
     static_cast<void>(read_case(broken.file, command_of(content(broken.file))));
+  } else if (broken.kind == "program") {
+    static_cast<void>(files::read_program(files::file_at(broken.file), {}));
   } else if (broken.kind == "record") {
     static_cast<void>(files::read_record({.file = files::file_at(broken.file)}));
   } else {
@@ -92,6 +95,8 @@ std::string name_of(const testing::TestParamInfo<BrokenFile>& broken) {
 
 INSTANTIATE_TEST_SUITE_P(Case, Broken, testing::ValuesIn(broken_files("case")),
                          name_of);
+INSTANTIATE_TEST_SUITE_P(Program, Broken, testing::ValuesIn(broken_files("program")),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Record, Broken, testing::ValuesIn(broken_files("record")),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Surface, Broken, testing::ValuesIn(broken_files("surface")),
@@ -99,6 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Surface, Broken, testing::ValuesIn(broken_files("surfac
 
 TEST(BrokenFiles, AreThere) {
   EXPECT_GE(broken_files("case").size(), 250u);
+  EXPECT_GE(broken_files("program").size(), 30u);
   EXPECT_GE(broken_files("record").size(), 100u);
   EXPECT_GE(broken_files("surface").size(), 30u);
 }

@@ -18,7 +18,7 @@ using trochoid::fuzz::write;
 
 /// The commands in their order, and none: that which the tables show.
 std::optional<Command> command_of(std::uint8_t byte) {
-  constexpr int commands = static_cast<int>(Command::plan) + 1;
+  constexpr int commands = static_cast<int>(Command::program) + 1;
   const int which = byte % (commands + 1);
   return which == commands ? std::nullopt : std::optional(static_cast<Command>(which));
 }

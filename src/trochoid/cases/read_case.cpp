@@ -202,9 +202,8 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   settle_order(t, purpose, findings);
   check_runout(t.runout, t.tool, findings);
   c.setup.runout = t.runout;
-  if (purpose != Command::program) {
+  if (purpose != Command::program)
     c.setup.cut = cut_of(t.cut, "cut", c.setup.cutter, findings);
-  }
   check_chip(t.chip, findings);
   c.setup.chip = t.chip;
   c.setup.edge_length = t.force.edge_length;
@@ -244,9 +243,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   if (purpose == Command::correct) {
     check_correct(t, findings);
   }
-  if (purpose == Command::plan) {
-    check_plan(t, findings);
-  }
+  if (purpose == Command::plan) check_plan(t, findings);
   check_program(t, findings);
   c.nc = t.nc;
   c.plan = t.plan.value_or(Plan{});

@@ -28,8 +28,6 @@ std::string_view advice_on(Fault fault) noexcept {
       return "close it in its line";
     case Fault::dialect:
       return "post the program as G code (ISO)";
-    case Fault::unknown:
-      return "if the load does not depend on it, name it in ignore_words of [program]";
     case Fault::unused:
       return "nothing in this block takes it";
     case Fault::order:
@@ -39,6 +37,7 @@ std::string_view advice_on(Fault fault) noexcept {
     case Fault::unknown_position:
     case Fault::number:
     case Fault::group:
+    case Fault::unknown:
       return "";
   }
   return "";

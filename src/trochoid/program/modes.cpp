@@ -153,10 +153,11 @@ void set_offset(Run& run, Sorted& s) {
   const bool second = counts && *name != first;
   for (const std::string& one : {*name, first}) {
     if (!second || known.count(one) > 0) continue;
-    return complain(run, s, s.orders.place_of(Group::offset), Fault::coordinates,
-                    fmt::format("{} is a second work offset, and {} is not in "
-                                "offsets_mm of [program]",
-                                *name, one));
+    return complain(
+        run, s, s.orders.place_of(Group::offset), Fault::coordinates,
+        fmt::format("{} is a second work offset, and the place of {} is not "
+                    "in offsets_mm of [program]",
+                    *name, one));
   }
   std::array<double, 3> shift = run.options.origin;
   const auto it = known.find(*name);

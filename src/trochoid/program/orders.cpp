@@ -41,6 +41,9 @@ std::string canonical(const Word& word) {
                           : fmt::format("{}{:g}", word.letter, word.value);
 }
 
+constexpr std::string_view may_be_ignored =
+    "; if the load does not depend on it, name it in ignore_words of [program]";
+
 /// What may accompany a word that is ignored.
 constexpr std::string_view arguments = "PQLERHKS";
 
@@ -117,8 +120,8 @@ void sort_code(Sorting& s, const Word& word) {
   if (code == nullptr) {
     if (is_ignored(s, word)) return;
     return s.complain(word, Fault::unknown,
-                      fmt::format("{} is not known in {}", s.shown(word),
-                                  shown_name(s.habits.dialect)));
+                      fmt::format("{} is not known in {}{}", s.shown(word),
+                                  shown_name(s.habits.dialect), may_be_ignored));
   }
   const bool refused =
       code->action == Action::refused ||
@@ -141,8 +144,10 @@ void sort_rotary(Sorting& s, const Word& word) {
            fmt::format("{}: the table is taken to stand", s.shown(word)));
     return;
   }
-  s.block.wrong = true;
-  if (s.complaints.rotary_told) return;
+  if (s.block.wrong || s.complaints.rotary_told) {
+    s.block.wrong = true;
+    return;
+  }
   s.complaints.rotary_told = true;
   s.complain(word, Fault::rotary, fmt::format("{}: an axis that turns", s.shown(word)));
 }
@@ -168,8 +173,9 @@ void sort_letter(Sorting& s, const Word& word) {
       return w.letter == 'G' && w.value == smoothing;
     });
     if (!of_haas && !is_ignored(s, word)) {
-      return s.complain(word, Fault::unknown,
-                        fmt::format("{} is not known", s.shown(word)));
+      return s.complain(
+          word, Fault::unknown,
+          fmt::format("{} is not known{}", s.shown(word), may_be_ignored));
     }
   }
   if (c == 'L' && sinumerik) {
@@ -177,8 +183,9 @@ void sort_letter(Sorting& s, const Word& word) {
                       fmt::format("{}: a subprogram", s.shown(word)));
   }
   if (c == 'O' && sinumerik) {
-    return s.complain(word, Fault::unknown,
-                      fmt::format("{} is not known in Sinumerik", s.shown(word)));
+    return s.complain(
+        word, Fault::unknown,
+        fmt::format("{} is not known in Sinumerik{}", s.shown(word), may_be_ignored));
   }
   if (!word.has_value && !(c == 'T' && !word.inside.empty())) {
     return s.complain(word, Fault::number,
@@ -273,8 +280,9 @@ void sort_name(Sorting& s, const Word& word) {
         fmt::format("{}: {}", base::one_line(name), said_of(Fault::coordinates)));
   }
   if (without_effect(name) || is_dynamics(name) || is_ignored(s, word)) return;
-  s.complain(word, Fault::unknown,
-             fmt::format("{} is not known in Sinumerik", s.shown(word)));
+  s.complain(
+      word, Fault::unknown,
+      fmt::format("{} is not known in Sinumerik{}", s.shown(word), may_be_ignored));
 }
 
 }  // namespace

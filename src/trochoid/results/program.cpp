@@ -4,6 +4,7 @@
 #include <trochoid/results/descriptions.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>
@@ -107,13 +108,23 @@ const Fields<ProgramResult>& program_fields() {
   return all;
 }
 
+std::string short_table(const ProgramResult& r) {
+  std::size_t fed = 0;
+  for (const Move& move : r.program.moves) fed += is_fed(move) ? 1U : 0U;
+  return fmt::format(
+      "dialect {}, {} moves, {} of them fed, {:.6g} s\ntools: {}\n",
+      name_of(r.program.dialect), r.program.moves.size(), fed, total_time(r),
+      r.program.tools.empty() ? "that of the case"
+                              : fmt::format("{}", fmt::join(r.program.tools, ", ")));
+}
+
 }  // namespace
 
 Answer answer_of(const ProgramResult& r) {
   return {.command = "program",
           .heading = r.heading,
           .result = program_fields().object(r),
-          .short_table = {},
+          .short_table = r.heading.ok ? short_table(r) : std::string(),
           .tables = {moves_table(r)},
           .texts = {}};
 }

@@ -100,7 +100,8 @@ TEST(CasePage, NewCorrectIsAValidCase) {
 TEST(CasePage, EveryLineOfANewCaseIsExplained) {
   for (const Command command :
        {Command::simulate, Command::identify, Command::surface, Command::calibrate,
-        Command::stability, Command::dynamics, Command::correct, Command::plan}) {
+        Command::stability, Command::dynamics, Command::correct, Command::plan,
+        Command::program}) {
     std::istringstream lines(new_case(command));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_TRUE(line.empty() || line.find("# ") != std::string::npos) << line;

@@ -220,6 +220,15 @@ def plan(case: CaseLike, *, records: Records = None, readings: ReadingsLike = No
     return _run("plan", case, {"records": records, "readings": readings})
 
 
+def program(case: CaseLike) -> Answer:
+    """The moves of a whole NC program in G code.
+
+    case: with ``[tool]``, ``[force]``, ``[program]`` and ``[stock]``. Answers ``dialect``, ``moves``,
+    ``tools`` and ``time_s``; the moves are ``answer.tables["moves"]``.
+    """
+    return _run("program", case, {})
+
+
 def modes(
     case: Union[CaseLike, Response],
     *,
