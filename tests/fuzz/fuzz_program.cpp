@@ -23,7 +23,7 @@ void use(const Move& move, const Program& program, std::uint32_t lines) {
   demand(!(move.time < 0) && !(move.spindle < 0) && !(move.feed < 0));
   const bool fed = move.kind != MoveKind::rapid && move.kind != MoveKind::dwell;
   if (fed) {
-    demand(move.feed > 0);
+    demand(move.feed > 0 || move.time == 0);  // G93 over no length
     for (const double x : move.end) demand(!std::isnan(x));
   }
   if (move.kind == MoveKind::arc) {

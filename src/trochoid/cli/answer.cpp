@@ -124,6 +124,7 @@ int answer(base::Command command, const Options& options) {
     });
     return run::answer(command, given,
                        {.curves = options.curves,
+                        .moves = options.moves,
                         .simulate_controller = options.simulate_controller,
                         .anyway = options.anyway},
                        std::ref(progress), limit.stop());

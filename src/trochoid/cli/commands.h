@@ -24,6 +24,7 @@ struct Options {
   std::optional<double> time_limit;  ///< of the work [s]
 
   bool simulate_controller = false;  ///< of correct
+  bool moves = false;                ///< of program: however many
   bool curves = false;               ///< of identify: of every sample
 
   std::string command;            ///< of sweep, and that check is for

@@ -109,6 +109,10 @@ void add_data_options(CLI::App& app, Command command, Options& options) {
         "Write every sample of long records to fitted.csv and residual.csv, not "
         "the mean turn");
   }
+  if (command == Command::program) {
+    app.add_flag("--moves", options.moves,
+                 "Write moves.csv even where there are more than a million");
+  }
   if (command == Command::correct) {
     app.add_flag("--simulate-controller", options.simulate_controller,
                  "Run the real-time controller in the loop ([controller])");

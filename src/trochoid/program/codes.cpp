@@ -124,6 +124,7 @@ constexpr std::array of_iso = {
     refuse(923, Fault::coordinates, "a frame set by the program", Group::once),
     Code{980, Group::retract, initial_level},
     Code{990, Group::retract, r_level},
+    Code{1030, Group::smoothing, nothing, "P"},
     Code{1540, Group::offset, numbered_offset},
     Code{1870, Group::smoothing, nothing, "PE"},
 };
@@ -174,12 +175,18 @@ constexpr std::array m_words = {
     Code{480, Group::other, nothing},
     Code{490, Group::other, nothing},
     Code{600, Group::stop, nothing},
+    Code{880, Group::other, nothing},
+    Code{890, Group::other, nothing},
     refuse(970, Fault::subprogram, "a subprogram", Group::stop),
     refuse(980, Fault::subprogram, "a subprogram", Group::stop),
     refuse(990, Fault::subprogram, "the end of a subprogram", Group::stop),
 };
 
 constexpr std::array m_words_of_linuxcnc = {
+    Code{500, Group::other, nothing, "P"},
+    Code{510, Group::other, nothing, "P"},
+    Code{520, Group::other, nothing, "P"},
+    Code{530, Group::other, nothing, "P"},
     refuse(700, Fault::subprogram, "the state of a caller"),
     refuse(710, Fault::subprogram, "the state of a caller"),
     refuse(720, Fault::subprogram, "the state of a caller"),

@@ -251,6 +251,15 @@ void read_name(Cursor& c) {
   c.block.words.push_back(word);
 }
 
+constexpr std::size_t fewest_of_text = 3;
+
+/// How many letters follow one another.
+std::size_t letters_at(const Cursor& c, std::size_t start) noexcept {
+  std::size_t end = start;
+  while (end < c.block.text.size() && is_letter(c.block.text[end])) ++end;
+  return end - start;
+}
+
 /// A letter and what follows it.
 void read_letter(Cursor& c) {
   const std::size_t start = c.at;
@@ -268,6 +277,12 @@ void read_letter(Cursor& c) {
         start, Fault::variable,
         fmt::format("{} is given by an expression",
                     base::one_line(c.block.text.substr(start, c.at - start))));
+  }
+  if (const std::size_t letters = letters_at(c, start); letters >= fewest_of_text) {
+    c.complain(start, Fault::number,
+               fmt::format("{}: text that is in no comment",
+                           base::one_line(c.block.text.substr(start, letters))));
+    return c.stop();
   }
   const std::optional<Word> word = number_at(c);
   if (!word) {
@@ -336,7 +351,8 @@ bool read_o_word(Cursor& c) {
 void read_other(Cursor& c) {
   const std::size_t start = c.at;
   const char now = c.now();
-  if (now == '#' || (now == '$' && is_letter(c.ahead(1)))) {
+  const bool system = c.dialect == Dialect::sinumerik && now == '$';
+  if (now == '#' || (system && is_letter(c.ahead(1)))) {
     c.complain(start, Fault::variable, "a variable");
     return c.stop();
   }

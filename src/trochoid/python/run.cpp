@@ -46,6 +46,7 @@ void bind_run(py::module_& m) {
         };
         const run::AnswerOptions chosen{
             .curves = given_option("curves"),
+            .moves = given_option("moves"),
             .simulate_controller = given_option("simulate_controller"),
             .anyway = given_option("anyway")};
         const auto named = base::named<base::Command>(command);

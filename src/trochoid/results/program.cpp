@@ -121,12 +121,17 @@ std::string short_table(const ProgramResult& r) {
 }  // namespace
 
 Answer answer_of(const ProgramResult& r) {
-  return {.command = "program",
-          .heading = r.heading,
-          .result = program_fields().object(r),
-          .short_table = r.heading.ok ? short_table(r) : std::string(),
-          .tables = {moves_table(r)},
-          .texts = {}};
+  constexpr std::size_t most_moves = 1000000;
+  Answer answer{.command = "program",
+                .heading = r.heading,
+                .result = program_fields().object(r),
+                .short_table = r.heading.ok ? short_table(r) : std::string(),
+                .tables = {},
+                .texts = {}};
+  if (r.all_moves || r.program.moves.size() <= most_moves) {
+    answer.tables.push_back(moves_table(r));
+  }
+  return answer;
 }
 
 Description description_of_program() {

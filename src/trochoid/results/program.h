@@ -9,6 +9,7 @@ namespace trochoid::results {
 struct ProgramResult {
   Heading heading;
   program::Program program;
+  bool all_moves = false;  ///< in moves.csv, even where they are more than a million
 };
 
 Answer answer_of(const ProgramResult& result);

@@ -25,6 +25,12 @@ results::Answer identified(const cases::Case& given, const AnswerOptions& option
   return answer_of(result);
 }
 
+results::Answer moves_of(const cases::Case& given, const AnswerOptions& options) {
+  results::ProgramResult result = program(given);
+  result.all_moves = options.moves;
+  return answer_of(result);
+}
+
 }  // namespace
 
 results::Answer answer(base::Command command, const cases::Case& given,
@@ -58,7 +64,7 @@ results::Answer answer(base::Command command, const cases::Case& given,
       return answer_of(correct(given, options.simulate_controller, progress));
     case Command::program:
       progress("Reading the program");
-      return answer_of(program(given));
+      return moves_of(given, options);
     case Command::plan:
       return given.plan.of == cases::PlanOf::wall
                  ? answer_of(plan_wall(given, progress))

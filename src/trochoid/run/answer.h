@@ -11,6 +11,7 @@ namespace trochoid::run {
 /// What a command is told besides its case.
 struct AnswerOptions {
   bool curves = false;               ///< of identify: every sample
+  bool moves = false;                ///< of program: every one, however many
   bool simulate_controller = false;  ///< of correct
   bool anyway = false;               ///< of identify: whatever work it takes
   bool tables = true;                ///< of simulate

@@ -383,7 +383,7 @@ std::vector<Work> measured_work(const cases::Case& given) {
 std::vector<Work> program_work(const cases::Case& given) {
   // Measured: of a byte, and of the moves that it becomes.
   constexpr double byte_evaluations = 1;
-  constexpr double byte_bytes = 25;
+  constexpr double byte_bytes = 12;
   const double size = size_of_file(given.nc.program->file.path);
   return {{.what = "bytes of the program",
            .count = size,

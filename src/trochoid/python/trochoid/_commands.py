@@ -220,13 +220,14 @@ def plan(case: CaseLike, *, records: Records = None, readings: ReadingsLike = No
     return _run("plan", case, {"records": records, "readings": readings})
 
 
-def program(case: CaseLike) -> Answer:
+def program(case: CaseLike, *, moves: bool = False) -> Answer:
     """The moves of a whole NC program in G code.
 
     case: with ``[tool]``, ``[force]``, ``[program]`` and ``[stock]``. Answers ``dialect``, ``moves``,
-    ``tools`` and ``time_s``; the moves are ``answer.tables["moves"]``.
+    ``tools`` and ``time_s``; the moves are ``answer.tables["moves"]``, of more than a million with
+    ``moves=True`` only.
     """
-    return _run("program", case, {})
+    return _run("program", case, {}, moves=moves)
 
 
 def modes(
