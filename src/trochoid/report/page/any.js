@@ -23,6 +23,7 @@ function anyTable(t, i) {
   }
   const byUnit = new Map();
   for (const column of rest) {
+    if (column.values.some((v) => typeof v === 'string')) continue;
     const { name, unit } = nameAndUnit(column.name);
     if (!byUnit.has(unit)) byUnit.set(unit, []);
     const of = byUnit.get(unit);
