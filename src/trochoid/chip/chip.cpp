@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <variant>
 
 namespace trochoid::chip {
 namespace {
@@ -103,7 +104,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bounds of the material on a ray. Marks are numbered by how many teeth before.
 struct Bounds {
-  enum Outer { edge, low_outside, high_outside, window };
+  enum Outer { edge, low_outside, high_outside, window, arc_end };
   enum Inner { axis = 0, first_mark = 1, low_inside = 100, high_inside = 101 };
   int outer = edge;
   int inner = axis;
@@ -119,13 +120,14 @@ struct Ray {
   int j;
   double sine;  ///< of theta, effective for the trochoidal model
   double cosine;
+  double angle;  ///< that theta
 };
 
 Ray ray_at(const Passage& p, const Slice& slice, int j, double theta) noexcept {
   const bool exact = p.model.model == Model::trochoidal;
   const auto index = static_cast<std::size_t>(j);
   const double angle = theta + (exact ? slice.teeth[index].epsilon : 0.0);
-  return {p, slice, j, std::sin(angle), std::cos(angle)};
+  return {p, slice, j, std::sin(angle), std::cos(angle), angle};
 }
 
 const geometry::EdgePosition& position(const Ray& ray, int m) noexcept {
@@ -166,6 +168,11 @@ double above_rigid_mark(const Ray& ray, int m) noexcept {
         theta_p +=
             theta_p <= 0 ? unit::turn : (theta_p > unit::turn ? -unit::turn : 0.0);
       }
+      if (ray.p.curvature != 0) {  // N-4
+        const double turned = ray.angle - 0.5 * ray.p.curvature * ray.p.feed * theta_p;
+        return own.R - surface_left(other.R, theta_p, ray.p.feed, std::sin(turned),
+                                    std::cos(turned));
+      }
       return own.R - surface_left(other.R, theta_p, ray.p.feed, ray.sine, ray.cosine);
     }
   }
@@ -203,12 +210,28 @@ double outer_radius(const Ray& ray, int outer) noexcept {
   }
 }
 
+/// How far the ray lies within one of the arcs, along the edge; negative: in none.
+double inside_arcs(const Ray& ray) noexcept {
+  double inside = -infinity;
+  for (const geometry::EngagedArc& engaged : ray.slice.arcs) {
+    const double middle = 0.5 * (engaged.arc.from + engaged.arc.to);
+    const double half = 0.5 * (engaged.arc.to - engaged.arc.from);
+    const double whole = half >= std::numbers::pi ? unit::turn : half;
+    inside = std::max(inside,
+                      whole - std::abs(std::remainder(ray.angle - middle, unit::turn)));
+  }
+  return inside * position(ray, 0).R;
+}
+
 /// How far the edge point lies inside the window of the simple models: the nominal one,
 /// but where deflection decides the entry, that of the tooth as it is.
 double inside_window(const Ray& ray) noexcept {
   const bool own = ray.slice.bent && ray.p.model.model == Model::radial;
   const double R = own ? position(ray, 0).R : ray.slice.r;
   const double y = R * ray.cosine;
+  if (ray.p.by_arcs) {
+    return std::min(R * ray.sine, inside_arcs(ray));
+  }
   const geometry::Band band = stock(ray);
   return std::min(R * ray.sine, std::min(y - band.y_lo, band.y_hi - y));
 }
@@ -252,6 +275,12 @@ Chip simple_chip(const Ray& ray) noexcept {
 
 Chip exact_chip(const Ray& ray) noexcept {
   const double own = position(ray, 0).R;
+  if (ray.p.by_arcs) {
+    const double inside = inside_arcs(ray);
+    if (!(inside > 0)) {
+      return {0.0, 0.0, inside, Bounds{Bounds::arc_end, Bounds::axis}.code(), false};
+    }
+  }
   const Closest best = closest_mark(ray);
   Bounds bounds{Bounds::edge, best.mark};
   double above = best.above;  // own minus the inner bound
@@ -301,6 +330,9 @@ double opening(const Ray& ray, const Bounds& bounds) noexcept {
   if (bounds.outer == Bounds::window) {
     return inside_window(ray);
   }
+  if (bounds.outer == Bounds::arc_end) {
+    return inside_arcs(ray);
+  }
   if (bounds.outer == Bounds::low_outside && band.y_lo >= 0) {
     return ray.cosine * own - band.y_lo;
   }
@@ -332,6 +364,10 @@ Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
             .marks = !feels_runout(model.model) || model.lookback == Lookback::previous
                          ? 1
                          : n};
+  if (const auto* arcs = std::get_if<geometry::Arcs>(&cut.engagement)) {
+    p.by_arcs = true;
+    p.curvature = arcs->curvature;
+  }
   p.back.reserve(cutter.pitch.size() * cutter.pitch.size());
   for (int j = 0; j < n; ++j) {
     double sum = 0.0;

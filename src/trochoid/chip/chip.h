@@ -25,7 +25,9 @@ struct Passage {
   double feed = 0.0;  ///< of the tool per angle, f / 2 pi [m/rad]
   int teeth = 0;
   int marks = 0;             ///< how many teeth before are looked at: 1 or all
-  std::vector<double> back;  ///< sum of the last m pitches [rad], shape (teeth, teeth)
+  std::vector<double> back = {};  ///< sum of the last m pitches [rad], shape (teeth, teeth)
+  double curvature = 0.0;    ///< of the path, positive to the left [1/m]
+  bool by_arcs = false;      ///< the stock is that of Slice::arcs
 };
 
 Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,
@@ -42,6 +44,8 @@ struct Slice {
   std::span<const double> advance = {};
   /// Of each tooth the marks that can bound its chip, as near_marks has them; empty: any.
   std::span<const std::pmr::vector<int>> near = {};
+  /// Where there is stock, if arcs say it, whatever bounds them.
+  std::span<const geometry::EngagedArc> arcs = {};
 };
 
 /// @brief Chip at one edge point, and what bounds it.
@@ -69,6 +73,7 @@ bool ends_at_edge(const Chip& chip) noexcept;
 /// @eq C-3 h = min_m (f_m + R_j - R_k) sin(theta)         (feed)
 /// @eq C-4 h = min_m (f_m sin(theta) + R_j - R_k)         (radial)
 /// @eq C-7 h = length of [max(0, L_k), R_j] within the stock  (trochoidal)
+/// @eq N-4 on a path of curvature kappa L_k is that of theta - kappa f_m/2 (trochoidal)
 /// @src [riviere2009] eq. 1, 2, 6 to 13; min over m and the stock: derived
 /// @param tooth  0-based
 /// @param theta  nominal immersion angle [rad]

@@ -24,11 +24,7 @@ using ChipPiece = numerics::Piece<ChipState>;
 std::vector<ChipPiece> engaged_pieces(const Passage& passage, const Slice& slice,
                                       int tooth, double start);
 
-/// An arc of nominal theta [rad].
-struct Arc {
-  double from = 0.0;
-  double to = 0.0;
-};
+using geometry::Arc;
 
 /// @brief Entry and exit angle: where a tooth of its own radius is in the stock.
 ///

@@ -12,6 +12,7 @@ struct ToBand {
     return {.y_hi = -(D / 2 - down.a_e)};
   }
   Band operator()(const Band& band) const { return band; }
+  Band operator()(const Arcs& /*arcs*/) const { return {}; }
 };
 
 }  // namespace

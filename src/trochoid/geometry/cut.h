@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/geometry/arcs.h>
+
 #include <limits>
 #include <variant>
 
@@ -17,7 +19,8 @@ struct Band {
   double y_lo = -std::numeric_limits<double>::infinity();  ///< [m]
   double y_hi = std::numeric_limits<double>::infinity();   ///< [m]
 };
-using Engagement = std::variant<Slot, UpMilling, DownMilling, Band>;
+/// The last one says by height where on its circle a cutter meets stock.
+using Engagement = std::variant<Slot, UpMilling, DownMilling, Band, Arcs>;
 
 /// @brief The cut, in the workpiece frame: feed along +x, z up from the tool tip.
 struct Cut {
@@ -27,7 +30,8 @@ struct Cut {
   double Omega = 0.0;  ///< spindle speed [rad/s]
 };
 
-/// @brief Stock of an engagement as a band in y.
+/// @brief Stock of an engagement as a band in y; that of arcs is everywhere, as they are
+/// not a band.
 /// @eq G-11 up: y >= D/2 - a_e; down: y <= -(D/2 - a_e); band: y_lo <= y <= y_hi
 /// @param D  nominal diameter [m], to which radial depths refer
 Band stock_band(const Engagement& engagement, double D);

@@ -42,6 +42,12 @@ struct Heights {
 };
 Heights heights(const Initial& stock) noexcept;
 
+/// Top of the stock over a place, the floor beside it [m].
+double top_at(const HeightField& field, double x, double y) noexcept;
+
+/// Whether a point is in it.
+bool contains(const Initial& stock, double x, double y, double z) noexcept;
+
 /// Volume of all of it [m^3].
 double volume(const Initial& stock) noexcept;
 

@@ -1,0 +1,345 @@
+#include <trochoid/force/arc_turn.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/geometry/edge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+namespace trochoid::force {
+
+namespace {
+
+constexpr double turn_start = -std::numbers::pi / 2;
+constexpr double turn_end = turn_start + unit::turn;
+/// A layer in which the edge lags less is cut at one angle [rad].
+constexpr double shortest_lag = 1e-7;
+/// Below this the moments over the height are those about the middle of the layer [rad].
+constexpr double short_lag = 0.05;
+/// Samples in which what bounds a chip is looked for [rad].
+constexpr double look = 0.1;
+/// Runout that changes along the edge is taken as constant over such a lag [rad].
+constexpr double slab_lag = 0.05;
+/// Longest panel [rad].
+constexpr double longest_panel = 0.8;
+constexpr double panel_tolerance = 1e-7;
+
+double into_turn(double theta) noexcept {
+  return theta - unit::turn * std::floor((theta - turn_start) / unit::turn);
+}
+
+}  // namespace
+
+ToothLoads& operator+=(ToothLoads& a, const ToothLoads& b) noexcept {
+  a.x += b.x;
+  a.y += b.y;
+  a.z += b.z;
+  a.torque += b.torque;
+  for (std::size_t i = 0; i < 3; ++i) {
+    a.moment_x[i] += b.moment_x[i];
+    a.moment_y[i] += b.moment_y[i];
+  }
+  return a;
+}
+
+ArcTurn::ArcTurn(const Setup& setup, const Law& law, geometry::Arc within, bool heights)
+    : passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
+      r_(setup.cutter.profile.D / 2),
+      psi_(geometry::tooth_angles(setup.cutter)),
+      lag_per_height_(2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter),
+      heights_(heights),
+      law_(terms(law)) {
+  passage_.by_arcs = false;  // the arcs are looked at here, with what bounds them
+  if (setup.edge_length == EdgeLength::true_length) {
+    edge_factor_ = std::hypot(1.0, r_ * lag_per_height_);
+  }
+  const geometry::Arcs& arcs = std::get<geometry::Arcs>(setup.cut.engagement);
+  for (const geometry::ArcLayer& given : arcs.layers) {
+    const double to = std::min(given.to, setup.cut.a_p);
+    if (given.arcs.empty() || !(to > given.from)) continue;
+    const double height = to - given.from;
+    const double lag = lag_per_height_ * height;
+    const int slabs = keeps_radius(setup) ? 1 : static_cast<int>(lag / slab_lag) + 1;
+    for (int i = 0; i < slabs; ++i) {
+      add_slab(setup, given,
+               {given.from + height * i / slabs, given.from + height * (i + 1) / slabs},
+               within);
+    }
+  }
+}
+
+void ArcTurn::add_slab(const Setup& setup, const geometry::ArcLayer& given,
+                       geometry::Arc slab, geometry::Arc within) {
+  Layer layer{.from = slab.from, .to = slab.to};
+  layer.positions.resize(psi_.size());
+  geometry::edge_positions(runout_of(setup), psi_, r_,
+                           lag_per_height_ * 0.5 * (slab.from + slab.to),
+                           layer.positions);
+  const double least =
+      std::ranges::min_element(layer.positions, {}, &geometry::EdgePosition::R)->R;
+  // No mark is older than a turn.
+  layer.arcs =
+      chip::reached_arcs(given.arcs, least - passage_.feed * unit::turn, within);
+  layer.ends.resize(psi_.size());
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    add_tooth(layer, j);
+    const double share = (layer.to - layer.from) / unit::turn;
+    const Values& total = layer.integrals[j].total();
+    mean_.x += share * total[0];  // N-8
+    mean_.y += share * total[1];
+    mean_.z += share * total[2];
+    mean_.torque += share * total[3] * layer.positions[j].R;
+  }
+  layers_.push_back(std::move(layer));
+}
+
+ArcTurn::Ray ArcTurn::ray(const Layer& layer, std::size_t tooth,
+                          double theta) const noexcept {
+  const double nominal = theta - layer.positions[tooth].epsilon;
+  const chip::Chip chip =
+      chip::chip_at(passage_, {r_, layer.positions}, static_cast<int>(tooth), nominal);
+  if (!chip.in_cut) {
+    return {0.0, -1};
+  }
+  const geometry::Stretch all{layer.positions[tooth].R - chip.h,
+                              layer.positions[tooth].R};
+  const double h = std::max(chip::stock_length(layer.arcs, theta, all),
+                            chip::stock_length(layer.arcs, theta + unit::turn, all));
+  if (!(h > chip::h_threshold)) {
+    return {0.0, -1};
+  }
+  const bool clipped = h < chip.h;
+  return {h, 2 * chip::mark_of(chip) + (clipped ? 1 : 0)};
+}
+
+ArcTurn::PerHeight ArcTurn::per_height(double h, double theta) const noexcept {
+  const ColumnWeights w = column_weights(law_.form, h, 1.0, edge_factor_);
+  const double t = law_.K[0] * w.cutting[0] + law_.K_e[0] * w.edge;
+  const double inward = law_.K[1] * w.cutting[1] + law_.K_e[1] * w.edge;
+  const double a = law_.K[2] * w.cutting[2] + law_.K_e[2] * w.edge;
+  const auto [x, y] = in_plane(t, inward, std::sin(theta), std::cos(theta));
+  return {x, y, -a, t};
+}
+
+void ArcTurn::add_tooth(Layer& layer, std::size_t tooth) {
+  // Between these nothing changes but what the marks do.
+  std::vector<double> breaks{turn_start, turn_end};
+  for (const chip::ReachedArc& arc : layer.arcs) {
+    for (const double theta :
+         {arc.at_from.from, arc.at_from.to, arc.at_to.from, arc.at_to.to,
+          arc.engaged.arc.from, arc.engaged.arc.to}) {
+      breaks.push_back(into_turn(theta));
+    }
+  }
+  std::ranges::sort(breaks);
+  numerics::PiecewiseIntegral<10>& integral =
+      layer.integrals.emplace_back(turn_start, unit::turn);
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    if (breaks[i + 1] - breaks[i] > 1e-9) {
+      add_stretch(layer, tooth, breaks[i], breaks[i + 1], integral);
+    }
+  }
+  integral.finish();
+}
+
+void ArcTurn::add_stretch(Layer& layer, std::size_t tooth, double from, double to,
+                          numerics::PiecewiseIntegral<10>& integral) {
+  const double middle = 0.5 * (from + to);
+  const auto holds = [&](const chip::ReachedArc& arc) {
+    return (middle > arc.first() && middle < arc.last()) ||
+           (middle + unit::turn > arc.first() && middle + unit::turn < arc.last());
+  };
+  if (std::ranges::none_of(layer.arcs, holds)) {
+    return;
+  }
+  const int n = std::max(4, static_cast<int>(std::ceil((to - from) / look)));
+  const double a_little = 1e-9 * (to - from);
+  const auto at = [&](int i) {
+    return i == 0 ? from + a_little
+                  : (i == n ? to - a_little : from + (to - from) * i / n);
+  };
+  double start = from;
+  int bound = ray(layer, tooth, at(0)).bound;
+  const auto close = [&](double end) {
+    if (bound >= 0 && end > start) {
+      add_smooth(layer, tooth, {start, end}, integral);
+    }
+    start = end;
+  };
+  for (int i = 1; i <= n; ++i) {
+    const int next = ray(layer, tooth, at(i)).bound;
+    double lo = at(i - 1);
+    while (next != bound) {  // several may follow one another
+      double hi = at(i);
+      int beyond = next;
+      for (int k = 0; k < 40 && hi - lo > 1e-12; ++k) {
+        const double half = 0.5 * (lo + hi);
+        const int there = ray(layer, tooth, half).bound;
+        if (there == bound) {
+          lo = half;
+        } else {
+          hi = half;
+          beyond = there;
+        }
+      }
+      close(hi);
+      lo = hi;
+      bound = beyond;
+    }
+  }
+  close(to);
+}
+
+void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
+                         numerics::PiecewiseIntegral<10>& integral) {
+  layer.ends[tooth].push_back(piece.from);
+  layer.ends[tooth].push_back(piece.to);
+  const auto h_at = [&](double theta) { return ray(layer, tooth, theta).h; };
+  double largest = 0.0;
+  double at_largest = piece.from;
+  const double inner = 1e-9 * (piece.to - piece.from);
+  for (const double theta : {piece.from + inner, piece.to - inner}) {
+    const double h = h_at(theta);
+    if (h > largest) {
+      largest = h;
+      at_largest = theta;
+    }
+  }
+  const auto f = [&](double theta) {
+    const double h = h_at(theta);
+    if (h > largest) {
+      largest = h;
+      at_largest = theta;
+    }
+    const PerHeight g = per_height(h, theta);
+    Values out{g[0], g[1], g[2], g[3]};
+    if (heights_) {
+      double power = theta;
+      for (std::size_t k = 0; k < 3; ++k) {
+        out[4 + 2 * k] = power * g[0];
+        out[5 + 2 * k] = power * g[1];
+        power *= theta;
+      }
+    }
+    return out;
+  };
+  // The largest force that the chip here could make, and a little.
+  const PerHeight g = per_height(passage_.feed * unit::turn, 0.0);
+  const double scale = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]);
+  Values allowed{};
+  for (std::size_t q = 0; q < allowed.size(); ++q) {
+    allowed[q] = panel_tolerance * scale * (q < 4 ? 1.0 : 30.0);
+  }
+  integral.append(piece.from, piece.to, f, longest_panel, allowed);
+  if (largest <= peak_chip_ * (1 - 1e-3)) return;
+  constexpr double golden = 0.6180339887498949;
+  double lo = std::max(piece.from + inner, at_largest - 0.5 * look);
+  double hi = std::min(piece.to - inner, at_largest + 0.5 * look);
+  for (int i = 0; i < 20; ++i) {
+    const double a = hi - golden * (hi - lo);
+    const double b = lo + golden * (hi - lo);
+    (h_at(a) < h_at(b) ? lo : hi) = h_at(a) < h_at(b) ? a : b;
+  }
+  peak_chip_ = std::max({peak_chip_, largest, h_at(0.5 * (lo + hi))});
+}
+
+void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
+                        ToothLoads& out) const noexcept {
+  const double height = layer.to - layer.from;
+  const double lag = lag_per_height_ * height;
+  const double at_bottom =
+      into_turn(phi - behind(layer, tooth) - lag_per_height_ * layer.from);
+  const double middle = layer.from + 0.5 * height;
+  const auto add = [&](const PerHeight& F) {
+    out.x += F[0];
+    out.y += F[1];
+    out.z += F[2];
+    out.torque += F[3] * layer.positions[tooth].R;
+  };
+  const auto add_moments = [&](std::size_t k, double x, double y) {
+    out.moment_x[k] += x;
+    out.moment_y[k] += y;
+  };
+  if (lag < shortest_lag) {
+    const double theta = into_turn(at_bottom - 0.5 * lag);
+    const double h = ray(layer, tooth, theta).h;
+    if (!(h > 0)) return;
+    PerHeight F = per_height(h, theta);
+    for (double& f : F) f *= height;
+    add(F);
+    for (std::size_t k = 0; heights_ && k < 3; ++k) {
+      const auto n = static_cast<int>(k) + 2;
+      const double share =
+          (std::pow(layer.to, n) - std::pow(layer.from, n)) / (n * height);
+      add_moments(k, share * F[0], share * F[1]);
+    }
+    return;
+  }
+  const double q = lag_per_height_;
+  // The window of theta, from the top to the bottom of the layer, and its images.
+  for (double bottom = at_bottom; bottom - lag < turn_end; bottom += unit::turn) {
+    const double from = std::max(bottom - lag, turn_start);
+    const double to = std::min(bottom, turn_end);
+    if (!(to > from)) continue;
+    Values v{};
+    layer.integrals[tooth].add_to(v, to, 1.0);
+    layer.integrals[tooth].add_to(v, from, -1.0);
+    add({v[0] / q, v[1] / q, v[2] / q, v[3] / q});  // N-7
+    if (!heights_) continue;
+    const double A = layer.from + bottom / q;  // z = A - theta/q
+    const double x1 = (A * v[0] - v[4] / q) / q;
+    const double y1 = (A * v[1] - v[5] / q) / q;
+    if (lag < short_lag) {
+      const bool tiny = lag < 1e-4;
+      const double m = middle;
+      const double dx = tiny ? 0.0 : x1 - m * v[0] / q;
+      const double dy = tiny ? 0.0 : y1 - m * v[1] / q;
+      add_moments(0, m * v[0] / q + dx, m * v[1] / q + dy);
+      add_moments(1, m * m * v[0] / q + 2 * m * dx, m * m * v[1] / q + 2 * m * dy);
+      add_moments(2, m * m * (m * v[0] / q + 3 * dx), m * m * (m * v[1] / q + 3 * dy));
+      continue;
+    }
+    add_moments(0, x1, y1);
+    const auto second = [&](std::size_t i) {
+      return (A * A * v[i] - 2 * A * v[4 + i] / q + v[6 + i] / (q * q)) / q;
+    };
+    const auto third = [&](std::size_t i) {
+      return (A * A * A * v[i] - 3 * A * A * v[4 + i] / q + 3 * A * v[6 + i] / (q * q) -
+              v[8 + i] / (q * q * q)) /
+             q;
+    };
+    add_moments(1, second(0), second(1));
+    add_moments(2, third(0), third(1));
+  }
+}
+
+ToothLoads ArcTurn::at(std::size_t tooth, double phi) const noexcept {
+  ToothLoads out;
+  for (const Layer& layer : layers_) {
+    add_layer(layer, tooth, phi, out);
+  }
+  return out;
+}
+
+std::vector<double> ArcTurn::events() const {
+  std::vector<double> out;
+  for (const Layer& layer : layers_) {
+    for (std::size_t j = 0; j < layer.ends.size(); ++j) {
+      for (const double end : layer.ends[j]) {
+        for (const double z : {layer.from, layer.to}) {
+          const double phi = end + behind(layer, j) + lag_per_height_ * z;
+          out.push_back(phi - unit::turn * std::floor(phi / unit::turn));
+        }
+      }
+    }
+  }
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end(),
+                        [](double a, double b) { return b - a < 1e-9; }),
+            out.end());
+  return out;
+}
+
+}  // namespace trochoid::force

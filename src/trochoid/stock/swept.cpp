@@ -1,0 +1,339 @@
+#include <trochoid/stock/swept.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace trochoid::stock {
+
+namespace {
+
+/// Cells of the index at most.
+constexpr double most_cells = 4e6;
+
+double square(double x) noexcept {
+  return x * x;
+}
+
+/// Distance of a point from the projection of a piece.
+double distance_to(const Piece& piece, double x, double y) noexcept {
+  if (piece.arc()) {
+    const double dx = x - piece.center[0];
+    const double dy = y - piece.center[1];
+    return std::abs(std::hypot(dx, dy) - piece.radius);  // of the whole circle
+  }
+  const double ax = piece.to[0] - piece.from[0];
+  const double ay = piece.to[1] - piece.from[1];
+  const double l2 = ax * ax + ay * ay;
+  const double along = (x - piece.from[0]) * ax + (y - piece.from[1]) * ay;
+  const double u = l2 > 0 ? std::clamp(along / l2, 0.0, 1.0) : 0.0;
+  return std::hypot(x - piece.from[0] - u * ax, y - piece.from[1] - u * ay);
+}
+
+struct Extent {
+  std::array<double, 2> low;
+  std::array<double, 2> high;
+};
+
+Extent extent(const Piece& piece) noexcept {
+  Extent e{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (piece.arc()) {
+      e.low[i] = piece.center[i] - piece.radius;
+      e.high[i] = piece.center[i] + piece.radius;
+    } else {
+      std::tie(e.low[i], e.high[i]) = std::minmax(piece.from[i], piece.to[i]);
+    }
+  }
+  return e;
+}
+
+}  // namespace
+
+Swept::Swept(Path path, Initial initial, std::vector<double> radius)
+    : path_(std::move(path)), initial_(std::move(initial)), radius_(std::move(radius)) {
+  fill();
+}
+
+template <class Function>
+void Swept::for_each_cell(const Piece& piece, double reach, const Function& f) const {
+  const Extent e = extent(piece);
+  const auto place = [&](double x, std::size_t axis, int most) {
+    return std::clamp(static_cast<int>(std::floor((x - origin_[axis]) / cell_)), 0,
+                      most - 1);
+  };
+  const double corner = 0.70710678118654757 * cell_;
+  const int last_column = place(e.high[0] + reach, 0, columns_);
+  const int last_row = place(e.high[1] + reach, 1, rows_);
+  for (int i = place(e.low[1] - reach, 1, rows_); i <= last_row; ++i) {
+    for (int j = place(e.low[0] - reach, 0, columns_); j <= last_column; ++j) {
+      if (distance_to(piece, origin_[0] + (j + 0.5) * cell_,
+                      origin_[1] + (i + 0.5) * cell_) <= reach + corner) {
+        f(static_cast<std::size_t>(i) * static_cast<std::size_t>(columns_) +
+          static_cast<std::size_t>(j));
+      }
+    }
+  }
+}
+
+void Swept::fill() {
+  const double top = heights(initial_).top;
+  const double largest =
+      radius_.empty() ? 0.0 : *std::max_element(radius_.begin(), radius_.end());
+  std::vector<std::uint32_t> cutting;
+  std::array<double, 2> low{};
+  std::array<double, 2> high{};
+  for (std::uint32_t i = 0; i < path_.pieces.size(); ++i) {
+    const Piece& piece = path_.pieces[i];
+    if (!(radius(piece.tool) > 0) || std::min(piece.from[2], piece.to[2]) >= top) {
+      continue;
+    }
+    const Extent e = extent(piece);
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = cutting.empty() ? e.low[k] : std::min(low[k], e.low[k]);
+      high[k] = cutting.empty() ? e.high[k] : std::max(high[k], e.high[k]);
+    }
+    cutting.push_back(i);
+  }
+  if (cutting.empty()) {
+    return;
+  }
+  const double width = high[0] - low[0] + 4 * largest;
+  const double depth = high[1] - low[1] + 4 * largest;
+  cell_ = std::max(largest, std::sqrt(width * depth / most_cells));
+  origin_ = {low[0] - 2 * largest, low[1] - 2 * largest};
+  columns_ = static_cast<int>(width / cell_) + 1;
+  rows_ = static_cast<int>(depth / cell_) + 1;
+  first_.assign(
+      static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+  const auto each = [&](const auto& f) {
+    for (const std::uint32_t i : cutting) {
+      const Piece& piece = path_.pieces[i];
+      for_each_cell(piece, radius(piece.tool) + largest,
+                    [&](std::size_t cell) { f(cell, i); });
+    }
+  };
+  each([&](std::size_t cell, std::uint32_t) { ++first_[cell + 1]; });
+  for (std::size_t i = 1; i < first_.size(); ++i) {
+    first_[i] += first_[i - 1];
+  }
+  pieces_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  each([&](std::size_t cell, std::uint32_t i) { pieces_[next[cell]++] = i; });
+}
+
+std::span<const std::uint32_t> Swept::near(double x, double y) const noexcept {
+  const double u = (x - origin_[0]) / cell_;
+  const double v = (y - origin_[1]) / cell_;
+  if (!(u >= 0 && v >= 0 && u < columns_ && v < rows_)) {
+    return {};
+  }
+  const std::size_t cell =
+      static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
+      static_cast<std::size_t>(u);
+  return std::span(pieces_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+}
+
+namespace {
+
+/// Stretches of x that are swept at one y.
+class Scan {
+ public:
+  Scan(const Swept& swept, double height) : swept_(swept), z_(height) {}
+
+  /// Adds the stretch of a piece at y.
+  void add(const Piece& piece, double y) {
+    const double R = swept_.radius(piece.tool);
+    double from = 0.0;
+    double to = 1.0;
+    const double z0 = piece.from[2];
+    const double z1 = piece.to[2];
+    if (z0 == z1) {
+      if (z0 > z_) return;
+    } else if (z1 < z0) {
+      from = std::max(0.0, (z0 - z_) / (z0 - z1));
+    } else {
+      to = std::min(1.0, (z_ - z0) / (z1 - z0));
+    }
+    if (!(to >= from)) return;
+    if (piece.arc()) {
+      add_sector(piece, R, from, to, y);
+    } else {
+      const PathPoint a = point_at(piece, from);
+      const PathPoint b = point_at(piece, to);
+      add_capsule(a.place, b.place, R, y);
+    }
+  }
+
+  /// Length of [low, high] that is swept; begins anew.
+  double swept_length(double low, double high) {
+    std::ranges::sort(stretches_, {}, &geometry::Stretch::from);
+    double length = 0.0;
+    double at = low;
+    for (const geometry::Stretch& s : stretches_) {
+      const double from = std::max(at, s.from);
+      const double to = std::min(high, s.to);
+      if (to > from) {
+        length += to - from;
+        at = to;
+      }
+    }
+    stretches_.clear();
+    return length;
+  }
+
+ private:
+  void add_disc(double x, double y0, double R, double y) {
+    const double rest = R * R - square(y - y0);
+    if (rest > 0) {
+      stretches_.push_back({x - std::sqrt(rest), x + std::sqrt(rest)});
+    }
+  }
+
+  void add_capsule(const Point& a, const Point& b, double R, double y) {
+    add_disc(a[0], a[1], R, y);
+    add_disc(b[0], b[1], R, y);
+    const double dx = b[0] - a[0];
+    const double dy = b[1] - a[1];
+    const double l = std::hypot(dx, dy);
+    if (!(l > 0)) return;
+    // |cross| <= R l and 0 <= along <= l^2 on the line y
+    double lo = -std::numeric_limits<double>::infinity();
+    double hi = std::numeric_limits<double>::infinity();
+    const auto limit = [&](double slope, double constant, double low, double high) {
+      if (slope == 0) {
+        if (constant < low || constant > high) hi = lo;
+        return;
+      }
+      const auto [p, q] =
+          std::minmax((low - constant) / slope, (high - constant) / slope);
+      lo = std::max(lo, p);
+      hi = std::min(hi, q);
+    };
+    limit(-dy, dx * (y - a[1]), -R * l, R * l);
+    limit(dx, dy * (y - a[1]), 0.0, l * l);
+    if (hi > lo) {
+      stretches_.push_back({a[0] + lo, a[0] + hi});
+    }
+  }
+
+  void add_sector(const Piece& piece, double R, double from, double to, double y) {
+    // Chords so short that their caps stand out by less than a thousandth of the tool.
+    const double angle = std::abs(piece.turn) * (to - from);
+    const double rise = std::min(1.0, 1e-5 * R / piece.radius);
+    const double step = 2 * std::acos(1 - rise);
+    const double whole = std::min(angle, unit_turn);
+    const double u0 = angle > unit_turn ? to - (to - from) * unit_turn / angle : from;
+    const int n = static_cast<int>(whole / step) + 1;
+    PathPoint a = point_at(piece, u0);
+    for (int i = 1; i <= n; ++i) {
+      const PathPoint b = point_at(piece, u0 + (to - u0) * i / n);
+      if (std::min(a.place[1], b.place[1]) - R < y &&
+          std::max(a.place[1], b.place[1]) + R > y) {
+        add_capsule(a.place, b.place, R, y);
+      }
+      a = b;
+    }
+  }
+
+  static constexpr double unit_turn = 6.283185307179586;
+  const Swept& swept_;
+  double z_;
+  std::vector<geometry::Stretch> stretches_;
+};
+
+/// Stock along x at y, before anything is cut.
+geometry::Stretch whole(const Initial& initial, double y) noexcept {
+  if (const auto* box = std::get_if<Box>(&initial)) {
+    if (y > box->low[1] && y < box->high[1]) return {box->low[0], box->high[0]};
+  } else if (const auto* c = std::get_if<Cylinder>(&initial)) {
+    const double rest = square(c->radius) - square(y - c->axis[1]);
+    if (rest > 0) return {c->axis[0] - std::sqrt(rest), c->axis[0] + std::sqrt(rest)};
+  }
+  return {};
+}
+
+/// Ends of tips between which cross-sections are alike, or change evenly.
+std::vector<double> levels(const Path& path, Heights within) {
+  std::vector<double> out{within.bottom, within.top};
+  for (const Piece& piece : path.pieces) {
+    for (const double z : {piece.from[2], piece.to[2]}) {
+      if (z > within.bottom && z < within.top) out.push_back(z);
+    }
+  }
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end(),
+                        [](double a, double b) { return b - a < 1e-10; }),
+            out.end());
+  return out;
+}
+
+/// Area swept at a height.
+double swept_area(const Swept& swept, double z, double step) {
+  struct Reach {
+    double from, to;
+    const Piece* piece;
+  };
+  std::vector<Reach> reaches;
+  for (const Piece& piece : swept.path().pieces) {
+    const double R = swept.radius(piece.tool);
+    if (R > 0 && std::min(piece.from[2], piece.to[2]) <= z) {
+      const Extent e = extent(piece);
+      reaches.push_back({e.low[1] - R, e.high[1] + R, &piece});
+    }
+  }
+  if (reaches.empty()) return 0.0;
+  std::ranges::sort(reaches, {}, &Reach::from);
+  const double from = reaches.front().from;
+  const double to = std::ranges::max_element(reaches, {}, &Reach::to)->to;
+  const auto lines = static_cast<std::size_t>((to - from) / step) + 1;
+  const double h = (to - from) / static_cast<double>(lines);
+  Scan scan(swept, z);
+  std::vector<Reach> active;
+  std::size_t next = 0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < lines; ++i) {
+    const double y = from + (static_cast<double>(i) + 0.5) * h;
+    for (; next < reaches.size() && reaches[next].from < y; ++next) {
+      active.push_back(reaches[next]);
+    }
+    std::erase_if(active, [&](const Reach& r) { return r.to <= y; });
+    const geometry::Stretch stock = whole(swept.initial(), y);
+    if (!(stock.to > stock.from)) continue;
+    for (const Reach& r : active) {
+      scan.add(*r.piece, y);
+    }
+    sum += scan.swept_length(stock.from, stock.to);
+  }
+  return sum * h;
+}
+
+}  // namespace
+
+double volume_removed(const Swept& swept, double step) {
+  constexpr std::array<double, 2> nodes = {0.21132486540518708, 0.78867513459481287};
+  const std::vector<double> z = levels(swept.path(), heights(swept.initial()));
+  const bool sloped = std::ranges::any_of(swept.path().pieces, [](const Piece& p) {
+    return !p.upright() && p.from[2] != p.to[2];
+  });
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < z.size(); ++i) {
+    const double height = z[i + 1] - z[i];
+    if (!sloped) {
+      sum += height * swept_area(swept, z[i] + 0.5 * height, step);
+      continue;
+    }
+    constexpr int parts = 4;
+    for (int k = 0; k < parts; ++k) {
+      for (const double node : nodes) {
+        sum += height / (2 * parts) *
+               swept_area(swept, z[i] + height * (k + node) / parts, step);
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace trochoid::stock
