@@ -23,8 +23,8 @@ constexpr double look = 0.1;
 /// Runout that changes along the edge is taken as constant over such a lag [rad].
 constexpr double slab_lag = 0.05;
 /// Longest panel [rad].
-constexpr double longest_panel = 0.8;
-constexpr double panel_tolerance = 1e-7;
+constexpr double longest_arc_panel = 0.8;
+constexpr double arc_tolerance = 1e-7;
 
 double into_turn(double theta) noexcept {
   return theta - unit::turn * std::floor((theta - turn_start) / unit::turn);
@@ -230,9 +230,9 @@ void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
   const double scale = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]);
   Values allowed{};
   for (std::size_t q = 0; q < allowed.size(); ++q) {
-    allowed[q] = panel_tolerance * scale * (q < 4 ? 1.0 : 30.0);
+    allowed[q] = arc_tolerance * scale * (q < 4 ? 1.0 : 30.0);
   }
-  integral.append(piece.from, piece.to, f, longest_panel, allowed);
+  integral.append(piece.from, piece.to, f, longest_arc_panel, allowed);
   if (largest <= peak_chip_ * (1 - 1e-3)) return;
   constexpr double golden = 0.6180339887498949;
   double lo = std::max(piece.from + inner, at_largest - 0.5 * look);

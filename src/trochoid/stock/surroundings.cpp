@@ -145,6 +145,20 @@ std::vector<double> Surroundings::heights(std::array<int, 2> sublayers) const {
   return out;
 }
 
+std::vector<double> Surroundings::levels() const {
+  const Heights all = stock::heights(swept_.initial());
+  const double tip = place_.tip[2];
+  std::vector<double> out{all.bottom - tip, all.top - tip};
+  for (const Near& near : near_) {
+    const Piece& piece = *near.piece;
+    const double z0 = piece.from[2] - tip;
+    const double z1 = z0 + near.until * (piece.to[2] - piece.from[2]);
+    out.push_back(std::min(z0, z1));
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
 class Surroundings::Search {
  public:
   Search(const Surroundings& around, double height, double r)

@@ -207,10 +207,10 @@ class Scan {
         if (constant < low || constant > high) hi = lo;
         return;
       }
-      const auto [p, q] =
-          std::minmax((low - constant) / slope, (high - constant) / slope);
-      lo = std::max(lo, p);
-      hi = std::min(hi, q);
+      const double p = (low - constant) / slope;
+      const double q = (high - constant) / slope;
+      lo = std::max(lo, std::min(p, q));
+      hi = std::min(hi, std::max(p, q));
     };
     limit(-dy, dx * (y - a[1]), -R * l, R * l);
     limit(dx, dy * (y - a[1]), 0.0, l * l);

@@ -67,6 +67,10 @@ class Surroundings {
   /// @param sublayers  of a stretch where a slope passes: of a straight and a curved one
   [[nodiscard]] std::vector<double> heights(std::array<int, 2> sublayers) const;
 
+  /// Heights above the tip of level floors, and of the top and bottom of the stock,
+  /// ascending [m].
+  [[nodiscard]] std::vector<double> levels() const;
+
   /// @brief Stock on the circle of a radius about the axis.
   /// @eq N-3  theta is in stock where it is in the stock of the start and farther than R_e
   ///          from every path swept

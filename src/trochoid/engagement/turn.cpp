@@ -1,0 +1,198 @@
+#include <trochoid/engagement/turn.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/force/arc_turn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trochoid::engagement {
+
+namespace {
+
+/// Angles of a turn at which forces are looked at, beside those where they have a kink.
+constexpr int angles = 240;
+constexpr double beside_jump = 1e-9;  ///< [rad]
+
+/// Coefficients of a cubic in the height above the tip.
+using Cubic = std::array<double, 4>;
+
+/// Deflection of the tip for 1 N at a height: exactly a cubic in the fluted part.
+Cubic tip_compliance(const std::optional<structure::Cantilever>& body, double height) {
+  if (!body || !(height > 0)) return {};
+  // Newton's form through four places, multiplied out.
+  std::array<double, 4> x{};
+  std::array<double, 4> d{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    x[i] = height * static_cast<double>(i) / 3;
+    d[i] = structure::compliance(*body, 0.0, x[i]);
+  }
+  for (std::size_t order = 1; order < 4; ++order) {
+    for (std::size_t i = 3; i >= order; --i) {
+      d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order]);
+    }
+  }
+  Cubic c{d[3], 0.0, 0.0, 0.0};
+  for (std::size_t i = 3; i-- > 0;) {
+    for (std::size_t k = 3; k > 0; --k) {
+      c[k] = c[k - 1] - x[i] * c[k];
+    }
+    c[0] = d[i] - x[i] * c[0];
+  }
+  return c;
+}
+
+double larger(double a, double b) noexcept {
+  return std::abs(b) > std::abs(a) ? b : a;
+}
+
+std::vector<double> angles_of(const force::ArcTurn& turn) {
+  std::vector<double> phi;
+  for (int i = 0; i < angles; ++i) {
+    phi.push_back(unit::turn * i / angles);
+  }
+  for (const double event : turn.events()) {
+    if (turn.jumps()) {
+      phi.push_back(event - beside_jump);
+      phi.push_back(event + beside_jump);
+    } else {
+      phi.push_back(event);
+    }
+  }
+  std::ranges::sort(phi);
+  return phi;
+}
+
+/// Corners of the convex hull, counter-clockwise: what is largest in any direction is one.
+std::vector<TurnLoads::InPlane> hull_of(std::vector<TurnLoads::InPlane> points) {
+  using InPlane = TurnLoads::InPlane;
+  std::ranges::sort(points, [](const InPlane& a, const InPlane& b) {
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  });
+  std::vector<InPlane> hull;
+  const auto turns_left = [&](const InPlane& c) {
+    const InPlane& a = hull[hull.size() - 2];
+    const InPlane& b = hull.back();
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+  };
+  const auto walk = [&](auto first, auto last) {
+    const std::size_t start = hull.size();
+    for (auto p = first; p != last; ++p) {
+      while (hull.size() >= start + 2 && !turns_left(*p)) hull.pop_back();
+      hull.push_back(*p);
+    }
+    hull.pop_back();
+  };
+  walk(points.begin(), points.end());
+  walk(points.rbegin(), points.rend());
+  return hull;
+}
+
+}  // namespace
+
+TurnLoads loads_of(const Turn& turn, const Tool& tool) {
+  TurnLoads out;
+  TurnForces& F = out.forces;
+  F.peak_of_tooth.assign(static_cast<std::size_t>(tool.cutter.teeth()), 0.0);
+  if (turn.layers.empty() || !(turn.f_z > 0)) {
+    return out;
+  }
+  const double height = turn.layers.back().to;
+  const force::Setup setup{
+      .cutter = tool.cutter,
+      .runout = tool.runout,
+      .cut = {.engagement = geometry::Arcs{turn.layers, turn.curvature},
+              .a_p = height,
+              .f_z = turn.f_z},
+      .chip = tool.chip,
+      .edge_length = tool.edge_length,
+      .process_damping = {}};
+  const bool moments = tool.body.has_value() || tool.gauge_length > 0;
+  const force::ArcTurn teeth(setup, tool.law, {0.0, std::numbers::pi}, moments);
+  const Cubic c = tip_compliance(tool.body, height);
+  std::vector<TurnLoads::InPlane> curve;
+  double deflection2 = 0.0;
+  double moment2 = 0.0;
+  for (const double phi : angles_of(teeth)) {
+    force::ToothLoads all;
+    for (std::size_t j = 0; j < teeth.teeth(); ++j) {
+      const force::ToothLoads one = teeth.at(j, phi);
+      F.peak_of_tooth[j] = std::max(F.peak_of_tooth[j], std::hypot(one.x, one.y));
+      all += one;
+    }
+    curve.push_back({all.x, all.y});
+    F.peak_xy = std::max(F.peak_xy, std::hypot(all.x, all.y));
+    F.peak[2] = larger(F.peak[2], all.z);
+    F.torque_peak = larger(F.torque_peak, all.torque);
+    if (!moments) continue;
+    const auto& mx = all.moment_x;
+    const auto& my = all.moment_y;
+    const double dx = c[0] * all.x + c[1] * mx[0] + c[2] * mx[1] + c[3] * mx[2];
+    const double dy = c[0] * all.y + c[1] * my[0] + c[2] * my[1] + c[3] * my[2];
+    deflection2 = std::max(deflection2, dx * dx + dy * dy);
+    const double bx = tool.gauge_length * all.x - mx[0];
+    const double by = tool.gauge_length * all.y - my[0];
+    moment2 = std::max(moment2, bx * bx + by * by);
+  }
+  const force::ToothLoads mean = teeth.mean();
+  F.mean = {mean.x, mean.y, mean.z};
+  F.torque_mean = mean.torque;
+  F.deflection = std::sqrt(deflection2);
+  F.moment_peak = tool.gauge_length > 0 ? std::sqrt(moment2) : 0.0;
+  F.peak_chip = teeth.peak_chip();
+  out.hull = hull_of(std::move(curve));
+  return out;
+}
+
+TurnForces in_program(const TurnLoads& loads, double direction, double spindle) {
+  TurnForces out = loads.forces;
+  const double c = std::cos(direction);
+  const double s = std::sin(direction);
+  const TurnForces& F = loads.forces;
+  out.mean[0] = c * F.mean[0] - s * F.mean[1];  // N-10
+  out.mean[1] = s * F.mean[0] + c * F.mean[1];
+  for (const TurnLoads::InPlane& p : loads.hull) {
+    out.peak[0] = larger(out.peak[0], c * p.x - s * p.y);
+    out.peak[1] = larger(out.peak[1], s * p.x + c * p.y);
+  }
+  out.power = out.torque_mean * spindle;
+  return out;
+}
+
+TurnKey key_of(const Turn& turn) {
+  TurnKey key;
+  const auto add = [&](double value, double step) {
+    key.push_back(std::llround(value / step));
+  };
+  key.push_back(turn.tool);
+  add(turn.f_z, 1e-11);
+  add(turn.curvature, 1e-4);
+  for (const geometry::ArcLayer& layer : turn.layers) {
+    add(layer.from, 1e-9);
+    add(layer.to, 1e-9);
+    key.push_back(static_cast<std::int64_t>(layer.arcs.size()));
+    for (const geometry::EngagedArc& arc : layer.arcs) {
+      const double fine = arc.arc.to - arc.arc.from > 0.1 ? 1e-4 : 1e-6;
+      add(arc.arc.from, fine);
+      add(arc.arc.to, fine);
+      for (const geometry::StockBoundary& b : {arc.at_from, arc.at_to}) {
+        key.push_back(static_cast<std::int64_t>(b.kind));
+        add(b.beta, 1e-3);
+        add(b.radius, 1e-6);
+      }
+    }
+  }
+  return key;
+}
+
+std::size_t TurnKeyHash::operator()(const TurnKey& key) const noexcept {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const std::int64_t value : key) {
+    hash = (hash ^ static_cast<std::uint64_t>(value)) * 1099511628211ULL;
+    hash ^= hash >> 29;
+  }
+  return static_cast<std::size_t>(hash);
+}
+
+}  // namespace trochoid::engagement

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <trochoid/engagement/contact.h>
+#include <trochoid/engagement/steps.h>
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace trochoid::engagement {
+
+/// A turn of a tool in the stock, apart from where its feed goes.
+struct Turn {
+  std::int16_t tool = 0;
+  double f_z = 0.0;        ///< [m]
+  double curvature = 0.0;  ///< of the path [1/m]
+  std::vector<geometry::ArcLayer> layers;
+};
+
+/// @brief Forces of a turn, feed along +x.
+struct TurnLoads {
+  struct InPlane {
+    double x = 0.0;
+    double y = 0.0;
+  };
+  TurnForces forces;          ///< mean and peak of x and y are those of feed along +x
+  std::vector<InPlane> hull;  ///< corners of the curve of F_x, F_y over the turn [N]
+};
+
+/// @brief Forces of a turn at all angles of the spindle.
+TurnLoads loads_of(const Turn& turn, const Tool& tool);
+
+/// Forces in the axes of the program [N].
+/// @eq N-10  F_program = rotation by chi of F
+/// @src derived
+TurnForces in_program(const TurnLoads& loads, double direction, double spindle);
+
+/// A turn as a key: those whose arcs differ by less than the eye can see are one.
+using TurnKey = std::vector<std::int64_t>;
+TurnKey key_of(const Turn& turn);
+
+struct TurnKeyHash {
+  std::size_t operator()(const TurnKey& key) const noexcept;
+};
+
+}  // namespace trochoid::engagement
