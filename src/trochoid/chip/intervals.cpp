@@ -54,6 +54,14 @@ std::vector<double> grid(const Passage& passage, const Slice& slice, int tooth,
       }
     }
   }
+  for (const geometry::EngagedArc& engaged : slice.arcs) {
+    for (const double edge : {engaged.arc.from, engaged.arc.to}) {
+      for (const double side : {-1e-3, -1e-6, 0.0, 1e-6, 1e-3}) {
+        add(edge + side);
+      }
+    }
+    add(0.5 * (engaged.arc.from + engaged.arc.to));
+  }
   std::sort(x.begin(), x.end());
   return x;
 }

@@ -20,7 +20,15 @@ Removal removal(const Passage& passage, const Slice& slice) {
   }
   const double low = std::max(passage.stock.y_lo, -widest);
   const double high = std::min(passage.stock.y_hi, widest);
-  Removal result{.available = unit::turn * feed * std::max(0.0, high - low)};
+  double width = std::max(0.0, high - low);
+  if (passage.by_arcs) {
+    width = 0.0;
+    for (const geometry::EngagedArc& engaged : slice.arcs) {
+      width += widest * (std::cos(std::clamp(engaged.arc.from, 0.0, pi)) -
+                         std::cos(std::clamp(engaged.arc.to, 0.0, pi)));
+    }
+  }
+  Removal result{.available = unit::turn * feed * width};
   std::array<double, 1> sum{};
   const std::array<double, 1> allowed{1e-9 * result.available};
   for (int j = 0; j < passage.teeth; ++j) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace trochoid::force {
 namespace {
@@ -36,6 +37,17 @@ std::vector<double> panel_ends(const Setup& setup, const geometry::Meridian& m) 
     if (s > corners.back() && s < last) {
       corners.push_back(s);
     }
+  }
+  if (const auto* arcs = std::get_if<geometry::Arcs>(&setup.cut.engagement)) {
+    for (const geometry::ArcLayer& layer : arcs->layers) {
+      for (const double z : {layer.from, layer.to}) {
+        if (z > 0 && z < setup.cut.a_p) {
+          corners.push_back(geometry::arc_length_at(m, z));
+        }
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   }
   corners.push_back(last);
   std::vector<double> ends = {0.0};
@@ -118,6 +130,13 @@ Edges::Edges(const Setup& given, double tolerance)
   meetings = force::meetings(*this);
 }
 
+std::span<const geometry::EngagedArc> Edges::arcs_at(
+    const EdgePoint& point) const noexcept {
+  const auto* arcs = std::get_if<geometry::Arcs>(&setup.cut.engagement);
+  return arcs == nullptr ? std::span<const geometry::EngagedArc>()
+                         : arcs->at(point.meridian.z);
+}
+
 EdgePoint Edges::point(double s) const noexcept {
   EdgePoint p{.s = s, .meridian = geometry::point_at(meridian, s)};
   const geometry::Lag lag = geometry::lag_at(setup.cutter, meridian, s, p.meridian);
@@ -132,6 +151,7 @@ chip::Slice EdgeCurve::slice(const EdgePoint& point) const {
   geometry::edge_positions(edges_.setup.runout, edges_.psi, point.meridian.r, point.lag,
                            teeth_);
   chip::Slice slice{point.meridian.r, teeth_};
+  slice.arcs = edges_.arcs_at(point);
   if (bend_ != nullptr) {
     slice.shift = bend_->shift(point.meridian.z);
     slice.bent = bend_->deflected;
@@ -197,6 +217,14 @@ void EdgeCurve::add_seeds(std::vector<double>& grid) const {
     add_passages(std::numbers::pi / 2, grid);
     add_stock_edge(edges_.passage.stock.y_lo, grid);
     add_stock_edge(edges_.passage.stock.y_hi, grid);
+    if (const auto* arcs = std::get_if<geometry::Arcs>(&edges_.setup.cut.engagement)) {
+      for (const geometry::ArcLayer& layer : arcs->layers) {
+        for (const geometry::EngagedArc& engaged : layer.arcs) {
+          add_passages(engaged.arc.from, grid);
+          add_passages(engaged.arc.to, grid);
+        }
+      }
+    }
   }
   if (grid.size() == given) {
     return;
@@ -224,8 +252,10 @@ EdgeState EdgeCurve::state(double s) const {
   const auto i = static_cast<std::size_t>(at - edges_.grid.begin());
   const EdgePoint& point = edges_.grid_points[i];
   const std::size_t teeth = edges_.psi.size();
-  return state(point, {point.meridian.r,
-                       std::span(edges_.grid_teeth).subspan(i * teeth, teeth)});
+  chip::Slice slice{point.meridian.r,
+                    std::span(edges_.grid_teeth).subspan(i * teeth, teeth)};
+  slice.arcs = edges_.arcs_at(point);
+  return state(point, slice);
 }
 
 double EdgeCurve::boundary(double s, const EdgeState& a, const EdgeState& b) const {

@@ -36,6 +36,9 @@ struct Edges {
   explicit Edges(const Setup& given, double tolerance = 1e-6);
 
   [[nodiscard]] EdgePoint point(double s) const noexcept;
+  /// Where there is stock at a point, if arcs say it.
+  [[nodiscard]] std::span<const geometry::EngagedArc> arcs_at(
+      const EdgePoint& point) const noexcept;
 
   Setup setup;
   geometry::Meridian meridian;

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/overloaded.h>
 #include <trochoid/base/units.h>
+#include <trochoid/force/arc_turn.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
 #include <trochoid/force/node_force.h>
@@ -183,6 +184,63 @@ struct TurnMatrix {
   }
 };
 
+/// Turns of a cylinder whose stock is given as arcs, one for each coefficient that is 1.
+using ArcMatrix = std::vector<ArcTurn>;
+
+bool by_arcs(const Setup& setup) noexcept {
+  return std::holds_alternative<geometry::Arcs>(setup.cut.engagement);
+}
+
+/// Arcs of any theta: what they say is all there is.
+constexpr geometry::Arc everywhere{-2 * unit::turn, 3 * unit::turn};
+
+/// Nothing unless the stock is given as arcs on a cylinder of constant lead.
+std::optional<ArcTurn> arc_turn(const Setup& setup, const Law& law, bool heights) {
+  const geometry::Profile& p = setup.cutter.profile;
+  const bool cylinder = p.R == 0 && p.alpha == 0 && p.beta == 0;
+  if (!by_arcs(setup) || !cylinder || !(setup.cut.f_z > 0) ||
+      (setup.cutter.lag_law != geometry::LagLaw::constant_lead &&
+       setup.cutter.lag_diameter != p.D)) {
+    return std::nullopt;
+  }
+  return ArcTurn(setup, law, everywhere, heights);
+}
+
+ToothLoads all_teeth(const ArcTurn& turn, double phi) noexcept {
+  ToothLoads sum;
+  for (std::size_t j = 0; j < turn.teeth(); ++j) {
+    sum += turn.at(j, phi);
+  }
+  return sum;
+}
+
+ArcMatrix arc_matrix(const Setup& setup, const Law& law) {
+  std::vector<double> one(form(law).columns(), 0.0);
+  ArcMatrix turns;
+  for (double& K : one) {
+    K = 1.0;
+    if (auto turn = arc_turn(setup, with_coefficients(law, one), false)) {
+      turns.push_back(std::move(*turn));
+    }
+    K = 0.0;
+  }
+  return turns;
+}
+
+void evaluate_arcs(const ArcMatrix& turns, std::span<const double> phi,
+                   std::span<double> C) {
+  const std::size_t columns = turns.size();
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const ToothLoads F = all_teeth(turns[c], phi[i]);
+      double* const at = &C[3 * columns * i + c];
+      at[0] = F.x;
+      at[columns] = F.y;
+      at[2 * columns] = F.z;
+    }
+  }
+}
+
 using Matrix = std::array<double, 18>;
 
 /// Force, torque and bending of any cutter.
@@ -190,7 +248,20 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
                                    std::span<const double> phi, double gauge_length,
                                    double tolerance) {
   std::vector<SixLoads> out(phi.size());
-  const auto nodes = NodeForce::make(setup, law, tolerance);
+  if (const auto turn = arc_turn(setup, law, true)) {
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const ToothLoads F = all_teeth(*turn, phi[i]);
+      out[i] = {F.x,
+                F.y,
+                F.z,
+                F.torque,
+                gauge_length * F.x - F.moment_x[0],
+                gauge_length * F.y - F.moment_y[0]};
+    }
+    return out;
+  }
+  const auto nodes =
+      by_arcs(setup) ? std::nullopt : NodeForce::make(setup, law, tolerance);
   if (nodes) {
     over_turns(phi, std::span(out),
                [&](std::span<const double> some, std::span<SixLoads> all) {
@@ -216,11 +287,12 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
              std::span(out.front().data(), 3 * out.size()));
     return;
   }
-  if (keeps_radius(setup)) {
+  if (keeps_radius(setup) && !by_arcs(setup)) {
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
     return;
   }
-  const auto nodes = NodeForce::make(setup, law, tolerance);
+  const auto nodes =
+      by_arcs(setup) ? std::nullopt : NodeForce::make(setup, law, tolerance);
   if (nodes) {
     over_turns(phi, out, [&](std::span<const double> some, std::span<Vector3> F) {
       nodes->forces(some, F);
@@ -238,7 +310,7 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
 struct ForceMatrix::Parts {
   std::size_t columns;
   std::size_t teeth;
-  std::variant<TurnMatrix, CumulativeForce, NodeForce, AxialForce> method;
+  std::variant<TurnMatrix, CumulativeForce, NodeForce, AxialForce, ArcMatrix> method;
 };
 
 ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
@@ -251,6 +323,11 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
           columns, count,
           TurnMatrix{turn_polynomial(*teeth, chip_weights()),
                      turn_polynomial(*teeth, edge_weights()), teeth->lag == 0.0}};
+    }
+    if (by_arcs(setup)) {
+      ArcMatrix turns = arc_matrix(setup, law);
+      if (!turns.empty()) return Parts{columns, count, std::move(turns)};
+      return Parts{columns, count, AxialForce(setup, law, tolerance)};
     }
     if (keeps_radius(setup)) {
       return Parts{columns, count, CumulativeForce(setup, law, tolerance)};
@@ -276,7 +353,8 @@ double ForceMatrix::work(std::size_t angles) const noexcept {
                          return std::pair(200.0,
                                           4.0 * static_cast<double>(force.panels()));
                        },
-                       [](const AxialForce&) { return std::pair(0.0, 100.0); }},
+                       [](const AxialForce&) { return std::pair(0.0, 100.0); },
+                       [](const ArcMatrix&) { return std::pair(1000.0, 2.0); }},
       parts_->method);
   return static_cast<double>(parts_->teeth) *
          (once + each * static_cast<double>(angles));
@@ -312,6 +390,10 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
     for (std::size_t i = 0; i < phi.size(); ++i) {
       moments_to_matrix(cumulative->moments(phi[i]), columns, &C[i * 3 * columns]);
     }
+    return;
+  }
+  if (const auto* arcs = std::get_if<ArcMatrix>(&parts_->method)) {
+    evaluate_arcs(*arcs, phi, C);
     return;
   }
   std::vector<Matrix> matrices(phi.size());
@@ -353,6 +435,10 @@ void ForceMatrix::evaluate_columns(std::span<const double> phi,
 
 std::optional<Vector3> mean_force(const Setup& setup, const Law& law,
                                   double tolerance) {
+  if (const auto turn = arc_turn(setup, law, false)) {
+    const ToothLoads mean = turn->mean();
+    return Vector3{mean.x, mean.y, mean.z};
+  }
   const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance));
   if (!teeth) return std::nullopt;
   return mean(turn_polynomial(*teeth, force_weights(terms(law))));

@@ -42,6 +42,10 @@ Slice::Slice(const Setup& setup, double height)
   r_ = geometry::point_at(m, s).r;
   geometry::edge_positions(runout_of(setup), geometry::tooth_angles(setup.cutter), r_,
                            geometry::lag_at(setup.cutter, m, s).angle, teeth_);
+  if (const auto* arcs = std::get_if<geometry::Arcs>(&setup.cut.engagement)) {
+    const auto here = arcs->at(height);
+    arcs_.assign(here.begin(), here.end());
+  }
 }
 
 double Slice::chip_thickness(std::size_t tooth, double theta) const noexcept {

@@ -16,7 +16,11 @@ class Slice {
   /// @param height  above the tool tip [m]
   Slice(const Setup& setup, double height);
 
-  [[nodiscard]] chip::Slice teeth() const noexcept { return {r_, teeth_}; }
+  [[nodiscard]] chip::Slice teeth() const noexcept {
+    chip::Slice slice{r_, teeth_};
+    slice.arcs = arcs_;
+    return slice;
+  }
   [[nodiscard]] const chip::Passage& passage() const noexcept { return passage_; }
   /// Uncut chip thickness [m] at a nominal theta; 0 where not in cut.
   [[nodiscard]] double chip_thickness(std::size_t tooth, double theta) const noexcept;
@@ -25,6 +29,7 @@ class Slice {
   chip::Passage passage_;
   double r_ = 0.0;
   std::vector<geometry::EdgePosition> teeth_;
+  std::vector<geometry::EngagedArc> arcs_;
 };
 
 /// What one tooth does in a turn, at one height.

@@ -24,7 +24,8 @@ double largest_sine(const geometry::Band& stock, double r) noexcept {
 }  // namespace
 
 std::optional<TurnTeeth> turn_teeth(const Setup& setup, double tolerance) {
-  if (!keeps_radius(setup) || !(setup.cut.f_z > 0)) {
+  if (!keeps_radius(setup) || !(setup.cut.f_z > 0) ||
+      std::holds_alternative<geometry::Arcs>(setup.cut.engagement)) {
     return std::nullopt;
   }
   TurnTeeth out{.passage = chip::passage(setup.cutter, setup.cut, setup.chip),

@@ -16,6 +16,14 @@ double image(double theta, double near) noexcept {
 
 }  // namespace
 
+std::span<const EngagedArc> Arcs::at(double height) const noexcept {
+  const auto above = std::ranges::upper_bound(layers, height, {}, &ArcLayer::from);
+  if (above == layers.begin()) return {};
+  const ArcLayer& layer = *std::prev(above);
+  return height <= layer.to ? std::span<const EngagedArc>(layer.arcs)
+                            : std::span<const EngagedArc>();
+}
+
 Stretch clipped(const StockBoundary& b, double theta, Stretch ray) noexcept {
   if (b.kind == StockBoundary::Kind::none) {
     return ray;

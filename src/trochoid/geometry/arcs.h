@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace trochoid::geometry {
@@ -65,6 +65,9 @@ struct ArcLayer {
 struct Arcs {
   std::vector<ArcLayer> layers;  ///< ascending, none above another
   double curvature = 0.0;        ///< of the path, positive to the left [1/m]
+
+  /// Arcs at a height above the tip [m]; an end between two layers is that of the upper.
+  [[nodiscard]] std::span<const EngagedArc> at(double height) const noexcept;
 };
 
 }  // namespace trochoid::geometry
