@@ -104,6 +104,9 @@ struct TurnForces {
 };
 
 /// @brief A step, or a row of steps in air.
+///
+/// @eq N-11  F_z = N (K_rc f_a/N + K_re) mean L, T = N (K_tc f_a/N + K_te) mean M: bottom
+/// @src derived, an estimate
 struct Step {
   std::int64_t step = 0;    ///< of all feed moves, air too, from 0; the first of a row
   std::int64_t count = 1;   ///< steps of this row

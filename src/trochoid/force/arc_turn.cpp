@@ -41,6 +41,8 @@ ToothLoads& operator+=(ToothLoads& a, const ToothLoads& b) noexcept {
     a.moment_x[i] += b.moment_x[i];
     a.moment_y[i] += b.moment_y[i];
   }
+  a.axial_x += b.axial_x;
+  a.axial_y += b.axial_y;
   return a;
 }
 
@@ -134,7 +136,7 @@ void ArcTurn::add_tooth(Layer& layer, std::size_t tooth) {
     }
   }
   std::ranges::sort(breaks);
-  numerics::PiecewiseIntegral<10>& integral =
+  numerics::PiecewiseIntegral<12>& integral =
       layer.integrals.emplace_back(turn_start, unit::turn);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     if (breaks[i + 1] - breaks[i] > 1e-9) {
@@ -145,7 +147,7 @@ void ArcTurn::add_tooth(Layer& layer, std::size_t tooth) {
 }
 
 void ArcTurn::add_stretch(Layer& layer, std::size_t tooth, double from, double to,
-                          numerics::PiecewiseIntegral<10>& integral) {
+                          numerics::PiecewiseIntegral<12>& integral) {
   const double middle = 0.5 * (from + to);
   const auto holds = [&](const chip::ReachedArc& arc) {
     return (middle > arc.first() && middle < arc.last()) ||
@@ -193,7 +195,7 @@ void ArcTurn::add_stretch(Layer& layer, std::size_t tooth, double from, double t
 }
 
 void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
-                         numerics::PiecewiseIntegral<10>& integral) {
+                         numerics::PiecewiseIntegral<12>& integral) {
   layer.ends[tooth].push_back(piece.from);
   layer.ends[tooth].push_back(piece.to);
   const auto h_at = [&](double theta) { return ray(layer, tooth, theta).h; };
@@ -222,6 +224,8 @@ void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
         out[5 + 2 * k] = power * g[1];
         power *= theta;
       }
+      out[10] = std::sin(theta) * g[2];
+      out[11] = std::cos(theta) * g[2];
     }
     return out;
   };
@@ -269,6 +273,8 @@ void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
     PerHeight F = per_height(h, theta);
     for (double& f : F) f *= height;
     add(F);
+    out.axial_x += layer.positions[tooth].R * std::sin(theta) * F[2];
+    out.axial_y += layer.positions[tooth].R * std::cos(theta) * F[2];
     for (std::size_t k = 0; heights_ && k < 3; ++k) {
       const auto n = static_cast<int>(k) + 2;
       const double share =
@@ -288,6 +294,8 @@ void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
     layer.integrals[tooth].add_to(v, from, -1.0);
     add({v[0] / q, v[1] / q, v[2] / q, v[3] / q});  // N-7
     if (!heights_) continue;
+    out.axial_x += layer.positions[tooth].R * v[10] / q;
+    out.axial_y += layer.positions[tooth].R * v[11] / q;
     const double A = layer.from + bottom / q;  // z = A - theta/q
     const double x1 = (A * v[0] - v[4] / q) / q;
     const double y1 = (A * v[1] - v[5] / q) / q;

@@ -22,6 +22,8 @@ struct ToothLoads {
   /// [N m, N m^2, N m^3].
   std::array<double, 3> moment_x{};
   std::array<double, 3> moment_y{};
+  double axial_x = 0.0;  ///< integral of R sin(theta) f_z [N m]
+  double axial_y = 0.0;  ///< of R cos(theta) f_z [N m]
 };
 
 ToothLoads& operator+=(ToothLoads& a, const ToothLoads& b) noexcept;
@@ -57,15 +59,16 @@ class ArcTurn {
  private:
   /// F_x, F_y, F_z, F_t per height.
   using PerHeight = std::array<double, 4>;
-  /// The same and theta to the power of 1, 2, 3 times F_x and F_y.
-  using Values = std::array<double, 10>;
+  /// The same, theta to the power of 1, 2, 3 times F_x and F_y, and sin(theta),
+  /// cos(theta) times F_z.
+  using Values = std::array<double, 12>;
   struct Layer {
     double from = 0.0;  ///< [m]
     double to = 0.0;    ///< [m]
     std::vector<chip::ReachedArc> arcs = {};
     std::vector<geometry::EdgePosition> positions = {};  ///< of the teeth at its middle
     /// Of each tooth.
-    std::vector<numerics::PiecewiseIntegral<10>> integrals = {};
+    std::vector<numerics::PiecewiseIntegral<12>> integrals = {};
     std::vector<std::vector<double>> ends = {};  ///< of pieces, theta [rad]
   };
   struct Ray {
@@ -83,9 +86,9 @@ class ArcTurn {
   [[nodiscard]] PerHeight per_height(double h, double theta) const noexcept;
   void add_tooth(Layer& layer, std::size_t tooth);
   void add_stretch(Layer& layer, std::size_t tooth, double from, double to,
-                   numerics::PiecewiseIntegral<10>& integral);
+                   numerics::PiecewiseIntegral<12>& integral);
   void add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
-                  numerics::PiecewiseIntegral<10>& integral);
+                  numerics::PiecewiseIntegral<12>& integral);
   void add_layer(const Layer& layer, std::size_t tooth, double phi,
                  ToothLoads& out) const noexcept;
 

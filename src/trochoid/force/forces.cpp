@@ -255,8 +255,8 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
                 F.y,
                 F.z,
                 F.torque,
-                gauge_length * F.x - F.moment_x[0],
-                gauge_length * F.y - F.moment_y[0]};
+                F.axial_y - F.moment_y[0] + gauge_length * F.y,  // F-7
+                F.moment_x[0] - gauge_length * F.x - F.axial_x};
     }
     return out;
   }

@@ -1,0 +1,163 @@
+#include "made_cut.h"
+
+#include <trochoid/force/arc_turn.h>
+#include <trochoid/force/slice.h>
+
+#include <gtest/gtest.h>
+
+namespace trochoid::force::arc_turn_test {
+
+using geometry::ArcLayer;
+using geometry::EngagedArc;
+using geometry::StockBoundary;
+
+MadeCut lively(double helix_deg) {
+  MadeCut s = slot(geometry::cylinder(10e-3), 3, helix_deg);
+  s.runout.radial_offsets = {4e-6, -3e-6, -1e-6};
+  return s;
+}
+
+/// The same stock as arcs: below y = -(R - a_e), bounded by one line.
+geometry::Arcs down_milling(double a_e, double R, double R_e, double a_p) {
+  const StockBoundary line{StockBoundary::Kind::line, pi, R - a_e};
+  const double from = std::acos(-(R - a_e) / R_e);
+  return {{{0.0, a_p, {{{from, 2 * pi - from}, line, line}}}}};
+}
+
+TEST(ArcTurn, ArcsBoundedByALineAreDownMilling) {  // [N-6] [N-7]
+  for (const double helix : {0.0, 30.0}) {
+    for (const Law& law : {Law(steel()), Law(aluminium()), Law(both())}) {
+      MadeCut s = lively(helix);
+      s.cut.engagement = geometry::DownMilling{1e-3};
+      const auto phi = turn(90);
+      const auto known = forces(s, law, phi, 1e-9);
+      s.cut.engagement = down_milling(1e-3, 5e-3, 5.004e-3, s.cut.a_p);
+      const auto found = forces(s, law, phi, 1e-9);
+      EXPECT_LT(difference(known, found), 2e-6 * peak(known)) << helix << name_of(law);
+    }
+  }
+}
+
+TEST(ArcTurn, AWholeCircleIsASlot) {  // [N-7]
+  MadeCut s = lively(35);
+  const auto phi = turn(120);
+  const auto known = forces(s, steel(), phi, 1e-9);
+  const auto mean = *mean_force(s, steel(), 1e-9);
+  s.cut.engagement = geometry::Arcs{{{0.0, 1.0, {{{-pi / 2, 3 * pi / 2}}}}}};
+  EXPECT_LT(difference(known, forces(s, steel(), phi, 1e-9)), 1e-6 * peak(known));
+  const auto found = *mean_force(s, steel(), 1e-9);
+  for (std::size_t q = 0; q < 3; ++q) {
+    EXPECT_NEAR(found[q], mean[q], 1e-6 * peak(known));  // [N-8]
+  }
+}
+
+TEST(ArcTurn, LayersAddUp) {  // [N-7]
+  MadeCut s = lively(30);
+  s.cut.a_p = 6e-3;
+  const auto phi = turn(60);
+  s.cut.engagement = down_milling(2e-3, 5e-3, 5.004e-3, 6e-3);
+  const auto whole = loads(s, steel(), phi, 40e-3, 1e-9);
+  geometry::Arcs parts = down_milling(2e-3, 5e-3, 5.004e-3, 6e-3);
+  const ArcLayer one = parts.layers.front();
+  parts.layers.clear();
+  double from = 0.0;
+  for (const double to : {0.1e-3, 0.1003e-3, 2.5e-3, 6e-3}) {
+    parts.layers.push_back({from, to, one.arcs});
+    from = to;
+  }
+  s.cut.engagement = parts;
+  const auto found = loads(s, steel(), phi, 40e-3, 1e-9);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    EXPECT_NEAR(found[i].force[1], whole[i].force[1], 1e-5);
+    EXPECT_NEAR(found[i].torque, whole[i].torque, 1e-7);
+    EXPECT_NEAR(found[i].bending, whole[i].bending, 1e-6);
+  }
+}
+
+TEST(ArcTurn, TorqueAndBendingAreThoseOfTheSameCutGivenByItsDepth) {  // [N-7]
+  for (const double helix : {0.0, 30.0}) {
+    MadeCut s = lively(helix);
+    s.cut.a_p = 8e-3;
+    const auto phi = turn(40);
+    s.cut.engagement = geometry::DownMilling{2e-3};
+    const auto known = loads(s, steel(), phi, 30e-3, 1e-9);
+    s.cut.engagement = down_milling(2e-3, 5e-3, 5.004e-3, s.cut.a_p);
+    const auto found = loads(s, steel(), phi, 30e-3, 1e-9);
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      EXPECT_NEAR(found[i].torque, known[i].torque, 1e-4) << helix;
+      EXPECT_NEAR(found[i].bending, known[i].bending, 1e-3) << helix;
+    }
+  }
+}
+
+TEST(ArcTurn, HardArcsOfAnyCutterAreLaidOverItsEdges) {
+  MadeCut s = slot(geometry::ball(8e-3), 2, 30);
+  s.runout.radial_offsets = {3e-6, -3e-6};
+  const auto phi = turn(12);
+  const auto known = forces(s, steel(), phi, 1e-7);
+  s.cut.engagement = geometry::Arcs{{{0.0, 1.0, {{{-pi / 2, 3 * pi / 2}}}}}};
+  EXPECT_LT(difference(known, forces(s, steel(), phi, 1e-7)), 1e-5 * peak(known));
+  s.cut.engagement = geometry::Arcs{{{0.0, 1.0, {{{0.0, pi / 2}}}}}};
+  EXPECT_GT(difference(known, forces(s, steel(), phi, 1e-7)), 0.1 * peak(known));
+}
+
+TEST(ArcTurn, TheMatrixGivesTheForces) {
+  MadeCut s = lively(30);
+  s.cut.engagement = down_milling(2e-3, 5e-3, 5.004e-3, s.cut.a_p);
+  const auto phi = turn(10);
+  const ForceMatrix matrix(s, steel(), 1e-9);
+  std::vector<double> C(phi.size() * 3 * 6);
+  matrix.evaluate(phi, C);
+  const auto K = coefficients(steel());
+  const auto F = forces(s, steel(), phi, 1e-9);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      double sum = 0.0;
+      for (std::size_t c = 0; c < 6; ++c) sum += C[(3 * i + q) * 6 + c] * K[c];
+      EXPECT_NEAR(sum, F[i][q], 1e-4);
+    }
+  }
+}
+
+/// Chip over the mark of one tooth on a circular path, from the root itself.
+double exact_chip_on_circle(double R, double kappa, double f, double theta,
+                            double theta_p, double R_k) {
+  const auto sigma = [&](double d) { return f * (theta_p + d) / (2 * pi); };
+  const auto g = [&](double d) {
+    const double a = kappa * sigma(d);
+    return R_k * std::sin(d) + std::sin(a) / kappa * std::cos(theta) +
+           (1 - std::cos(a)) / kappa * std::sin(theta);
+  };
+  double lo = -pi / 2;
+  double hi = pi / 2;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (g(middle) < 0 ? lo : hi) = middle;
+  }
+  const double a = kappa * sigma(lo);
+  return R - (R_k * std::cos(lo) - std::sin(a) / kappa * std::sin(theta) +
+              (1 - std::cos(a)) / kappa * std::cos(theta));
+}
+
+TEST(ArcTurn, ChipsOnACircularPathAreTurned) {  // [N-4]
+  MadeCut s = slot(geometry::cylinder(10e-3), 2, 0);
+  s.runout.radial_offsets = {0.0, -8e-6};
+  const double f = 2 * s.cut.f_z;
+  for (const double radius : {3e-3, -3e-3, 20e-3, -8e-3}) {
+    const double kappa = 1 / radius;
+    s.cut.engagement = geometry::Arcs{{{0.0, 1.0, {{{-pi / 2, 3 * pi / 2}}}}}, kappa};
+    const Slice slice(s, 0.0);
+    for (double theta = 0.05; theta < 3.1; theta += 0.11) {
+      for (const std::size_t j : {0u, 1u}) {
+        const double R = j == 0 ? 5e-3 : 4.992e-3;
+        const double other = j == 0 ? 4.992e-3 : 5e-3;
+        const double h = std::min(exact_chip_on_circle(R, kappa, f, theta, pi, other),
+                                  exact_chip_on_circle(R, kappa, f, theta, 2 * pi, R));
+        EXPECT_NEAR(slice.chip_thickness(j, theta), std::max(h, 0.0), 0.01e-6)
+            << radius << ' ' << theta;
+      }
+    }
+  }
+}
+
+}  // namespace trochoid::force::arc_turn_test

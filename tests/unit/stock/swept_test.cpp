@@ -1,0 +1,188 @@
+#include <trochoid/base/units.h>
+#include <trochoid/stock/swept.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace trochoid::stock::swept_test {
+
+using program::Move;
+using program::MoveKind;
+using std::numbers::pi;
+
+const Box box{{-0.05, -0.05, -0.02}, {0.05, 0.05, 0.0}};
+
+Move move(MoveKind kind, double x, double y, double z) {
+  return {.end = {x, y, z},
+          .feed = kind == MoveKind::rapid ? 0.0 : 0.005,
+          .spindle = 20 * unit::turn,
+          .line = 1,
+          .tool = 0,
+          .kind = kind};
+}
+
+Move arc(double x, double y, double z, std::array<double, 2> center, double turn) {
+  Move out = move(MoveKind::arc, x, y, z);
+  out.center = center;
+  out.turn = turn;
+  return out;
+}
+
+/// Lines, ramps, arcs and helices, here and there.
+std::vector<Move> wild_moves(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-0.03, 0.03);
+  std::uniform_real_distribution<double> depth(-0.006, 0.001);
+  std::uniform_real_distribution<double> angle(-7.0, 7.0);
+  std::vector<Move> moves{move(MoveKind::rapid, 0, 0, 0.001)};
+  for (int i = 0; i < 14; ++i) {
+    const auto& at = moves.back().end;
+    if (i % 3 == 1) {
+      const double cx = at[0] + 0.2 * place(random);
+      const double cy = at[1] + 0.2 * place(random);
+      const double turn = angle(random);
+      const double radius = std::hypot(at[0] - cx, at[1] - cy);
+      const double end = std::atan2(at[1] - cy, at[0] - cx) + turn;
+      moves.push_back(arc(cx + radius * std::cos(end), cy + radius * std::sin(end),
+                          i % 2 == 0 ? at[2] : depth(random), {cx, cy}, turn));
+    } else {
+      moves.push_back(move(i % 7 == 3 ? MoveKind::rapid : MoveKind::line, place(random),
+                           place(random), i % 2 == 0 ? at[2] : depth(random)));
+    }
+  }
+  return moves;
+}
+
+/// Distance of a point at a height from all that was swept, by many places of the tip.
+bool swept_by_sampling(const Path& path, double R, double x, double y, double z,
+                       double turns, double slack) {
+  for (const Piece& piece : path.pieces) {
+    constexpr int n = 20000;
+    for (int i = 0; i <= n; ++i) {
+      const double u = static_cast<double>(i) / n;
+      const double T = piece.turns_from + u * (piece.turns_to - piece.turns_from);
+      if (T > turns) break;
+      const Point tip = point_at(piece, u).place;
+      if (tip[2] <= z && std::hypot(tip[0] - x, tip[1] - y) < R + slack) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
+  constexpr double R = 5e-3;
+  int looked = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const Swept swept(stock::path(wild_moves(seed), 0.1), box, {R});
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-0.03, 0.03);
+    for (int k = 0; k < 3; ++k) {
+      const auto last = static_cast<std::uint32_t>(swept.path().pieces.size() - 1);
+      const Place at{.tip = {place(random), place(random), -0.003},
+                     .direction = 100 * place(random),
+                     .turns = swept.path().turns * (k + 1) / 3,
+                     .last = last};
+      const Surroundings around(swept, at, R);
+      const double height = 1e-3 * k;
+      const auto arcs = around.arcs(height, R);
+      for (double theta = -1.5; theta < 4.7; theta += 0.21) {
+        const double angle = at.direction + pi / 2 - theta;
+        const double x = at.tip[0] + R * std::cos(angle);
+        const double y = at.tip[1] + R * std::sin(angle);
+        const double z = at.tip[2] + height;
+        const bool surely =
+            swept_by_sampling(swept.path(), R, x, y, z, at.turns, -1e-5);
+        const bool perhaps =
+            swept_by_sampling(swept.path(), R, x, y, z, at.turns, 1e-5);
+        if (surely != perhaps) continue;
+        bool stock = false;
+        for (const auto& arc : arcs) {
+          const double ahead = theta - arc.arc.from;
+          stock |= ahead - unit::turn * std::floor(ahead / unit::turn) <
+                   arc.arc.to - arc.arc.from;
+        }
+        EXPECT_EQ(stock, !surely && contains(box, x, y, z))
+            << seed << ' ' << k << ' ' << theta;
+        ++looked;
+      }
+    }
+  }
+  EXPECT_GT(looked, 400);
+}
+
+TEST(Swept, ACircleOnTheAxisOfAnOldSlotOfItsOwnMeetsNothing) {  // [N-3]
+  const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
+                                move(MoveKind::line, 0.04, 0, -0.002)};
+  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  for (const double direction : {0.0, 0.3, pi}) {
+    const Surroundings around(
+        swept, {.tip = {0, 0, -0.002}, .direction = direction, .turns = 1e9, .last = 9},
+        5e-3);
+    EXPECT_TRUE(around.arcs(1e-3, 5e-3).empty());
+    EXPECT_TRUE(around.arcs(1e-3, 4e-3).empty());
+    EXPECT_EQ(around.arcs(1e-3, 6e-3).size(), 2u);
+  }
+}
+
+TEST(Swept, WhatIsAboveTheTipOrLaterIsNotSwept) {  // [N-2]
+  const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
+                                move(MoveKind::line, 0.04, 0, -0.002)};
+  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Place at{.tip = {0, 0.001, -0.004}, .turns = 1e9, .last = 9};
+  const Surroundings around(swept, at, 5e-3);
+  EXPECT_EQ(around.arcs(1e-3, 5e-3).size(), 1u);  // below its floor: a whole circle
+  EXPECT_NEAR(around.arcs(1e-3, 5e-3)[0].arc.to - around.arcs(1e-3, 5e-3)[0].arc.from,
+              unit::turn, 1e-12);
+  EXPECT_NEAR(around.arcs(3e-3, 5e-3)[0].arc.to - around.arcs(3e-3, 5e-3)[0].arc.from,
+              2 * std::acos(0.8), 0.4);
+  Place early = at;
+  early.turns = swept.path().pieces[0].turns_to * 0.4;  // not there yet
+  EXPECT_NEAR(Surroundings(swept, early, 5e-3).arcs(3e-3, 5e-3)[0].arc.to -
+                  Surroundings(swept, early, 5e-3).arcs(3e-3, 5e-3)[0].arc.from,
+              unit::turn, 1.7);
+}
+
+TEST(Swept, LayersBeginWhereFloorsDo) {
+  const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
+                                move(MoveKind::line, 0.04, 0, -0.002)};
+  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Surroundings around(swept, {.tip = {0, 0.001, -0.005}, .turns = 1e9, .last = 9},
+                            5e-3);
+  const std::vector<double> z = around.heights({4, 24});
+  ASSERT_EQ(z.size(), 3u);
+  EXPECT_NEAR(z[1], 0.003, 1e-15);
+  EXPECT_NEAR(z[2], 0.005, 1e-15);
+}
+
+TEST(Swept, AVolumeIsThatOfItsSlot) {  // [N-9]
+  const std::vector<Move> moves{move(MoveKind::rapid, -0.03, 0, 0.001),
+                                move(MoveKind::line, -0.03, 0, -0.002),
+                                move(MoveKind::line, 0.03, 0.01, -0.002)};
+  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const double area = pi * 25e-6 + 10e-3 * std::hypot(0.06, 0.01);
+  EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
+}
+
+TEST(Swept, AVolumeOfARingIsThatOfItsRing) {  // [N-9]
+  const std::vector<Move> moves{move(MoveKind::rapid, 0.02, 0, 0.001),
+                                move(MoveKind::line, 0.02, 0, -0.002),
+                                arc(0.02, 0, -0.002, {0.0, 0.0}, unit::turn)};
+  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const double area = pi * (625e-6 - 225e-6);
+  EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
+}
+
+TEST(Stock, AFieldOfHeightsIsLinearBetweenItsPoints) {
+  HeightField field{{0.0, 0.0}, 1.0, 3, 2, -1.0, {0, 1, 2, 0, 1, 4}};
+  EXPECT_DOUBLE_EQ(top_at(field, 0.5, 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(top_at(field, 2.0, 1.0), 4.0);
+  EXPECT_DOUBLE_EQ(top_at(field, 2.1, 1.0), -1.0);
+  EXPECT_TRUE(contains(field, 1.5, 0.0, 1.4));
+  EXPECT_FALSE(contains(field, 1.5, 0.0, 1.6));
+  EXPECT_DOUBLE_EQ(volume(field), 2 * (1 + 1) + (2.0 + (8 - 6) / 4.0) - 2 - 0.5 + 0.5);
+}
+
+}  // namespace trochoid::stock::swept_test
