@@ -98,7 +98,7 @@ Surroundings::Surroundings(const Swept& swept, const Place& place, double reach)
 std::vector<double> Surroundings::heights(std::array<int, 2> sublayers) const {
   struct Slope {
     double low, high;
-    int parts;
+    double sublayer;  ///< height of one [m]
   };
   const Heights all = stock::heights(swept_.initial());
   const double tip = place_.tip[2];
@@ -123,7 +123,10 @@ std::vector<double> Surroundings::heights(std::array<int, 2> sublayers) const {
     if (high > from && high < to) {
       ends.push_back(high);
     }
-    slopes.push_back({low, high, sublayers[piece.arc() ? 1 : 0]});
+    // A helix comes back to the same place after a turn.
+    const double share = std::max(1.0, std::abs(piece.turn) * near.until / unit::turn);
+    slopes.push_back(
+        {low, high, (high - low) / (share * sublayers[piece.arc() ? 1 : 0])});
   }
   std::ranges::sort(ends);
   std::vector<double> out{from};
@@ -135,7 +138,8 @@ std::vector<double> Surroundings::heights(std::array<int, 2> sublayers) const {
     int parts = 1;
     for (const Slope& slope : slopes) {
       if (slope.low < end - 1e-10 && slope.high > start + 1e-10) {
-        parts = std::max(parts, slope.parts);
+        parts = std::max(
+            parts, static_cast<int>(std::ceil((end - start) / slope.sublayer - 1e-9)));
       }
     }
     for (int i = 1; i <= parts; ++i) {
@@ -418,12 +422,13 @@ class Surroundings::Search {
       const double gap = theta(i + 1) - theta(i);
       stock[i] = gap > tie && in_stock(theta(i) + 0.5 * gap);
     }
-    const auto out_at = std::find(stock.begin(), stock.end(), false) - stock.begin();
-    if (static_cast<std::size_t>(out_at) == n) {
+    const auto out_at = static_cast<std::size_t>(
+        std::find(stock.begin(), stock.end(), false) - stock.begin());
+    if (out_at == n) {
       return {{{first_theta, first_theta + unit::turn}}};
     }
     std::vector<geometry::EngagedArc> out;
-    for (std::size_t i = static_cast<std::size_t>(out_at); i < out_at + n;) {
+    for (std::size_t i = out_at; i < out_at + n;) {
       if (!stock[i % n]) {
         ++i;
         continue;

@@ -64,7 +64,7 @@ class Surroundings {
 
   /// @brief Heights above the tip at which the stock around may change, ascending, from the
   /// first to the last with stock; nothing: there is none.
-  /// @param sublayers  of a stretch where a slope passes: of a straight and a curved one
+  /// @param sublayers  of what a ramp, and of what a turn of a helix, rises
   [[nodiscard]] std::vector<double> heights(std::array<int, 2> sublayers) const;
 
   /// Heights above the tip of level floors, and of the top and bottom of the stock,
