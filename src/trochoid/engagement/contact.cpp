@@ -30,8 +30,8 @@ constexpr Rule gauss = {
      0.18134189168918099, 0.18134189168918099, 0.15685332293894364, 0.11119051722668724,
      0.050614268145188130}};
 
-/// Whether a piece that moves on may have its own wall beside the front (spec: rho < R or
-/// more than half a circle).
+/// Whether a piece that moves on may have its own wall beside the front (rho < R, or more
+/// than half a circle).
 bool meets_itself(const stock::Piece& piece, double R) noexcept {
   return piece.arc() && (piece.radius < R || std::abs(piece.turn) > pi);
 }

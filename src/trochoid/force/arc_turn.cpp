@@ -46,6 +46,41 @@ ToothLoads& operator+=(ToothLoads& a, const ToothLoads& b) noexcept {
   return a;
 }
 
+namespace {
+
+/// A layer on its edge: z = A - theta/q, from its middle over a lag.
+struct OnEdge {
+  double A;
+  double q;
+  double middle;
+  double lag;
+};
+
+/// Moments over the height from those over theta.
+void add_window_moments(const std::array<double, 12>& v, const OnEdge& edge,
+                        ToothLoads& out) noexcept {
+  const auto& [A, q, m, lag] = edge;
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::array<double, 3>& moment = i == 0 ? out.moment_x : out.moment_y;
+    const double whole = v[i] / q;
+    const double first = (A * v[i] - v[4 + i] / q) / q;
+    if (lag < short_lag) {
+      const double about = lag < 1e-4 ? 0.0 : first - m * whole;
+      moment[0] += m * whole + about;
+      moment[1] += m * (m * whole + 2 * about);
+      moment[2] += m * m * (m * whole + 3 * about);
+      continue;
+    }
+    moment[0] += first;
+    moment[1] += (A * A * v[i] - 2 * A * v[4 + i] / q + v[6 + i] / (q * q)) / q;
+    moment[2] += (A * A * A * v[i] - 3 * A * A * v[4 + i] / q +
+                  3 * A * v[6 + i] / (q * q) - v[8 + i] / (q * q * q)) /
+                 q;
+  }
+}
+
+}  // namespace
+
 ArcTurn::ArcTurn(const Setup& setup, const Law& law, geometry::Arc within, bool heights)
     : passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
       r_(setup.cutter.profile.D / 2),
@@ -262,10 +297,6 @@ void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
     out.z += F[2];
     out.torque += F[3] * layer.positions[tooth].R;
   };
-  const auto add_moments = [&](std::size_t k, double x, double y) {
-    out.moment_x[k] += x;
-    out.moment_y[k] += y;
-  };
   if (lag < shortest_lag) {
     const double theta = into_turn(at_bottom - 0.5 * lag);
     const double h = ray(layer, tooth, theta).h;
@@ -279,7 +310,8 @@ void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
       const auto n = static_cast<int>(k) + 2;
       const double share =
           (std::pow(layer.to, n) - std::pow(layer.from, n)) / (n * height);
-      add_moments(k, share * F[0], share * F[1]);
+      out.moment_x[k] += share * F[0];
+      out.moment_y[k] += share * F[1];
     }
     return;
   }
@@ -297,29 +329,7 @@ void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
     out.axial_x += layer.positions[tooth].R * v[10] / q;
     out.axial_y += layer.positions[tooth].R * v[11] / q;
     const double A = layer.from + bottom / q;  // z = A - theta/q
-    const double x1 = (A * v[0] - v[4] / q) / q;
-    const double y1 = (A * v[1] - v[5] / q) / q;
-    if (lag < short_lag) {
-      const bool tiny = lag < 1e-4;
-      const double m = middle;
-      const double dx = tiny ? 0.0 : x1 - m * v[0] / q;
-      const double dy = tiny ? 0.0 : y1 - m * v[1] / q;
-      add_moments(0, m * v[0] / q + dx, m * v[1] / q + dy);
-      add_moments(1, m * m * v[0] / q + 2 * m * dx, m * m * v[1] / q + 2 * m * dy);
-      add_moments(2, m * m * (m * v[0] / q + 3 * dx), m * m * (m * v[1] / q + 3 * dy));
-      continue;
-    }
-    add_moments(0, x1, y1);
-    const auto second = [&](std::size_t i) {
-      return (A * A * v[i] - 2 * A * v[4 + i] / q + v[6 + i] / (q * q)) / q;
-    };
-    const auto third = [&](std::size_t i) {
-      return (A * A * A * v[i] - 3 * A * A * v[4 + i] / q + 3 * A * v[6 + i] / (q * q) -
-              v[8 + i] / (q * q * q)) /
-             q;
-    };
-    add_moments(1, second(0), second(1));
-    add_moments(2, third(0), third(1));
+    add_window_moments(v, {A, q, middle, lag}, out);
   }
 }
 

@@ -116,7 +116,9 @@ TEST(Steps, AMirroredPathGivesMirroredArcs) {
       const Step a = at(made, tool, block, line, u);
       const Step b = at(mirrored, tool, block, line, u);
       EXPECT_NEAR(a.engaged, b.engaged, 1e-9);
-      if (a.a_p > 0) EXPECT_NEAR(a.entry, pi - b.exit, 1e-9);
+      if (a.a_p > 0) {
+        EXPECT_NEAR(a.entry, pi - b.exit, 1e-9);
+      }
       EXPECT_NEAR(a.curvature, -b.curvature, 1e-9);
     }
   }
