@@ -24,13 +24,11 @@ void Derivatives::find(int i, const Step& step, std::span<double> out) const {
     find_by_phase(index(i - u.first_phase()), step.phase, out);
     return;
   }
-  if (i >= u.first_resonance()) {
-    find_by_resonance(index(i - u.first_resonance()), out);
-    return;
-  }
-  const auto from_turn = [](const FoldedRun& run) { return !run.turn_map.empty(); };
-  if (std::ranges::any_of(problem_.runs, from_turn)) {
-    find_by_evaluation(i, step.parameter, out);
+  if (i >= u.first_resonance()) {  // all rows are from the turn
+    for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
+      add_resonance_slope(problem_, at_, r, i - u.first_resonance(), coefficients(r),
+                          rows_of_run(r, out));
+    }
     return;
   }
   std::vector<double> p = at_.p;
@@ -43,6 +41,11 @@ void Derivatives::find(int i, const Step& step, std::span<double> out) const {
                             out);
 }
 
+/// Those of a run among all rows.
+std::span<double> Derivatives::rows_of_run(std::size_t r, std::span<double> all) const {
+  return all.subspan(first_row(problem_, r), index(problem_.runs[r].rows));
+}
+
 /// The coefficients of a run.
 std::span<const double> Derivatives::coefficients(std::size_t r) const {
   return std::span(K_).subspan(first_column(problem_, r), index(problem_.columns));
@@ -52,6 +55,11 @@ std::span<const double> Derivatives::coefficients(std::size_t r) const {
 void Derivatives::add_force(const Point& point, std::size_t r, double factor,
                             std::span<double> out) const {
   const FoldedRun& run = problem_.runs[r];
+  if (!run.turn_map.empty()) {
+    add_turn_force(problem_, at_, point, r, coefficients(r), factor,
+                   rows_of_run(r, out));
+    return;
+  }
   std::vector<double> phi(run.angle);
   for (double& a : phi) a += point.phase[r];
   std::vector<force::Vector3> F = force::forces(
@@ -71,40 +79,12 @@ void Derivatives::add_force(const Point& point, std::size_t r, double factor,
   for (std::size_t i = 0; i < rows.size(); ++i) to[i] += factor * rows[i];
 }
 
-void Derivatives::find_by_evaluation(int i, double step, std::span<double> out) const {
-  std::vector<double> p = at_.p;
-  p[index(i)] += step;
-  const Evaluation moved = evaluate(problem_, p);
-  numerics::add_combination(design(problem_, moved).first(K_.size()), K_, 1.0 / step,
-                            out);
-  numerics::add_combination({force_, force_.size()}, {{1.0}}, -1.0 / step, out);
-}
-
-/// Where a resonance is searched, all rows are from the turn.
-void Derivatives::find_by_resonance(std::size_t i, std::span<double> out) const {
-  const std::size_t rows = index(problem_.rows());
-  for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
-    const std::size_t first = first_row(problem_, r);
-    const std::size_t own = index(problem_.runs[r].rows);
-    const std::span<const double> K = coefficients(r);
-    std::vector<double> C(rows * K.size());
-    fill_resonance_slope(problem_, at_, r, i, C);
-    numerics::add_combination(numerics::Columns(C, own, rows).first(K.size()), K, 1.0,
-                              out.subspan(first, own));
-  }
-}
-
 void Derivatives::find_by_phase(std::size_t r, double step,
                                 std::span<double> out) const {
   const std::size_t first = first_row(problem_, r);
   const std::size_t own = index(problem_.runs[r].rows);
   if (!problem_.runs[r].turn_map.empty()) {
-    const std::size_t rows = index(problem_.rows());
-    const std::span<const double> K = coefficients(r);
-    std::vector<double> C(rows * K.size());
-    fill_phase_slope(problem_, at_, r, C);
-    numerics::add_combination(numerics::Columns(C, own, rows).first(K.size()), K, 1.0,
-                              out.subspan(first, own));
+    add_phase_slope(problem_, at_, r, coefficients(r), rows_of_run(r, out));
     return;
   }
   Point point = at_.point;

@@ -29,9 +29,9 @@ class Derivatives {
   [[nodiscard]] std::span<const double> coefficients(std::size_t r) const;
   void add_force(const Point& point, std::size_t r, double factor,
                  std::span<double> out) const;
-  void find_by_evaluation(int i, double step, std::span<double> out) const;
   void find_by_phase(std::size_t r, double step, std::span<double> out) const;
-  void find_by_resonance(std::size_t i, std::span<double> out) const;
+  [[nodiscard]] std::span<double> rows_of_run(std::size_t r,
+                                              std::span<double> all) const;
 
   const Problem& problem_;
   const Evaluation& at_;

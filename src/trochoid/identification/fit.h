@@ -97,6 +97,8 @@ struct Tolerances {
 struct Start {
   geometry::Runout runout;
   std::vector<double> phase;  ///< [rad], one a run
+  /// Of a fit of the same records: no tooth is looked for anywhere else.
+  bool of_fit = false;
 };
 
 /// What is to be found, and how.

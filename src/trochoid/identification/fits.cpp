@@ -36,13 +36,13 @@ Fit first_fit(const Records& records, const FitRequest& request, Options options
     Options rigid = options;
     rigid.response.clear();
     const Fit near = records.fit(rigid);
-    if (near.ok) options.start = Start{near.runout, near.phase};
+    if (near.ok) options.start = Start{near.runout, near.phase, true};
     Fit as_given = records.fit(options);
     if (!as_given.ok || request.options.stop.wanted()) return as_given;
     const auto scaled = with_scaled_response(records.runs, as_given.options);
     if (!scaled) return as_given;
     Options about = *scaled;
-    about.start = Start{as_given.runout, as_given.phase};
+    about.start = Start{as_given.runout, as_given.phase, true};
     Fit fit = records.fit(about);
     return fit.ok ? fit : as_given;
   }

@@ -2,7 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
-#include <trochoid/numerics/least_squares.h>
+#include <trochoid/numerics/columns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,23 +114,18 @@ void take_means(const Run& run, bool drift, FoldedRun& out) {
   }
 }
 
+WeightedAngles angles_of(const FoldedRun& run) {
+  return {run.angle, run.weight};
+}
+
 void make_band(FoldedRun& run) {
-  const int harmonics = run.harmonics;
-  if (harmonics == 0) return;
-  run.band = 2 * harmonics + 1;
-  const auto columns = static_cast<std::size_t>(run.band);
-  if (columns > run.angle.size()) {
-    run.band = 0;  // fewer samples than harmonics: the band holds everything
-    return;
-  }
-  std::vector<double> A(run.angle.size() * columns);
-  for (std::size_t g = 0; g < run.angle.size(); ++g) {
-    const std::span<double> row = std::span(A).subspan(g * columns, columns);
-    fill_waves(run.angle[g], row);
-    for (double& wave : row) wave *= run.weight[g];
-  }
-  run.basis = numerics::orthonormal(A, run.band, 0.0);
-  run.band = static_cast<int>(run.basis.size() / run.angle.size());
+  run.basis = {};
+  run.band = 0;
+  // With fewer samples than harmonics the band holds everything.
+  const std::size_t terms = 2 * base::index(run.harmonics) + 1;
+  if (run.harmonics == 0 || terms > run.angle.size()) return;
+  run.basis = wave_basis(angles_of(run), run.harmonics);
+  run.band = static_cast<int>(run.basis.size);
 }
 
 /// b and drift from the means.
@@ -156,18 +151,9 @@ void make_rows(bool drift, FoldedRun& run) {
 /// What the rows of a run already hold of the slope column, at each angle.
 std::vector<double> slope_in_rows(const FoldedRun& run) {
   if (run.band == 0) return run.slope;
-  const auto band = static_cast<std::size_t>(run.band);
-  std::vector<double> out(run.slope.size(), 0.0);
-  for (std::size_t k = 0; k < band; ++k) {
-    double c = 0.0;
-    for (std::size_t g = 0; g < out.size(); ++g) {
-      c += run.basis[g * band + k] * run.weight[g] * run.slope[g];
-    }
-    for (std::size_t g = 0; g < out.size(); ++g) {
-      out[g] += c * run.basis[g * band + k] / run.weight[g];
-    }
-  }
-  return out;
+  const std::vector<double> c =
+      coordinates(run.basis, angles_of(run), {run.slope, run.slope.size()});
+  return from_coordinates(run.basis, angles_of(run), c);
 }
 
 /// The row that a slope keeps beside the groups and outside the
@@ -230,21 +216,6 @@ void leave_out_unmeasured(const FoldedRun& run, std::span<double> column) {
   for (std::size_t q = 0; q < 3; ++q) {
     if (run.measured[q]) continue;
     for (std::size_t i = q; i < column.size(); i += 3) column[i] = 0.0;
-  }
-}
-
-void fill_waves(double angle, std::span<double> out) noexcept {
-  out[0] = 1.0;
-  double c = 1.0;
-  double s = 0.0;
-  const double c1 = std::cos(angle);
-  const double s1 = std::sin(angle);
-  for (std::size_t k = 1; k + 1 < out.size(); k += 2) {
-    const double next = c * c1 - s * s1;
-    s = s * c1 + c * s1;
-    c = next;
-    out[k] = c;
-    out[k + 1] = s;
   }
 }
 
@@ -339,15 +310,12 @@ std::vector<double> rows_of(const FoldedRun& run, std::span<const double> X,
     }
     return out;
   }
-  const auto band = static_cast<std::size_t>(run.band);
-  out.assign(std::max(band * width, static_cast<std::size_t>(run.rows * columns)), 0.0);
+  std::vector<double> by_columns(width * u);
   for (std::size_t g = 0; g < u; ++g) {
-    for (std::size_t k = 0; k < band; ++k) {
-      const double w = run.weight[g] * run.basis[g * band + k];
-      for (std::size_t c = 0; c < width; ++c)
-        out[k * width + c] += w * X[g * width + c];
-    }
+    for (std::size_t c = 0; c < width; ++c) by_columns[c * u + g] = X[g * width + c];
   }
+  out = coordinates(run.basis, angles_of(run), {by_columns, u});
+  out.resize(std::max(out.size(), static_cast<std::size_t>(run.rows * columns)), 0.0);
   return out;
 }
 
@@ -367,20 +335,33 @@ int highest_of(int harmonics) noexcept {
 }  // namespace
 
 std::vector<double> band_by_waves(const FoldedRun& run, std::size_t terms) {
-  const std::size_t n = run.angle.size();
-  const std::size_t band = index(run.band);
-  std::vector<double> waves(terms * n);
-  std::vector<double> basis(band * n);
-  std::vector<double> wave(terms);
-  for (std::size_t g = 0; g < n; ++g) {
-    fill_waves(run.angle[g], wave);
-    for (std::size_t i = 0; i < terms; ++i) waves[i * n + g] = wave[i];
-    for (std::size_t k = 0; k < band; ++k) {
-      basis[k * n + g] = run.weight[g] * run.basis[g * band + k];
-    }
+  return band_by_waves(run.basis, angles_of(run), terms);
+}
+
+FoldedRun in_fewer_harmonics(const FoldedRun& run, int harmonics) {
+  if (run.turn_map.empty() || !run.basis.by_root() || run.harmonics <= harmonics) {
+    return run;
   }
-  std::vector<double> out(band * terms);
-  numerics::inner_products({basis, n}, {waves, n}, out);
+  FoldedRun out = run;
+  const std::size_t before = index(run.band);
+  const std::size_t terms = 2 * index(run.highest) + 1;
+  const std::size_t band = 2 * index(harmonics) + 1;
+  out.harmonics = harmonics;
+  out.band = static_cast<int>(band);
+  out.basis.size = band;
+  for (std::size_t k = 0; k < band; ++k) {
+    std::copy_n(&run.basis.root[k * before], band, &out.basis.root[k * band]);
+  }
+  out.basis.root.resize(band * band);
+  out.turn_map.resize(band * terms);
+  const auto leave_out = [&](std::vector<double>& values, std::size_t width) {
+    if (values.empty()) return;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(3 * band * width),
+                 values.begin() + static_cast<std::ptrdiff_t>(3 * before * width));
+  };
+  leave_out(out.b, 1);
+  leave_out(out.drift, 6);
+  out.rows = static_cast<int>(out.b.size());
   return out;
 }
 
@@ -401,16 +382,15 @@ std::vector<double> rows_of_turn(const FoldedRun& run,
   const std::size_t band = index(run.band);
   const std::size_t terms = 2 * index(run.highest) + 1;
   const std::size_t used = std::min(terms, coefficients.size() / width);
-  std::vector<double> out(std::max(band * width, index(run.rows) * index(columns)),
-                          0.0);
-  for (std::size_t k = 0; k < band; ++k) {  // I-11
-    double* const to = &out[k * width];
-    for (std::size_t i = 0; i < used; ++i) {
-      const double t = run.turn_map[k * terms + i];
-      const double* const from = &coefficients[i * width];
-      for (std::size_t c = 0; c < width; ++c) to[c] += t * from[c];
+  std::vector<double> by_columns(width * used);
+  for (std::size_t i = 0; i < used; ++i) {
+    for (std::size_t c = 0; c < width; ++c) {
+      by_columns[c * used + i] = coefficients[i * width + c];
     }
   }
+  std::vector<double> out(band * width);  // I-11
+  numerics::inner_products({run.turn_map, used, terms}, {by_columns, used}, out);
+  out.resize(std::max(out.size(), index(run.rows) * index(columns)), 0.0);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <trochoid/identification/fit.h>
 #include <trochoid/identification/turn_matrix.h>
+#include <trochoid/identification/waves.h>
 
 #include <array>
 #include <span>
@@ -24,9 +25,8 @@ struct FoldedRun {
   std::vector<double> slope;                 ///< mean of the slope column, shape (u)
   std::vector<std::size_t> group;            ///< index into angle, one a sample
   bool binned = false;                       ///< a group holds different angles
-  /// Orthonormal columns of the band over the weighted rows, shape (u, band); or empty.
-  std::vector<double> basis;
-  int band = 0;
+  WaveBasis basis;  ///< of the band over the weighted rows
+  int band = 0;     ///< columns of the basis; 0: no limit
   int harmonics = 0;  ///< of the band; 0: no limit
   Response response;  ///< the rows are of what the dynamometer reads
   /// Where the rows follow from the Fourier coefficients of the force over the turn, up
@@ -46,10 +46,6 @@ struct FoldedRun {
   std::vector<double>
       drift;  ///< channel constants and slopes, shape (rows, 6); or empty
 };
-
-/// @brief 1 and the cosines and sines of an angle and its multiples.
-/// @param[out] out  odd in length
-void fill_waves(double angle, std::span<double> out) noexcept;
 
 /// The slope column at sample i of n: from -1/2 to 1/2.
 double slope_at(std::size_t i, std::size_t n) noexcept;
@@ -78,6 +74,10 @@ int measured_count(const FoldedRun& run) noexcept;
 /// @brief Make the rows of forces that are not measured zero.
 /// @param column  rows of the run, x, y and z by turns
 void leave_out_unmeasured(const FoldedRun& run, std::span<double> column);
+
+/// @brief The same run in no more harmonics of its band, where its rows are from the turn
+/// and in the order of the waves; else as it is.
+FoldedRun in_fewer_harmonics(const FoldedRun& run, int harmonics);
 
 /// @brief t_km of I-11 for the first waves, shape (band, terms).
 std::vector<double> band_by_waves(const FoldedRun& run, std::size_t terms);

@@ -98,8 +98,10 @@ std::vector<double> sweep(const force::Setup& setup, const force::Law& law,
     problem.setup.runout.radial_offsets.resize(teeth, 0.0);
     problem.setup.runout.radial_offsets[1] = offset;
     const Evaluation at = evaluate(problem, {});
-    const double rss =
-        numerics::least_squares(design(problem, at), measured(problem), 1e-8).rss;
+    std::vector<double> left = measured(problem);
+    const numerics::Columns D = design(problem, at);
+    numerics::project_out(D, numerics::gram_of(D), left);
+    const double rss = numerics::dot(left, left);
     out.push_back(std::sqrt((rss + scatter) / samples));
   }
   return out;

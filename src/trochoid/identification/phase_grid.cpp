@@ -34,37 +34,37 @@ bool fills_the_turn(const FoldedRun& run) {
   return gap * (2 * run.harmonics + 2) < unit::turn;
 }
 
-/// 1, cos, sin, cos 2, ... of an angle.
-void harmonics_at(double phi, int harmonics, std::vector<double>& out) {
-  out.push_back(1.0);
-  for (int m = 1; m <= harmonics; ++m) {
-    out.push_back(std::cos(m * phi));
-    out.push_back(std::sin(m * phi));
-  }
-}
-
 double middle_of(std::size_t cell, std::size_t cells) noexcept {
   return (static_cast<double>(cell) + 0.5) * unit::turn / static_cast<double>(cells);
 }
 
-/// The part of the force within the band in the middle of each cell, all weighing alike.
-void take_band(const FoldedRun& run, PhaseGrid& out) {
+/// Amplitudes of the force in its band, wave by wave, shape (terms, 3).
+std::vector<double> amplitudes_of(const FoldedRun& run) {
   const std::size_t terms = 2 * index(run.harmonics) + 1;
+  if (run.basis.by_root()) {
+    return amplitudes(run.basis, std::span(run.b).first(3 * terms), 3);
+  }
   std::vector<double> A;
   std::vector<double> B;
-  double weight = 0.0;
+  std::vector<double> wave(terms);
   for (std::size_t g = 0; g < run.angle.size(); ++g) {
-    const std::size_t row = A.size();
-    harmonics_at(run.angle[g], run.harmonics, A);
-    for (std::size_t k = row; k < A.size(); ++k) A[k] *= run.weight[g];
+    fill_waves(run.angle[g], wave);
+    for (const double v : wave) A.push_back(run.weight[g] * v);
     for (const double f : run.force[g]) B.push_back(run.weight[g] * f);
-    weight += run.weight[g] * run.weight[g];
   }
-  const std::vector<double> X = numerics::project_out(A, static_cast<int>(terms), B, 3);
+  return numerics::project_out(A, static_cast<int>(terms), B, 3);
+}
+
+/// The part of the force within the band in the middle of each cell, all weighing alike.
+void take_band(const FoldedRun& run, PhaseGrid& out) {
+  const std::vector<double> X = amplitudes_of(run);
+  const std::size_t terms = X.size() / 3;
+  double weight = 0.0;
+  for (const double w : run.weight) weight += w * w;
   std::ranges::fill(out.weight, weight / static_cast<double>(out.size()));
+  std::vector<double> wave(terms);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    std::vector<double> wave;
-    harmonics_at(middle_of(i, out.size()), run.harmonics, wave);
+    fill_waves(middle_of(i, out.size()), wave);
     for (std::size_t k = 0; k < terms; ++k) {
       for (std::size_t q = 0; q < 3; ++q) out.force[i][q] += wave[k] * X[3 * k + q];
     }

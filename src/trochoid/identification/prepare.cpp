@@ -82,6 +82,7 @@ Problem problem_of(const force::Setup& setup, const force::Law& law,
   out.columns = static_cast<int>(force::form(law).columns());
   if (options.start && options.start->phase.size() == runs.size()) {
     out.start = Point{options.start->runout, law, options.start->phase};
+    out.start_of_fit = options.start->of_fit;
   }
   return out;
 }

@@ -272,29 +272,52 @@ void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
   leave_out(problem, r, C);
 }
 
-void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                      std::span<double> C) {
-  std::vector<double> slopes = slope_at_phase(at.turn[r], at.point.phase[r]);
-  respond(response_at(problem, at, r), index(problem.columns), slopes);
-  by_columns(rows_of_turn(problem.runs[r], slopes, problem.columns),
-             index(problem.columns), index(problem.rows()), C);
-  leave_out(problem, r, C);
+namespace {
+
+/// Add the rows that readings of a run make, by the coefficients of their turn.
+void add_rows(const FoldedRun& run, const Response& response, std::vector<double> turn,
+              double factor, std::span<double> out) {
+  respond(response, 1, turn);
+  std::vector<double> rows = rows_of_turn(run, turn, 1);
+  leave_out_unmeasured(run, rows);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += factor * rows[i];
 }
 
-void fill_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                          std::size_t i, std::span<double> C) {
+/// The axis of an unknown of the resonances.
+std::size_t axis_of(const Unknowns& unknowns, int i) {
   std::size_t axis = 0;
-  std::size_t passed = i / 2;  // axes that ring before that of the unknown
-  while (!problem.unknowns.rings[axis] || passed-- > 0) ++axis;
+  int passed = i / 2;  // axes that ring before that of the unknown
+  while (!unknowns.rings[axis] || passed-- > 0) ++axis;
+  return axis;
+}
+
+}  // namespace
+
+void add_turn_force(const Problem& problem, const Evaluation& at, const Point& point,
+                    std::size_t r, std::span<const double> K, double factor,
+                    std::span<double> out) {
   const FoldedRun& run = problem.runs[r];
-  std::vector<double> slopes = at_phase(at.turn[r], at.point.phase[r]);
-  respond(slope_of_resonance(
-              run.response, at.point.resonances, run.cut.Omega, axis,
-              i % 2 == 0 ? ResonanceUnknown::ln_omega : ResonanceUnknown::ln_zeta),
-          index(problem.columns), slopes);
-  by_columns(rows_of_turn(run, slopes, problem.columns), index(problem.columns),
-             index(problem.rows()), C);
-  leave_out(problem, r, C);
+  const force::ForceMatrix matrix(setup_of(problem, point, run), point.law,
+                                  problem.tolerance);
+  const TurnGrid grid = grid_of(problem, run);
+  problem.stop.count(matrix.work(index(grid.angles)));
+  add_rows(run, response_at(problem, at, r),
+           at_phase(turn_of_force(matrix, grid, K), point.phase[r]), factor, out);
+}
+
+void add_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                     std::span<const double> K, std::span<double> out) {
+  add_rows(problem.runs[r], response_at(problem, at, r),
+           slope_at_phase(times(at.turn[r], K), at.point.phase[r]), 1.0, out);
+}
+
+void add_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                         int i, std::span<const double> K, std::span<double> out) {
+  const FoldedRun& run = problem.runs[r];
+  const Response slope = slope_of_resonance(
+      run.response, at.point.resonances, run.cut.Omega, axis_of(problem.unknowns, i),
+      i % 2 == 0 ? ResonanceUnknown::ln_omega : ResonanceUnknown::ln_zeta);
+  add_rows(run, slope, at_phase(times(at.turn[r], K), at.point.phase[r]), 1.0, out);
 }
 
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {

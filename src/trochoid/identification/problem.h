@@ -73,6 +73,7 @@ struct Problem {
       ""};                            ///< names of those with coefficients of their own
   std::vector<std::size_t> group_of;  ///< place of the group of each run; empty: all 0
   std::optional<Point> start;         ///< where to search first
+  bool start_of_fit = false;          ///< as of Start
   Tolerances tolerances = {};         ///< that the intervals hold
   base::Stop stop = {};               ///< when late, the best so far is enough
 
@@ -120,13 +121,20 @@ std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
 void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
               std::span<double> C);
 
-/// @brief Their derivatives by the phase, where the rows are from the turn.
-void fill_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                      std::span<double> C);
+/// @brief Add to the rows of a run whose rows are from the turn: its force at another place.
+/// @param point  of the same resonances as the evaluation
+/// @param K      coefficients of the run
+void add_turn_force(const Problem& problem, const Evaluation& at, const Point& point,
+                    std::size_t r, std::span<const double> K, double factor,
+                    std::span<double> out);
 
-/// @brief Their derivatives by an unknown of a resonance.
-void fill_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                          std::size_t i, std::span<double> C);
+/// @brief Add the derivative of its force by the phase.
+void add_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                     std::span<const double> K, std::span<double> out);
+
+/// @brief Add the derivative of its force by an unknown of a resonance.
+void add_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
+                         int i, std::span<const double> K, std::span<double> out);
 
 /// [D] at an evaluation.
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept;

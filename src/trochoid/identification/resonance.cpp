@@ -87,7 +87,7 @@ class LinearLines {
       squares_ += std::norm(line.measured);
     }
     for (std::size_t c = 0; c < columns_; ++c) {
-      const double norm = std::sqrt(total_.gram[c * columns_ + c]);
+      const double norm = std::sqrt(total_.gram[c * (c + 3) / 2]);
       scale_.push_back(norm > 0.0 ? 1.0 / norm : 0.0);
     }
   }
@@ -122,7 +122,7 @@ class LinearLines {
     double omega = 0.0;  ///< [rad/s]
     complex<double> measured;
     std::vector<complex<double>> model;  ///< shape (columns)
-    std::vector<double> gram;            ///< Re(conj(x) x^T)
+    std::vector<double> gram;            ///< Re(conj(x) x^T), its lower triangle
   };
 
   /// G and g of the normal equations.
@@ -132,9 +132,9 @@ class LinearLines {
 
     void add(const Harmonic& line, double square, complex<double> factor) {
       const std::size_t n = line.model.size();
-      gram.resize(n * n, 0.0);
+      gram.resize(line.gram.size(), 0.0);
       right.resize(n, 0.0);
-      for (std::size_t i = 0; i < n * n; ++i) gram[i] += square * line.gram[i];
+      for (std::size_t i = 0; i < gram.size(); ++i) gram[i] += square * line.gram[i];
       const complex<double> m = factor * line.measured;
       for (std::size_t c = 0; c < n; ++c) {
         right[c] += (std::conj(line.model[c]) * m).real();
@@ -176,9 +176,9 @@ class LinearLines {
         for (std::size_t j = 0; j < columns_; ++j) {
           line.model.push_back(amplitude(X, columns_, j));
         }
-        for (const complex<double>& one : line.model) {
-          for (const complex<double>& other : line.model) {
-            line.gram.push_back((std::conj(one) * other).real());
+        for (std::size_t i = 0; i < columns_; ++i) {
+          for (std::size_t j = 0; j <= i; ++j) {
+            line.gram.push_back((std::conj(line.model[i]) * line.model[j]).real());
           }
         }
       }
@@ -187,11 +187,14 @@ class LinearLines {
 
   [[nodiscard]] double left_of(const Products& sum) const {
     const std::size_t n = columns_;
-    std::vector<double> G(sum.gram);
+    std::vector<double> G(n * n);
     std::vector<double> g(sum.right);
     for (std::size_t i = 0; i < n; ++i) {
       g[i] *= scale_[i];
-      for (std::size_t j = 0; j < n; ++j) G[i * n + j] *= scale_[i] * scale_[j];
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double v = scale_[i] * scale_[j] * sum.gram[i * (i + 1) / 2 + j];
+        G[i * n + j] = G[j * n + i] = v;
+      }
     }
     std::vector<double> x(n);
     return squares_ - numerics::solve_normal(G, g, x);
@@ -350,7 +353,7 @@ std::optional<Fit> below_resonances(const force::Setup& setup, const force::Law&
                                     std::span<const Run> runs, const Fit& all) {
   Options options = all.options;
   options.resonances = {};
-  options.start = Start{all.runout, all.phase};
+  options.start = Start{all.runout, all.phase, true};
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double Omega = runs[r].cut.Omega;
     options.response[r] =
@@ -397,18 +400,34 @@ std::optional<Ringing> rigid_by_harmonics(const force::Setup& setup,
 
 }  // namespace
 
-bool repeats(std::span<const Run> runs, const Fit& fit) {
+namespace {
+
+/// What a fit leaves of the mean turn over what scatter makes of it, in squares; nothing
+/// where the runs are too short to tell.
+std::optional<double> left_over_scatter(std::span<const Run> runs, const Fit& fit) {
   double left = 0.0;
   double scatter = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Spectrum one = spectrum_of(runs[r], fit.fitted[r], 0);
-    if (one.highest < 0) return false;
+    if (one.highest < 0) return std::nullopt;
     for (std::size_t i = 0; i < one.rows(); ++i) {
       left += one.left[i] * one.left[i];
       scatter += one.scatter[i];
     }
   }
-  return left > repeating * scatter;
+  return left / scatter;
+}
+
+}  // namespace
+
+bool repeats(std::span<const Run> runs, const Fit& fit) {
+  const auto ratio = left_over_scatter(runs, fit);
+  return ratio && *ratio > repeating;
+}
+
+bool leaves_noise_alone(std::span<const Run> runs, const Fit& fit) {
+  const auto ratio = left_over_scatter(runs, fit);
+  return ratio && *ratio <= repeating;
 }
 
 int resolved_harmonics(const Run& run) {
@@ -432,7 +451,7 @@ std::optional<Fit> fit_through_resonance(const force::Setup& setup,
   if (!found) return std::nullopt;
   Options options = now->options;
   options.resonances = now->point.resonances;
-  options.start = Start{now->point.runout, now->point.phase};
+  options.start = Start{now->point.runout, now->point.phase, true};
   Fit fit = identify(setup, law, runs, options);
   if (!fit.ok) return std::nullopt;
   const double left = part_left(runs, rigid, fit);

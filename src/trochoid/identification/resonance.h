@@ -15,6 +15,10 @@ int resolved_harmonics(const Run& run);
 /// it; false where the runs are too short to tell.
 bool repeats(std::span<const Run> runs, const Fit& fit);
 
+/// @brief Whether it is noise alone that a fit leaves; false where the runs are too short to
+/// tell. What does not repeat turn by turn no cut and no reading of the channels explains.
+bool leaves_noise_alone(std::span<const Run> runs, const Fit& fit);
+
 /// @brief Fit force and dynamometer together, from a fit of a rigid one.
 ///
 /// One axis after the other is let ring, that first which explains most, as long as it explains

@@ -199,9 +199,12 @@ std::optional<Minimum> from_given(const Problem& problem) {
   const std::optional<Candidate> given = given_start(problem);
   if (!given || !in_range(problem, given->p)) return std::nullopt;
   const bool jumps = sum_of_squares_jumps(problem);
-  const Problem coarse = jumps ? smooth_problem(problem) : coarse_problem(problem);
-  Minimum m = refine(coarse, given->p, coarse_step, coarse_options());
-  move_single_teeth(coarse, m);
+  Minimum m{given->p, 0.0, true, ""};
+  if (!problem.start_of_fit) {
+    const Problem coarse = jumps ? smooth_problem(problem) : coarse_problem(problem);
+    m = refine(coarse, given->p, coarse_step, coarse_options());
+    move_single_teeth(coarse, m);
+  }
   m = jumps ? refine_between_jumps(problem, m.p) : settle(problem, m.p);
   const auto n = static_cast<std::size_t>(problem.unknowns.runout_count());
   const std::vector<double> from(given->p.begin(),

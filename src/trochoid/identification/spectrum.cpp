@@ -50,29 +50,27 @@ Blocks blocks_of(const Run& run) {
 /// @brief Mean of the values times each wave, each sample at its own angle: one moved to
 /// the middle of a bin has an error of angle that repeats with the bins, and makes lines
 /// that are not there.
-/// @param value  of a sample, by its number
+/// @param values  three columns
 /// @return of each block, shape (blocks, 3 lines)
-template <class Value>
-std::vector<double> means_of(std::span<const double> angle, const Value& value,
-                             const Blocks& blocks, std::size_t lines) {
+std::vector<double> means_of(std::span<const double> angle,
+                             const numerics::Columns& values, const Blocks& blocks,
+                             std::size_t lines) {
   const std::size_t rows = 3 * lines;
   std::vector<double> out(blocks.count * rows, 0.0);
-  std::vector<double> samples(blocks.count, 0.0);
-  std::vector<double> wave(lines);
-  for (std::size_t i = 0; i < angle.size(); ++i) {
-    const std::size_t block = blocks.of(angle[i]);
-    if (block >= blocks.count) break;
-    fill_waves(angle[i], wave);
-    const std::array<double, 3> of_sample = value(i);
-    for (std::size_t q = 0; q < 3; ++q) {
-      double* const to = &out[block * rows + q * lines];
-      const double v = of_sample[q];
-      for (std::size_t k = 0; k < lines; ++k) to[k] += v * wave[k];
+  std::size_t end = 0;
+  for (std::size_t block = 0; block < blocks.count; ++block) {
+    const std::size_t begin = end;
+    while (end < angle.size() && blocks.of(angle[end]) == block) ++end;
+    const std::size_t n = end - begin;
+    if (n == 0) continue;
+    const std::vector<double> sums = wave_products(
+        angle.subspan(begin, n), {values.values.subspan(begin), n, values.stride},
+        lines);
+    for (std::size_t k = 0; k < lines; ++k) {
+      for (std::size_t q = 0; q < 3; ++q) {
+        out[block * rows + q * lines + k] = sums[3 * k + q] / static_cast<double>(n);
+      }
     }
-    samples[block] += 1.0;
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] /= std::max(1.0, samples[i / rows]);
   }
   return out;
 }
@@ -102,13 +100,16 @@ Spectrum spectrum_of(const Run& run, std::span<const std::array<double, 3>> fitt
   out.highest = highest;
   out.turns = static_cast<double>(blocks.count);
   const std::size_t rows = out.rows();
-  const auto left = [&](std::size_t i) {
-    std::array<double, 3> d = run.force[i];
-    for (std::size_t q = 0; q < 3; ++q) d[q] -= fitted[i][q];
-    return d;
-  };
-  const std::vector<double> means = means_of(run.angle, left, blocks, out.lines());
-  const auto n = static_cast<double>(run.angle.size());
+  const std::size_t samples = run.angle.size();
+  std::vector<double> left(3 * samples);
+  for (std::size_t i = 0; i < samples; ++i) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      left[q * samples + i] = run.force[i][q] - fitted[i][q];
+    }
+  }
+  const std::vector<double> means =
+      means_of(run.angle, {left, samples}, blocks, out.lines());
+  const auto n = static_cast<double>(samples);
   std::vector<double> own(blocks.count);
   for (std::size_t row = 0; row < rows; ++row) {
     double sum = 0.0;
@@ -175,18 +176,22 @@ std::vector<double> harmonic_rows(const FoldedRun& folded, const Spectrum& spect
     }
     return out;
   }
+  const std::size_t u = folded.angle.size();
   double n = 0.0;
   for (const double w : folded.weight) n += w * w;
-  std::vector<double> wave(lines);
-  for (std::size_t g = 0; g < folded.angle.size(); ++g) {
-    fill_waves(folded.angle[g], wave);
-    for (std::size_t q = 0; q < 3; ++q) {
-      for (std::size_t c = 0; c < columns; ++c) {
-        const double v = folded.weight[g] * J[c][3 * g + q];
-        for (std::size_t k = 0; k < lines; ++k) {
-          out[(q * lines + k) * columns + c] += v * wave[k];
-        }
+  std::vector<double> weighted(3 * columns * u);
+  for (std::size_t c = 0; c < columns; ++c) {
+    for (std::size_t g = 0; g < u; ++g) {
+      for (std::size_t q = 0; q < 3; ++q) {
+        weighted[(q * columns + c) * u + g] = folded.weight[g] * J[c][3 * g + q];
       }
+    }
+  }
+  const std::vector<double> sums = wave_products(folded.angle, {weighted, u}, lines);
+  for (std::size_t k = 0; k < lines; ++k) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      std::copy_n(&sums[(3 * k + q) * columns], columns,
+                  &out[(q * lines + k) * columns]);
     }
   }
   for (std::size_t row = 0; row < spectrum.rows(); ++row) {

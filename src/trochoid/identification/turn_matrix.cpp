@@ -2,6 +2,7 @@
 
 #include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
+#include <trochoid/identification/waves.h>
 #include <trochoid/numerics/fourier.h>
 
 #include <algorithm>
@@ -181,6 +182,34 @@ TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid) {
   return out;
 }
 
+namespace {
+
+/// Rows of 3 times the columns of [C], each times the coefficients of a law.
+std::vector<double> products_with(std::span<const double> C, std::span<const double> K) {
+  std::vector<double> out;
+  out.reserve(C.size() / K.size());
+  for (std::size_t i = 0; i < C.size(); i += K.size()) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < K.size(); ++c) sum += C[i + c] * K[c];
+    out.push_back(sum);
+  }
+  return out;
+}
+
+}  // namespace
+
+TurnMatrix times(const TurnMatrix& turn, std::span<const double> K) {
+  return {turn.highest, 3, products_with(turn.coefficients, K)};
+}
+
+TurnMatrix turn_of_force(const force::ForceMatrix& matrix, const TurnGrid& grid,
+                         std::span<const double> K) {
+  if (grid.sudden) return times(turn_matrix(matrix, grid), K);
+  const Steps steps(matrix, grid.angles);
+  return {grid.highest, 3,
+          numerics::fourier_coefficients(products_with(steps.C, K), 3, grid.highest)};
+}
+
 std::vector<double> jump_angles(const force::ForceMatrix& matrix, int angles) {
   const Steps steps(matrix, angles);
   TurnMatrix unused{0, 3 * index(matrix.columns()), {}};
@@ -197,9 +226,11 @@ std::vector<double> jump_angles(const force::ForceMatrix& matrix, int angles) {
 std::vector<double> at_phase(const TurnMatrix& turn, double phase) {
   std::vector<double> out(turn.coefficients);
   const std::size_t w = turn.width;
+  std::vector<double> wave(2 * index(turn.highest) + 1);
+  fill_waves(phase, wave);
   for (std::size_t m = 1; m <= index(turn.highest); ++m) {  // I-10
-    const double c = std::cos(static_cast<double>(m) * phase);
-    const double s = std::sin(static_cast<double>(m) * phase);
+    const double c = wave[2 * m - 1];
+    const double s = wave[2 * m];
     double* const a = &out[(2 * m - 1) * w];
     double* const b = a + w;
     for (std::size_t i = 0; i < w; ++i) {

@@ -3,6 +3,7 @@
 #include <trochoid/force/forces.h>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace trochoid::identification {
@@ -27,6 +28,14 @@ struct TurnGrid {
 
 /// @brief Fourier coefficients of [C] over the turn.
 TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid);
+
+/// @brief The coefficients of [C] times those of a law: of the force, with a width of 3.
+/// @param K  shape (columns of [C])
+TurnMatrix times(const TurnMatrix& turn, std::span<const double> K);
+
+/// @brief The same of a matrix, without the coefficients of [C] on the way.
+TurnMatrix turn_of_force(const force::ForceMatrix& matrix, const TurnGrid& grid,
+                         std::span<const double> K);
 
 /// @brief Angles of a turn at which the matrix jumps, found in so many equal steps [rad].
 std::vector<double> jump_angles(const force::ForceMatrix& matrix, int angles);

@@ -44,7 +44,7 @@ Viewed fit_as_seen(const force::Setup& setup, const force::Law& law,
   if (!out.fit.ok || options.stop.wanted() || !repeats(runs, out.fit)) return out;
   out.views.push_back(view_of(out.fit));
   Options near = options;
-  near.start = Start{out.fit.runout, out.fit.phase};
+  near.start = Start{out.fit.runout, out.fit.phase, true};
   for (const int n : bands(setup, runs)) {
     if (options.stop.wanted()) return out;
     near.band_harmonics = n;

@@ -246,7 +246,10 @@ identification::Fits fit_records(const Task& task, IdentifyResult& r) {
 /// Another reading of the channels, or another cut, that fits better than the stated one.
 void look_at_alternatives(const Task& task, const Fit& chosen, IdentifyResult& r,
                           std::vector<std::string>& left_out) {
-  if (!(chosen.unexplained.in_band > too_good_to_doubt)) return;
+  if (!(chosen.unexplained.in_band > too_good_to_doubt) ||
+      identification::leaves_noise_alone(r.runs, chosen)) {
+    return;
+  }
   if (task.stop.wanted()) {
     left_out.emplace_back("a look at other readings of the channels");
     return;
