@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -111,7 +112,7 @@ namespace {
 
 /// Rows of functions two by two, as `transform` has them.
 struct Rows {
-  std::vector<double> values;
+  std::unique_ptr<double[]> values;
   std::size_t count = 0;  ///< rows, a power of two
   std::size_t lanes = 0;  ///< numbers of a part: whole vectors of any machine
 
@@ -139,18 +140,21 @@ std::vector<double> unit_roots(std::size_t n) {
   return out;
 }
 
-/// Two real functions are one complex one; rows in the order of reversed bits.
+/// Two real functions are one complex one, the first half the real parts and the others the
+/// imaginary ones; rows in the order of reversed bits.
 Rows paired(std::span<const double> values, std::size_t width, std::size_t n) {
   Rows z;
   z.count = n;
   constexpr std::size_t vector = 4;
   const std::size_t pairs = (width + 1) / 2;
   z.lanes = (pairs + vector - 1) / vector * vector;
-  z.values.assign(2 * z.lanes * n, 0.0);
+  z.values = std::make_unique_for_overwrite<double[]>(2 * z.lanes * n);
   for (std::size_t k = 0, j = 0; k < n; ++k) {
     const double* const from = &values[k * width];
     double* const to = z.row(j);
-    for (std::size_t c = 0; c < width; ++c) to[c / 2 + c % 2 * z.lanes] = from[c];
+    std::fill(std::copy(from, from + pairs, to), to + z.lanes, 0.0);
+    std::fill(std::copy(from + pairs, from + width, to + z.lanes), to + 2 * z.lanes,
+              0.0);
     std::size_t bit = n >> 1U;
     for (; (j & bit) != 0; bit >>= 1U) j ^= bit;
     j ^= bit;
@@ -161,15 +165,17 @@ Rows paired(std::span<const double> values, std::size_t width, std::size_t n) {
 /// The coefficients of a harmonic, from the rows of it and of its negative.
 void take(const double* up, const double* down, std::size_t lanes, double scale,
           std::span<double> a, std::span<double> b) {
-  for (std::size_t c = 0; c < a.size(); ++c) {
-    const std::size_t i = c / 2;
-    const double sum_r = up[i] + down[i];
-    const double sum_i = up[lanes + i] + down[lanes + i];
-    const double apart_r = up[i] - down[i];
-    const double apart_i = up[lanes + i] - down[lanes + i];
-    a[c] = scale * (c % 2 == 0 ? sum_r : sum_i);
-    if (!b.empty()) b[c] = scale * (c % 2 == 0 ? -apart_i : apart_r);
+  const std::size_t pairs = (a.size() + 1) / 2;
+  const std::size_t rest = a.size() - pairs;
+  for (std::size_t i = 0; i < pairs; ++i) a[i] = scale * (up[i] + down[i]);
+  for (std::size_t i = 0; i < rest; ++i) {
+    a[pairs + i] = scale * (up[lanes + i] + down[lanes + i]);
   }
+  if (b.empty()) return;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    b[i] = scale * (down[lanes + i] - up[lanes + i]);
+  }
+  for (std::size_t i = 0; i < rest; ++i) b[pairs + i] = scale * (up[i] - down[i]);
 }
 
 /// Of fewer rows than two rounds take.
@@ -199,7 +205,7 @@ std::vector<double> fourier_coefficients(std::span<const double> values,
   if (n < 4) {
     transform_few(z);
   } else {
-    HWY_DYNAMIC_DISPATCH(transform)(z.values, n, unit_roots(n), top);
+    HWY_DYNAMIC_DISPATCH(transform)({z.values.get(), 2 * z.lanes * n}, n, unit_roots(n), top);
   }
   std::vector<double> out((2 * top + 1) * width);
   const std::span<double> all = out;

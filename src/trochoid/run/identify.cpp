@@ -409,12 +409,31 @@ IdentifyResult identified(const Task& task, IdentifyResult r) {
   return r;
 }
 
-/// Whether a fit without offsets explains so much more than one with them that the search
-/// with them went astray: they only add freedom.
+/// Of what fits with offsets leave (rms): one without that leaves less shows that the search
+/// with them went astray, for they only add freedom.
+constexpr double far_less = 0.7;
+
 bool explains_far_more(const IdentifyResult& without, const IdentifyResult& with) {
-  constexpr double far_less = 0.7;  // of what is left (rms)
   return without.chosen && (!with.chosen || without.fits[*without.chosen].rms <
                                                 far_less * with.fits[*with.chosen].rms);
+}
+
+/// @brief Whether a fit without offsets may explain so much more than one with them: told by
+/// two fits of a rigid dynamometer, where it is clear what the channels read.
+bool may_explain_far_more(const Task& without, const IdentifyResult& with) {
+  if (!with.chosen || (with.axes && with.axes->next_rms < 2.0 * with.axes->rms)) {
+    return true;
+  }
+  const Fit& found = with.fits[*with.chosen];
+  identification::Options options = fit_options(without.given, found.chip.model);
+  options.runout = found.options.runout;
+  if (with.axes) options.start = with.axes->start;
+  const cases::Case& given = without.given;
+  const Fit other = identification::identify(given.setup, given.law, with.runs, options);
+  options.fit_channel_offsets = true;
+  options.start = identification::Start{found.runout, found.phase, true};
+  const Fit same = identification::identify(given.setup, given.law, with.runs, options);
+  return other.ok && (!same.ok || other.rms < far_less * same.rms);
 }
 
 IdentifyResult with_advice_on_offsets(IdentifyResult out) {
@@ -451,8 +470,9 @@ IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
   IdentifyResult out = identified({given, task.progress, task.stop, task.measured}, r);
   if (!out.chosen || out.fits[*out.chosen].unexplained.in_band > worth_a_look) {
     given.identify.channel_offsets = ChannelOffset::none;
-    IdentifyResult left_in =
-        identified({given, task.progress, task.stop, task.measured}, std::move(r));
+    const Task without{given, task.progress, task.stop, task.measured};
+    if (!may_explain_far_more(without, out)) return out;
+    IdentifyResult left_in = identified(without, std::move(r));
     if (!explains_far_more(left_in, out)) return with_advice_on_offsets(std::move(out));
     left_in.heading.warnings.push_back(
         {"offsets_left_in",
