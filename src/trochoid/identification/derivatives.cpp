@@ -26,8 +26,8 @@ void Derivatives::find(int i, const Step& step, std::span<double> out) const {
   }
   if (i >= u.first_resonance()) {  // all rows are from the turn
     for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
-      add_resonance_slope(problem_, at_, r, i - u.first_resonance(), coefficients(r),
-                          rows_of_run(r, out));
+      add_resonance_slope(problem_, at_, i - u.first_resonance(),
+                          {r, coefficients(r), 1.0, rows_of_run(r, out)});
     }
     return;
   }
@@ -56,8 +56,8 @@ void Derivatives::add_force(const Point& point, std::size_t r, double factor,
                             std::span<double> out) const {
   const FoldedRun& run = problem_.runs[r];
   if (!run.turn_map.empty()) {
-    add_turn_force(problem_, at_, point, r, coefficients(r), factor,
-                   rows_of_run(r, out));
+    add_turn_force(problem_, at_, point,
+                   {r, coefficients(r), factor, rows_of_run(r, out)});
     return;
   }
   std::vector<double> phi(run.angle);
@@ -84,7 +84,7 @@ void Derivatives::find_by_phase(std::size_t r, double step,
   const std::size_t first = first_row(problem_, r);
   const std::size_t own = index(problem_.runs[r].rows);
   if (!problem_.runs[r].turn_map.empty()) {
-    add_phase_slope(problem_, at_, r, coefficients(r), rows_of_run(r, out));
+    add_phase_slope(problem_, at_, {r, coefficients(r), 1.0, rows_of_run(r, out)});
     return;
   }
   Point point = at_.point;

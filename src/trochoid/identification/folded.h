@@ -25,9 +25,9 @@ struct FoldedRun {
   std::vector<double> slope;                 ///< mean of the slope column, shape (u)
   std::vector<std::size_t> group;            ///< index into angle, one a sample
   bool binned = false;                       ///< a group holds different angles
-  WaveBasis basis;  ///< of the band over the weighted rows
-  int band = 0;     ///< columns of the basis; 0: no limit
-  int harmonics = 0;  ///< of the band; 0: no limit
+  WaveBasis basis;                           ///< of the band over the weighted rows
+  int band = 0;                              ///< columns of the basis; 0: no limit
+  int harmonics = 0;                         ///< of the band; 0: no limit
   Response response;  ///< the rows are of what the dynamometer reads
   /// Where the rows follow from the Fourier coefficients of the force over the turn, up
   /// to this harmonic (map_turn): from a_0, a_1, b_1, ... to the band, shape (band,

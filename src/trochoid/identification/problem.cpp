@@ -276,11 +276,11 @@ namespace {
 
 /// Add the rows that readings of a run make, by the coefficients of their turn.
 void add_rows(const FoldedRun& run, const Response& response, std::vector<double> turn,
-              double factor, std::span<double> out) {
+              const TurnRows& to) {
   respond(response, 1, turn);
   std::vector<double> rows = rows_of_turn(run, turn, 1);
   leave_out_unmeasured(run, rows);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] += factor * rows[i];
+  for (std::size_t i = 0; i < to.out.size(); ++i) to.out[i] += to.factor * rows[i];
 }
 
 /// The axis of an unknown of the resonances.
@@ -294,30 +294,30 @@ std::size_t axis_of(const Unknowns& unknowns, int i) {
 }  // namespace
 
 void add_turn_force(const Problem& problem, const Evaluation& at, const Point& point,
-                    std::size_t r, std::span<const double> K, double factor,
-                    std::span<double> out) {
-  const FoldedRun& run = problem.runs[r];
+                    const TurnRows& to) {
+  const FoldedRun& run = problem.runs[to.run];
   const force::ForceMatrix matrix(setup_of(problem, point, run), point.law,
                                   problem.tolerance);
   const TurnGrid grid = grid_of(problem, run);
   problem.stop.count(matrix.work(index(grid.angles)));
-  add_rows(run, response_at(problem, at, r),
-           at_phase(turn_of_force(matrix, grid, K), point.phase[r]), factor, out);
+  add_rows(run, response_at(problem, at, to.run),
+           at_phase(turn_of_force(matrix, grid, to.K), point.phase[to.run]), to);
 }
 
-void add_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                     std::span<const double> K, std::span<double> out) {
-  add_rows(problem.runs[r], response_at(problem, at, r),
-           slope_at_phase(times(at.turn[r], K), at.point.phase[r]), 1.0, out);
+void add_phase_slope(const Problem& problem, const Evaluation& at, const TurnRows& to) {
+  const TurnMatrix turn = times(at.turn[to.run], to.K);
+  add_rows(problem.runs[to.run], response_at(problem, at, to.run),
+           slope_at_phase(turn, at.point.phase[to.run]), to);
 }
 
-void add_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                         int i, std::span<const double> K, std::span<double> out) {
-  const FoldedRun& run = problem.runs[r];
+void add_resonance_slope(const Problem& problem, const Evaluation& at, int i,
+                         const TurnRows& to) {
+  const FoldedRun& run = problem.runs[to.run];
   const Response slope = slope_of_resonance(
       run.response, at.point.resonances, run.cut.Omega, axis_of(problem.unknowns, i),
       i % 2 == 0 ? ResonanceUnknown::ln_omega : ResonanceUnknown::ln_zeta);
-  add_rows(run, slope, at_phase(times(at.turn[r], K), at.point.phase[r]), 1.0, out);
+  add_rows(run, slope, at_phase(times(at.turn[to.run], to.K), at.point.phase[to.run]),
+           to);
 }
 
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept {

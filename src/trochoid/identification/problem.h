@@ -121,20 +121,26 @@ std::vector<double> read_at_phase(const Problem& problem, const Evaluation& at,
 void fill_run(const Problem& problem, const Evaluation& at, std::size_t r,
               std::span<double> C);
 
-/// @brief Add to the rows of a run whose rows are from the turn: its force at another place.
+/// @brief Rows of a run whose rows are from the turn, to which a force is added.
+struct TurnRows {
+  std::size_t run = 0;
+  std::span<const double> K;  ///< coefficients of the run
+  double factor = 1.0;
+  std::span<double> out;  ///< shape (rows of the run)
+};
+
+/// @brief Add its force at another place.
 /// @param point  of the same resonances as the evaluation
-/// @param K      coefficients of the run
 void add_turn_force(const Problem& problem, const Evaluation& at, const Point& point,
-                    std::size_t r, std::span<const double> K, double factor,
-                    std::span<double> out);
+                    const TurnRows& to);
 
 /// @brief Add the derivative of its force by the phase.
-void add_phase_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                     std::span<const double> K, std::span<double> out);
+void add_phase_slope(const Problem& problem, const Evaluation& at, const TurnRows& to);
 
 /// @brief Add the derivative of its force by an unknown of a resonance.
-void add_resonance_slope(const Problem& problem, const Evaluation& at, std::size_t r,
-                         int i, std::span<const double> K, std::span<double> out);
+/// @param i  of those of the resonances
+void add_resonance_slope(const Problem& problem, const Evaluation& at, int i,
+                         const TurnRows& to);
 
 /// [D] at an evaluation.
 numerics::Columns design(const Problem& problem, const Evaluation& at) noexcept;

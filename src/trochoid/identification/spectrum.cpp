@@ -63,9 +63,9 @@ std::vector<double> means_of(std::span<const double> angle,
     while (end < angle.size() && blocks.of(angle[end]) == block) ++end;
     const std::size_t n = end - begin;
     if (n == 0) continue;
-    const std::vector<double> sums = wave_products(
-        angle.subspan(begin, n), {values.values.subspan(begin), n, values.stride},
-        lines);
+    const std::vector<double> sums =
+        wave_products(angle.subspan(begin, n),
+                      {values.values.subspan(begin), n, values.stride}, lines);
     for (std::size_t k = 0; k < lines; ++k) {
       for (std::size_t q = 0; q < 3; ++q) {
         out[block * rows + q * lines + k] = sums[3 * k + q] / static_cast<double>(n);

@@ -185,7 +185,8 @@ TurnMatrix turn_matrix(const force::ForceMatrix& matrix, const TurnGrid& grid) {
 namespace {
 
 /// Rows of 3 times the columns of [C], each times the coefficients of a law.
-std::vector<double> products_with(std::span<const double> C, std::span<const double> K) {
+std::vector<double> products_with(std::span<const double> C,
+                                  std::span<const double> K) {
   std::vector<double> out;
   out.reserve(C.size() / K.size());
   for (std::size_t i = 0; i < C.size(); i += K.size()) {

@@ -34,9 +34,10 @@ std::vector<double> sum_of_waves(std::span<const double> angle,
 /// the sums of waves, so that no column is ever written down. Where angles leave waves that
 /// nearly depend on one another, the columns come from a QR of W, in an order of its own.
 struct WaveBasis {
-  std::size_t size = 0;         ///< columns; 0: none was asked for, or it holds everything
-  std::vector<double> root;     ///< L, row-major lower triangle, shape (size, size)
-  std::vector<double> columns;  ///< where there is no root: E, row-major, shape (u, size)
+  std::size_t size = 0;      ///< columns; 0: none was asked for, or it holds everything
+  std::vector<double> root;  ///< L, row-major lower triangle, shape (size, size)
+  std::vector<double>
+      columns;  ///< where there is no root: E, row-major, shape (u, size)
 
   [[nodiscard]] bool by_root() const noexcept { return !root.empty(); }
 };

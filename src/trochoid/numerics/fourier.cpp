@@ -162,9 +162,12 @@ Rows paired(std::span<const double> values, std::size_t width, std::size_t n) {
   return z;
 }
 
-/// The coefficients of a harmonic, from the rows of it and of its negative.
-void take(const double* up, const double* down, std::size_t lanes, double scale,
-          std::span<double> a, std::span<double> b) {
+/// The coefficients of a harmonic m, from the rows of it and of its negative.
+void take(Rows& z, std::size_t m, std::span<double> a, std::span<double> b) {
+  const double* const up = z.row(m);
+  const double* const down = z.row((z.count - m) % z.count);
+  const std::size_t lanes = z.lanes;
+  const double scale = (m == 0 ? 0.5 : 1.0) / static_cast<double>(z.count);
   const std::size_t pairs = (a.size() + 1) / 2;
   const std::size_t rest = a.size() - pairs;
   for (std::size_t i = 0; i < pairs; ++i) a[i] = scale * (up[i] + down[i]);
@@ -205,15 +208,15 @@ std::vector<double> fourier_coefficients(std::span<const double> values,
   if (n < 4) {
     transform_few(z);
   } else {
-    HWY_DYNAMIC_DISPATCH(transform)({z.values.get(), 2 * z.lanes * n}, n, unit_roots(n), top);
+    HWY_DYNAMIC_DISPATCH(transform)
+    ({z.values.get(), 2 * z.lanes * n}, n, unit_roots(n), top);
   }
   std::vector<double> out((2 * top + 1) * width);
   const std::span<double> all = out;
-  const double scale = 1.0 / static_cast<double>(n);
-  take(z.row(0), z.row(0), z.lanes, 0.5 * scale, all.first(width), {});
+  take(z, 0, all.first(width), {});
   for (std::size_t m = 1; m <= top; ++m) {
-    take(z.row(m), z.row(n - m), z.lanes, scale,
-         all.subspan((2 * m - 1) * width, width), all.subspan(2 * m * width, width));
+    take(z, m, all.subspan((2 * m - 1) * width, width),
+         all.subspan(2 * m * width, width));
   }
   return out;
 }

@@ -429,7 +429,8 @@ bool may_explain_far_more(const Task& without, const IdentifyResult& with) {
   options.runout = found.options.runout;
   if (with.axes) options.start = with.axes->start;
   const cases::Case& given = without.given;
-  const Fit other = identification::identify(given.setup, given.law, with.runs, options);
+  const Fit other =
+      identification::identify(given.setup, given.law, with.runs, options);
   options.fit_channel_offsets = true;
   options.start = identification::Start{found.runout, found.phase, true};
   const Fit same = identification::identify(given.setup, given.law, with.runs, options);
