@@ -1,6 +1,7 @@
 #include <trochoid/surface/edge_moments.h>
 
 #include <trochoid/numerics/gauss_kronrod.h>
+#include <trochoid/surface/edge_nodes.h>
 #include <trochoid/surface/pass.h>
 
 #include <algorithm>
@@ -16,6 +17,18 @@ namespace {
 /// Break points along an edge are found to this part of it.
 constexpr double relative_resolution = 1e-11;
 
+/// Moments, then F_x, then F_y, which is the sum of the moments.
+void put_moments(const PointRow& across, double along, std::span<double> out) {
+  const std::size_t points = out.size() - 2;
+  double F_y = 0.0;
+  for (std::size_t q = 0; q < points; ++q) {
+    out[q] = across[q];
+    F_y += across[q];
+  }
+  out[points] = along;
+  out[points + 1] = F_y;
+}
+
 }  // namespace
 
 std::array<double, columns> wall_coefficients(const force::Law& law) {
@@ -29,6 +42,9 @@ EdgeMoments::EdgeMoments(const force::Setup& setup, const force::Law& law,
   const std::optional<Side> side = side_of(setup.cut.engagement);
   if (left && !side) {
     throw std::invalid_argument("stock left before a cut that has no single wall");
+  }
+  if (!left) {
+    nodes_ = EdgeNodes::make(edges_, form_, basis_);
   }
   if (left) {
     shift_ = [left, sigma = side->sigma](double z) {
@@ -69,8 +85,16 @@ void EdgeMoments::integrate(double phi, const force::Bend* bend, const Add& add)
 }
 
 void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out) const {
-  std::fill(out.begin(), out.end(), 0.0);
   const std::size_t n = values();
+  if (bend == nullptr && nodes_) {
+    MomentSums sums;
+    nodes_->at(phi, nullptr, sums);
+    for (std::size_t c = 0; c < columns; ++c) {
+      put_moments(sums.across[c], sums.along[c], out.subspan(c * n, n));
+    }
+    return;
+  }
+  std::fill(out.begin(), out.end(), 0.0);
   std::vector<double> L(basis_.size());
   integrate(
       phi, bend,

@@ -6,10 +6,13 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace trochoid::surface {
+
+class EdgeNodes;
 
 /// Coefficients that matter for the force across and along the wall: cutting t, cutting
 /// r, edge t, edge r. The axial ones do nothing there on a cylinder.
@@ -83,6 +86,7 @@ class EdgeMoments {
   force::Terms terms_;
   std::function<double(double z)> shift_;  ///< of the axis in y that stands for `left`
   numerics::LagrangeBasis basis_;
+  std::shared_ptr<const EdgeNodes> nodes_;  ///< where they do what `integrate` does
 };
 
 }  // namespace trochoid::surface

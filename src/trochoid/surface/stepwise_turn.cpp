@@ -3,11 +3,13 @@
 #include <trochoid/base/units.h>
 #include <trochoid/force/edge_curve.h>
 #include <trochoid/numerics/gauss_kronrod.h>
+#include <trochoid/surface/edge_nodes.h>
 #include <trochoid/surface/fixed_point.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace trochoid::surface {
@@ -74,6 +76,7 @@ class Edges {
     near_.resize(teeth);
     gained_.resize(teeth);
     L_.resize(basis_.size());
+    nodes_ = EdgeNodes::make(edges_, form_, basis_);
   }
 
   [[nodiscard]] std::size_t teeth() const { return edges_.psi.size(); }
@@ -82,6 +85,10 @@ class Edges {
   /// m_q, F_x, F_y with the deflections u now and, of each tooth and mark, before.
   void forces(double phi, std::span<const double> u, std::span<const double> before,
               std::span<double> out) {
+    if (nodes_) {
+      forces_at_nodes(phi, {u, before}, out);
+      return;
+    }
     u_ = u;
     before_ = before;
     out_ = out;
@@ -96,6 +103,22 @@ class Edges {
   }
 
  private:
+  void forces_at_nodes(double phi, const NodeBend& bend, std::span<double> out) const {
+    MomentSums sums;
+    nodes_->at(phi, &bend, sums);
+    const std::size_t points = basis_.size();
+    std::fill(out.begin(), out.end(), 0.0);
+    for (std::size_t c = 0; c < columns; ++c) {
+      for (std::size_t q = 0; q < points; ++q) {
+        out[q] += K_[c] * sums.across[c][q];
+      }
+      out[points] += K_[c] * sums.along[c];
+    }
+    for (std::size_t q = 0; q < points; ++q) {
+      out[points + 1] += out[q];
+    }
+  }
+
   /// One passage of a tooth whose tip is at theta.
   void add_tooth(std::size_t j, double theta) {
     if (lag_ < 1e-6) {
@@ -248,6 +271,7 @@ class Edges {
   }
 
   force::Edges edges_;
+  std::shared_ptr<const EdgeNodes> nodes_;
   force::Form form_;
   std::span<const double, columns> K_;
   const numerics::LagrangeBasis& basis_;
