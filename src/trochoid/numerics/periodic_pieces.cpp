@@ -155,13 +155,31 @@ PeriodicPieces::Place PeriodicPieces::place(double x) const noexcept {
 }
 
 void PeriodicPieces::value(double x, std::span<double> out) const noexcept {
+  // Several functions side by side: one alone waits for each of its steps.
+  constexpr std::size_t together = 4;
   const Place at = place(x);
   const double* c = coefficients_.data() + at.panel * nodes * functions_;
-  for (std::size_t q = 0; q < functions_; ++q) {
+  const double twice = 2 * at.t;
+  std::size_t q = 0;
+  for (; q + together <= functions_; q += together) {
+    std::array<double, together> next{};
+    std::array<double, together> after{};
+    for (std::size_t k = nodes; k-- > 1;) {
+      for (std::size_t i = 0; i < together; ++i) {
+        const double b = c[k * functions_ + q + i] + twice * next[i] - after[i];
+        after[i] = next[i];
+        next[i] = b;
+      }
+    }
+    for (std::size_t i = 0; i < together; ++i) {
+      out[q + i] = c[q + i] + at.t * next[i] - after[i];
+    }
+  }
+  for (; q < functions_; ++q) {
     double next = 0.0;
     double after = 0.0;
     for (std::size_t k = nodes; k-- > 1;) {
-      const double b = c[k * functions_ + q] + 2 * at.t * next - after;
+      const double b = c[k * functions_ + q] + twice * next - after;
       after = next;
       next = b;
     }
@@ -169,30 +187,130 @@ void PeriodicPieces::value(double x, std::span<double> out) const noexcept {
   }
 }
 
+namespace {
+
+/// Rows of functions times weights.
+class Combination {
+ public:
+  Combination(std::span<const double> weights, std::size_t functions)
+      : weights_(weights), functions_(functions) {}
+
+  /// Where most weights are zeros.
+  void of_few(std::span<const double> from, std::span<double> out) const {
+    std::vector<std::size_t> used;
+    for (std::size_t p = 0; p < results(); ++p) {
+      const double* w = weights_.data() + p * functions_;
+      used.clear();
+      for (std::size_t q = 0; q < functions_; ++q) {
+        if (w[q] != 0) {
+          used.push_back(q);
+        }
+      }
+      for (std::size_t i = 0; i * functions_ < from.size(); ++i) {
+        double sum = 0.0;
+        for (const std::size_t q : used) {
+          sum += w[q] * from[i * functions_ + q];
+        }
+        out[i * results() + p] = sum;
+      }
+    }
+  }
+
+  /// Several results side by side.
+  void of_all(std::span<const double> from, std::span<double> out) const {
+    constexpr std::size_t together = 4;
+    using Block = std::array<double, together>;
+    std::vector<Block> of_function(functions_);
+    for (std::size_t p = 0; p < results(); p += together) {
+      const std::size_t count = std::min(together, results() - p);
+      for (std::size_t q = 0; q < functions_; ++q) {
+        for (std::size_t k = 0; k < count; ++k) {
+          of_function[q][k] = weights_[(p + k) * functions_ + q];
+        }
+      }
+      for (std::size_t i = 0; i * functions_ < from.size(); ++i) {
+        const double* row = from.data() + i * functions_;
+        Block sum{};
+        for (std::size_t q = 0; q < functions_; ++q) {
+          for (std::size_t k = 0; k < together; ++k) {
+            sum[k] += of_function[q][k] * row[q];
+          }
+        }
+        std::copy_n(sum.begin(), count,
+                    out.begin() + static_cast<std::ptrdiff_t>(i * results() + p));
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t results() const noexcept {
+    return weights_.size() / functions_;
+  }
+
+  std::span<const double> weights_;
+  std::size_t functions_;
+};
+
+}  // namespace
+
+double PeriodicPieces::largest(std::span<const double> weights) const noexcept {
+  double most = 0.0;
+  for (std::size_t panel = 0; panel < ends_.size(); ++panel) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < nodes; ++k) {
+      const double* c = coefficients_.data() + (panel * nodes + k) * functions_;
+      for (std::size_t q = 0; q < weights.size(); ++q) {
+        sum += weights[q] * std::abs(c[q]);
+      }
+    }
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+bool PeriodicPieces::at(std::size_t panel, std::span<const Part> parts) const noexcept {
+  const double from = panel == 0 ? start_ : ends_[panel - 1];
+  const double length = ends_[panel] - from;
+  return std::ranges::any_of(parts, [&](const Part& part) {
+    // From the start of the part on, where does the panel begin?
+    const double ahead = from - part.from;
+    const double u = ahead - std::floor(ahead / period_) * period_;
+    return u <= part.to - part.from || u + length >= period_;
+  });
+}
+
 PeriodicPieces PeriodicPieces::combined(std::span<const double> weights) const {
+  const Part all{start_, start_ + period_};
+  return combined(weights, {&all, 1});
+}
+
+PeriodicPieces PeriodicPieces::combined(std::span<const double> weights,
+                                        std::span<const Part> parts) const {
   PeriodicPieces result;
   result.functions_ = weights.size() / functions_;
   result.start_ = start_;
   result.period_ = period_;
   result.ends_ = ends_;
-  const std::size_t rows = coefficients_.size() / functions_;
-  result.coefficients_.assign(rows * result.functions_, 0.0);
-  std::vector<std::size_t> used;  // most weights are zeros
-  for (std::size_t p = 0; p < result.functions_; ++p) {
-    const double* w = weights.data() + p * functions_;
-    used.clear();
-    for (std::size_t q = 0; q < functions_; ++q) {
-      if (w[q] != 0) {
-        used.push_back(q);
-      }
+  result.coefficients_.assign(ends_.size() * nodes * result.functions_, 0.0);
+  const auto zeros = std::count(weights.begin(), weights.end(), 0.0);
+  const bool few = 2 * static_cast<std::size_t>(zeros) > weights.size();
+  const Combination combination(weights, functions_);
+  for (std::size_t panel = 0; panel < ends_.size();) {
+    std::size_t end = panel;
+    while (end < ends_.size() && at(end, parts)) {
+      ++end;
     }
-    for (std::size_t i = 0; i < rows; ++i) {
-      const double* from = coefficients_.data() + i * functions_;
-      double sum = 0.0;
-      for (const std::size_t q : used) {
-        sum += w[q] * from[q];
-      }
-      result.coefficients_[i * result.functions_ + p] = sum;
+    const auto out = std::span(result.coefficients_)
+                         .subspan(panel * nodes * result.functions_,
+                                  (end - panel) * nodes * result.functions_);
+    const auto from =
+        std::span(coefficients_)
+            .subspan(panel * nodes * functions_, (end - panel) * nodes * functions_);
+    few ? combination.of_few(from, out) : combination.of_all(from, out);
+    for (panel = end; panel < ends_.size() && !at(panel, parts); ++panel) {
+      std::fill_n(result.coefficients_.begin() +
+                      static_cast<std::ptrdiff_t>(panel * nodes * result.functions_),
+                  result.functions_, std::numeric_limits<double>::infinity());
     }
   }
   result.find_lower_bounds();

@@ -47,12 +47,27 @@ class PeriodicPieces {
   /// @param weights  row-major, shape (rows, functions)
   [[nodiscard]] PeriodicPieces combined(std::span<const double> weights) const;
 
+  /// A part of a period, anywhere.
+  struct Part {
+    double from = 0.0;
+    double to = 0.0;
+  };
+  /// @brief The same near some parts only; elsewhere the results are infinite.
+  [[nodiscard]] PeriodicPieces combined(std::span<const double> weights,
+                                        std::span<const Part> parts) const;
+
+  /// @brief What the sum of weight times size never exceeds, from the sizes of the series.
+  /// @param weights  not negative; of the first functions
+  [[nodiscard]] double largest(std::span<const double> weights) const noexcept;
+
  private:
   struct Place {
     std::size_t panel;
     double t;  ///< in [-1, 1]
   };
   [[nodiscard]] Place place(double x) const noexcept;
+  /// Whether a panel lies at one of the parts.
+  [[nodiscard]] bool at(std::size_t panel, std::span<const Part> parts) const noexcept;
   void find_lower_bounds();
 
   std::size_t functions_ = 0;

@@ -117,7 +117,7 @@ class EdgeNodes::Look {
     if (bend != nullptr) {
       give_way(phi, panel, tooth, *bend);
     }
-    find_across(bend != nullptr);
+    find_across(bend != nullptr, &rows.rows[force::NodeTooth::radius * rule_.width]);
     if (!find_marks() || !in_stock()) {
       return;
     }
@@ -194,17 +194,14 @@ class EdgeNodes::Look {
   }
 
   /// y of the edge, for the simple models by the radius that they take.
-  void find_across(bool bent) {
+  /// @param own_radius  of the tooth at the nodes [m]
+  void find_across(bool bent, const double* own_radius) {
     const bool own = bent && all_.passage.model.model == chip::Model::radial;
     for (std::size_t i = 0; i < rule_.nodes; ++i) {
-      const double R = exact() ? chips_.radius[i] : own ? radius_of(i) : panel_->r[i];
+      const double R = exact() ? chips_.radius[i] : own ? own_radius[i] : panel_->r[i];
       window_[i] = R;
       across_[i] = R * chips_.chip_cosine[i] + shift_[i];
     }
-  }
-
-  [[nodiscard]] double radius_of(std::size_t i) const noexcept {
-    return chips_.radius[i];
   }
 
   /// Whether m lies behind another mark between two neighbours.

@@ -65,9 +65,9 @@ bool angle_at(const Passes& passes, double R, double dx, double& t) noexcept {
     return false;
   }
   t = dx / (along + slope * R);
+  t += slope * R * t * t * t / 6 / (along + slope * R * (1 - t * t / 2));
   for (int i = 0; i < 8; ++i) {
-    const double sine = std::sin(t);
-    const double cosine = std::cos(t);
+    const auto [sine, cosine] = sine_and_cosine(t);
     const double step =
         (dx - along * t - slope * R * sine) / (along + slope * R * cosine);
     t += step;

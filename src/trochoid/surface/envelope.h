@@ -4,6 +4,7 @@
 #include <trochoid/numerics/periodic_pieces.h>
 #include <trochoid/surface/pass.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -73,6 +74,17 @@ struct Passes {
 /// @param dx  x, from where this pass touches the wall squarely [m]
 bool angle_at(const Passes& passes, double R, double dx, double& t) noexcept;
 
+/// sin(t) and cos(t) to rounding; near the wall without libm's range reduction.
+inline std::array<double, 2> sine_and_cosine(double t) noexcept {
+  if (std::abs(t) > 0.5) {
+    return {std::sin(t), std::cos(t)};
+  }
+  const double u = t * t;
+  const double s = 1 - u / 42 * (1 - u / 72 * (1 - u / 110 * (1 - u / 156)));
+  const double c = 1 - u / 30 * (1 - u / 56 * (1 - u / 90 * (1 - u / 132)));
+  return {t * (1 - u / 6 * (1 - u / 20 * s)), 1 - u / 2 * (1 - u / 12 * c)};
+}
+
 /// @brief Passes of all teeth at x, the nearest of each first, then those farther off.
 ///
 /// @param worth  worth(bound): may a pass count that leaves bound or more [m], before
@@ -95,7 +107,7 @@ void for_each_pass(const Passes& passes, double x, const Worth& worth,
       return false;
     }
     // As R + sigma R_i cos(theta), without its cancellation.
-    const double s = std::sin(0.5 * t);
+    const double s = sine_and_cosine(0.5 * t)[0];
     visit(i, phi_wall + t + n * unit::turn, passes.R - tooth.R + 2 * tooth.R * s * s);
     return true;
   };

@@ -14,15 +14,17 @@ std::vector<double> probe_reading(std::span<const double> profile, double step,
   const double depth = std::min(*high - *low, radius);
   const double reach = std::sqrt(depth * (2 * radius - depth));
   const auto steps = static_cast<std::size_t>(reach / step);
-  std::vector<double> reading(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    reading[i] = profile[i];
-    for (std::size_t k = 1; k <= steps; ++k) {
-      const double dx = static_cast<double>(k) * step;
-      const double rise = radius - std::sqrt(radius * radius - dx * dx);
-      const double beside =
-          std::max(profile[(i + k) % n], profile[(i + n - k % n) % n]);
+  std::vector<double> reading(profile.begin(), profile.end());
+  for (std::size_t k = 1; k <= steps; ++k) {
+    const double dx = static_cast<double>(k) * step;
+    const double rise = radius - std::sqrt(radius * radius - dx * dx);
+    std::size_t after = k % n;
+    std::size_t before = (n - k % n) % n;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double beside = std::max(profile[after], profile[before]);
       reading[i] = std::max(reading[i], beside - rise);  // E-13
+      after = after + 1 == n ? 0 : after + 1;
+      before = before + 1 == n ? 0 : before + 1;
     }
   }
   return reading;

@@ -117,6 +117,13 @@ Stations::Stations(const BodiesAt& bodies, std::span<const double> x,
   for (auto& compliance : solved) {
     compliances_.push_back(std::move(*compliance));
   }
+  largest_.resize(basis().size());
+  for (const std::vector<double>& rows : rows_) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      double& most = largest_[k % largest_.size()];
+      most = std::max(most, std::abs(rows[k]));
+    }
+  }
 }
 
 void Stations::weights(double x, std::span<double> out) const noexcept {

@@ -90,6 +90,8 @@ class Stations {
     const std::size_t height = node * levels + static_cast<std::size_t>(level);
     return std::span(rows_[station]).subspan(height * points, points);
   }
+  /// Largest size of G_q anywhere [m/N], shape (basis points).
+  [[nodiscard]] std::span<const double> largest() const noexcept { return largest_; }
   /// @brief What the stations count for at x; mostly zeros where they are few.
   /// @param[out] out  shape (count())
   void weights(double x, std::span<double> out) const noexcept;
@@ -108,6 +110,7 @@ class Stations {
   std::vector<double> heights_;  ///< around the nodes [m], shape (nodes, levels)
   numerics::LagrangeBasis along_;
   std::vector<Compliance> compliances_;
+  std::vector<double> largest_;
   std::vector<std::vector<double>> rows_;  ///< shape (stations)(nodes, levels, points)
 };
 

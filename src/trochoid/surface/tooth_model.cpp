@@ -149,7 +149,7 @@ ToothModel::Forces ToothModel::forces_with(Feedback feedback, const Forces& stra
           : unit_moments(EdgeMoments(setup, setting_.law, stations_->basis()),
                          10 * setting_.tolerance);
   const auto moments = with_coefficients(unit, K);
-  result.bent.resize(stations_->count());
+  std::vector<numerics::PeriodicPieces> bent(stations_->count());
   result.turns.resize(stations_->count());
   numerics::for_each_index(stations_->count(), [&](std::size_t s) {
     const StepwiseTurn* start =
@@ -162,7 +162,7 @@ ToothModel::Forces ToothModel::forces_with(Feedback feedback, const Forces& stra
                                    feedback);
     }
     if (turn.converged) {
-      result.bent[s] = with_feedback(moments, turn);
+      bent[s] = with_feedback(moments, turn);
       return;
     }
     // Slow, and sure where the steps lose its way.
@@ -170,8 +170,10 @@ ToothModel::Forces ToothModel::forces_with(Feedback feedback, const Forces& stra
         steady_state(EdgeMoments(setup, setting_.law, stations_->basis()), K,
                      stations_->compliance(s), feedback, 10 * setting_.tolerance);
     turn.converged = state.converged;
-    result.bent[s] = std::move(state.moments);
+    bent[s] = std::move(state.moments);
   });
+  result.bent =
+      std::make_shared<const std::vector<numerics::PeriodicPieces>>(std::move(bent));
   result.found = std::all_of(result.turns.begin(), result.turns.end(),
                              [](const StepwiseTurn& turn) { return turn.converged; });
   return result;
@@ -263,10 +265,10 @@ double ToothModel::deflection_at(const Forces& forces,
                                  std::size_t station, std::size_t node) const {
   const auto row = stations_->row(station, node);
   std::vector<double> moments(row.size() + 2);
-  if (forces.bent.empty()) {
+  if (!forces.bent) {
     moments_at(forces, K, phi, moments);
   } else {
-    forces.bent[station].value(phi, moments);
+    (*forces.bent)[station].value(phi, moments);
   }
   return deflection_of(row, moments);
 }
@@ -283,7 +285,7 @@ std::vector<double> ToothModel::predict(const Forces& forces,
     case Model::envelope:
       break;
   }
-  return predict_envelope(forces, K, setup, x_0);
+  return predict_envelope(forces, K, setup, runout, x_0);
 }
 
 std::vector<double> ToothModel::predict_pulses(const Forces& forces,
@@ -334,9 +336,9 @@ std::vector<double> ToothModel::predict_imprints(const Forces& forces,
   });
 }
 
-std::vector<double> ToothModel::profiles(
-    std::span<const numerics::PeriodicPieces> moments, const force::Setup& setup,
-    std::size_t node) const {
+std::vector<double> ToothModel::profiles(const StationMoments& moments,
+                                         const force::Setup& setup,
+                                         std::size_t node) const {
   const auto n = static_cast<std::size_t>(setup.cutter.teeth()) * points_per_tooth_feed;
   auto all =
       StationEnvelopes(*stations_, moments, setup, node, Level::there).profiles(n);
@@ -370,26 +372,53 @@ std::vector<double> ToothModel::profiles(
   return all;
 }
 
+std::shared_ptr<const ToothModel::Profiles> ToothModel::profiles_of(
+    const Forces& forces, std::span<const double, columns> K, RunoutVector runout,
+    const force::Setup& setup) const {
+  constexpr std::size_t most_known =
+      10;  // slopes by every unknown lie between two uses
+  const auto same = [](RunoutVector a, RunoutVector b) {
+    return a.c == b.c && a.s == b.s;
+  };
+  for (const auto& known : known_) {
+    if (known->bent == forces.bent && same(known->forces, forces.runout) &&
+        same(known->runout, runout) && std::ranges::equal(known->K, K)) {
+      return known;
+    }
+  }
+  std::vector<numerics::PeriodicPieces> stiff;
+  if (!forces.bent) {
+    stiff.push_back(with_coefficients(forces.table, K));
+  }
+  const StationMoments moments(*stations_, forces.bent ? *forces.bent : stiff);
+  auto made = std::make_shared<Profiles>(
+      Profiles{.forces = forces.runout, .runout = runout, .bent = forces.bent});
+  std::ranges::copy(K, made->K.begin());
+  made->at_nodes.resize(stations_->grid().nodes().size());
+  numerics::for_each_index(made->at_nodes.size(), [&](std::size_t node) {
+    made->at_nodes[node] = profiles(moments, setup, node);
+  });
+  if (known_.size() == most_known) {
+    known_.erase(known_.begin());
+  }
+  return known_.emplace_back(std::move(made));
+}
+
 std::vector<double> ToothModel::predict_envelope(const Forces& forces,
                                                  std::span<const double, columns> K,
                                                  const force::Setup& setup,
+                                                 RunoutVector runout,
                                                  double x_0) const {
   const auto n = static_cast<std::size_t>(setup.cutter.teeth()) * points_per_tooth_feed;
   const double feed = setup.cutter.teeth() * setup.cut.f_z;
-  const std::vector<numerics::PeriodicPieces> moments =
-      forces.bent.empty() ? std::vector{with_coefficients(forces.table, K)}
-                          : forces.bent;
-  std::vector<std::vector<double>> at_nodes(stations_->grid().nodes().size());
-  numerics::for_each_index(at_nodes.size(), [&](std::size_t node) {
-    at_nodes[node] = profiles(moments, setup, node);
-  });
+  const auto known = profiles_of(forces, K, runout, setup);
   return along_the_wall([&](std::size_t i) {
     const double u = (readings_[i].travel - x_0) / feed;
     const double at = (u - std::floor(u)) * static_cast<double>(n);
     const std::size_t k = std::min(static_cast<std::size_t>(at), n - 1);
     const double t = at - static_cast<double>(k);
     return [&, k, t](std::size_t s, std::size_t node) {
-      const double* profile = at_nodes[node].data() + s * n;
+      const double* profile = known->at_nodes[node].data() + s * n;
       return (1 - t) * profile[k] + t * profile[(k + 1) % n];
     };
   });

@@ -11,6 +11,8 @@
 
 namespace trochoid::surface {
 
+struct StationMoments;
+
 /// Runout as it enters a fit: rho (cos(lambda), sin(lambda)) [m].
 struct RunoutVector {
   double c = 0.0;
@@ -57,8 +59,8 @@ class ToothModel {
     std::vector<double> angles;  ///< where single values are known [rad], ascending
     std::vector<double> values;  ///< shape (angles, columns x values of EdgeMoments)
     numerics::PeriodicPieces table;  ///< envelope, and pulses at many angles
-    /// With feedback instead: at each station, the coefficients in it.
-    std::vector<numerics::PeriodicPieces> bent;
+    /// With feedback instead: at each station, the coefficients in it; or none.
+    std::shared_ptr<const std::vector<numerics::PeriodicPieces>> bent;
     std::vector<StepwiseTurn> turns;  ///< of which these are
     bool found = true;                ///< false: no steady state was found
   };
@@ -75,11 +77,21 @@ class ToothModel {
   /// @param runout  of the tooth paths; the forces may be those of another
   /// @param x_0     where a turn begins along the wall [m]
   /// @return shape (readings) [m]
+  /// @note  not from several threads: it keeps the profiles that it made last
   [[nodiscard]] std::vector<double> predict(const Forces& forces,
                                             std::span<const double, columns> K,
                                             RunoutVector runout, double x_0) const;
 
  private:
+  /// What the passes leave over a turn of the feed at each node, shape (nodes)(stations,
+  /// points), and of which cut.
+  struct Profiles {
+    RunoutVector forces;
+    RunoutVector runout;
+    std::array<double, columns> K{};
+    std::shared_ptr<const std::vector<numerics::PeriodicPieces>> bent;
+    std::vector<std::vector<double>> at_nodes;
+  };
   struct Place {
     double phi = 0.0;       ///< quasi_static, within a turn [rad]
     std::size_t tooth = 0;  ///< imprint
@@ -112,11 +124,16 @@ class ToothModel {
   [[nodiscard]] std::vector<double> predict_envelope(const Forces& forces,
                                                      std::span<const double, columns> K,
                                                      const force::Setup& setup,
+                                                     RunoutVector runout,
                                                      double x_0) const;
+  /// Those of a cut: as they were made before, or anew.
+  [[nodiscard]] std::shared_ptr<const Profiles> profiles_of(
+      const Forces& forces, std::span<const double, columns> K, RunoutVector runout,
+      const force::Setup& setup) const;
   /// @param moments  of all stations, or of each
-  [[nodiscard]] std::vector<double> profiles(
-      std::span<const numerics::PeriodicPieces> moments, const force::Setup& setup,
-      std::size_t node) const;
+  [[nodiscard]] std::vector<double> profiles(const StationMoments& moments,
+                                             const force::Setup& setup,
+                                             std::size_t node) const;
 
   Setting setting_;
   std::vector<Reading> readings_;
@@ -124,6 +141,7 @@ class ToothModel {
   std::shared_ptr<const Stations> stations_;
   bool labelled_ = true;
   std::string why_no_runout_;
+  mutable std::vector<std::shared_ptr<const Profiles>> known_;  ///< the newest last
 };
 
 }  // namespace trochoid::surface

@@ -9,7 +9,7 @@ namespace trochoid::surface {
 
 std::vector<double> largest_values(const EdgeMoments& edges, std::size_t groups,
                                    const numerics::PeriodicPieces::Function& f) {
-  constexpr int samples = 90;
+  constexpr int samples = 60;
   const std::size_t n = edges.values();
   std::vector<double> values(groups * n);
   std::vector<double> largest(groups);

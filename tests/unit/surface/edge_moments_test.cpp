@@ -1,6 +1,7 @@
 #include "made_wall.h"
 
 #include <trochoid/force/forces.h>
+#include <trochoid/surface/edge_nodes.h>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,81 @@ TEST(EdgeMoments, FxAndFyAreThoseOfTheRoomForce) {  // [E-2]
       }
       EXPECT_NEAR(Fx, F[i][0], 1e-8 * largest);
       EXPECT_NEAR(Fy, F[i][1], 1e-8 * largest);
+    }
+  }
+}
+
+TEST(EdgeMoments, AtNodesAreThoseOfTheQuadrature) {  // [E-2] [E-3]
+  std::vector<MadeCut> cuts = all_kinds();
+  cuts.push_back(with_runout(made_cut(false), 15e-6, 1.1));
+  cuts.back().chip.model = chip::Model::trochoidal;
+  for (const MadeCut& s : cuts) {
+    const EdgeMoments edges(s, law(0, 0, 1, 1), {0.0, s.cut.a_p, points});
+    force::Bend none;  // a bend sends it along the quadrature
+    none.shift = [](double) { return 0.0; };
+    none.deflected = false;
+    std::vector<double> there(columns * edges.values());
+    std::array<double, columns> largest{};
+    std::array<double, columns> off{};
+    for (const double phi : angles(111)) {
+      const auto here = values_at(edges, phi);
+      edges.at(phi, &none, there);
+      for (std::size_t k = 0; k < here.size(); ++k) {
+        const std::size_t c = k / edges.values();
+        largest[c] = std::max(largest[c], std::abs(there[k]));
+        off[c] = std::max(off[c], std::abs(here[k] - there[k]));
+      }
+    }
+    for (std::size_t c = 0; c < columns; ++c) {
+      ASSERT_GT(largest[c], 0.0);
+      EXPECT_LT(off[c], 1e-7 * largest[c]);
+    }
+  }
+}
+
+TEST(EdgeMoments, OfABentCutterAtNodesAreThoseOfTheQuadrature) {  // [E-10]
+  for (const auto model : {chip::Model::radial, chip::Model::trochoidal}) {
+    for (const bool down : {true, false}) {
+      MadeCut s = with_runout(made_cut(down), 5e-6, 1.2);
+      s.chip.model = model;
+      const numerics::LagrangeBasis basis(0.0, s.cut.a_p, points);
+      const force::Law edge = law(0, 0, 1, 1);
+      const EdgeMoments edges(s, edge, basis);
+      const force::Edges curves(s);
+      const auto nodes = EdgeNodes::make(curves, force::form(edge), basis);
+      ASSERT_TRUE(nodes);
+      const auto now = [](double z) { return 40e-6 + 5e-3 * z; };
+      const auto then = [](double z) { return 30e-6 + 2e-3 * z; };
+      std::vector<double> shift;
+      std::vector<double> before;
+      for (const double z : basis.points()) shift.push_back(now(z));
+      for (int k = 0; k < 9; ++k) {
+        for (const double z : basis.points()) before.push_back(then(z));
+      }
+      const NodeBend bend{shift, before};
+      force::Bend same;
+      same.shift = now;
+      same.advance = [&](double z, std::size_t, double theta, std::span<double> out) {
+        for (double& gained : out) gained = std::cos(theta) * (now(z) - then(z));
+      };
+      std::vector<double> there(columns * edges.values());
+      std::array<double, columns> largest{};
+      std::array<double, columns> off{};
+      MomentSums sums;
+      for (const double phi : angles(111)) {
+        nodes->at(phi, &bend, sums);
+        edges.at(phi, &same, there);
+        for (std::size_t c = 0; c < columns; ++c) {
+          for (std::size_t q = 0; q < points; ++q) {
+            const double m = there[c * edges.values() + q];
+            largest[c] = std::max(largest[c], std::abs(m));
+            off[c] = std::max(off[c], std::abs(sums.across[c][q] - m));
+          }
+        }
+      }
+      for (std::size_t c = 0; c < columns; ++c) {
+        EXPECT_LT(off[c], 1e-5 * largest[c]) << c << static_cast<int>(model) << down;
+      }
     }
   }
 }
