@@ -30,6 +30,8 @@ struct CaseSource {
   std::filesystem::path base = {};
   /// Of a program only the tool is asked for: [tool], [runout], [force].
   bool tool_only = false;
+  /// Whether Case::as_understood is wanted.
+  bool echo = true;
 };
 
 /// @brief As read_case of a file.

@@ -381,6 +381,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
   c.file = source.file;
   hold_data(c);
   c.notes = std::move(findings.notes);
+  if (!source.echo) return c;
   name_files_from(result_folder, tables);
   c.as_understood = no_cut                        ? write_machine_case(tables)
                     : purpose == Command::program ? write_program_case(tables)

@@ -25,18 +25,19 @@ void for_each_file(CaseTables& tables, const std::function<void(const Named&)>& 
   for (const TableEntry& table : tables_of(tables)) {
     for (std::size_t i = 0; i < table.count(); ++i) {
       table.describe(i, [&](const Key& key, const Field& field) {
-        const std::string path =
-            fmt::format("{}{}.{}", table.name,
-                        table.many ? fmt::format("[{}]", i + 1) : "", key.name);
+        const auto path = [&] {
+          return fmt::format("{}{}.{}", table.name,
+                             table.many ? fmt::format("[{}]", i + 1) : "", key.name);
+        };
         if (NamedFiles* const* all = std::get_if<NamedFiles*>(&field)) {
           for (auto& [name, one] : **all) {
-            use({table.name, path + "." + name, key.file, one});
+            use({table.name, path() + "." + name, key.file, one});
           }
           return;
         }
         files::FileRef* const* file = std::get_if<files::FileRef*>(&field);
         if (file == nullptr || (*file)->name.empty()) return;
-        use({table.name, path, key.file, **file});
+        use({table.name, path(), key.file, **file});
       });
     }
   }

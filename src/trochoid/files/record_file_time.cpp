@@ -1,5 +1,7 @@
 #include <trochoid/files/record_file_time.h>
 
+#include <trochoid/numerics/median.h>
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -117,9 +119,7 @@ std::string gap_note(std::span<const double> time) {
   const auto largest = std::max_element(steps.begin(), steps.end());
   const auto at = static_cast<std::size_t>(largest - steps.begin());
   const double longest = *largest;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double usual = *middle;
+  const double usual = numerics::median(steps);
   const auto gaps = std::count_if(steps.begin(), steps.end(),
                                   [&](double s) { return s > gap_factor * usual; });
   if (gaps == 0) return {};

@@ -1,5 +1,6 @@
 #include <trochoid/files/named_table.h>
 #include <trochoid/files/step_file.h>
+#include <trochoid/numerics/median.h>
 
 #include <fmt/core.h>
 
@@ -48,10 +49,7 @@ constexpr double as_high = 0.95;
 constexpr std::size_t part_at_rest = 10;
 
 double middle_of(std::span<const double> values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return numerics::median({values.begin(), values.end()});
 }
 
 /// What two samples of one level may differ by.
@@ -63,9 +61,7 @@ double slack_of(const std::vector<double>& command) {
   for (std::size_t i = 1; i < command.size(); ++i) {
     steps.push_back(std::abs(command[i] - command[i - 1]));
   }
-  const auto ninth = steps.begin() + static_cast<std::ptrdiff_t>(9 * steps.size() / 10);
-  std::nth_element(steps.begin(), ninth, steps.end());
-  return slack + above_scatter * *ninth;
+  return slack + above_scatter * numerics::value_at_rank(steps, 9 * steps.size() / 10);
 }
 
 /// The steps of a command; empty: it is not made of steps.

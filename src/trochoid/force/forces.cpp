@@ -277,6 +277,19 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
   return out;
 }
 
+std::vector<Loads> without_bending(const TurnTeeth& teeth, const Terms& terms,
+                                   std::span<const double> phi) {
+  std::vector<Loads> out(phi.size());
+  std::vector<double> three(3 * phi.size());
+  evaluate(turn_polynomial(teeth, force_weights(terms)), phi, three);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    std::copy_n(&three[3 * i], 3, out[i].force.begin());
+  }
+  evaluate(turn_polynomial(teeth, torque_weights(terms)), phi, three);
+  for (std::size_t i = 0; i < phi.size(); ++i) out[i].torque = three[3 * i + 2];
+  return out;
+}
+
 void forces_of_one(const Setup& setup, const Law& law, std::span<const double> phi,
                    double tolerance, std::span<Vector3> out) {
   if (phi.empty()) {
@@ -461,11 +474,18 @@ void forces_of_many(std::span<const Setup> setups, const Law& law,
 }
 
 std::vector<Loads> loads(const Setup& setup, const Law& law,
-                         std::span<const double> phi, double gauge_length,
-                         double tolerance) {
+                         std::span<const double> phi,
+                         std::optional<double> gauge_length, double tolerance) {
+  if (!gauge_length) {
+    if (const auto teeth =
+            linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
+      return without_bending(*teeth, terms(law), phi);
+    }
+  }
   std::vector<Loads> loads;
   loads.reserve(phi.size());
-  for (const SixLoads& v : loads_of_any(setup, law, phi, gauge_length, tolerance)) {
+  for (const SixLoads& v :
+       loads_of_any(setup, law, phi, gauge_length.value_or(0.0), tolerance)) {
     loads.push_back({{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])});
   }
   if (keeps_radius(setup)) {  // good to more digits, and costs nothing

@@ -74,10 +74,11 @@ struct Loads {
 };
 
 /// @brief Force, torque and bending moment at the angles phi [rad] (F-4, F-6, F-7).
-/// @param gauge_length  height of the section above the tool tip [m]
+/// @param gauge_length  height of the section above the tool tip [m]; nothing: bending is
+///                      not asked for and stays 0
 /// @return shape (n)
 std::vector<Loads> loads(const Setup& setup, const Law& law,
-                         std::span<const double> phi, double gauge_length,
-                         double tolerance);
+                         std::span<const double> phi,
+                         std::optional<double> gauge_length, double tolerance);
 
 }  // namespace trochoid::force

@@ -1,35 +1,34 @@
 #include <trochoid/force/slice.h>
 
+#include <trochoid/base/index.h>
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/edge.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 namespace trochoid::force {
 
 namespace {
 
-/// Largest h on a piece, where h is smooth: samples, then a golden section.
+/// Largest h on a piece, where h is smooth: samples, then Brent's method between them.
 double largest_chip(const Slice& slice, std::size_t tooth,
                     const chip::ChipPiece& piece) {
   constexpr int samples = 32;
+  constexpr int bits = 26;  // half of a double: h is flat where it is largest
   const auto h = [&](double theta) { return slice.chip_thickness(tooth, theta); };
   const double step = (piece.to - piece.from) / samples;
-  int best = 0;
-  for (int i = 1; i <= samples; ++i) {
-    if (h(piece.from + i * step) > h(piece.from + best * step)) {
-      best = i;
-    }
-  }
-  double lo = piece.from + std::max(best - 1, 0) * step;
-  double hi = piece.from + std::min(best + 1, samples) * step;
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 45; ++i) {
-    const double a = hi - golden * (hi - lo);
-    const double b = lo + golden * (hi - lo);
-    (h(a) < h(b) ? lo : hi) = h(a) < h(b) ? a : b;
-  }
-  return std::max(h(0.5 * (lo + hi)), h(piece.from + best * step));
+  std::array<double, samples + 1> at{};
+  for (int i = 0; i <= samples; ++i) at[base::index(i)] = h(piece.from + i * step);
+  const auto best =
+      static_cast<int>(std::distance(at.begin(), std::ranges::max_element(at)));
+  const auto [theta, negative] = boost::math::tools::brent_find_minima(
+      [&](double x) { return -h(x); }, piece.from + std::max(best - 1, 0) * step,
+      piece.from + std::min(best + 1, samples) * step, bits);
+  return std::max(-negative, at[base::index(best)]);
 }
 
 }  // namespace

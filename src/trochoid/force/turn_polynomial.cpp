@@ -171,6 +171,7 @@ class Turn {
  public:
   Turn(const TurnTeeth& teeth, const TurnWeights& weights, int highest)
       : teeth_(teeth),
+        given_(weights),
         weights_(weights),
         long_lag_(teeth.lag > smallest_edge_lag),
         factor_(long_lag_ ? teeth.a_p / teeth.lag : teeth.a_p),
@@ -181,6 +182,10 @@ class Turn {
   void add_tooth(std::size_t tooth) {
     tooth_ = tooth;
     behind_ = teeth_.behind[tooth];
+    if (given_.arm_on_third) {
+      weights_.h_one[2] = given_.h_one[2] * teeth_.teeth[tooth].R;
+      weights_.e_one[2] = given_.e_one[2] * teeth_.teeth[tooth].R;
+    }
     last_end_ = std::numeric_limits<double>::infinity();
     const chip::ToothHarmonics& harmonics = teeth_.harmonics_of(tooth);
     rows_.assign(harmonics.over_mark.size(), {});
@@ -360,7 +365,8 @@ class Turn {
   }
 
   const TurnTeeth& teeth_;
-  const TurnWeights& weights_;
+  const TurnWeights& given_;
+  TurnWeights weights_;  ///< of the tooth
   bool long_lag_;
   double factor_;  ///< lead, or a_p
   TurnSum sum_;
@@ -401,6 +407,12 @@ TurnWeights force_weights(const Terms& law) noexcept {
           .e_cos = {-K_te, -K_re, 0.0},
           .e_sin = {-K_re, K_te, 0.0},
           .e_one = {0.0, 0.0, -K_ae}};
+}
+
+TurnWeights torque_weights(const Terms& law) noexcept {
+  return {.h_one = {0.0, 0.0, law.K[0]},
+          .e_one = {0.0, 0.0, law.K_e[0]},
+          .arm_on_third = true};
 }
 
 TurnWeights chip_weights() noexcept {

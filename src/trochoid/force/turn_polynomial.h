@@ -9,6 +9,9 @@ namespace trochoid::force {
 /// The force in x, y, z by F-1 and F-3 with sin(kappa) = 1.
 /// @param law  whose form is linear in the chip
 TurnWeights force_weights(const Terms& law) noexcept;
+/// The torque about the spindle axis by F-6 as the third function, positive where the
+/// spindle drives.
+TurnWeights torque_weights(const Terms& law) noexcept;
 /// The integrals of h sin, h cos, h.
 TurnWeights chip_weights() noexcept;
 /// The integrals of e sin, e cos, e.

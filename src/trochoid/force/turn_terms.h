@@ -21,6 +21,8 @@ struct TurnWeights {
   Triple e_cos{};
   Triple e_sin{};
   Triple e_one{};
+  /// Whether the third function is also times the distance of the tooth from the axis [m].
+  bool arm_on_third = false;
 };
 
 /// @brief A short stretch of phi on which something is a polynomial of

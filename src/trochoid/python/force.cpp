@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -38,10 +39,9 @@ Numbers forces(const cases::Case& given, const Numbers& phi_deg) {
   Numbers out({static_cast<py::ssize_t>(phi.size()), py::ssize_t{3}});
   double* F = out.mutable_data();
   const py::gil_scoped_release release;
-  for (const force::Loads& loads :
-       force::loads(given.setup, given.law, phi, given.gauge_length.value_or(0.0),
-                    given.sampling.tolerance)) {
-    for (const double component : loads.force) *F++ = component;
+  for (const force::Vector3& force :
+       force::forces(given.setup, given.law, phi, given.sampling.tolerance)) {
+    F = std::copy(force.begin(), force.end(), F);
   }
   return out;
 }

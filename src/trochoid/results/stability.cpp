@@ -1,3 +1,4 @@
+#include <trochoid/numerics/median.h>
 #include <trochoid/results/better_speed.h>
 #include <trochoid/results/descriptions.h>
 #include <trochoid/results/process_damping.h>
@@ -146,9 +147,7 @@ Value median_difference(const std::vector<dynamics::FrequencyLimit>& curve,
   if (sizes.empty()) {
     return {};
   }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return numerics::median(std::move(sizes));
 }
 
 /// A limit by the measured response, beside what else was found.

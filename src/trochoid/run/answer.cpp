@@ -42,7 +42,7 @@ results::Answer answer(base::Command command, const cases::Case& given,
     case Command::simulate:
       progress("Forces over the turns");
       return options.tables ? answer_of(simulate(given))
-                            : results::answer_without_tables(simulate(given));
+                            : results::answer_without_tables(simulate(given, false));
     case Command::identify:
       return identified(given, options, progress, std::move(stop));
     case Command::surface:

@@ -30,8 +30,9 @@ inline results::Heading heading_of(const cases::Case& given) {
 
 /// @brief Chip, forces, torque and engagement of a case; its measurements, if it has
 /// any, are compared with the forces.
+/// @param tables  whether those of chips are wanted
 /// @throws base::InputError when a measurement cannot be read
-results::SimulateResult simulate(const cases::Case& given);
+results::SimulateResult simulate(const cases::Case& given, bool tables = true);
 
 /// @brief Coefficients, runout and phase from the measurements of a case.
 /// @param stop  then what adds to the fit that decides is left out, with a warning of the

@@ -127,7 +127,7 @@ std::vector<results::Comparison> compare(const cases::Case& given,
   return all;
 }
 
-results::SimulateResult simulate(const cases::Case& given) {
+results::SimulateResult simulate(const cases::Case& given, bool tables) {
   const force::Setup& setup = given.setup;
   const cases::Sampling& sampling = given.sampling;
   const double height = sampling.edge_heights.empty()
@@ -139,10 +139,9 @@ results::SimulateResult simulate(const cases::Case& given) {
       .Omega = setup.cut.Omega,
       .closed_form_mean = force::closed_form_mean(setup, given.law),
       .gauge_length = given.gauge_length,
-      .engagement = force::engagement_at(setup, height),
-      .curve = force::chip_curve(setup, height)};
-  r.loads = force::loads(setup, given.law, r.phi, given.gauge_length.value_or(0.0),
-                         sampling.tolerance);
+      .engagement = force::engagement_at(setup, height)};
+  r.loads =
+      force::loads(setup, given.law, r.phi, given.gauge_length, sampling.tolerance);
   r.force = force::force_statistics(r.loads);
   if (whole_turns(sampling)) {
     const auto mean = force::mean_force(setup, given.law, sampling.tolerance);
@@ -152,10 +151,13 @@ results::SimulateResult simulate(const cases::Case& given) {
   if (given.dynamometer && !given.dynamometer->automatic) {
     r.channels = given.dynamometer->matrix;
   }
-  const std::vector<double> tip = {height};
-  r.chips =
-      force::chip_grid(setup, sampling.edge_angles,
-                       sampling.edge_heights.empty() ? tip : sampling.edge_heights);
+  if (tables) {
+    const std::vector<double> tip = {height};
+    r.curve = force::chip_curve(setup, height);
+    r.chips =
+        force::chip_grid(setup, sampling.edge_angles,
+                         sampling.edge_heights.empty() ? tip : sampling.edge_heights);
+  }
   Warnings& warnings = r.heading.warnings;
   warn_heights(given, warnings);
   warn_idle_teeth(r.engagement, warnings);

@@ -1,6 +1,7 @@
 #include <trochoid/signal/foreign_line.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/numerics/median.h>
 #include <trochoid/numerics/spectrum.h>
 
 #include <algorithm>
@@ -63,9 +64,8 @@ std::size_t peak_of(const std::vector<double>& power, const Grid& grid) {
     if (best == 0 || power[k] > power[best]) best = k;
   }
   if (between.size() < 16) return 0;
-  const auto middle = between.begin() + static_cast<std::ptrdiff_t>(between.size() / 2);
-  std::nth_element(between.begin(), middle, between.end());
-  return power[best] > stands_out * *middle ? best : 0;
+  const double usual = numerics::median(std::move(between));
+  return power[best] > stands_out * usual ? best : 0;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <trochoid/signal/passes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/numerics/median.h>
 #include <trochoid/signal/turn_lines.h>
 
 #include <algorithm>
@@ -67,10 +68,8 @@ double variation(const Channels& channels, const Part& part) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(
-                                       share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  const double place = share * static_cast<double>(values.size() - 1);
+  return numerics::value_at_rank(values, static_cast<std::size_t>(place));
 }
 
 /// Steps, from the first quarter up to the end of the last.

@@ -1,6 +1,7 @@
 #include <trochoid/signal/pulse.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/numerics/median.h>
 
 #include <fmt/core.h>
 
@@ -42,9 +43,7 @@ double usual_turn(const std::vector<double>& edges) {
   std::vector<double> turns;
   for (std::size_t j = 1; j < edges.size(); ++j)
     turns.push_back(edges[j] - edges[j - 1]);
-  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-  std::nth_element(turns.begin(), middle, turns.end());
-  return *middle;
+  return numerics::median(std::move(turns));
 }
 
 /// The pulses with those that are missing; empty, with the reason, where they are not

@@ -1,5 +1,7 @@
 #include <trochoid/signal/turn_lines.h>
 
+#include <trochoid/numerics/median.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -122,12 +124,6 @@ class Averages {
   std::vector<double> sums_;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// What the windows of a pass are compared with.
 struct Reference {
   Windows windows;
@@ -177,7 +173,7 @@ double turn_error(const TurnLines& lines, std::size_t feature, const Windows& w)
   constexpr double of_normal = 0.6745;
   return differences.empty()
              ? 0.0
-             : median(std::move(differences)) / (of_normal * std::sqrt(2.0));
+             : numerics::median(std::move(differences)) / (of_normal * std::sqrt(2.0));
 }
 
 /// Size of the force: what the means are above air, and the lines.
@@ -396,7 +392,7 @@ AirMean air_mean(const TurnLines& lines, std::span<const std::size_t> order) {
     for (std::size_t k = order.size() / 4; k < 3 * order.size() / 4; ++k) {
       all.push_back(lines.means(order[k])[c]);
     }
-    middle[c] = median(std::move(all));
+    middle[c] = numerics::median(std::move(all));
   }
   out.step = away_from(middle, out.air);
   return out;

@@ -1,5 +1,7 @@
 #include <trochoid/structure/thinned.h>
 
+#include <trochoid/numerics/median.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -130,9 +132,8 @@ double scatter_of_lines(std::span<const Complex> H) {
         std::abs(H[i - 2] - 4.0 * H[i - 1] + 6.0 * H[i] - 4.0 * H[i + 1] + H[i + 2]));
   }
   if (sizes.empty()) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / median_of_rayleigh / std::sqrt(of_white_noise);
+  return numerics::median(std::move(sizes)) / median_of_rayleigh /
+         std::sqrt(of_white_noise);
 }
 
 FrequencyResponse thinned(const FrequencyResponse& response, double tolerance) {

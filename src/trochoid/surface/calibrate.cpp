@@ -1,5 +1,7 @@
 #include <trochoid/surface/calibrate.h>
 
+#include <trochoid/numerics/median.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,12 +50,6 @@ Kept all_of(std::span<const Reading> readings) {
   return kept;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Leave out what lies far from what is predicted, in parts of outlier_deviations.
 /// @return whether anything does
 bool leave_out(std::span<const double> predicted, double far, Kept& kept,
@@ -62,7 +58,7 @@ bool leave_out(std::span<const double> predicted, double far, Kept& kept,
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     size.push_back(std::abs(kept.readings[i].error - predicted[i]));
   }
-  const double s = 1.4826 * median_of(size);
+  const double s = 1.4826 * numerics::median(size);
   const double most = far * std::max(outlier_deviations * s, never_far);  // E-26
   const auto count = static_cast<double>(std::count_if(
       size.begin(), size.end(), [&](double distance) { return distance > most; }));
@@ -90,7 +86,7 @@ void leave_out_wild(Kept& kept, std::vector<Outlier>& outliers) {
   std::map<std::size_t, std::vector<double>> errors;
   for (const Reading& r : kept.readings) errors[r.set].push_back(r.error);
   std::map<std::size_t, double> middle;
-  for (auto& [set, of_set] : errors) middle[set] = median_of(std::move(of_set));
+  for (auto& [set, of_set] : errors) middle[set] = numerics::median(std::move(of_set));
   std::vector<double> median;
   for (const Reading& r : kept.readings) median.push_back(middle.at(r.set));
   leave_out(median, wild, kept, outliers);

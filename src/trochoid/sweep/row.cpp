@@ -160,7 +160,9 @@ results::SweepRow row_of(const Study& study, std::span<const cases::Node> values
   row.cells.resize(values.size() + study.take.size(), none);
   try {
     const cases::Node root = root_of(study, values);
-    cases::Case given = cases::read_case(source_of(study, root), study.command);
+    cases::CaseSource source = source_of(study, root);
+    source.echo = false;
+    cases::Case given = cases::read_case(source, study.command);
     if (!compares(study)) {
       given.measurements.clear();
     }

@@ -47,6 +47,28 @@ TEST(Loads, OnlyTangentialForcesTurnTheSpindle) {  // [F-6]
   }
 }
 
+TEST(Loads, TorqueIsTheSameWithoutAndWithBending) {  // [F-6]
+  for (const double helix : {0.0, 30.0}) {
+    MadeCut s = slot(geometry::cylinder(8e-3), 3, helix);
+    s.runout.radial_offsets = {0.0, 7e-6, -12e-6};
+    for (const geometry::Engagement& engagement :
+         {geometry::Engagement{geometry::Slot{}},
+          geometry::Engagement{geometry::Band{-2e-3, 1e-3}}}) {
+      s.cut.engagement = engagement;
+      const auto phi = turn(50);
+      const auto with = loads(s, steel(), phi, 0.06, 1e-9);
+      const auto without = loads(s, steel(), phi, std::nullopt, 1e-9);
+      double largest = 0.0;
+      for (const Loads& l : with) largest = std::max(largest, l.torque);
+      for (std::size_t i = 0; i < phi.size(); ++i) {
+        EXPECT_NEAR(without[i].torque, with[i].torque, 1e-8 * largest);
+        EXPECT_EQ(without[i].force, with[i].force);
+        EXPECT_EQ(without[i].bending, 0.0);
+      }
+    }
+  }
+}
+
 TEST(Loads, AThinSliceBendsByItsForceTimesTheArm) {  // [F-7]
   MadeCut s = slot(geometry::cylinder(8e-3), 2, 30);
   s.cut.a_p = 1e-6;
