@@ -24,10 +24,11 @@ struct Passage {
   geometry::Band stock;
   double feed = 0.0;  ///< of the tool per angle, f / 2 pi [m/rad]
   int teeth = 0;
-  int marks = 0;             ///< how many teeth before are looked at: 1 or all
-  std::vector<double> back = {};  ///< sum of the last m pitches [rad], shape (teeth, teeth)
-  double curvature = 0.0;    ///< of the path, positive to the left [1/m]
-  bool by_arcs = false;      ///< the stock is that of Slice::arcs
+  int marks = 0;  ///< how many teeth before are looked at: 1 or all
+  std::vector<double> back =
+      {};                  ///< sum of the last m pitches [rad], shape (teeth, teeth)
+  double curvature = 0.0;  ///< of the path, positive to the left [1/m]
+  bool by_arcs = false;    ///< the stock is that of Slice::arcs
 };
 
 Passage passage(const geometry::Cutter& cutter, const geometry::Cut& cut,

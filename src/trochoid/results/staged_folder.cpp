@@ -115,7 +115,13 @@ StagedFolder::StagedFolder(fs::path place) : place_(std::move(place)) {
   const PlaceLock lock(place_);
   mend(place_, lock);
   path_ = make_beside(place_, being_filled);
-  lock_.emplace(path_, Patience::none);
+  try {
+    lock_.emplace(path_, Patience::none);
+  } catch (...) {  // of what is half made no destructor runs
+    std::error_code error;
+    fs::remove(path_, error);
+    throw;
+  }
 }
 
 StagedFolder::~StagedFolder() {

@@ -79,8 +79,8 @@ struct Course {
   Summary summary;
 };
 
-inline Course run(const MadeProgram& made, const Tool& tool, const stock::Initial& stock,
-               Options options = {}) {
+inline Course run(const MadeProgram& made, const Tool& tool,
+                  const stock::Initial& stock, Options options = {}) {
   Course out;
   const Job job{made.program, std::span(&tool, 1), stock, options};
   out.summary = compute_steps(job, [&](std::span<const Step> rows) {
