@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -95,13 +96,20 @@ TEST(APowerOfOneWithEdges, IsTheLinearLawOnAWall) {  // [E-2]
   std::vector<double> of_b(of_a.size());
   EXPECT_EQ(surface::wall_coefficients(linear), surface::wall_coefficients(same));
   // The linear law has chips at fixed nodes, the power law a quadrature.
-  constexpr double agree = 1e-9;
+  constexpr double agree = 1e-8;
+  std::vector<double> apart(surface::columns);
+  std::vector<double> largest(surface::columns);
   for (double phi = 0.05; phi < unit::turn; phi += 0.1) {
     a.at(phi, nullptr, of_a);
     b.at(phi, nullptr, of_b);
     for (std::size_t i = 0; i < of_a.size(); ++i) {
-      ASSERT_NEAR(of_a[i], of_b[i], 1e-16 + agree * std::abs(of_b[i]));
+      const std::size_t column = i / a.values();
+      apart[column] = std::max(apart[column], std::abs(of_a[i] - of_b[i]));
+      largest[column] = std::max(largest[column], std::abs(of_b[i]));
     }
+  }
+  for (std::size_t column = 0; column < surface::columns; ++column) {
+    EXPECT_LE(apart[column], agree * largest[column]) << column;
   }
 }
 
