@@ -152,6 +152,9 @@ struct Case {
   force::Setup setup;  ///< [tool] [runout] [cut] [chip], edge length of [force]
   force::Law law;      ///< [force]
   std::optional<double> gauge_length;  ///< [tool] gauge_length_mm [m]
+  double dish = 0.0;                   ///< of the bottom edge [rad]
+  double wiper = 0.0;                  ///< of the bottom edge [m]
+  double spindle_lead = 0.0;           ///< [cut] spindle_lead_deg [rad]
   Sampling sampling;
   std::optional<Dynamometer> dynamometer;
   std::vector<Measurement> measurements;

@@ -155,6 +155,13 @@ struct ValueSchema {
   Json operator()(std::optional<PreviousClamping>* clamping) const {
     return within(clamping->emplace());
   }
+  Json operator()(std::optional<geometry::Serration>* wave) const {
+    return within(wave->emplace());
+  }
+  Json operator()(const PerTooth*) const {
+    const Json one = number_of("number", key.range);
+    return {{"anyOf", {one, list_of(one, 1, 0)}}};
+  }
   Json operator()(std::optional<files::SurfaceFrame>* frame) const {
     return within(frame->emplace());
   }

@@ -53,6 +53,8 @@ Lengths all_lengths() {
     if (entry.count() == 0) entry.add();
     entry.describe(0, gather);
   }
+  geometry::Serration serration;
+  describe(gather, serration);
   PreviousClamping clamping;
   describe(gather, clamping);
   files::SurfaceFrame frame;

@@ -81,6 +81,8 @@ struct Surface {
   std::vector<double> heights;                ///< of the answer, above the tip [m]
   std::vector<double> influence_heights;      ///< of influence.csv, above the tip [m]
   double probe_diameter = 0.0;                ///< of the measuring tip [m]; 0: a point
+  std::vector<double> floor_y;                ///< lines of the floor [m]
+  std::optional<double> cutoff;               ///< of the roughness filter [m]
   Outliers outliers = Outliers::leave_out;
   identification::Errors errors = identification::Errors::automatic;
   std::vector<surface::AlsoBends> also_bends;  ///< what more than y

@@ -28,7 +28,7 @@ void add_slot(CaseTables& t) {
   t.title = "Slot, 8 mm end mill";
   t.tool.teeth = 2;
   t.tool.diameter = 8 * unit::mm;
-  t.tool.helix = 30 * unit::deg;
+  t.tool.helix = {{30 * unit::deg}};
   t.cut.axial_depth = 2 * unit::mm;
   t.cut.feed_per_tooth = 0.04 * unit::mm;
   t.cut.spindle_speed = 875 * unit::rpm;
@@ -39,7 +39,7 @@ void add_thin_wall(CaseTables& t) {
   t.title = "Thin wall, 12 mm end mill";
   t.tool.teeth = 3;
   t.tool.diameter = 12 * unit::mm;
-  t.tool.helix = 45 * unit::deg;
+  t.tool.helix = {{45 * unit::deg}};
   t.cut.engagement = EngagementKind::down;
   t.cut.radial_depth = 1 * unit::mm;
   t.cut.axial_depth = 3 * unit::mm;

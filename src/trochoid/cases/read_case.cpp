@@ -210,6 +210,10 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   settle_orthogonal(t, c.setup, purpose, findings);
   c.setup.process_damping = damping_of(t.force, purpose, findings);
   c.gauge_length = t.tool.gauge_length;
+  c.dish = t.tool.dish;
+  c.wiper = t.tool.wiper;
+  c.spindle_lead = t.cut.spindle_lead;
+  check_edges(t, c.setup, purpose, findings);
   const bool in_time = purpose == Command::dynamics || purpose == Command::correct;
   settle_turns(t, in_time, findings);
   check_sampling(t.sampling, findings);
@@ -227,6 +231,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
     t.identify.emplace();
   }
   if (t.identify) {
+    settle_serrated_models(t, findings);
     c.identify = identify_of(*t.identify, t, findings);
   }
   check_machine(t.machine, t.tool, findings);

@@ -95,6 +95,10 @@ struct TableReader {
       read_inner(node, **clamping, key, key_path);
       return;
     }
+    if (auto* const* wave = std::get_if<std::optional<geometry::Serration>*>(&field)) {
+      read_inner(node, **wave, key, key_path);
+      return;
+    }
     if (auto* const* frame = std::get_if<std::optional<files::SurfaceFrame>*>(&field)) {
       read_inner(node, **frame, key, key_path);
       return;

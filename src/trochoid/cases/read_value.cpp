@@ -149,9 +149,20 @@ struct ValueReader {
   void operator()(files::FileRef* target) const { (*this)(&target->name); }
   void operator()(std::vector<double>* target) const {
     target->clear();
+    if (is_word()) {
+      return;
+    }
     const Array* entries = list(key.count);
     for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
       target->push_back(number((*entries)[i], i + 1).value_or(0.0));
+    }
+  }
+  void operator()(PerTooth* target) const {
+    target->listed = std::holds_alternative<Array>(node.value);
+    if (target->listed) {
+      (*this)(&target->values);
+    } else {
+      target->values = {number(node, 0).value_or(0.0)};
     }
   }
   void operator()(std::optional<base::Steps>* target) const {
@@ -324,6 +335,7 @@ struct ValueReader {
     }
   }
   void operator()(std::optional<PreviousClamping>*) const {}     // read_table does it
+  void operator()(std::optional<geometry::Serration>*) const {}  // so this
   void operator()(std::optional<files::SurfaceFrame>*) const {}  // so this
   void operator()(CutTable*) const {}  // read_table does it: it needs [cut] as well
 };

@@ -13,6 +13,10 @@ struct DataInMemory;
 
 geometry::Cutter cutter_of(ToolTable& tool, Findings& findings);
 void check_runout(geometry::Runout& runout, const ToolTable& tool, Findings& findings);
+/// @brief Edges that differ from tooth to tooth: whether they can be, and whether the
+/// command takes them.
+void check_edges(CaseTables& tables, const force::Setup& setup, Command purpose,
+                 Findings& findings);
 
 /// @param path  `cut`, or `measurement[1].cut`
 geometry::Cut cut_of(CutTable& cut, const std::string& path,
@@ -32,6 +36,9 @@ void settle_orthogonal(CaseTables& tables, const force::Setup& setup, Command pu
                        Findings& findings);
 force::Law law_of(ForceTable& force, bool exponents_default);
 void check_sampling(Sampling& sampling, Findings& findings);
+
+/// @brief Chip models that know no serration are refused, or left out where nobody asked.
+void settle_serrated_models(CaseTables& tables, Findings& findings);
 
 Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings);
 

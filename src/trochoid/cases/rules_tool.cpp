@@ -99,6 +99,21 @@ void check_profile(const geometry::Profile& profile, Findings& findings) {
   }
 }
 
+/// A list with an entry for each tooth.
+bool one_for_each_tooth(const std::vector<double>& list, const std::string& key,
+                        const ToolTable& tool, Findings& findings) {
+  if (!sound(findings, {"tool.teeth", key})) {
+    return false;
+  }
+  if (list.size() == static_cast<std::size_t>(tool.teeth)) {
+    return true;
+  }
+  report(findings, key,
+         fmt::format("{} has {} entries for {} teeth; must be one number for each tooth",
+                     key, list.size(), tool.teeth));
+  return false;
+}
+
 }  // namespace
 
 geometry::Cutter cutter_of(ToolTable& tool, Findings& findings) {
@@ -112,14 +127,31 @@ geometry::Cutter cutter_of(ToolTable& tool, Findings& findings) {
   }
   const geometry::Profile profile = profile_of(tool, findings);
   check_profile(profile, findings);
-  return {.profile = profile,
-          .pitch = tool.pitch,
-          .helix = tool.helix,
-          .lag_law = tool.lag,
-          .lag_diameter = tool.lag_diameter.value_or(tool.diameter)};
+  geometry::Cutter cutter{.profile = profile,
+                          .pitch = tool.pitch,
+                          .helix = tool.helix.values.empty() ? 0.0
+                                                             : tool.helix.values.front(),
+                          .lag_law = tool.lag,
+                          .lag_diameter = tool.lag_diameter.value_or(tool.diameter)};
+  if (tool.helix.listed &&
+      one_for_each_tooth(tool.helix.values, "tool.helix_deg", tool, findings)) {
+    cutter.helices = tool.helix.values;
+  }
+  if (tool.serration &&
+      (tool.serration->shift.empty() ||
+       one_for_each_tooth(tool.serration->shift, "tool.serration.shift_mm", tool,
+                          findings))) {
+    cutter.serration = tool.serration;
+  }
+  return cutter;
 }
 
 void check_runout(geometry::Runout& runout, const ToolTable& tool, Findings& findings) {
+  if (!runout.axial_offsets.empty() &&
+      !one_for_each_tooth(runout.axial_offsets, "runout.axial_offsets_mm", tool,
+                          findings)) {
+    runout.axial_offsets.clear();
+  }
   if (!sound(findings, {"tool.teeth", "runout.radial_offsets_mm"})) {
     return;
   }

@@ -115,6 +115,12 @@ struct Expectation {
   std::string operator()(const std::optional<files::SurfaceFrame>*) const {
     return "a table { key = value, ... }";
   }
+  std::string operator()(const std::optional<geometry::Serration>*) const {
+    return "a table { key = value, ... }";
+  }
+  std::string operator()(const PerTooth*) const {
+    return fmt::format("a number{0}, or a list of one for each tooth", limits());
+  }
   std::string operator()(const std::optional<files::Direction>*) const {
     return "one of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\", or 3 numbers";
   }
@@ -144,7 +150,13 @@ struct ValueWriter {
     for (const double entry : *v) {
       entries.push_back(number_text(entry, factor));
     }
-    return v->empty() ? Text{} : fmt::format("[{}]", fmt::join(entries, ", "));
+    if (v->empty()) {
+      return key.word.empty() ? Text{} : toml_string(key.word);
+    }
+    return fmt::format("[{}]", fmt::join(entries, ", "));
+  }
+  Text operator()(const PerTooth* v) const {
+    return v->listed ? (*this)(&v->values) : number_text(v->values.front(), factor);
   }
   Text operator()(const std::optional<base::Steps>* v) const {
     return *v ? fmt::format("[{}, {}, {}]", number_text((*v)->first, factor),
@@ -236,6 +248,7 @@ struct ValueWriter {
   Text operator()(const std::optional<files::SurfaceFrame>*) const {
     return {};
   }                                                      // these
+  Text operator()(const std::optional<geometry::Serration>*) const { return {}; }
   Text operator()(const CutTable*) const { return {}; }  // write_case.cpp does it
 };
 

@@ -6,6 +6,7 @@
 #include <trochoid/cases/program_tables.h>
 #include <trochoid/files/file_ref.h>
 #include <trochoid/files/surface_frame.h>
+#include <trochoid/geometry/cutter.h>
 
 #include <array>
 #include <cstddef>
@@ -92,6 +93,13 @@ struct Choices {
 };
 
 using Rows = std::vector<std::array<double, 3>>;
+
+/// A number for all teeth, or a list with one for each.
+struct PerTooth {
+  std::vector<double> values;  ///< one entry: of all teeth
+  bool listed = false;         ///< written as a list
+};
+
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
@@ -102,7 +110,8 @@ using Field =
                  std::optional<PreviousClamping>*, std::optional<files::SurfaceFrame>*,
                  std::optional<files::Direction>*, Pairs*,
                  std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*,
-                 NamedPlaces*, NamedFiles*>;
+                 NamedPlaces*, NamedFiles*, PerTooth*,
+                 std::optional<geometry::Serration>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

@@ -72,9 +72,11 @@ void describe(const Visitor& v, ToolTable& t) {
      .need = Need::always},
     &t.diameter);
   v({.name = "helix_deg",
-     .meaning = "helix angle, right-hand",
-     .range = from_below(0, 90),
-     .need = Need::always},
+     .meaning = "helix angle, right-hand; negative: left-hand, or negative axial rake; "
+                "a list: of each tooth",
+     .range = inside(-90, 90),
+     .need = Need::always,
+     .example = "[38, 41, 38, 41]"},
     &t.helix);
   v({.name = "pitch_deg",
      .meaning = "angle from each tooth to the next that passes; the sum is 360",
@@ -96,6 +98,41 @@ void describe(const Visitor& v, ToolTable& t) {
      .range = above_up_to(0, longest_mm),
      .example = "60"},
     &t.gauge_length);
+  v({.name = "serration",
+     .meaning = "a wave along the flank, as roughing cutters have it",
+     .standard = "none",
+     .example = "{ shape = \"sine\", amplitude_mm = 0.3, wavelength_mm = 2 }"},
+    &t.serration);
+  v({.name = "dish_deg",
+     .meaning = "floor only: the bottom edge rises towards the axis by this angle from "
+                "its lowest point; 90: the inner half of a round insert",
+     .range = between(0, 90)},
+    &t.dish);
+  v({.name = "wiper_mm",
+     .meaning = "floor only: length of the flat land at the lowest point, inwards",
+     .range = between(0, longest_mm)},
+    &t.wiper);
+}
+
+void describe(const Visitor& v, geometry::Serration& t) {
+  v({.name = "shape", .meaning = "shape of the wave"}, choice(t.shape));
+  v({.name = "amplitude_mm",
+     .meaning = "from crest to valley (papers often give half of it)",
+     .range = between(0, longest_mm),
+     .need = Need::always},
+    &t.amplitude);
+  v({.name = "wavelength_mm",
+     .meaning = "along the axis",
+     .range = above_up_to(0, longest_mm),
+     .need = Need::always},
+    &t.wavelength);
+  v({.name = "shift_mm",
+     .meaning = "height above its own tip of a crest of each tooth; \"equal\": shifted "
+                "from each tooth to the next by an equal part of the wavelength",
+     .range = between(-longest_mm, longest_mm),
+     .word = "equal",
+     .example = "[0, 0.5, 1, 1.5]"},
+    &t.shift);
 }
 
 void describe(const Visitor& v, geometry::Runout& t) {
@@ -117,6 +154,21 @@ void describe(const Visitor& v, geometry::Runout& t) {
   v({.name = "eccentricity_order",
      .meaning = "exact, or first: radius + eccentricity cos only"},
     choice(t.order));
+  v({.name = "axial_offsets_mm",
+     .meaning = "by how much deeper each tooth reaches; one number for each tooth",
+     .range = between(-longest_mm, longest_mm),
+     .standard = "all 0",
+     .example = "[0, -0.02]"},
+    &t.axial_offsets);
+  v({.name = "tilt_deg",
+     .meaning = "angle of the tool axis against the rotation axis",
+     .range = from_below(0, 10)},
+    &t.tilt);
+  v({.name = "tilt_angle_deg",
+     .meaning = "where the top of the tool leans to: from the tip of tooth 1 towards "
+                "tooth 2; a tooth there reaches deeper",
+     .range = between(-360, 360)},
+    &t.tilt_angle);
 }
 
 namespace {
@@ -192,6 +244,11 @@ void describe(const Visitor& v, CutTable& t) {
      .range = above_up_to(0, 1e6),
      .need = Need::always},
     &t.spindle_speed);
+  v({.name = "spindle_lead_deg",
+     .meaning = "floor only: the rotation axis leans forward by this angle, so that the "
+                "front cuts deeper and the rear clears",
+     .range = inside(-10, 10)},
+    &t.spindle_lead);
   describe_tolerances(v, t);
 }
 

@@ -166,6 +166,18 @@ void describe(const Visitor& v, Surface& t) {
                 "machine cannot avoid; 0: a point",
      .range = between(0, 100)},
     &t.probe_diameter);
+  v({.name = "floor_y_mm",
+     .meaning = "lines along the feed on which the floor is wanted, by their y",
+     .range = between(-longest_mm, longest_mm),
+     .standard = "no floor",
+     .example = "[0, 10]"},
+    &t.floor_y);
+  v({.name = "cutoff_mm",
+     .meaning = "cutoff of the Gaussian filter (ISO 16610-21) for roughness",
+     .range = above_up_to(0, longest_mm),
+     .standard = "no filter: one period of the profile",
+     .example = "0.8"},
+    &t.cutoff);
   v({.name = "outliers",
      .meaning = "calibrate: readings farther than five standard deviations from what "
                 "the others say"},

@@ -52,7 +52,7 @@ struct ToolTable {
   Shape shape = Shape::cylinder;
   int teeth = 1;
   double diameter = 0.0;
-  double helix = 0.0;
+  PerTooth helix = {{0.0}};
   std::vector<double> pitch;
   std::optional<double> corner_radius;
   std::optional<double> corner_center_radius;
@@ -62,6 +62,9 @@ struct ToolTable {
   geometry::LagLaw lag = geometry::LagLaw::constant_lead;
   std::optional<double> lag_diameter;
   std::optional<double> gauge_length;
+  std::optional<geometry::Serration> serration;
+  double dish = 0.0;
+  double wiper = 0.0;
 };
 
 struct CutTable {
@@ -75,6 +78,7 @@ struct CutTable {
   std::optional<double> feed_per_tooth_sd;
   std::optional<double> feed_rate;
   double spindle_speed = 0.0;
+  double spindle_lead = 0.0;
 };
 
 struct ForceTable {
@@ -162,6 +166,7 @@ struct CaseTables {
 };
 
 void describe(const Visitor& v, ToolTable& t);
+void describe(const Visitor& v, geometry::Serration& t);
 void describe(const Visitor& v, geometry::Runout& t);
 void describe(const Visitor& v, CutTable& t);
 void describe(const Visitor& v, chip::ChipModel& t);

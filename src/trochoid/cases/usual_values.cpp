@@ -11,7 +11,7 @@ namespace {
 constexpr std::array values = {
     UsualValue{"tool.teeth", between(1, 20)},
     UsualValue{"tool.diameter_mm", between(0.1, 250)},
-    UsualValue{"tool.helix_deg", between(0, 60)},
+    UsualValue{"tool.helix_deg", between(-30, 60)},
     UsualValue{"tool.pitch_deg", between(10, 360)},
     UsualValue{"tool.corner_radius_mm", between(0, 50)},
     UsualValue{"runout.radial_offsets_mm", between(-0.2, 0.2)},

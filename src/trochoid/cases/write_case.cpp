@@ -36,6 +36,9 @@ std::optional<std::string> value_text(const Key& key, const Field& field) {
   if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
     return inner_text(*clamping);
   }
+  if (auto* const* wave = std::get_if<std::optional<geometry::Serration>*>(&field)) {
+    return inner_text(*wave);
+  }
   if (auto* const* frame = std::get_if<std::optional<files::SurfaceFrame>*>(&field)) {
     return inner_text(*frame);
   }

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/overloaded.h>
 #include <trochoid/base/units.h>
+#include <trochoid/force/any_edges.h>
 #include <trochoid/force/arc_turn.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/cumulative.h>
@@ -248,6 +249,14 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
                                    std::span<const double> phi, double gauge_length,
                                    double tolerance) {
   std::vector<SixLoads> out(phi.size());
+  if (!edges_alike(setup)) {
+    const AnyForce any(setup, law, tolerance);
+    over_turns(phi, std::span(out),
+               [&](std::span<const double> some, std::span<SixLoads> all) {
+                 any.loads(some, gauge_length, all);
+               });
+    return out;
+  }
   if (const auto turn = arc_turn(setup, law, true)) {
     for (std::size_t i = 0; i < phi.size(); ++i) {
       const ToothLoads F = all_teeth(*turn, phi[i]);
@@ -304,8 +313,9 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
     return;
   }
-  const auto nodes =
-      by_arcs(setup) ? std::nullopt : NodeForce::make(setup, law, tolerance);
+  const auto nodes = by_arcs(setup) || !edges_alike(setup)
+                         ? std::optional<NodeForce>{}
+                         : NodeForce::make(setup, law, tolerance);
   if (nodes) {
     over_turns(phi, out, [&](std::span<const double> some, std::span<Vector3> F) {
       nodes->forces(some, F);
@@ -323,7 +333,8 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
 struct ForceMatrix::Parts {
   std::size_t columns;
   std::size_t teeth;
-  std::variant<TurnMatrix, CumulativeForce, NodeForce, AxialForce, ArcMatrix> method;
+  std::variant<TurnMatrix, CumulativeForce, NodeForce, AxialForce, ArcMatrix, AnyForce>
+      method;
 };
 
 ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
@@ -344,6 +355,9 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
     }
     if (keeps_radius(setup)) {
       return Parts{columns, count, CumulativeForce(setup, law, tolerance)};
+    }
+    if (!edges_alike(setup)) {
+      return Parts{columns, count, AnyForce(setup, law, tolerance)};
     }
     if (auto nodes = NodeForce::make(setup, law, tolerance)) {
       return Parts{columns, count, std::move(*nodes)};
@@ -368,6 +382,7 @@ double ForceMatrix::work(std::size_t angles) const noexcept {
                        },
                        [](const AxialForce&) { return std::pair(0.0, 100.0); },
                        [](const ArcMatrix&) { return std::pair(1000.0, 2.0); }},
+                       [](const AnyForce&) { return std::pair(0.0, 1000.0); }},
       parts_->method);
   return static_cast<double>(parts_->teeth) *
          (once + each * static_cast<double>(angles));
@@ -416,6 +431,10 @@ void ForceMatrix::evaluate(std::span<const double> phi, std::span<double> C) con
                  nodes->matrices(some, out);
                  return;
                }
+               if (const auto* any = std::get_if<AnyForce>(&parts_->method)) {
+                 any->matrices(some, out);
+                 return;
+               }
                std::get<AxialForce>(parts_->method).matrices(some, out);
              });
   for (std::size_t i = 0; i < matrices.size(); ++i) {
@@ -455,6 +474,12 @@ std::optional<Vector3> mean_force(const Setup& setup, const Law& law,
   const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance));
   if (!teeth) return std::nullopt;
   return mean(turn_polynomial(*teeth, force_weights(terms(law))));
+}
+
+Loads exact_mean(const Setup& setup, const Law& law, double gauge_length,
+                 double tolerance) {
+  const SixLoads v = AnyForce(setup, law, tolerance).mean(gauge_length);
+  return {{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])};
 }
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,

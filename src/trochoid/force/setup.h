@@ -24,6 +24,10 @@ inline geometry::Runout runout_of(const Setup& setup) {
   return chip::feels_runout(setup.chip.model) ? setup.runout : geometry::Runout{};
 }
 
+/// @brief Whether the teeth have one profile and one lag, as the closed forms want it; else
+/// each tooth has an edge of its own.
+bool edges_alike(const Setup& setup) noexcept;
+
 /// @brief Whether what one tooth does all do: equal pitch, and no runout that counts.
 bool teeth_alike(const Setup& setup);
 

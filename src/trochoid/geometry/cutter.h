@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -45,13 +46,36 @@ constexpr std::string_view name_of(LagLaw law) noexcept {
   return {};
 }
 
+/// Wave of a serrated edge.
+enum class SerrationShape { sine };
+
+/// The names that files use.
+constexpr std::string_view name_of(SerrationShape shape) noexcept {
+  switch (shape) {
+    case SerrationShape::sine:
+      return "sine";
+  }
+  return {};
+}
+
+/// @brief A wave along the flank of each tooth, cut into its radius (G-12).
+struct Serration {
+  SerrationShape shape = SerrationShape::sine;
+  double amplitude = 0.0;   ///< A, from crest to valley [m]
+  double wavelength = 0.0;  ///< along the axis [m]
+  std::vector<double> shift;  ///< height s_j of a crest of each tooth [m], shape (teeth);
+                              ///< empty: (j - 1) wavelength / teeth
+};
+
 /// @brief A cutter: profile, teeth and edges. Teeth are numbered in order of passage.
 struct Cutter {
   Profile profile;
   std::vector<double> pitch;  ///< angle from tooth k to k+1 [rad], sum 2 pi; 1 to 64
-  double helix = 0.0;         ///< [rad], in [0, pi/2)
+  double helix = 0.0;         ///< [rad], in (-pi/2, pi/2); negative: left-hand
   LagLaw lag_law = LagLaw::constant_lead;
   double lag_diameter = 0.0;  ///< [m]
+  std::vector<double> helices = {};  ///< of each tooth, where they differ [rad]
+  std::optional<Serration> serration = {};
 
   [[nodiscard]] int teeth() const noexcept { return static_cast<int>(pitch.size()); }
 };

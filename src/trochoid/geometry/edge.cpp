@@ -25,9 +25,14 @@ Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept {
 
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s,
            const MeridianPoint& p) noexcept {
-  const double t = std::tan(cutter.helix);
-  const double lead = 2 * t / cutter.lag_diameter;
-  if (cutter.lag_law == LagLaw::constant_lead || s < m.s_N) {
+  return lag_at({std::tan(cutter.helix), cutter.lag_law, cutter.lag_diameter}, m, s, p);
+}
+
+Lag lag_at(const LagOf& tooth, const Meridian& m, double s,
+           const MeridianPoint& p) noexcept {
+  const double t = tooth.tan_helix;
+  const double lead = 2 * t / tooth.diameter;
+  if (tooth.law == LagLaw::constant_lead || s < m.s_N) {
     return {lead * p.z, lead * p.sin_kappa};  // G-7
   }
   // G-8. ln(r/N_r)/sin(beta) as log1p, whose limit at beta = 0 is (s - s_N)/N_r.

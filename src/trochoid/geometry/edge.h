@@ -22,6 +22,17 @@ struct Lag {
 ///      d lag = tan(helix) dz / (r cos(beta))
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s) noexcept;
 
+/// @brief How the edge of one tooth lags.
+struct LagOf {
+  double tan_helix = 0.0;
+  LagLaw law = LagLaw::constant_lead;
+  double diameter = 0.0;  ///< [m]
+};
+
+/// @brief The same for one tooth, where the point at s is known.
+Lag lag_at(const LagOf& tooth, const Meridian& m, double s,
+           const MeridianPoint& p) noexcept;
+
 /// @brief The same where the point at s is known.
 Lag lag_at(const Cutter& cutter, const Meridian& m, double s,
            const MeridianPoint& p) noexcept;

@@ -6,6 +6,9 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <limits>
+
 namespace trochoid::results {
 
 namespace {
@@ -14,6 +17,7 @@ namespace {
 struct NumberedTooth {
   std::size_t number;
   const force::ToothEngagement& cuts;
+  double lowest;  ///< [m]
 };
 
 const Fields<NumberedTooth>& tooth_fields() {
@@ -28,14 +32,18 @@ const Fields<NumberedTooth>& tooth_fields() {
          return arcs;
        }},
       {"peak_chip_mm", "thickest chip",
-       [](const NumberedTooth& t) { return t.cuts.peak_chip; }}};
+       [](const NumberedTooth& t) { return t.cuts.peak_chip; }},
+      {"lowest_height_mm", "where its edge begins, above the nominal tip",
+       [](const NumberedTooth& t) { return t.lowest; }}};
   return all;
 }
 
 std::vector<NumberedTooth> numbered_teeth(const SimulateResult& r) {
   std::vector<NumberedTooth> teeth;
   for (const force::ToothEngagement& cuts : r.engagement.teeth) {
-    teeth.push_back({teeth.size() + 1, cuts});
+    teeth.push_back(
+        {teeth.size() + 1, cuts,
+         teeth.size() < r.edges.lowest.size() ? r.edges.lowest[teeth.size()] : 0.0});
   }
   return teeth;
 }
@@ -49,6 +57,47 @@ const Fields<chip::Removal>& removal_fields() {
        [](Of of) { return of.available * 1e6; }},
       {"ratio", "of both; 1 where the chips are what the feed takes",
        [](Of of) { return of.removed / of.available; }}};
+  return all;
+}
+
+/// One of the heights asked for.
+struct HeightOfEdges {
+  const force::Engagement& cuts;
+  bool conserves;
+};
+
+std::vector<HeightOfEdges> heights_of(const SimulateResult& r) {
+  std::vector<HeightOfEdges> all;
+  for (const force::Engagement& cuts : r.at_heights) {
+    all.push_back({cuts, r.conserves});
+  }
+  return all;
+}
+
+const Fields<HeightOfEdges>& edge_height_fields() {
+  using Of = const HeightOfEdges&;
+  static const Fields<HeightOfEdges> all{
+      {"height_mm", "above the nominal tip, as asked for",
+       [](Of of) { return given(of.cuts.height); }},
+      {"intervals_deg",
+       "of each tooth, where it cuts: pairs of nominal theta, from and to",
+       [](Of of) {
+         Array teeth;
+         for (const force::ToothEngagement& tooth : of.cuts.teeth) {
+           Array arcs;
+           for (const chip::Arc& arc : tooth.arcs) {
+             arcs.push_back(Array{arc.from, arc.to});
+           }
+           teeth.push_back(arcs);
+         }
+         return teeth;
+       }},
+      {"removed_mm2_per_rev",
+       "what the chips of all teeth add up to in a turn (C-8); null but for the "
+       "trochoidal model",
+       [](Of of) {
+         return of.conserves ? Value(of.cuts.removal.removed * 1e6) : Value();
+       }}};
   return all;
 }
 
@@ -75,6 +124,11 @@ const Fields<SimulateResult>& simulate_fields() {
        "mean force along x, y, z: of whole turns by integrals where the edges allow it (a "
        "cylinder, no power law), else over the rows of forces.csv",
        [](const R& r) { return r.force.mean; }},
+      {"exact_mean_N",
+       "mean force along x, y, z over a turn, as an integral along the edges (F-21)",
+       [](const R& r) { return r.exact_mean.force; }},
+      {"exact_mean_torque_Nm", "mean torque over a turn, as that integral",
+       [](const R& r) { return r.exact_mean.torque; }},
       {"min_N", "smallest of the rows of forces.csv, axis by axis",
        [](const R& r) { return r.force.min; }},
       {"max_N", "largest of them, axis by axis",
@@ -100,6 +154,8 @@ const Fields<SimulateResult>& simulate_fields() {
        numbered_teeth},
       {"teeth_height_mm", "above the tip",
        [](const R& r) { return given(r.engagement.height); }},
+      {"heights", "at each of `edge_heights_mm`", edge_height_fields(), heights_of,
+       [](const R& r) { return !r.at_heights.empty(); }},
       {"volume_check", "C-8: whether the chips of a turn are the material there is",
        removal_fields(), [](const R& r) { return r.engagement.removal; },
        [](const R& r) { return r.engagement.removal.available > 0; }},
@@ -154,7 +210,54 @@ const Columns<force::ChipGrid>& chip_columns() {
           return given(grid.height[i % grid.height.size()]);
         }},
        {"h_mm", "uncut chip thickness along the horizontal ray",
-        [](Of grid, std::size_t i) { return grid.h[i]; }}}};
+        [](Of grid, std::size_t i) { return grid.h[i]; }},
+       {"mark",
+        "whose mark reaches farthest out on the ray: 1 the tooth before, the number of "
+        "teeth for the tooth itself a turn ago; 0 where nothing is cut",
+        [](Of grid, std::size_t i) { return grid.mark[i]; }}}};
+  return all;
+}
+
+/// Of what is not there nothing is written.
+double if_there(const geometry::EdgeAt& edge, double value) {
+  return edge.there ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+const Columns<force::EdgeGrid>& edge_columns() {
+  using Of = const force::EdgeGrid&;
+  static const auto at = [](Of grid, std::size_t i) -> const geometry::EdgeAt& {
+    return grid.edges[i];
+  };
+  static const Columns<force::EdgeGrid> all{
+      "edges.csv",
+      [](Of grid) { return grid.edges.size(); },
+      {{"tooth", "number, from 1",
+        [](Of grid, std::size_t i) { return i % grid.lowest.size() + 1; }},
+       {"height_mm", "above the nominal tip, as asked for",
+        [](Of grid, std::size_t i) {
+          return given(grid.height[i / grid.lowest.size()]);
+        }},
+       {"there", "1: the tooth reaches down to this height; 0: it does not",
+        [](Of grid, std::size_t i) { return at(grid, i).there ? 1 : 0; }},
+       {"radius_mm", "R_j, from the axis of rotation (G-9)",
+        [](Of grid, std::size_t i) {
+          return if_there(at(grid, i), at(grid, i).position.R);
+        }},
+       {"omega_deg", "nominal angle of the edge behind the tip of tooth 1",
+        [](Of grid, std::size_t i) { return if_there(at(grid, i), at(grid, i).omega); }},
+       {"eps_deg", "angle by which the runout delays it (G-9)",
+        [](Of grid, std::size_t i) {
+          return if_there(at(grid, i), at(grid, i).position.epsilon);
+        }},
+       {"kappa_deg", "axial immersion angle (G-12)",
+        [](Of grid, std::size_t i) {
+          const geometry::EdgeAt& edge = at(grid, i);
+          return if_there(edge, std::atan2(edge.sin_kappa, edge.cos_kappa));
+        }},
+       {"ds_dz", "length of edge per height (G-14)",
+        [](Of grid, std::size_t i) {
+          return if_there(at(grid, i), at(grid, i).dS_dz);
+        }}}};
   return all;
 }
 
@@ -225,6 +328,9 @@ Answer answer_of(const SimulateResult& r) {
   answer.tables.push_back(simulated_forces().table(r));
   answer.tables.push_back(chip_columns().table(r.chips));
   answer.tables.push_back(chip_curve_table(r.curve));
+  if (!r.edges.edges.empty()) {
+    answer.tables.push_back(edge_columns().table(r.edges));
+  }
   if (!r.comparison.empty()) {
     std::vector<identification::Run> runs;
     ComputedForces computed{"computed", {}};
@@ -244,6 +350,7 @@ Description description_of_simulate() {
   simulated_forces().add_texts(all.columns);
   chip_columns().add_texts(all.columns);
   add_texts_of_chip_curve(all.columns);
+  edge_columns().add_texts(all.columns);
   add_texts_of_curves(all.columns);
   return all;
 }

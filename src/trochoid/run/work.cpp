@@ -60,7 +60,8 @@ std::string would_do(const Work& part, double evaluations, double bytes) {
 double windings(const force::Setup& setup) {
   const double lag = setup.cutter.lag_diameter > 0 ? setup.cutter.lag_diameter
                                                    : setup.cutter.profile.D;
-  return 2 * setup.cut.a_p * std::tan(setup.cutter.helix) / (lag * unit::turn);
+  return 2 * setup.cut.a_p * std::abs(std::tan(setup.cutter.helix)) /
+         (lag * unit::turn);
 }
 
 double law_factor(const force::Law& law) {
