@@ -155,6 +155,7 @@ struct Case {
   double dish = 0.0;                   ///< of the bottom edge [rad]
   double wiper = 0.0;                  ///< of the bottom edge [m]
   double spindle_lead = 0.0;           ///< [cut] spindle_lead_deg [rad]
+  bool forces_known = true;            ///< whether there is a [force]
   Sampling sampling;
   std::optional<Dynamometer> dynamometer;
   std::vector<Measurement> measurements;

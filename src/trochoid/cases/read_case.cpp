@@ -127,12 +127,19 @@ std::vector<std::string> report_unknown(const Node& root,
   return meant;
 }
 
+/// Whether a surface is asked for of which nothing bends: it needs no forces.
+bool is_rigid_finish(Command purpose, const Node& root) {
+  return purpose == Command::surface && find(root, "cutter_body") == nullptr &&
+         find(root, "wall") == nullptr && find(root, "force") == nullptr;
+}
+
 /// What a command needs of a case.
 Reading reading_for(Command purpose, const Node& root) {
   const bool fitted = find(root, "measurement") != nullptr;
   return {.cutting_needed = find(root, "orthogonal") == nullptr,
           .coefficients_needed =
-              purpose == Command::simulate || purpose == Command::surface ||
+              purpose == Command::simulate ||
+              (purpose == Command::surface && !is_rigid_finish(purpose, root)) ||
               purpose == Command::stability || purpose == Command::dynamics ||
               purpose == Command::program || (purpose == Command::correct && !fitted) ||
               (purpose == Command::plan && !fitted &&
@@ -156,7 +163,8 @@ CaseTables read_tables(const Node& given, std::optional<Command> purpose,
   for (const TableEntry& entry : entries) {
     if (const Node* node = find(root, entry.name)) {
       read_entry(entry, *node, reading, findings);
-    } else if (tool_only && (entry.name == "program" || entry.name == "stock")) {
+    } else if ((tool_only && (entry.name == "program" || entry.name == "stock")) ||
+               (purpose && entry.name == "force" && is_rigid_finish(*purpose, root))) {
       continue;
     } else if (purpose && std::count(entry.needed_by.begin(), entry.needed_by.end(),
                                      *purpose) > 0) {
@@ -384,6 +392,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
         {"cut_not_used", "[cut] is not used: the program is the cut"});
   }
   c.file = source.file;
+  c.forces_known = find(root, "force") != nullptr;
   hold_data(c);
   c.notes = std::move(findings.notes);
   if (!source.echo) return c;

@@ -55,6 +55,9 @@ void check_machine(MachineTables& machine, const ToolTable& tool, Findings& find
 /// @param verb  `surface` or `calibrate`, for messages
 void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& findings);
 
+/// @brief Whether a surface is asked for of which only the floor is wanted.
+bool is_floor_only(const CaseTables& tables, std::string_view verb);
+
 /// @brief Heights, cut, flutes and wall against one another.
 void check_surface(CaseTables& tables, Findings& findings);
 

@@ -18,7 +18,8 @@ constexpr int looks = 200;
 /// What commands that know closed forms only take.
 constexpr std::string_view alike_in_words =
     "takes cutters whose teeth have one edge: one helix_deg from 0 on, no serration, "
-    "axial_offsets_mm of 0 and tilt_deg = 0; simulate and identify take any";
+    "axial_offsets_mm of 0 and tilt_deg = 0; simulate, identify and the finish of surface "
+    "take any";
 
 /// The first key that makes the teeth differ from one another, and how.
 struct Difference {
@@ -50,9 +51,12 @@ std::optional<Difference> difference(const CaseTables& t) {
 /// Whether the edges of a command may differ, in this case.
 bool takes_any(const CaseTables& t, Command purpose) {
   const bool rigid = !t.machine.cutter_body && !t.machine.wall;
+  const auto& surface = t.machine.surface;
+  const bool profile = !surface || (surface->model == surface::Model::envelope &&
+                                    surface->probe_diameter == 0);
   return purpose == Command::simulate || purpose == Command::identify ||
          purpose == Command::modes || purpose == Command::actuator ||
-         (purpose == Command::surface && rigid);
+         (purpose == Command::surface && rigid && profile && t.machine.passes.empty());
 }
 
 void refuse_command(const CaseTables& t, Command purpose, Findings& findings) {
@@ -61,7 +65,9 @@ void refuse_command(const CaseTables& t, Command purpose, Findings& findings) {
     return;
   }
   const std::string_view what =
-      purpose == Command::surface ? "surface with something that bends" : "";
+      purpose == Command::surface
+          ? "surface with anything that bends, a probe, passes or another model than envelope"
+          : "";
   report(findings, found->key,
          fmt::format("{}: {}; {} {}", found->key, found->why,
                      what.empty() ? name_of(purpose) : what, alike_in_words));
@@ -70,7 +76,8 @@ void refuse_command(const CaseTables& t, Command purpose, Findings& findings) {
 /// A serration leaves something of the flank.
 void check_depth(const CaseTables& t, const force::Setup& setup, Findings& findings) {
   const std::string key = "tool.serration.amplitude_mm";
-  if (!setup.cutter.serration || !sound(findings, {"tool", key, "cut.axial_depth_mm"})) {
+  if (!setup.cutter.serration ||
+      !sound(findings, {"tool", key, "cut.axial_depth_mm"})) {
     return;
   }
   const geometry::Meridian m = geometry::meridian(setup.cutter.profile);
@@ -78,10 +85,11 @@ void check_depth(const CaseTables& t, const force::Setup& setup, Findings& findi
   const double at_top = m.N.r + (top - m.N.z) * std::tan(setup.cutter.profile.beta);
   const double thinnest = std::min(m.N.r, at_top);
   if (t.tool.serration->amplitude >= thinnest) {
-    report(findings, key,
-           fmt::format("{} = {} mm: not smaller than the radius of the flank, {} mm; must "
-                       "be less (from crest to valley)",
-                       key, mm(t.tool.serration->amplitude), mm(thinnest)));
+    report(
+        findings, key,
+        fmt::format("{} = {} mm: not smaller than the radius of the flank, {} mm; must "
+                    "be less (from crest to valley)",
+                    key, mm(t.tool.serration->amplitude), mm(thinnest)));
   }
 }
 
@@ -96,11 +104,13 @@ bool is_serrated(const CaseTables& t) {
 /// Which chip models know a radius that changes within a height.
 void check_serrated_chip(const CaseTables& t, Command purpose, Findings& findings) {
   const chip::Model model = t.chip.model;
-  if (is_serrated(t) && !knows_serration(model) && purpose != Command::identify && sound(findings, {"chip.model"})) {
+  if (is_serrated(t) && !knows_serration(model) && purpose != Command::identify &&
+      sound(findings, {"chip.model"})) {
     report(findings, "chip.model",
-           fmt::format("chip.model = \"{}\": knows no serration, whose depth it leaves out "
-                       "or multiplies by sin(theta); must be \"radial\" or \"trochoidal\"",
-                       chip::name_of(model)));
+           fmt::format(
+               "chip.model = \"{}\": knows no serration, whose depth it leaves out "
+               "or multiplies by sin(theta); must be \"radial\" or \"trochoidal\"",
+               chip::name_of(model)));
   }
 }
 
@@ -116,10 +126,11 @@ void check_order(const force::Setup& setup, Findings& findings) {
                          (next == 0 ? unit::turn : 0.0);
       if (gap > 0 && gap < unit::turn) continue;
       report(findings, "tool.helix_deg",
-             fmt::format("tool.helix_deg: at {:.4g} mm above the tip the edge of tooth {} "
-                         "crosses that of tooth {}; the angle between them must stay above "
-                         "0 over the axial depth",
-                         z / unit::mm, next + 1, j + 1));
+             fmt::format(
+                 "tool.helix_deg: at {:.4g} mm above the tip the edge of tooth {} "
+                 "crosses that of tooth {}; the angle between them must stay above "
+                 "0 over the axial depth",
+                 z / unit::mm, next + 1, j + 1));
       return;
     }
   }
@@ -133,9 +144,10 @@ void note_lifted(const force::Setup& setup, Findings& findings) {
     if (lowest < setup.cut.a_p) continue;
     findings.notes.push_back(
         {"tooth_above_stock",
-         fmt::format("Tooth {} begins {:.4g} mm above the nominal tip and the stock ends at "
-                     "{} mm: axial offset and tilt lift it out of the cut.",
-                     j + 1, lowest / unit::mm, mm(setup.cut.a_p))});
+         fmt::format(
+             "Tooth {} begins {:.4g} mm above the nominal tip and the stock ends at "
+             "{} mm: axial offset and tilt lift it out of the cut.",
+             j + 1, lowest / unit::mm, mm(setup.cut.a_p))});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trochoid::cases {
 
@@ -67,6 +68,22 @@ void check_depth_below(double limit, const std::string& limit_key,
                      mm(cut.axial_depth), limit_key, mm(limit), then, mm(limit)));
 }
 
+/// Lines of the floor that the teeth sweep.
+void check_floor_lines(const CaseTables& tables, Findings& findings) {
+  const std::string key = "surface.floor_y_mm";
+  if (!sound(findings, {key, "tool.diameter_mm"})) return;
+  const double radius = tables.tool.diameter / 2;
+  const auto& lines = tables.machine.surface->floor_y;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (std::abs(lines[i]) < radius) continue;
+    report(findings, key,
+           fmt::format(
+               "{} entry {} = {} mm: beside the tool, which reaches to {} mm; must "
+               "be between -{} and {} mm (lines of the floor)",
+               key, i + 1, mm(lines[i]), mm(radius), mm(radius), mm(radius)));
+  }
+}
+
 void check_feed(const CutTable& cut, std::string_view verb, Findings& findings) {
   const std::string per_tooth = "cut.feed_per_tooth_mm";
   const std::string rate = "cut.feed_rate_mm_per_min";
@@ -84,11 +101,24 @@ void check_feed(const CutTable& cut, std::string_view verb, Findings& findings) 
 
 }  // namespace
 
+bool is_floor_only(const CaseTables& tables, std::string_view verb) {
+  const auto& surface = tables.machine.surface;
+  return verb == "surface" && surface && !surface->floor_y.empty() &&
+         surface->heights.empty();
+}
+
 void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& findings) {
   if (!tables.machine.surface && sound(findings, {"surface"})) {
     tables.machine.surface.emplace();
   }
-  if (tables.tool.shape != Shape::cylinder && sound(findings, {"tool.shape"})) {
+  if (is_floor_only(tables, verb)) {
+    check_feed(tables.cut, verb, findings);
+    return;
+  }
+  const bool rigid = !tables.machine.cutter_body && !tables.machine.wall;
+  const bool any_shape = rigid && verb == "surface";
+  if (tables.tool.shape != Shape::cylinder && !any_shape &&
+      sound(findings, {"tool.shape"})) {
     report(findings, "tool.shape",
            fmt::format("tool.shape = {}: {} knows the wall of a cylinder only; must be "
                        "\"cylinder\" (shape of the cutter)",
@@ -104,7 +134,6 @@ void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& finding
                        shown_choice(tables.cut, "engagement"), verb));
   }
   check_feed(tables.cut, verb, findings);
-  const bool rigid = !tables.machine.cutter_body && !tables.machine.wall;
   if (verb != "surface" && rigid && sound(findings, {"cutter_body", "wall"})) {
     report(findings, "cutter_body",
            fmt::format("[cutter_body] and [wall] are missing: nothing bends, so the "
@@ -130,7 +159,8 @@ void check_surface(CaseTables& tables, Findings& findings) {
   if (!m.surface) {
     return;
   }
-  const bool stand_in = m.surface->heights.empty() && sound(findings, {"surface"});
+  const bool stand_in = m.surface->heights.empty() && m.surface->floor_y.empty() &&
+                        sound(findings, {"surface"});
   if (stand_in) {
     m.surface->heights = tables.sampling.edge_heights;
   }
@@ -141,6 +171,7 @@ void check_surface(CaseTables& tables, Findings& findings) {
                    "heights above the tip where the surface is wanted"},
                   findings);
   }
+  check_floor_lines(tables, findings);
   if (m.cutter_body && sound(findings, {"cutter_body.overhang_mm"})) {
     check_heights({m.surface->influence_heights, "surface.influence_heights_mm",
                    m.cutter_body->overhang, "overhang_mm",

@@ -52,7 +52,7 @@ void TeethAtHeight::order() noexcept {
       const std::size_t k = (j + n - m % n) % n;
       double back = edge_[tooth_[j]].omega - edge_[tooth_[k]].omega;
       back -= unit::turn * std::floor(back / unit::turn);
-      passage_.back[j * n + m - 1] = m == n ? unit::turn : back;  // C-9
+      passage_.back[j * n + m - 1] = m == n ? unit::turn : back;  // C-20
     }
   }
 }
@@ -75,7 +75,8 @@ int TeethAtHeight::nearest_mark(std::size_t tooth, double theta) const noexcept 
   int best = 0;
   double least = 0.0;
   for (int m = 1; m <= passage_.marks; ++m) {
-    const double above = chip_over_mark(passage_, slice(tooth), place_[tooth], theta, m);
+    const double above =
+        chip_over_mark(passage_, slice(tooth), place_[tooth], theta, m);
     if (best == 0 || above < least) {
       best = m;
       least = above;

@@ -15,7 +15,7 @@ namespace trochoid::chip {
 /// the others cut with the feed of several teeth. Angles between teeth are those at this
 /// height.
 ///
-/// @eq C-9 back_jk = (omega_j(z'_j) - omega_k(z'_k)) mod 2 pi over the teeth that are
+/// @eq C-20 back_jk = (omega_j(z'_j) - omega_k(z'_k)) mod 2 pi over the teeth that are
 ///         there, 2 pi for k = j; with it C-1 to C-7 at each height
 /// @src derived
 class TeethAtHeight {
@@ -25,8 +25,7 @@ class TeethAtHeight {
   /// @brief Look at the height + beyond, with those teeth that are there.
   void stand_at(double height, double beyond = 0.0) noexcept;
   /// @brief The same, with the teeth that are said to be there: those of a zone.
-  void stand_at(double height, double beyond,
-                const std::vector<char>& there) noexcept;
+  void stand_at(double height, double beyond, const std::vector<char>& there) noexcept;
 
   [[nodiscard]] bool there(std::size_t tooth) const noexcept {
     return place_[tooth] >= 0;
@@ -57,9 +56,9 @@ class TeethAtHeight {
   const geometry::ToothEdges& edges_;
   Passage passage_;
   int marks_;
-  std::vector<geometry::EdgeAt> edge_;  ///< shape (teeth)
-  std::vector<int> place_;              ///< shape (teeth)
-  std::vector<std::size_t> tooth_;      ///< which are there
+  std::vector<geometry::EdgeAt> edge_;             ///< shape (teeth)
+  std::vector<int> place_;                         ///< shape (teeth)
+  std::vector<std::size_t> tooth_;                 ///< which are there
   std::vector<geometry::EdgePosition> positions_;  ///< of those
 };
 

@@ -130,9 +130,8 @@ AnyForce::AnyForce(const Setup& setup, const Law& law, double tolerance, double 
     : edges_(setup), terms_(terms(law)) {
   if (top < setup.cut.a_p) edges_.zones = zones_of(edges_.edges, top);
   const double h = thickest(edges_);
-  const double length = edges_.zones.empty()
-                            ? 0.0
-                            : edges_.zones.back().to - edges_.zones.front().from;
+  const double length =
+      edges_.zones.empty() ? 0.0 : edges_.zones.back().to - edges_.zones.front().from;
   if (h > 0) {
     const ColumnWeights w = column_weights(terms_.form, h, 1.0, 1.0);
     allowed_cutting_ = share_of_any_piece * tolerance * length *
@@ -177,7 +176,8 @@ void AnyForce::matrices(std::span<const double> phi, std::span<Matrix> C) const 
                            double /*z*/, double weight, Matrix& out) {
     const double s = std::sin(state.theta);
     const double c = std::cos(state.theta);
-    const std::array<std::array<double, 3>, 3> B = {  // F-3
+    const std::array<std::array<double, 3>, 3> B = {
+        // F-3
         {{-c, -s * at.sin_kappa, -s * at.cos_kappa},
          {s, -c * at.sin_kappa, -c * at.cos_kappa},
          {0.0, at.cos_kappa, -at.sin_kappa}}};
@@ -185,7 +185,7 @@ void AnyForce::matrices(std::span<const double> phi, std::span<Matrix> C) const 
         weights_per_height(edges_.setup, terms_.form, state.chip.h, at);
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t q = 0; q < 3; ++q) {
-        out[6 * row + q] += weight * B[row][q] * w.cutting[q];  // F-20
+        out[6 * row + q] += weight * B[row][q] * w.cutting[q];  // F-30
         out[6 * row + 3 + q] += weight * B[row][q] * w.edge;
       }
     }

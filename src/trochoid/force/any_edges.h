@@ -16,8 +16,8 @@ namespace trochoid::force {
 /// Its points are from + (to - from) t^2, t from 0 to 1: radii of a corner grow with the
 /// root of the height above its start, and are smooth over t.
 struct Zone {
-  double from = 0.0;  ///< [m]
-  double to = 0.0;    ///< [m]
+  double from = 0.0;         ///< [m]
+  double to = 0.0;           ///< [m]
   std::vector<char> there;   ///< shape (teeth)
   std::vector<double> grid;  ///< of t, close enough for a first look
 
@@ -48,7 +48,7 @@ struct AnyState {
 /// @brief Forces of edges that differ, under any law: along each edge cut where something
 /// switches, by quadrature between.
 ///
-/// @eq F-20 [C] = sum over the teeth that are there of the integral of [B][A] over the
+/// @eq F-30 [C] = sum over the teeth that are there of the integral of [B][A] over the
 ///          height, in zones between the heights where an edge begins or bends
 /// @src derived
 class AnyForce {
@@ -65,7 +65,7 @@ class AnyForce {
   /// @param[out] all  as of AxialForce, shape (angles)
   void loads(std::span<const double> phi, double gauge_length,
              std::span<SixLoads> all) const;
-  /// @brief Mean of a turn, as an integral over theta at each height (F-21).
+  /// @brief Mean of a turn, as an integral over theta at each height (F-31).
   [[nodiscard]] SixLoads mean(double gauge_length) const;
 
   [[nodiscard]] const AnyEdges& edges() const noexcept { return edges_; }
@@ -75,8 +75,8 @@ class AnyForce {
   void integrate(double phi, const std::array<double, M>& allowed,
                  const Element& element, std::array<double, M>& sum) const;
   [[nodiscard]] SixLoads allowed_loads(double gauge_length) const;
-  [[nodiscard]] std::array<double, 3> force_per_height(const chip::Chip& chip,
-                                                       const geometry::EdgeAt& at) const;
+  [[nodiscard]] std::array<double, 3> force_per_height(
+      const chip::Chip& chip, const geometry::EdgeAt& at) const;
   void add_turn(const chip::TeethAtHeight& teeth, double z, double gauge_length,
                 double weight, SixLoads& sum) const;
 

@@ -75,7 +75,7 @@ struct Loads {
 
 /// @brief Means over a turn, of any cutter under any law: an integral over theta and
 /// height, not a mean of samples.
-/// @eq F-21 mean = 1/(2 pi) sum over teeth of the integral over z and theta of [B] dF
+/// @eq F-31 mean = 1/(2 pi) sum over teeth of the integral over z and theta of [B] dF
 /// @param gauge_length  height of the section above the tool tip [m]
 Loads exact_mean(const Setup& setup, const Law& law, double gauge_length,
                  double tolerance);

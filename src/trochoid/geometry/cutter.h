@@ -58,13 +58,14 @@ constexpr std::string_view name_of(SerrationShape shape) noexcept {
   return {};
 }
 
-/// @brief A wave along the flank of each tooth, cut into its radius (G-12).
+/// @brief A wave along the flank of each tooth, cut into its radius (G-20).
 struct Serration {
   SerrationShape shape = SerrationShape::sine;
   double amplitude = 0.0;   ///< A, from crest to valley [m]
   double wavelength = 0.0;  ///< along the axis [m]
-  std::vector<double> shift;  ///< height s_j of a crest of each tooth [m], shape (teeth);
-                              ///< empty: (j - 1) wavelength / teeth
+  std::vector<double>
+      shift;  ///< height s_j of a crest of each tooth [m], shape (teeth);
+              ///< empty: (j - 1) wavelength / teeth
 };
 
 /// @brief A cutter: profile, teeth and edges. Teeth are numbered in order of passage.
@@ -73,7 +74,7 @@ struct Cutter {
   std::vector<double> pitch;  ///< angle from tooth k to k+1 [rad], sum 2 pi; 1 to 64
   double helix = 0.0;         ///< [rad], in (-pi/2, pi/2); negative: left-hand
   LagLaw lag_law = LagLaw::constant_lead;
-  double lag_diameter = 0.0;  ///< [m]
+  double lag_diameter = 0.0;         ///< [m]
   std::vector<double> helices = {};  ///< of each tooth, where they differ [rad]
   std::optional<Serration> serration = {};
 

@@ -68,17 +68,16 @@ ToothEdges::Own ToothEdges::own(const Tooth& tooth, double z) const noexcept {
   // Only the law of constant helix asks for the arc length, and of the flank alone.
   const double s = flank ? arc_length_at(meridian_, z) : 0.0;
   const Lag lag = lag_at(tooth.lag, meridian_, s, p);
-  const double per_height =
-      flank && tooth.lag.law == LagLaw::constant_helix
-          ? lag.per_arc / p.sin_kappa
-          : 2 * tooth.lag.tan_helix / tooth.lag.diameter;
+  const double per_height = flank && tooth.lag.law == LagLaw::constant_helix
+                                ? lag.per_arc / p.sin_kappa
+                                : 2 * tooth.lag.tan_helix / tooth.lag.diameter;
   Own at{.r = p.r,
          .slope = p.cos_kappa / p.sin_kappa,
          .omega = tooth.psi + lag.angle,
          .turn = per_height,
          .sin_kappa = p.sin_kappa,
          .cos_kappa = p.cos_kappa};
-  if (wavelength_ > 0 && flank) {  // G-12
+  if (wavelength_ > 0 && flank) {  // G-20
     const double wave = two_pi / wavelength_;
     const double x = wave * (z - tooth.shift);
     const double half = std::sin(0.5 * x);
@@ -108,7 +107,7 @@ EdgePosition ToothEdges::placed(const Tooth& tooth, const Own& at,
   }
   const double c = at.omega - runout_.angle;
   const double t = at.omega - runout_.tilt_angle;
-  const double x = r + rho * std::cos(c) + lean * std::cos(t);  // G-15
+  const double x = r + rho * std::cos(c) + lean * std::cos(t);  // G-23
   if (runout_.order == EccentricityOrder::first) {
     return {x, 0.0};
   }
@@ -121,7 +120,7 @@ EdgeAt ToothEdges::edge_at(std::size_t index, double height,
   const Tooth& tooth = teeth_[index];
   const double above = (height + tooth.axial) + beyond;
   const double z1 = std::max(above, 0.0);
-  const double own_height = above + lift(tooth, z1);  // G-13
+  const double own_height = above + lift(tooth, z1);  // G-21
   EdgeAt out;
   out.there = own_height >= 0;
   out.own_height = own_height;
@@ -134,10 +133,10 @@ EdgeAt ToothEdges::edge_at(std::size_t index, double height,
   if (tan_tilt_ != 0 && above > 0) {
     const Own below = own(tooth, z1);
     const double t = below.omega - runout_.tilt_angle;
-    rise += tan_tilt_ *
-            (below.slope * std::cos(t) - below.r * below.turn * std::sin(t));
+    rise +=
+        tan_tilt_ * (below.slope * std::cos(t) - below.r * below.turn * std::sin(t));
   }
-  // G-14, with 1/sin(kappa) = sqrt(1 + slope^2)
+  // G-22, with 1/sin(kappa) = sqrt(1 + slope^2)
   out.dS_dz = std::hypot(1 / at.sin_kappa, at.r * at.turn) * rise;
   out.position = placed(tooth, at, height + beyond);
   return out;

@@ -17,29 +17,29 @@ bool edges_alike(const Cutter& cutter, const Runout& runout) noexcept;
 
 /// @brief Where the edge of one tooth is at a height of the workpiece frame.
 struct EdgeAt {
-  bool there = false;      ///< whether the tooth reaches down to this height
-  double own_height = 0.0; ///< z' above its own tip [m]
-  double r = 0.0;          ///< own radius, serrated, without runout [m]
-  double omega = 0.0;      ///< nominal angle behind the tip of tooth 1 [rad]
+  bool there = false;       ///< whether the tooth reaches down to this height
+  double own_height = 0.0;  ///< z' above its own tip [m]
+  double r = 0.0;           ///< own radius, serrated, without runout [m]
+  double omega = 0.0;       ///< nominal angle behind the tip of tooth 1 [rad]
   double sin_kappa = 1.0;
-  double cos_kappa = 0.0;   ///< negative: undercut by a serration
-  double dS_dz = 1.0;       ///< length of edge per height of the workpiece
-  EdgePosition position;    ///< from the axis of rotation, with all runout
+  double cos_kappa = 0.0;  ///< negative: undercut by a serration
+  double dS_dz = 1.0;      ///< length of edge per height of the workpiece
+  EdgePosition position;   ///< from the axis of rotation, with all runout
 };
 
 /// @brief A cutter as a radius, an angle and a slope of each tooth at each height.
 ///
 /// Profile, helix, pitch, serration, offsets, eccentricity and tilt are parts of this.
 ///
-/// @eq G-12 r_j(z') = r(z') - (A/2)(1 - cos(2 pi (z' - s_j)/wavelength)) on the flank,
+/// @eq G-20 r_j(z') = r(z') - (A/2)(1 - cos(2 pi (z' - s_j)/wavelength)) on the flank,
 ///          kappa_j = atan2(1, dr_j/dz')
-/// @eq G-13 z'_j = z + a_j + tan(tilt) r_j(z_1) cos(omega_j(z_1) - mu),
+/// @eq G-21 z'_j = z + a_j + tan(tilt) r_j(z_1) cos(omega_j(z_1) - mu),
 ///          z_1 = max(z + a_j, 0)
-/// @eq G-14 dS/dz = sqrt(1 + (dr_j/dz')^2 + (r_j dlag_j/dz')^2) dz'_j/dz
-/// @eq G-15 e(z) = rho (cos lambda, sin lambda) + z tan(tilt) (cos mu, sin mu),
+/// @eq G-22 dS/dz = sqrt(1 + (dr_j/dz')^2 + (r_j dlag_j/dz')^2) dz'_j/dz
+/// @eq G-23 e(z) = rho (cos lambda, sin lambda) + z tan(tilt) (cos mu, sin mu),
 ///          in place of the eccentricity of G-9 and G-10
 /// @src derived
-/// @note A tooth is there where z'_j >= 0. G-13 is one step of a fixed point: it errs by
+/// @note A tooth is there where z'_j >= 0. G-21 is one step of a fixed point: it errs by
 ///       the square of the tilt.
 class ToothEdges {
  public:
@@ -64,7 +64,8 @@ class ToothEdges {
   [[nodiscard]] std::vector<double> breaks(double top) const;
 
   /// @brief By how much the edge of a tooth turns between two heights, at most [rad].
-  [[nodiscard]] double turn_between(std::size_t tooth, double from, double to) const noexcept;
+  [[nodiscard]] double turn_between(std::size_t tooth, double from,
+                                    double to) const noexcept;
 
   /// Wavelength of the serration [m]; 0: none.
   [[nodiscard]] double wavelength() const noexcept { return wavelength_; }
@@ -74,9 +75,9 @@ class ToothEdges {
   struct Tooth {
     double psi = 0.0;  ///< [rad]
     LagOf lag;
-    double shift = 0.0;  ///< s_j [m]
-    double axial = 0.0;  ///< a_j [m]
-    double radial = 0.0; ///< [m]
+    double shift = 0.0;   ///< s_j [m]
+    double axial = 0.0;   ///< a_j [m]
+    double radial = 0.0;  ///< [m]
   };
   /// The edge in the frame of its own tip.
   struct Own {

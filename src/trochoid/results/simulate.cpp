@@ -125,7 +125,7 @@ const Fields<SimulateResult>& simulate_fields() {
        "cylinder, no power law), else over the rows of forces.csv",
        [](const R& r) { return r.force.mean; }},
       {"exact_mean_N",
-       "mean force along x, y, z over a turn, as an integral along the edges (F-21)",
+       "mean force along x, y, z over a turn, as an integral along the edges (F-31)",
        [](const R& r) { return r.exact_mean.force; }},
       {"exact_mean_torque_Nm", "mean torque over a turn, as that integral",
        [](const R& r) { return r.exact_mean.torque; }},
@@ -244,18 +244,19 @@ const Columns<force::EdgeGrid>& edge_columns() {
           return if_there(at(grid, i), at(grid, i).position.R);
         }},
        {"omega_deg", "nominal angle of the edge behind the tip of tooth 1",
-        [](Of grid, std::size_t i) { return if_there(at(grid, i), at(grid, i).omega); }},
+        [](Of grid, std::size_t i) {
+          return if_there(at(grid, i), at(grid, i).omega);
+        }},
        {"eps_deg", "angle by which the runout delays it (G-9)",
         [](Of grid, std::size_t i) {
           return if_there(at(grid, i), at(grid, i).position.epsilon);
         }},
-       {"kappa_deg", "axial immersion angle (G-12)",
+       {"kappa_deg", "axial immersion angle (G-20)",
         [](Of grid, std::size_t i) {
           const geometry::EdgeAt& edge = at(grid, i);
           return if_there(edge, std::atan2(edge.sin_kappa, edge.cos_kappa));
         }},
-       {"ds_dz", "length of edge per height (G-14)",
-        [](Of grid, std::size_t i) {
+       {"ds_dz", "length of edge per height (G-22)", [](Of grid, std::size_t i) {
           return if_there(at(grid, i), at(grid, i).dS_dz);
         }}}};
   return all;

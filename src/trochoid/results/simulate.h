@@ -32,11 +32,11 @@ struct SimulateResult {
   std::optional<double> gauge_length;              ///< of the bending moment [m]
   /// What the channels of the dynamometer read: matrix times force on the tool.
   std::optional<std::array<std::array<double, 3>, 3>> channels;
-  force::Engagement engagement;        ///< at one height
+  force::Engagement engagement;                    ///< at one height
   std::vector<force::Engagement> at_heights = {};  ///< at the heights asked for
-  bool conserves = true;            ///< whether removal is told of `at_heights`
-  force::EdgeGrid edges = {};       ///< at the heights asked for
-  force::Loads exact_mean = {};     ///< over a turn (F-21)
+  bool conserves = true;               ///< whether removal is told of `at_heights`
+  force::EdgeGrid edges = {};          ///< at the heights asked for
+  force::Loads exact_mean = {};        ///< over a turn (F-31)
   force::ChipGrid chips;               ///< at the angles and heights asked for
   force::ChipCurve curve;              ///< at the height of `engagement`
   std::vector<Comparison> comparison;  ///< one a measurement

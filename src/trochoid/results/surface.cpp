@@ -126,6 +126,18 @@ const Columns<DeflectedShape>& bent_columns() {
   return all;
 }
 
+const Fields<surface::Roughness>& filtered_fields() {
+  using Of = const surface::Roughness&;
+  static const Fields<surface::Roughness> all{
+      {"cutoff_mm", "of the filter, as asked for",
+       [](Of r) { return given(r.cutoff); }},
+      {"Ra_um", "over five cutoffs", [](Of r) { return r.Ra; }},
+      {"Rq_um", "over five cutoffs", [](Of r) { return r.Rq; }},
+      {"Rz_um", "mean of those of the five", [](Of r) { return r.Rz; }},
+      {"Rt_um", "over five cutoffs", [](Of r) { return r.Rt; }}};
+  return all;
+}
+
 const Fields<ErrorRow>& height_fields() {
   using Of = const ErrorRow&;
   const auto waves = [](Of row) { return row.waves.has_value(); };
@@ -142,6 +154,14 @@ const Fields<ErrorRow>& height_fields() {
       {"Ra_um", "along the feed", [](Of row) { return row.statistics.Ra; }},
       {"Rt_um", "along the feed",
        [](Of row) { return row.statistics.error.max - row.statistics.error.min; }},
+      {"Rq_um", "along the feed", [](Of row) { return row.roughness->Rq; },
+       [](Of row) { return row.roughness.has_value(); }},
+      {"Rz_um", "along the feed: the sampling length is what is computed of it",
+       [](Of row) { return row.roughness->Rz; },
+       [](Of row) { return row.roughness.has_value(); }},
+      {"filtered", "with `cutoff_mm`, behind the Gaussian filter (W-2)",
+       filtered_fields(), [](Of row) { return &*row.filtered; },
+       [](Of row) { return row.filtered.has_value(); }},
       {"share", "which fraction of the profile each tooth made",
        [](Of row) { return row.statistics.share; }},
       {"compliance_mm_per_N", "under the whole force", &ErrorRow::compliance},
@@ -182,9 +202,60 @@ const Fields<SurfaceResult>& bent_fields() {
   return all;
 }
 
+/// The points of all lines of a floor.
+struct FloorPoints {
+  const SurfaceResult& r;
+  std::size_t line;  ///< points on each
+};
+
+const Columns<FloorPoints>& floor_columns() {
+  using Of = const FloorPoints&;
+  static const auto line = [](Of of, std::size_t i) -> const surface::FloorLine& {
+    return of.r.floor[i / of.line];
+  };
+  static const Columns<FloorPoints> all{
+      "floor.csv",
+      [](Of of) { return of.r.floor.size() * of.line; },
+      {{"y_mm", "of the line",
+        [](Of of, std::size_t i) { return given(line(of, i).y); }},
+       {"x_mm", "along the feed, one period from where the axis is at the angle 0",
+        [](Of of, std::size_t i) { return given(line(of, i).x[i % of.line]); }},
+       {"z_mm", "height of the floor above the nominal plane of the tips (W-3)",
+        [](Of of, std::size_t i) { return line(of, i).z[i % of.line]; }},
+       {"tooth", "that wrote it, from 1",
+        [](Of of, std::size_t i) { return line(of, i).tooth[i % of.line] + 1; }}}};
+  return all;
+}
+
+const Fields<surface::FloorLine>& floor_fields() {
+  using Of = const surface::FloorLine&;
+  static const Fields<surface::FloorLine> all{
+      {"y_mm", "of the line, as asked for", [](Of l) { return given(l.y); }},
+      {"mean_mm", "mean height above the nominal plane of the tips",
+       [](Of l) { return l.roughness.mean; }},
+      {"lowest_mm", "lowest height", [](Of l) { return l.roughness.lowest; }},
+      {"highest_mm", "highest", [](Of l) { return l.roughness.highest; }},
+      {"Ra_um", "over one period, no filter (W-1)",
+       [](Of l) { return l.roughness.Ra; }},
+      {"Rq_um", "the same", [](Of l) { return l.roughness.Rq; }},
+      {"Rz_um", "the same: the sampling length is the period",
+       [](Of l) { return l.roughness.Rz; }},
+      {"Rt_um", "the same", [](Of l) { return l.roughness.Rt; }},
+      {"share", "which fraction of the profile each tooth wrote",
+       &surface::FloorLine::share},
+      {"filtered", "with `cutoff_mm`, behind the Gaussian filter (W-2)",
+       filtered_fields(), [](Of l) { return l.filtered ? &*l.filtered : nullptr; },
+       [](Of l) { return l.filtered.has_value(); }}};
+  return all;
+}
+
 const Fields<SurfaceResult>& surface_fields() {
   using R = const SurfaceResult&;
-  const auto steady = [](R r) { return r.map.converged; };
+  const auto of_wall = [](R r) { return r.of_wall; };
+  const auto steady = [](R r) { return r.of_wall && r.map.converged; };
+  const auto forced = [](R r) {
+    return r.of_wall && r.map.converged && r.forces_known;
+  };
   static const Fields<ErrorMap> forces{
       {"F_normal_mean_N", "mean", [](const ErrorMap& m) { return m.F_normal.mean; }},
       {"F_normal_min_N", "smallest", [](const ErrorMap& m) { return m.F_normal.min; }},
@@ -193,25 +264,31 @@ const Fields<SurfaceResult>& surface_fields() {
       {"Fx_min_N", "smallest", [](const ErrorMap& m) { return m.F_x.min; }},
       {"Fx_max_N", "largest", [](const ErrorMap& m) { return m.F_x.max; }}};
   static const Fields<SurfaceResult> all{
-      {"model", "as asked for", [](R r) { return surface::name_of(r.map.model); }},
-      {"feedback", "as asked for",
-       [](R r) { return surface::name_of(r.map.feedback); }},
-      {"mean_error_mm", "mean of the heights, each over surface.csv",
-       [](R r) { return r.map.error.mean; }, steady},
-      {"peak_error_mm", "largest in surface.csv", [](R r) { return r.map.error.max; },
-       steady},
-      {"min_error_mm", "smallest in surface.csv", [](R r) { return r.map.error.min; },
-       steady},
-      {"forces", "over the rows of forces.csv", forces, [](R r) { return &r.map; },
-       steady},
-      {"compliance_mm_per_N", "at the first of the heights, under the whole force",
-       [](R r) { return r.map.rows.front().compliance; }, steady},
-      {"turns_to_repeat",
-       "turns until the steady state, in which the deflection repeats",
-       [](R r) { return r.map.turns; }, steady},
-      {"heights", "for each height", height_fields(),
-       [](R r) -> const auto& {return r.map.rows;
+      {"period_mm", "feed of a turn, after which the profiles repeat",
+       [](R r) { return r.period; }},
+      {"floor", "for each of `floor_y_mm`", floor_fields(),
+       [](R r) -> const auto& {return r.floor;
 }
+, [](R r) { return !r.floor.empty(); }
+}  // namespace
+, {"model", "as asked for", [](R r) { return surface::name_of(r.map.model); }, of_wall},
+    {"feedback", "as asked for", [](R r) { return surface::name_of(r.map.feedback); },
+     of_wall},
+    {"mean_error_mm", "mean of the heights", [](R r) { return r.map.error.mean; },
+     steady},
+    {"peak_error_mm", "largest of the heights", [](R r) { return r.map.error.max; },
+     steady},
+    {"min_error_mm", "smallest of the heights", [](R r) { return r.map.error.min; },
+     steady},
+    {"forces", "over the rows of forces.csv", forces, [](R r) { return &r.map; },
+     forced},
+    {"compliance_mm_per_N", "at the first of the heights, under the whole force",
+     [](R r) { return r.map.rows.front().compliance; }, forced},
+    {"turns_to_repeat", "turns until the steady state, in which the deflection repeats",
+     [](R r) { return r.map.turns; }, steady},
+    {"heights", "for each height", height_fields(),
+     [](R r) -> const auto& {return r.map.rows;
+}  // namespace trochoid::results
 , steady
 }  // namespace
 ,
@@ -220,7 +297,8 @@ const Fields<SurfaceResult>& surface_fields() {
 {
   "", "", surface_part_fields(), [](R r) { return &r; }, steady
 }
-};  // namespace trochoid::results
+}
+;  // namespace trochoid::results
 return all;
 }
 
@@ -229,8 +307,26 @@ double newtons(double force) {
   return std::abs(force) < 0.005 ? 0.0 : force;
 }
 
+std::string floor_text(const SurfaceResult& r) {
+  std::string text = fmt::format(
+      "finish of the floor along the feed\n  {:>10} {:>12} {:>9} {:>9} {:>9}   written by\n",
+      "y mm", "mean um", "Ra um", "Rq um", "Rz um");
+  for (const surface::FloorLine& line : r.floor) {
+    const surface::Roughness& w = line.roughness;
+    text += fmt::format("  {:>10.3f} {:>12.3f} {:>9.4f} {:>9.4f} {:>9.4f}  ",
+                        unit::in(line.y, unit::mm), w.mean / unit::um, w.Ra / unit::um,
+                        w.Rq / unit::um, w.Rz / unit::um);
+    for (std::size_t j = 0; j < line.share.size(); ++j) {
+      if (line.share[j] > 0)
+        text += fmt::format(" {}: {:.0f} %", j + 1, 100 * line.share[j]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 /// About ten of the heights, and what acts on them.
-std::string short_table(const SurfaceResult& r) {
+std::string wall_text(const SurfaceResult& r) {
   const ErrorMap& map = r.map;
   std::string text = fmt::format(
       "error of the wall, positive: material left   (model {}, feedback {})\n"
@@ -244,6 +340,9 @@ std::string short_table(const SurfaceResult& r) {
         fmt::format("  {:>10.3f} {:>12.3f} {:>12.3f} {:>12.3f} {:>9.3f}\n",
                     unit::in(map.rows[i].height, unit::mm), s.error.mean / unit::um,
                     s.error.min / unit::um, s.error.max / unit::um, s.Ra / unit::um);
+  }
+  if (!r.forces_known) {
+    return text + surface_parts_text(r);
   }
   text += fmt::format(
       "force across the wall: {:.2f} N mean, {:.2f} to {:.2f} N (positive: pushes "
@@ -264,10 +363,22 @@ Answer answer_of(const SurfaceResult& r) {
   if (!r.map.converged) {
     return answer;
   }
-  answer.short_table = short_table(r);
-  answer.tables = {surface_columns().table(MapPoints(r.map)),
-                   wall_force_columns().table(r.map), deflection_columns().table(r.map),
-                   influence_columns().table(r.map)};
+  if (!r.floor.empty()) {
+    answer.short_table = floor_text(r);
+    answer.tables.push_back(floor_columns().table({r, r.floor.front().x.size()}));
+  }
+  if (!r.of_wall) {
+    return answer;
+  }
+  answer.short_table += wall_text(r);
+  answer.tables.push_back(surface_columns().table(MapPoints(r.map)));
+  if (r.forces_known) {
+    answer.tables.push_back(wall_force_columns().table(r.map));
+  }
+  if (r.forces_known && !r.map.rows.front().deflection.empty()) {
+    answer.tables.push_back(deflection_columns().table(r.map));
+    answer.tables.push_back(influence_columns().table(r.map));
+  }
   if (r.map.shape) {
     answer.tables.push_back(bent_columns().table(*r.map.shape));
   }
@@ -277,6 +388,7 @@ Answer answer_of(const SurfaceResult& r) {
 
 Description description_of_surface() {
   Description all{.command = "surface", .keys = surface_fields().texts()};
+  floor_columns().add_texts(all.columns);
   surface_columns().add_texts(all.columns);
   wall_force_columns().add_texts(all.columns);
   deflection_columns().add_texts(all.columns);

@@ -5,6 +5,7 @@
 #include <trochoid/structure/plate.h>
 #include <trochoid/structure/wall_loads.h>
 #include <trochoid/surface/error_map.h>
+#include <trochoid/surface/finish.h>
 #include <trochoid/surface/pass_sequence.h>
 
 #include <optional>
@@ -24,6 +25,10 @@ struct SurfaceResult {
   std::vector<surface::AlsoBends> also_bends;
   std::optional<surface::MeanAndExtremes> straight;  ///< error without also_bends [m]
   std::optional<structure::LoadedWalls> loads;       ///< beside the cut
+  double period = 0.0;                               ///< feed of a turn [m]
+  std::vector<surface::FloorLine> floor;             ///< lines of the floor
+  bool of_wall = true;       ///< whether a wall was asked for; else only the floor
+  bool forces_known = true;  ///< whether the case has a [force]
 };
 
 Answer answer_of(const SurfaceResult& result);

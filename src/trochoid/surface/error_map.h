@@ -2,6 +2,7 @@
 
 #include <trochoid/surface/deflected_shape.h>
 #include <trochoid/surface/error_statistics.h>
+#include <trochoid/surface/roughness.h>
 #include <trochoid/surface/setting.h>
 
 #include <array>
@@ -35,6 +36,8 @@ struct ErrorRow {
   std::vector<int> tooth;     ///< that made it, 0-based, -1: a pass before; shape of x
   ErrorStatistics statistics;
   std::optional<FeedWaves> waves;              ///< of whole turns of an envelope
+  std::optional<Roughness> roughness;          ///< along the feed
+  std::optional<Roughness> filtered;           ///< the same behind a filter
   std::vector<double> deflection;              ///< at the angles of the forces [m]
   std::optional<std::array<double, 2>> per_K;  ///< imprint: error by K_tc, K_rc
   double compliance = 0.0;  ///< for the whole force, concentrated [m/N]
