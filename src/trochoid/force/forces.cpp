@@ -381,7 +381,7 @@ double ForceMatrix::work(std::size_t angles) const noexcept {
                                           4.0 * static_cast<double>(force.panels()));
                        },
                        [](const AxialForce&) { return std::pair(0.0, 100.0); },
-                       [](const ArcMatrix&) { return std::pair(1000.0, 2.0); }},
+                       [](const ArcMatrix&) { return std::pair(1000.0, 2.0); },
                        [](const AnyForce&) { return std::pair(0.0, 1000.0); }},
       parts_->method);
   return static_cast<double>(parts_->teeth) *
@@ -476,10 +476,17 @@ std::optional<Vector3> mean_force(const Setup& setup, const Law& law,
   return mean(turn_polynomial(*teeth, force_weights(terms(law))));
 }
 
-Loads exact_mean(const Setup& setup, const Law& law, double gauge_length,
-                 double tolerance) {
-  const SixLoads v = AnyForce(setup, law, tolerance).mean(gauge_length);
-  return {{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])};
+MeanLoads exact_mean(const Setup& setup, const Law& law, double tolerance) {
+  if (const auto turn = arc_turn(setup, law, false)) {
+    const ToothLoads mean = turn->mean();
+    return {{mean.x, mean.y, mean.z}, mean.torque};
+  }
+  if (const auto teeth = linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
+    return {mean(turn_polynomial(*teeth, force_weights(terms(law)))),
+            mean(turn_polynomial(*teeth, torque_weights(terms(law))))[2]};
+  }
+  const SixLoads v = AnyForce(setup, law, tolerance).mean(0.0);
+  return {{v[0], v[1], v[2]}, v[3]};
 }
 
 std::vector<Vector3> forces(const Setup& setup, const Law& law,

@@ -73,12 +73,16 @@ struct Loads {
   double bending = 0.0;  ///< bending moment at the gauge length [N m]
 };
 
+/// Means of force and torque over a turn.
+struct MeanLoads {
+  Vector3 force{};      ///< [N], workpiece frame
+  double torque = 0.0;  ///< [N m]
+};
+
 /// @brief Means over a turn, of any cutter under any law: an integral over theta and
 /// height, not a mean of samples.
 /// @eq F-31 mean = 1/(2 pi) sum over teeth of the integral over z and theta of [B] dF
-/// @param gauge_length  height of the section above the tool tip [m]
-Loads exact_mean(const Setup& setup, const Law& law, double gauge_length,
-                 double tolerance);
+MeanLoads exact_mean(const Setup& setup, const Law& law, double tolerance);
 
 /// @brief Force, torque and bending moment at the angles phi [rad] (F-4, F-6, F-7).
 /// @param gauge_length  height of the section above the tool tip [m]; nothing: bending is

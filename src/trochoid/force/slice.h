@@ -93,9 +93,9 @@ ChipGrid chip_grid(const Setup& setup, std::span<const double> theta,
 
 /// @brief Where the edges of all teeth are at given heights.
 struct EdgeGrid {
-  std::vector<double> height;            ///< [m]
-  std::vector<geometry::EdgeAt> edges;   ///< shape (heights, teeth)
-  std::vector<double> lowest;            ///< where each edge begins [m], shape (teeth)
+  std::vector<double> height;           ///< [m]
+  std::vector<geometry::EdgeAt> edges;  ///< shape (heights, teeth)
+  std::vector<double> lowest;           ///< where each edge begins [m], shape (teeth)
 };
 
 /// @brief As the chip model has them: one that feels no runout has none.

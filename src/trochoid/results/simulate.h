@@ -36,7 +36,7 @@ struct SimulateResult {
   std::vector<force::Engagement> at_heights = {};  ///< at the heights asked for
   bool conserves = true;               ///< whether removal is told of `at_heights`
   force::EdgeGrid edges = {};          ///< at the heights asked for
-  force::Loads exact_mean = {};        ///< over a turn (F-31)
+  force::MeanLoads exact_mean = {};    ///< over a turn (F-31)
   force::ChipGrid chips;               ///< at the angles and heights asked for
   force::ChipCurve curve;              ///< at the height of `engagement`
   std::vector<Comparison> comparison;  ///< one a measurement

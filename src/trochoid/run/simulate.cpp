@@ -157,10 +157,9 @@ results::SimulateResult simulate(const cases::Case& given, bool tables) {
     r.chips =
         force::chip_grid(setup, sampling.edge_angles,
                          sampling.edge_heights.empty() ? tip : sampling.edge_heights);
-    r.edges = force::edge_grid(setup, sampling.edge_heights);
   }
-  r.exact_mean = force::exact_mean(setup, given.law, given.gauge_length.value_or(0.0),
-                                   sampling.tolerance);
+  r.edges = force::edge_grid(setup, sampling.edge_heights);
+  r.exact_mean = force::exact_mean(setup, given.law, sampling.tolerance);
   for (const double z : sampling.edge_heights) {
     r.at_heights.push_back(force::engagement_at(setup, z));
   }

@@ -62,7 +62,7 @@ HWY_INLINE double cut_short(const std::array<double, 2>& stock, double R, double
 }
 
 HWY_INLINE Here at_place(const MomentRule& rule, const ToothRows& tooth,
-                         const Stretch& stretch, double t) noexcept {
+                         const EdgeStretch& stretch, double t) noexcept {
   Vector whole = hn::Zero(tag);
   Vector h = whole;
   Vector s = whole;
@@ -91,7 +91,7 @@ HWY_INLINE Here at_place(const MomentRule& rule, const ToothRows& tooth,
 
 // Highway's table takes no noexcept functions.
 void stretch_at_points(const MomentRule& rule, const ToothRows& tooth,
-                       const Stretch& stretch, MomentSums& sums) {
+                       const EdgeStretch& stretch, MomentSums& sums) {
   const double half = 0.5 * (stretch.to - stretch.from);
   for (std::size_t k = 0; k < gauss_points; ++k) {
     const double t = stretch.from + half * (1 + gauss_t[k]);
@@ -138,8 +138,8 @@ HWY_EXPORT(stretch_at_points);
 
 }  // namespace
 
-void add_stretch(const MomentRule& rule, const ToothRows& tooth, const Stretch& stretch,
-                 MomentSums& sums) noexcept {
+void add_stretch(const MomentRule& rule, const ToothRows& tooth,
+                 const EdgeStretch& stretch, MomentSums& sums) noexcept {
   HWY_DYNAMIC_DISPATCH(stretch_at_points)(rule, tooth, stretch, sums);
 }
 

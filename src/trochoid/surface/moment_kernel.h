@@ -22,7 +22,7 @@ struct MomentRule {
 };
 
 /// @brief A stretch of a panel along which one mark bounds the chip.
-struct Stretch {
+struct EdgeStretch {
   const double* over = nullptr;  ///< chip over that mark at the nodes [m]
   double from = 0.0;             ///< from -1 to 1 on the panel
   double to = 0.0;
@@ -49,7 +49,7 @@ struct MomentSums {
 };
 
 /// @brief Add what a stretch gives, by Gauss points between its ends.
-void add_stretch(const MomentRule& rule, const ToothRows& tooth, const Stretch& stretch,
-                 MomentSums& sums) noexcept;
+void add_stretch(const MomentRule& rule, const ToothRows& tooth,
+                 const EdgeStretch& stretch, MomentSums& sums) noexcept;
 
 }  // namespace trochoid::surface

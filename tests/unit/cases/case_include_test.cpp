@@ -113,8 +113,9 @@ TEST(CaseInclude, AMistakeNamesTheFileItIsIn) {
       test::cut + test::force;
   EXPECT_EQ(
       folder.problems(text),
-      "case.toml:3:13: tool.helix_deg = 95 deg: out of range; must be a number of at "
-      "least 0 and below 90 deg (helix angle, right-hand)\n"
+      "case.toml:3:13: tool.helix_deg = 95 deg: out of range; must be a number "
+      "above -90 and below 90 deg, or a list of one for each tooth (helix angle, "
+      "right-hand; negative: left-hand, or negative axial rake; a list: of each tooth)\n"
       "parts/tool.toml:2:9: tool.teeth = 0: out of range; must be a whole number "
       "from 1 to 64 (number of teeth)\n");
 }

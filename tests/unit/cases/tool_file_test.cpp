@@ -119,7 +119,7 @@ TEST_F(ToolFile, WhatIsNoEndMillIsRefused) {
 }
 
 TEST_F(ToolFile, SaysWhatStays) {
-  ToolTable tool{.teeth = 2, .helix = 0.5};
+  ToolTable tool{.teeth = 2, .helix = {{0.5}}};
   EXPECT_EQ(take_tool({.shape = Shape::ball, .diameter = 0.006, .teeth = 4}, tool),
             Keys{"helix_deg"});
   EXPECT_EQ(tool.shape, Shape::ball);

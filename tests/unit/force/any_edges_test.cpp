@@ -129,7 +129,7 @@ TEST(AnyEdges, HaveTheMeanOfManySamples) {  // [F-31]
     for (std::size_t q = 0; q < 3; ++q) sum.force[q] += one.force[q] / 720;
     sum.torque += one.torque / 720;
   }
-  const Loads mean = exact_mean(setup, Law{steel()}, 0.0, tolerance);
+  const MeanLoads mean = exact_mean(setup, Law{steel()}, tolerance);
   for (std::size_t q = 0; q < 3; ++q) {
     EXPECT_NEAR(mean.force[q], sum.force[q], 1e-3);
   }
@@ -140,7 +140,7 @@ TEST(AnyEdges, OfAlikeTeethHaveTheirMeanToo) {  // [F-31]
   for (const MadeCut& setup : alike_cuts()) {
     const auto known = mean_force(setup, Law{steel()}, tolerance);
     if (!known) continue;
-    const Loads mean = exact_mean(setup, Law{steel()}, 0.0, tolerance);
+    const MeanLoads mean = exact_mean(setup, Law{steel()}, tolerance);
     for (std::size_t q = 0; q < 3; ++q) {
       EXPECT_NEAR(mean.force[q], (*known)[q], 1e-5);
     }

@@ -1,6 +1,7 @@
 #include <trochoid/surface/finish.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/geometry/tooth_edges.h>
 
 #include <gtest/gtest.h>
 
