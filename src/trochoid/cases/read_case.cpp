@@ -203,9 +203,8 @@ void settle_turns(CaseTables& t, bool in_time, const Findings& findings) {
   }
 }
 
-Case assemble(CaseTables& t, Command purpose, Findings& findings) {
-  Case c;
-  c.title = t.title;
+/// Tool, cut and chip.
+void assemble_cut(CaseTables& t, Command purpose, Findings& findings, Case& c) {
   c.setup.cutter = cutter_of(t.tool, findings);
   settle_order(t, purpose, findings);
   check_runout(t.runout, t.tool, findings);
@@ -222,6 +221,12 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   c.wiper = t.tool.wiper;
   c.spindle_lead = t.cut.spindle_lead;
   check_edges(t, c.setup, purpose, findings);
+}
+
+Case assemble(CaseTables& t, Command purpose, Findings& findings) {
+  Case c;
+  c.title = t.title;
+  assemble_cut(t, purpose, findings, c);
   const bool in_time = purpose == Command::dynamics || purpose == Command::correct;
   settle_turns(t, in_time, findings);
   check_sampling(t.sampling, findings);

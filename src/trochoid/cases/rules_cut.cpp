@@ -137,9 +137,8 @@ void check_windings(const CutTable& cut, const std::string& path,
       !(cutter.lag_diameter > 0)) {
     return;
   }
-  const double windings =
-      2 * cut.axial_depth * std::abs(std::tan(cutter.helix)) /
-      (cutter.lag_diameter * unit::turn);
+  const double windings = 2 * cut.axial_depth * std::abs(std::tan(cutter.helix)) /
+                          (cutter.lag_diameter * unit::turn);
   if (windings > most_windings) {
     report(findings, key,
            fmt::format("{} = {} mm: over it the edge winds {:.4g} times around the "

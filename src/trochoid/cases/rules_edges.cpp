@@ -1,12 +1,14 @@
 #include <trochoid/base/units.h>
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/rules.h>
+#include <trochoid/geometry/arcs.h>
 #include <trochoid/geometry/tooth_edges.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace trochoid::cases {
 
@@ -71,6 +73,19 @@ void refuse_command(const CaseTables& t, Command purpose, Findings& findings) {
   report(findings, found->key,
          fmt::format("{}: {}; {} {}", found->key, found->why,
                      what.empty() ? name_of(purpose) : what, alike_in_words));
+}
+
+/// Stock that is given as arcs has them for one radius a height.
+void refuse_arcs(const CaseTables& t, const force::Setup& setup, Findings& findings) {
+  const std::string key = "cut.engagement";
+  const auto found = difference(t);
+  if (found && std::holds_alternative<geometry::Arcs>(setup.cut.engagement) &&
+      sound(findings, {key, found->key})) {
+    report(findings, key,
+           fmt::format("{} = \"arcs\": not with {} ({}); must be \"slot\", \"up\", "
+                       "\"down\" or \"band\" with it",
+                       key, found->key, found->why));
+  }
 }
 
 /// A serration leaves something of the flank.
@@ -173,6 +188,7 @@ void settle_serrated_models(CaseTables& tables, Findings& findings) {
 void check_edges(CaseTables& tables, const force::Setup& setup, Command purpose,
                  Findings& findings) {
   refuse_command(tables, purpose, findings);
+  refuse_arcs(tables, setup, findings);
   check_depth(tables, setup, findings);
   check_serrated_chip(tables, purpose, findings);
   if (!sound(findings, {"tool", "runout", "cut"}) || !findings.problems.empty() ||

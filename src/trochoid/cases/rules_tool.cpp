@@ -108,9 +108,10 @@ bool one_for_each_tooth(const std::vector<double>& list, const std::string& key,
   if (list.size() == static_cast<std::size_t>(tool.teeth)) {
     return true;
   }
-  report(findings, key,
-         fmt::format("{} has {} entries for {} teeth; must be one number for each tooth",
-                     key, list.size(), tool.teeth));
+  report(
+      findings, key,
+      fmt::format("{} has {} entries for {} teeth; must be one number for each tooth",
+                  key, list.size(), tool.teeth));
   return false;
 }
 
@@ -127,12 +128,12 @@ geometry::Cutter cutter_of(ToolTable& tool, Findings& findings) {
   }
   const geometry::Profile profile = profile_of(tool, findings);
   check_profile(profile, findings);
-  geometry::Cutter cutter{.profile = profile,
-                          .pitch = tool.pitch,
-                          .helix = tool.helix.values.empty() ? 0.0
-                                                             : tool.helix.values.front(),
-                          .lag_law = tool.lag,
-                          .lag_diameter = tool.lag_diameter.value_or(tool.diameter)};
+  geometry::Cutter cutter{
+      .profile = profile,
+      .pitch = tool.pitch,
+      .helix = tool.helix.values.empty() ? 0.0 : tool.helix.values.front(),
+      .lag_law = tool.lag,
+      .lag_diameter = tool.lag_diameter.value_or(tool.diameter)};
   if (tool.helix.listed &&
       one_for_each_tooth(tool.helix.values, "tool.helix_deg", tool, findings)) {
     cutter.helices = tool.helix.values;

@@ -247,7 +247,7 @@ struct ValueWriter {
   Text operator()(const std::optional<PreviousClamping>*) const { return {}; }
   Text operator()(const std::optional<files::SurfaceFrame>*) const {
     return {};
-  }                                                      // these
+  }  // these
   Text operator()(const std::optional<geometry::Serration>*) const { return {}; }
   Text operator()(const CutTable*) const { return {}; }  // write_case.cpp does it
 };

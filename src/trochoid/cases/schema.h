@@ -103,15 +103,13 @@ struct PerTooth {
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field =
-    std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
-                 files::FileRef*, std::vector<double>*, std::optional<base::Steps>*,
-                 std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
-                 std::optional<PreviousClamping>*, std::optional<files::SurfaceFrame>*,
-                 std::optional<files::Direction>*, Pairs*,
-                 std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*,
-                 NamedPlaces*, NamedFiles*, PerTooth*,
-                 std::optional<geometry::Serration>*>;
+using Field = std::variant<
+    bool*, int*, double*, std::optional<double>*, std::string*, files::FileRef*,
+    std::vector<double>*, std::optional<base::Steps>*, std::vector<std::string>*, Rows*,
+    Choice, Choices, CutTable*, std::optional<PreviousClamping>*,
+    std::optional<files::SurfaceFrame>*, std::optional<files::Direction>*, Pairs*,
+    std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*, NamedPlaces*,
+    NamedFiles*, PerTooth*, std::optional<geometry::Serration>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

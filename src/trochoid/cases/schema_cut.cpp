@@ -245,8 +245,9 @@ void describe(const Visitor& v, CutTable& t) {
      .need = Need::always},
     &t.spindle_speed);
   v({.name = "spindle_lead_deg",
-     .meaning = "floor only: the rotation axis leans forward by this angle, so that the "
-                "front cuts deeper and the rear clears",
+     .meaning =
+         "floor only: the rotation axis leans forward by this angle, so that the "
+         "front cuts deeper and the rear clears",
      .range = inside(-10, 10)},
     &t.spindle_lead);
   describe_tolerances(v, t);

@@ -130,7 +130,9 @@ void describe(const Visitor& v, Wall& t) {
   describe_loads(v, t);
 }
 
-void describe(const Visitor& v, Surface& t) {
+namespace {
+
+void describe_model(const Visitor& v, Surface& t) {
   v({.name = "model",
      .meaning = "quasi_static: the deflection at each spindle angle, a pulse and no "
                 "surface; imprint: where each tooth touches the wall squarely; "
@@ -145,6 +147,12 @@ void describe(const Visitor& v, Surface& t) {
                 "had not been deflected; auto: calibrate lets the readings decide "
                 "between none and regenerative, surface takes none"},
     choice(t.feedback, "auto"));
+}
+
+}  // namespace
+
+void describe(const Visitor& v, Surface& t) {
+  describe_model(v, t);
   v({.name = "phase_deg",
      .meaning = "spindle angle phi0 at the start",
      .range = between(-360, 360)},

@@ -28,8 +28,9 @@ void describe(const Visitor& v, Sampling& t) {
      .example = "[45, 90, 135]"},
     &t.edge_angles);
   v({.name = "edge_heights_mm",
-     .meaning = "heights above the tip of chip.csv and edges.csv; below 0 where a tooth "
-                "reaches deeper",
+     .meaning =
+         "heights above the tip of chip.csv and edges.csv; below 0 where a tooth "
+         "reaches deeper",
      .range = between(-10000, 10000),
      .standard = "0, or the axial depth where the edge reaches the axis",
      .example = "[0, 1]"},

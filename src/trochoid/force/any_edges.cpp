@@ -223,17 +223,19 @@ std::array<double, 3> AnyForce::force_per_height(const chip::Chip& chip,
 
 namespace {
 
-/// Add what a force per height at an edge point gives over a weight of heights.
-void add_element(const geometry::EdgeAt& at, double theta, double arm,
-                 std::array<double, 3> tra, double weight, SixLoads& out) noexcept {
+/// @param arm  height above the section about which moments are taken [m]
+Element element_at(const geometry::EdgeAt& at, double theta, double arm) noexcept {
+  return {.sine = std::sin(theta),
+          .cosine = std::cos(theta),
+          .sin_kappa = at.sin_kappa,
+          .cos_kappa = at.cos_kappa,
+          .R = at.position.R,
+          .z = arm};
+}
+
+std::array<double, 3> times(std::array<double, 3> tra, double weight) noexcept {
   for (double& f : tra) f *= weight;
-  add_loads({.sine = std::sin(theta),
-             .cosine = std::cos(theta),
-             .sin_kappa = at.sin_kappa,
-             .cos_kappa = at.cos_kappa,
-             .R = at.position.R,
-             .z = arm},
-            tra, out);
+  return tra;
 }
 
 }  // namespace
@@ -243,8 +245,8 @@ void AnyForce::loads(std::span<const double> phi, double gauge_length,
   const SixLoads allowed = allowed_loads(gauge_length);
   const auto element = [&](const geometry::EdgeAt& at, const AnyState& state, double z,
                            double weight, SixLoads& out) {
-    add_element(at, state.theta, z - gauge_length, force_per_height(state.chip, at),
-                weight, out);
+    add_loads(element_at(at, state.theta, z - gauge_length),
+              times(force_per_height(state.chip, at), weight), out);
   };
   for (std::size_t i = 0; i < phi.size(); ++i) {
     all[i] = SixLoads{};
@@ -265,8 +267,8 @@ void AnyForce::add_turn(const chip::TeethAtHeight& teeth, double z, double gauge
     const auto add = [&](double theta, double w, SixLoads& out) {
       const chip::Chip chip = teeth.chip(j, theta);
       if (!chip.in_cut) return;
-      add_element(at, theta + at.position.epsilon, z - gauge_length,
-                  force_per_height(chip, at), w, out);
+      add_loads(element_at(at, theta + at.position.epsilon, z - gauge_length),
+                times(force_per_height(chip, at), w), out);
     };
     for (const chip::ChipPiece& piece : chip::engaged_pieces(
              teeth.passage(), teeth.slice(j), teeth.place(j), opposite)) {

@@ -31,9 +31,10 @@ struct Runout {
   EccentricityOrder order = EccentricityOrder::exact;
   std::vector<double> axial_offsets = {};  ///< [m], positive: deeper; shape (teeth), or
                                            ///< empty: all zero
-  double tilt = 0.0;        ///< of the tool axis against the rotation axis [rad]
-  double tilt_angle = 0.0;  ///< mu [rad]: where the top leans to, from the tip of tooth 1
-                            ///< towards tooth 2
+  double tilt = 0.0;  ///< of the tool axis against the rotation axis [rad]
+  double tilt_angle =
+      0.0;  ///< mu [rad]: where the top leans to, from the tip of tooth 1
+            ///< towards tooth 2
 };
 
 /// @brief Whether all teeth reach as deep, and stand upright.

@@ -39,9 +39,9 @@ Numbers forces(const cases::Case& given, const Numbers& phi_deg) {
   Numbers out({static_cast<py::ssize_t>(phi.size()), py::ssize_t{3}});
   double* F = out.mutable_data();
   const py::gil_scoped_release release;
-  for (const force::Vector3& force :
-       force::forces(given.setup, given.law, phi, given.sampling.tolerance)) {
-    F = std::copy(force.begin(), force.end(), F);
+  for (const force::Loads& loads : force::loads(
+           given.setup, given.law, phi, given.gauge_length, given.sampling.tolerance)) {
+    F = std::copy(loads.force.begin(), loads.force.end(), F);
   }
   return out;
 }

@@ -265,7 +265,7 @@ const Fields<SurfaceResult>& surface_fields() {
       {"Fx_max_N", "largest", [](const ErrorMap& m) { return m.F_x.max; }}};
   static const Fields<SurfaceResult> all{
       {"period_mm", "feed of a turn, after which the profiles repeat",
-       [](R r) { return r.period; }},
+       [](R r) { return r.period; }, [](R r) { return r.period > 0; }},
       {"floor", "for each of `floor_y_mm`", floor_fields(),
        [](R r) -> const auto& {return r.floor;
 }

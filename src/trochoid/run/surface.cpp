@@ -134,6 +134,25 @@ void tell_roughness(const cases::Case& given, surface::ErrorMap& map) {
   }
 }
 
+std::string error_sentence(const results::SurfaceResult& r) {
+  const surface::MeanAndExtremes& error = r.map.error;
+  const double largest = std::max(std::abs(error.min), std::abs(error.max));
+  const auto um = [largest](double e) {  // what is nothing beside the largest is none
+    constexpr double nothing = 1e-4;
+    return std::abs(e) < nothing * largest ? 0.0 : e / unit::um;
+  };
+  return fmt::format(
+      "{}The error of the wall{} is {:.3g} um on average, and from {:.3g} to {:.3g} um over "
+      "it (positive: material left).{}",
+      r.floor.empty() ? "" : floor_sentence(r) + " ",
+      r.passes.empty() ? "" : fmt::format(" after {} passes", r.passes.size()),
+      um(error.mean), um(error.min), um(error.max),
+      r.forces_known ? fmt::format(" The force across it reaches {:.3g} N.",
+                                   std::max(std::abs(r.map.F_normal.min),
+                                            std::abs(r.map.F_normal.max)))
+                     : "");
+}
+
 }  // namespace
 
 results::SurfaceResult surface(const cases::Case& given, const Progress& progress) {
@@ -180,22 +199,7 @@ results::SurfaceResult surface(const cases::Case& given, const Progress& progres
     r.loads = structure::loaded_walls(*r.wall, loads);
   }
   add_surface_warnings(given, r, r.heading.warnings);
-  const surface::MeanAndExtremes& error = r.map.error;
-  const double largest = std::max(std::abs(error.min), std::abs(error.max));
-  const auto um = [largest](double e) {  // what is nothing beside the largest is none
-    constexpr double nothing = 1e-4;
-    return std::abs(e) < nothing * largest ? 0.0 : e / unit::um;
-  };
-  r.heading.message = fmt::format(
-      "{}The error of the wall{} is {:.3g} um on average, and from {:.3g} to {:.3g} um over "
-      "it (positive: material left).{}",
-      r.floor.empty() ? "" : floor_sentence(r) + " ",
-      r.passes.empty() ? "" : fmt::format(" after {} passes", r.passes.size()),
-      um(error.mean), um(error.min), um(error.max),
-      r.forces_known ? fmt::format(" The force across it reaches {:.3g} N.",
-                                   std::max(std::abs(r.map.F_normal.min),
-                                            std::abs(r.map.F_normal.max)))
-                     : "");
+  r.heading.message = error_sentence(r);
   return r;
 }
 

@@ -18,7 +18,7 @@ struct PeriodicProfile {
 /// @brief Roughness of a profile [m].
 ///
 /// @eq W-1 R_a = mean |z - mean z|, R_q = rms of z - mean z, R_t = max z - min z
-/// @src ISO 4287, as remembered
+/// @src definition of the standard ISO 4287, as remembered
 struct Roughness {
   double mean = 0.0;
   double lowest = 0.0;
@@ -39,7 +39,7 @@ Roughness roughness(const PeriodicProfile& profile);
 ///
 /// @eq W-2 harmonic k of the period is passed by 1 - exp(-pi (alpha cutoff k/period)^2),
 ///         alpha = sqrt(ln 2/pi)
-/// @src ISO 16610-21, as remembered
+/// @src standard ISO 16610-21, as remembered
 /// @param cutoff  [m], above 0
 Roughness filtered_roughness(const PeriodicProfile& profile, double cutoff);
 

@@ -11,7 +11,7 @@
 namespace trochoid::base::small_values_test {
 
 TEST(Names, AreAllThereAndFindTheirEnumerator) {
-  EXPECT_EQ(names<Command>.size(), 10U);
+  EXPECT_EQ(names<Command>.size(), 11U);
   std::set<std::string_view> different;
   for (const std::string_view name : names<Command>) {
     EXPECT_TRUE(different.insert(name).second);
