@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -28,7 +27,7 @@ struct ColumnValue {
   ColumnValue(AsNamed one) : value(one.value), kind(Content::Numbers::as_named) {}
 };
 
-/// @brief A column of a table, which is made of a T; or several that differ in a word of
+/// @brief A column of a table, of numbers or of texts, which is made of a T; or several that differ in a word of
 /// their names.
 template <class T>
 struct Column {
@@ -38,17 +37,23 @@ struct Column {
   std::function<ColumnValue(const T&, std::size_t row, std::size_t which)> cell;
   If<T> there;   ///< empty: always
   Names differ;  ///< what stands for `*`; empty: a single column
+  std::function<std::string(const T&, std::size_t row)> text;  ///< in place of `cell`
 
   template <class Get>
   requires std::invocable<Get, const T&, std::size_t> Column(std::string_view title,
                                                              std::string_view what,
                                                              Get get, If<T> when = {})
-      : name(title),
-        meaning(what),
-        cell([get](const T& of, std::size_t row, std::size_t) -> ColumnValue {
-          return get(of, row);
-        }),
-        there(std::move(when)) {}
+      : name(title), meaning(what), there(std::move(when)) {
+    if constexpr (std::is_convertible_v<
+                      std::invoke_result_t<Get, const T&, std::size_t>,
+                      std::string_view>) {
+      text = [get](const T& of, std::size_t row) { return std::string(get(of, row)); };
+    } else {
+      cell = [get](const T& of, std::size_t row, std::size_t) -> ColumnValue {
+        return get(of, row);
+      };
+    }
+  }
 
   template <class Get>
   requires std::invocable<Get, const T&, std::size_t, std::size_t> Column(
@@ -71,14 +76,22 @@ template <class T>
 class Columns {
  public:
   Columns(std::string_view file, std::function<std::size_t(const T&)> rows,
-          std::initializer_list<Column<T>> all)
-      : file_(file), rows_(std::move(rows)), all_(all) {}
+          std::vector<Column<T>> all)
+      : file_(file), rows_(std::move(rows)), all_(std::move(all)) {}
 
   [[nodiscard]] base::Table table(const T& of) const {
     base::Table table{std::string(file_), {}};
     const std::size_t rows = rows_(of);
     for (const Column<T>& column : all_) {
       if (column.there && !column.there(of)) continue;
+      if (column.text) {
+        base::Table::Column& texts = table.columns.emplace_back();
+        texts.name = column.name;
+        for (std::size_t row = 0; row < rows; ++row) {
+          texts.texts.push_back(column.text(of, row));
+        }
+        continue;
+      }
       const auto names =
           column.differ ? column.differ(of) : std::vector<std::string>(1);
       for (std::size_t which = 0; which < names.size(); ++which) {

@@ -48,11 +48,11 @@ const Columns<ProgramResult>& move_columns() {
        {"kind",
         "`rapid`, `line` (plunges too), `arc` (in G17, helices too), `chord` (a piece of "
         "an arc in G18 or G19), `dwell`",
-        [](R, std::size_t) { return 0.0; }},
+        [](R r, std::size_t i) { return name_of(r.program.moves[i].kind); }},
        {"note",
         "`cycle`: of a drilling cycle; `retract`: to a place that is not in the program "
         "(G28, G30, G53, SUPA)",
-        [](R, std::size_t) { return 0.0; }},
+        [](R r, std::size_t i) { return name_of(r.program.moves[i].note); }},
        {"x_mm", "end of the move in the frame of the stock; empty: not known",
         of([](const Move& m) { return m.end[0]; })},
        {"y_mm", "the same", of([](const Move& m) { return m.end[1]; })},
@@ -66,34 +66,89 @@ const Columns<ProgramResult>& move_columns() {
         of([](const Move& m) { return is_fed(m) ? m.feed : empty_field; })},
        {"spindle_rpm", "0: it stands", of([](const Move& m) { return m.spindle; })},
        {"tool", "number or name; empty: neither T nor M6 before",
-        [](R, std::size_t) { return 0.0; }}}};
+        [](R r, std::size_t i) {
+          const std::int16_t tool = r.program.moves[i].tool;
+          return tool < 0 ? std::string()
+                          : r.program.tools[static_cast<std::size_t>(tool)];
+        }}}};
   return all;
-}
-
-base::Table moves_table(const ProgramResult& r) {
-  base::Table table = move_columns().table(r);
-  const auto put = [&](std::string_view name, const auto& text) {
-    for (base::Table::Column& column : table.columns) {
-      if (column.name != name) continue;
-      column.values.clear();
-      for (const Move& move : r.program.moves) {
-        column.texts.push_back(std::string(text(move)));
-      }
-    }
-  };
-  put("kind", [](const Move& m) { return name_of(m.kind); });
-  put("note", [](const Move& m) { return name_of(m.note); });
-  const auto& tools = r.program.tools;
-  put("tool", [&tools](const Move& m) {
-    return m.tool < 0 ? std::string() : tools[static_cast<std::size_t>(m.tool)];
-  });
-  return table;
 }
 
 double total_time(const ProgramResult& r) noexcept {
   double time = 0.0;
   for (const Move& move : r.program.moves) time += move.time;
   return time;
+}
+
+/// A peak as summary.json has it: its value in the unit of the key.
+struct NamedPeak {
+  engagement::Peak peak;
+  double unit = 1.0;
+};
+
+const Fields<NamedPeak>& peak_fields() {
+  using P = const NamedPeak&;
+  static const Fields<NamedPeak> all{
+      {"value", "in the unit of the key above",
+       [](P p) { return as_named(p.peak.value / p.unit); }},
+      {"line", "of the text", [](P p) { return p.peak.line; }},
+      {"x_mm", "tip there", [](P p) { return given(p.peak.place[0]); }},
+      {"y_mm", "the same", [](P p) { return given(p.peak.place[1]); }},
+      {"z_mm", "the same", [](P p) { return given(p.peak.place[2]); }},
+      {"cause", "as in steps.csv", [](P p) { return name_of(p.peak.cause); }}};
+  return all;
+}
+
+const Fields<ProgramForces>& peaks_fields() {
+  using F = const ProgramForces&;
+  const auto of = [](engagement::Peak engagement::Totals::*which, double unit) {
+    return [which, unit](F f) { return NamedPeak{f.summary.totals.*which, unit}; };
+  };
+  using T = engagement::Totals;
+  static const Fields<ProgramForces> all{
+      {"peak_xy_N", "largest force across the axis", peak_fields(),
+       of(&T::peak_xy, 1.0)},
+      {"peak_tooth_N", "the same of one tooth", peak_fields(), of(&T::peak_tooth, 1.0)},
+      {"torque_peak_Nm", "largest torque", peak_fields(), of(&T::torque, 1.0)},
+      {"power_W", "largest mean power of a turn", peak_fields(), of(&T::power, 1.0)},
+      {"moment_peak_Nm", "largest bending moment", peak_fields(), of(&T::moment, 1.0)},
+      {"deflection_um", "largest deflection of the tip", peak_fields(),
+       of(&T::deflection, unit::um)},
+      {"peak_chip_mm", "largest uncut chip thickness", peak_fields(),
+       of(&T::chip, unit::mm)}};
+  return all;
+}
+
+const Fields<BrokenLimit>& broken_fields() {
+  using B = const BrokenLimit&;
+  static const Fields<BrokenLimit> all{
+      {"limit", "its key under [limits]", [](B b) { return b.limit; }},
+      {"allowed", "in the unit of that key", [](B b) { return as_named(b.allowed); }},
+      {"worst", "the same", [](B b) { return as_named(b.worst); }},
+      {"lines", "that go beyond it", [](B b) { return b.lines; }}};
+  return all;
+}
+
+const Fields<ProgramForces>& force_fields() {
+  using F = const ProgramForces&;
+  static const Fields<ProgramForces> all{
+      {"time_in_cut_s", "of the steps that cut",
+       [](F f) { return f.summary.totals.time_in_cut; }},
+      {"steps", "turns of the spindle that were computed",
+       [](F f) { return f.summary.totals.steps; }},
+      {"distinct_turns", "different ones among them",
+       [](F f) { return f.summary.totals.distinct_turns; }},
+      {"removed_mm3", "sum over the steps",
+       [](F f) { return f.summary.totals.removed; }},
+      {"stock_before_mm3", "volume of [stock]",
+       [](F f) { return f.summary.totals.stock_before; }},
+      {"stock_after_mm3", "what all moves leave of it",
+       [](F f) { return f.summary.totals.stock_after; }},
+      {"peaks", "largest values over the program, and where", peaks_fields(),
+       [](F f) { return std::optional(f); }},
+      {"limits_broken", "limits that lines go beyond", broken_fields(),
+       [](F f) { return f.broken; }}};
+  return all;
 }
 
 const Fields<ProgramResult>& program_fields() {
@@ -104,18 +159,48 @@ const Fields<ProgramResult>& program_fields() {
       {"moves", "number of moves", [](R r) { return r.program.moves.size(); }},
       {"tools", "numbers or names, in the order of their first use",
        [](R r) { return r.program.tools; }},
-      {"time_s", "of all moves", total_time}};
+      {"time_s", "of all moves",
+       [](R r) { return r.forces ? r.forces->summary.totals.time : total_time(r); }},
+      {"", "", force_fields(), [](R r) { return std::optional(*r.forces); },
+       [](R r) { return r.forces.has_value(); }}};
   return all;
 }
 
 std::string short_table(const ProgramResult& r) {
   std::size_t fed = 0;
   for (const Move& move : r.program.moves) fed += is_fed(move) ? 1U : 0U;
-  return fmt::format(
-      "dialect {}, {} moves, {} of them fed, {:.6g} s\ntools: {}\n",
-      name_of(r.program.dialect), r.program.moves.size(), fed, total_time(r),
-      r.program.tools.empty() ? "that of the case"
+  std::string out = fmt::format(
+      "dialect {}, {} moves, {} of them fed; tools: {}\n", name_of(r.program.dialect),
+      r.program.moves.size(), fed,
+      r.program.tools.empty() ? "the tool of the case"
                               : fmt::format("{}", fmt::join(r.program.tools, ", ")));
+  if (!r.forces) return out + fmt::format("time: {:.6g} s\n", total_time(r));
+  const engagement::Totals& all = r.forces->summary.totals;
+  out += fmt::format("time: {:.6g} s, {:.6g} s of it in cut; removed: {:.6g} mm^3\n\n",
+                     all.time, all.time_in_cut,
+                     all.removed / (unit::mm * unit::mm * unit::mm));
+  out += fmt::format("{:<24}{:>12}{:>8}  {:<8}{}\n", "largest", "value", "line",
+                     "cause", "x, y, z mm");
+  const auto row = [&](std::string_view name, const engagement::Peak& peak,
+                       double unit) {
+    if (peak.line == 0) return;
+    out += fmt::format("{:<24}{:>12.4g}{:>8}  {:<8}{:.6g}, {:.6g}, {:.6g}\n", name,
+                       peak.value / unit, peak.line, name_of(peak.cause),
+                       peak.place[0] / unit::mm, peak.place[1] / unit::mm,
+                       peak.place[2] / unit::mm);
+  };
+  row("force across N", all.peak_xy, 1.0);
+  row("force of a tooth N", all.peak_tooth, 1.0);
+  row("torque Nm", all.torque, 1.0);
+  row("power W", all.power, 1.0);
+  row("bending moment Nm", all.moment, 1.0);
+  row("deflection um", all.deflection, unit::um);
+  row("chip mm", all.chip, unit::mm);
+  for (const BrokenLimit& one : r.forces->broken) {
+    out += fmt::format("limit {} = {:.4g}: {} lines go beyond it, up to {:.4g}\n",
+                       one.limit, one.allowed, one.lines.size(), one.worst);
+  }
+  return out;
 }
 
 }  // namespace
@@ -128,8 +213,9 @@ Answer answer_of(const ProgramResult& r) {
                 .short_table = r.heading.ok ? short_table(r) : std::string(),
                 .tables = {},
                 .texts = {}};
+  if (r.forces) answer.tables = tables_of_forces(r);
   if (r.all_moves || r.program.moves.size() <= most_moves) {
-    answer.tables.push_back(moves_table(r));
+    answer.tables.push_back(move_columns().table(r));
   }
   return answer;
 }
@@ -137,6 +223,7 @@ Answer answer_of(const ProgramResult& r) {
 Description description_of_program() {
   Description all{.command = "program", .keys = program_fields().texts()};
   move_columns().add_texts(all.columns);
+  add_texts_of_forces(all.columns);
   return all;
 }
 

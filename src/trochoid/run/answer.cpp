@@ -25,8 +25,9 @@ results::Answer identified(const cases::Case& given, const AnswerOptions& option
   return answer_of(result);
 }
 
-results::Answer moves_of(const cases::Case& given, const AnswerOptions& options) {
-  results::ProgramResult result = program(given);
+results::Answer along(const cases::Case& given, const AnswerOptions& options,
+                      const Progress& progress, const base::Stop& stop) {
+  results::ProgramResult result = program(given, progress, stop);
   result.all_moves = options.moves;
   return answer_of(result);
 }
@@ -63,8 +64,7 @@ results::Answer answer(base::Command command, const cases::Case& given,
     case Command::correct:
       return answer_of(correct(given, options.simulate_controller, progress));
     case Command::program:
-      progress("Reading the program");
-      return moves_of(given, options);
+      return along(given, options, progress, stop);
     case Command::plan:
       return given.plan.of == cases::PlanOf::wall
                  ? answer_of(plan_wall(given, progress))

@@ -86,6 +86,7 @@ results::CorrectResult correct(const cases::Case& given, bool controller,
 
 /// @brief The moves of a whole NC program.
 /// @throws base::InputError when it cannot be read
-results::ProgramResult program(const cases::Case& given);
+results::ProgramResult program(const cases::Case& given, const Progress& progress = {},
+                               const base::Stop& stop = {});
 
 }  // namespace trochoid::run

@@ -1,23 +1,282 @@
 #include <trochoid/run/commands.h>
 
+#include <trochoid/base/error.h>
+#include <trochoid/base/units.h>
+#include <trochoid/engagement/steps.h>
+#include <trochoid/force/setup.h>
+#include <trochoid/run/wall.h>
+
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
 
 namespace trochoid::run {
 
 namespace {
+
+using engagement::Line;
+using results::ProgramForces;
+using results::ProgramResult;
+
+/// Longer programs need fewer steps.
+constexpr double most_steps = 1e8;
+/// Rows that are kept for steps.csv; lines and peaks count all of them.
+constexpr std::size_t most_rows = 2'000'000;
 
 bool is_fed(const program::Move& move) noexcept {
   using enum program::MoveKind;
   return move.kind == line || move.kind == arc || move.kind == chord;
 }
 
+engagement::Tool tool_of(const cases::Case& given) {
+  engagement::Tool tool{.cutter = given.setup.cutter,
+                        .runout = given.setup.runout,
+                        .law = given.law,
+                        .edge_length = given.setup.edge_length,
+                        .chip = given.setup.chip,
+                        .body = wall_cutter(given.machine),
+                        .gauge_length = given.gauge_length.value_or(0.0)};
+  if (tool.body) tool.flute_length = tool.body->flute_length;
+  return tool;
+}
+
+/// Whether forces of this cutter along a path can be computed.
+bool is_flat(const engagement::Tool& tool) noexcept {
+  const geometry::Profile& p = tool.cutter.profile;
+  return p.R == 0 && p.alpha == 0 && p.beta == 0 &&
+         tool.cutter.lag_law == geometry::LagLaw::constant_lead;
+}
+
+/// The tools of a program, or why there are no forces.
+struct Tools {
+  std::vector<engagement::Tool> tools;  ///< shape (program.tools), or one
+  std::vector<base::Warning> why_not;
+};
+
+/// Names in the program for which the case says nothing else.
+std::vector<std::string> unnamed(const cases::NcProgram& nc,
+                                 const program::Program& program) {
+  std::vector<std::string> out;
+  for (const std::string& name : program.tools) {
+    const bool ignored = std::ranges::any_of(
+        nc.ignored_tools, [&](const cases::ToolName& t) { return t.text == name; });
+    if (!ignored && nc.cases_of_tools.count(name) == 0) out.push_back(name);
+  }
+  return out;
+}
+
+Tools tools_of(const cases::Case& given, const program::Program& program) {
+  const cases::NcProgram& nc = *given.nc.program;
+  Tools out;
+  if (program.tools.empty()) out.tools.push_back(tool_of(given));
+  const std::vector<std::string> left = unnamed(nc, program);
+  for (const std::string& name : program.tools) {
+    if (const auto other = nc.cases_of_tools.find(name);
+        other != nc.cases_of_tools.end()) {
+      out.tools.push_back(tool_of(*other->second));
+      continue;
+    }
+    out.tools.push_back(tool_of(given));
+    const bool is_left = std::ranges::find(left, name) != left.end();
+    const bool known =
+        nc.tool_number.text.empty() ? left.size() == 1 : name == nc.tool_number.text;
+    out.tools.back().cuts = is_left;
+    if (is_left && !known) {
+      out.why_not.push_back(
+          {"tool_not_described",
+           fmt::format(
+               "T{}: this tool is in no case, so no forces are computed. Give its "
+               "case in [program] tools, or name it in ignore_tools: then its "
+               "moves cut nothing.",
+               name)});
+    }
+  }
+  if (!std::ranges::all_of(out.tools,
+                           [](const auto& t) { return !t.cuts || is_flat(t); })) {
+    out.why_not.push_back(
+        {"tool_not_flat",
+         "Forces along a program are computed for flat end mills of constant lead; with "
+         "another tool the answer is the moves alone."});
+  }
+  return out;
+}
+
+std::optional<stock::Initial> stock_of(const cases::Stock& stock) {
+  if (stock.box.size() == 2) return stock::Box{stock.box[0], stock.box[1]};
+  if (stock.cylinder) {
+    const cases::StockCylinder& c = *stock.cylinder;
+    return stock::Cylinder{c.axis, c.radius, c.z[0], c.z[1]};
+  }
+  return std::nullopt;
+}
+
+/// A quantity of a line against its limit.
+struct Limited {
+  std::string_view key;
+  std::optional<double> allowed;
+  double unit;
+  double Line::*value;
+};
+
+std::vector<results::BrokenLimit> broken(const cases::ForceLimits& limits,
+                                         std::span<const Line> lines) {
+  std::vector<Limited> all{
+      {"peak_force_N", limits.peak_force, 1.0, &Line::peak_xy},
+      {"peak_tooth_N", limits.peak_tooth, 1.0, &Line::peak_tooth},
+      {"torque_Nm", limits.torque, 1.0, &Line::torque_peak},
+      {"power_W", limits.power, 1.0, &Line::power},
+      {"bending_moment_Nm", limits.bending_moment, 1.0, &Line::moment_peak},
+      {"deflection_um", limits.deflection, unit::um, &Line::deflection}};
+  if (limits.chip.size() == 2) {
+    all.push_back({"chip_mm", limits.chip[1], unit::mm, &Line::peak_chip});
+  }
+  std::vector<results::BrokenLimit> out;
+  for (const Limited& one : all) {
+    if (!one.allowed) continue;
+    results::BrokenLimit found{one.key, *one.allowed / one.unit, 0.0, {}};
+    for (const Line& line : lines) {
+      const double value = std::abs(line.*one.value);
+      if (value <= *one.allowed) continue;
+      found.lines.push_back(line.line);
+      found.worst = std::max(found.worst, value / one.unit);
+    }
+    if (!found.lines.empty()) out.push_back(std::move(found));
+  }
+  return out;
+}
+
+/// The lines of a text that an answer names.
+std::vector<std::string> texts_of(std::string_view text, std::span<const Line> lines) {
+  std::vector<std::string> out;
+  std::uint32_t number = 1;
+  for (const Line& line : lines) {
+    for (; number < line.line; ++number) {
+      text.remove_prefix(std::min(text.size(), text.find('\n')));
+      if (!text.empty()) text.remove_prefix(1);
+    }
+    std::string_view one = text.substr(0, text.find('\n'));
+    if (one.ends_with('\r')) one.remove_suffix(1);
+    out.emplace_back(one);
+  }
+  return out;
+}
+
+/// What rows say by their flags, once each, at the first line.
+void warn_of_flags(const ProgramForces& forces, std::vector<base::Warning>& warnings) {
+  struct Said {
+    engagement::Flag flag;
+    std::string_view code;
+    std::string_view what;
+  };
+  constexpr std::array<Said, 3> all{
+      {{engagement::rubs_above_flute, "rubs_above_flute",
+        "the tool cuts higher than its flutes reach"},
+       {engagement::thin_layer, "thin_layer",
+        "only layers thinner than floor_um are cut"},
+       {engagement::straight_after_corner, "straight_after_corner",
+        "in the first turn after the corner forces are too low; those before it are "
+        "right"}}};
+  for (const Said& one : all) {
+    const auto at = std::ranges::find_if(forces.steps, [&](const engagement::Step& s) {
+      return (s.flags & one.flag) != 0;
+    });
+    if (at == forces.steps.end()) continue;
+    warnings.push_back(
+        {std::string(one.code), fmt::format("line {}: {}", at->line, one.what)});
+  }
+}
+
+engagement::Options options_of(const cases::Case& given, const base::Stop& stop) {
+  const cases::NcProgram& nc = *given.nc.program;
+  engagement::Options options{.step_turns = nc.step_turns,
+                              .floor = nc.floor,
+                              .bottom = nc.bottom == cases::BottomEdges::none
+                                            ? engagement::Bottom::none
+                                            : engagement::Bottom::estimate,
+                              .stop = stop};
+  options.rapid_feed = given.nc.machine.value_or(cases::MachineDrives{}).rapid_feed;
+  return options;
+}
+
+void check_length(const engagement::Job& job, const cases::Case& given) {
+  const double steps = engagement::step_count(job);
+  if (steps <= most_steps) return;
+  throw base::InputError(
+      {fmt::format("{}: program.step_turns = {}: {:.3g} steps are too many; must be at "
+                   "least {:.3g} for this program",
+                   given.file.string(), job.options.step_turns, steps,
+                   job.options.step_turns * steps / most_steps)});
+}
+
+ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
+                        const Progress& progress) {
+  check_length(job, given);
+  const cases::NcProgram& nc = *given.nc.program;
+  ProgramForces out;
+  for (const engagement::Tool& tool : job.tools) {
+    if (tool.cuts) out.teeth = std::max(out.teeth, tool.cutter.pitch.size());
+  }
+  const double count = std::max(1.0, engagement::step_count(job));
+  std::size_t done = 0;
+  out.summary =
+      engagement::compute_steps(job, [&](std::span<const engagement::Step> rows) {
+        for (const engagement::Step& row : rows)
+          done += static_cast<std::size_t>(row.count);
+        const std::size_t room = most_rows - std::min(most_rows, out.steps.size());
+        const auto kept = rows.first(std::min(room, rows.size()));
+        out.steps.insert(out.steps.end(), kept.begin(), kept.end());
+        if (!rows.empty()) {
+          progress({fmt::format("Forces of line {}", rows.back().line),
+                    static_cast<double>(done) / count});
+        }
+      });
+  std::vector<engagement::PlaceRequest> places;
+  for (const auto& [line, fraction] : nc.places) {
+    places.push_back({static_cast<std::uint32_t>(line), fraction});
+  }
+  out.asked = nc.places;
+  if (!places.empty()) {
+    out.places = engagement::steps_at(job, places, nc.place_heights);
+  }
+  out.broken =
+      broken(given.nc.limits.value_or(cases::ForceLimits{}), out.summary.lines);
+  out.texts = texts_of(*nc.text.get().text, out.summary.lines);
+  return out;
+}
+
+void say(const ProgramForces& forces, std::size_t moves, results::Heading& heading) {
+  const engagement::Totals& all = forces.summary.totals;
+  if (!(all.time_in_cut > 0)) {
+    heading.ok = false;
+    heading.message = "No feed move of the program cuts anything.";
+    return;
+  }
+  heading.message = fmt::format(
+      "{} moves in {:.4g} s, {:.4g} s of it in cut. The largest force across the tool is "
+      "{:.4g} N, in line {} ({}).",
+      moves, all.time, all.time_in_cut, all.peak_xy.value, all.peak_xy.line,
+      name_of(all.peak_xy.cause));
+  for (const results::BrokenLimit& one : forces.broken) {
+    heading.warnings.push_back(
+        {"limit_broken",
+         fmt::format(
+             "{} = {:.4g}: {} lines go beyond it, line {} first; the most is {:.4g}",
+             one.limit, one.allowed, one.lines.size(), one.lines.front(), one.worst)});
+  }
+}
+
 }  // namespace
 
-results::ProgramResult program(const cases::Case& given) {
+results::ProgramResult program(const cases::Case& given, const Progress& progress,
+                               const base::Stop& stop) {
+  progress("Reading the program");
   const files::ProgramFile& file = given.nc.program->text.get();
-  results::ProgramResult r{.heading = heading_of(given), .program = file.program};
+  ProgramResult r{.heading = heading_of(given), .program = file.program};
   base::add(r.heading.warnings, file.notes);
   const auto fed = std::ranges::count_if(r.program.moves, is_fed);
   r.heading.ok = fed > 0;
@@ -29,6 +288,21 @@ results::ProgramResult program(const cases::Case& given) {
   for (const program::Move& move : r.program.moves) time += move.time;
   r.heading.message = fmt::format("{} moves, {} of them fed, in {:.4g} s.",
                                   r.program.moves.size(), fed, time);
+  const Tools tools = tools_of(given, r.program);
+  base::add(r.heading.warnings, tools.why_not);
+  const auto stock = given.nc.stock ? stock_of(*given.nc.stock) : std::nullopt;
+  if (!stock) {
+    r.heading.warnings.push_back(
+        {"stock_not_read",
+         "[stock] file is not read yet, so no forces are computed; give box_mm or "
+         "cylinder_mm."});
+  }
+  if (!stock || !tools.why_not.empty()) return r;
+  const engagement::Job job{r.program, tools.tools, *stock, options_of(given, stop)};
+  r.forces = forces_of(job, given, progress);
+  base::add(r.heading.warnings, r.forces->summary.warnings);
+  warn_of_flags(*r.forces, r.heading.warnings);
+  say(*r.forces, r.program.moves.size(), r.heading);
   return r;
 }
 
