@@ -157,7 +157,7 @@ class ProgramCases(unittest.TestCase):
         # Of straight edges the expected peaks are samples each 0.75 deg, where the edge of the
         # stock shortens the chip within less than that.
         straight = c["case"]["tools"][0]["tool"]["helix_deg"] == 0
-        peak = tol["relative"] * (2 if straight else 1)
+        peak = tol["relative"] * (2.5 if straight else 1)
         for row, s in zip(rows, steps):
             what = f"line {s['line']} at {s['fraction']}"
             for name in PLACE:
