@@ -219,22 +219,41 @@ class Scan {
     }
   }
 
+  /// Its two end discs, and the part of the ring between the angles of its ends.
   void add_sector(const Piece& piece, double R, double from, double to, double y) {
-    // Chords so short that their caps stand out by less than a thousandth of the tool.
-    const double angle = std::abs(piece.turn) * (to - from);
-    const double rise = std::min(1.0, 1e-5 * R / piece.radius);
-    const double step = 2 * std::acos(1 - rise);
-    const double whole = std::min(angle, unit_turn);
-    const double u0 = angle > unit_turn ? to - (to - from) * unit_turn / angle : from;
-    const int n = static_cast<int>(whole / step) + 1;
-    PathPoint a = point_at(piece, u0);
-    for (int i = 1; i <= n; ++i) {
-      const PathPoint b = point_at(piece, u0 + (to - u0) * i / n);
-      if (std::min(a.place[1], b.place[1]) - R < y &&
-          std::max(a.place[1], b.place[1]) + R > y) {
-        add_capsule(a.place, b.place, R, y);
+    for (const double u : {from, to}) {
+      const Point end = point_at(piece, u).place;
+      add_disc(end[0], end[1], R, y);
+    }
+    const double dy = y - piece.center[1];
+    const double outer = piece.radius + R;
+    const double inner = std::max(0.0, piece.radius - R);
+    if (!(std::abs(dy) < outer)) return;
+    std::vector<double>& ends = crossings_;
+    ends.clear();
+    for (const double r : {inner, outer}) {
+      const double rest = r * r - dy * dy;
+      if (!(rest > 0)) continue;
+      ends.push_back(-std::sqrt(rest));
+      ends.push_back(std::sqrt(rest));
+    }
+    const double turn = piece.turn * (to - from);
+    const double start = piece.start + piece.turn * from;
+    for (const double angle : {start, start + turn}) {
+      const double along = dy / std::sin(angle);
+      if (along > 0 && along < outer) ends.push_back(along * std::cos(angle));
+    }
+    std::ranges::sort(ends);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const double x = 0.5 * (ends[i] + ends[i + 1]);
+      const double r = std::hypot(x, dy);
+      if (r < inner || r > outer) continue;
+      const double behind = std::copysign(1.0, turn) * (std::atan2(dy, x) - start);
+      const double past = behind - unit_turn * std::floor(behind / unit_turn);
+      if (past <= std::abs(turn)) {
+        stretches_.push_back(
+            {piece.center[0] + ends[i], piece.center[0] + ends[i + 1]});
       }
-      a = b;
     }
   }
 
@@ -242,6 +261,7 @@ class Scan {
   const Swept& swept_;
   double z_;
   std::vector<geometry::Stretch> stretches_;
+  std::vector<double> crossings_;  ///< of a ring with the line, from its centre
 };
 
 /// Stock along x at y, before anything is cut.

@@ -33,6 +33,7 @@ RUNS = [
     ("dynamics", "runout_table_8mm/case.toml", [], {}),
     ("correct", "runout_table_8mm/case.toml", [], {}),
     ("plan", "plan_next_cut/case.toml", [], {}),
+    ("program", "pocket/case.toml", [], {}),
 ]
 
 

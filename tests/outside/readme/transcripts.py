@@ -28,7 +28,8 @@ def scratch_clone(top, folder):
     (folder / "run").symlink_to(top / "run")
     ours = shutil.ignore_patterns("*.identify", "*.simulate", "*.check",
                                   "*.surface", "*.calibrate", "*.stability", "*.modes",
-                                  "*.actuator", "*.dynamics", "*.correct", "*.plan", "*.sweep")
+                                  "*.actuator", "*.dynamics", "*.correct", "*.plan", "*.program",
+                                  "*.sweep")
     shutil.copytree(top / "examples", folder / "examples", ignore=ours)
 
 
