@@ -113,6 +113,7 @@ std::string page_scripts() {
                           correct_js(),
                           plan_js(),
                           plan_wall_js(),
+                          program_js(),
                           sweep_js(),
                           any_js(),
                           compare_js()}) {

@@ -45,19 +45,10 @@ std::string tool_name(const std::vector<std::string>& tools, std::int16_t tool) 
 
 using R = const StepRows&;
 
-/// What steps and places have in common: from the tool on.
-std::vector<Column<StepRows>> columns_from_tool() {
+/// Place, feed and engagement of steps and places.
+std::vector<Column<StepRows>> columns_of_cut() {
   const auto of = [](auto get) {
     return [get](R r, std::size_t i) { return get(r.rows[i]); };
-  };
-  const auto force = [](auto get) {
-    return [get](R r, std::size_t i) { return get(r.rows[i].forces); };
-  };
-  using F = const engagement::TurnForces&;
-  const auto teeth = [](R r) {
-    std::vector<std::string> names;
-    for (std::size_t j = 1; j <= r.teeth; ++j) names.push_back(std::to_string(j));
-    return names;
   };
   return {
       {"tool", "number or name; empty: the program names none",
@@ -90,7 +81,24 @@ std::vector<Column<StepRows>> columns_from_tool() {
       {"engaged_deg", "all arcs of the widest layer",
        of([](const Step& s) { return s.engaged; })},
       {"removed_mm3_per_s", "material that goes",
-       of([](const Step& s) { return s.removal_rate; })},
+       of([](const Step& s) { return s.removal_rate; })}};
+}
+
+/// Forces of the turn of steps and places.
+std::vector<Column<StepRows>> columns_of_forces() {
+  const auto of = [](auto get) {
+    return [get](R r, std::size_t i) { return get(r.rows[i]); };
+  };
+  const auto force = [](auto get) {
+    return [get](R r, std::size_t i) { return get(r.rows[i].forces); };
+  };
+  using F = const engagement::TurnForces&;
+  const auto teeth = [](R r) {
+    std::vector<std::string> names;
+    for (std::size_t j = 1; j <= r.teeth; ++j) names.push_back(std::to_string(j));
+    return names;
+  };
+  return {
       {"Fx_mean_N", "force on the tool in the axes of the program: mean over the turn",
        force([](F f) { return f.mean[0]; })},
       {"Fy_mean_N", "the same", force([](F f) { return f.mean[1]; })},
@@ -131,8 +139,9 @@ std::vector<Column<StepRows>> columns_from_tool() {
 }
 
 std::vector<Column<StepRows>> with_head(std::vector<Column<StepRows>> head) {
-  for (Column<StepRows>& column : columns_from_tool())
-    head.push_back(std::move(column));
+  for (const auto& part : {columns_of_cut(), columns_of_forces()}) {
+    head.insert(head.end(), part.begin(), part.end());
+  }
   return head;
 }
 

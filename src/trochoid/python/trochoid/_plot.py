@@ -165,6 +165,20 @@ def _sweep(answer: Answer, axes: Axes) -> None:
     axes.set_xlabel(keys[0])
 
 
+def _program(answer: Answer, axes: Axes) -> None:
+    if "steps" not in answer.tables:
+        raise ValueError(f"no forces to show: {answer.message}")
+    table = answer.tables["steps"]
+    cuts = table["a_p_mm"] > 0
+    dots = axes.scatter(
+        table["x_mm"][cuts], table["y_mm"][cuts], s=4, c=table["peak_xy_N"][cuts]
+    )
+    axes.figure.colorbar(dots, label="largest force across the tool [N]")
+    axes.set_aspect("equal")
+    axes.set_xlabel("x_mm")
+    axes.set_ylabel("y_mm")
+
+
 _PICTURES = {
     "simulate": _forces,
     "identify": _identify,
@@ -176,5 +190,6 @@ _PICTURES = {
     "dynamics": _dynamics,
     "correct": _correct,
     "plan": _plan,
+    "program": _program,
     "sweep": _sweep,
 }
