@@ -33,7 +33,7 @@ async function check(name, options, plots) {
 const plotsOf = { identify: 8, doubtful: 8, worn: 10, simulate: 7, compared: 1, failed: 0, other: 2,
   surface: 7, marks: 6, pulse: 5, calibrate: 4, teeth: 4, one_height: 0, stability: 2, tool_point: 4,
   modes: 6, shared_modes: 16, actuator: 2, dynamics: 8, chatter: 7, correct: 8, plan: 3,
-  wall_plan: 6 };
+  wall_plan: 6, program: 2 };
 for (const [name, plots] of Object.entries(plotsOf)) {
   for (const width of [1200, 480]) {
     test(`${name} is drawn, alone and without complaint, ${width} px wide`, async () => {
@@ -43,7 +43,7 @@ for (const [name, plots] of Object.entries(plotsOf)) {
   }
 }
 
-for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 2, teeth: 2, wall_plan: 1,
+for (const [name, drawings] of Object.entries({ surface: 2, marks: 2, pulse: 2, calibrate: 2, teeth: 2, wall_plan: 1, program: 1,
   stability: 1, dynamics: 2, chatter: 1, correct: 1 })) {
   for (const width of [1200, 480]) {
     test(`the drawings of ${name} are painted, ${width} px wide`, async () => {

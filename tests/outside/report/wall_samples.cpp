@@ -141,6 +141,12 @@ Answer calibration(const char* model, bool number_teeth,
   return calibrated(model, number_teeth, 3e-3, folder);
 }
 
+Answer along_program() {
+  const std::filesystem::path file = TROCHOID_EXAMPLES "/pocket/case.toml";
+  return answer_of(
+      trochoid::run::program(cases::read_case(file, cases::Command::program)));
+}
+
 Answer wall_plan(const std::filesystem::path& folder) {
   const auto file = written(
       folder / "plan.toml",

@@ -24,6 +24,9 @@ trochoid::results::Answer one_height(const std::filesystem::path& folder);
 /// The lobes of a new case of `stability`.
 trochoid::results::Answer lobes(const std::filesystem::path& folder);
 
+/// Forces along the program of an example.
+trochoid::results::Answer along_program();
+
 /// How to measure and cut a wall.
 trochoid::results::Answer wall_plan(const std::filesystem::path& folder);
 

@@ -345,6 +345,7 @@ int main(int argc, char** argv) {
           std::pair{"plan", sample::plan()},
           std::pair{"chatter", sample::chatter()},
           std::pair{"teeth", sample::calibration("imprint", true, cases / "teeth")},
+          std::pair{"program", sample::along_program()},
           std::pair{"wall_plan", sample::wall_plan(cases / "wall_plan")},
           std::pair{"one_height", sample::one_height(cases / "one_height")}}) {
       const std::string summary = trochoid::results::summary_json(answer);

@@ -1,0 +1,130 @@
+// The page of `program`: the path from above in the colours of what loads the tool, its lines.
+
+const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken'];
+const worstShown = 12;
+/** Columns of steps.csv that the path can show: key, name, label. */
+const pathViews = [['peak_xy_N', 'force', 'largest force across the tool [N]'],
+  ['tooth', 'tooth', 'largest force of a tooth [N]'], ['torque_peak_Nm', 'torque', 'largest torque [N m]'],
+  ['deflection_um', 'deflection', 'deflection of the tip [µm]'],
+  ['peak_chip_mm', 'chip', 'largest uncut chip thickness [mm]'],
+  ['engaged_deg', 'engaged', 'engaged angle [°]'], ['a_p_mm', 'depth', 'axial depth [mm]']];
+
+function programPage(report) {
+  const { result } = report;
+  return [
+    { lead: result.peaks ? programLead(result) : null },
+    pathSection(report),
+    { part: worstLines(report) },
+    overTime(report),
+    { part: result.limits_broken?.length ? brokenSection(result.limits_broken) : null },
+    { part: restSection(result, programKnown) },
+  ];
+}
+
+function programLead(result) {
+  const { peaks } = result;
+  const tile = (label, key, unit) => peaks[key]?.line && { label, value: fixed(peaks[key].value, 3), unit,
+    note: `line ${peaks[key].line}, ${peaks[key].cause}` };
+  return [tiles([
+    tile('Largest force across', 'peak_xy_N', 'N'), tile('Of one tooth', 'peak_tooth_N', 'N'),
+    tile('Largest torque', 'torque_peak_Nm', 'N m'),
+    peaks.deflection_um.value > 0 && tile('Deflection of the tip', 'deflection_um', 'µm'),
+    { label: 'Time in cut', value: fixed(result.time_in_cut_s, 3), unit: 's', note: `of ${fixed(result.time_s, 3)} s` },
+  ])];
+}
+
+/** The steps that cut, with the largest force of any tooth. */
+function stepsOf(t) {
+  const values = (name) => columnNamed(t, name) || [];
+  const teeth = t.columns.filter((column) => /^peak_tooth_\d+_N$/.test(column.name));
+  const [x, y, z, depth] = ['x_mm', 'y_mm', 'z_mm', 'a_p_mm'].map(values);
+  const keys = pathViews.map(([key]) => key).filter((key) => key !== 'tooth');
+  return depth.map((_, i) => ({ x: x[i], height: y[i], z: z[i], line: values('line')[i], cause: values('cause')[i],
+    tooth: Math.max(0, ...teeth.map((column) => column.values[i] || 0)),
+    ...Object.fromEntries(keys.map((key) => [key, values(key)[i]])) })).filter((_, i) => depth[i] > 0);
+}
+
+/** Both axes in one scale: the frame of a drawing, around its middle. */
+function evenFrame(frame, x, y) {
+  const scale = Math.max((x[1] - x[0]) / frame.width, (y[1] - y[0]) / frame.height);
+  const about = ([a, b], size) => [(a + b - scale * size) / 2, (a + b + scale * size) / 2];
+  return { ...frame, x: about(x, frame.width), y: about(y, frame.height) };
+}
+
+function pathSection(report) {
+  const t = tableNamed(report, 'steps.csv');
+  const dots = t?.drawn ? stepsOf(t) : [];
+  if (dots.length < 2) return { part: null };
+  const views = pathViews.filter(([key]) => dots.some((dot) => dot[key] > 0)).map(([key, name, label]) => ({ key, name,
+    label, colors: rising, range: [0, Math.max(...dots.map((dot) => dot[key]))] }));
+  const texts = new Map((columnNamed(tableNamed(report, 'lines.csv'), 'line') || []).map((line, i) =>
+    [line, columnNamed(tableNamed(report, 'lines.csv'), 'text')?.[i]]));
+  const chart = pathMap(dots, views, (dot, view) => [`line ${dot.line}`, texts.get(dot.line) ?
+    el('code', {}, ` ${texts.get(dot.line)} `) : ' ', `at z ${number(dot.z, 4)} mm, ${dot.cause}: `,
+  el('b', {}, `${number(dot[view.key], 4)}`), ` ${view.label.replace(/.*\[(.*)\]/, '$1')}`]);
+  const part = section('path', 'The path from above', 'Path',
+    prose('Every dot is a turn of the spindle in cut, at the middle of the tool. Its colour tells how much that turn loads ' +
+      'the tool. Lower passes lie over higher ones.', thinned(t)), chart.element);
+  return { part, draw: () => chart.resize() };
+}
+
+function pathMap(dots, views, read) {
+  const [x, y] = ['x', 'height'].map((key) => aroundDots(dots.map((dot) => dot[key])));
+  const state = { view: views[0], places: null, frame: null };
+  const paint = (c, width, height) => {
+    const { view } = state;
+    const frame = { ...evenFrame({ left: 52, top: 76, width: width - 62, height: height - 76 - 44 }, x, y),
+      ...chart.view, xLabel: 'x [mm]', yLabel: 'y [mm]' };
+    write(c, view.label, 0, 8, { color: '--ink' });
+    colorBar(c, view, frame.left, frame.width);
+    state.frame = frame;
+    state.places = plane(c, frame, { grid: true });
+    paintDots(c, { dots, view, frame, ...state.places });
+  };
+  const chart = drawing({ label: 'Path of the tool from above', paint, lowOnPaper: true,
+    data: () => ({ head: ['line', 'x [mm]', 'y [mm]', 'z [mm]', ...views.map((view) => view.label)],
+      rows: dots.map((dot) => [dot.line, dot.x, dot.height, dot.z, ...views.map((view) => dot[view.key])]) }),
+    height: (width) => Math.round(Math.min(560, Math.max(340, 0.62 * width))) });
+  zoomable(chart, () => state.frame, { x, y });
+  readoutOf(chart, 'Point at a turn for its line and its numbers.', (place) => {
+    const far = (dot) => Math.hypot(state.places.px(dot.x) - place[0], state.places.py(dot.height) - place[1]);
+    const near = dots.reduce((a, b) => (far(b) <= far(a) ? b : a));
+    return far(near) < 30 ? read(near, state.view) : null;
+  });
+  chart.controls.append(...[choice('Show', views.map((view) => ({ value: view, text: view.name })),
+    state.view, (view) => { state.view = view; chart.redraw(); })].filter(Boolean));
+  return chart;
+}
+
+function worstLines(report) {
+  const t = tableNamed(report, 'lines.csv');
+  if (!t?.drawn) return null;
+  const at = (name) => columnNamed(t, name) || [];
+  const order = at('peak_xy_N').map((_, i) => i).filter((i) => at('peak_xy_N')[i] > 0)
+    .sort((a, b) => at('peak_xy_N')[b] - at('peak_xy_N')[a]).slice(0, worstShown);
+  if (!order.length) return null;
+  return section('lines', 'The lines that load the tool most', 'Lines',
+    prose('The cause is the one of most turns within 1 % of the largest force of the line. All lines are in lines.csv.'),
+    table(['line', 'text', 'force', 'tooth', 'torque', 'deflection', 'cause', 'beyond'], order.map((i) => [
+      number(at('line')[i]), el('code', {}, at('text')[i]), `${fixed(at('peak_xy_N')[i], 3)} N`,
+      `${fixed(at('peak_tooth_N')[i], 3)} N`, `${fixed(at('torque_peak_Nm')[i], 3)} N m`,
+      `${fixed(at('deflection_um')[i], 3)} µm`, at('cause')[i], at('broken')[i] || ''])));
+}
+
+function overTime(report) {
+  const t = tableNamed(report, 'steps.csv');
+  const time = columnNamed(t, 'time_s');
+  if (!t?.drawn || !(time?.length > 2)) return { part: null };
+  const chart = figure({ key: 'time', x: time, label: 'time', unit: 's', caption: zoomHint + thinned(t) });
+  const part = section('time', 'Force over the time of the program', 'Time', chart.element);
+  const panel = (label, name, unit, color) => ({ label, unit, height: 180,
+    series: [{ name: label, values: columnNamed(t, name), color: seriesColor(color) }] });
+  return { part, draw: () => chart.draw([panel('largest force across', 'peak_xy_N', 'N', 0),
+    panel('largest torque', 'torque_peak_Nm', 'N m', 1)]) };
+}
+
+function brokenSection(broken) {
+  const some = (lines) => lines.slice(0, 20).join(', ') + (lines.length > 20 ? ' ...' : '');
+  return section('limits', 'Limits that lines go beyond', 'Limits', table(['limit', 'allowed', 'most', 'lines'],
+    broken.map((one) => [el('code', {}, one.limit), number(one.allowed), number(one.worst, 4), some(one.lines)])));
+}
