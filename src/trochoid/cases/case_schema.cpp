@@ -118,6 +118,17 @@ struct ValueSchema {
   Json operator()(const Pairs*) const {
     return list_of(list_of(number_of("number", key.range), 2, 2), 1, 0);
   }
+  Json operator()(const ArcLayers*) const {
+    const Json number = number_of("number", key.range);
+    const Json layer{{"type", "object"},
+                     {"properties",
+                      {{"from_mm", number},
+                       {"to_mm", number},
+                       {"arcs_deg", list_of(list_of(number, 2, 2), 0, 0)}}},
+                     {"required", {"from_mm", "to_mm", "arcs_deg"}},
+                     {"additionalProperties", false}};
+    return list_of(layer, 1, 0);
+  }
   Json operator()(const std::optional<StockCylinder>*) const {
     const Json number = number_of("number", key.range);
     return {{"type", "object"},

@@ -71,6 +71,14 @@ struct ToolName {
 };
 
 using Pairs = std::vector<std::array<double, 2>>;
+
+/// Arcs of theta between two heights above the tip.
+struct ArcLayerTable {
+  double from = 0.0;  ///< [m]
+  double to = 0.0;    ///< [m]
+  Pairs arcs;         ///< [rad]
+};
+using ArcLayers = std::vector<ArcLayerTable>;
 using NamedPlaces = std::map<std::string, std::array<double, 3>>;
 using NamedFiles = std::map<std::string, files::FileRef>;
 

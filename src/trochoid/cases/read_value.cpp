@@ -270,6 +270,39 @@ struct ValueReader {
     if (!first || !second) return std::nullopt;
     return std::array{*first, *second};
   }
+  void operator()(ArcLayers* target) const {
+    target->clear();
+    const Array* layers = list(0);
+    for (std::size_t i = 0; layers != nullptr && i < layers->size(); ++i) {
+      if (auto layer = layer_in((*layers)[i], i + 1)) {
+        target->push_back(*std::move(layer));
+      }
+    }
+  }
+  std::optional<ArcLayerTable> layer_in(const Node& at, std::size_t entry) const {
+    const auto* table = std::get_if<Members>(&at.value);
+    const auto member = [&](std::string_view name) {
+      return table != nullptr ? find(at, name) : nullptr;
+    };
+    const Node* from = member("from_mm");
+    const Node* to = member("to_mm");
+    const Node* given = member("arcs_deg");
+    const auto* arcs = given != nullptr ? std::get_if<Array>(&given->value) : nullptr;
+    if (from == nullptr || to == nullptr || arcs == nullptr || table->size() != 3) {
+      refuse(at, entry, "not a table with from_mm, to_mm and arcs_deg");
+      return std::nullopt;
+    }
+    const auto low = number(*from, entry);
+    const auto high = number(*to, entry);
+    if (!low || !high) return std::nullopt;
+    ArcLayerTable layer{*low * unit::mm, *high * unit::mm, {}};
+    for (std::size_t k = 0; k < arcs->size(); ++k) {
+      const auto pair = pair_in((*arcs)[k], k);
+      if (!pair) return std::nullopt;
+      layer.arcs.push_back({(*pair)[0] * unit::deg, (*pair)[1] * unit::deg});
+    }
+    return layer;
+  }
   void operator()(std::optional<StockCylinder>* target) const {
     const auto* table = std::get_if<Members>(&node.value);
     const Node* axis = table != nullptr ? find(node, "axis_xy") : nullptr;

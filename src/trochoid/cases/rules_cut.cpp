@@ -76,8 +76,65 @@ void check_feed(const CutTable& cut, const std::string& path,
                      key, mm(feed), most / unit::mm));
 }
 
+/// Arcs from one height: ascending, and none over another.
+std::vector<geometry::EngagedArc> engaged(const Pairs& arcs, const std::string& key,
+                                          Findings& findings) {
+  std::vector<geometry::EngagedArc> out;
+  for (const auto& [from, to] : arcs) {
+    const double last = out.empty() ? from : out.back().arc.to;
+    const double first = out.empty() ? from : out.front().arc.from;
+    if (!(to > from) || from < last || to > first + unit::turn + 1e-9) {
+      report(findings, key,
+             fmt::format("{}: from {:.6g} to {:.6g} deg: not in order; must be arcs of "
+                         "ascending angles that do not lie over each other, within one "
+                         "turn",
+                         key, from / unit::deg, to / unit::deg));
+      return {};
+    }
+    out.push_back({.arc = {from, to}});
+  }
+  return out;
+}
+
+geometry::Arcs arcs_of(const CutTable& cut, const std::string& path,
+                       Findings& findings) {
+  geometry::Arcs out;
+  if (cut.path_radius) {
+    const std::string key = path + ".path_radius_mm";
+    if (*cut.path_radius == 0 && sound(findings, {key})) {
+      report(findings, key,
+             fmt::format("{} = 0 mm: no radius; must be a number other than 0, or left "
+                         "out where the path is straight",
+                         key));
+    } else {
+      out.curvature = 1 / *cut.path_radius;
+    }
+  }
+  if (!cut.arcs.empty()) {
+    out.layers.push_back({.arcs = engaged(cut.arcs, path + ".arcs_deg", findings)});
+  }
+  double top = 0.0;
+  for (const ArcLayerTable& layer : cut.layers) {
+    const std::string key = path + ".layers";
+    if (layer.from < top || !(layer.to > layer.from)) {
+      report(
+          findings, key,
+          fmt::format("{}: from {} to {} mm: not in order; must be layers from below, "
+                      "none over another",
+                      key, mm(layer.from), mm(layer.to)));
+      break;
+    }
+    out.layers.push_back({.from = layer.from,
+                          .to = layer.to,
+                          .arcs = engaged(layer.arcs, key, findings)});
+    top = layer.to;
+  }
+  return out;
+}
+
 geometry::Engagement engagement_of(const CutTable& cut, const std::string& path,
                                    double D, Findings& findings) {
+  if (cut.engagement == EngagementKind::arcs) return arcs_of(cut, path, findings);
   const double a_e = cut.radial_depth.value_or(0.0);
   switch (cut.engagement) {
     case EngagementKind::slot:

@@ -75,9 +75,19 @@ void refuse_command(const CaseTables& t, Command purpose, Findings& findings) {
                      what.empty() ? name_of(purpose) : what, alike_in_words));
 }
 
-/// Stock that is given as arcs has them for one radius a height.
-void refuse_arcs(const CaseTables& t, const force::Setup& setup, Findings& findings) {
+/// Stock that is given as arcs has them for one radius a height, and few commands know it.
+void refuse_arcs(const CaseTables& t, const force::Setup& setup, Command purpose,
+                 Findings& findings) {
   const std::string key = "cut.engagement";
+  if (t.cut.engagement == EngagementKind::arcs && purpose != Command::simulate &&
+      purpose != Command::identify && sound(findings, {key})) {
+    report(
+        findings, key,
+        fmt::format("{} = \"arcs\": {} does not take arcs, simulate and identify do; "
+                    "must be \"slot\", \"up\", \"down\" or \"band\"",
+                    key, name_of(purpose)));
+    return;
+  }
   const auto found = difference(t);
   if (found && std::holds_alternative<geometry::Arcs>(setup.cut.engagement) &&
       sound(findings, {key, found->key})) {
@@ -188,7 +198,7 @@ void settle_serrated_models(CaseTables& tables, Findings& findings) {
 void check_edges(CaseTables& tables, const force::Setup& setup, Command purpose,
                  Findings& findings) {
   refuse_command(tables, purpose, findings);
-  refuse_arcs(tables, setup, findings);
+  refuse_arcs(tables, setup, purpose, findings);
   check_depth(tables, setup, findings);
   check_serrated_chip(tables, purpose, findings);
   if (!sound(findings, {"tool", "runout", "cut"}) || !findings.problems.empty() ||

@@ -87,6 +87,9 @@ struct Expectation {
   std::string operator()(const Pairs*) const {
     return "a list of pairs of numbers" + limits();
   }
+  std::string operator()(const ArcLayers*) const {
+    return "a list of tables { from_mm = z, to_mm = z, arcs_deg = [[from, to], ...] }";
+  }
   std::string operator()(const std::optional<StockCylinder>*) const {
     return "a table { axis_xy = [x, y], radius = r, z = [low, high] }";
   }
@@ -188,6 +191,21 @@ struct ValueWriter {
     rows.reserve(v->size());
     for (const auto& pair : *v) rows.push_back(pair_text(pair));
     return v->empty() ? Text{} : fmt::format("[{}]", fmt::join(rows, ", "));
+  }
+  Text operator()(const ArcLayers* v) const {
+    std::vector<std::string> layers;
+    for (const ArcLayerTable& layer : *v) {
+      std::vector<std::string> arcs;
+      for (const auto& arc : layer.arcs) {
+        arcs.push_back(fmt::format("[{}, {}]", number_text(arc[0], unit::deg),
+                                   number_text(arc[1], unit::deg)));
+      }
+      layers.push_back(fmt::format("{{ from_mm = {}, to_mm = {}, arcs_deg = [{}] }}",
+                                   number_text(layer.from, unit::mm),
+                                   number_text(layer.to, unit::mm),
+                                   fmt::join(arcs, ", ")));
+    }
+    return layers.empty() ? Text{} : fmt::format("[{}]", fmt::join(layers, ", "));
   }
   [[nodiscard]] std::string pair_text(const std::array<double, 2>& pair) const {
     return fmt::format("[{}, {}]", number_text(pair[0], factor),

@@ -109,7 +109,7 @@ using Field = std::variant<
     Choice, Choices, CutTable*, std::optional<PreviousClamping>*,
     std::optional<files::SurfaceFrame>*, std::optional<files::Direction>*, Pairs*,
     std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*, NamedPlaces*,
-    NamedFiles*, PerTooth*, std::optional<geometry::Serration>*>;
+    NamedFiles*, ArcLayers*, PerTooth*, std::optional<geometry::Serration>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

@@ -221,6 +221,31 @@ void describe(const Visitor& v, CutTable& t) {
      .only = {"engagement", {"band"}},
      .example = "[-4, 2]"},
     &t.stock_y);
+  v({.name = "arcs_deg",
+     .meaning =
+         "stock on these arcs of the immersion angle at all heights, from 0 at +y "
+         "clockwise; [[-90, 270]]: the whole circle",
+     .range = between(-360, 720),
+     .need = Need::always,
+     .only = {"engagement", {"arcs"}},
+     .rival = "layers",
+     .example = "[[0, 53.1], [126.9, 180]]"},
+    &t.arcs);
+  v({.name = "layers",
+     .meaning = "the same by height above the tip, from below",
+     .range = between(-longest_mm, longest_mm),
+     .only = {"engagement", {"arcs"}},
+     .rival = "arcs_deg",
+     .standard = "arcs_deg at all heights",
+     .example = "[{ from_mm = 0, to_mm = 2, arcs_deg = [[0, 53.1]] }]"},
+    &t.layers);
+  v({.name = "path_radius_mm",
+     .meaning = "radius of the path of the tool; above 0 it turns left, below 0 right",
+     .range = between(-1e6, 1e6),
+     .only = {"engagement", {"arcs"}},
+     .standard = "a straight path",
+     .example = "12"},
+    &t.path_radius);
   v({.name = "axial_depth_mm",
      .meaning = "axial depth of cut",
      .range = above_up_to(0, longest_mm),

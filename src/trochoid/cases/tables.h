@@ -31,7 +31,7 @@ constexpr std::string_view name_of(Shape shape) noexcept {
   }
   return {};
 }
-enum class EngagementKind { slot, up, down, band };
+enum class EngagementKind { slot, up, down, band, arcs };
 
 /// Names of files.
 constexpr std::string_view name_of(EngagementKind kind) noexcept {
@@ -44,6 +44,8 @@ constexpr std::string_view name_of(EngagementKind kind) noexcept {
       return "down";
     case EngagementKind::band:
       return "band";
+    case EngagementKind::arcs:
+      return "arcs";
   }
   return {};
 }
@@ -72,6 +74,9 @@ struct CutTable {
   std::optional<double> radial_depth;
   std::optional<double> radial_depth_sd;
   std::vector<double> stock_y;
+  Pairs arcs;                         ///< theta [rad]
+  ArcLayers layers;                   ///< arcs by height
+  std::optional<double> path_radius;  ///< [m], below 0: the path turns right
   double axial_depth = 0.0;
   std::optional<double> axial_depth_sd;
   std::optional<double> feed_per_tooth;

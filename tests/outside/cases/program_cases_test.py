@@ -102,6 +102,35 @@ class ProgramCases(unittest.TestCase):
     def test_whole_programs(self):
         self.of_kind("run", self.check_run)
 
+    def test_chips_on_circles(self):
+        self.of_kind("chip", self.check_chips)
+
+    # chips
+
+    def check_chips(self, c, want, tol, out):
+        """Stock all around on a circular path: the straight chip with its angle turned, within a
+        hundredth of the feed per tooth of the exact one."""
+        angles, diameter = c["case"]["edge_angles_deg"], c["case"]["diameter_mm"]
+        for k, row in enumerate(want["rows"]):
+            offsets = row["radial_offsets_mm"]
+            feed = row["feed_per_turn_mm"] / len(offsets)
+            radius = row["path_radius_mm"] * {"left": 1, "right": -1}[row["turning"]]
+            tables = {"tool": {"teeth": len(offsets), "diameter_mm": diameter, "helix_deg": 0},
+                      "runout": {"radial_offsets_mm": offsets},
+                      "force": {"K_tc_MPa": 2000, "K_rc_MPa": 1000, "K_ac_MPa": 0,
+                                "K_te_N_per_mm": 0, "K_re_N_per_mm": 0, "K_ae_N_per_mm": 0},
+                      "cut": {"engagement": "arcs", "arcs_deg": [[-90, 270]],
+                              "path_radius_mm": radius, "axial_depth_mm": 1,
+                              "feed_per_tooth_mm": feed, "spindle_rpm": 1000},
+                      "sampling": {"edge_angles_deg": angles}}
+            answer = program.run("simulate", program.case_text(c["id"], tables), self.folder,
+                                 f"{c['id']}_{k}")
+            self.assertEqual(answer.code, 0, answer.stderr)
+            got = [number(r["h_mm"]) for r in cells(answer.folder / "chip.csv")
+                   if int(r["tooth"]) == row["tooth"]]
+            for angle, a, b in zip(angles, got, row["h_mm"]):
+                out.near(a, b, 0.01 * feed, f"row {k}, {angle} deg")
+
     # arcs
 
     def check_arcs(self, c, want, tol, out):
