@@ -41,7 +41,7 @@ function isDrawable(tool, cut) {
 function drawCut(given) {
   const tool = inMm(given.tool ?? {});
   const cut = inMm(given.cut ?? {});
-  if (!isDrawable(tool, cut)) return null;
+  if (!isDrawable(tool, cut) || cut.engagement === 'arcs') return null;
   const radius = tool.diameter_mm / 2;
   const R = 62;
   const [low, high] = stockOf(cut, radius).map((y) => Math.max(-1.25, Math.min(1.25, y)));
