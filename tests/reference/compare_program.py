@@ -84,7 +84,8 @@ class Program(unittest.TestCase):
                     self.assertIn(said.code, (0, 1), said.stderr)
                     self.assertEqual(said.result["dialect"], expected["dialect_found"])
                     found = [[w["code"], int(WARNING.match(w["message"])[1])]
-                             for w in said.summary["warnings"]]
+                             for w in said.summary["warnings"]
+                             if WARNING.match(w["message"])]  # the reader's own
                     self.assertEqual(found, expected["warnings"])
                     with open(said.folder / "moves.csv", newline="") as file:
                         rows = list(csv.DictReader(file))

@@ -199,13 +199,8 @@ void describe_tolerances(const Visitor& v, CutTable& t) {
     &t.feed_per_tooth_sd);
 }
 
-}  // namespace
-
-void describe(const Visitor& v, CutTable& t) {
-  v({.name = "engagement",
-     .meaning = "which part of the cutter's width is in the stock",
-     .need = Need::always},
-    choice(t.engagement));
+/// Where there is stock, by the kind of engagement.
+void describe_stock(const Visitor& v, CutTable& t) {
   v({.name = "radial_depth_mm",
      .meaning = "radial depth of cut a_e, at most the diameter",
      .range = above_up_to(0, longest_mm),
@@ -246,6 +241,16 @@ void describe(const Visitor& v, CutTable& t) {
      .standard = "a straight path",
      .example = "12"},
     &t.path_radius);
+}
+
+}  // namespace
+
+void describe(const Visitor& v, CutTable& t) {
+  v({.name = "engagement",
+     .meaning = "which part of the cutter's width is in the stock",
+     .need = Need::always},
+    choice(t.engagement));
+  describe_stock(v, t);
   v({.name = "axial_depth_mm",
      .meaning = "axial depth of cut",
      .range = above_up_to(0, longest_mm),

@@ -1,6 +1,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/program/cycles.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace trochoid::program {
@@ -29,7 +30,8 @@ bool in_pecks(const Hole& hole) noexcept {
 }  // namespace
 
 double pecks_of(const Hole& hole) noexcept {
-  return in_pecks(hole) ? std::ceil((hole.r_level - hole.bottom) / hole.peck) : 1;
+  const double smallest = hole.less > 0 ? std::min(hole.peck, hole.least) : hole.peck;
+  return in_pecks(hole) ? std::ceil((hole.r_level - hole.bottom) / smallest) : 1;
 }
 
 void drill(const Hole& hole, std::array<double, 3> place, std::vector<Leg>& legs) {
@@ -38,8 +40,10 @@ void drill(const Hole& hole, std::array<double, 3> place, std::vector<Leg>& legs
   if (place[2] >= hole.r_level) path.to(MoveKind::rapid, {x, y, place[2]});
   path.to(MoveKind::rapid, {x, y, hole.r_level});
   if (in_pecks(hole)) {
-    for (double depth = hole.r_level - hole.peck; depth > hole.bottom + last_sliver;
-         depth -= hole.peck) {
+    double peck = hole.peck;
+    for (double depth = hole.r_level - peck; depth > hole.bottom + last_sliver;
+         depth -= peck) {
+      if (hole.less > 0) peck = std::max(peck - hole.less, std::min(peck, hole.least));
       path.to(MoveKind::line, {x, y, depth});
       if (hole.kind == Action::peck) path.to(MoveKind::rapid, {x, y, hole.r_level});
       path.to(MoveKind::rapid, {x, y, depth + clearance});

@@ -15,7 +15,9 @@ struct Hole {
   double r_level = 0.0;         ///< from where it is fed [m]
   double bottom = 0.0;          ///< [m]
   double clear = 0.0;           ///< where it ends [m]
-  double peck = 0.0;            ///< depth of one [m]
+  double peck = 0.0;            ///< depth of the first one [m]
+  double less = 0.0;            ///< by which each next one is smaller [m]
+  double least = 0.0;           ///< depth of the smallest [m]
   double dwell = 0.0;           ///< at the bottom [s]
 };
 

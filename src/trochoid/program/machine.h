@@ -18,6 +18,8 @@ struct CycleMemory {
   std::optional<double> r_level;  ///< as written, in SI
   std::optional<double> bottom;   ///< as written, in SI
   double peck = 0.0;              ///< [m]
+  double less = 0.0;              ///< by which each next peck is smaller [m]
+  double least = 0.0;             ///< the smallest peck then [m]
   double dwell = 0.0;             ///< [s]
   double initial = unknown;       ///< height where the cycles began [m]
 };

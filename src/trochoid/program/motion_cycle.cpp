@@ -13,6 +13,31 @@ bool pecks_in(Action kind) noexcept {
   return kind == Action::peck || kind == Action::chip_break;
 }
 
+/// I J K of Haas: the first peck, by how much each next one is smaller, the smallest.
+/// False: told.
+bool remember_pecks(Motion& o) {
+  Machine& m = o.machine();
+  const Word* first = o.s.orders.take('I');
+  if (first == nullptr) return true;
+  const Word* less = o.s.orders.take('J');
+  const Word* least = o.s.orders.take('K');
+  const auto value = [&](const Word* word) {
+    return word != nullptr ? word->value * m.length_unit : 0.0;
+  };
+  m.cycle.peck = value(first);
+  m.cycle.less = value(less);
+  m.cycle.least = value(least);
+  const bool shrinks = m.cycle.less > 0;
+  if (!(m.cycle.peck > 0) || m.cycle.less < 0 || (shrinks && !(m.cycle.least > 0))) {
+    o.complain(
+        first->at, Fault::order,
+        "I is the first peck and above 0, J by how much each next one is smaller, "
+        "K the smallest");
+    return false;
+  }
+  return true;
+}
+
 /// Numbers of the cycle in this block, which are kept. False: told.
 bool remember_cycle(Motion& o) {
   Machine& m = o.machine();
@@ -27,9 +52,11 @@ bool remember_cycle(Motion& o) {
       kept.dwell = seconds_of(*p, o.run.habits.dialect);
     }
   }
+  if (pecks && o.run.habits.dialect == Dialect::iso && !remember_pecks(o)) return false;
   if (pecks) {
     if (const Word* q = orders.take('Q')) {
       kept.peck = q->value * m.length_unit;
+      kept.less = 0.0;
       if (!(kept.peck > 0)) {
         o.complain(q->at, Fault::order, "Q is the depth of a peck and is above 0");
         return false;
@@ -100,6 +127,8 @@ Hole hole_of(const Machine& m) noexcept {
   hole.bottom = *kept.bottom + (m.incremental ? hole.r_level : m.shift[2]);
   hole.clear = m.to_r_level ? hole.r_level : std::max(kept.initial, hole.r_level);
   hole.peck = kept.peck;
+  hole.less = kept.less;
+  hole.least = kept.least;
   hole.dwell = m.motion == Action::drill ? 0.0 : kept.dwell;
   return hole;
 }
@@ -115,7 +144,9 @@ void drill_holes(Motion& o) {
   if (!cycle_is_whole(o)) return;
   if (!known(m.cycle.initial)) m.cycle.initial = m.place[2];
   o.target[2] = m.place[2];
-  if (!knows_place(o)) return;
+  // A rapid leads to the hole first: only its height has to be known.
+  const bool leads_there = known(m.place[2]) && known(o.target);
+  if (!leads_there && !knows_place(o)) return;
   const double feed = feed_of(o, 0.0);
   Hole hole = hole_of(m);
   if (!(hole.bottom < hole.r_level)) {

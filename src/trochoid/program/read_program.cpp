@@ -57,6 +57,9 @@ void read_blocks(Run& run, std::string_view text) {
     at = next;
     if (block.mark && ++marks == 2) return;
     const bool left_out = block.deleted && run.options.block_delete;
+    if (run.options.block_delete && block.optional_from < block.words.size()) {
+      block.words.resize(block.optional_from);
+    }
     if (left_out) {
       run.complaints.problems.resize(told);
     } else if (!block.mark && (!block.words.empty() || block.wrong)) {

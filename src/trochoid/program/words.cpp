@@ -422,6 +422,7 @@ bool same_word(std::string_view a, std::string_view b) noexcept {
 void split(Block& block, Dialect dialect, Complaints& complaints) {
   block.words.clear();
   block.deleted = false;
+  block.optional_from = Block::all;
   block.mark = false;
   block.wrong = false;
   Cursor c{block, complaints, dialect};
@@ -435,6 +436,10 @@ void split(Block& block, Dialect dialect, Complaints& complaints) {
                block.words.front().letter == 'N') {
       block.deleted = true;
       ++c.at;
+    } else if (c.now() == '/' && dialect == Dialect::iso) {
+      block.optional_from = std::min(block.optional_from, block.words.size());
+      ++c.at;
+      if (is_digit(c.now())) ++c.at;
     } else if (c.now() == ':' && is_digit(c.ahead(1))) {
       read_letter(c);
       if (!block.words.empty()) {

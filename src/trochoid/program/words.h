@@ -31,8 +31,10 @@ struct Block {
   std::string_view text;
   std::uint32_t line = 1;
   bool deleted = false;  ///< begins with /
-  bool mark = false;     ///< begins with %
-  bool wrong = false;    ///< a problem of it is told
+  static constexpr std::size_t all = static_cast<std::size_t>(-1);
+  std::size_t optional_from = all;  ///< words from this one on stand behind a /
+  bool mark = false;                ///< begins with %
+  bool wrong = false;               ///< a problem of it is told
   std::vector<Word> words;
 };
 

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/results/descriptions.h>
+#include <trochoid/results/program_steps.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -179,6 +180,7 @@ std::string short_table(const ProgramResult& r) {
   out += fmt::format("time: {:.6g} s, {:.6g} s of it in cut; removed: {:.6g} mm^3\n\n",
                      all.time, all.time_in_cut,
                      all.removed / (unit::mm * unit::mm * unit::mm));
+  if (all.peak_xy.line == 0) return out;
   out += fmt::format("{:<24}{:>12}{:>8}  {:<8}{}\n", "largest", "value", "line",
                      "cause", "x, y, z mm");
   const auto row = [&](std::string_view name, const engagement::Peak& peak,

@@ -3,7 +3,6 @@
 #include <trochoid/engagement/steps.h>
 #include <trochoid/program/move.h>
 #include <trochoid/results/answer.h>
-#include <trochoid/results/columns.h>
 
 #include <array>
 #include <cstdint>
@@ -42,11 +41,5 @@ struct ProgramResult {
 };
 
 Answer answer_of(const ProgramResult& result);
-
-/// @brief Tables of the forces: steps, arcs, lines and places.
-std::vector<base::Table> tables_of_forces(const ProgramResult& result);
-
-/// The columns of these tables.
-void add_texts_of_forces(std::vector<ColumnText>& out);
 
 }  // namespace trochoid::results

@@ -1,4 +1,4 @@
-#include <trochoid/results/program.h>
+#include <trochoid/results/program_steps.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 /// What a text makes the machine do: every kind of word once.
 namespace trochoid::program::read_program_test {
@@ -266,6 +268,35 @@ TEST(ReadProgram, ProgramsOfHeidenhainAreNamed) {
   const auto text = read("0 BEGIN PGM ABC MM\n1 L X+5 R0 FMAX\n");
   ASSERT_EQ(places(text), "1:3 ");
   EXPECT_EQ(text.problems[0].fault, Fault::dialect);
+}
+
+TEST(ReadProgram, ACycleLeadsToItsHoleByARapid) {
+  const auto text =
+      read("G21 G90 G17\nT1 M6\nS1000 M3\nG0 Z5.\nG81 X1. Y2. Z-1. R1. F60.\n");
+  EXPECT_EQ(places(text), "");
+  ASSERT_GE(text.program.moves.size(), 3U);
+  EXPECT_EQ(text.program.moves[1].kind, MoveKind::rapid);
+  EXPECT_EQ(text.program.moves[1].end, (std::array<double, 3>{1 * mm, 2 * mm, 5 * mm}));
+}
+
+TEST(ReadProgram, PecksMayBecomeSmaller) {
+  const auto moves = moves_behind_head("G83 X0. Z-1. R0. I.5 J.2 K.1\n");
+  std::vector<double> depths;
+  for (const Move& move : moves) {
+    if (move.kind == MoveKind::line)
+      depths.push_back(std::round(move.end[2] / mm * 1e6) / 1e6);
+  }
+  EXPECT_EQ(depths, (std::vector<double>{-0.5, -0.8, -0.9, -1.0}));
+  EXPECT_EQ(places(read(head + "G83 X0. Z-1. R0. I.5 J.2\n")), "6:18 ");
+}
+
+TEST(ReadProgram, ASlashMayStandWithinABlock) {
+  EXPECT_EQ(moves_behind_head("G1 X1. /M8\n").size(), 1U);
+  ReadOptions options;
+  options.dialect = Dialect::iso;
+  options.block_delete = true;
+  const auto text = read_program(head + "G1 X1. /Y5.\n", options);
+  EXPECT_EQ(text.program.moves.back().end[1], 0.0);
 }
 
 TEST(ReadProgram, TheLengthsOfACycleMayBeManyBeforeItIsRefused) {
