@@ -47,9 +47,7 @@ double wall_radius(const Tool& tool) {
 }
 
 void check(const Tool& tool) {
-  const geometry::Profile& p = tool.cutter.profile;
-  if (tool.cuts && (p.R != 0 || p.alpha != 0 || p.beta != 0 ||
-                    tool.cutter.lag_law != geometry::LagLaw::constant_lead)) {
+  if (tool.cuts && !takes(tool.cutter)) {
     throw std::invalid_argument(
         "forces along a program are computed for flat end mills of constant lead");
   }
@@ -432,6 +430,12 @@ void warn_rapids(const Job& job, const stock::Swept& swept, Summary& out) {
 }
 
 }  // namespace
+
+bool takes(const geometry::Cutter& cutter) noexcept {
+  const geometry::Profile& p = cutter.profile;
+  return p.R == 0 && p.alpha == 0 && p.beta == 0 &&
+         cutter.lag_law == geometry::LagLaw::constant_lead;
+}
 
 double step_count(const Job& job) {
   const stock::Path path = stock::path(job.program.moves, job.options.rapid_feed);

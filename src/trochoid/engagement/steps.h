@@ -34,6 +34,10 @@ struct Tool {
   bool cuts = true;           ///< false: its moves cut nothing, by consent
 };
 
+/// @brief Whether forces along a program can be computed for a cutter: a flat end mill of
+/// constant lead.
+bool takes(const geometry::Cutter& cutter) noexcept;
+
 /// Whether the bottom edges of flat cutters are estimated in plunges and ramps.
 enum class Bottom { estimate, none };
 

@@ -25,6 +25,7 @@ struct BrokenLimit {
 struct ProgramForces {
   std::size_t teeth = 0;                     ///< of the tool that has most
   std::vector<engagement::Step> steps;       ///< rows, in their order
+  std::size_t rows = 0;                      ///< that there are; not all may be kept
   std::vector<engagement::Step> places;      ///< as asked for
   std::vector<std::array<double, 2>> asked;  ///< line and fraction of each place
   engagement::Summary summary;

@@ -45,13 +45,6 @@ engagement::Tool tool_of(const cases::Case& given) {
   return tool;
 }
 
-/// Whether forces of this cutter along a path can be computed.
-bool is_flat(const engagement::Tool& tool) noexcept {
-  const geometry::Profile& p = tool.cutter.profile;
-  return p.R == 0 && p.alpha == 0 && p.beta == 0 &&
-         tool.cutter.lag_law == geometry::LagLaw::constant_lead;
-}
-
 /// The tools of a program, or why there are no forces.
 struct Tools {
   std::vector<engagement::Tool> tools;  ///< shape (program.tools), or one
@@ -96,8 +89,9 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
                name)});
     }
   }
-  if (!std::ranges::all_of(out.tools,
-                           [](const auto& t) { return !t.cuts || is_flat(t); })) {
+  if (!std::ranges::all_of(out.tools, [](const auto& t) {
+        return !t.cuts || engagement::takes(t.cutter);
+      })) {
     out.why_not.push_back(
         {"tool_not_flat",
          "Forces along a program are computed for flat end mills of constant lead; with "
@@ -191,6 +185,52 @@ void warn_of_flags(const ProgramForces& forces, std::vector<base::Warning>& warn
   }
 }
 
+/// What the case asks for and this answer does not do.
+void warn_of_unused(const cases::ProgramTables& nc,
+                    std::vector<base::Warning>& warnings) {
+  std::vector<std::string_view> keys;
+  const auto add = [&](bool given, std::string_view key) {
+    if (given) keys.push_back(key);
+  };
+  add(nc.feed.has_value(), "[feed]");
+  if (nc.machine) {
+    add(!nc.machine->max_acceleration.empty(), "machine.max_acceleration_m_per_s2");
+    add(!nc.machine->max_jerk.empty(), "machine.max_jerk_m_per_s3");
+    add(!nc.machine->max_feed.empty(), "machine.max_feed_mm_per_min");
+    add(nc.machine->corner_tolerance > 0, "machine.corner_tolerance_mm");
+    add(!nc.machine->power_curve.empty(), "machine.power_curve_W");
+  }
+  add(nc.limits && !nc.limits->chip.empty(), "the lower number of limits.chip_mm");
+  if (keys.empty()) return;
+  warnings.push_back(
+      {"not_used",
+       fmt::format("The answer does not use these yet: {}. Forces are those "
+                   "of the programmed feed, and no program is written.",
+                   fmt::join(keys, ", "))});
+}
+
+/// What is missing in the answer.
+void warn_of_gaps(const ProgramForces& forces, std::vector<base::Warning>& warnings) {
+  const engagement::Summary& summary = forces.summary;
+  if (!summary.complete) {
+    warnings.insert(
+        warnings.begin(),
+        {"time_limit",
+         fmt::format(
+             "The time was up: forces are computed for the first {} steps, up to "
+             "line {}. Peaks and the removed volume count these steps only.",
+             summary.totals.steps,
+             summary.lines.empty() ? 0 : summary.lines.back().line)});
+  }
+  if (forces.rows > forces.steps.size()) {
+    warnings.push_back(
+        {"rows_left_out",
+         fmt::format("steps.csv and arcs.csv have the first {} of {} rows. Lines and "
+                     "peaks count all of them. A larger step_turns makes fewer rows.",
+                     forces.steps.size(), forces.rows)});
+  }
+}
+
 engagement::Options options_of(const cases::Case& given, const base::Stop& stop) {
   const cases::NcProgram& nc = *given.nc.program;
   engagement::Options options{.step_turns = nc.step_turns,
@@ -225,6 +265,7 @@ ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
   std::size_t done = 0;
   out.summary =
       engagement::compute_steps(job, [&](std::span<const engagement::Step> rows) {
+        out.rows += rows.size();
         for (const engagement::Step& row : rows)
           done += static_cast<std::size_t>(row.count);
         const std::size_t room = most_rows - std::min(most_rows, out.steps.size());
@@ -302,6 +343,8 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   r.forces = forces_of(job, given, progress);
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);
+  warn_of_unused(given.nc, r.heading.warnings);
+  warn_of_gaps(*r.forces, r.heading.warnings);
   say(*r.forces, r.program.moves.size(), r.heading);
   return r;
 }
