@@ -4,55 +4,19 @@ the program as a user would: forces of any edges, and the finish they leave.
 The expected values and the tolerances stand in the files. Other files of the same kinds
 are run just the same.
 """
-import csv
-import json
 import pathlib
-import shutil
 import sys
-import tempfile
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
 import case_file as cf  # noqa: E402
 import program  # noqa: E402
+from worked_folder import WorkedFolder, cells, main  # noqa: E402
 
-CASES = cf.SHARED / "cases/edges_sensors"
 INDEX = {"x": 0, "y": 1, "z": 2}
 
 
-def worked(kind):
-    return [c for c in (json.loads(f.read_text()) for f in sorted(CASES.glob("*.json")))
-            if c["kind"] == kind]
-
-
-def cells(file):
-    """Rows of a CSV file as they stand: empty cells stay empty."""
-    with open(file, newline="") as f:
-        return list(csv.DictReader(f))
-
-
-class Problems(list):
-    """What does not agree, with how much it may differ."""
-
-    def near(self, got, want, tolerance, what):
-        if want is None:
-            if got is not None:
-                self.append(f"{what}: {got!r}, expected nothing")
-        elif got is None or not abs(got - want) <= tolerance:
-            self.append(f"{what}: {got!r}, expected {want!r} within {tolerance:g}")
-
-    def all_near(self, got, want, tolerance, what):
-        if len(got) != len(want):
-            self.append(f"{what}: {len(got)} values, expected {len(want)}")
-            return
-        for i, (a, b) in enumerate(zip(got, want)):
-            self.near(a, b, tolerance, f"{what}[{i}]")
-
-
-class EdgesCases(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="trochoid_"))
-        self.addCleanup(shutil.rmtree, self.folder)
+class EdgesCases(WorkedFolder):
+    CASES = cf.SHARED / "cases/edges_sensors"
 
     def run_case(self, command, c, name, **changed):
         tables = {k: v for k, v in c["case"].items() if k != "title"}
@@ -65,16 +29,6 @@ class EdgesCases(unittest.TestCase):
         answer = program.run(command, text, self.folder, name)
         self.assertEqual(answer.code, 0, f"{name}: exit {answer.code}\n{answer.stderr}\n{text}")
         return answer
-
-    def of_kind(self, kind, check):
-        found = worked(kind)
-        if not found:
-            self.skipTest(f"no cases in {CASES}")
-        for c in found:
-            with self.subTest(case=c["id"]):
-                problems = Problems()
-                check(c, c["expected"], c["tolerance"], problems)
-                self.assertFalse(problems, f"{c['id']}\n" + "\n".join(problems[:12]))
 
     def test_forces(self):
         self.of_kind("forces", self.check_forces)
@@ -224,7 +178,4 @@ class EdgesCases(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if not CASES.is_dir():
-        print(f"no {CASES}")
-        sys.exit(77)
-    unittest.main()
+    main(EdgesCases.CASES)
