@@ -25,7 +25,8 @@ SimulateResult made() {
   r.engagement.removal = {.removed = 2e-6, .available = 2e-6};
   r.chips = {.theta = {0.0, 1.0},
              .height = {0.5 * unit::mm},
-             .h = {1 * unit::um, 2 * unit::um, 3 * unit::um, 4 * unit::um}};
+             .h = {1 * unit::um, 2 * unit::um, 3 * unit::um, 4 * unit::um},
+             .mark = {1, 2, 2, 1}};
   return r;
 }
 
