@@ -1,8 +1,11 @@
 #include <trochoid/program/read_program.h>
+#include <trochoid/program/write_feeds.h>
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "bytes.h"
 
@@ -30,6 +33,20 @@ void use(const Move& move, const Program& program, std::uint32_t lines) {
     demand(!std::isnan(move.center[0]) && !std::isnan(move.center[1]));
     demand(move.turn != 0);
   }
+}
+
+/// Every program can be written with other feeds.
+void write_slower(std::string_view text, const Program& program) {
+  std::vector<FeedPart> parts;
+  for (std::uint32_t i = 0; i < program.moves.size(); ++i) {
+    const Move& move = program.moves[i];
+    const bool fed = move.kind != MoveKind::rapid && move.kind != MoveKind::dwell;
+    if (!fed || !(move.feed > 0) || !(move.time > 0)) continue;
+    parts.push_back({i, 0.0, 0.5, move.feed});
+    parts.push_back({i, 0.5, 1.0, 0.5 * move.feed});
+  }
+  const std::string slower = write_feeds(text, program, parts);
+  demand(slower.size() >= text.size() / 2);
 }
 
 }  // namespace
@@ -60,5 +77,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Remark& remark : read.remarks) demand(remark.place.line <= lines);
   if (!read.problems.empty()) return 0;
   for (const Move& move : read.program.moves) use(move, read.program, lines);
+  write_slower(text, read.program);
   return 0;
 }

@@ -165,6 +165,7 @@ void set_offset(Run& run, Sorted& s) {
     shift[i] += it->second[i];
   }
   run.machine.shift = shift;
+  run.program.zeros.push_back({run.program.moves.size(), shift});
 }
 
 void set_planes(Run& run, Sorted& s) {
@@ -222,6 +223,21 @@ void pause(Run& run, Sorted& s) {
   run.program.moves.push_back(still);
 }
 
+namespace {
+
+std::uint8_t writing_of(const Machine& m) noexcept {
+  unsigned bits = 0;
+  if (m.length_unit == unit::inch) bits |= in_inches;
+  if (m.feed_unit == unit::inch) bits |= feed_in_inches;
+  if (m.feed_mode == FeedMode::per_turn) bits |= feed_per_turn;
+  if (m.feed_mode == FeedMode::inverse_time) bits |= inverse_time;
+  if (m.incremental) bits |= by_increments;
+  if (m.center_absolute) bits |= center_by_place;
+  return static_cast<std::uint8_t>(bits);
+}
+
+}  // namespace
+
 Move begun(const Run& run, const Sorted& s, MoveKind kind) {
   const Machine& m = run.machine;
   Move move;
@@ -231,6 +247,7 @@ Move begun(const Run& run, const Sorted& s, MoveKind kind) {
   move.block = s.orders.number;
   move.tool = m.tool;
   move.kind = kind;
+  move.writing = writing_of(m);
   return move;
 }
 

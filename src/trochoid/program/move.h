@@ -48,6 +48,16 @@ constexpr std::string_view name_of(MoveNote note) noexcept {
   return {};
 }
 
+/// How the block of a move is written, for who writes into the text: bits.
+enum Writing : std::uint8_t {
+  in_inches = 1,        ///< lengths; else in mm
+  feed_in_inches = 2,   ///< F; else in mm
+  feed_per_turn = 4,    ///< G95
+  inverse_time = 8,     ///< G93
+  by_increments = 16,   ///< G91
+  center_by_place = 32  ///< G90.1
+};
+
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// @brief One move of the machine. It begins where the move before it ends.
@@ -66,6 +76,7 @@ struct Move {
   std::int16_t tool = -1;   ///< index in `Program::tools`, -1: neither T nor M6 before
   MoveKind kind = MoveKind::rapid;
   MoveNote note = MoveNote::none;
+  std::uint8_t writing = 0;  ///< of Writing
 };
 
 enum class Dialect : std::uint8_t { iso, linuxcnc, sinumerik };
@@ -83,12 +94,19 @@ constexpr std::string_view name_of(Dialect dialect) noexcept {
   return {};
 }
 
+/// Where program zero is, from a move on.
+struct Zero {
+  std::size_t first_move = 0;
+  std::array<double, 3> place{};  ///< in the frame of the stock [m]
+};
+
 /// What a text in G code makes the machine do.
 struct Program {
   Dialect dialect = Dialect::iso;
   std::vector<Move> moves;
   std::vector<std::string>
-      tools;  ///< numbers or names, in the order of their first use
+      tools;                ///< numbers or names, in the order of their first use
+  std::vector<Zero> zeros;  ///< the first is that of the first move
 };
 
 }  // namespace trochoid::program

@@ -120,6 +120,7 @@ ProgramText read_program(std::string_view bytes, const ReadOptions& options) {
           .habits = {outline.dialect, options.wear_zero, options.ignored_words},
           .changes_tool = outline.changes_tool};
   run.machine.shift = options.origin;
+  run.program.zeros.push_back({0, options.origin});
   run.program.dialect = outline.dialect;
   read_blocks(run, text);
   remark_on_points(run);
