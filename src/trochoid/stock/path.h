@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/units.h>
 #include <trochoid/program/move.h>
 
 #include <array>
@@ -38,9 +39,9 @@ struct Piece {
   [[nodiscard]] bool arc() const noexcept { return radius > 0; }
   /// It has no direction in the plane.
   [[nodiscard]] bool upright() const noexcept { return !(horizontal > 0); }
-  /// Feed of a turn along the path [m]; infinite where the spindle stands.
+  /// Feed of a turn along the path, as programmed [m]; infinite where the spindle stands.
   [[nodiscard]] double feed_per_turn() const noexcept {
-    return length / (turns_to - turns_from);
+    return feed * unit::turn / spindle;
   }
 };
 
