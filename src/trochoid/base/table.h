@@ -41,6 +41,7 @@ void add_column(Table& table, std::string name, std::size_t rows, const Value& v
 struct TextFile {
   std::string file;  ///< for example `material.toml`
   std::string text;
+  bool named_by_user = false;  ///< its name is in no list of ours
 };
 
 }  // namespace trochoid::base

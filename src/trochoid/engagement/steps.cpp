@@ -2,9 +2,8 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/engagement/causes.h>
-#include <trochoid/engagement/contact.h>
+#include <trochoid/engagement/look.h>
 #include <trochoid/engagement/turn.h>
-#include <trochoid/geometry/edge.h>
 #include <trochoid/numerics/parallel.h>
 #include <trochoid/stock/swept.h>
 
@@ -12,9 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numbers>
-#include <stdexcept>
+#include <limits>
 #include <utility>
 
 namespace trochoid::engagement {
@@ -26,138 +23,12 @@ constexpr std::size_t batch = 8192;
 /// Turns that are kept at most.
 constexpr std::size_t most_turns = 20000;
 
-/// Radius of the longest tooth: where walls stand.
-double wall_radius(const Tool& tool) {
-  if (!tool.cuts) return 0.0;
-  const double r = tool.cutter.profile.D / 2;
-  const std::vector<double> psi = geometry::tooth_angles(tool.cutter);
-  std::vector<geometry::EdgePosition> teeth(psi.size());
-  const geometry::Runout runout =
-      chip::feels_runout(tool.chip.model) ? tool.runout : geometry::Runout{};
-  double largest = 0.0;
-  // With an eccentricity the longest tooth changes along a helix: the envelope stands.
-  const int places = runout.eccentricity > 0 && tool.cutter.helix > 0 ? 64 : 1;
-  for (int i = 0; i < places; ++i) {
-    geometry::edge_positions(runout, psi, r, unit::turn * i / places, teeth);
-    for (const geometry::EdgePosition& tooth : teeth) {
-      largest = std::max(largest, tooth.R);
-    }
-  }
-  return largest;
-}
-
-void check(const Tool& tool) {
-  if (tool.cuts && !takes(tool.cutter)) {
-    throw std::invalid_argument(
-        "forces along a program are computed for flat end mills of constant lead");
-  }
-}
-
-/// Program::tools may be empty: then the one tool there is.
-std::int16_t tool_of(const Job& job, std::int16_t tool) {
-  if (tool >= 0) {
-    if (static_cast<std::size_t>(tool) >= job.tools.size()) {
-      throw std::invalid_argument("a move has a tool that is not given");
-    }
-    return tool;
-  }
-  return job.tools.empty() ? std::int16_t{-1} : std::int16_t{0};
-}
-
-stock::Swept sweep(const Job& job) {
-  std::vector<double> radius;
-  for (const Tool& tool : job.tools) {
-    check(tool);
-    radius.push_back(wall_radius(tool));
-  }
-  stock::Path path = stock::path(job.program.moves, job.options.rapid_feed);
-  for (stock::Piece& piece : path.pieces) {
-    piece.tool = tool_of(job, piece.tool);
-  }
-  return {std::move(path), job.stock, std::move(radius)};
-}
-
-/// Steps of a piece.
-std::int64_t count_of(const stock::Piece& piece, double step_turns) noexcept {
-  if (!(piece.feed > 0)) return 0;
-  const double turns = piece.turns_to - piece.turns_from;
-  return std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::ceil(turns / step_turns - 1e-9)));
-}
-
-/// A step to be looked at.
-struct Ask {
-  std::uint32_t piece = 0;
-  double u = 0.0;      ///< place of its middle on the piece
-  double share = 0.0;  ///< of the piece that it is
-  std::int64_t number = 0;
-  std::uint32_t move = 0;
-};
-
-/// What was found of it.
-struct Found {
-  Step step;
-  StepTraits traits;
-  Turn turn;
-};
-
-std::uint32_t move_at(const stock::Path& path, const stock::Piece& piece, double s) {
-  const auto first = path.begins.begin() + piece.first;
-  const auto last = path.begins.begin() + piece.last + 1;
-  const auto after = std::upper_bound(first, last, s);
-  return piece.first +
-         static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - first, 1) - 1);
-}
-
+/// Looks at steps and adds their forces.
 class Steps {
  public:
-  explicit Steps(const Job& job)
-      : job_(job),
-        swept_(sweep(job)),
-        kinks_(kinks(swept_.path())),
-        lengths_(feed_lengths(swept_.path())) {}
+  explicit Steps(const Job& job) : job_(job), look_(job) {}
 
-  [[nodiscard]] const stock::Swept& swept() const noexcept { return swept_; }
-  [[nodiscard]] std::span<const Kink> all_kinks() const noexcept { return kinks_; }
-
-  [[nodiscard]] Found look(const Ask& ask, std::span<const double> heights) const {
-    const stock::Piece& piece = swept_.path().pieces[ask.piece];
-    const program::Move& move = job_.program.moves[ask.move];
-    const double turns = piece.turns_to - piece.turns_from;
-    Found out{.step = bare_step(ask), .traits = {.piece = ask.piece}, .turn = {}};
-    Step& step = out.step;
-    StepTraits& traits = out.traits;
-    traits.at = lengths_[ask.piece] + ask.u * piece.length;
-    traits.R = swept_.radius(piece.tool);
-    step.line = move.line;
-    step.block = move.block;
-    if (!(traits.R > 0) || !(turns > 0)) {
-      step.flags |= turns > 0 ? 0U : static_cast<std::uint32_t>(spindle_stands);
-      return out;
-    }
-    const Tool& tool = job_.tools[static_cast<std::size_t>(piece.tool)];
-    const double f = piece.feed_per_turn();
-    traits.f_h = f * piece.horizontal / piece.length;
-    traits.f_a = f * (piece.from[2] - piece.to[2]) / piece.length;
-    step.f_z = traits.f_h / tool.cutter.teeth();
-    step.curvature = piece.arc() ? std::copysign(1 / piece.radius, piece.turn) : 0.0;
-    Contact contact =
-        engagement::contact(swept_, ask.piece, ask.u,
-                            {.R = traits.R,
-                             .feed = ask.share * piece.length,
-                             .turns = step.turns,
-                             .bottom = true,
-                             .layers = heights.empty(),
-                             .heights = {heights.begin(), heights.end()}});
-    describe(contact, tool, step, traits);
-    out.turn = {piece.tool, step.f_z, step.curvature, std::move(contact.layers)};
-    if (!heights.empty()) {  // forces are those of all the heights between
-      out.turn.layers = engagement::contact(swept_, ask.piece, ask.u,
-                                            {.R = traits.R, .bottom = false})
-                            .layers;
-    }
-    return out;
-  }
+  [[nodiscard]] const Look& look() const noexcept { return look_; }
 
   /// Forces of turns, each different one once, in parallel.
   void add_forces(std::span<Found> found) {
@@ -205,75 +76,8 @@ class Steps {
                     : job_.tools[static_cast<std::size_t>(tool)].cutter.pitch.size();
   }
 
-  [[nodiscard]] Step bare_step(const Ask& ask) const {
-    const stock::Piece& piece = swept_.path().pieces[ask.piece];
-    const stock::PathPoint point = stock::point_at(piece, ask.u);
-    const double time = piece.time_to - piece.time_from;
-    Step step;
-    step.step = ask.number;
-    step.tool = piece.tool;
-    step.move = ask.move;
-    step.turns = ask.share * (piece.turns_to - piece.turns_from);
-    step.time = piece.time_from + ask.u * time;
-    step.duration = ask.share * time;
-    step.place = point.place;
-    step.direction = point.direction;
-    if (std::isfinite(step.direction)) {
-      step.direction -= unit::turn * std::floor(step.direction / unit::turn);
-    }
-    step.spindle = piece.spindle;
-    step.feed = piece.feed;
-    step.programmed_feed = piece.feed;
-    return step;
-  }
-
-  void describe(const Contact& contact, const Tool& tool, Step& step,
-                StepTraits& traits) const {
-    double area = 0.0;
-    bool thin = false;
-    for (const geometry::ArcLayer& layer : contact.layers) {
-      Layer& row = step.layers.emplace_back(Layer{layer.from, layer.to, {}});
-      for (const geometry::EngagedArc& arc : layer.arcs) row.arcs.push_back(arc.arc);
-      const double height = layer.to - layer.from;
-      if (height < job_.options.floor || layer.arcs.empty()) {
-        thin = true;
-        continue;
-      }
-      const ArcSum sum = sum_of(layer, traits.R);
-      step.a_p += height;
-      area += height * sum.width;
-      if (sum.angle > step.engaged) {
-        step.engaged = sum.angle;
-        step.entry = layer.arcs.front().arc.from;
-        step.exit = layer.arcs.back().arc.to;
-      }
-    }
-    step.a_e = step.a_p > 0 ? area / step.a_p : 0.0;
-    step.removed = contact.flank_volume + contact.bottom_volume;
-    step.removal_rate = step.removed / step.duration;
-    traits.bottom = traits.f_a > 0 && contact.bottom_length > 0;
-    traits.stock = step.a_p > 0 || traits.bottom;
-    if (thin && !traits.stock) step.flags |= thin_layer;
-    if (tool.flute_length > 0 && step.a_p > tool.flute_length) {
-      step.flags |= rubs_above_flute;
-    }
-    if (traits.bottom && job_.options.bottom == Bottom::estimate) {
-      // N-11
-      const force::Terms law = force::terms(tool.law);
-      const int teeth = tool.cutter.teeth();
-      const force::ColumnWeights w =
-          force::column_weights(law.form, traits.f_a / teeth, 1.0, 1.0);
-      step.bottom_force = teeth * contact.bottom_length *
-                          (law.K[1] * w.cutting[1] + law.K_e[1] * w.edge);
-      step.bottom_torque = teeth * contact.bottom_moment *
-                           (law.K[0] * w.cutting[0] + law.K_e[0] * w.edge);
-    }
-  }
-
   const Job& job_;
-  stock::Swept swept_;
-  std::vector<Kink> kinks_;
-  std::vector<double> lengths_;
+  Look look_;
   std::unordered_map<TurnKey, std::size_t, TurnKeyHash> turns_;
   std::vector<TurnLoads> loads_;
   std::int64_t distinct_ = 0;
@@ -300,7 +104,7 @@ class Rows {
 
   void finish_line() {
     if (line_.empty()) return;
-    find_causes(steps_.swept().path(), steps_.all_kinks(), traits_, line_);
+    find_causes(steps_.look().path(), steps_.look().all_kinks(), traits_, line_);
     Line line{.line = line_.front().line, .tool = line_.front().tool};
     double largest = -1.0;
     for (std::size_t i = 0; i < line_.size(); ++i) {
@@ -363,19 +167,13 @@ class Rows {
           rows.back().layers.empty() && rows.back().flags == step.flags &&
           piece == traits_[i].piece) {
         Step& row = rows.back();
-        const double end = step.time + 0.5 * step.duration;
+        const auto n = static_cast<double>(row.count);
+        const auto m = static_cast<double>(step.count);
+        row.along = (n * row.along + m * step.along) / (n + m);
         row.count += step.count;
         row.turns += step.turns;
         row.duration += step.duration;
-        row.time = end - 0.5 * row.duration;
-        const stock::Piece& p = steps_.swept().path().pieces[piece];
-        const auto middle =
-            stock::point_at(p, (row.time - p.time_from) / (p.time_to - p.time_from));
-        row.place = middle.place;
-        if (std::isfinite(middle.direction)) {
-          row.direction =
-              middle.direction - unit::turn * std::floor(middle.direction / unit::turn);
-        }
+        steps_.look().put(row, piece);
         continue;
       }
       piece = traits_[i].piece;
@@ -394,7 +192,7 @@ void look_all(const Steps& steps, std::span<const Ask> asks, std::vector<Found>&
               std::span<const double> heights) {
   found.resize(asks.size());
   numerics::for_each_index(
-      asks.size(), [&](std::size_t i) { found[i] = steps.look(asks[i], heights); },
+      asks.size(), [&](std::size_t i) { found[i] = steps.look().at(asks[i], heights); },
       256);
 }
 
@@ -450,7 +248,7 @@ Summary compute_steps(const Job& job, const Sink& sink) {
   Steps steps(job);
   Rows rows(steps, sink);
   Summary& out = rows.summary;
-  const stock::Path& path = steps.swept().path();
+  const stock::Path& path = steps.look().path();
   std::vector<Ask> asks;
   std::vector<Found> found;
   std::int64_t number = 0;
@@ -493,21 +291,22 @@ Summary compute_steps(const Job& job, const Sink& sink) {
   out.totals.stock_before = stock::volume(job.stock);
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < job.tools.size(); ++i) {
-    const double R = steps.swept().radius(static_cast<std::int16_t>(i));
+    const double R = steps.look().swept().radius(static_cast<std::int16_t>(i));
     if (R > 0) smallest = std::min(smallest, R);
   }
   out.totals.stock_after =
       out.totals.stock_before -
-      (std::isfinite(smallest) ? stock::volume_removed(steps.swept(), smallest / 200)
-                               : 0.0);
-  warn_rapids(job, steps.swept(), out);
+      (std::isfinite(smallest)
+           ? stock::volume_removed(steps.look().swept(), smallest / 200)
+           : 0.0);
+  warn_rapids(job, steps.look().swept(), out);
   return std::move(out);
 }
 
 std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
                            std::span<const double> heights) {
   Steps steps(job);
-  const stock::Path& path = steps.swept().path();
+  const stock::Path& path = steps.look().path();
   const auto& moves = job.program.moves;
   std::vector<Ask> asks;
   std::vector<std::size_t> of_place;
@@ -525,7 +324,7 @@ std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
       const stock::Piece& piece = path.pieces[path.piece_of[m]];
       const double end = m == piece.last ? piece.length : path.begins[m + 1];
       const double s = path.begins[m] + places[i].fraction * (end - path.begins[m]);
-      const double turns = piece.turns_to - piece.turns_from;
+      const double turns = piece.length / piece.feed_per_turn();
       asks.push_back({path.piece_of[m], s / piece.length,
                       turns > 0 ? std::min(1.0, job.options.step_turns / turns) : 1.0,
                       0, m});
@@ -537,7 +336,7 @@ std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
   look_all(steps, asks, found, heights);
   steps.add_forces(found);
   for (std::size_t k = 0; k < found.size(); ++k) {
-    find_causes(path, steps.all_kinks(), std::span(&found[k].traits, 1),
+    find_causes(path, steps.look().all_kinks(), std::span(&found[k].traits, 1),
                 std::span(&found[k].step, 1));
     out[of_place[k]] = std::move(found[k].step);
   }

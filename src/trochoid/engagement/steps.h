@@ -8,6 +8,7 @@
 #include <trochoid/geometry/cutter.h>
 #include <trochoid/geometry/runout.h>
 #include <trochoid/program/move.h>
+#include <trochoid/stock/drives.h>
 #include <trochoid/stock/initial.h>
 #include <trochoid/structure/cantilever.h>
 
@@ -42,9 +43,10 @@ bool takes(const geometry::Cutter& cutter) noexcept;
 enum class Bottom { estimate, none };
 
 struct Options {
-  double step_turns = 1.0;        ///< of the spindle, a step
-  double rapid_feed = 10.0 / 60;  ///< [m/s]
-  double floor = 1e-6;            ///< layers thinner than this decide nothing [m]
+  double step_turns = 1.0;              ///< of the spindle, a step
+  double rapid_feed = 10.0 / 60;        ///< [m/s]
+  std::optional<stock::Drives> drives;  ///< nothing: every feed is reached at once
+  double floor = 1e-6;                  ///< layers thinner than this decide nothing [m]
   Bottom bottom = Bottom::estimate;
   base::Stop stop;
 };
@@ -118,6 +120,7 @@ struct Step {
   std::int32_t block = -1;  ///< N number
   std::int16_t tool = -1;
   std::size_t move = 0;           ///< its place in Program::moves
+  double along = 0.0;             ///< path of feed moves up to its middle [m]
   double turns = 0.0;             ///< of the spindle, all steps of the row
   double time = 0.0;              ///< at the middle [s]
   double duration = 0.0;          ///< of all steps of the row [s]

@@ -132,7 +132,7 @@ void bind_results(py::module_& m) {
       .def_property_readonly("texts",
                              [](const Answer& a) {
                                py::dict all;
-                               for (const auto& [file, text] : a.texts) {
+                               for (const auto& [file, text, named] : a.texts) {
                                  all[py::str(file)] = file.ends_with(".h5")
                                                           ? py::object(py::bytes(text))
                                                           : py::object(py::str(text));

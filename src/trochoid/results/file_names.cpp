@@ -54,6 +54,7 @@ constexpr auto names = std::to_array<std::string_view>({"case.toml",
                                                         "steps.csv",
                                                         "arcs.csv",
                                                         "lines.csv",
+                                                        "feeds.csv",
                                                         "places.csv",
                                                         "place_arcs.csv",
                                                         "error_map.csv",
@@ -84,6 +85,18 @@ bool is_further_material(std::string_view name) {
 bool is_ours(std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end() ||
          is_further_material(name);
+}
+
+bool is_ours_in(const std::filesystem::path& folder, std::string_view name) {
+  if (is_ours(name)) return true;
+  const auto text = base::read_text(folder / "summary.json");
+  if (!text || !is_our_summary(*text)) return false;
+  const Value summary = json_value(*text);
+  const Value* at = find(summary, "result");
+  for (const std::string_view key : {"feed", "file"}) {
+    if (at != nullptr) at = find(*at, key);
+  }
+  return at != nullptr && json_text(*at) == json_text(Value(std::string(name)));
 }
 
 bool is_our_summary(std::string_view text) {

@@ -11,6 +11,10 @@ namespace trochoid::results {
 /// that nothing of the user's disappears with it.
 bool is_ours(std::string_view name);
 
+/// The same of a file in an old answer, whose summary may name one more: the program with
+/// new feeds, which has the name that the case gave it.
+bool is_ours_in(const std::filesystem::path& folder, std::string_view name);
+
 /// Is this the text of a summary.json that a command of ours wrote?
 bool is_our_summary(std::string_view text);
 

@@ -47,7 +47,9 @@ void write_file(const fs::path& path, const fs::path& shown, const std::string& 
 void check_names(const Answer& answer) {
   std::vector<std::string> names;
   for (const auto& table : answer.tables) names.push_back(table.file);
-  for (const auto& text : answer.texts) names.push_back(text.file);
+  for (const auto& text : answer.texts) {
+    if (!text.named_by_user) names.push_back(text.file);
+  }
   for (const auto& name : names) {
     if (!is_ours(name)) {
       throw std::invalid_argument(name +
@@ -83,7 +85,7 @@ void check_replaceable(const fs::path& folder) {
   for (const std::string& name : *names) {
     const fs::file_type type = fs::symlink_status(folder / name, error).type();
     if (type != fs::file_type::regular ||
-        !(is_ours(name) || name.starts_with(unfinished_report))) {
+        !(is_ours_in(folder, name) || name.starts_with(unfinished_report))) {
       cannot_write(folder,
                    "it holds '" + name +
                        "', which trochoid did not write; move that away, or name "

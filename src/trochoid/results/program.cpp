@@ -130,6 +130,34 @@ const Fields<BrokenLimit>& broken_fields() {
   return all;
 }
 
+const Fields<FeedTotals>& feed_total_fields() {
+  using T = const FeedTotals&;
+  static const Fields<FeedTotals> all{
+      {"time_s", "of all moves", [](T t) { return t.time; }},
+      {"time_in_cut_s", "of the steps that cut", [](T t) { return t.time_in_cut; }},
+      {"peak_xy_N", "largest force across the axis", [](T t) { return t.peak_xy; }},
+      {"peak_tooth_N", "the same of one tooth", [](T t) { return t.peak_tooth; }}};
+  return all;
+}
+
+const Fields<NewFeeds>& feed_fields() {
+  using F = const NewFeeds&;
+  static const Fields<NewFeeds> all{
+      {"file", "the program with the new feeds, in this folder; empty: none is written",
+       [](F f) { return f.file; }},
+      {"before", "the program as it is", feed_total_fields(),
+       [](F f) { return std::optional(f.before); }},
+      {"after", "the program with the new feeds, read and run again",
+       feed_total_fields(), [](F f) { return std::optional(f.after); }},
+      {"even_peak_N", "force that `even` makes the others like",
+       [](F f) { return f.even_peak; }, [](F f) { return f.even_peak.has_value(); }},
+      {"not_reachable", "lines where even the lowest feed breaks a limit",
+       [](F f) { return f.not_reachable; }},
+      {"rubbing", "lines whose largest chip stays below the lower number of `chip_mm`",
+       [](F f) { return f.rubbing; }}};
+  return all;
+}
+
 const Fields<ProgramForces>& force_fields() {
   using F = const ProgramForces&;
   static const Fields<ProgramForces> all{
@@ -148,7 +176,9 @@ const Fields<ProgramForces>& force_fields() {
       {"peaks", "largest values over the program, and where", peaks_fields(),
        [](F f) { return std::optional(f); }},
       {"limits_broken", "limits that lines go beyond", broken_fields(),
-       [](F f) { return f.broken; }}};
+       [](F f) { return f.broken; }},
+      {"feed", "the feeds of [feed]", feed_fields(), [](F f) { return f.feed; },
+       [](F f) { return f.feed.has_value(); }}};
   return all;
 }
 
@@ -202,6 +232,13 @@ std::string short_table(const ProgramResult& r) {
     out += fmt::format("limit {} = {:.4g}: {} lines go beyond it, up to {:.4g}\n",
                        one.limit, one.allowed, one.lines.size(), one.worst);
   }
+  if (r.forces->feed) {
+    const NewFeeds& feed = *r.forces->feed;
+    out += fmt::format(
+        "\nnew feeds: {:.6g} s, were {:.6g} s; largest force across {:.4g} N, was "
+        "{:.4g} N\n",
+        feed.after.time, feed.before.time, feed.after.peak_xy, feed.before.peak_xy);
+  }
   return out;
 }
 
@@ -216,6 +253,9 @@ Answer answer_of(const ProgramResult& r) {
                 .tables = {},
                 .texts = {}};
   if (r.forces) answer.tables = tables_of_forces(r);
+  if (r.forces && r.forces->feed && !r.forces->feed->file.empty()) {
+    answer.texts.push_back({r.forces->feed->file, r.forces->feed->text, true});
+  }
   if (r.all_moves || r.program.moves.size() <= most_moves) {
     answer.tables.push_back(move_columns().table(r));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/engagement/feed.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/program/move.h>
 #include <trochoid/results/answer.h>
@@ -21,6 +22,26 @@ struct BrokenLimit {
   std::vector<std::uint32_t> lines;
 };
 
+/// What a program comes to when it is run.
+struct FeedTotals {
+  double time = 0.0;         ///< [s]
+  double time_in_cut = 0.0;  ///< [s]
+  double peak_xy = 0.0;      ///< [N]
+  double peak_tooth = 0.0;   ///< [N]
+};
+
+/// The feeds of `[feed]`, and the program with them.
+struct NewFeeds {
+  std::string file;  ///< name of the new program; empty: none is written
+  std::string text;  ///< the new program
+  FeedTotals before;
+  FeedTotals after;                           ///< of the new program
+  std::optional<double> even_peak;            ///< that `even` aims at [N]
+  std::vector<engagement::WantedFeed> steps;  ///< of the program as it is
+  std::vector<std::uint32_t> not_reachable;  ///< lines that no feed keeps within limits
+  std::vector<std::uint32_t> rubbing;        ///< lines with chips below the least one
+};
+
 /// Forces along a program.
 struct ProgramForces {
   std::size_t teeth = 0;                     ///< of the tool that has most
@@ -31,6 +52,7 @@ struct ProgramForces {
   engagement::Summary summary;
   std::vector<BrokenLimit> broken;
   std::vector<std::string> texts;  ///< of the lines of the summary
+  std::optional<NewFeeds> feed;    ///< nothing: the case has no [feed]
 };
 
 /// @brief What `program` answers: the moves of a whole NC program, and its forces.

@@ -286,6 +286,62 @@ const Columns<LineRows>& line_columns() {
   return all;
 }
 
+/// The feed of each step, steps alike joined.
+struct FeedRow {
+  engagement::WantedFeed feed;
+  std::size_t steps = 1;
+};
+
+std::vector<FeedRow> feed_rows(std::span<const engagement::WantedFeed> wanted) {
+  std::vector<FeedRow> out;
+  for (const engagement::WantedFeed& w : wanted) {
+    if (!out.empty()) {
+      FeedRow& last = out.back();
+      if (last.feed.line == w.line && last.feed.piece == w.piece &&
+          std::abs(last.feed.feed - w.feed) <= 1e-5 * w.feed &&
+          last.feed.held == w.held && last.feed.reachable == w.reachable &&
+          last.feed.rubs == w.rubs) {
+        last.feed.to = w.to;
+        ++last.steps;
+        continue;
+      }
+    }
+    out.push_back({w, 1});
+  }
+  return out;
+}
+
+const Columns<std::vector<FeedRow>>& feed_columns() {
+  using F = const std::vector<FeedRow>&;
+  const auto of = [](auto get) {
+    return [get](F rows, std::size_t i) { return get(rows[i].feed); };
+  };
+  using W = const engagement::WantedFeed&;
+  static const Columns<std::vector<FeedRow>> all{
+      "feeds.csv",
+      [](F rows) { return rows.size(); },
+      {{"line", "of the program as it is", of([](W w) { return w.line; })},
+       {"from_mm", "along its straight or circular piece of the path",
+        of([](W w) { return given(w.from); })},
+       {"to_mm", "the same", of([](W w) { return given(w.to); })},
+       {"steps", "of the program as it is, alike",
+        [](F rows, std::size_t i) { return rows[i].steps; }},
+       {"programmed_feed_mm_per_min", "as it is",
+        of([](W w) { return given(w.programmed); })},
+       {"feed_mm_per_min", "the largest within the limits",
+        of([](W w) { return given(w.feed); })},
+       {"held_by",
+        "what keeps it from being larger: `air` (nothing is cut: the feed of the "
+        "program), `factor`, `machine`, or a limit: `peak_force`, `peak_tooth`, "
+        "`torque`, `power`, `moment`, `deflection`, `chip`",
+        of([](W w) { return name_of(w.held); })},
+       {"reachable", "0: even the lowest feed breaks a limit",
+        of([](W w) { return w.reachable ? 1 : 0; })},
+       {"rubs", "1: the largest chip is below the lower number of `chip_mm`",
+        of([](W w) { return w.rubs ? 1 : 0; })}}};
+  return all;
+}
+
 }  // namespace
 
 std::vector<base::Table> tables_of_forces(const ProgramResult& result) {
@@ -294,6 +350,7 @@ std::vector<base::Table> tables_of_forces(const ProgramResult& result) {
   std::vector<base::Table> out{line_columns().table({all, tools}),
                                step_columns().table({all.steps, {}, all.teeth, tools}),
                                step_arc_columns().table(arcs_of(all.steps, false))};
+  if (all.feed) out.push_back(feed_columns().table(feed_rows(all.feed->steps)));
   if (!all.places.empty()) {
     out.push_back(place_columns().table({all.places, all.asked, all.teeth, tools}));
     out.push_back(place_arc_columns().table(arcs_of(all.places, true)));
@@ -305,6 +362,7 @@ void add_texts_of_forces(std::vector<ColumnText>& out) {
   line_columns().add_texts(out);
   step_columns().add_texts(out);
   step_arc_columns().add_texts(out);
+  feed_columns().add_texts(out);
   place_columns().add_texts(out);
   place_arc_columns().add_texts(out);
 }

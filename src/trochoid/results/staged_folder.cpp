@@ -63,7 +63,8 @@ bool is_of_type(const fs::path& path, fs::file_type type) {
 bool holds_only_ours(const fs::path& folder) {
   const auto names = names_in(folder);
   return names && std::all_of(names->begin(), names->end(), [&](const auto& name) {
-           return is_ours(name) && is_of_type(folder / name, fs::file_type::regular);
+           return is_ours_in(folder, name) &&
+                  is_of_type(folder / name, fs::file_type::regular);
          });
 }
 

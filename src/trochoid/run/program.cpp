@@ -4,6 +4,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/run/feed.h>
 #include <trochoid/run/wall.h>
 
 #include <fmt/core.h>
@@ -188,25 +189,49 @@ void warn_of_flags(const ProgramForces& forces, std::vector<base::Warning>& warn
 /// What the case asks for and this answer does not do.
 void warn_of_unused(const cases::ProgramTables& nc,
                     std::vector<base::Warning>& warnings) {
+  if (!nc.machine) return;
   std::vector<std::string_view> keys;
   const auto add = [&](bool given, std::string_view key) {
     if (given) keys.push_back(key);
   };
-  add(nc.feed.has_value(), "[feed]");
-  if (nc.machine) {
-    add(!nc.machine->max_acceleration.empty(), "machine.max_acceleration_m_per_s2");
-    add(!nc.machine->max_jerk.empty(), "machine.max_jerk_m_per_s3");
-    add(!nc.machine->max_feed.empty(), "machine.max_feed_mm_per_min");
-    add(nc.machine->corner_tolerance > 0, "machine.corner_tolerance_mm");
-    add(!nc.machine->power_curve.empty(), "machine.power_curve_W");
-  }
-  add(nc.limits && !nc.limits->chip.empty(), "the lower number of limits.chip_mm");
+  const bool brakes = !nc.machine->max_acceleration.empty();
+  add(!nc.machine->max_jerk.empty(), "machine.max_jerk_m_per_s3");
+  add(!brakes && !nc.machine->max_feed.empty(), "machine.max_feed_mm_per_min");
+  add(!brakes && nc.machine->corner_tolerance > 0, "machine.corner_tolerance_mm");
   if (keys.empty()) return;
   warnings.push_back(
       {"not_used",
-       fmt::format("The answer does not use these yet: {}. Forces are those "
-                   "of the programmed feed, and no program is written.",
-                   fmt::join(keys, ", "))});
+       fmt::format("The answer does not use these: {}.{}", fmt::join(keys, ", "),
+                   brakes ? ""
+                          : " Without max_acceleration_m_per_s2 every feed is "
+                            "reached at once.")});
+}
+
+/// What the new feeds do not reach.
+void warn_of_feeds(const results::NewFeeds& feed,
+                   std::vector<base::Warning>& warnings) {
+  const auto some = [](const std::vector<std::uint32_t>& lines) {
+    constexpr std::size_t shown = 10;
+    const auto first = std::span(lines).first(std::min(shown, lines.size()));
+    return fmt::format(
+        "{}{}", fmt::join(first, ", "),
+        lines.size() > shown ? fmt::format(" and {} more", lines.size() - shown) : "");
+  };
+  if (!feed.not_reachable.empty()) {
+    warnings.push_back(
+        {"limit_not_reachable",
+         fmt::format(
+             "Even the lowest feed that [feed] factor allows breaks a limit in "
+             "lines {}. It is written there; take less depth or width, or lower "
+             "the factor.",
+             some(feed.not_reachable))});
+  }
+  if (!feed.rubbing.empty()) {
+    warnings.push_back(
+        {"rubbing", fmt::format("The largest chip stays below the lower number of "
+                                "chip_mm in lines {}: the edges rub there.",
+                                some(feed.rubbing))});
+  }
 }
 
 /// What is missing in the answer.
@@ -239,7 +264,16 @@ engagement::Options options_of(const cases::Case& given, const base::Stop& stop)
                                             ? engagement::Bottom::none
                                             : engagement::Bottom::estimate,
                               .stop = stop};
-  options.rapid_feed = given.nc.machine.value_or(cases::MachineDrives{}).rapid_feed;
+  if (!given.nc.machine) return options;
+  const cases::MachineDrives& machine = *given.nc.machine;
+  options.rapid_feed = machine.rapid_feed;
+  if (machine.max_acceleration.empty()) return options;
+  stock::Drives& drives = options.drives.emplace();
+  std::ranges::copy_n(machine.max_acceleration.begin(), 3, drives.acceleration.begin());
+  if (!machine.max_feed.empty()) {
+    std::ranges::copy_n(machine.max_feed.begin(), 3, drives.feed.begin());
+  }
+  drives.corner_tolerance = machine.corner_tolerance;
   return options;
 }
 
@@ -287,6 +321,9 @@ ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
   out.broken =
       broken(given.nc.limits.value_or(cases::ForceLimits{}), out.summary.lines);
   out.texts = texts_of(*nc.text.get().text, out.summary.lines);
+  if (given.nc.feed && out.summary.totals.time_in_cut > 0) {
+    out.feed = new_feeds(job, given, out, progress);
+  }
   return out;
 }
 
@@ -345,6 +382,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   warn_of_flags(*r.forces, r.heading.warnings);
   warn_of_unused(given.nc, r.heading.warnings);
   warn_of_gaps(*r.forces, r.heading.warnings);
+  if (r.forces->feed) warn_of_feeds(*r.forces->feed, r.heading.warnings);
   say(*r.forces, r.program.moves.size(), r.heading);
   return r;
 }

@@ -35,7 +35,7 @@ def same_arcs(out, got, want, tolerance, what):
 class ProgramCases(WorkedFolder):
     CASES = CASES
 
-    def answer(self, c, **program_keys):
+    def answer(self, c, tables_of_feed=None, **program_keys):
         """The answer to a worked case: its first tool is in the case, others have their own."""
         given = c["case"]
         part = self.folder / pathlib.Path(given["program"]["file"]).name
@@ -49,7 +49,7 @@ class ProgramCases(WorkedFolder):
             (self.folder / name).write_text(program.case_text(name, tables))
             table.setdefault("tools", {})[str(tool["tool_number"])] = name
         tables = {k: v for k, v in first.items() if isinstance(v, dict)}
-        tables = {**tables, "program": table, "stock": given["stock"]}
+        tables = {**tables, "program": table, "stock": given["stock"], **(tables_of_feed or {})}
         text = program.case_text(c["id"], tables)
         answer = program.run("program", text, self.folder, c["id"])
         self.assertEqual(answer.code, 0,
@@ -70,6 +70,43 @@ class ProgramCases(WorkedFolder):
 
     def test_chips_on_circles(self):
         self.of_kind("chip", self.check_chips)
+
+    def test_feeds(self):
+        self.of_kind("feed", self.check_feeds)
+
+    # feeds
+
+    def check_feeds(self, c, want, tol, out):
+        """The feed that keeps a limit, written into the program, and that program run."""
+        if "before" not in want:
+            return
+        limit = want["before"]["limit_N"]
+        feed = {"limits": {"peak_force_N": limit},
+                "feed": {"factor": [0.05, 1.0], "write": "new.nc"}}
+        before = self.answer(c)
+        lines = [w["line"] for w in want["split_lines"]["words"]]
+        first, last = min(lines), max(lines) + 1
+        steps = [r for r in cells(before.folder / "steps.csv") if first <= int(r["line"]) <= last]
+        peaks = [number(r["peak_xy_N"]) for r in steps]
+        out.near(max(peaks), want["before"]["peak_max_N"], tol["relative"] * max(peaks), "peak")
+        written = self.answer(c, tables_of_feed=feed)
+        self.assertEqual(written.result["feed"]["not_reachable"], [])
+        shutil.copy(written.folder / "new.nc", self.folder / "new.nc")
+        after = self.answer(c, file="new.nc")
+        self.assertLessEqual(after.result["peaks"]["peak_xy_N"]["value"], 1.02 * limit)
+        out.near(after.result["time_s"], written.result["feed"]["after"]["time_s"], 1e-6, "time_s")
+        # The ring is what is milled once all of the first ring is: the written program has it in
+        # the lines after those of the other side.
+        ring = self.ring(cells(after.folder / "lines.csv"))
+        out.near(sum(number(r["time_s"]) for r in ring), want["each_step"]["time_s"],
+                 2 * tol["relative"] * want["each_step"]["time_s"], "time of the ring")
+
+    @staticmethod
+    def ring(lines):
+        """The rows of the second ring: from its first line on."""
+        start = max(i for i, r in enumerate(lines) if "X-12.3 Y-12.3" in r["text"]
+                    and i + 1 < len(lines))
+        return lines[start + 1:]
 
     # chips
 

@@ -1,6 +1,6 @@
 // The page of `program`: the path from above in the colours of what loads the tool, its lines.
 
-const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken'];
+const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken', 'feed'];
 const worstShown = 12;
 /** Columns of steps.csv that the path can show: key, name, label. */
 const pathViews = [['peak_xy_N', 'force', 'largest force across the tool [N]'],
@@ -16,6 +16,7 @@ function programPage(report) {
     pathSection(report),
     { part: worstLines(report) },
     overTime(report),
+    { part: result.feed ? feedSection(report, result.feed) : null },
     { part: result.limits_broken?.length ? brokenSection(result.limits_broken) : null },
     { part: restSection(result, programKnown) },
   ];
@@ -121,6 +122,27 @@ function overTime(report) {
     series: [{ name: label, values: columnNamed(t, name), color: seriesColor(color) }] });
   return { part, draw: () => chart.draw([panel('largest force across', 'peak_xy_N', 'N', 0),
     panel('largest torque', 'torque_peak_Nm', 'N m', 1)]) };
+}
+
+/** What the new feeds change, and what holds them for most of the time. */
+function feedSection(report, feed) {
+  const row = (label, key, unit) => [label, ...['before', 'after'].map((when) => `${fixed(feed[when][key], 3)} ${unit}`)];
+  const t = tableNamed(report, 'feeds.csv');
+  const at = (name) => columnNamed(t, name) || [];
+  const seconds = new Map();
+  at('held_by').forEach((name, i) => {
+    const time = 60 * (at('to_mm')[i] - at('from_mm')[i]) / at('feed_mm_per_min')[i];
+    seconds.set(name, (seconds.get(name) || 0) + time);
+  });
+  const held = [...seconds].sort((a, b) => b[1] - a[1]).map(([name, time]) => [el('code', {}, name), `${fixed(time, 3)} s`]);
+  const some = (lines) => lines.slice(0, 20).join(', ') + (lines.length > 20 ? ' ...' : '');
+  return section('feed', 'The program with new feeds', 'Feed',
+    feed.file ? prose('The new program is ', el('code', {}, feed.file), ' beside this page. It was read and run again.')
+      : prose('No program is written: give [feed] write.'),
+    table(['', 'as it is', 'with new feeds'], [row('time', 'time_s', 's'), row('in cut', 'time_in_cut_s', 's'),
+      row('largest force across', 'peak_xy_N', 'N'), row('of one tooth', 'peak_tooth_N', 'N')]),
+    held.length ? table(['what holds the feed', 'for'], held) : null,
+    feed.not_reachable.length ? prose(`Even the lowest feed breaks a limit in lines ${some(feed.not_reachable)}.`) : null);
 }
 
 function brokenSection(broken) {
