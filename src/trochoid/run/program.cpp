@@ -381,6 +381,12 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);
   warn_of_unused(given.nc, r.heading.warnings);
+  if (!job.options.drives && r.forces->summary.totals.time_in_cut > 0) {
+    r.heading.warnings.push_back(
+        {"no_machine",
+         "Without [machine] max_acceleration_m_per_s2 the feed is taken as reached at "
+         "once: in corners, where a machine brakes, forces are upper bounds."});
+  }
   warn_of_gaps(*r.forces, r.heading.warnings);
   if (r.forces->feed) warn_of_feeds(*r.forces->feed, r.heading.warnings);
   say(*r.forces, r.program.moves.size(), r.heading);

@@ -68,11 +68,73 @@ class NcProgram(InFolder):
         self.assertEqual(self.answer()[0]["limits_broken"], [])
 
     def test_what_is_not_used_is_said(self):
-        self.case(feed={"write": "new.nc"}, limits={"peak_force_N": 1e6},
-                  machine={"max_acceleration_m_per_s2": [3, 3, 2]})
-        said = self.answer()[1]["not_used"]
-        self.assertIn("[feed]", said)
-        self.assertIn("max_acceleration_m_per_s2", said)
+        self.case(machine={"max_jerk_m_per_s3": [50, 50, 50], "corner_tolerance_mm": 0.1})
+        said = self.answer()[1]
+        self.assertIn("max_jerk_m_per_s3", said["not_used"])
+        self.assertIn("corner_tolerance_mm", said["not_used"])
+        self.assertIn("upper bounds", said["no_machine"])
+        self.case(machine={"max_acceleration_m_per_s2": [3, 3, 2], "corner_tolerance_mm": 0.1})
+        said = self.answer()[1]
+        self.assertNotIn("not_used", said)
+        self.assertNotIn("no_machine", said)
+
+    def test_a_machine_that_brakes(self):
+        """From rest: v^2 = 2 a s, up to the feed; the time is that of a trapezium."""
+        self.case()
+        whole, _ = self.answer()
+        self.case(machine={"max_acceleration_m_per_s2": [0.05, 0.05, 0.05]})
+        result, _ = self.answer()
+        self.assertGreater(result["time_s"], whole["time_s"])
+        line = [row for row in self.rows("steps.csv") if row["line"] == "7"][0]
+        v = (2 * 0.05 * float(line["y_mm"]) * 1e-3) ** 0.5
+        self.assertAlmostEqual(float(line["feed_mm_per_min"]), min(320, v * 60e3), delta=1e-6)
+        self.assertEqual(float(line["programmed_feed_mm_per_min"]), 320)
+
+    def test_new_feeds(self):
+        self.case()
+        before, _ = self.answer()
+        limit = 0.8 * before["peaks"]["peak_xy_N"]["value"]
+        changes = {"limits": {"peak_force_N": limit}}
+        self.case(feed={"write": "new.nc"}, **changes)
+        for _ in range(2):  # over an old answer as well
+            result, _ = self.answer()
+        feed = result["feed"]
+        self.assertEqual(feed["file"], "new.nc")
+        self.assertEqual(feed["before"]["peak_xy_N"], before["peaks"]["peak_xy_N"]["value"])
+        self.assertLessEqual(feed["after"]["peak_xy_N"], 1.02 * limit)
+        self.assertGreater(feed["after"]["time_s"], feed["before"]["time_s"])
+        self.assertIn("peak_force", {row["held_by"] for row in self.rows("feeds.csv")})
+        new = (self.folder / "out/new.nc").read_text()
+        self.assertGreater(len(new.splitlines()), len(PART.splitlines()))
+        for number, line in enumerate(PART.splitlines(), 1):
+            if number not in (6, 7):  # those that are fed in stock
+                self.assertIn(line, new.splitlines())
+        self.case(new, **changes)
+        again, _ = self.answer()
+        self.assertEqual(again["peaks"]["peak_xy_N"]["value"], feed["after"]["peak_xy_N"])
+        self.assertEqual(again["time_s"], feed["after"]["time_s"])
+
+    def test_one_feed_a_line(self):
+        self.case()
+        limit = 0.8 * self.answer()[0]["peaks"]["peak_xy_N"]["value"]
+        self.case(feed={"write": "new.nc", "split_lines": False}, limits={"peak_force_N": limit})
+        self.answer()
+        new = (self.folder / "out/new.nc").read_text()
+        self.assertEqual(len(new.splitlines()), len(PART.splitlines()))
+        self.assertNotEqual(new, PART)
+
+    def test_a_limit_out_of_reach(self):
+        self.case(feed={"write": "new.nc"}, limits={"peak_force_N": 1, "chip_mm": [0.05, 0.1]})
+        result, warnings = self.answer()
+        self.assertEqual(result["feed"]["not_reachable"], [6, 7])
+        self.assertIn("6, 7", warnings["limit_not_reachable"])
+        self.assertIn("6, 7", warnings["rubbing"])
+
+    def test_the_new_program_has_a_name_of_its_own(self):
+        self.case(feed={"write": "steps.csv"}, limits={"peak_force_N": 100})
+        run = self.run_program("program", "case.toml", "-o", "out", "-q", code=2)
+        self.assertIn("feed.write", run.stderr)
+        self.assertFalse((self.folder / "out").exists())
 
     def test_without_forces_there_are_the_moves(self):
         for code, changes in (
