@@ -115,7 +115,7 @@ TEST(FeedParts, CoverEachMoveAndNeverExceedAStep) {
     }
     return 2.0;
   };
-  EXPECT_LT(slow_from(early), slow_from(parts));
+  EXPECT_LT(slow_from(early), slow_from(parts));  // [N-15]
 }
 
 }  // namespace trochoid::engagement::feed_test
