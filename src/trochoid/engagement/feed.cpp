@@ -51,44 +51,80 @@ struct Allowed {
   Load load;
 };
 
-/// N-14: the load grows with the feed, but teeth that come into cut bend it: false position
-/// with halved ends (Illinois).
-Allowed allowed(Turn turn, const Tool& tool, const Limits& limits,
-                const FeedRange& range, double spindle) {
-  const double f_z = turn.f_z;
-  const auto at = [&](double factor) {
-    turn.f_z = factor * f_z;
-    return Allowed{factor, load_of(loads_of(turn, tool).forces, limits, spindle)};
-  };
-  Allowed high = at(range.most);
-  if (high.load.share <= 1) {
-    high.load.held = Held::range;
-    return high;
+/// N-14 of a turn.
+class LargestFactor {
+ public:
+  LargestFactor(Turn turn, const Tool& tool, const Limits& limits, double spindle)
+      : turn_(std::move(turn)),
+        tool_(tool),
+        limits_(limits),
+        f_z_(turn_.f_z),
+        spindle_(spindle) {}
+
+  Allowed find(const FeedRange& range) {
+    high_ = at(range.most);
+    if (high_.load.share <= 1) {
+      high_.load.held = Held::range;
+      return high_;
+    }
+    return go_below(range.least) ? close_in() : low_;
   }
-  Allowed low = at(range.least);
-  const Held held = high.load.held;
-  if (low.load.share >= 1) return low;
-  double below = low.load.share - 1;
-  double above = high.load.share - 1;
-  double top = high.factor;
-  constexpr int tries = 40;
-  for (int i = 0; i < tries && top - low.factor > fine * top; ++i) {
-    const double step = std::clamp(below / (below - above), 0.02, 0.98);
-    const Allowed next = at(low.factor + step * (top - low.factor));
-    if (next.load.share <= 1) {
-      low = next;
-      below = next.load.share - 1;
-      above *= 0.5;
-      if (below > -fine) break;
-    } else {
-      top = next.factor;
-      above = next.load.share - 1;
-      below *= 0.5;
+
+ private:
+  Allowed at(double factor) {
+    turn_.f_z = factor * f_z_;
+    return {factor, load_of(loads_of(turn_, tool_).forces, limits_, spindle_)};
+  }
+
+  /// From above: the load is nearly a straight line with something left at rest, so that
+  /// secants soon come below the limit. False: not even the lowest feed is.
+  bool go_below(double least) {
+    double next = high_.factor / high_.load.share;
+    for (;;) {
+      low_ = at(std::max(next, least));
+      if (low_.load.share <= 1) return true;
+      if (!(low_.factor > least)) return false;
+      const double slope =
+          (high_.load.share - low_.load.share) / (high_.factor - low_.factor);
+      const double root = low_.factor - (low_.load.share - 1) / slope * (1 + fine);
+      next = slope > 0 ? std::min(root, (1 - fine) * low_.factor) : least;
+      high_ = low_;
     }
   }
-  low.load.held = low.load.share > 1 - 0.01 ? low.load.held : held;
-  return low;
-}
+
+  /// False position with halved ends (Illinois): teeth that come into cut bend the line.
+  Allowed close_in() {
+    double below = low_.load.share - 1;
+    double above = high_.load.share - 1;
+    constexpr int tries = 40;
+    for (int i = 0; i < tries && low_.load.share < 1 - close &&
+                    high_.factor - low_.factor > fine * high_.factor;
+         ++i) {
+      const double part = std::clamp(below / (below - above), 0.02, 0.98);
+      const Allowed next = at(low_.factor + part * (high_.factor - low_.factor));
+      if (next.load.share <= 1) {
+        low_ = next;
+        below = next.load.share - 1;
+        above *= 0.5;
+      } else {
+        high_ = next;
+        above = next.load.share - 1;
+        below *= 0.5;
+      }
+    }
+    return low_;
+  }
+
+  static constexpr double close = 1e-3;  ///< so near to a limit is at it
+
+  Turn turn_;
+  const Tool& tool_;
+  const Limits& limits_;
+  double f_z_;
+  double spindle_;
+  Allowed high_;
+  Allowed low_;
+};
 
 /// The places of a step: after a kink its start is left out, as the marks before the kink
 /// lie elsewhere.
@@ -140,8 +176,9 @@ class Turns {
         [&](std::size_t i) {
           const Turn& turn = turns_[first + i];
           found_[first + i] =
-              allowed(turn, job_.tools[static_cast<std::size_t>(turn.tool)], limits_,
-                      range_, spindles_[first + i]);
+              LargestFactor(turn, job_.tools[static_cast<std::size_t>(turn.tool)],
+                            limits_, spindles_[first + i])
+                  .find(range_);
         },
         2);
   }
