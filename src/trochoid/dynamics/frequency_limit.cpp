@@ -3,7 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/force_harmonics.h>
 #include <trochoid/dynamics/point_response.h>
-#include <trochoid/numerics/complex_eigenvalues.h>
+#include <trochoid/dynamics/regenerative_loop.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
@@ -17,159 +17,8 @@
 namespace trochoid::dynamics {
 namespace {
 
-/// Its largest entry.
-double largest(const ComplexMatrix2& G) noexcept;
-
-/// @brief What a vibration becomes by the forces that it makes: the matrix of D-22 at
-/// one speed, for one frequency after another.
-///
-/// @eq  D-33 with process damping A_0^(k-l) + i (omega_l / Omega) D^(k-l) in D-22
-/// @src derived: D-30 of a vibration, whose dq/dphi is i omega_l / Omega times q_l
-class RegenerativeLoop {
- public:
-  /// @param h  harmonics kept on each side; 0: the mean force
-  /// @note Forces and point must outlive it.
-  RegenerativeLoop(const ForceHarmonics& forces, const PointResponse& point,
-                   double Omega, int h);
-
-  /// @brief Eigenvalues at omega [rad/s].
-  /// @return empty where none can reach `least`, and where another harmonic of the same
-  ///         vibration is much softer
-  [[nodiscard]] std::vector<std::complex<double>> eigenvalues(double omega,
-                                                              double least) const;
-
- private:
-  /// The response at the harmonics that are kept.
-  struct Kept {
-    std::vector<int> k;             ///< ascending
-    std::vector<ComplexMatrix2> G;  ///< of each
-    double softest = 0.0;           ///< largest entry of any
-  };
-  [[nodiscard]] Kept kept_at(double omega) const;
-  void add_column(double omega, const Kept& kept, std::size_t l,
-                  std::vector<std::complex<double>>& M) const;
-
-  const ForceHarmonics& forces_;
-  const PointResponse& point_;
-  double Omega_;
-  double step_;  ///< from a harmonic to the next [rad/s]
-  int h_;
-  std::vector<std::size_t> axes_;  ///< that move
-  double force_size_ = 0.0;        ///< no column of forces sums up to more [N/m]
-  double damping_size_ = 0.0;      ///< the same of what acts on dq/dphi [N]
-};
-
 using Complex = std::complex<double>;
 
-/// A vibration belongs to the frequency among its harmonics at which the tool point is
-/// soft; one with less than this share of the softest is left to that one.
-constexpr double share_of_softest = 0.5;
-
-double largest(const ComplexMatrix2& G) noexcept {
-  double most = 0.0;
-  for (const Complex& g : G) {
-    most = std::max(most, std::abs(g));
-  }
-  return most;
-}
-
-RegenerativeLoop::RegenerativeLoop(const ForceHarmonics& forces,
-                                   const PointResponse& point, double Omega, int h)
-    : forces_(forces),
-      point_(point),
-      Omega_(Omega),
-      step_(unit::turn * Omega / forces.period),
-      h_(h) {
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const bool moves = std::any_of(
-        point.parts.begin(), point.parts.end(),
-        [&](const MeasuredReceptance& part) { return part.motion == axis; });
-    if (moves) {
-      axes_.push_back(axis);
-    }
-  }
-  for (const auto& of_delay : forces.coefficients) {
-    for (const ComplexMatrix2& coefficient : of_delay) {
-      force_size_ += 2 * largest(coefficient);
-    }
-  }
-  for (const ComplexMatrix2& coefficient : forces.damping) {
-    damping_size_ += 2 * largest(coefficient);
-  }
-}
-
-std::vector<Complex> RegenerativeLoop::eigenvalues(double omega, double least) const {
-  const Kept kept = kept_at(omega);
-  const auto fastest =
-      static_cast<double>(std::max(std::abs(kept.k.front()), std::abs(kept.k.back())));
-  const double force_size =
-      force_size_ + damping_size_ * (omega + step_ * fastest) / Omega_;
-  if (largest(receptance(point_, omega)) < share_of_softest * kept.softest ||
-      2 * kept.softest * force_size < least) {
-    return {};
-  }
-  const std::size_t n = axes_.size() * kept.k.size();
-  std::vector<Complex> M(n * n);
-  for (std::size_t l = 0; l < kept.k.size(); ++l) {
-    add_column(omega, kept, l, M);
-  }
-  return least > 0 && numerics::eigenvalue_bound(M, n) < least
-             ? std::vector<Complex>{}
-             : numerics::complex_eigenvalues(M, n);
-}
-
-RegenerativeLoop::Kept RegenerativeLoop::kept_at(double omega) const {
-  Kept kept;
-  const int mirror = -static_cast<int>(std::lround(2 * omega / step_));
-  if (h_ > 0 && 2 * h_ - mirror <= forces_.most) {
-    for (int k = mirror - h_; k <= mirror + h_ && k < -h_; ++k) {
-      kept.k.push_back(k);
-    }
-  }
-  for (int k = -h_; k <= h_; ++k) {
-    kept.k.push_back(k);
-  }
-  for (const int k : kept.k) {
-    kept.G.push_back(receptance(point_, omega + step_ * k));
-    kept.softest = std::max(kept.softest, largest(kept.G.back()));
-  }
-  return kept;
-}
-
-void RegenerativeLoop::add_column(double omega, const Kept& kept, std::size_t l,
-                                  std::vector<Complex>& M) const {
-  const std::size_t n = axes_.size() * kept.k.size();
-  const Complex slope(0.0, (omega + step_ * kept.k[l]) / Omega_);
-  std::vector<Complex> turned;
-  for (const double delay : forces_.delays) {
-    turned.push_back(std::polar(1.0, -(omega + step_ * kept.k[l]) * delay / Omega_));
-  }
-  for (std::size_t k = 0; k < kept.k.size(); ++k) {
-    const auto wave = static_cast<std::size_t>(forces_.most + kept.k[k] - kept.k[l]);
-    ComplexMatrix2 W = forces_.coefficients[0][wave];
-    for (std::size_t q = 0; q < W.size() && !forces_.damping.empty(); ++q) {
-      W[q] += slope * forces_.damping[wave][q];  // D-33
-    }
-    for (std::size_t d = 0; d < forces_.delays.size(); ++d) {
-      for (std::size_t q = 0; q < W.size(); ++q) {
-        W[q] -= turned[d] * forces_.coefficients[d + 1][wave][q];
-      }
-    }
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      for (std::size_t j = 0; j < axes_.size(); ++j) {
-        const std::size_t row = 2 * axes_[i];
-        M[(l * axes_.size() + j) * n + k * axes_.size() + i] =
-            kept.G[k][row] * W[axes_[j]] +
-            kept.G[k][row + 1] * W[2 + axes_[j]];  // D-22
-      }
-    }
-  }
-}
-
-using Complex = std::complex<double>;
-
-/// Steps of the scan while the longest delay turns once.
-constexpr double steps_per_wave = 48.0;
 /// Both neighbours of a crossing must be there: eigenvalues down to this fraction of the
 /// one looked for are kept.
 constexpr double kept_beside = 0.5;
@@ -274,34 +123,35 @@ void follow(const RegenerativeLoop& loop, const LoopAt& a, const LoopAt& b,
   }
 }
 
-/// Steps of the scan within a peak of the response.
-constexpr double steps_per_peak = 5.0;
-/// No step is shorter than this fraction of the distance of two lines.
-constexpr double steps_per_line = 3.0;
+/// So many steps of the scan on each side of a known onset are looked at first.
+constexpr std::size_t steps_beside = 3;
 
-/// @brief Frequencies from the begin of the band to its end: closer at every peak of the
-/// response, and everywhere close for the delay.
-/// @param longest  step [rad/s]
-std::vector<double> scan_frequencies(const PointResponse& point, double longest) {
-  const Band band = band_of(point);
-  std::vector<Peak> all;
-  for (const MeasuredReceptance& part : point.parts) {
-    const std::vector<Peak> of_part = peaks(part);
-    all.insert(all.end(), of_part.begin(), of_part.end());
-  }
-  const double shortest = line_distance(point) / steps_per_line;
-  std::vector<double> out;
-  for (double omega = band.from; omega < band.to;) {
-    out.push_back(omega);
-    double step = longest;
-    for (const Peak& peak : all) {
-      const double away = std::max(peak.width, std::abs(omega - peak.omega));
-      step = std::min(step, std::max(shortest, away / steps_per_peak));
+/// @brief The least onset of one cut.
+/// @param known  an onset at a depth nearby [rad/s]; 0: none. What is found there first
+///               spares the eigenvalues of vibrations that fade faster.
+std::optional<Onset> onset_of(const RegenerativeLoop& loop,
+                              const std::vector<KeptResponse>& scan, double most,
+                              double known) {
+  Onset best{.factor = most};
+  const auto look = [&](std::size_t from, std::size_t to) {
+    LoopAt before;
+    for (std::size_t i = from; i <= to; ++i) {
+      LoopAt now{scan[i].omega, loop.eigenvalues(scan[i], kept_beside / best.factor)};
+      if (i > from) {
+        follow(loop, before, now, most_bisections, best);
+      }
+      before = std::move(now);
     }
-    omega += step;
-  }
-  out.push_back(band.to);
-  return out;
+  };
+  const auto above = std::ranges::lower_bound(scan, known, {}, &KeptResponse::omega);
+  const auto here = static_cast<std::size_t>(above - scan.begin());
+  const std::size_t last = scan.size() - 1;
+  const std::size_t from = here > steps_beside ? here - steps_beside : 0;
+  const std::size_t to = known > 0 ? std::min(here + steps_beside, last) : from;
+  look(from, to);
+  look(0, from);
+  look(to, last);
+  return best.factor < most ? std::optional(best) : std::nullopt;
 }
 
 /// The strongest of the frequencies of a vibration: where the point is softest [Hz].
@@ -317,8 +167,9 @@ double strongest_frequency(const PointResponse& point, double omega, double step
   return best / unit::turn;
 }
 
-/// The onset of a cut of some depth, up to a factor.
-using OnsetAt = std::function<std::optional<Onset>(double depth, double most)>;
+/// The onset of a cut of some depth, up to a factor; one of a depth nearby may be known.
+using OnsetAt =
+    std::function<std::optional<Onset>(double depth, double most, double known)>;
 
 /// A depth, and the logarithm of the factor to the onset: negative where unstable.
 struct TriedDepth {
@@ -333,8 +184,8 @@ constexpr double far_enough = 4.0;
 /// depth, in logarithms: the next depth looked at.
 constexpr double next_look = 0.75;
 
-TriedDepth tried(const OnsetAt& at, double depth, double most) {
-  const auto found = at(depth, most);
+TriedDepth tried(const OnsetAt& at, double depth, double most, double known) {
+  const auto found = at(depth, most, known);
   return found ? TriedDepth{depth, std::log(found->factor), found->omega}
                : TriedDepth{depth, std::log(most), 0.0};
 }
@@ -349,8 +200,8 @@ FrequencyLimit limit_between(const OnsetAt& at, double Omega, TriedDepth stable,
          unstable.g < -0.1 * tolerance) {
     const double t = weight_stable / (weight_stable - weight_unstable);
     const double ratio = unstable.depth / stable.depth;
-    const TriedDepth middle = tried(
-        at, stable.depth * std::pow(ratio, std::clamp(t, 0.02, 0.98)), far_enough);
+    const double depth = stable.depth * std::pow(ratio, std::clamp(t, 0.02, 0.98));
+    const TriedDepth middle = tried(at, depth, far_enough, unstable.omega);
     if (middle.g > 0) {
       stable = middle;
       weight_stable = middle.g;
@@ -371,7 +222,7 @@ std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
   TriedDepth stable{1e-3 * depth.front(), std::log(1e3)};
   std::size_t k = 0;
   while (k < depth.size()) {
-    const TriedDepth here = tried(at, depth[k], far_enough);
+    const TriedDepth here = tried(at, depth[k], far_enough, stable.omega);
     if (here.g <= 0) {
       return limit_between(at, Omega, stable, here, tolerance);
     }
@@ -396,8 +247,13 @@ std::optional<FrequencyLimit> limit_at(const DepthHarmonics& forces,
       limit = {Omega, deepest * found->factor, found->omega};
     }
   } else {
-    const auto at = [&](double a_p, double most) {
-      return onset(forces.at(a_p), point, Omega, h, most);
+    std::optional<ResponseAtSpeed> response;
+    const auto at = [&](double a_p, double most, double known) {
+      const ForceHarmonics here = forces.at(a_p);
+      if (!response || !response->serves(here)) {
+        response.emplace(here, point, Omega, h);
+      }
+      return onset_of({here, *response}, response->scan(), most, known);
     };
     limit = searched(at, Omega, forces.depths(), tolerance);
   }
@@ -413,19 +269,8 @@ std::optional<FrequencyLimit> limit_at(const DepthHarmonics& forces,
 
 std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& point,
                            double Omega, int h, double most) {
-  const RegenerativeLoop loop(forces, point, Omega, h);
-  const double longest = forces.delays.empty() ? forces.period : forces.delays.back();
-  Onset best{.factor = most};
-  LoopAt before;
-  for (const double omega :
-       scan_frequencies(point, unit::turn * Omega / longest / steps_per_wave)) {
-    LoopAt now{omega, loop.eigenvalues(omega, kept_beside / best.factor)};
-    if (before.omega > 0) {
-      follow(loop, before, now, most_bisections, best);
-    }
-    before = std::move(now);
-  }
-  return best.factor < most ? std::optional(best) : std::nullopt;
+  const ResponseAtSpeed response(forces, point, Omega, h);
+  return onset_of({forces, response}, response.scan(), most, 0.0);
 }
 
 std::optional<FrequencyLimit> frequency_limit(const DirectionalModel& model,
