@@ -27,7 +27,7 @@ constexpr int refinements = 12;
 
 Complex nearest(const std::vector<Complex>& values, Complex to) {
   return *std::min_element(values.begin(), values.end(), [&](Complex a, Complex b) {
-    return std::abs(a - to) < std::abs(b - to);
+    return std::norm(a - to) < std::norm(b - to);
   });
 }
 

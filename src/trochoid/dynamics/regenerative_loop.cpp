@@ -99,12 +99,17 @@ KeptResponse ResponseAtSpeed::at(double omega) const {
     kept.k.push_back(k);
   }
   double own = 0.0;
-  for (const int k : kept.k) {
-    kept.G.push_back(receptance(point_, omega + step_ * k));
-    const double size = largest(kept.G.back());
+  std::erase_if(kept.k, [&](int k) {
+    const ComplexMatrix2 G = receptance(point_, omega + step_ * k);
+    const double size = largest(G);
+    if (size > 0) {  // else it is rigid: a row of zeros
+      kept.G.push_back(G);
+      kept.size.push_back(size);
+    }
     kept.softest = std::max(kept.softest, size);
     own = k == 0 ? size : own;
-  }
+    return !(size > 0);
+  });
   if (own < share_of_softest * kept.softest) {
     kept.k.clear();
   }
@@ -158,6 +163,7 @@ void RegenerativeLoop::add_column(const KeptResponse& kept, std::size_t l,
     turned.push_back(std::polar(1.0, -faster * delay / response_.Omega()));
   }
   for (std::size_t k = 0; k < kept.k.size(); ++k) {
+    const double balance = std::sqrt(kept.size[l] / kept.size[k]);
     const auto wave = static_cast<std::size_t>(forces_.most + kept.k[k] - kept.k[l]);
     ComplexMatrix2 W = forces_.coefficients[0][wave];
     for (std::size_t q = 0; q < W.size() && !forces_.damping.empty(); ++q) {
@@ -172,7 +178,8 @@ void RegenerativeLoop::add_column(const KeptResponse& kept, std::size_t l,
       for (std::size_t j = 0; j < axes.size(); ++j) {
         const std::size_t row = 2 * axes[i];
         M[(l * axes.size() + j) * n + k * axes.size() + i] =
-            kept.G[k][row] * W[axes[j]] + kept.G[k][row + 1] * W[2 + axes[j]];  // D-22
+            balance * (kept.G[k][row] * W[axes[j]] +
+                       kept.G[k][row + 1] * W[2 + axes[j]]);  // D-22
       }
     }
   }

@@ -18,6 +18,7 @@ struct KeptResponse {
   double omega = 0.0;             ///< of the vibration [rad/s]
   std::vector<int> k;             ///< ascending; empty: none can be looked for here
   std::vector<ComplexMatrix2> G;  ///< of each
+  std::vector<double> size;       ///< largest entry of each, above 0
   double softest = 0.0;           ///< largest entry of any
 };
 
@@ -75,6 +76,8 @@ class RegenerativeLoop {
   }
 
  private:
+  /// In units of each harmonic in which the matrix is balanced: its eigenvalues stay, and
+  /// its powers are nearer to them in size.
   void add_column(const KeptResponse& kept, std::size_t l,
                   std::vector<std::complex<double>>& M) const;
 

@@ -36,7 +36,7 @@ double eigenvalue_bound(std::span<const std::complex<double>> A, std::size_t n) 
   const ComplexDense fourth = second * second;
   const double columns = fourth.cwiseAbs().colwise().sum().maxCoeff();
   const double rows = fourth.cwiseAbs().rowwise().sum().maxCoeff();
-  return std::sqrt(std::sqrt(std::min(columns, rows)));
+  return std::sqrt(std::sqrt(std::min({columns, rows, fourth.norm()})));
 }
 
 }  // namespace trochoid::numerics
