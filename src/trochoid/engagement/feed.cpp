@@ -13,14 +13,14 @@ namespace trochoid::engagement {
 
 namespace {
 
-/// Feeds within this part of each other are one.
+/// Neighbours whose feeds differ by less than this ratio share one feed.
 constexpr double one_feed = 1.1;
-/// Ends of parts so near to the end of a move are there [m].
+/// A part that ends this near to the end of its move ends there [m].
 constexpr double near_end = 2e-6;
-/// The feed is found within this part of itself.
+/// Relative tolerance of the feed.
 constexpr double fine = 1e-4;
 
-/// What of a turn is nearest to its limit, or farthest beyond.
+/// The load of a turn that is the largest share of its limit.
 struct Load {
   double share = 0.0;  ///< of the limit
   Held held = Held::range;
@@ -115,7 +115,7 @@ class LargestFactor {
     return low_;
   }
 
-  static constexpr double close = 1e-3;  ///< so near to a limit is at it
+  static constexpr double close = 1e-3;  ///< a load this near to its limit is at it
 
   Turn turn_;
   const Tool& tool_;
@@ -195,15 +195,6 @@ class Turns {
   std::vector<Allowed> found_;
 };
 
-/// Unit vector of the feed; of an arc the one of its middle.
-stock::Point direction_of(const stock::Piece& piece, double u) {
-  const double flat = piece.horizontal / piece.length;
-  const double up = (piece.to[2] - piece.from[2]) / piece.length;
-  if (piece.upright()) return {0.0, 0.0, up};
-  const double chi = stock::point_at(piece, u).direction;
-  return {flat * std::cos(chi), flat * std::sin(chi), up};
-}
-
 WantedFeed bare_feed(const Look& look, const Ask& ask,
                      const program::Program& program) {
   const stock::Piece& piece = look.path().pieces[ask.piece];
@@ -229,7 +220,7 @@ void obey_axes(const Job& job, const Look& look, const Ask& ask, WantedFeed& fee
   if (!job.options.drives) return;
   const stock::Piece& piece = look.path().pieces[ask.piece];
   const double most =
-      stock::feed_along(*job.options.drives, direction_of(piece, ask.u));
+      stock::feed_along(*job.options.drives, stock::tangent(piece, ask.u));
   // A feed that the program has already is the machine's to lower.
   if (feed.feed <= std::max(most, feed.programmed)) return;
   feed.feed = std::max(most, feed.programmed);
@@ -243,17 +234,18 @@ struct Stretch {
   double feed = 0.0;  ///< [m/s]
 };
 
-/// N-15: what comes within the way that braking takes holds already.
-void brake_early(std::span<const WantedFeed> wanted, const Look& look,
+/// N-15: a lower feed begins as early as braking to it has to.
+void brake_early(std::span<const WantedFeed> wanted, const stock::Path& path,
                  const stock::Drives& drives, std::vector<double>& feed) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const WantedFeed& here = wanted[i];
-    const stock::Piece& piece = look.path().pieces[here.piece];
+    const stock::Piece& piece = path.pieces[here.piece];
     const double a = stock::acceleration_along(
-        drives, direction_of(piece, 0.5 * (here.from + here.to) / piece.length));
+        drives, stock::tangent(piece, 0.5 * (here.from + here.to) / piece.length));
     const double reach = here.feed * here.feed / (2 * a);
     for (std::size_t k = i + 1; k < wanted.size(); ++k) {
       const WantedFeed& there = wanted[k];
+      if (there.piece > wanted[k - 1].piece + 1) break;  // a rapid is between
       const double end = here.along + 0.5 * (here.to - here.from);
       const double distance = there.along - 0.5 * (there.to - there.from) - end;
       if (distance > reach) break;
@@ -382,17 +374,17 @@ std::vector<WantedFeed> largest_feeds(const Job& given, const Limits& limits,
 
 std::vector<program::FeedPart> feed_parts(const Job& job,
                                           std::span<const WantedFeed> wanted) {
-  const Look look(job);
+  const stock::Path path = stock::path(job.program.moves, job.options.rapid_feed);
   std::vector<double> feed;
   feed.reserve(wanted.size());
   for (const WantedFeed& w : wanted) feed.push_back(w.feed);
-  if (job.options.drives) brake_early(wanted, look, *job.options.drives, feed);
+  if (job.options.drives) brake_early(wanted, path, *job.options.drives, feed);
   std::vector<program::FeedPart> out;
   for (std::size_t i = 0; i < wanted.size();) {
     std::size_t end = i;
     while (end < wanted.size() && wanted[end].piece == wanted[i].piece) ++end;
     const auto of_piece = wanted.subspan(i, end - i);
-    add_parts(look.path(), wanted[i].piece,
+    add_parts(path, wanted[i].piece,
               stretches(of_piece, std::span(feed).subspan(i, end - i)), out);
     i = end;
   }

@@ -25,15 +25,6 @@ double along(const std::array<double, 3>& each, const Point& direction) noexcept
   return most;
 }
 
-/// Of length 1.
-Point tangent(const Piece& piece, double u) noexcept {
-  const double flat = piece.horizontal / piece.length;
-  const double up = (piece.to[2] - piece.from[2]) / piece.length;
-  if (piece.upright()) return {0.0, 0.0, up};
-  const double chi = point_at(piece, u).direction;
-  return {flat * std::cos(chi), flat * std::sin(chi), up};
-}
-
 /// An arc meets all directions of its plane: what holds in each is taken.
 Speed limits_of(const Piece& piece, double rapid_feed, const Drives& drives) noexcept {
   Speed out;

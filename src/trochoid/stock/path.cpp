@@ -169,4 +169,12 @@ PathPoint point_at(const Piece& piece, double u) noexcept {
   return out;
 }
 
+Point tangent(const Piece& piece, double u) noexcept {
+  const double flat = piece.horizontal / piece.length;
+  const double up = (piece.to[2] - piece.from[2]) / piece.length;
+  if (piece.upright()) return {0.0, 0.0, up};
+  const double chi = point_at(piece, u).direction;
+  return {flat * std::cos(chi), flat * std::sin(chi), up};
+}
+
 }  // namespace trochoid::stock

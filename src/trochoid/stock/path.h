@@ -70,4 +70,8 @@ struct PathPoint {
 /// @param u  fraction of the piece, 0 to 1
 PathPoint point_at(const Piece& piece, double u) noexcept;
 
+/// @brief Direction of the path in space, of length 1.
+/// @param u  fraction of the piece, 0 to 1
+Point tangent(const Piece& piece, double u) noexcept;
+
 }  // namespace trochoid::stock

@@ -1,6 +1,7 @@
 #include "made_program.h"
 
 #include <trochoid/engagement/feed.h>
+#include <trochoid/stock/path.h>
 
 #include <gtest/gtest.h>
 
@@ -81,7 +82,7 @@ TEST(LargestFeeds, PowerOfTheSpindleDependsOnItsSpeed) {
 TEST(FeedParts, CoverEachMoveAndNeverExceedAStep) {
   const Tool tool = end_mill(10, 3, 30, {4, -3, -1});
   const MadeProgram made = corner();
-  Job job{made.program, std::span(&tool, 1), block, {}};
+  const Job job{made.program, std::span(&tool, 1), block, {}};
   Limits limits;
   limits.peak_xy = 150;
   const auto wanted = largest_feeds(job, limits, {0.1, 1.5});
@@ -106,16 +107,35 @@ TEST(FeedParts, CoverEachMoveAndNeverExceedAStep) {
     }
   }
   EXPECT_DOUBLE_EQ(end, 1.0);
-  // A machine that has to brake begins earlier.
-  job.options.drives = stock::Drives{.acceleration = {0.2, 0.2, 0.2}};
-  const auto early = feed_parts(job, wanted);
-  const auto slow_from = [](const std::vector<program::FeedPart>& all) {
-    for (const auto& part : all) {
-      if (part.move == 2 && part.feed < all.front().feed * 0.99) return part.from;
-    }
-    return 2.0;
+}
+
+TEST(FeedParts, BeginASlowPartAsEarlyAsBrakingDoes) {  // [N-15]
+  const Tool tool = end_mill(10, 3, 30);
+  const MadeProgram made = corner();
+  Job job{made.program, std::span(&tool, 1), block, {}};
+  const stock::Path path = stock::path(made.program.moves, 1.0);
+  const auto first = static_cast<std::uint32_t>(
+      std::ranges::find_if(path.pieces, [](const auto& p) { return p.feed > 0; }) -
+      path.pieces.begin());
+  std::vector<WantedFeed> wanted;
+  for (int i = 0; i < 70; ++i) {  // 1 mm each
+    wanted.push_back({.piece = first,
+                      .from = i * 1e-3,
+                      .to = (i + 1) * 1e-3,
+                      .along = (i + 0.5) * 1e-3,
+                      .programmed = 0.02,
+                      .feed = i < 40 ? 0.02 : 0.005});
+  }
+  const auto slow_from = [&] {
+    const auto parts = feed_parts(job, wanted);
+    EXPECT_EQ(parts.size(), 2U);
+    EXPECT_DOUBLE_EQ(parts.back().feed, 0.005);
+    return parts.back().from * 70;
   };
-  EXPECT_LT(slow_from(early), slow_from(parts));  // [N-15]
+  EXPECT_NEAR(slow_from(), 40, 1e-9);
+  // (0.02^2 - 0.005^2)/(2 * 0.02) is 9.375 mm of path.
+  job.options.drives = stock::Drives{.acceleration = {0.02, 0.02, 0.02}};
+  EXPECT_NEAR(slow_from(), 30, 1e-9);
 }
 
 }  // namespace trochoid::engagement::feed_test
