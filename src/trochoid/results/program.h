@@ -39,7 +39,8 @@ struct NewFeeds {
   std::optional<double> even_peak;            ///< that `even` aims at [N]
   std::vector<engagement::WantedFeed> steps;  ///< of the program as it is
   std::vector<std::uint32_t> not_reachable;  ///< lines that no feed keeps within limits
-  std::vector<std::uint32_t> rubbing;        ///< lines with chips below the least one
+  bool keeps_limits = false;  ///< the new program does, but for the lines below
+  std::vector<std::uint32_t> rubbing;  ///< lines with chips below the least one
 };
 
 /// Forces along a program.

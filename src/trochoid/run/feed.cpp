@@ -21,7 +21,7 @@ namespace {
 using engagement::WantedFeed;
 using results::NewFeeds;
 
-/// Limits hold in the written program within this part of them.
+/// A load up to this part of its limit is within it.
 constexpr double close_enough = 1.005;
 constexpr int most_rounds = 4;
 
@@ -38,7 +38,7 @@ double even_peak(std::span<const engagement::Step> steps, double percentile) {
   return peaks[static_cast<std::size_t>(at)];
 }
 
-/// The part of the program's feed that a step gets, and what it comes to.
+/// The totals that are compared before and after.
 results::FeedTotals totals_of(const engagement::Totals& all) {
   return {all.time, all.time_in_cut, all.peak_xy.value, all.peak_tooth.value};
 }
@@ -59,42 +59,42 @@ WantedFeed& step_at(std::vector<WantedFeed>& wanted, double along) {
   return after == wanted.end() ? wanted.back() : *after;
 }
 
-/// Its name is none of the answer's own.
-void check_name(const cases::Case& given) {
-  const std::string& name = given.nc.feed->write;
-  if (!results::is_ours(name)) return;
-  throw base::InputError(
-      {fmt::format("{}: feed.write = \"{}\": the answer has a file of that name; give "
-                   "another one",
-                   given.file.string(), name)});
-}
-
-/// A program that was written, and how far beyond the limits it still is.
+/// Writes the program with new feeds and runs it.
 class Trial {
  public:
   Trial(const engagement::Job& job, const cases::Case& given,
         const engagement::Limits& limits, double least)
       : job_(job), given_(given), limits_(limits), least_(least) {}
 
-  /// Write, read and run it; slow down where a limit does not hold yet.
-  /// @return whether anything was slowed down
-  bool round(std::vector<WantedFeed>& wanted, NewFeeds& out) {
+  /// Write, read and run it.
+  /// @param wanted  slower afterwards where a limit is still broken
+  /// @return whether all limits that can be kept are kept
+  bool keeps(std::vector<WantedFeed>& wanted, NewFeeds& out) {
+    std::vector<WantedFeed> slower = wanted;
+    const bool kept = run(wanted, slower, out);
+    out.steps = wanted;
+    wanted = std::move(slower);
+    return kept;
+  }
+
+ private:
+  bool run(const std::vector<WantedFeed>& wanted, std::vector<WantedFeed>& slower,
+           NewFeeds& out) {
     const cases::FeedRules& rules = *given_.nc.feed;
     const auto parts = engagement::feed_parts(job_, wanted);
     out.text = program::write_feeds(*given_.nc.program->text.get().text, job_.program,
                                     parts, rules.split_lines);
     const program::Program written = read_again(out.text, given_, job_.program.dialect);
     const engagement::Job job{written, job_.tools, job_.stock, job_.options};
-    bool slower = false;
+    bool kept = true;
     const engagement::Summary summary =
         engagement::compute_steps(job, [&](std::span<const engagement::Step> rows) {
-          for (const engagement::Step& row : rows) slower |= slow_down(row, wanted);
+          for (const engagement::Step& row : rows) kept &= !slow_down(row, slower);
         });
     out.after = totals_of(summary.totals);
-    return slower;
+    return kept;
   }
 
- private:
   bool slow_down(const engagement::Step& row, std::vector<WantedFeed>& wanted) const {
     const double share = engagement::share_of_limits(row.forces, limits_, row.spindle);
     if (share <= close_enough) return false;
@@ -121,8 +121,7 @@ std::vector<std::uint32_t> lines_where(std::span<const WantedFeed> wanted,
   return lines;
 }
 
-}  // namespace
-
+/// The limits of a case, the power of its spindle too.
 engagement::Limits limits_of(const cases::ProgramTables& nc) {
   const cases::ForceLimits given = nc.limits.value_or(cases::ForceLimits{});
   constexpr double none = engagement::Limits::none;
@@ -144,11 +143,27 @@ engagement::Limits limits_of(const cases::ProgramTables& nc) {
   return out;
 }
 
-results::NewFeeds new_feeds(const engagement::Job& job, const cases::Case& given,
-                            const results::ProgramForces& forces,
-                            const Progress& progress) {
+}  // namespace
+
+void check_name_of_program(const cases::Case& given) {
+  if (!given.nc.feed) return;
+  const std::string& name = given.nc.feed->write;
+  std::string lower = name;  // some disks do not tell a from A
+  std::ranges::transform(lower, lower.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  if (!results::is_ours(lower)) return;
+  throw base::InputError(
+      {fmt::format("{}: feed.write = \"{}\": the answer has a file of that name; give "
+                   "another one",
+                   given.file.string(), name)});
+}
+
+std::optional<results::NewFeeds> new_feeds(const engagement::Job& job,
+                                           const cases::Case& given,
+                                           const results::ProgramForces& forces,
+                                           const Progress& progress) {
   const cases::FeedRules& rules = *given.nc.feed;
-  check_name(given);
   engagement::Limits limits = limits_of(given.nc);
   NewFeeds out{.file = rules.write, .before = totals_of(forces.summary.totals)};
   if (rules.target == cases::FeedTarget::even) {
@@ -157,15 +172,16 @@ results::NewFeeds new_feeds(const engagement::Job& job, const cases::Case& given
     if (std::isfinite(limits.peak_xy)) out.even_peak = limits.peak_xy;
   }
   progress("Looking for the largest feed of each step");
-  out.steps =
+  std::vector<WantedFeed> wanted =
       engagement::largest_feeds(job, limits, {rules.factor[0], rules.factor[1]});
   out.not_reachable =
-      lines_where(out.steps, [](const WantedFeed& w) { return !w.reachable; });
-  out.rubbing = lines_where(out.steps, [](const WantedFeed& w) { return w.rubs; });
+      lines_where(wanted, [](const WantedFeed& w) { return !w.reachable; });
+  out.rubbing = lines_where(wanted, [](const WantedFeed& w) { return w.rubs; });
   Trial trial(job, given, limits, rules.factor[0]);
-  for (int i = 0; i < most_rounds; ++i) {
+  for (int i = 0; i < most_rounds && !out.keeps_limits; ++i) {
     progress(fmt::format("Running the program with its new feeds, {}", i + 1));
-    if (job.options.stop.wanted() || !trial.round(out.steps, out)) break;
+    if (!job.options.stop.wanted()) out.keeps_limits = trial.keeps(wanted, out);
+    if (job.options.stop.wanted()) return std::nullopt;  // nothing half written
   }
   return out;
 }

@@ -195,6 +195,8 @@ void warn_of_unused(const cases::ProgramTables& nc,
     if (given) keys.push_back(key);
   };
   const bool brakes = !nc.machine->max_acceleration.empty();
+  add(!nc.feed && !nc.machine->power_curve.empty(),
+      "machine.power_curve_W (only with [feed])");
   add(!nc.machine->max_jerk.empty(), "machine.max_jerk_m_per_s3");
   add(!brakes && !nc.machine->max_feed.empty(), "machine.max_feed_mm_per_min");
   add(!brakes && nc.machine->corner_tolerance > 0, "machine.corner_tolerance_mm");
@@ -217,6 +219,12 @@ void warn_of_feeds(const results::NewFeeds& feed,
         "{}{}", fmt::join(first, ", "),
         lines.size() > shown ? fmt::format(" and {} more", lines.size() - shown) : "");
   };
+  if (!feed.keeps_limits) {
+    warnings.push_back(
+        {"limit_not_kept",
+         "The new program still goes beyond a limit where a feed could be "
+         "lower. Run it with [limits] to see the lines."});
+  }
   if (!feed.not_reachable.empty()) {
     warnings.push_back(
         {"limit_not_reachable",
@@ -321,7 +329,7 @@ ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
   out.broken =
       broken(given.nc.limits.value_or(cases::ForceLimits{}), out.summary.lines);
   out.texts = texts_of(*nc.text.get().text, out.summary.lines);
-  if (given.nc.feed && out.summary.totals.time_in_cut > 0) {
+  if (given.nc.feed && out.summary.complete && out.summary.totals.time_in_cut > 0) {
     out.feed = new_feeds(job, given, out, progress);
   }
   return out;
@@ -352,6 +360,7 @@ void say(const ProgramForces& forces, std::size_t moves, results::Heading& headi
 
 results::ProgramResult program(const cases::Case& given, const Progress& progress,
                                const base::Stop& stop) {
+  check_name_of_program(given);
   progress("Reading the program");
   const files::ProgramFile& file = given.nc.program->text.get();
   ProgramResult r{.heading = heading_of(given), .program = file.program};
@@ -388,7 +397,12 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
          "once: in corners, where a machine brakes, forces are upper bounds."});
   }
   warn_of_gaps(*r.forces, r.heading.warnings);
-  if (r.forces->feed) warn_of_feeds(*r.forces->feed, r.heading.warnings);
+  if (r.forces->feed) {
+    warn_of_feeds(*r.forces->feed, r.heading.warnings);
+  } else if (given.nc.feed && r.forces->summary.totals.time_in_cut > 0) {
+    r.heading.warnings.push_back(
+        {"no_new_feeds", "The time was up: no program with new feeds is written."});
+  }
   say(*r.forces, r.program.moves.size(), r.heading);
   return r;
 }

@@ -131,10 +131,20 @@ class NcProgram(InFolder):
         self.assertIn("6, 7", warnings["rubbing"])
 
     def test_the_new_program_has_a_name_of_its_own(self):
-        self.case(feed={"write": "steps.csv"}, limits={"peak_force_N": 100})
-        run = self.run_program("program", "case.toml", "-o", "out", "-q", code=2)
-        self.assertIn("feed.write", run.stderr)
-        self.assertFalse((self.folder / "out").exists())
+        for name in ("steps.csv", "Steps.CSV"):  # some disks do not tell a from A
+            self.case(feed={"write": name}, limits={"peak_force_N": 100})
+            run = self.run_program("program", "case.toml", "-o", "out", "-q", code=2)
+            self.assertIn("feed.write", run.stderr)
+            self.assertFalse((self.folder / "out").exists())
+
+    def test_a_power_curve_counts_with_feed_only(self):
+        curve = {"power_curve_W": [[0, 0], [4000, 20]]}
+        self.case(machine=curve)
+        self.assertIn("power_curve_W", self.answer()[1]["not_used"])
+        self.case(machine=curve, limits={"peak_force_N": 1e6}, feed={"write": "new.nc"})
+        warnings = self.answer()[1]
+        self.assertNotIn("not_used", warnings)
+        self.assertIn("power", {row["held_by"] for row in self.rows("feeds.csv")})
 
     def test_without_forces_there_are_the_moves(self):
         for code, changes in (
