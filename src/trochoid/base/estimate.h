@@ -10,6 +10,12 @@ struct Estimate {
   double high = 0.0;  ///< of the 95 % interval
 };
 
+/// Mean and standard deviation of what is known beforehand.
+struct Normal {
+  double mean = 0.0;
+  double sd = 0.0;
+};
+
 /// Half of a 95 % interval over its standard error, where that itself is well known.
 inline constexpr double normal_interval = 1.96;
 

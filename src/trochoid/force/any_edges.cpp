@@ -254,21 +254,45 @@ void AnyForce::loads(std::span<const double> phi, double gauge_length,
   }
 }
 
+namespace {
+
+/// @brief Add loads, and the same in the frame that turns with the tool.
+/// @param phi  angle of the tip of tooth 1 [rad]
+void add_turning(const SixLoads& loads, double phi, std::array<double, 10>& sum) {
+  const double s = std::sin(phi);
+  const double c = std::cos(phi);
+  for (std::size_t q = 0; q < loads.size(); ++q) sum[q] += loads[q];
+  sum[6] += loads[0] * s + loads[1] * c;  // F-32
+  sum[7] += loads[1] * s - loads[0] * c;
+  sum[8] += loads[4] * s + loads[5] * c;
+  sum[9] += loads[5] * s - loads[4] * c;
+}
+
+}  // namespace
+
+AnyForce::TenMeans AnyForce::allowed_means(double gauge_length) const {
+  const SixLoads six = allowed_loads(gauge_length);
+  return {six[0], six[1], six[2], six[3], six[4],
+          six[5], six[0], six[1], six[4], six[5]};
+}
+
 void AnyForce::add_turn(const chip::TeethAtHeight& teeth, double z, double gauge_length,
-                        double weight, SixLoads& sum) const {
+                        double weight, TenMeans& sum) const {
   constexpr double opposite = -0.5 * std::numbers::pi;
-  SixLoads allowed = allowed_loads(gauge_length);
+  TenMeans allowed = allowed_means(gauge_length);
   const double length = edges_.zones.back().to - edges_.zones.front().from;
   for (double& x : allowed) x *= unit::turn / length;  // per height, over a turn
-  SixLoads turn{};
+  TenMeans turn{};
   for (std::size_t j = 0; j < teeth.teeth(); ++j) {
     if (!teeth.there(j)) continue;
     const geometry::EdgeAt& at = teeth.edge(j);
-    const auto add = [&](double theta, double w, SixLoads& out) {
+    const auto add = [&](double theta, double w, TenMeans& out) {
       const chip::Chip chip = teeth.chip(j, theta);
       if (!chip.in_cut) return;
+      SixLoads loads{};
       add_loads(element_at(at, theta + at.position.epsilon, z - gauge_length),
-                times(force_per_height(chip, at), w), out);
+                times(force_per_height(chip, at), w), loads);
+      add_turning(loads, theta + at.omega, out);
     };
     for (const chip::ChipPiece& piece : chip::engaged_pieces(
              teeth.passage(), teeth.slice(j), teeth.place(j), opposite)) {
@@ -281,19 +305,22 @@ void AnyForce::add_turn(const chip::TeethAtHeight& teeth, double z, double gauge
   }
 }
 
-SixLoads AnyForce::mean(double gauge_length) const {
-  SixLoads sum{};
-  const SixLoads allowed = allowed_loads(gauge_length);
+TurnMeans AnyForce::mean(double gauge_length) const {
+  TenMeans sum{};
+  const TenMeans allowed = allowed_means(gauge_length);
   for (const Zone& zone : edges_.zones) {
     chip::TeethAtHeight teeth(edges_.edges, edges_.passage);
-    const auto add = [&](double t, double weight, SixLoads& out) {
+    const auto add = [&](double t, double weight, TenMeans& out) {
       teeth.stand_at(zone.from, zone.beyond(t), zone.there);
       add_turn(teeth, zone.from + zone.beyond(t), gauge_length, weight * zone.slope(t),
                out);
     };
     numerics::add_integral(0.0, 1.0, add, allowed, 1e-4, sum);
   }
-  return sum;
+  TurnMeans out;
+  std::copy_n(sum.begin(), 6, out.fixed.begin());
+  std::copy_n(sum.begin() + 6, 4, out.turning.begin());
+  return out;
 }
 
 }  // namespace trochoid::force

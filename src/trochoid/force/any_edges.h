@@ -66,7 +66,7 @@ class AnyForce {
   void loads(std::span<const double> phi, double gauge_length,
              std::span<SixLoads> all) const;
   /// @brief Mean of a turn, as an integral over theta at each height (F-31).
-  [[nodiscard]] SixLoads mean(double gauge_length) const;
+  [[nodiscard]] TurnMeans mean(double gauge_length) const;
 
   [[nodiscard]] const AnyEdges& edges() const noexcept { return edges_; }
 
@@ -77,8 +77,10 @@ class AnyForce {
   [[nodiscard]] SixLoads allowed_loads(double gauge_length) const;
   [[nodiscard]] std::array<double, 3> force_per_height(
       const chip::Chip& chip, const geometry::EdgeAt& at) const;
+  using TenMeans = std::array<double, 10>;  ///< of TurnMeans, one after the other
+  [[nodiscard]] TenMeans allowed_means(double gauge_length) const;
   void add_turn(const chip::TeethAtHeight& teeth, double z, double gauge_length,
-                double weight, SixLoads& sum) const;
+                double weight, TenMeans& sum) const;
 
   AnyEdges edges_;
   Terms terms_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/force/edge_curve.h>
+#include <trochoid/force/forces.h>
 #include <trochoid/force/law.h>
 
 #include <array>
@@ -8,10 +9,6 @@
 #include <span>
 
 namespace trochoid::force {
-
-/// Force [N] in x, y, z, torque about the spindle axis and bending moments about x and y
-/// [N m].
-using SixLoads = std::array<double, 6>;
 
 /// @brief An element of edge: which way it faces and where it is.
 struct Element {

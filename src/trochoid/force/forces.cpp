@@ -286,16 +286,16 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
   return out;
 }
 
-std::vector<Loads> without_bending(const TurnTeeth& teeth, const Terms& terms,
-                                   std::span<const double> phi) {
-  std::vector<Loads> out(phi.size());
+std::vector<SixLoads> without_bending(const TurnTeeth& teeth, const Terms& terms,
+                                      std::span<const double> phi) {
+  std::vector<SixLoads> out(phi.size());
   std::vector<double> three(3 * phi.size());
   evaluate(turn_polynomial(teeth, force_weights(terms)), phi, three);
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    std::copy_n(&three[3 * i], 3, out[i].force.begin());
+    std::copy_n(&three[3 * i], 3, out[i].begin());
   }
   evaluate(turn_polynomial(teeth, torque_weights(terms)), phi, three);
-  for (std::size_t i = 0; i < phi.size(); ++i) out[i].torque = three[3 * i + 2];
+  for (std::size_t i = 0; i < phi.size(); ++i) out[i][3] = three[3 * i + 2];
   return out;
 }
 
@@ -485,7 +485,7 @@ MeanLoads exact_mean(const Setup& setup, const Law& law, double tolerance) {
     return {mean(turn_polynomial(*teeth, force_weights(terms(law)))),
             mean(turn_polynomial(*teeth, torque_weights(terms(law))))[2]};
   }
-  const SixLoads v = AnyForce(setup, law, tolerance).mean(0.0);
+  const SixLoads v = AnyForce(setup, law, tolerance).mean(0.0).fixed;
   return {{v[0], v[1], v[2]}, v[3]};
 }
 
@@ -505,26 +505,39 @@ void forces_of_many(std::span<const Setup> setups, const Law& law,
   });
 }
 
-std::vector<Loads> loads(const Setup& setup, const Law& law,
-                         std::span<const double> phi,
-                         std::optional<double> gauge_length, double tolerance) {
+TurnMeans turn_means(const Setup& setup, const Law& law, double gauge_length,
+                     double tolerance) {
+  return AnyForce(setup, law, tolerance).mean(gauge_length);
+}
+
+std::vector<SixLoads> six_loads(const Setup& setup, const Law& law,
+                                std::span<const double> phi,
+                                std::optional<double> gauge_length, double tolerance) {
   if (!gauge_length) {
     if (const auto teeth =
             linear_turn(setup, law, std::min(tolerance, turn_tolerance))) {
       return without_bending(*teeth, terms(law), phi);
     }
   }
-  std::vector<Loads> loads;
-  loads.reserve(phi.size());
-  for (const SixLoads& v :
-       loads_of_any(setup, law, phi, gauge_length.value_or(0.0), tolerance)) {
-    loads.push_back({{v[0], v[1], v[2]}, v[3], std::hypot(v[4], v[5])});
-  }
+  std::vector<SixLoads> out =
+      loads_of_any(setup, law, phi, gauge_length.value_or(0.0), tolerance);
   if (keeps_radius(setup)) {  // good to more digits, and costs nothing
     const auto exact = forces(setup, law, phi, tolerance);
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      loads[i].force = exact[i];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      std::ranges::copy(exact[i], out[i].begin());
     }
+  }
+  return out;
+}
+
+std::vector<Loads> loads(const Setup& setup, const Law& law,
+                         std::span<const double> phi,
+                         std::optional<double> gauge_length, double tolerance) {
+  std::vector<Loads> loads;
+  loads.reserve(phi.size());
+  for (const SixLoads& v : six_loads(setup, law, phi, gauge_length, tolerance)) {
+    loads.push_back(
+        {{v[0], v[1], v[2]}, v[3], gauge_length ? std::hypot(v[4], v[5]) : 0.0});
   }
   return loads;
 }

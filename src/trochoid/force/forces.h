@@ -14,6 +14,10 @@ namespace trochoid::force {
 
 using Vector3 = std::array<double, 3>;
 
+/// Force [N] in x, y, z, torque about the spindle axis and bending moments about x and y
+/// [N m].
+using SixLoads = std::array<double, 6>;
+
 /// @brief The matrix [C] of eq. 19, prepared once for a setup and evaluated anywhere.
 ///
 /// Only the exponents of a Power law are used here, never the coefficients.
@@ -83,6 +87,26 @@ struct MeanLoads {
 /// height, not a mean of samples.
 /// @eq F-31 mean = 1/(2 pi) sum over teeth of the integral over z and theta of [B] dF
 MeanLoads exact_mean(const Setup& setup, const Law& law, double tolerance);
+
+/// Means over a turn of all that a sensor may read.
+struct TurnMeans {
+  SixLoads fixed{};  ///< in the workpiece frame
+  /// F_u, F_v [N], M_u, M_v [N m] in the frame that turns with the tool, u through the tip
+  /// of tooth 1 (F-32).
+  std::array<double, 4> turning{};
+};
+
+/// @brief Means as exact_mean, with bending moments and in the turning frame.
+/// @param gauge_length  of the section about which moments are taken [m]
+TurnMeans turn_means(const Setup& setup, const Law& law, double gauge_length,
+                     double tolerance);
+
+/// @brief Force, torque and bending moments about x and y at the angles phi [rad].
+/// @param gauge_length  of the section [m]; nothing: moments are not asked for and stay 0
+/// @return shape (n)
+std::vector<SixLoads> six_loads(const Setup& setup, const Law& law,
+                                std::span<const double> phi,
+                                std::optional<double> gauge_length, double tolerance);
 
 /// @brief Force, torque and bending moment at the angles phi [rad] (F-4, F-6, F-7).
 /// @param gauge_length  height of the section above the tool tip [m]; nothing: bending is

@@ -3,6 +3,7 @@
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/stop.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/identification/channel_report.h>
 #include <trochoid/identification/response.h>
 
 #include <array>
@@ -130,8 +131,6 @@ struct ChannelOffset {
   double slope = 0.0;     ///< change from the first sample to the last [N]
 };
 
-using base::Estimate;
-
 /// How much of the measured force a fit does not explain, as parts of its RMS from 0
 /// to 1. Constants and slopes of the channels, where they are fitted, are no force.
 struct Unexplained {
@@ -142,7 +141,16 @@ struct Unexplained {
 };
 
 /// What an unknown of a fit is.
-enum class FoundKind { coefficient, exponent, offset, eccentricity_x, eccentricity_y };
+enum class FoundKind {
+  coefficient,
+  exponent,
+  offset,
+  eccentricity_x,
+  eccentricity_y,
+  axial_offset,
+  tilt_x,  ///< tan of the tilt, along the tip of tooth 1
+  tilt_y,
+};
 
 /// An unknown that has a value and an error.
 struct Found {
@@ -220,6 +228,7 @@ struct Fit {
   Resonances resonances = {};
   /// Fitted force of each run with its channel offsets, shape (n).
   std::vector<std::vector<std::array<double, 3>>> fitted;
+  std::optional<ChannelReport> channels;  ///< of a fit to the channels of a sensor
 };
 
 /// Whether a fit says of a quantity, by its name in files, that it has no value.

@@ -161,9 +161,11 @@ void compare(const Knowledge& known, const Asked& asked, const CutRequest& reque
     outcomes[i] = outcome_of(known, asked, request.max_force, request.cuts[i]);
   });
   std::map<std::string, std::size_t> reasons;
-  for (Outcome& one : outcomes) {
+  std::multimap<double, const PlannedCut*>
+      best_first;  // equal ones as they were asked for
+  for (const Outcome& one : outcomes) {
     if (one.left_out.empty()) {
-      plan.cuts.push_back(std::move(one.cut));
+      best_first.emplace(one.cut.log_determinant, &one.cut);
     } else {
       ++reasons[one.left_out];
     }
@@ -171,10 +173,7 @@ void compare(const Knowledge& known, const Asked& asked, const CutRequest& reque
   for (const auto& [reason, count] : reasons) {
     plan.left_out.push_back({reason, count});
   }
-  std::stable_sort(plan.cuts.begin(), plan.cuts.end(),
-                   [](const PlannedCut& a, const PlannedCut& b) {
-                     return a.log_determinant < b.log_determinant;
-                   });
+  for (const auto& [determinant, cut] : best_first) plan.cuts.push_back(*cut);
 }
 
 /// Equations less unknowns once the cut has been measured: it has a phase of its own.

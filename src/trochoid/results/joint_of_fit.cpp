@@ -35,6 +35,12 @@ Named named(const force::Law& law, const Found& found) {
       return {"runout.e_x_mm", unit::mm};
     case FoundKind::eccentricity_y:
       return {"runout.e_y_mm", unit::mm};
+    case FoundKind::axial_offset:
+      return {fmt::format("runout.axial_offsets_mm[{}]", found.at + 1), unit::mm};
+    case FoundKind::tilt_x:
+      return {"runout.t_x"};
+    case FoundKind::tilt_y:
+      return {"runout.t_y"};
   }
   return {};
 }
@@ -53,6 +59,7 @@ std::string key_of(const Fit& fit, std::size_t group, const std::string& what) {
     }
   }
   const bool runout = what.starts_with("radial_offsets_mm") ||
+                      what.starts_with("axial_offsets_mm") || what == "tilt_deg" ||
                       what == "eccentricity_mm" || what == "angle_deg";
   return runout ? "runout." + what : std::string();
 }
