@@ -10,6 +10,7 @@
 #include <trochoid/files/record_source.h>
 #include <trochoid/files/transmission_file.h>
 #include <trochoid/force/law.h>
+#include <trochoid/force/sensor.h>
 #include <trochoid/force/setup.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/signal/record.h>
@@ -42,6 +43,9 @@ struct Dynamometer {
   files::FileRef frf;      ///< measured response, channel over force; or none
   Held<files::TransmissionFile> response;  ///< what it holds
   std::array<std::array<double, 3>, 3> matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  force::Sensor sensor;      ///< the same as axes; no channels: a full matrix, or auto
+  bool sensor_free = false;  ///< the angle of the sensor is found
+  std::vector<double> channel_sd;  ///< of a sample of each channel; empty: unknown
 };
 
 /// One [[measurement]].
@@ -50,8 +54,10 @@ struct Measurement {
   Held<signal::Record> record;
   std::optional<double> from;  ///< what is before it is not used [s]
   std::optional<double> to;    ///< what is after it is not used [s]
-  std::string group;           ///< those of one name share coefficients
-  geometry::Cut cut;           ///< [cut] with this run's overrides
+  std::vector<double> mean;    ///< not empty: of each channel, instead of a record
+  std::vector<double> mean_sd;
+  std::string group;  ///< those of one name share coefficients
+  geometry::Cut cut;  ///< [cut] with this run's overrides
 };
 
 /// What is done about a constant or slowly drifting reading of each channel.
@@ -105,6 +111,13 @@ struct Identify {
   Shared shared = Shared::runout;  ///< by groups of measurements
   std::optional<PreviousClamping> previous_clamping;
   std::optional<base::Steps> sweep;  ///< of the offset of tooth 2 [m]
+  bool axial_offsets = false;        ///< are found as well
+  bool tilt = false;                 ///< is found as well
+  /// Of each coefficient of the law [SI]; empty: none.
+  std::vector<std::optional<base::Normal>> prior = {};
+  /// The channels are fitted as they are, each with its own weight: they are not three
+  /// forces, or their standard deviations, means or a prior are given.
+  bool by_channels = false;
 };
 
 /// A kind of cut that a plan looks at.

@@ -154,9 +154,19 @@ struct ValueSchema {
   }
   Json operator()(const Choice& choice) const { return {{"enum", choice.names}}; }
   Json operator()(const Choices& choices) const {
-    Json out = list_of(Json{{"enum", choices.names}}, 1, 0);
+    const Json one{{"enum", choices.names}};
+    Json out = list_of(one, 1, 0);
     out["uniqueItems"] = true;
-    return out;
+    return choices.alone ? Json{{"anyOf", {one, out}}} : out;
+  }
+  Json operator()(const std::optional<base::Normal>*) const {
+    const Json number = number_of("number", key.range);
+    return {{"type", "object"},
+            {"properties",
+             {{"mean", number},
+              {"sd", number_of("number", {0.0, key.range.high, true, false})}}},
+            {"required", {"mean", "sd"}},
+            {"additionalProperties", false}};
   }
   Json operator()(const std::optional<files::Direction>*) const {
     const Json axis{{"type", "string"}, {"pattern", "^[+-]?[xyzXYZ]$"}};

@@ -247,6 +247,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
     settle_serrated_models(t, findings);
     c.identify = identify_of(*t.identify, t, findings);
   }
+  settle_channels(t, purpose, findings, c);
   check_machine(t.machine, t.tool, findings);
   if (purpose == Command::surface || purpose == Command::calibrate) {
     check_wall_cut(t, name_of(purpose), findings);
@@ -311,6 +312,7 @@ std::vector<std::string> read_tools(NcProgram& program, const Findings& findings
 /// Every file that the case names is read when its data are asked for.
 void hold_data(Case& c) {
   for (Measurement& m : c.measurements) {
+    if (!m.mean.empty()) continue;
     m.record = Held<signal::Record>::by(
         [source = m.source] { return files::read_record(source); });
   }

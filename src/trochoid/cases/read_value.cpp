@@ -215,6 +215,10 @@ struct ValueReader {
     }
   }
   void operator()(const Choices& choices) const {
+    if (choices.alone && std::holds_alternative<std::string>(node.value)) {
+      if (const auto i = chosen(node, 0, choices.names)) choices.set({*i});
+      return;
+    }
     std::vector<int> all;
     const Array* entries = list(0);
     for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
@@ -228,6 +232,18 @@ struct ValueReader {
     if (entries != nullptr) {
       choices.set(all);
     }
+  }
+  void operator()(std::optional<base::Normal>* target) const {
+    const auto* table = std::get_if<Members>(&node.value);
+    const Node* mean = table != nullptr ? find(node, "mean") : nullptr;
+    const Node* sd = table != nullptr ? find(node, "sd") : nullptr;
+    if (mean == nullptr || sd == nullptr || table->size() != 2) {
+      return refuse(node, 0, "not a table with mean and sd");
+    }
+    const auto value = number(*mean, 0);
+    const auto error = number(*sd, 0);
+    if (error && !(*error > 0.0)) return refuse(*sd, 0, "an sd that is not above 0");
+    if (value && error) target->emplace(base::Normal{*value, *error});
   }
   void operator()(std::optional<files::Direction>* target) const {
     if (const auto* text = std::get_if<std::string>(&node.value)) {

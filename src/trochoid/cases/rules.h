@@ -49,6 +49,11 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
 Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                      Findings& findings);
 
+/// @brief Channels, their standard deviations, means and the prior against one another;
+/// decides whether the channels are fitted as they are.
+void settle_channels(const CaseTables& tables, Command purpose, Findings& findings,
+                     Case& c);
+
 void check_machine(MachineTables& machine, const ToolTable& tool, Findings& findings);
 
 /// @brief What a surface needs so that there is one finished wall; fills in [surface].

@@ -3,6 +3,7 @@
 #include <trochoid/cases/rules.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,36 +18,66 @@ constexpr double least_determinant = 1e-7;
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// -1 for none of the six names.
-int axis_of(std::string_view name) {
-  if (!name.empty() && (name.front() == '-' || name.front() == '+')) {
-    name.remove_prefix(1);
-  }
-  return name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : -1;
+/// Nothing where a text is no axis.
+std::optional<force::Channel> channel_named(std::string_view name) {
+  const double sign = name.starts_with('-') ? -1.0 : 1.0;
+  if (name.starts_with('-') || name.starts_with('+')) name.remove_prefix(1);
+  const auto& names = force::channel_axis_names;
+  const auto* const at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) return std::nullopt;
+  return force::Channel{static_cast<force::ChannelAxis>(at - names.begin()), sign};
 }
 
-Matrix matrix_of_axes(const std::vector<std::string>& axes, Findings& findings) {
-  Matrix matrix{};
-  std::array<int, 3> uses{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int axis = axis_of(axes[i]);
-    if (axis < 0) {
-      report(findings, "dynamometer.axes",
-             fmt::format("dynamometer.axes entry {} = {}: no axis; must be x, y or z, "
-                         "with a sign if need be (what channel {} reads)",
-                         i + 1, toml_string(axes[i]), i + 1));
-      return matrix;
-    }
-    const auto j = static_cast<std::size_t>(axis);
-    matrix[i][j] = axes[i].front() == '-' ? -1.0 : 1.0;
-    ++uses[j];
-  }
-  if (uses != std::array{1, 1, 1}) {
+/// What the channels read; empty, with a report, where the axes are wrong.
+std::vector<force::Channel> channels_named(const std::vector<std::string>& axes,
+                                           Findings& findings) {
+  constexpr std::size_t most = 8;
+  std::vector<force::Channel> out;
+  if (axes.size() > most) {
     report(
         findings, "dynamometer.axes",
-        fmt::format("dynamometer.axes = [{}, {}, {}]: an axis is there twice; must be "
-                    "x, y and z, each once, in any order and with any sign",
-                    toml_string(axes[0]), toml_string(axes[1]), toml_string(axes[2])));
+        fmt::format("dynamometer.axes: {} entries; must be 1 to 8 (what each channel "
+                    "reads)",
+                    axes.size()));
+    return {};
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto channel = channel_named(axes[i]);
+    if (!channel) {
+      report(findings, "dynamometer.axes",
+             fmt::format("dynamometer.axes entry {} = {}: no axis; must be {}, with a "
+                         "sign if need be (what channel {} reads)",
+                         i + 1, toml_string(axes[i]),
+                         fmt::join(force::channel_axis_names, ", "), i + 1));
+      return {};
+    }
+    if (std::ranges::find(out, channel->axis, &force::Channel::axis) != out.end()) {
+      report(
+          findings, "dynamometer.axes",
+          fmt::format("dynamometer.axes entry {} = {}: an axis is there twice; must be "
+                      "x, y, z or others, each once, in any order and with any sign",
+                      i + 1, toml_string(axes[i])));
+      return {};
+    }
+    out.push_back(*channel);
+  }
+  return out;
+}
+
+/// Of forces in x, y and z, the missing ones last; nothing where the channels read anything
+/// else.
+std::optional<Matrix> matrix_of(const std::vector<force::Channel>& channels) {
+  Matrix matrix{};
+  std::array<bool, 3> used{};
+  std::size_t row = 0;
+  for (const force::Channel& one : channels) {
+    const auto axis = static_cast<std::size_t>(one.axis);
+    if (axis >= 3) return std::nullopt;
+    matrix[row++][axis] = one.sign;
+    used[axis] = true;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!used[axis]) matrix[row++][axis] = 1.0;
   }
   return matrix;
 }
@@ -83,7 +114,10 @@ void check_clamping(const IdentifyTable& table, Findings& findings) {
                     "can be told apart; must be at least 1 deg off a whole turn",
                     key, number_text(table.previous_clamping->turned, unit::deg)));
   }
-  if (!table.runout || !identification::finds_eccentricity(*table.runout)) {
+  const bool searched = std::ranges::any_of(table.runout, [](RunoutGroup group) {
+    return group == RunoutGroup::eccentricity || group == RunoutGroup::both;
+  });
+  if (!searched) {
     report(findings, key,
            key +
                ": only an eccentricity has a part of the holder; must go with "
@@ -124,15 +158,19 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
   }
   result.rigid = table.resonance == Resonance::none;
   result.frf = table.frf;
+  result.sensor.angle = table.sensor.value_or(0.0);
+  result.sensor_free = !table.sensor;
+  result.channel_sd = table.channel_sd;
   if (!table.axes.empty() && !table.matrix.empty()) {
     report(
         findings, "dynamometer.matrix",
         "dynamometer.matrix: axes is given as well; must be one of the two (what the "
         "channels read)");
-  } else if (table.axes.size() == 3) {
-    result.matrix = matrix_of_axes(table.axes, findings);
-  } else if (!table.axes.empty()) {
+  } else if (table.axes == std::vector<std::string>{"auto"}) {
     result.automatic = true;
+  } else if (!table.axes.empty()) {
+    result.sensor.channels = channels_named(table.axes, findings);
+    result.matrix = matrix_of(result.sensor.channels).value_or(result.matrix);
   } else if (table.matrix.size() == 3) {
     std::copy(table.matrix.begin(), table.matrix.end(), result.matrix.begin());
     check_invertible(result.matrix, findings);
@@ -147,6 +185,8 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
   Measurement m{.source = source,
                 .from = table.from,
                 .to = table.to,
+                .mean = table.mean,
+                .mean_sd = table.mean_sd,
                 .group = table.group,
                 .cut = cut_of(table.cut, path + ".cut", cutter, findings)};
   if (std::any_of(table.group.begin(), table.group.end(),
@@ -171,7 +211,6 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                     path, toml_string(source.pulse_column)));
   }
   if (!source.columns.empty()) {
-    m.source.columns.resize(3);
     check_columns(source.columns, path + ".columns", findings);
   }
   if (std::find(source.scale.begin(), source.scale.end(), 0.0) != source.scale.end()) {
@@ -188,10 +227,42 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
   return m;
 }
 
+namespace {
+
+/// What is searched of the runout.
+void settle_runout(const std::vector<RunoutGroup>& groups, Identify& result,
+                   Findings& findings) {
+  const auto has = [&](RunoutGroup group) {
+    return std::ranges::find(groups, group) != groups.end();
+  };
+  for (const RunoutGroup alone :
+       {RunoutGroup::automatic, RunoutGroup::none, RunoutGroup::fixed}) {
+    if (!has(alone) || groups.size() == 1) continue;
+    report(
+        findings, "identify.runout",
+        fmt::format("identify.runout: \"{}\" stands in a list; must stand alone (what "
+                    "is searched of the runout)",
+                    name_of(alone)));
+  }
+  using identification::RunoutUnknowns;
+  const bool offsets = has(RunoutGroup::offsets) || has(RunoutGroup::both);
+  const bool centre = has(RunoutGroup::eccentricity) || has(RunoutGroup::both);
+  result.axial_offsets = has(RunoutGroup::axial);
+  result.tilt = has(RunoutGroup::tilt);
+  if (has(RunoutGroup::automatic)) return;
+  result.runout = has(RunoutGroup::none) ? RunoutUnknowns::none
+                  : offsets && centre    ? RunoutUnknowns::both
+                  : offsets              ? RunoutUnknowns::offsets
+                  : centre               ? RunoutUnknowns::eccentricity
+                                         : RunoutUnknowns::fixed;
+}
+
+}  // namespace
+
 Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                      Findings& findings) {
   Identify result{.chip_models = table.chip_models,
-                  .runout = table.runout,
+                  .runout = std::nullopt,
                   .phase = table.phase,
                   .band_harmonics = std::nullopt,
                   .channel_offsets = table.channel_offsets,
@@ -210,6 +281,7 @@ Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
     }
     result.band_harmonics = static_cast<int>(n);
   }
+  settle_runout(table.runout, result, findings);
   check_clamping(table, findings);
   if (table.shared == Shared::coefficients) {
     report(findings, "identify.shared",

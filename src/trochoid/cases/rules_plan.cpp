@@ -24,9 +24,9 @@ bool looks_for_runout(const CaseTables& t) {
                         : std::any_of(models.begin(), models.end(), [](chip::Model m) {
                             return chip::feels_runout(m);
                           });
-  const auto& runout = t.identify->runout;
-  const bool found = !runout || identification::finds_offsets(*runout) ||
-                     identification::finds_eccentricity(*runout);
+  const bool found = std::ranges::none_of(t.identify->runout, [](RunoutGroup group) {
+    return group == RunoutGroup::none || group == RunoutGroup::fixed;
+  });
   return felt && found && t.tool.teeth > 1;
 }
 

@@ -107,7 +107,8 @@ struct Expectation {
     return fmt::format("one of \"{}\"", fmt::join(c.names, "\", \""));
   }
   std::string operator()(const Choices& c) const {
-    return fmt::format("a list with any of \"{}\"", fmt::join(c.names, "\", \""));
+    return fmt::format("{}a list with any of \"{}\"", c.alone ? "one, or " : "",
+                       fmt::join(c.names, "\", \""));
   }
   std::string operator()(const CutTable*) const {
     return "a table { key = value, ... }";
@@ -120,6 +121,9 @@ struct Expectation {
   }
   std::string operator()(const std::optional<geometry::Serration>*) const {
     return "a table { key = value, ... }";
+  }
+  std::string operator()(const std::optional<base::Normal>*) const {
+    return "a table { mean = value, sd = value }, both numbers" + limits();
   }
   std::string operator()(const PerTooth*) const {
     return fmt::format("a number{0}, or a list of one for each tooth", limits());
@@ -257,7 +261,13 @@ struct ValueWriter {
     for (const int i : c.get()) {
       entries.push_back(toml_string(c.names[static_cast<std::size_t>(i)]));
     }
+    if (c.alone && entries.size() == 1) return entries.front();
     return entries.empty() ? Text{} : fmt::format("[{}]", fmt::join(entries, ", "));
+  }
+  Text operator()(const std::optional<base::Normal>* v) const {
+    if (!*v) return std::nullopt;
+    return fmt::format("{{ mean = {}, sd = {} }}", number_text((*v)->mean, factor),
+                       number_text((*v)->sd, factor));
   }
   Text operator()(const std::optional<files::Direction>* v) const {
     return *v ? Text(direction_text(**v)) : Text{};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/base/command.h>
+#include <trochoid/base/estimate.h>
 #include <trochoid/base/steps.h>
 #include <trochoid/cases/previous_clamping.h>
 #include <trochoid/cases/program_tables.h>
@@ -88,6 +89,7 @@ struct Choice {
 
 struct Choices {
   std::span<const std::string_view> names;
+  bool alone = false;  ///< one of them may be written as a text, and is
   std::function<std::vector<int>()> get;
   std::function<void(const std::vector<int>&)> set;
 };
@@ -103,13 +105,15 @@ struct PerTooth {
 struct CutTable;
 
 /// The variable behind a key, in SI and radians. Empty lists and texts count as absent.
-using Field = std::variant<
-    bool*, int*, double*, std::optional<double>*, std::string*, files::FileRef*,
-    std::vector<double>*, std::optional<base::Steps>*, std::vector<std::string>*, Rows*,
-    Choice, Choices, CutTable*, std::optional<PreviousClamping>*,
-    std::optional<files::SurfaceFrame>*, std::optional<files::Direction>*, Pairs*,
-    std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*, NamedPlaces*,
-    NamedFiles*, ArcLayers*, PerTooth*, std::optional<geometry::Serration>*>;
+using Field =
+    std::variant<bool*, int*, double*, std::optional<double>*, std::string*,
+                 files::FileRef*, std::vector<double>*, std::optional<base::Steps>*,
+                 std::vector<std::string>*, Rows*, Choice, Choices, CutTable*,
+                 std::optional<PreviousClamping>*, std::optional<files::SurfaceFrame>*,
+                 std::optional<files::Direction>*, Pairs*,
+                 std::optional<StockCylinder>*, ToolName*, std::vector<ToolName>*,
+                 NamedPlaces*, NamedFiles*, ArcLayers*, PerTooth*,
+                 std::optional<geometry::Serration>*, std::optional<base::Normal>*>;
 
 /// Called for each key of a table, in the order in which the keys are written.
 using Visitor = std::function<void(const Key&, const Field&)>;

@@ -56,7 +56,7 @@ Field choices(std::vector<Enum>& values) {
       values.push_back(static_cast<Enum>(i));
     }
   };
-  return Choices{base::names<Enum>, get, set};
+  return Choices{.names = base::names<Enum>, .get = get, .set = set};
 }
 
 }  // namespace trochoid::cases

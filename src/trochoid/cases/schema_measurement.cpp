@@ -2,6 +2,8 @@
 #include <trochoid/cases/tables.h>
 #include <trochoid/files/record_source.h>
 
+#include <set>
+
 namespace trochoid::cases {
 
 void describe(const Visitor& v, Sampling& t) {
@@ -43,10 +45,11 @@ void describe(const Visitor& v, Sampling& t) {
 
 void describe(const Visitor& v, DynamometerTable& t) {
   v({.name = "axes",
-     .meaning = "what channels 1 to 3 read in terms of the force on the tool: x, y, z, "
-                "each once, with a sign; auto: found from the record",
+     .meaning =
+         "what each of 1 to 8 channels reads, with a sign: force on the tool x, y, "
+         "z, or u, v that turn with it; torque; moments Mx, My, Mu, Mv about the "
+         "gauge length; power of the spindle. auto: x, y, z found from the record",
      .need = Need::always,
-     .count = 3,
      .word = "auto",
      .rival = "matrix",
      .example = "[\"-x\", \"-y\", \"-z\"]"},
@@ -57,6 +60,17 @@ void describe(const Visitor& v, DynamometerTable& t) {
      .rival = "axes",
      .example = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"},
     &t.matrix);
+  v({.name = "sensor_deg",
+     .meaning = "angle of u from the tip of tooth 1 towards tooth 2; free: found",
+     .range = between(-360, 360),
+     .word = "free"},
+    &t.sensor);
+  v({.name = "channel_sd",
+     .meaning = "standard deviation of one sample of each channel, in N, Nm or W; of "
+                "means that give none, their weights",
+     .range = above_up_to(0, 1e9),
+     .example = "[0.5, 0.5, 0.8]"},
+    &t.channel_sd);
   v({.name = "gain_sd",
      .meaning =
          "standard deviation of the gain of each channel, 0.01 for one per cent: "
@@ -93,9 +107,8 @@ namespace {
 /// What the columns of a record are called.
 void describe_columns(const Visitor& v, files::RecordSource& t) {
   v({.name = "columns",
-     .meaning = "names of the columns of channels 1 to 3; \"\": this channel was not "
+     .meaning = "names of the columns of the channels; \"\": this channel was not "
                 "measured",
-     .count = 3,
      .gaps = true,
      .standard = "found by name",
      .example = "[\"Fx\", \"Fy\", \"Fz\"]"},
@@ -123,8 +136,23 @@ void describe(const Visitor& v, MeasurementTable& t) {
   v({.name = "file",
      .meaning = "the force record, relative to the file that names it",
      .need = Need::always,
+     .rival = "mean",
      .file = "a force record"},
     &t.source.file);
+  v({.name = "mean",
+     .meaning =
+         "instead of a file: the mean of each channel over whole turns, in N, Nm or "
+         "W",
+     .range = between(-1e9, 1e9),
+     .rival = "file",
+     .example = "[-90.5, 179.3, -54.6]"},
+    &t.mean);
+  v({.name = "mean_sd",
+     .meaning = "standard deviations of these means",
+     .range = above_up_to(0, 1e9),
+     .standard = "channel_sd as weights, else the rms of each channel",
+     .example = "[0.8, 0.8, 0.5]"},
+    &t.mean_sd);
   v({.name = "format", .meaning = "format of the record; detect: from its content"},
     choice(t.source.format, "detect"));
   describe_columns(v, t.source);
@@ -135,10 +163,9 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .example = "10000"},
     &t.source.sample_rate);
   v({.name = "scale",
-     .meaning = "newtons per unit of channels 1 to 3, whatever unit the record names: "
+     .meaning = "N, Nm or W per unit of each channel, whatever unit the record names: "
                 "of volts, the range of the charge amplifier by its full output",
      .range = between(-1e12, 1e12),
-     .count = 3,
      .standard = "by the unit of each column",
      .example = "[500, 500, 1000]"},
     &t.source.scale);
@@ -199,10 +226,14 @@ void describe(const Visitor& v, PreviousClamping& t) {
 void describe(const Visitor& v, IdentifyTable& t) {
   v({.name = "chip_models", .meaning = "one fit for each of these chip models"},
     choices(t.chip_models));
+  auto runout = std::get<Choices>(choices(t.runout));
+  runout.alone = true;
   v({.name = "runout",
-     .meaning = "none; fixed: [runout] as it stands; or find the radial offsets, the "
-                "eccentricity, or both; auto: what the record decides for"},
-    choice(t.runout, "auto"));
+     .meaning =
+         "none; fixed: [runout] as it stands; or find the radial offsets, the "
+         "eccentricity, both, axial offsets, the tilt, or a list of these; auto: "
+         "what the record decides for"},
+    runout);
   v({.name = "phase_deg",
      .meaning =
          "true angle of the tip of tooth 1 minus the recorded angle; free: found",
@@ -246,6 +277,21 @@ void describe(const Visitor& v, IdentifyTable& t) {
      .range = between(-1e6, 1e6),
      .example = "[-20, 20, 41]"},
     &t.sweep);
+}
+
+void describe(const Visitor& v, PriorTable& t) {
+  std::set<std::string_view> seen;
+  for (const force::Law& law : force::law_kinds) {
+    for (const force::Quantity& quantity : force::coefficient_quantities(law)) {
+      if (!seen.insert(quantity.key).second) continue;
+      v({.name = quantity.key,
+         .meaning = quantity.meaning,
+         .range = between(-1e6, 1e6),
+         .standard = "nothing is known",
+         .example = "{ mean = 1800, sd = 200 }"},
+        &t.numbers[quantity.key]);
+    }
+  }
 }
 
 }  // namespace trochoid::cases

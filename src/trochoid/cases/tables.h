@@ -126,6 +126,8 @@ constexpr std::string_view name_of(Resonance resonance) noexcept {
 struct DynamometerTable {
   std::vector<std::string> axes;
   Rows matrix;
+  std::optional<double> sensor = 0.0;  ///< [rad]; absent: found
+  std::vector<double> channel_sd;
   std::optional<double> gain_sd;
   std::optional<double> turn_sd;
   files::FileRef frf;
@@ -136,13 +138,55 @@ struct MeasurementTable {
   files::RecordSource source;
   std::optional<double> from;
   std::optional<double> to;
+  std::vector<double> mean;
+  std::vector<double> mean_sd;
   std::string group;
   CutTable cut;  ///< complete: [cut] with the overrides of this run
 };
 
+/// [identify] runout: what is searched, alone or several of them.
+enum class RunoutGroup {
+  automatic,
+  none,
+  fixed,
+  offsets,
+  eccentricity,
+  both,
+  axial,
+  tilt,
+};
+
+/// Names of files.
+constexpr std::string_view name_of(RunoutGroup group) noexcept {
+  switch (group) {
+    case RunoutGroup::automatic:
+      return "auto";
+    case RunoutGroup::none:
+      return "none";
+    case RunoutGroup::fixed:
+      return "fixed";
+    case RunoutGroup::offsets:
+      return "offsets";
+    case RunoutGroup::eccentricity:
+      return "eccentricity";
+    case RunoutGroup::both:
+      return "both";
+    case RunoutGroup::axial:
+      return "axial";
+    case RunoutGroup::tilt:
+      return "tilt";
+  }
+  return {};
+}
+
+/// [prior]: by key of a coefficient.
+struct PriorTable {
+  std::map<std::string_view, std::optional<base::Normal>> numbers = {};
+};
+
 struct IdentifyTable {
   std::vector<chip::Model> chip_models = Identify{}.chip_models;
-  std::optional<identification::RunoutUnknowns> runout;
+  std::vector<RunoutGroup> runout = {RunoutGroup::automatic};
   std::optional<double> phase;
   std::optional<double> band_harmonics;
   ChannelOffset channel_offsets = ChannelOffset::automatic;
@@ -165,6 +209,7 @@ struct CaseTables {
   std::optional<DynamometerTable> dynamometer;
   std::vector<MeasurementTable> measurements;
   std::optional<IdentifyTable> identify;
+  std::optional<PriorTable> prior;
   std::optional<Plan> plan;
   MachineTables machine;
   ProgramTables nc;
@@ -181,6 +226,7 @@ void describe(const Visitor& v, Sampling& t);
 void describe(const Visitor& v, DynamometerTable& t);
 void describe(const Visitor& v, MeasurementTable& t);
 void describe(const Visitor& v, IdentifyTable& t);
+void describe(const Visitor& v, PriorTable& t);
 void describe(const Visitor& v, Plan& t);
 void describe(const Visitor& v, PreviousClamping& t);
 void describe(const Visitor& v, files::SurfaceFrame& t);

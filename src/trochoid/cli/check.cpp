@@ -43,10 +43,12 @@ int check(const Options& options) {
     found += fmt::format("warning [{}]: {}\n", note.code, note.message);
   }
   for (const cases::Measurement& measurement : given.measurements) {
+    if (!measurement.mean.empty()) continue;
     try {
       const signal::Record& record = measurement.record.get();
       found += run::describe_record(record, measurement);
-      if (const auto why = run::missing_channel(record, given); !why.empty()) {
+      if (const auto why = run::missing_channel(record, given);
+          !given.identify.by_channels && !why.empty()) {
         problems.push_back(why);
       }
       for (const base::Warning& note : record.notes) {

@@ -64,6 +64,10 @@ struct PipeReader {
 
 void write_record(const signal::Record& record, PipeWriter& out) {
   for (const auto& channel : record.channel) out.values(channel);
+  for (const bool measured : record.measured) out.number(measured ? 1 : 0);
+  out.number(record.further.size());
+  for (const auto& channel : record.further) out.values(channel);
+  for (const auto& column : record.further_column) out.text(column);
   out.values(record.angle);
   out.values(record.time);
   out.values({record.sample_rate});
@@ -80,6 +84,11 @@ void write_record(const signal::Record& record, PipeWriter& out) {
 signal::Record record_in(PipeReader& in) {
   signal::Record record;
   for (auto& channel : record.channel) channel = in.values();
+  for (bool& measured : record.measured) measured = in.number() != 0;
+  record.further.resize(in.number());
+  for (auto& channel : record.further) channel = in.values();
+  record.further_column.resize(record.further.size());
+  for (auto& column : record.further_column) column = in.text();
   record.angle = in.values();
   record.time = in.values();
   record.sample_rate = in.values().at(0);

@@ -24,6 +24,17 @@ constexpr std::array units = {
     Unit{"lbf", Quantity::force, 4.4482216152605},
     Unit{"Newton", Quantity::force, 1.0},  // as measuring programs write it out
     Unit{"Newtons", Quantity::force, 1.0},
+    Unit{"Nm", Quantity::moment, 1.0},
+    Unit{"N.m", Quantity::moment, 1.0},
+    Unit{"N-m", Quantity::moment, 1.0},
+    Unit{"N*m", Quantity::moment, 1.0},
+    Unit{"N m", Quantity::moment, 1.0},
+    Unit{"N\xC2\xB7m", Quantity::moment, 1.0},
+    Unit{"Ncm", Quantity::moment, 1e-2},
+    Unit{"Nmm", Quantity::moment, 1e-3},
+    Unit{"kNm", Quantity::moment, 1e3},
+    Unit{"W", Quantity::power, 1.0},
+    Unit{"kW", Quantity::power, 1e3},
     Unit{"s", Quantity::time, 1.0},
     Unit{"sec", Quantity::time, 1.0},
     Unit{"Seconds", Quantity::time, 1.0},
@@ -70,7 +81,6 @@ constexpr std::array units = {
     Unit{"mV", Quantity::other, 0.0},
     Unit{"pC", Quantity::other, 0.0},
     Unit{"g", Quantity::other, 0.0},
-    Unit{"Nm", Quantity::other, 0.0},
     Unit{"Hz", Quantity::other, 0.0},
     Unit{"min", Quantity::other, 0.0},
     Unit{"lb", Quantity::other, 0.0},
@@ -87,6 +97,10 @@ std::string_view right_units(Quantity quantity) {
   switch (quantity) {
     case Quantity::force:
       return "N, kN, mN, daN or lbf";
+    case Quantity::moment:
+      return "Nm, Ncm, Nmm or kNm";
+    case Quantity::power:
+      return "W or kW";
     case Quantity::time:
       return "s, ms or us";
     case Quantity::length:
@@ -100,6 +114,10 @@ std::string_view noun(Quantity quantity) {
   switch (quantity) {
     case Quantity::force:
       return "force";
+    case Quantity::moment:
+      return "moment";
+    case Quantity::power:
+      return "power";
     case Quantity::time:
       return "time";
     case Quantity::length:
@@ -213,7 +231,10 @@ double unit_factor(const ColumnSearch& search, std::size_t index, Quantity quant
     search.notes.push_back(
         {"unit_assumed",
          fmt::format("Column {} says no unit; it was taken in {}.", excerpt(name),
-                     quantity == Quantity::force ? "N" : "s")});
+                     quantity == Quantity::force    ? "N"
+                     : quantity == Quantity::moment ? "Nm"
+                     : quantity == Quantity::power  ? "W"
+                                                    : "s")});
     return 1.0;
   }
   const Unit* known = find_unit(*unit);

@@ -11,6 +11,8 @@ namespace trochoid::files {
 
 enum class Quantity {
   force,
+  moment,
+  power,
   time,
   angle,
   length,

@@ -156,11 +156,10 @@ void throw_if_any(const Problems& problems) {
 
 void read_columns(const NumericTable& table, const RecordColumns& found,
                   signal::Record& record, Problems& problems) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    record.measured[i] = found.force[i].has_value();
+  keep_channels(found, record);
+  for (std::size_t i = 0; i < found.force.size(); ++i) {
     if (!found.force[i]) continue;
-    record.channel[i] = values_in_si(table, *found.force[i], problems);
-    record.channel_column[i] = found.force[i]->name;
+    record.values_of(i) = values_in_si(table, *found.force[i], problems);
   }
   const auto count = std::max(
       {record.channel[0].size(), record.channel[1].size(), record.channel[2].size()});
@@ -189,8 +188,8 @@ std::vector<double>* values_of(const TableColumn& column, const RecordColumns& f
   const auto is = [&](const std::optional<TableColumn>& other) {
     return other && other->index == column.index;
   };
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (is(found.force[c])) return &read.record.channel[c];
+  for (std::size_t c = 0; c < found.force.size(); ++c) {
+    if (is(found.force[c])) return &read.record.values_of(c);
   }
   if (is(found.angle)) return &read.record.angle;
   return is(found.pulse) ? &read.pulse : nullptr;

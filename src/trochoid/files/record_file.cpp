@@ -83,8 +83,8 @@ void check_stated(const RecordReader& found, const std::optional<RecordFormat>& 
 
 signal::Record read_record(std::istream& in, const std::string& name,
                            const RecordSource& source) {
-  if (!source.columns.empty() && source.columns.size() != 3) {
-    throw std::invalid_argument("read_record: columns must hold 3 names or none");
+  if (!source.columns.empty() && source.columns.size() != source.channels()) {
+    throw std::invalid_argument("read_record: columns must name each channel or none");
   }
   const std::string head = first_bytes(in, longest_head);
   const RecordReader& found = *std::find_if(

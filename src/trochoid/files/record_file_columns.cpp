@@ -22,12 +22,60 @@ constexpr std::array time_names = {"time"sv,
                                    "\xE6\x97\xB6\xE9\x97\xB4"sv,  // in Chinese
                                    "\xCA\xB1\xBC\xE4"sv};         // the same in GBK
 constexpr std::array angle_names = {"angle"sv, "phi"sv, "spindleangle"sv};
-constexpr std::array force_names = {
-    std::array{"fx"sv, "forcex"sv, "channel1"sv},
-    std::array{"fy"sv, "forcey"sv, "channel2"sv},
-    std::array{"fz"sv, "forcez"sv, "channel3"sv},
-};
-constexpr std::size_t usual = 2;  // the rest of the names is second choice
+
+/// What a column is called that a channel may read, in the order of ChannelAxis; names of
+/// rotating dynamometers and sensory tool holders among them.
+constexpr std::array<std::array<std::string_view, 4>, 11> names_by_axis = {{
+    {"fx", "forcex"},
+    {"fy", "forcey"},
+    {"fz", "forcez"},
+    {"fu", "fx'", "fxrot", "forceu"},
+    {"fv", "fy'", "fyrot", "forcev"},
+    {"torque", "mz", "mz'", "mt"},
+    {"mx", "bendingmomentx", "bendingx"},
+    {"my", "bendingmomenty", "bendingy"},
+    {"mu", "mx'", "bendingmomentu", "bendingmomentx"},
+    {"mv", "my'", "bendingmomentv", "bendingmomenty"},
+    {"power", "p", "spindlepower", "pc"},
+}};
+constexpr std::array<std::string_view, 11> shown_by_axis = {
+    "Fx", "Fy", "Fz", "Fu", "Fv", "torque", "Mx", "My", "Mu", "Mv", "power"};
+/// As `simulate` writes them.
+constexpr std::array channel_names = {"channel1"sv, "channel2"sv, "channel3"sv,
+                                      "channel4"sv, "channel5"sv, "channel6"sv,
+                                      "channel7"sv, "channel8"sv};
+
+using force::ChannelAxis;
+
+NameList names_of(ChannelAxis axis) {
+  const auto& names = names_by_axis[static_cast<std::size_t>(axis)];
+  const auto* const end = std::ranges::find(names, std::string_view());
+  return {names.begin(), end};
+}
+
+std::string_view shown(ChannelAxis axis) {
+  return shown_by_axis[static_cast<std::size_t>(axis)];
+}
+
+/// What the channels of a record read.
+std::vector<ChannelAxis> axes_of(const RecordSource& source) {
+  if (!source.axes.empty()) return source.axes;
+  return {ChannelAxis::x, ChannelAxis::y, ChannelAxis::z};
+}
+
+Quantity quantity_of(ChannelAxis axis) {
+  switch (force::unit_of(axis)) {
+    case force::ChannelUnit::newton:
+      return Quantity::force;
+    case force::ChannelUnit::newton_metre:
+      return Quantity::moment;
+    case force::ChannelUnit::watt:
+      break;
+  }
+  return Quantity::power;
+}
+
+constexpr std::size_t usual = 2;  // names of time: the rest is second choice
 
 constexpr std::string_view advice = "say in the case file which one is meant";
 constexpr std::string_view by_number =
@@ -38,8 +86,11 @@ bool is_known_name(std::string_view name) {
   const auto among = [&](NameList list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
-  return among(time_names) || among(angle_names) ||
-         std::any_of(force_names.begin(), force_names.end(), among);
+  const auto among_axis = [&](const auto& names) {
+    return !name.empty() && std::ranges::find(names, name) != names.end();
+  };
+  return among(time_names) || among(angle_names) || among(channel_names) ||
+         std::ranges::any_of(names_by_axis, among_axis);
 }
 
 /// What helps with names that a case file cannot spell.
@@ -93,7 +144,9 @@ std::optional<TableColumn> find_axis(const ColumnSearch& search,
 /// @param channel  from 0
 TableColumn force_column(const ColumnSearch& search, const RecordSource& source,
                          std::size_t at, std::size_t channel) {
-  if (source.scale.empty()) return column_at(search, at, Quantity::force);
+  if (source.scale.empty()) {
+    return column_at(search, at, quantity_of(axes_of(source)[channel]));
+  }
   return {at, source.scale[channel], std::string(search.head.names[at].text)};
 }
 
@@ -121,43 +174,69 @@ std::optional<std::size_t> foreign_column(const ColumnSearch& search, NameList n
   return only_column(search, passes, excerpt(names.front()));
 }
 
-std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& search) {
-  std::array<std::optional<std::size_t>, 3> found;
-  if (lacks_names(search, "angle_deg,Fx_N,Fy_N,Fz_N")) {
+/// `Fx, Fy or Fz`
+std::string any_of(const std::vector<ChannelAxis>& axes) {
+  std::string text;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    text += i == 0 ? "" : i + 1 < axes.size() ? ", " : " or ";
+    text += shown(axes[i]);
+  }
+  return text;
+}
+
+using Places = std::vector<std::optional<std::size_t>>;
+
+/// Columns that one of three ways finds, the first that finds any.
+Places places_of(const ColumnSearch& search, const std::vector<ChannelAxis>& axes) {
+  const auto found_by = [&](const auto& find) {
+    Places found;
+    for (std::size_t i = 0; i < axes.size(); ++i) found.push_back(find(i));
     return found;
+  };
+  const auto any = [](const Places& found) {
+    return std::ranges::any_of(found, [](const auto& one) { return one.has_value(); });
+  };
+  Places found =
+      found_by([&](std::size_t i) { return usual_column(search, names_of(axes[i])); });
+  if (!any(found)) {
+    found = found_by([&](std::size_t i) {
+      return usual_column(search, NameList(channel_names).subspan(i, 1));
+    });
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    found[i] = usual_column(search, NameList(force_names[i]).first(usual));
+  if (!any(found)) {
+    found = found_by(
+        [&](std::size_t i) { return foreign_column(search, names_of(axes[i])); });
   }
-  if (!found[0] && !found[1] && !found[2]) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      found[i] = usual_column(search, NameList(force_names[i]).subspan(usual));
-    }
+  return found;
+}
+
+Places usual_forces(const ColumnSearch& search, const std::vector<ChannelAxis>& axes) {
+  if (lacks_names(search, "angle_deg,Fx_N,Fy_N,Fz_N")) {
+    return Places(axes.size());
   }
-  if (!found[0] && !found[1] && !found[2]) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      found[i] = foreign_column(search, NameList(force_names[i]).first(usual));
-    }
-  }
-  constexpr std::array shown = {"Fx", "Fy", "Fz"};
-  if (!found[0] && !found[1] && !found[2]) {
+  Places found = places_of(search, axes);
+  if (std::ranges::none_of(found, [](const auto& one) { return one.has_value(); })) {
     search.problems.add(
         search.head.names_line, 1,
-        fmt::format(
-            "no column is named Fx, Fy or Fz: the columns are {}; columns = "
-            "[...] in the case file names the three forces, time_column the time{}",
-            all_names(search.head), numbers_help(search)));
+        fmt::format("no column is named {}: the columns are {}; columns = "
+                    "[...] in the case file names the {}, time_column the time{}",
+                    any_of(axes), all_names(search.head),
+                    axes.size() == 3 ? "three forces" : "channels",
+                    numbers_help(search)));
     return found;
   }
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     // One that several columns could be has a problem of its own.
     if (found[i] || !search.problems.lines.empty()) continue;
-    if (begins_some_name(search, force_names[i].front())) {
+    if (axes[i] > ChannelAxis::z ||
+        begins_some_name(search, names_of(axes[i]).front())) {
       search.problems.add(
           search.head.names_line, 1,
-          fmt::format("no column is named {}, for example {}_N: the columns are {}; "
-                      "columns = [...] in the case file names the three forces",
-                      shown[i], shown[i], all_names(search.head)));
+          fmt::format(
+              "no column is named {0}, for example {0}_{1}: the columns are {2}; "
+              "columns = [...] in the case file names the {3}",
+              shown(axes[i]), force::name_of(force::unit_of(axes[i])),
+              all_names(search.head), axes.size() == 3 ? "three forces" : "channels"));
       continue;
     }
     search.notes.push_back(
@@ -165,7 +244,7 @@ std::array<std::optional<std::size_t>, 3> usual_forces(const ColumnSearch& searc
          fmt::format("no column is named {}, for example {}_N: the fit goes without "
                      "channel {}. The columns are {}; columns = [...] in the case file "
                      "names the forces, and \"\" one that was not measured.",
-                     shown[i], shown[i], i + 1, all_names(search.head))});
+                     shown(axes[i]), shown(axes[i]), i + 1, all_names(search.head))});
   }
   return found;
 }
@@ -177,9 +256,13 @@ bool names_force(std::string_view name) {
   Problems problems;
   std::vector<base::Warning> notes;
   const ColumnSearch search{head, problems, notes, is_known_name, advice};
-  return std::any_of(force_names.begin(), force_names.end(), [&](NameList names) {
-    return usual_column(search, names).has_value();
-  });
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (usual_column(search, names_of(static_cast<ChannelAxis>(i))) ||
+        usual_column(search, NameList(channel_names).subspan(i, 1))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 RecordColumns find_columns(const TableHead& head, const RecordSource& source,
@@ -188,16 +271,18 @@ RecordColumns find_columns(const TableHead& head, const RecordSource& source,
                             advice, 0.0,      by_number};
   RecordColumns columns;
   columns.count = head.names.size();
-  std::array<std::optional<std::size_t>, 3> forces;
+  const auto axes = axes_of(source);
+  Places forces(axes.size());
   if (source.columns.empty()) {
-    forces = usual_forces(search);
+    forces = usual_forces(search, axes);
   } else {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
       if (source.columns[i].empty()) continue;  // not measured
       forces[i] = named_column(search, source.columns[i]);
     }
   }
-  for (std::size_t i = 0; i < 3; ++i) {
+  columns.force.resize(std::max<std::size_t>(axes.size(), 3));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     if (!forces[i]) continue;
     const auto before = std::span(forces).first(i);
     if (std::find(before.begin(), before.end(), forces[i]) != before.end()) {
@@ -221,6 +306,20 @@ RecordColumns find_columns(const TableHead& head, const RecordSource& source,
         find_axis(search, source.angle_column, angle_names, Quantity::angle);
   }
   return columns;
+}
+
+void keep_channels(const RecordColumns& columns, signal::Record& record) {
+  record.further.resize(columns.force.size() - 3);
+  record.further_column.resize(record.further.size());
+  for (std::size_t i = 0; i < columns.force.size(); ++i) {
+    const auto& column = columns.force[i];
+    if (i < 3) {
+      record.measured[i] = column.has_value();
+      if (column) record.channel_column[i] = column->name;
+    } else if (column) {
+      record.further_column[i - 3] = column->name;
+    }
+  }
 }
 
 }  // namespace trochoid::files

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/files/file_ref.h>
+#include <trochoid/force/sensor.h>
 
 #include <optional>
 #include <string>
@@ -39,13 +40,20 @@ constexpr std::string_view name_of(RecordFormat format) noexcept {
 struct RecordSource {
   FileRef file;
   std::optional<RecordFormat> format;  ///< absent: by its content
-  /// Three names, an empty one for a channel that is not there; empty: found by name.
+  /// What each channel reads, 1 to 8 of them; empty: forces in x, y and z.
+  std::vector<force::ChannelAxis> axes = {};
+  /// A name for each channel, an empty one for one that is not there; empty: found by name.
   std::vector<std::string> columns;
   std::string angle_column;           ///< empty: found by name
   std::string time_column;            ///< empty: found by name
   std::string pulse_column;           ///< one pulse a turn; empty: none
   std::optional<double> sample_rate;  ///< [Hz]
-  std::vector<double> scale;          ///< [N] per unit of each channel; empty: by unit
+  /// N, N m or W per unit of each channel; empty: by unit.
+  std::vector<double> scale;
+
+  [[nodiscard]] std::size_t channels() const noexcept {
+    return axes.empty() ? 3 : axes.size();
+  }
 };
 
 }  // namespace trochoid::files

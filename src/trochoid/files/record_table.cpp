@@ -73,8 +73,8 @@ void read_row(RecordReading& reading, std::vector<Field>& fields) {
   auto& columns = reading.columns;
   if (!complete_row(reading.text, fields, columns.count)) return;
   auto& record = reading.record;
-  for (std::size_t i = 0; i < 3; ++i) {
-    record.channel[i].push_back(
+  for (std::size_t i = 0; i < columns.force.size(); ++i) {
+    record.values_of(i).push_back(
         columns.force[i] ? number_in_row(reading.text, fields, *columns.force[i])
                          : 0.0);
   }
@@ -96,10 +96,7 @@ void read_row(RecordReading& reading, std::vector<Field>& fields) {
 }
 
 void keep_names(const RecordColumns& columns, signal::Record& record) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    record.measured[i] = columns.force[i].has_value();
-    if (columns.force[i]) record.channel_column[i] = columns.force[i]->name;
-  }
+  keep_channels(columns, record);
   if (columns.angle) record.angle_column = columns.angle->name;
   if (columns.time) record.time_column = columns.time->name;
 }

@@ -22,6 +22,7 @@ std::string_view parts_js();     ///< what several commands show
 std::string_view measured_js();  ///< measured against computed
 std::string_view simulate_js();
 std::string_view groups_js();
+std::string_view channels_js();
 std::string_view identify_js();
 std::string_view drawing_js();  ///< canvases drawn by hand
 std::string_view map_js();      ///< a quantity over two others

@@ -43,6 +43,45 @@ Value offset_errors_value(const Fit& fit) {
   return errors;
 }
 
+Value axial_offsets_value(const Fit& fit) {
+  Array offsets;
+  for (std::size_t k = 0; k < fit.runout.axial_offsets.size(); ++k) {
+    const bool unknown =
+        unidentifiable(fit, fmt::format("axial_offsets_mm[{}]", k + 1));
+    offsets.push_back(known(unknown, fit.runout.axial_offsets[k]));
+  }
+  return offsets;
+}
+
+Value axial_errors_value(const Fit& fit) {
+  Array errors;
+  for (const auto& se : fit.channels->axial_offsets_se) errors.emplace_back(Value(se));
+  return errors;
+}
+
+/// Of fits to the channels of a sensor, which may find it.
+const Fields<Fit>& deep_runout_fields() {
+  static const Fields<Fit> all{
+      {"axial_offsets_mm", "of each tooth, positive: it reaches deeper; empty: none",
+       [](const Fit& f) { return all_given(axial_offsets_value(f)); }},
+      {"axial_offsets_se_mm", "standard errors or `null`, as above",
+       axial_errors_value},
+      {"tilt_deg", "of the tool axis",
+       [](const Fit& f) {
+         return all_given(known(unidentifiable(f, "tilt_deg"), f.runout.tilt));
+       }},
+      {"tilt_se_deg", "standard error or `null`, as above",
+       [](const Fit& f) { return Value(f.channels->tilt_se); }},
+      {"tilt_angle_deg",
+       "where its top leans to, from the tip of tooth 1 towards tooth 2",
+       [](const Fit& f) {
+         return all_given(known(unidentifiable(f, "tilt_deg"), f.runout.tilt_angle));
+       }},
+      {"tilt_angle_se_deg", "standard error or `null`, as above",
+       [](const Fit& f) { return Value(f.channels->tilt_angle_se); }}};
+  return all;
+}
+
 const Fields<Fit>& runout_fields() {
   static const Fields<Fit> all{
       {"radial_offsets_mm", "of each tooth",
@@ -62,14 +101,17 @@ const Fields<Fit>& runout_fields() {
        [](const Fit& f) {
          return all_given(known(unidentifiable(f, "angle_deg"), f.runout.angle));
        }},
-      {"angle_se_deg", "standard error or `null`, as above", &Fit::angle_se}};
+      {"angle_se_deg", "standard error or `null`, as above", &Fit::angle_se},
+      {"", "", deep_runout_fields(), [](const Fit& f) { return &f; },
+       [](const Fit& f) { return f.channels.has_value(); }}};
   return all;
 }
 
 Array phases_value(const Fit& fit) {
   Array phases;
   for (std::size_t r = 0; r < fit.phase.size(); ++r) {
-    const bool unknown = unidentifiable(fit, "phase_deg") ||
+    const bool unknown = (fit.channels && !fit.channels->has_phase[r]) ||
+                         unidentifiable(fit, "phase_deg") ||
                          unidentifiable(fit, fmt::format("phase_deg[{}]", r + 1));
     phases.push_back(known(unknown, fit.phase[r]));
   }
@@ -151,9 +193,18 @@ void add_coefficients(const Fit& fit, Object& K, Object& identifiable) {
   }
 }
 
+/// Whether the channels are forces, of which a vector is left.
+bool leaves_a_vector(const Fit& fit) {
+  return fit.measured != std::array<bool, 3>{};
+}
+
+Value rms_value(const Fit& fit) {
+  return fit.ok && leaves_a_vector(fit) ? Value(fit.rms) : Value();
+}
+
 /// Of the forces that are measured.
 Value rms_axis_value(const Fit& fit) {
-  if (!fit.ok) return {};
+  if (!fit.ok || !leaves_a_vector(fit)) return {};
   Array out;
   for (std::size_t q = 0; q < 3; ++q) {
     out.push_back(fit.measured[q] ? Value(fit.rms_axis[q]) : Value());
@@ -173,8 +224,10 @@ const Fields<Fit>& quality_fields() {
     return [member](const Fit& f) { return f.rank > 0 ? Value(f.*member) : Value(); };
   };
   static const Fields<Fit> all{
-      {"rms_N", "sqrt(mean over samples of the squared difference) of the vector (I-5)",
-       of_success(&Fit::rms)},
+      {"rms_N",
+       "sqrt(mean over samples of the squared difference) of the vector (I-5); `null` "
+       "where the channels are not three forces",
+       rms_value},
       {"rms_axis_N", "the same of each axis, `null` where that force was not measured",
        rms_axis_value},
       {"rms_meaning", "both in words",
@@ -314,6 +367,13 @@ std::vector<GroupOfRecords> groups_of(const FitOfRecords& of) {
 const Fields<FitOfRecords>& fit_fields() {
   static const Fields<FitOfRecords> all{
       {"", "", found_fields(), [](const FitOfRecords& of) { return &of.fit; }},
+      {"", "", channel_fit_fields(),
+       [](const FitOfRecords& of) {
+         return FitOfChannels{of.fit, *of.sensor};
+       },
+       [](const FitOfRecords& of) {
+         return of.sensor != nullptr && of.fit.channels.has_value();
+       }},
       {"groups",
        "where a record names its `group`; `coefficients` of the fit are those of the "
        "first group",

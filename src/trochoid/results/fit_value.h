@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/results/channel_fit.h>
 #include <trochoid/results/fields.h>
 
 #include <trochoid/identification/identify.h>
@@ -14,7 +15,8 @@ namespace trochoid::results {
 struct FitOfRecords {
   const identification::Fit& fit;
   std::span<const std::string> files = {};
-  bool grouped = false;  ///< a record names its group
+  bool grouped = false;                 ///< a record names its group
+  const SensorOfFit* sensor = nullptr;  ///< of a fit to its channels
 };
 
 /// @brief The keys of an entry of `fits`.

@@ -103,6 +103,33 @@ class FitColumns {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// `0, 12 +- 1, ...` of axial offsets [um].
+std::string axial_text(const Fit& fit) {
+  std::string text;
+  for (std::size_t k = 1; k < fit.runout.axial_offsets.size(); ++k) {
+    const auto& se = fit.channels->axial_offsets_se[k];
+    text += k > 1 ? ", " : "";
+    text += found_text(fit, fmt::format("axial_offsets_mm[{}]", k + 1),
+                       fit.runout.axial_offsets[k] / unit::um,
+                       se ? std::optional(*se / unit::um) : std::nullopt);
+  }
+  return text.empty() ? "-" : text;
+}
+
+void add_deep_runout(const Fit& first, FitColumns& columns) {
+  if (!first.channels) return;
+  if (!first.channels->axial_offsets_se.empty()) {
+    columns.row("axial_offsets_um[2..]", axial_text);
+  }
+  if (first.channels->tilt_se) {
+    columns.row("tilt_mdeg", [](const Fit& fit) {
+      const auto& se = fit.channels->tilt_se;
+      return found_text(fit, "tilt_deg", 1000 * fit.runout.tilt / unit::deg,
+                        se ? std::optional(1000 * *se / unit::deg) : std::nullopt);
+    });
+  }
+}
+
 void add_runout(const Fit& first, FitColumns& columns) {
   const RunoutUnknowns form = first.options.runout;
   if (form == RunoutUnknowns::none) return;
@@ -115,8 +142,13 @@ void add_runout(const Fit& first, FitColumns& columns) {
   }
 }
 
-void add_quality(FitColumns& columns) {
-  columns.row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
+void add_quality(std::span<const Fit> fits, FitColumns& columns) {
+  const auto is_vector = [](const Fit& fit) {
+    return fit.measured != std::array<bool, 3>{};
+  };
+  if (std::ranges::any_of(fits, is_vector)) {
+    columns.row("rms_N", [](const Fit& fit) { return fmt::format("{:.3f}", fit.rms); });
+  }
   columns.row("unexplained (rms)",
               [](const Fit& fit) { return base::percent(fit.unexplained.in_band); });
   columns.row("condition number", [](const Fit& fit) {
@@ -124,6 +156,8 @@ void add_quality(FitColumns& columns) {
                ? fmt::format("{:.1f}", fit.condition)
                : std::string("rank deficient");
   });
+  const auto of_channels = [](const Fit& fit) { return fit.channels.has_value(); };
+  if (std::ranges::any_of(fits, of_channels)) return;
   columns.row("+- wider than by noise",
               [](const Fit& fit) { return fmt::format("x {:.1f}", fit.widening); });
 }
@@ -169,15 +203,20 @@ std::string fits_table(std::span<const Fit> fits) {
     });
   }
   add_runout(fits.front(), columns);
+  add_deep_runout(fits.front(), columns);
   std::size_t runs = 0;
   for (const Fit& fit : fits) {
     runs = std::max(runs, fit.ok ? fit.phase.size() : 0);
   }
   for (std::size_t r = 0; r < runs; ++r) {
+    const auto by_angle = [r](const Fit& fit) {  // a mean has no phase
+      return !fit.channels || fit.channels->has_phase[r];
+    };
+    if (std::ranges::none_of(fits, by_angle)) continue;
     columns.row(runs == 1 ? "phase_deg" : fmt::format("phase_deg, record {}", r + 1),
                 [r](const Fit& fit) { return phase_text(fit, r); });
   }
-  add_quality(columns);
+  add_quality(fits, columns);
   return columns.text();
 }
 

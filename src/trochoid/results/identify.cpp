@@ -75,12 +75,13 @@ const Fields<IdentifyResult>& signal_fields() {
        [](R r) { return !r.folded.empty(); }},
       {"axes", "of the dynamometer; `null` where they are no signed permutation",
        [](R r) {
+         if (r.sensor) return channel_names_value(r.sensor->sensor);
          return is_signed_permutation(r.channels)
                     ? Value(signal::axes_names(r.channels))
                     : Value();
        }},
       {"matrix", "of the dynamometer, in that case", &IdentifyResult::channels,
-       [](R r) { return !is_signed_permutation(r.channels); }},
+       [](R r) { return !r.sensor && !is_signed_permutation(r.channels); }},
       {"axes_rms_N", "with `axes = \"auto\"`: what the choice leaves",
        [](R r) { return r.axes->rms; }, searched},
       {"axes_next_rms_N", "and what the next one leaves",
@@ -257,7 +258,7 @@ struct Identified {
     for (const RecordSummary& record : r.records) files.push_back(record.file);
   }
   [[nodiscard]] FitOfRecords fit(std::size_t i) const {
-    return {r.fits[i], files, grouped};
+    return {r.fits[i], files, grouped, r.sensor ? &*r.sensor : nullptr};
   }
 };
 
@@ -369,7 +370,9 @@ std::string short_table(const IdentifyResult& r) {
   const std::string gauge =
       r.clocking ? clocking_lines(*r.clocking, factor_of(r)) : std::string();
   return identification_verdict(r) + "\n\n" + groups + fits_table(r.fits) +
-         form_line(r) + untold_line(r) + gauge + signal_lines(r);
+         form_line(r) + untold_line(r) + gauge +
+         (r.sensor ? channel_lines({chosen, *r.sensor}) : std::string()) +
+         signal_lines(r);
 }
 
 constexpr std::array<const char*, 3> axis_words = {"Fx", "Fy", "Fz"};
@@ -528,6 +531,14 @@ const Columns<OffsetSweep>& offset_sweep_columns() {
 }
 
 std::vector<base::Table> tables_of(const IdentifyResult& r) {
+  if (r.sensor) {
+    std::vector<base::Table> tables{
+        channel_columns_of_fit().table({r.fits[*r.chosen], *r.sensor})};
+    if (!r.overviews.empty()) {
+      tables.push_back(overview_columns().table(Overviews(r.overviews)));
+    }
+    return tables;
+  }
   std::vector<ComputedForces> computed;
   for (const Fit& fit : r.fits) {
     if (fit.ok) {
@@ -573,6 +584,7 @@ Answer answer_of(const IdentifyResult& r) {
 
 Description description_of_identify() {
   Description all{.command = "identify", .keys = identified_fields().texts()};
+  channel_columns_of_fit().add_texts(all.columns);
   overview_columns().add_texts(all.columns);
   folded_columns().add_texts(all.columns);
   offset_sweep_columns().add_texts(all.columns);

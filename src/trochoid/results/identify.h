@@ -1,6 +1,8 @@
 #pragma once
 
+#include <trochoid/force/sensor.h>
 #include <trochoid/force/slice.h>
+#include <trochoid/identification/channel_fit.h>
 #include <trochoid/identification/clocking.h>
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
@@ -45,6 +47,14 @@ struct Clocking {
   std::optional<identification::Separation> separation;
 };
 
+/// @brief The channels, what they read, and what is said of them.
+struct SensorOfFit {
+  force::Sensor sensor;
+  bool free = false;  ///< its angle was found
+  std::vector<identification::ChannelData> data;
+  std::vector<std::string> files;  ///< of each measurement; empty: means
+};
+
 /// @brief What `identify` answers: coefficients, runout and phase from measured forces.
 struct IdentifyResult {
   Heading heading;
@@ -61,6 +71,8 @@ struct IdentifyResult {
   std::vector<identification::SystematicEffect> not_in_intervals;
   std::vector<RecordSummary> records;  ///< empty where they could not be used
   signal::Matrix3 channels{};          ///< channels = matrix times force on the tool
+  /// Where the channels were fitted as they are, instead of forces in x, y, z.
+  std::optional<SensorOfFit> sensor = {};
   std::optional<identification::AxesChoice> axes;  ///< where they were searched for
   std::vector<identification::Run> runs;           ///< measured force on the tool
   std::vector<signal::Overview> overviews;         ///< of the whole records

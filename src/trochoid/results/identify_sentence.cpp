@@ -84,6 +84,13 @@ std::string unexplained_of(const IdentifyResult& r) {
   for (const RecordSummary& record : r.records) {
     samples += record.samples;
   }
+  if (r.sensor) {
+    return fmt::format(
+        "Unexplained stays {} of what the channels read (rms, each by its weight), by the {} "
+        "chip model and {} measurement{}.",
+        base::percent(fit.unexplained.in_band), chip::name_of(fit.chip.model),
+        r.sensor->data.size(), r.sensor->data.size() == 1 ? "" : "s");
+  }
   const int harmonics = fit.options.band_harmonics;
   return fmt::format(
       "Unexplained stays {} of the force{} (rms), {:.3g} N, by the {} chip model and {} "

@@ -13,6 +13,20 @@ namespace {
 
 using identification::Fit;
 
+/// Axial offsets and tilt.
+std::string deep_runout_toml(const Fit& fit) {
+  std::string text;
+  const geometry::Runout& runout = fit.runout;
+  for (std::size_t k = 0; k < runout.axial_offsets.size(); ++k) {
+    text += fmt::format("{}{}", k > 0 ? ", " : "axial_offsets_mm = [",
+                        unit::in(runout.axial_offsets[k], unit::mm));
+  }
+  if (!text.empty()) text += "]\n";
+  return text + fmt::format("tilt_deg = {}\ntilt_angle_deg = {}\n",
+                            unit::in(runout.tilt, unit::deg),
+                            unit::in(runout.tilt_angle, unit::deg));
+}
+
 std::string runout_toml(const Fit& fit) {
   for (const auto& [what, why] : fit.unidentifiable) {
     if (what.starts_with("radial_offsets_mm") || what == "eccentricity_mm" ||
@@ -34,6 +48,7 @@ std::string runout_toml(const Fit& fit) {
   if (fit.runout.order == geometry::EccentricityOrder::first) {
     text += "eccentricity_order = \"first\"\n";
   }
+  if (!geometry::level(fit.runout)) text += deep_runout_toml(fit);
   return text;
 }
 

@@ -1,3 +1,4 @@
+#include <trochoid/results/channel_fit.h>
 #include <trochoid/results/simulate.h>
 
 #include <trochoid/base/units.h>
@@ -129,6 +130,13 @@ const Fields<SimulateResult>& simulate_fields() {
        [](const R& r) { return r.exact_mean.force; }},
       {"exact_mean_torque_Nm", "mean torque over a turn, as that integral",
        [](const R& r) { return r.exact_mean.torque; }},
+      {"exact_mean_channels",
+       "with a dynamometer whose axes are named: mean of each channel over a turn, in N, Nm "
+       "or W, as that integral",
+       [](const R& r) {
+         return as_named(Value(Array(r.channel_means.begin(), r.channel_means.end())));
+       },
+       [](const R& r) { return !r.channel_means.empty(); }},
       {"min_N", "smallest of the rows of forces.csv, axis by axis",
        [](const R& r) { return r.force.min; }},
       {"max_N", "largest of them, axis by axis",
@@ -164,6 +172,13 @@ const Fields<SimulateResult>& simulate_fields() {
   return all;
 }
 
+/// @param k  number of the channel among those of its unit, from 0
+double channel_value(const SimulateResult& r, force::ChannelUnit unit, std::size_t i,
+                     std::size_t k) {
+  const std::size_t channels = r.sensor.channels.size();
+  return r.channel_values[i * channels + channel_at(r.sensor, unit, k)];
+}
+
 const Columns<SimulateResult>& simulated_forces() {
   using R = SimulateResult;
   static const Columns<R> all{
@@ -178,15 +193,33 @@ const Columns<SimulateResult>& simulated_forces() {
           return std::vector<std::string>{"x", "y", "z"};
         },
         [](const R& r, std::size_t i, std::size_t q) { return r.loads[i].force[q]; }},
-       {"channel*_N", "with a dynamometer: what its channels 1 to 3 read",
+       {"channel*_N", "with a dynamometer: what its channels read that are forces",
         [](const R& r) {
+          if (!r.channel_values.empty()) {
+            return channels_of_unit(r.sensor, force::ChannelUnit::newton);
+          }
           return r.channels ? std::vector<std::string>{"1", "2", "3"}
                             : std::vector<std::string>{};
         },
         [](const R& r, std::size_t i, std::size_t q) {
+          if (!r.channel_values.empty()) {
+            return channel_value(r, force::ChannelUnit::newton, i, q);
+          }
           const auto& row = (*r.channels)[q];
           const force::Vector3& F = r.loads[i].force;
           return row[0] * F[0] + row[1] * F[1] + row[2] * F[2];
+        }},
+       {"channel*_Nm", "the same of torque and moments",
+        [](const R& r) {
+          return channels_of_unit(r.sensor, force::ChannelUnit::newton_metre);
+        },
+        [](const R& r, std::size_t i, std::size_t q) {
+          return channel_value(r, force::ChannelUnit::newton_metre, i, q);
+        }},
+       {"channel*_W", "the same of power",
+        [](const R& r) { return channels_of_unit(r.sensor, force::ChannelUnit::watt); },
+        [](const R& r, std::size_t i, std::size_t q) {
+          return channel_value(r, force::ChannelUnit::watt, i, q);
         }}}};
   return all;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/force/sensor.h>
 #include <trochoid/force/slice.h>
 #include <trochoid/force/statistics.h>
 #include <trochoid/identification/identify.h>
@@ -32,7 +33,10 @@ struct SimulateResult {
   std::optional<double> gauge_length;              ///< of the bending moment [m]
   /// What the channels of the dynamometer read: matrix times force on the tool.
   std::optional<std::array<std::array<double, 3>, 3>> channels;
-  force::Engagement engagement;                    ///< at one height
+  force::Sensor sensor = {};                ///< its channels, where they have names
+  std::vector<double> channel_values = {};  ///< shape (samples, channels)
+  std::vector<double> channel_means = {};   ///< over a turn, by integrals
+  force::Engagement engagement;             ///< at one height
   std::vector<force::Engagement> at_heights = {};  ///< at the heights asked for
   bool conserves = true;               ///< whether removal is told of `at_heights`
   force::EdgeGrid edges = {};          ///< at the heights asked for

@@ -449,15 +449,6 @@ IdentifyResult with_advice_on_offsets(IdentifyResult out) {
   return out;
 }
 
-/// Whether the offsets of a record are to be found with the coefficients: no air tells
-/// them, and it is long enough to tell them from the cut.
-bool has_offsets_to_find(const MeasuredRun& one) {
-  constexpr double fewest_turns = 4.0;
-  const std::vector<double>& angle = one.run.angle;
-  return !one.offset_taken_out && !angle.empty() &&
-         std::abs(angle.back() - angle.front()) > fewest_turns * unit::turn;
-}
-
 /// @brief The same with the offsets of the channels as the records allow: where one has no
 /// air to read them off, they are found with the coefficients.
 IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
@@ -491,6 +482,13 @@ IdentifyResult identified_with_offsets(const Task& task, IdentifyResult r) {
 
 }  // namespace
 
+bool has_offsets_to_find(const MeasuredRun& one) {
+  constexpr double fewest_turns = 4.0;
+  const std::vector<double>& angle = one.run.angle;
+  return !one.offset_taken_out && !angle.empty() &&
+         std::abs(angle.back() - angle.front()) > fewest_turns * unit::turn;
+}
+
 identification::Options fit_options(const cases::Case& given, chip::Model model) {
   return {
       .chip_model = model,
@@ -514,6 +512,7 @@ Step axes_progress(double part) {
 
 IdentifyResult identify(const cases::Case& given, const Progress& progress,
                         base::Stop stop) {
+  if (given.identify.by_channels) return identify_channels(given, progress);
   if (stop.left == nullptr) {
     stop.left = std::make_shared<std::atomic<std::int64_t>>(most_of_fits);
     stop.grace = most_of_fits;

@@ -5,6 +5,7 @@
 #include <trochoid/identification/find_axes.h>
 #include <trochoid/identification/identify.h>
 #include <trochoid/identification/systematic.h>
+#include <trochoid/results/identify.h>
 #include <trochoid/run/progress.h>
 #include <trochoid/run/records.h>
 
@@ -14,6 +15,15 @@
 
 /// Parts of `identify`, of which `plan` uses some.
 namespace trochoid::run {
+
+/// @brief Identify from channels as they are: others than three forces, means, or with
+/// stated standard deviations or a prior.
+results::IdentifyResult identify_channels(const cases::Case& given,
+                                          const Progress& progress);
+
+/// @brief Whether the offsets of a record are to be found with the coefficients: no air
+/// tells them, and it is long enough to tell them from the cut.
+bool has_offsets_to_find(const MeasuredRun& one);
 
 /// @brief Options of one fit as [identify] asks for them.
 identification::Options fit_options(const cases::Case& given, chip::Model model);

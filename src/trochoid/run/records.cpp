@@ -41,6 +41,8 @@ std::vector<signal::Record> read_all(const cases::Case& given) {
     }
   }
   for (const signal::Record& record : records) {
+    if (given.identify.by_channels)
+      break;  // each channel is looked at where it is used
     if (const std::string why = missing_channel(record, given); !why.empty()) {
       problems.push_back(why);
     }
@@ -192,6 +194,24 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
   if (found.ok) follow_wander(record, run, warnings);
 }
 
+/// The same of further channels, three at a time.
+void take_drift_out_of(std::vector<std::vector<double>>& channels,
+                       std::span<const double> angle,
+                       std::span<const signal::Part> air) {
+  for (std::size_t first = 0; first < channels.size(); first += 3) {
+    std::array<std::vector<double>, 3> three;
+    const std::size_t count = std::min<std::size_t>(3, channels.size() - first);
+    for (std::size_t c = 0; c < 3; ++c) {
+      three[c] = c < count ? std::move(channels[first + c])
+                           : std::vector<double>(angle.size(), 0.0);
+    }
+    if (const auto drift = signal::idle_drift(three, angle, air)) {
+      signal::remove_drift(three, *drift);
+    }
+    for (std::size_t c = 0; c < count; ++c) channels[first + c] = std::move(three[c]);
+  }
+}
+
 /// Where nothing cuts a channel reads its offset.
 /// @return whether there was any such place
 bool take_drift_out(const cases::Case& given, std::span<const double> angle,
@@ -205,6 +225,7 @@ bool take_drift_out(const cases::Case& given, std::span<const double> angle,
   const auto drift = signal::idle_drift(record.channel, angle, air);
   if (drift) {
     signal::remove_drift(record.channel, *drift);
+    take_drift_out_of(record.further, angle, air);
   } else if (how == ChannelOffset::idle) {
     warnings.push_back({"no_idle_part",
                         record.file +
@@ -246,7 +267,7 @@ void leave_out(const std::vector<bool>& lost, signal::Record& record) {
   };
   thin_out(record.angle);
   thin_out(record.time);
-  for (auto& values : record.channel) thin_out(values);
+  for (std::size_t c = 0; c < record.channels(); ++c) thin_out(record.values_of(c));
 }
 
 /// Say what channels do that no force does, and leave lost samples out.
@@ -517,6 +538,7 @@ std::vector<MeasuredRun> measured_runs(const cases::Case& given, Warnings& warni
     }
     run.run.channel = std::move(record.channel);
     run.run.measured = record.measured;
+    run.further = std::move(record.further);
     runs.push_back(std::move(run));
   }
   return runs;

@@ -21,6 +21,7 @@ struct MeasuredRun {
   bool wanders = false;            ///< its speed, which was followed
   bool offset_taken_out = false;   ///< what the channels read where nothing cuts
   signal::Overview overview = {};  ///< of the whole record
+  std::vector<std::vector<double>> further = {};  ///< channels beyond the third
 };
 
 /// @brief Why a record without all three channels cannot be used with the dynamometer of a

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace trochoid::run {
 
@@ -100,6 +101,13 @@ std::vector<double> sampled_angles(const cases::Sampling& sampling) {
 
 std::vector<results::Comparison> compare(const cases::Case& given,
                                          std::vector<base::Warning>& warnings) {
+  if (given.identify.by_channels) {
+    warnings.push_back(
+        {"not_compared",
+         "Measurements are compared where the channels are forces in x, y "
+         "and z; identify fits any channels."});
+    return {};
+  }
   const auto measured = measured_runs(given, warnings);
   if (given.dynamometer && given.dynamometer->automatic) {
     warnings.push_back(
@@ -127,6 +135,26 @@ std::vector<results::Comparison> compare(const cases::Case& given,
   return all;
 }
 
+namespace {
+
+/// What named channels read, at each angle and in the mean.
+void add_channels(const cases::Case& given, results::SimulateResult& r) {
+  r.sensor = given.dynamometer->sensor;
+  if (r.sensor.channels.empty()) return;
+  const double tolerance = given.sampling.tolerance;
+  const auto loads =
+      force::six_loads(given.setup, given.law, r.phi, given.gauge_length, tolerance);
+  r.channel_values = force::channel_values(r.sensor, loads, r.phi, r.Omega);
+  const auto means = force::channel_means(given.setup, given.law, r.sensor, tolerance);
+  const auto K = force::coefficients(given.law);
+  for (std::size_t c = 0; c < r.sensor.channels.size(); ++c) {
+    r.channel_means.push_back(
+        std::inner_product(K.begin(), K.end(), &means[c * K.size()], 0.0));
+  }
+}
+
+}  // namespace
+
 results::SimulateResult simulate(const cases::Case& given, bool tables) {
   const force::Setup& setup = given.setup;
   const cases::Sampling& sampling = given.sampling;
@@ -150,6 +178,7 @@ results::SimulateResult simulate(const cases::Case& given, bool tables) {
   r.moments = force::moment_statistics(r.loads);
   if (given.dynamometer && !given.dynamometer->automatic) {
     r.channels = given.dynamometer->matrix;
+    add_channels(given, r);
   }
   if (tables) {
     const std::vector<double> tip = {height};

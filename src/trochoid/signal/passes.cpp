@@ -295,9 +295,7 @@ Part part_between(std::span<const double> time, double from, double to) {
 void keep_part(const Part& part, Record& record) {
   keep(part, record.angle);
   keep(part, record.time);
-  for (auto& values : record.channel) {
-    keep(part, values);
-  }
+  for (std::size_t c = 0; c < record.channels(); ++c) keep(part, record.values_of(c));
 }
 
 }  // namespace trochoid::signal

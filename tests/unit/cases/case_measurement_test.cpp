@@ -86,7 +86,7 @@ TEST_F(CaseMeasurement, ColumnsMayLeaveChannelsOut) {
   EXPECT_NE(problems(run + "[\"\", \"\"]\n").find("no entry names a column"),
             std::string::npos);
   EXPECT_NE(problems(run + "[\"a\", \"b\", \"c\", \"d\"]\n")
-                .find("must be a list of up to 3 texts"),
+                .find("4 entries for 3 channels; must be one for each"),
             std::string::npos);
 }
 

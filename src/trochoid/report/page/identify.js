@@ -21,7 +21,11 @@ function identifyPage(report) {
     { part: best ? coefficientSection(best, trust, result.groups?.[0]) : null },
     { part: result.clocking && trust ? clockingSection(result.clocking) : null },
     groupsSection(result.groups),
+    { part: knownTogether(best) },
+    { part: priorSection(best) },
     ...curves,
+    ...channelCurves(report, best),
+    { part: channelMeans(report, best) },
     overviewSection(report),
     foldedSection(report),
     { part: fitsSection(fits, best) },
@@ -51,7 +55,7 @@ function residualTile(fit, fits) {
   const rms = isNumber(fit.rms_N) ? fixed(fit.rms_N, 3) : null;
   if (!isNumber(share)) return { label: 'Residual of the fit', value: rms, unit: 'N rms', note: comparison(fit, fits) };
   return { label: fit.band_harmonics ? `Unexplained, mean and ${fit.band_harmonics} harmonics` : 'Unexplained of the force',
-    value: number(100 * share, 2), unit: '% rms', note: [`${rms} N`, comparison(fit, fits)].filter(Boolean).join('; ') };
+    value: number(100 * share, 2), unit: '% rms', note: [rms && `${rms} N`, comparison(fit, fits)].filter(Boolean).join('; ') };
 }
 
 function headline(fit, fits, trust) {
@@ -152,7 +156,7 @@ function coefficientSection(fit, trust, group) {
 
 function offsetTable(fit) {
   const offsets = fit.runout?.radial_offsets_mm;
-  if (!Array.isArray(offsets) || offsets.length < 2) return null;
+  if (!Array.isArray(offsets) || offsets.length < 2 || offsets.every((r) => r === 0)) return null;
   const um = offsets.map((r) => 1000 * r);
   const se = fit.runout.radial_offsets_se_mm || [];
   const factor = fit.interval_factor || normalInterval;
@@ -216,10 +220,12 @@ function fitsSection(fits, best) {
   row('residual', 'N rms', (fit) => rmsCell(fit, fits));
   axesOfForce.forEach((axis, i) => row(['residual ', forceName(axis)], 'N rms',
     (fit) => fixed(fit.rms_axis_N?.[i], 3)));
+  if (!fits[0].rms_axis_N) (fits[0].channels || []).forEach((channel, i) => row(['residual ', channel.axis], `${channel.unit} rms`,
+    (fit) => fixed(fit.channels?.[i]?.rms, 3)));
   row('unexplained', 'of the force, rms', (fit) => (isNumber(fit.unexplained_in_band) ?
     `${number(100 * fit.unexplained_in_band, 2)} %` : null));
   row('condition number', '', (fit) => fixed(fit.condition, 3));
-  const answered = fits.some((fit) => isNumber(fit.rms_N));
+  const answered = fits.some((fit) => isNumber(fit.rms_N) || fit.channels?.length);
   const noted = fits.filter((fit) => (fit.ok === false && fit.message) ||
     Object.keys(fit.identifiable || {}).some((key) => reasonOf(fit, key)));
   return section('fits', 'The chip models side by side', 'Fits',
