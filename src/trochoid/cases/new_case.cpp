@@ -6,6 +6,8 @@
 #include <trochoid/cases/number_text.h>
 #include <trochoid/cases/tables.h>
 #include <trochoid/cases/tool_file.h>
+#include <trochoid/cases/usual_tools.h>
+#include <trochoid/cases/write_case.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -273,9 +275,25 @@ std::string_view example_of(const Key& key) {
   return key.example.empty() ? "0" : key.example;
 }
 
-/// A tool of a file in place of the example's.
+/// A kind of cutter by its name, where no file has this name.
+const UsualTool* usual_tool(const ToolChoice& choice) {
+  const auto all = usual_tools();
+  const auto found = std::ranges::find(all, choice.file.string(), &UsualTool::name);
+  const bool usual = found != all.end() && !std::filesystem::exists(choice.file);
+  return usual ? &*found : nullptr;
+}
+
+/// A tool of a file in place of the example's, or a kind of cutter.
 /// @return where it is from and what is not, as comments
 std::string put_tool(const ToolChoice& choice, CaseTables& t) {
+  if (const UsualTool* const usual = usual_tool(choice)) {
+    usual->put(t);
+    t.title = std::string(usual->meaning);
+    return fmt::format(
+        "# The tool is {}. Its numbers are usual ones: put in\n"
+        "# those of yours.\n",
+        usual->meaning);
+  }
   const FoundTool found = read_tool(choice);
   const std::vector<std::string> stay = take_tool(found, t.tool);
   if (!found.name.empty()) t.title = found.name;
@@ -344,7 +362,10 @@ std::string new_case(Command command, const NewCaseOptions& options) {
     text += fmt::format("{:<33} # {}\n", left, right);
   };
   const Visitor key_line = [&](const Key& key, const Field& field) {
-    const auto value = toml_text(key, field);
+    // What is different in a run is nothing yet.
+    const auto value = std::holds_alternative<CutTable*>(field)
+                           ? std::nullopt
+                           : value_text(key, field);
     const bool found = command == Command::identify || command == Command::plan;
     if (found && (key.need == Need::coefficient || key.need == Need::cutting)) {
       return;  // this is what will be found
@@ -358,7 +379,7 @@ std::string new_case(Command command, const NewCaseOptions& options) {
     }
   };
   const Visitor given_line = [&](const Key& key, const Field& field) {
-    if (toml_text(key, field)) {
+    if (value_text(key, field)) {
       key_line(key, field);
     }
   };

@@ -28,23 +28,6 @@ std::optional<std::string> inner_text(std::optional<Inner>* inner) {
                                     : std::nullopt;
 }
 
-/// A value of one line, tables in braces.
-std::optional<std::string> value_text(const Key& key, const Field& field) {
-  if (CutTable* const* cut = std::get_if<CutTable*>(&field)) {
-    return inline_table(**cut);
-  }
-  if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
-    return inner_text(*clamping);
-  }
-  if (auto* const* wave = std::get_if<std::optional<geometry::Serration>*>(&field)) {
-    return inner_text(*wave);
-  }
-  if (auto* const* frame = std::get_if<std::optional<files::SurfaceFrame>*>(&field)) {
-    return inner_text(*frame);
-  }
-  return toml_text(key, field);
-}
-
 /// What every cut has, in any case.
 bool is_of_a_cut(std::string_view table) {
   constexpr std::string_view names[] = {"tool", "runout", "cut",
@@ -81,6 +64,22 @@ std::string written(CaseTables& tables, Left left_out) {
 }
 
 }  // namespace
+
+std::optional<std::string> value_text(const Key& key, const Field& field) {
+  if (CutTable* const* cut = std::get_if<CutTable*>(&field)) {
+    return inline_table(**cut);
+  }
+  if (auto* const* clamping = std::get_if<std::optional<PreviousClamping>*>(&field)) {
+    return inner_text(*clamping);
+  }
+  if (auto* const* wave = std::get_if<std::optional<geometry::Serration>*>(&field)) {
+    return inner_text(*wave);
+  }
+  if (auto* const* frame = std::get_if<std::optional<files::SurfaceFrame>*>(&field)) {
+    return inner_text(*frame);
+  }
+  return toml_text(key, field);
+}
 
 std::string write_case(CaseTables& tables) {
   return written(tables, nullptr);

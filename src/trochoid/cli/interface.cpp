@@ -161,7 +161,8 @@ CLI::App* add_new(CLI::App& app, std::string& wanted, Options& options) {
           ->add_option(
               "--tool", options.tool,
               "A FreeCAD tool bit (.fctb) or a LinuxCNC tool table: its tool in "
-              "place of the example's")
+              "place of the example's. Or a kind: face_mill, high_feed, round_insert, "
+              "shoulder_mill, serrated, variable_helix")
           ->type_name(std::string(types::file));
   fresh
       ->add_option("--tool-number", options.tool_number,

@@ -1,6 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/cases/tool_file.h>
+#include <trochoid/cases/usual_tools.h>
 
 #include <gtest/gtest.h>
 
@@ -139,6 +140,23 @@ TEST_F(ToolFile, ANewCaseWithItIsOne) {
                 "teeth, helix_deg\n"),
       std::string::npos)
       << text;
+}
+
+/// Every kind of cutter gives a case that is sound, with teeth and a cut of its own.
+TEST(UsualTool, IsASoundCase) {
+  ASSERT_EQ(usual_tools().size(), 6U);
+  for (const UsualTool& tool : usual_tools()) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "usual_tool.toml";
+    for (const Command command : {Command::simulate, Command::identify}) {
+      const ToolChoice choice{std::string(tool.name)};
+      std::ofstream(file) << new_case(command, {.tool = choice});
+      std::ofstream(file.parent_path() / "record.csv") << "angle_deg,Fx_N\n0,1\n1,2\n";
+      const Case made = read_case(file, command);
+      EXPECT_GT(made.setup.cutter.teeth(), 2) << tool.name;
+      EXPECT_EQ(made.title, tool.meaning);
+    }
+    std::filesystem::remove(file);
+  }
 }
 
 }  // namespace trochoid::cases::tool_file_test
