@@ -66,6 +66,10 @@ Vector3 turned(const signal::Matrix3& turn, const Vector3& v) {
   return out;
 }
 
+Vector3 sizes(const Vector3& v) {
+  return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
+}
+
 /// The channels of the runs where their forces stand.
 std::vector<Run> as_forces(std::span<const ChannelRun> runs) {
   std::vector<Run> out;
@@ -85,35 +89,38 @@ struct Judged {
   double rms = 0.0;
   Vector3 K{};  ///< cutting coefficients t, r, a; 0: not told
   Vector3 K_se{};
+  Vector3 edge{};  ///< the same of the edge
+  Vector3 edge_se{};
 };
 
 /// The readings of a family, in its order.
 std::vector<Judged> judged(const Family& family) {
-  Vector3 K{};
-  Vector3 se{};
+  std::array<Vector3, 2> K{};  // of cutting, of the edge
+  std::array<Vector3, 2> se{};
   const auto& found = family.fit.coefficients;
-  for (std::size_t q = 0; q < std::min(K.size(), found.size()); ++q) {
+  for (std::size_t q = 0; q < std::min<std::size_t>(6, found.size()); ++q) {
     if (!found[q]) continue;
-    K[q] = found[q]->value;
-    se[q] = found[q]->se;
+    K[q / 3][q % 3] = found[q]->value;
+    se[q / 3][q % 3] = found[q]->se;
   }
   std::vector<Judged> out;
   for (const signal::AxesReading& reading : family.readings) {
-    const Vector3 turned_se = turned(reading.turn, se);
-    out.push_back(
-        {reading.Q,
-         &family,
-         family.rms,
-         turned(reading.turn, K),
-         {std::abs(turned_se[0]), std::abs(turned_se[1]), std::abs(turned_se[2])}});
+    out.push_back({reading.Q, &family, family.rms, turned(reading.turn, K[0]),
+                   sizes(turned(reading.turn, se[0])), turned(reading.turn, K[1]),
+                   sizes(turned(reading.turn, se[1]))});
   }
   return out;
 }
 
+/// Signs of a cut: the tangential force decides first, then the radial one. Of two readings
+/// with all of them, as a mirrored face mill has, the radial force is the larger one.
 int positive(const Judged& r) {
-  // The tangential force decides first, then the radial one.
-  return (r.K[0] > 0 ? 4 : 0) + (r.K[1] > 0 ? 2 : 0) + (r.K[2] > 0 ? 1 : 0);
+  return (r.K[0] > 0 ? 8 : 0) + (r.K[1] > 0 ? 4 : 0) + (r.K[2] > 0 ? 2 : 0) +
+         (r.K[1] > r.K[2] ? 1 : 0);
 }
+
+/// All three are positive.
+constexpr int all_positive = 14;
 
 /// The one of several that leave the same whose signs are most those of a cut.
 Judged best_by_signs(const std::vector<Judged>& readings) {
@@ -121,9 +128,13 @@ Judged best_by_signs(const std::vector<Judged>& readings) {
 }
 
 /// Whether the signs of a reading are those of a cut: it is driven, and neither pushed nor
-/// pulled where it should not be. Along the axis a cut may pull either way.
+/// pulled where it should not be, nor by its edge. Along the axis a cut may pull either way.
 bool sound(const Judged& r) {
-  return r.K[0] > 0 && !(r.K[1] + 2 * r.K_se[1] < 0);
+  constexpr double clear =
+      4.0;  // standard errors; an edge may hide a little of the cutting
+  return r.K[0] > 0 && !(r.K[1] + 2 * r.K_se[1] < 0) &&
+         !(r.edge[0] + clear * r.edge_se[0] < 0) &&
+         !(r.edge[1] + clear * r.edge_se[1] < 0);
 }
 
 bool sound(const Family& family) {
@@ -283,7 +294,8 @@ bool lacks_a_channel(const ChannelRun& run) {
 /// first.
 struct Ranked {
   Judged reading;
-  std::size_t same = 1;  ///< readings that leave as much
+  std::size_t same = 1;   ///< readings that leave as much
+  bool mirrored = false;  ///< several of them take the signs of a cut
 };
 
 std::vector<Ranked> ranked(const std::vector<Family>& families) {
@@ -295,7 +307,9 @@ std::vector<Ranked> ranked(const std::vector<Family>& families) {
       const std::vector<Judged> more = judged(families[i]);
       alike.insert(alike.end(), more.begin(), more.end());
     }
-    out.push_back({best_by_signs(alike), alike.size()});
+    const auto good = std::ranges::count_if(
+        alike, [](const Judged& r) { return positive(r) >= all_positive; });
+    out.push_back({best_by_signs(alike), alike.size(), good > 1});
   }
   return out;
 }
@@ -326,9 +340,11 @@ void choose(const std::vector<Family>& families, const std::string& refusal,
   }
   const std::size_t next = at + 1;
   choice.next_rms = next < all.size() ? all[next].reading.rms : INFINITY;
-  const bool clear = positive(chosen) == 7 && chosen.K[0] > 2 * chosen.K_se[0] &&
+  const bool clear = positive(chosen) >= all_positive &&
+                     chosen.K[0] > 2 * chosen.K_se[0] &&
                      chosen.K[1] > 2 * chosen.K_se[1];
   choice.signs_clear = clear || all[at].same == 1;
+  choice.mirrored = all[at].mirrored;
   choice.start = {chosen.family->fit.runout, chosen.family->fit.phase};
 }
 

@@ -58,7 +58,10 @@ struct AxesChoice {
   double next_rms = 0.0;     ///< of the next best choice that is not the same data [N]
   std::optional<PassedOver> passed_over = {};  ///< left less, with signs of no cut
   bool signs_clear = true;  ///< false: decided by coefficients that may be negative
-  Start start;              ///< runout and phases of the fit with this choice
+  /// Another reading of the same data takes positive coefficients, too: that with K_rc above
+  /// K_ac was chosen.
+  bool mirrored = false;
+  Start start;  ///< runout and phases of the fit with this choice
 };
 
 /// @brief Try the signed permutations of the channels.
@@ -67,7 +70,7 @@ struct AxesChoice {
 /// way round the others go. All readings are scanned at once on the same force matrices
 /// (I-12), and fitted in the order of the scan until the rest could change neither the
 /// choice nor what is said about it. Readings that no residual can tell apart (on a
-/// cylinder always eight, else two: the same with all signs turned) are decided by K_tc,
+/// cylinder or at one lead angle always eight, else two: the same with all signs turned) are decided by K_tc,
 /// K_rc, K_ac > 0. Where the reading that leaves least takes a negative K_tc or a clearly
 /// negative K_rc, which no cut has, the first within 1.5 times of it that does not stands
 /// before it. Without one of the channels there is no choice.

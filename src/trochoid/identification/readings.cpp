@@ -1,6 +1,7 @@
 #include <trochoid/identification/readings.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trochoid::identification {
 namespace {
@@ -26,13 +27,42 @@ signal::Matrix3 negative(signal::Matrix3 Q) {
   return Q;
 }
 
+/// Whether the edges stand at one lead angle all along: kappa = 90 deg - beta.
+bool has_one_lead_angle(const geometry::Cutter& cutter) {
+  return cutter.profile.R == 0.0 && cutter.profile.alpha == 0.0 && !cutter.serration;
+}
+
+signal::Matrix3 product(const signal::Matrix3& A, const signal::Matrix3& B) {
+  signal::Matrix3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) out[i][j] += A[i][k] * B[k][j];
+    }
+  }
+  return out;
+}
+
+/// @brief What a turn of the coefficients of a cylinder is at another lead angle: forces
+/// across and along the axis are K_r sin(kappa) + K_a cos(kappa) and
+/// K_a sin(kappa) - K_r cos(kappa).
+signal::Matrix3 at_lead_angle(const signal::Matrix3& turn, double beta) {
+  const double s = std::cos(beta);  // of kappa
+  const double c = std::sin(beta);
+  const signal::Matrix3 across = {{{1, 0, 0}, {0, s, c}, {0, -c, s}}};
+  const signal::Matrix3 back = {{{1, 0, 0}, {0, s, -c}, {0, c, s}}};
+  return product(back, product(turn, across));
+}
+
 }  // namespace
 
 std::vector<ReadingFamily> reading_families(const force::Setup& setup) {
   std::vector<ReadingFamily> out;
-  if (force::keeps_radius(setup)) {
+  if (has_one_lead_angle(setup.cutter)) {
     for (const signal::AxesClass& c : signal::axes_classes()) {
-      out.emplace_back(c.readings.begin(), c.readings.end());
+      ReadingFamily& family = out.emplace_back(c.readings.begin(), c.readings.end());
+      for (signal::AxesReading& reading : family) {
+        reading.turn = at_lead_angle(reading.turn, setup.cutter.profile.beta);
+      }
     }
     return out;
   }

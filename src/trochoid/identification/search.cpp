@@ -152,15 +152,6 @@ std::vector<Minimum> coarse_minima(const Problem& coarse,
   return out;
 }
 
-/// The same from as many as make the best of them the global one.
-std::vector<Minimum> coarse_minima(const Problem& coarse,
-                                   const std::vector<Candidate>& candidates) {
-  const std::size_t starts = coarse.unknowns.runout_count() > 2 ? 6 : 3;
-  std::vector<Minimum> out = coarse_minima(coarse, candidates, starts);
-  move_single_teeth(coarse, out.front());
-  return out;
-}
-
 /// With the names of the gauge, and still the minimum.
 Minimum named(const Problem& problem, Minimum best) {
   const bool jumps = sum_of_squares_jumps(problem);
@@ -186,6 +177,26 @@ bool leaves_noise(const Problem& problem, const Minimum& m) {
   const auto banded = [](const FoldedRun& run) { return run.band > 0; };
   return std::ranges::none_of(problem.runs, banded) &&
          m.correlation <= white / std::sqrt(static_cast<double>(problem.rows()));
+}
+
+/// The same from as many as make the best of them the global one. With many teeth that may
+/// be more than usual: as long as much is left that is not noise, the search goes on.
+std::vector<Minimum> coarse_minima(const Problem& coarse,
+                                   const std::vector<Candidate>& candidates) {
+  constexpr int many_offsets = 5;
+  constexpr std::size_t more_starts = 18;
+  constexpr double much_left = 0.05;  // of how the force changes, rms
+  const int offsets = coarse.unknowns.runout_count();
+  std::vector<Minimum> out = coarse_minima(coarse, candidates, offsets > 2 ? 6U : 3U);
+  const auto is_good = [&](const Minimum& m) {
+    return m.rss < much_left * much_left * rss_of_means(coarse) ||
+           leaves_noise(coarse, m);
+  };
+  if (offsets >= many_offsets && !is_good(out.front()) && !coarse.stop.over()) {
+    out = coarse_minima(coarse, candidates, more_starts);
+  }
+  move_single_teeth(coarse, out.front());
+  return out;
 }
 
 /// Whether a minimum leaves little of how the force changes, or nothing but noise.

@@ -52,8 +52,10 @@ std::string offsets_of(const Fit& fit) {
         r[1] < 0 ? "shorter" : "longer");
   }
   const auto [low, high] = std::minmax_element(r.begin(), r.end());
-  return fmt::format("the radii of the teeth differ by up to {:.3g} um",
-                     (*high - *low) / unit::um);
+  return fmt::format(
+      "the radii of the teeth differ by up to {:.3g} um: tooth {} is the longest, tooth {} "
+      "the shortest",
+      (*high - *low) / unit::um, high - r.begin() + 1, low - r.begin() + 1);
 }
 
 std::string eccentricity_of(const Fit& fit) {

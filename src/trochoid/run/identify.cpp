@@ -115,7 +115,13 @@ base::Warning passed_over(const AxesChoice& axes, const force::Law& law) {
 void warn_axes(const AxesChoice& axes, const force::Law& law,
                std::vector<base::Warning>& warnings) {
   if (axes.passed_over) warnings.push_back(passed_over(axes, law));
-  if (!axes.signs_clear) {
+  if (axes.mirrored) {
+    warnings.push_back(
+        {"axes_mirrored",
+         "On a lead angle like this a reading with z the other way round fits as well, "
+         "with K_rc and K_ac exchanged: the one with K_rc above K_ac was chosen. Name the "
+         "axes of the dynamometer to be sure."});
+  } else if (!axes.signs_clear) {
     warnings.push_back(
         {"axes_signs",
          "Several readings of the channels fit the record equally well and were told "

@@ -127,4 +127,30 @@ TEST(OnTool, TurnsChannelsIntoForces) {
   EXPECT_THROW(on_tool({&run, 1}, {}), std::invalid_argument);
 }
 
+/// Seven inserts that stand out by up to 51 um, offsets of the channels found as well: the
+/// search took a minimum with edge forces that pull.
+TEST(FindAxes, OfAFaceMillWithScatteredInserts) {
+  force::Setup setup = slot_setup(7, 5.0, 2.0 * unit::mm);
+  setup.cutter.profile = geometry::cylinder(80.0 * unit::mm);
+  setup.cutter.profile.beta = 45.0 * unit::deg;
+  setup.cutter.lag_diameter = 80.0 * unit::mm;
+  setup.cut.engagement = geometry::Band{-30.0 * unit::mm, 30.0 * unit::mm};
+  setup.cut.f_z = 200.0 * unit::um;
+  setup.runout.radial_offsets = {12e-6, -20e-6, 5e-6, 31e-6, -11e-6, 3e-6, 0.0};
+  const force::LinearEdge law{1650e6, 620e6, 280e6, 18e3, 22e3, 4e3};
+  const Record record = made_record(
+      setup, law, {.phase = -0.18, .per_turn = 375, .turns = 13, .noise = 15});
+  ChannelRun run{record.cut, record.angle, {}};
+  for (const auto& F : record.force) {
+    for (std::size_t c = 0; c < 3; ++c) run.channel[c].push_back(-F[c]);
+  }
+  AxesProblem asked = problem(setup);
+  asked.options.fit_channel_offsets = true;
+  const AxesChoice axes = find_axes(asked, {&run, 1}, {});
+  ASSERT_TRUE(axes.ok) << axes.message;
+  EXPECT_EQ(signal::axes_names(axes.matrix), (Names{"-x", "-y", "-z"}));
+  EXPECT_GT(axes.next_rms, 10 * axes.rms);
+  EXPECT_TRUE(axes.mirrored);  // z the other way round exchanges K_rc and K_ac
+}
+
 }  // namespace trochoid::identification::find_axes_test
