@@ -74,18 +74,27 @@ struct Complete {
   ReadingFamily readings;
 };
 
-/// Whether a reading of the family gives a cut that is driven and not pulled.
+/// A coefficient of another reading of the same fit.
+Estimate turned(const Complete& one, const signal::AxesReading& reading,
+                std::size_t c) {
+  Estimate out;
+  for (std::size_t q = 0; q < 3; ++q) {
+    const std::optional<Estimate>& found = one.fit.coefficients[c / 3 * 3 + q];
+    out.value += found ? reading.turn[c % 3][q] * found->value : 0.0;
+    out.se += found ? std::abs(reading.turn[c % 3][q] * found->se) : 0.0;
+  }
+  return out;
+}
+
+/// Whether a reading of the family gives a cut that is driven and not pulled, nor is its edge.
 bool may_be_a_cut(const Complete& one) {
   return std::ranges::any_of(one.readings, [&](const signal::AxesReading& reading) {
-    std::array<double, 2> K{};
-    double se = 0.0;
-    for (std::size_t q = 0; q < 3; ++q) {
-      const std::optional<Estimate>& found = one.fit.coefficients[q];
-      K[0] += found ? reading.turn[0][q] * found->value : 0.0;
-      K[1] += found ? reading.turn[1][q] * found->value : 0.0;
-      se += found ? std::abs(reading.turn[1][q] * found->se) : 0.0;
-    }
-    return K[0] > 0.0 && !(K[1] + 2.0 * se < 0.0);
+    const auto not_below = [&](std::size_t c, double errors) {
+      const Estimate K = turned(one, reading, c);
+      return !(K.value + errors * K.se < 0.0);
+    };
+    return turned(one, reading, 0).value > 0.0 && not_below(1, 2.0) &&
+           not_below(3, 4.0) && not_below(4, 4.0);
   });
 }
 

@@ -106,6 +106,33 @@ class Channels(unittest.TestCase):
         self.assertAlmostEqual(fit["condition"], singular[0] / singular[-1],
                                delta=1e-5 * fit["condition"])
 
+    def test_auto_adds_axial_offsets(self):  # [I-29]
+        """A bull nose tells them next to the radial ones; it answers without where it does not"""
+        tables = case_tables(radial_offsets_mm=[0.0, 0.008, -0.005],
+                             axial_offsets_mm=[0.0, -0.009, 0.006])
+        tables["cut"] = tables["cut"] | {"engagement": "slot"}
+        del tables["cut"]["radial_depth_mm"]
+        angle = np.arange(0.5, 1440.0, 3.0)
+        made = self.run_case("simulate", "axial", tables | {
+            "force": K, "sampling": {"angles_deg": list(angle)}}).columns("forces.csv")
+        F = np.array([made[f"F{axis}_N"] for axis in "xyz"]).T
+        F = F + 4.0 * np.random.default_rng(5).standard_normal(F.shape)
+        np.savetxt(os.path.join(self.folder.name, "axial.csv"), np.column_stack([angle, F]),
+                   fmt="%.9g", delimiter=",", comments="", header="angle_deg,Fx_N,Fy_N,Fz_N")
+        tables.pop("runout")
+        tables |= {"dynamometer": {"axes": ["x", "y", "z"]},
+                   "identify": {"chip_models": ["trochoidal"], "channel_offsets": "none"}}
+        answer = self.run_case("identify", "axial", tables, [{"file": "axial.csv"}])
+        self.assertIn("runout_further", [w["code"] for w in answer.summary["warnings"]])
+        runout = answer.result["fits"][0]["runout"]
+        for j, want in ((1, -0.009), (2, 0.006)):
+            se = runout["axial_offsets_se_mm"][j]
+            self.assertLess(se, 0.001)
+            self.assertAlmostEqual(runout["axial_offsets_mm"][j], want, delta=4 * se)
+        for key in KEYS:
+            got = answer.result["fits"][0]["coefficients"][key]
+            self.assertLess(abs(got["value"] - K[key]), 4 * got["se"], key)
+
     def test_known_sums(self):  # [I-26]
         """Of power at one feed K_tc + c K_te is known, c by the means of the edges in cut"""
         tables = case_tables()

@@ -18,7 +18,6 @@ namespace {
 /// As channel_rank_tolerance, where slopes by differences are among the columns.
 constexpr double slope_rank_tolerance = 1e-6;
 constexpr double hardly_apart = 1e-2;
-constexpr double difference_step = 1e-4;
 
 /// Equations at the answer, of coefficients and of what is not linear, the prior apart.
 std::vector<double> full_rows(const ChannelProblem& problem, std::span<const double> p,
@@ -36,13 +35,14 @@ std::vector<double> full_rows(const ChannelProblem& problem, std::span<const dou
   };
   std::vector<double> q(p.begin(), p.end());
   for (std::size_t j = 0; j < p.size(); ++j) {
-    q[j] = p[j] + difference_step;
+    const double step = step_of(problem, j);
+    q[j] = p[j] + step;
     const auto up = force_at(q);
-    q[j] = p[j] - difference_step;
+    q[j] = p[j] - step;
     const auto down = force_at(q);
     q[j] = p[j];
     for (std::size_t i = 0; i < m; ++i) {
-      J[i * width + n + j] = (up[i] - down[i]) / (2.0 * difference_step);
+      J[i * width + n + j] = (up[i] - down[i]) / (2.0 * step);
     }
   }
   return J;
@@ -80,6 +80,7 @@ ChannelAnswer answer_at(ChannelSearch& search, std::vector<double> p) {
     const double freedom = out.equations - static_cast<double>(out.data.rank()) -
                            static_cast<double>(out.p.size());
     out.factor = freedom > 0.0 ? std::max(out.rss / freedom, exact) : 1.0;
+    out.factor *= problem.request.widening * problem.request.widening;
     search.scale = 1.0 / std::sqrt(out.factor);
   }
   const auto with =
@@ -389,6 +390,7 @@ Fit fit_channels(const force::Setup& setup, const force::Law& law,
           .chip = problem.setup.chip,
           .law = law,
           .runout = point_of(problem, a.p).runout};
+  fit.widening = request.widening;
   ChannelReport report;
   fit.freedom = a.equations - static_cast<double>(a.data.rank() + a.p.size());
   fit.interval_factor = request.absolute || !(fit.freedom > 0.0)
@@ -414,6 +416,38 @@ Fit fit_channels(const force::Setup& setup, const force::Law& law,
   put_fitted(problem, a, data, report, fit);
   fit.channels = std::move(report);
   return fit;
+}
+
+std::vector<FurtherUnknown> further_unknowns(const force::Setup& setup,
+                                             const force::Law& law,
+                                             const force::Sensor& sensor,
+                                             std::span<const ChannelData> data,
+                                             const ChannelRequest& request) {
+  const ChannelProblem problem = channel_problem(setup, law, sensor, data, request);
+  ChannelSearch search{.problem = problem, .y = values_of(problem)};
+  const ChannelPoint here{
+      .runout = setup.runout,
+      .phase = std::vector<double>(problem.blocks.size(), request.phase.value_or(0.0)),
+      .sensor = sensor.angle};
+  const ChannelAnswer a = answer_at(search, parameters_of(problem, here));
+  const auto D = rows_at(problem, here);
+  const auto J = full_rows(problem, a.p, D, a.K);
+  const std::size_t width = problem.columns + a.p.size();
+  std::vector<FurtherUnknown> out;
+  for (std::size_t i = 0; i < a.p.size() && runout_unknown(problem, i); ++i) {
+    FurtherUnknown& one = out.emplace_back(FurtherUnknown{*runout_unknown(problem, i)});
+    const double unit = unit_of_unknown(problem, one.unknown.kind);
+    one.unknown.value = unit * a.p[i];
+    const std::size_t column = problem.columns + i;
+    const auto se = error_of(a.known, column);
+    if (!se) continue;
+    double size2 = 0.0;
+    for (std::size_t k = column; k < J.size(); k += width) size2 += J[k] * J[k];
+    const double norm = search.scale * std::sqrt(size2);
+    one.angle = std::asin(std::min(1.0, 1.0 / (norm * *se)));  // I-29
+    one.se = unit * *se;
+  }
+  return out;
 }
 
 }  // namespace trochoid::identification

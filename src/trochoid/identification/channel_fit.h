@@ -32,6 +32,10 @@ struct ChannelRequest {
   bool fit_channel_offsets =
       false;              ///< a constant and a slope of each channel and record
   bool absolute = false;  ///< standard deviations are known; else only their ratios
+  /// By how much residuals that are no white noise widen the errors; where `absolute`: 1.
+  double widening = 1.0;
+  /// Search from the given runout alone, at phases of 0.
+  bool near_given = false;
   /// Of each coefficient [SI]; empty: none of any.
   std::vector<std::optional<Normal>> prior;
 };
@@ -52,5 +56,24 @@ struct ChannelRequest {
 Fit fit_channels(const force::Setup& setup, const force::Law& law,
                  const force::Sensor& sensor, std::span<const ChannelData> data,
                  const ChannelRequest& request);
+
+/// How well a further unknown of the runout could be told from the rest.
+struct FurtherUnknown {
+  Found unknown;       ///< its value where the search begins
+  double angle = 0.0;  ///< of its column to all others [rad]; 0: not told at all
+  double se = 0.0;     ///< [m], or tan of the tilt; of a fit that finds it
+};
+
+/// @brief What a fit would tell of the axial offsets and the tilt that a request asks for, and
+/// of the rest of the runout, without fitting it: linear about the given runout.
+///
+/// @eq  I-29 sin(angle_i) = 1/(|j_i| sqrt((J^T J)^-1_ii)), se_i as I-28
+/// @src derived
+/// @return one for each unknown of the runout
+std::vector<FurtherUnknown> further_unknowns(const force::Setup& setup,
+                                             const force::Law& law,
+                                             const force::Sensor& sensor,
+                                             std::span<const ChannelData> data,
+                                             const ChannelRequest& request);
 
 }  // namespace trochoid::identification

@@ -17,6 +17,10 @@ constexpr double own_edges_tolerance = 1e-7;
 /// Records of more angles are folded onto one turn.
 constexpr std::size_t most_channel_angles = 3000;
 constexpr std::size_t bins_of_turn = 1440;
+/// The same where each tooth has an edge of its own, whose forces cost more.
+constexpr std::size_t most_own_angles = 480;
+constexpr std::size_t own_bins_of_turn = 240;
+constexpr std::size_t straight_bins_of_turn = 720;
 /// Columns below this part of the largest of their class are zero: rounding must not be
 /// scaled up.
 constexpr double no_column = 1e-11;
@@ -44,6 +48,17 @@ struct Layout {
 /// Whether edges run straight up, so that a whole edge enters at once.
 bool enters_at_once(const geometry::Cutter& cutter) {
   return cutter.helix == 0.0;
+}
+
+/// Parts of a turn onto which a record of so many angles is folded; 0: it stays as it is.
+std::size_t bins_for(const ChannelProblem& problem, std::size_t angles) {
+  const ChannelRequest& q = problem.request;
+  const bool straight = enters_at_once(problem.setup.cutter);
+  if (q.axial_offsets || q.tilt || !force::edges_alike(problem.setup)) {
+    if (angles <= most_own_angles) return 0;
+    return straight ? straight_bins_of_turn : own_bins_of_turn;
+  }
+  return straight || angles <= most_channel_angles ? 0 : bins_of_turn;
 }
 
 void check_shapes(const ChannelData& data, std::size_t channels) {
@@ -112,17 +127,18 @@ void take_slope_out(std::size_t channels, std::vector<double>& value) {
 
 /// @brief Lay the turns of a long record over one another: of all samples in a bin their
 /// mean stands for them, at their mean angle.
-void fold_turns(std::size_t channels, ChannelBlock& block, std::vector<double>& value) {
-  std::vector<double> count(bins_of_turn, 0.0);
-  std::vector<double> beside(bins_of_turn, 0.0);
-  std::vector<double> sum(bins_of_turn * channels, 0.0);
-  std::vector<double> squares(bins_of_turn * channels, 0.0);
-  const double width = unit::turn / static_cast<double>(bins_of_turn);
+/// @param bins  of a turn
+void fold_turns(std::size_t channels, std::size_t bins, ChannelBlock& block,
+                std::vector<double>& value) {
+  std::vector<double> count(bins, 0.0);
+  std::vector<double> beside(bins, 0.0);
+  std::vector<double> sum(bins * channels, 0.0);
+  std::vector<double> squares(bins * channels, 0.0);
+  const double width = unit::turn / static_cast<double>(bins);
   for (std::size_t i = 0; i < block.angle.size(); ++i) {
     const double turns = block.angle[i] / unit::turn;
-    const double place =
-        (turns - std::floor(turns)) * static_cast<double>(bins_of_turn);
-    const std::size_t bin = std::min(static_cast<std::size_t>(place), bins_of_turn - 1);
+    const double place = (turns - std::floor(turns)) * static_cast<double>(bins);
+    const std::size_t bin = std::min(static_cast<std::size_t>(place), bins - 1);
     count[bin] += 1.0;
     beside[bin] += place - static_cast<double>(bin);
     for (std::size_t k = 0; k < channels; ++k) {
@@ -133,7 +149,7 @@ void fold_turns(std::size_t channels, ChannelBlock& block, std::vector<double>& 
   }
   block.angle.clear();
   value.clear();
-  for (std::size_t b = 0; b < bins_of_turn; ++b) {
+  for (std::size_t b = 0; b < bins; ++b) {
     if (count[b] == 0.0) continue;
     block.angle.push_back((static_cast<double>(b) + beside[b] / count[b]) * width);
     block.root.push_back(std::sqrt(count[b]));
@@ -155,11 +171,11 @@ ChannelBlock block_of(const ChannelData& data, const ChannelProblem& problem) {
   std::vector<double> value = data.value;
   block.equations = static_cast<double>(value.size());
   const bool drifts = problem.request.fit_channel_offsets && !block.is_mean();
-  const bool folded =
-      block.angle.size() > most_channel_angles && !enters_at_once(problem.setup.cutter);
+  const std::size_t bins = bins_for(problem, block.angle.size());
+  const bool folded = bins > 0;
   if (folded) {
     if (drifts) take_slope_out(channels, value);
-    fold_turns(channels, block, value);
+    fold_turns(channels, bins, block, value);
   } else {
     block.root.assign(std::max<std::size_t>(block.angle.size(), 1), 1.0);
   }
@@ -300,6 +316,18 @@ std::optional<Found> runout_unknown(const ChannelProblem& problem, std::size_t i
     return Found{.kind = FoundKind::axial_offset, .at = i - at.axial + 1};
   if (i >= at.phases) return std::nullopt;
   return Found{.kind = i == at.tilt ? FoundKind::tilt_x : FoundKind::tilt_y};
+}
+
+double step_of(const ChannelProblem& problem, std::size_t i) {
+  constexpr double usual = 1e-4;
+  constexpr double of_axial = 1e-2;
+  constexpr double of_tilt = 0.1;
+  const auto unknown = runout_unknown(problem, i);
+  if (!unknown) return usual;
+  if (unknown->kind == FoundKind::axial_offset) return of_axial;
+  const bool tilt =
+      unknown->kind == FoundKind::tilt_x || unknown->kind == FoundKind::tilt_y;
+  return tilt ? of_tilt : usual;
 }
 
 std::vector<double> block_rows(const ChannelProblem& problem, const ChannelPoint& point,

@@ -65,6 +65,10 @@ std::vector<double> parameters_of(const ChannelProblem& problem,
 /// @brief What an unknown is, where it is one of the runout; nothing: phase or sensor.
 std::optional<Found> runout_unknown(const ChannelProblem& problem, std::size_t i);
 
+/// @brief Step for a difference by an unknown. Axial offsets and tilts of nanometres would make
+/// layers so thin between the tips that no quadrature goes through them quickly.
+double step_of(const ChannelProblem& problem, std::size_t i);
+
 /// @brief Rows of one measurement at a point, weighted, without drift.
 /// @return row-major, shape (angles or 1, channels, columns)
 std::vector<double> block_rows(const ChannelProblem& problem, const ChannelPoint& point,

@@ -12,7 +12,6 @@ namespace trochoid::identification {
 
 namespace {
 
-constexpr double unknown_step = 1e-4;
 /// Of the starts that were looked at, so many are followed.
 constexpr std::size_t most_searches = 4;
 constexpr double furthest = 20.0;     ///< of a scaled unknown of the runout
@@ -41,11 +40,12 @@ numerics::Residuals residuals_of(const ChannelSearch& search, double size) {
     std::vector<double> q(p.begin(), p.end());
     std::vector<double> up(r.size());
     for (std::size_t j = 0; j < p.size() && !jacobian.empty(); ++j) {
-      q[j] = p[j] + unknown_step;
+      const double step = step_of(search.problem, j);
+      q[j] = p[j] + step;
       if (!residuals_at(search, q, size, up)) return false;
       q[j] = p[j];
       for (std::size_t i = 0; i < r.size(); ++i) {
-        jacobian[j * r.size() + i] = (up[i] - r[i]) / unknown_step;
+        jacobian[j * r.size() + i] = (up[i] - r[i]) / step;
       }
     }
     return true;
@@ -268,6 +268,12 @@ std::vector<Tried> few_of_each_kind(const ChannelProblem& problem,
 std::vector<Tried> starts_of(const ChannelSearch& search) {
   const ChannelProblem& problem = search.problem;
   std::vector<Tried> out;
+  if (problem.request.near_given) {
+    const ChannelPoint given{.runout = problem.setup.runout,
+                             .phase = std::vector<double>(problem.blocks.size(), 0.0),
+                             .sensor = problem.sensor.angle};
+    return {{parameters_of(problem, given), 0.0}};
+  }
   const auto runouts = runouts_to_try(problem);
   const auto places = at_best_phases(problem, runouts.front());
   for (const geometry::Runout& runout : runouts) {

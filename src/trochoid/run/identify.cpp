@@ -252,6 +252,8 @@ identification::Fits fit_records(const Task& task, IdentifyResult& r) {
 /// Another reading of the channels, or another cut, that fits better than the stated one.
 void look_at_alternatives(const Task& task, const Fit& chosen, IdentifyResult& r,
                           std::vector<std::string>& left_out) {
+  if (chosen.channels)
+    return;  // other readings were judged before axial offsets were added
   if (!(chosen.unexplained.in_band > too_good_to_doubt) ||
       identification::leaves_noise_alone(r.runs, chosen)) {
     return;
@@ -291,6 +293,7 @@ bool told(identification::SystematicKind kind,
 /// What no interval holds, and a dynamometer that is not what it says.
 void look_for_systematics(const Task& task, const Fit& chosen, IdentifyResult& r,
                           std::vector<std::string>& left_out) {
+  if (chosen.channels) return;  // systematics know no axial offsets
   if (task.stop.wanted()) {
     left_out.emplace_back("a look at gains and cross talk");
     return;
@@ -387,6 +390,29 @@ void add_clocking(const cases::Case& given, IdentifyResult& r) {
   r.clocking = c;
 }
 
+/// Axial offsets and tilt, where the records tell them.
+void add_more_runout(const Task& task, IdentifyResult& r,
+                     std::vector<std::string>& left_out) {
+  if (task.stop.wanted()) {
+    left_out.emplace_back("a look at axial offsets and tilt");
+    return;
+  }
+  auto more = fit_with_more_runout(task.given, r, r.fits[*r.chosen]);
+  if (!more) return;
+  const bool axial = !more->runout.axial_offsets.empty();
+  r.heading.warnings.push_back(
+      {"runout_further",
+       fmt::format(
+           "The record tells {} as well, and explains clearly more with {}: the "
+           "answer of the {} chip model has {}.",
+           axial && more->runout.tilt > 0 ? "axial offsets and the tilt"
+           : axial                        ? "axial offsets"
+                                          : "the tilt of the tool",
+           axial ? "them" : "it", chip::name_of(more->chip.model),
+           axial ? "them" : "it")});
+  r.fits[*r.chosen] = *std::move(more);
+}
+
 /// From the records, read and laid over the angle, to the answer.
 IdentifyResult identified(const Task& task, IdentifyResult r) {
   if (const std::string why = find_axes(task, r); !why.empty()) {
@@ -408,6 +434,7 @@ IdentifyResult identified(const Task& task, IdentifyResult r) {
     const std::string why = r.fits.back().message;
     return failed(std::move(r), why);
   }
+  add_more_runout(task, r, left_out);
   add_curves(task, r, left_out);
   add_clocking(task.given, r);
   judge(task, r, left_out);

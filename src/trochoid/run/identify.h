@@ -21,6 +21,12 @@ namespace trochoid::run {
 results::IdentifyResult identify_channels(const cases::Case& given,
                                           const Progress& progress);
 
+/// @brief The same fit with axial offsets or tilt, where the case leaves the runout to the
+/// record, the record tells them (I-29) and they explain clearly more; else nothing.
+std::optional<identification::Fit> fit_with_more_runout(
+    const cases::Case& given, const results::IdentifyResult& r,
+    const identification::Fit& fit);
+
 /// @brief Whether the offsets of a record are to be found with the coefficients: no air
 /// tells them, and it is long enough to tell them from the cut.
 bool has_offsets_to_find(const MeasuredRun& one);

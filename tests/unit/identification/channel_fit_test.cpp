@@ -129,6 +129,42 @@ TEST(ChannelFit, TellsAxialOffsetsFromRadialOnesByACorner) {  // [I-27] [G-21]
               4 * *fit.channels->axial_offsets_se[1]);
 }
 
+/// Smallest angle to the rest, and largest error, of the axial offsets of a cutter.
+std::pair<double, double> told_of_axial(const geometry::Profile& profile) {
+  force::Setup setup = slot_setup(3, 30.0, 3.0 * unit::mm);
+  setup.cutter.profile = profile;
+  setup.cutter.lag_diameter = profile.D;
+  setup.runout.radial_offsets = {0.0, 3.0 * unit::um, -2.0 * unit::um};
+  const auto sensor = sensor_of({ChannelAxis::x, ChannelAxis::y, ChannelAxis::z});
+  const std::vector<ChannelData> data{
+      made_data(setup, sensor, {.per_turn = 180}, 0.01)};
+  const auto all = further_unknowns(setup, steel(), sensor, data,
+                                    {.runout = RunoutUnknowns::offsets,
+                                     .axial_offsets = true,
+                                     .phase = 0.0,
+                                     .absolute = true});
+  std::pair<double, double> out{pi, 0.0};
+  for (const FurtherUnknown& one : all) {
+    if (one.unknown.kind != FoundKind::axial_offset) continue;
+    out.first = std::min(out.first, one.angle);
+    out.second = std::max(out.second, one.se);
+  }
+  return out;
+}
+
+/// A corner in cut with the flank tells axial offsets; a face mill's one lead angle does not,
+/// and on a cylinder the lowest layer alone feels them.
+TEST(ChannelFit, KnowsWhichCuttersTellAxialOffsets) {  // [I-29]
+  const auto [corner, corner_se] =
+      told_of_axial(geometry::bull_nose(8.0 * unit::mm, 2.0 * unit::mm));
+  EXPECT_GT(corner, 10.0 * unit::deg);
+  EXPECT_LT(corner_se, 4.0 * unit::um);
+  geometry::Profile face = geometry::cylinder(8.0 * unit::mm);
+  face.beta = 45.0 * unit::deg;
+  EXPECT_LT(told_of_axial(face).first, 10.0 * unit::deg);
+  EXPECT_GT(told_of_axial(geometry::cylinder(8.0 * unit::mm)).second, 4.0 * unit::um);
+}
+
 TEST(ChannelFit, OfMeansAtFiveFeedsTellsAll) {  // [I-27] [F-31]
   const force::Setup setup = slot_setup(4, 30.0, 2.0 * unit::mm);
   const auto sensor = sensor_of({ChannelAxis::x, ChannelAxis::y, ChannelAxis::z});
