@@ -156,8 +156,10 @@ void add_quality(std::span<const Fit> fits, FitColumns& columns) {
                ? fmt::format("{:.1f}", fit.condition)
                : std::string("rank deficient");
   });
-  const auto of_channels = [](const Fit& fit) { return fit.channels.has_value(); };
-  if (std::ranges::any_of(fits, of_channels)) return;
+  const auto as_stated = [](const Fit& fit) {
+    return fit.channels && fit.widening == 1;
+  };
+  if (std::ranges::all_of(fits, as_stated)) return;
   columns.row("+- wider than by noise",
               [](const Fit& fit) { return fmt::format("x {:.1f}", fit.widening); });
 }

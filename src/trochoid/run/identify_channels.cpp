@@ -130,6 +130,48 @@ identification::ChannelRequest request_of(const cases::Case& given, chip::Model 
           .prior = asked.prior};
 }
 
+/// How much neighbouring residuals of the records agree, -1 to 1; of means: 0.
+double correlation_of(const Fit& fit, const std::vector<ChannelData>& data,
+                      std::size_t channels) {
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t b = 0; b < data.size(); ++b) {
+    if (data[b].angle.empty()) continue;
+    const auto left = [&](std::size_t i) {
+      const double d = data[b].value[i] - fit.channels->fitted[b][i];
+      return d / data[b].sd[i % channels];
+    };
+    for (std::size_t i = channels; i < data[b].value.size(); ++i) {
+      products += left(i) * left(i - channels);
+      squares += left(i) * left(i);
+    }
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
+/// The same fit with errors that count how far neighbouring residuals agree (I-8), where
+/// nothing says how exact the channels are.
+Fit fit_of(const cases::Case& given, const results::SensorOfFit& sensor,
+           identification::ChannelRequest request) {
+  const auto fitted = [&] {
+    return identification::fit_channels(given.setup, given.law, sensor.sensor,
+                                        sensor.data, request);
+  };
+  Fit fit = fitted();
+  const bool white = given.identify.errors == identification::Errors::white;
+  fit.residual_correlation =
+      correlation_of(fit, sensor.data, sensor.sensor.channels.size());
+  if (request.absolute || white ||
+      fit.residual_correlation <= identification::noise_correlation) {
+    return fit;
+  }
+  request.widening = identification::correlation_factor(fit.residual_correlation);
+  const double correlation = fit.residual_correlation;
+  fit = fitted();
+  fit.residual_correlation = correlation;
+  return fit;
+}
+
 /// What leaves more than the standard deviations say.
 void warn_residual(const Fit& fit, bool absolute,
                    std::vector<base::Warning>& warnings) {
@@ -195,6 +237,12 @@ void warn_means(const cases::Case& given, const Fit& fit,
 
 /// What a fit to channels as they are leaves aside.
 void warn_not_used(const cases::Case& given, std::vector<base::Warning>& warnings) {
+  if (force::form(given.law).power) {
+    warnings.push_back(
+        {"exponents_as_given",
+         "A fit to such channels does not search the exponents of the law: "
+         "they are as [force] has them, or 0.25."});
+  }
   const auto& t = given.identify.tolerances;
   if (t.gain || t.turn || t.axial_depth || t.radial_depth || t.feed) {
     warnings.push_back(
@@ -227,6 +275,14 @@ void judge_channels(const cases::Case& given, IdentifyResult& r) {
   const Fit& fit = r.fits[*r.chosen];
   auto& warnings = r.heading.warnings;
   warn_residual(fit, deviations_known(given), warnings);
+  if (fit.widening > 1.0) {
+    warnings.push_back(
+        {"correlated_residuals",
+         fmt::format(
+             "What the fit leaves is not noise: neighbouring samples agree "
+             "(correlation {:.2f}). The intervals are {:.1f} times wider for it.",
+             fit.residual_correlation, fit.widening)});
+  }
   warn_bent_means(given, fit, warnings);
   warn_means(given, fit, warnings);
   warn_not_used(given, warnings);
@@ -269,9 +325,7 @@ IdentifyResult identify_channels(const cases::Case& given, const Progress& progr
     progress({"fitting, one chip model after the other",
               static_cast<double>(r.fits.size()) /
                   static_cast<double>(given.identify.chip_models.size())});
-    r.fits.push_back(identification::fit_channels(given.setup, given.law,
-                                                  dynamometer.sensor, r.sensor->data,
-                                                  request_of(given, model, records)));
+    r.fits.push_back(fit_of(given, *r.sensor, request_of(given, model, records)));
   }
   r.chosen = identification::chosen_fit(r.fits);
   if (!r.chosen) {
