@@ -163,7 +163,13 @@ void refuse_for_channels(const CaseTables& tables, Findings& findings, const Cas
   };
   if (tables.dynamometer && !tables.dynamometer->matrix.empty())
     refuse("dynamometer.matrix");
-  if (c.dynamometer && c.dynamometer->automatic) refuse("dynamometer.axes");
+  if (c.dynamometer && c.dynamometer->automatic) {
+    report(
+        findings, "dynamometer.axes",
+        "dynamometer.axes = \"auto\": found from records of three forces alone, without "
+        "channel_sd, mean, [prior], axial offsets or tilt; must name what each channel "
+        "reads");
+  }
   if (c.dynamometer && !c.dynamometer->frf.name.empty()) refuse("dynamometer.frf");
   if (c.identify.band_harmonics.value_or(0) != 0) refuse("identify.band_harmonics");
   if (c.identify.sweep) refuse("identify.sweep_um");

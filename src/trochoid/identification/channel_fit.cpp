@@ -79,7 +79,8 @@ ChannelAnswer answer_at(ChannelSearch& search, std::vector<double> p) {
     constexpr double exact = 1e-200;  // a fit that leaves nothing
     const double freedom = out.equations - static_cast<double>(out.data.rank()) -
                            static_cast<double>(out.p.size());
-    out.factor = freedom > 0.0 ? std::max(out.rss / freedom, exact) : 1.0;
+    out.factor = freedom > 0.0 ? std::max(out.rss / freedom, exact)
+                               : problem.request.untold_variance;
     out.factor *= problem.request.widening * problem.request.widening;
     search.scale = 1.0 / std::sqrt(out.factor);
   }

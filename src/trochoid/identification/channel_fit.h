@@ -32,6 +32,9 @@ struct ChannelRequest {
   bool fit_channel_offsets =
       false;              ///< a constant and a slope of each channel and record
   bool absolute = false;  ///< standard deviations are known; else only their ratios
+  /// Variance over that of the standard deviations, where they are ratios only and no
+  /// equation is left over to tell it.
+  double untold_variance = 1.0;
   /// By how much residuals that are no white noise widen the errors; where `absolute`: 1.
   double widening = 1.0;
   /// Search from the given runout alone, at phases of 0.

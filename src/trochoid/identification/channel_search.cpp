@@ -348,6 +348,52 @@ numerics::Combinations ChannelSearch::at(const ChannelPoint& point) const {
                 channel_rank_tolerance);
 }
 
+namespace {
+
+/// The same teeth with numbers that are `by` higher, the sensor where it was.
+ChannelPoint renumbered(const ChannelProblem& problem, ChannelPoint point, int by) {
+  const auto N = static_cast<int>(problem.teeth());
+  const double turn = by * unit::turn / N;
+  for (const std::size_t b : problem.free_phases) point.phase[b] += turn;
+  for (auto* offsets : {&point.runout.radial_offsets, &point.runout.axial_offsets}) {
+    if (offsets->empty()) continue;
+    std::rotate(offsets->begin(), offsets->begin() + (N - by), offsets->end());
+  }
+  point.runout.angle += turn;
+  point.runout.tilt_angle += turn;
+  return point;
+}
+
+/// @brief Of minima that leave the same the one with the signs of a cut.
+///
+/// Where teeth are alike and u, v stand fixed to tooth 1, other numbers of the teeth turn the
+/// coefficients: the channels are the same with K_t as K_r, or both negative. A torque
+/// would tell.
+std::vector<double> with_signs_of_a_cut(const ChannelSearch& search,
+                                        const std::vector<double>& p) {
+  constexpr double as_little = 1.01;
+  const ChannelProblem& problem = search.problem;
+  const bool turned = has_turning_channels(problem) && !problem.request.sensor_free;
+  if (problem.free_phases.empty() || !turned || !alike_but_for_runout(problem))
+    return p;
+  const ChannelPoint point = point_of(problem, p);
+  const auto is_a_cut = [](const numerics::Combinations& at) {
+    return at.x[0] > 0.0 && at.x[1] > 0.0;
+  };
+  const auto here = search.at(point);
+  if (is_a_cut(here)) return p;
+  for (int by = 1; by < static_cast<int>(problem.teeth()); ++by) {
+    const auto q = parameters_of(problem, renumbered(problem, point, by));
+    const auto there = search.at(point_of(problem, q));
+    if (is_a_cut(there) && there.rss < as_little * here.rss) {
+      return searched_from(search, q).p;
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
 std::vector<double> best_unknowns(const ChannelSearch& search) {
   if (search.problem.unknowns() == 0) return {};
   constexpr double same = 1e-6;  // of what is left
@@ -358,7 +404,7 @@ std::vector<double> best_unknowns(const ChannelSearch& search) {
     if (!best || found.cost < best->cost) best = std::move(found);
     if (again && !search.problem.request.sensor_free) break;  // found twice
   }
-  std::vector<double> p = best->p;
+  std::vector<double> p = with_signs_of_a_cut(search, best->p);
   if (rename_teeth(search.problem, p)) p = searched_from(search, p).p;
   return p;
 }

@@ -108,6 +108,17 @@ bool deviations_known(const cases::Case& given) {
   });
 }
 
+/// Whether the case says anything of how exact the channels are.
+bool deviations_stated(const cases::Case& given) {
+  return !given.dynamometer->channel_sd.empty() ||
+         std::ranges::any_of(given.measurements, [](const cases::Measurement& m) {
+           return !m.mean_sd.empty();
+         });
+}
+
+/// Of the rms of a channel, where neither the case nor an equation tells its error.
+constexpr double assumed_error = 0.01;
+
 bool wants_offsets(const cases::Case& given, const std::vector<MeasuredRun>& records) {
   using cases::ChannelOffset;
   const ChannelOffset how = given.identify.channel_offsets;
@@ -119,15 +130,17 @@ bool wants_offsets(const cases::Case& given, const std::vector<MeasuredRun>& rec
 identification::ChannelRequest request_of(const cases::Case& given, chip::Model model,
                                           const std::vector<MeasuredRun>& records) {
   const cases::Identify& asked = given.identify;
-  return {.chip_model = model,
-          .runout = asked.runout.value_or(identification::RunoutUnknowns::offsets),
-          .axial_offsets = asked.axial_offsets,
-          .tilt = asked.tilt,
-          .phase = asked.phase,
-          .sensor_free = given.dynamometer->sensor_free,
-          .fit_channel_offsets = wants_offsets(given, records),
-          .absolute = deviations_known(given),
-          .prior = asked.prior};
+  return {
+      .chip_model = model,
+      .runout = asked.runout.value_or(identification::RunoutUnknowns::offsets),
+      .axial_offsets = asked.axial_offsets,
+      .tilt = asked.tilt,
+      .phase = asked.phase,
+      .sensor_free = given.dynamometer->sensor_free,
+      .fit_channel_offsets = wants_offsets(given, records),
+      .absolute = deviations_known(given),
+      .untold_variance = deviations_stated(given) ? 1.0 : assumed_error * assumed_error,
+      .prior = asked.prior};
 }
 
 /// How much neighbouring residuals of the records agree, -1 to 1; of means: 0.
@@ -173,8 +186,10 @@ Fit fit_of(const cases::Case& given, const results::SensorOfFit& sensor,
 }
 
 /// What leaves more than the standard deviations say.
-void warn_residual(const Fit& fit, bool absolute,
+void warn_residual(const cases::Case& given, const Fit& fit,
                    std::vector<base::Warning>& warnings) {
+  const bool absolute = deviations_known(given);
+  const bool stated = deviations_stated(given);
   constexpr double clear = 1.5;  // of standard deviations
   const double freedom = fit.freedom;
   const double ratio =
@@ -197,8 +212,12 @@ void warn_residual(const Fit& fit, bool absolute,
   if (!absolute && !(freedom > 0.0)) {
     warnings.push_back(
         {"no_errors",
-         "There are no more equations than unknowns: nothing tells how exact the numbers "
-         "are, and the intervals are by the weights. More measurements, or mean_sd, tell."});
+         fmt::format(
+             "There are no more equations than unknowns: nothing tells how exact "
+             "the numbers are. The intervals are {}. More measurements, or mean_sd, "
+             "tell.",
+             stated ? "by channel_sd and mean_sd as stated"
+                    : "those of means known to 1 % of their rms")});
   }
 }
 
@@ -274,7 +293,7 @@ std::string_view care_for(std::string_view code) {
 void judge_channels(const cases::Case& given, IdentifyResult& r) {
   const Fit& fit = r.fits[*r.chosen];
   auto& warnings = r.heading.warnings;
-  warn_residual(fit, deviations_known(given), warnings);
+  warn_residual(given, fit, warnings);
   if (fit.widening > 1.0) {
     warnings.push_back(
         {"correlated_residuals",

@@ -109,6 +109,21 @@ TEST(ChannelFit, FindsTheAngleOfTheSensor) {  // [I-27]
   for (std::size_t c = 0; c < 6; ++c) EXPECT_LT(std::abs(off(fit, c)), 4.0) << c;
 }
 
+/// Four teeth half a turn later read the same with all coefficients turned: the spindle drives.
+TEST(ChannelFit, TakesTheReadingThatTheSpindleDrives) {  // [I-27]
+  force::Setup setup = slot_setup(4, 30.0, 3.0 * unit::mm);
+  setup.chip.model = chip::Model::none;  // nothing but the signs tells them apart
+  force::Sensor sensor = sensor_of({ChannelAxis::u, ChannelAxis::v, ChannelAxis::z});
+  sensor.angle = 0.35;
+  for (const double phase : {-2.0, -0.4, 0.9, 2.5}) {
+    const std::vector<ChannelData> data{
+        made_data(setup, sensor, {.phase = phase, .per_turn = 120}, 0.01)};
+    const Fit fit =
+        fit_channels(setup, steel(), sensor, data, {.chip_model = chip::Model::none});
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(std::abs(off(fit, c)), 4.5) << phase;
+  }
+}
+
 TEST(ChannelFit, TellsAxialOffsetsFromRadialOnesByACorner) {  // [I-27] [G-21]
   force::Setup setup = slot_setup(2, 30.0, 3.0 * unit::mm);
   setup.cutter.profile = geometry::bull_nose(8.0 * unit::mm, 2.0 * unit::mm);
