@@ -61,10 +61,9 @@ bool may_tell_more(const cases::Case& given, const IdentifyResult& r, const Fit&
       std::ranges::all_of(r.runs, [](const identification::Run& run) {
         return run.measured == std::array<bool, 3>{true, true, true};
       });
-  return !given.identify.runout && fit.ok && all_forces && fit.groups.size() < 2 &&
+  return fit.ok && all_forces && fit.groups.size() < 2 &&
          fit.options.response.empty() && chip::feels_runout(fit.chip.model) &&
-         given.setup.cutter.teeth() > 1 && !force::form(fit.law).power &&
-         (has_a_corner(given.setup.cutter) || turns_far(given.setup)) &&
+         !force::form(fit.law).power && asks_for_more_runout(given) &&
          !identification::leaves_noise_alone(r.runs, fit);
 }
 
@@ -112,6 +111,11 @@ Fit as_fit_of_runs(const Fit& was, Fit fit) {
 }
 
 }  // namespace
+
+bool asks_for_more_runout(const cases::Case& given) {
+  return !given.identify.runout && given.setup.cutter.teeth() > 1 &&
+         (has_a_corner(given.setup.cutter) || turns_far(given.setup));
+}
 
 std::optional<Fit> fit_with_more_runout(const cases::Case& given,
                                         const IdentifyResult& r, const Fit& fit) {

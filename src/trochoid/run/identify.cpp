@@ -393,6 +393,7 @@ void add_clocking(const cases::Case& given, IdentifyResult& r) {
 /// Axial offsets and tilt, where the records tell them.
 void add_more_runout(const Task& task, IdentifyResult& r,
                      std::vector<std::string>& left_out) {
+  if (!asks_for_more_runout(task.given)) return;
   if (task.stop.wanted()) {
     left_out.emplace_back("a look at axial offsets and tilt");
     return;

@@ -21,6 +21,10 @@ namespace trochoid::run {
 results::IdentifyResult identify_channels(const cases::Case& given,
                                           const Progress& progress);
 
+/// @brief Whether a case leaves to the record a runout that its cutter may show beyond offsets
+/// and eccentricity: a corner shows axial offsets, edges that turn far a tilt.
+bool asks_for_more_runout(const cases::Case& given);
+
 /// @brief The same fit with axial offsets or tilt, where the case leaves the runout to the
 /// record, the record tells them (I-29) and they explain clearly more; else nothing.
 std::optional<identification::Fit> fit_with_more_runout(
