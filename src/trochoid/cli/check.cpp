@@ -43,7 +43,11 @@ int check(const Options& options) {
     found += fmt::format("warning [{}]: {}\n", note.code, note.message);
   }
   for (const cases::Measurement& measurement : given.measurements) {
-    if (!measurement.mean.empty()) continue;
+    if (!measurement.mean.empty()) {
+      found += fmt::format("means of {} channel{}\n", measurement.mean.size(),
+                           measurement.mean.size() == 1 ? "" : "s");
+      continue;
+    }
     try {
       const signal::Record& record = measurement.record.get();
       found += run::describe_record(record, measurement);

@@ -487,6 +487,30 @@ std::string revolutions_text(const signal::Record& record, const geometry::Cut& 
                      duration * cut.Omega / unit::turn, unit::in(cut.Omega, unit::rpm));
 }
 
+/// A line for each channel: its column, range and mean.
+std::string channels_text(const signal::Record& record,
+                          const files::RecordSource& source) {
+  std::string text;
+  for (std::size_t c = 0; c < source.channels(); ++c) {
+    const auto& values = c < 3 ? record.channel[c] : record.further[c - 3];
+    const bool measured = c < 3 ? record.measured[c] : !values.empty();
+    if (!measured) {
+      text += fmt::format("  channel {} was not measured\n", c + 1);
+      continue;
+    }
+    const auto unit = source.axes.empty() ? force::ChannelUnit::newton
+                                          : force::unit_of(source.axes[c]);
+    const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) /
+                        static_cast<double>(values.size());
+    text += fmt::format(
+        "  channel {0} from column {1}: {2:.4g} to {3:.4g} {5}, mean {4:.4g} {5}\n",
+        c + 1, c < 3 ? record.channel_column[c] : record.further_column[c - 3], *lo,
+        *hi, mean, force::name_of(unit));
+  }
+  return text;
+}
+
 /// Which column tells where the spindle stands.
 std::string axis_text(const signal::Record& record) {
   if (!record.angle.empty()) {
@@ -567,20 +591,7 @@ std::string describe_record(const signal::Record& record,
   if (!used.why.empty()) {
     text += "  " + used.why + "\n";
   }
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (!record.measured[c]) {
-      text += fmt::format("  channel {} was not measured\n", c + 1);
-      continue;
-    }
-    const auto& values = record.channel[c];
-    const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) /
-                        static_cast<double>(values.size());
-    text +=
-        fmt::format("  channel {} from column {}: {:.4g} to {:.4g} N, mean {:.4g} N\n",
-                    c + 1, record.channel_column[c], *lo, *hi, mean);
-  }
-  return text;
+  return text + channels_text(record, measurement.source);
 }
 
 }  // namespace trochoid::run

@@ -8,6 +8,7 @@ import json
 import math
 import pathlib
 import shutil
+import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
@@ -25,6 +26,12 @@ class ChannelCases(WorkedFolder):
 
     def test_identify(self):
         self.of_kind("identify", self.check_identify)
+
+    def test_check_names_every_channel(self):
+        case = program.ROOT / "examples/rotating_dynamometer/case.toml"
+        said = subprocess.run([program.PROGRAM, "check", str(case)], capture_output=True,
+                              text=True, check=True).stdout
+        self.assertRegex(said, r"channel 4 from column Mz_Nm: .* Nm, mean .* Nm\n")
 
     def answer_to(self, c):
         tables = {k: dict(v) for k, v in c["case"].items() if k not in ("title", "measurement")}
