@@ -6,6 +6,7 @@
 #include <trochoid/run/shared_modes.h>
 #include <trochoid/run/tap_response.h>
 #include <trochoid/run/vibration.h>
+#include <trochoid/structure/delay.h>
 
 #include <fmt/core.h>
 
@@ -29,6 +30,17 @@ structure::ModesOptions options_of(const cases::FrfTables& frf) {
     options.to = frf.band[1] * unit::Hz * (1 + 1e-12);
   }
   return options;
+}
+
+/// Take out a delay between force and response, unless complex modes explain as much.
+void settle_delay(const structure::FrequencyResponse& response,
+                  const structure::ModesOptions& options, results::ModesResult& r) {
+  auto delayed = structure::delayed_fit(response, options, r.fit);
+  if (!delayed) return;
+  const auto complex = structure::complex_check(r.fit);
+  if (complex && complex->complex() && complex->evidence > delayed->evidence) return;
+  add_delay_warning(*delayed, r.fit, r.heading.warnings);
+  r.fit = std::move(delayed->fit);
 }
 
 }  // namespace
@@ -57,6 +69,7 @@ results::ModesResult modes(const cases::Case& given) {
     r.fit.responses = {{.kind = kind}};
   } else {
     r.fit = structure::identify_modes(file.response, options);
+    settle_delay(file.response, options, r);
   }
   const structure::FittedResponse& one = r.fit.responses.front();
   if (one.omega.size() > 1) {

@@ -7,6 +7,7 @@
 #include <trochoid/dynamics/tool_point.h>
 #include <trochoid/results/modes.h>
 #include <trochoid/signal/tap_test.h>
+#include <trochoid/structure/delay.h>
 #include <trochoid/structure/identify_actuator.h>
 #include <trochoid/structure/identify_modes.h>
 
@@ -49,6 +50,12 @@ std::string growth_message(const dynamics::SteadyState& steady,
 
 void add_tap_warnings(const signal::TapResponse& tap,
                       std::vector<base::Warning>& warnings);
+
+/// @brief That a delay was taken out of a response.
+/// @param without  the fit of the response as it was measured
+void add_delay_warning(const structure::DelayedFit& delayed,
+                       const structure::ModesFit& without,
+                       std::vector<base::Warning>& warnings);
 
 /// @brief That real modes do not describe a response, if so.
 void add_complex_warning(const structure::ComplexCheck& check,

@@ -1,0 +1,84 @@
+#include <trochoid/structure/delay.h>
+
+#include <trochoid/structure/identify_modes.h>
+
+#include <cmath>
+#include <complex>
+
+namespace trochoid::structure {
+
+namespace {
+
+/// Evidence of odds of 150 to 1.
+constexpr double enough_evidence = 10.0;
+/// Part of the phase that is left which a delay has to explain.
+constexpr double least_share = 0.5;
+/// A phase this small at the strongest lines is no matter [rad].
+constexpr double least_phase = 0.01;
+constexpr int most_delays = 4;
+/// A delay that changes by less of its standard error stays.
+constexpr double still = 0.5;
+
+/// The phase that a fit leaves, against the frequency.
+struct PhaseSlope {
+  Known delay;         ///< [s]
+  double share = 0.0;  ///< of the weighted square of the phase that it explains
+  double phase = 0.0;  ///< that it makes at the lines that count [rad]
+};
+
+PhaseSlope phase_slope(const FittedResponse& one) {
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  double weights = 0.0;
+  for (std::size_t i = 0; i < one.H.size(); ++i) {
+    const double w = std::norm(one.fitted[i]);
+    if (!(w > 0) || !(std::norm(one.H[i]) > 0)) continue;
+    const double phase = std::arg(one.H[i] / one.fitted[i]);
+    xx += w * one.omega[i] * one.omega[i];
+    xy -= w * one.omega[i] * phase;
+    yy += w * phase * phase;
+    weights += w;
+  }
+  if (!(xx > 0) || !(yy > 0)) return {};
+  PhaseSlope out;
+  out.delay.value = xy / xx;
+  const auto n = static_cast<double>(one.H.size());
+  out.delay.se = std::sqrt(std::max(yy - xy * xy / xx, 0.0) / (n * xx));
+  out.share = xy * xy / xx / yy;
+  out.phase = std::abs(out.delay.value) * std::sqrt(xx / weights);
+  return out;
+}
+
+FrequencyResponse advanced(FrequencyResponse response, double delay) {
+  for (std::size_t i = 0; i < response.H.size(); ++i) {
+    response.H[i] *= std::polar(1.0, response.omega[i] * delay);
+  }
+  return response;
+}
+
+}  // namespace
+
+std::optional<DelayedFit> delayed_fit(const FrequencyResponse& response,
+                                      const ModesOptions& options,
+                                      const ModesFit& fit) {
+  const PhaseSlope first = phase_slope(fit.responses.front());
+  if (!fit.ok || first.share < least_share || first.phase < least_phase) {
+    return std::nullopt;
+  }
+  DelayedFit out{.fit = fit, .delay = first.delay};
+  for (int round = 0; round < most_delays; ++round) {  // M-36
+    out.fit = identify_modes(advanced(response, out.delay.value), options);
+    if (!out.fit.ok) return std::nullopt;
+    const PhaseSlope rest = phase_slope(out.fit.responses.front());
+    out.delay.se = rest.delay.se;
+    if (std::abs(rest.delay.value) < still * rest.delay.se) break;
+    out.delay.value += rest.delay.value;
+  }
+  const auto lines = static_cast<double>(out.fit.responses.front().omega.size());
+  out.evidence = fit.criterion - out.fit.criterion - std::log(2 * lines);
+  if (!(out.evidence > enough_evidence)) return std::nullopt;
+  return out;
+}
+
+}  // namespace trochoid::structure
