@@ -33,7 +33,9 @@ void warn_heights(const cases::Case& given, Warnings& warnings) {
   }
 }
 
-void warn_idle_teeth(const force::Engagement& engagement, Warnings& warnings) {
+/// @param serrated  at a height one tooth cuts, and another one higher up: as it should be
+void warn_idle_teeth(const force::Engagement& engagement, bool serrated,
+                     Warnings& warnings) {
   const auto idle = [](const force::ToothEngagement& tooth) {
     return tooth.arcs.empty();
   };
@@ -43,6 +45,7 @@ void warn_idle_teeth(const force::Engagement& engagement, Warnings& warnings) {
                                engagement.height / unit::mm)});
     return;
   }
+  if (serrated) return;
   for (std::size_t j = 0; j < engagement.teeth.size(); ++j) {
     if (idle(engagement.teeth[j])) {
       warnings.push_back(
@@ -195,7 +198,7 @@ results::SimulateResult simulate(const cases::Case& given, bool tables) {
   r.conserves = setup.chip.model == chip::Model::trochoidal;
   Warnings& warnings = r.heading.warnings;
   warn_heights(given, warnings);
-  warn_idle_teeth(r.engagement, warnings);
+  warn_idle_teeth(r.engagement, setup.cutter.serration.has_value(), warnings);
   warn_volume(given, r.engagement.removal, warnings);
   if (setup.cut.f_z == 0) {
     warnings.push_back({"zero_feed", "The feed is zero: nothing is cut."});
