@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/cases/held.h>
 #include <trochoid/files/program_file.h>
+#include <trochoid/stock/solid.h>
 
 #include <array>
 #include <map>
@@ -115,7 +116,8 @@ struct Stock {
   std::vector<std::array<double, 3>> box;  ///< lowest and highest corner [m]
   std::optional<StockCylinder> cylinder;
   files::FileRef file;
-  std::optional<double> cell;  ///< of the height field [m]
+  Held<std::vector<stock::Triangle>> faces;  ///< what it holds
+  std::optional<double> cell;                ///< of the height field [m]
 };
 
 /// [limits]

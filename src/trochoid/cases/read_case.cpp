@@ -8,6 +8,7 @@
 #include <trochoid/files/command_file.h>
 #include <trochoid/files/program_file.h>
 #include <trochoid/files/record_file.h>
+#include <trochoid/files/stl.h>
 
 #include <fmt/core.h>
 
@@ -343,6 +344,10 @@ void hold_data(Case& c) {
         [file = c.nc.program->file, options = read_options(c.nc)] {
           return files::read_program(file, options);
         });
+  }
+  if (c.nc.stock && !c.nc.stock->file.name.empty()) {
+    c.nc.stock->faces = Held<std::vector<stock::Triangle>>::by(
+        [file = c.nc.stock->file] { return files::read_stl(file); });
   }
   if (machine.command && machine.command->shape == CommandShape::table) {
     machine.command->table = Held<dynamics::CommandTable>::by(

@@ -9,18 +9,19 @@ namespace trochoid::engagement {
 
 /// How the stock around a cutter is looked at.
 struct ContactQuery {
-  double R = 0.0;                    ///< radius of the cutter where walls stand [m]
-  double feed = 0.0;                 ///< of a step, along the path [m]
-  double turns = 1.0;                ///< of the spindle in it
-  bool bottom = true;                ///< whether what is below the tip is asked for
-  bool layers = true;                ///< false: one look at each of `heights`
-  std::vector<double> heights = {};  ///< above the tip [m]
+  const stock::Wall* wall = nullptr;  ///< of the cutter
+  double feed = 0.0;                  ///< of a step, along the path [m]
+  double turns = 1.0;                 ///< of the spindle in it
+  bool bottom = true;                 ///< whether what is below the tip is asked for
+  bool layers = true;                 ///< false: one look at each of `heights`
+  std::vector<double> heights = {};   ///< above the tip [m]
 };
 
-/// @brief Where a flat cutter meets the stock at a moment, and what it takes in a step.
+/// @brief Where a cutter meets the stock at a moment, and what it takes in a step.
 struct Contact {
-  std::vector<geometry::ArcLayer>
-      layers;                  ///< with stock, from the tip up, within [0, pi]
+  /// With stock, from the tip up: of a flat cutter within [0, pi], of others on the whole
+  /// circle.
+  std::vector<geometry::ArcLayer> layers;
   double flank_volume = 0.0;   ///< of the step [m^3]
   double bottom_volume = 0.0;  ///< of the step [m^3]
   double bottom_length =
@@ -37,9 +38,9 @@ struct Contact {
 Contact contact(const stock::Swept& swept, std::uint32_t index, double u,
                 const ContactQuery& query);
 
-/// @brief What the arcs of a layer come to.
+/// @brief Sums over the arcs of a layer.
 struct ArcSum {
-  double width = 0.0;  ///< R (cos from - cos to), of stock across the feed [m]
+  double width = 0.0;  ///< R (cos from - cos to) in front, of stock across the feed [m]
   double angle = 0.0;  ///< [rad]
 };
 ArcSum sum_of(const geometry::ArcLayer& layer, double R) noexcept;

@@ -59,6 +59,7 @@ class LargestFactor {
         tool_(tool),
         limits_(limits),
         f_z_(turn_.f_z),
+        fall_(turn_.fall),
         spindle_(spindle) {}
 
   Allowed find(const FeedRange& range) {
@@ -73,6 +74,7 @@ class LargestFactor {
  private:
   Allowed at(double factor) {
     turn_.f_z = factor * f_z_;
+    turn_.fall = factor * fall_;
     return {factor, load_of(loads_of(turn_, tool_).forces, limits_, spindle_)};
   }
 
@@ -121,6 +123,7 @@ class LargestFactor {
   const Tool& tool_;
   const Limits& limits_;
   double f_z_;
+  double fall_;
   double spindle_;
   Allowed high_;
   Allowed low_;
@@ -331,16 +334,19 @@ std::vector<WantedFeed> largest_feeds(const Job& given, const Limits& limits,
                                       const FeedRange& range) {
   Job job = given;
   job.options.drives.reset();  // feeds are those of the program
-  const Look look(job);
+  Look look(job);
   Turns turns(job, limits, range);
   const std::vector<Ask> asks = asks_of(look, job.options.step_turns);
   std::vector<WantedFeed> out;
-  constexpr std::size_t together = 4096;
+  const std::size_t together = look.swept().map() == nullptr ? 4096 : 512;
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   for (std::size_t begin = 0; begin < asks.size(); begin += together) {
     if (job.options.stop.wanted()) break;
     const std::size_t n = std::min(together, asks.size() - begin);
     std::vector<std::array<Found, 3>> found(n);
+    Ask start = asks[begin];
+    start.u = std::max(0.0, start.u - 0.5 * start.share);
+    look.sweep_to(look.turns_of(start) - 1);
     numerics::for_each_index(
         n,
         [&](std::size_t i) {
@@ -356,7 +362,7 @@ std::vector<WantedFeed> largest_feeds(const Job& given, const Limits& limits,
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Found& f = found[i][k];
-        if (!f.turn.layers.empty() && f.step.f_z > 0) place[i][k] = turns.place_of(f);
+        if (!f.turn.layers.empty() && feeds(f.turn)) place[i][k] = turns.place_of(f);
       }
     }
     turns.solve();

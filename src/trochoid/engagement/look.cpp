@@ -2,27 +2,35 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/edge.h>
+#include <trochoid/geometry/tooth_edges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 namespace trochoid::engagement {
 
 namespace {
 
-/// Radius of the longest tooth: where walls stand.
-double wall_radius(const Tool& tool) {
-  if (!tool.cuts) return 0.0;
+/// Stock so low on a cutter that is not flat is at its tip [m].
+constexpr double near_tip = 1e-4;
+
+geometry::Runout runout_of(const Tool& tool) {
+  return chip::feels_runout(tool.chip.model) ? tool.runout : geometry::Runout{};
+}
+
+/// Radius of the longest tooth of a cylinder whose teeth reach equally deep.
+double upright_radius(const Tool& tool) {
   const double r = tool.cutter.profile.D / 2;
   const std::vector<double> psi = geometry::tooth_angles(tool.cutter);
   std::vector<geometry::EdgePosition> teeth(psi.size());
-  const geometry::Runout runout =
-      chip::feels_runout(tool.chip.model) ? tool.runout : geometry::Runout{};
+  const geometry::Runout runout = runout_of(tool);
   double largest = 0.0;
   // With an eccentricity the longest tooth changes along a helix: the envelope stands.
-  const int places = runout.eccentricity > 0 && tool.cutter.helix > 0 ? 64 : 1;
+  const int places = runout.eccentricity > 0 && tool.cutter.helix != 0 ? 64 : 1;
   for (int i = 0; i < places; ++i) {
     geometry::edge_positions(runout, psi, r, unit::turn * i / places, teeth);
     for (const geometry::EdgePosition& tooth : teeth) {
@@ -32,11 +40,25 @@ double wall_radius(const Tool& tool) {
   return largest;
 }
 
-void check(const Tool& tool) {
-  if (tool.cuts && !takes(tool.cutter)) {
-    throw std::invalid_argument(
-        "forces along a program are computed for flat end mills of constant lead");
+/// The wall that a tool leaves in stock of a height.
+stock::Wall wall_of(const Tool& tool, double height) {
+  if (!tool.cuts) return {};
+  const geometry::Profile& p = tool.cutter.profile;
+  const geometry::Runout runout = runout_of(tool);
+  if (p.R == 0 && p.alpha == 0 && p.beta == 0 && geometry::level(runout)) {
+    return stock::Wall::upright(upright_radius(tool));
   }
+  const geometry::ToothEdges edges(tool.cutter, runout);
+  const double corner = edges.meridian().N.z;
+  const double turn = p.beta != 0 || runout.tilt != 0 ? height : 0.0;
+  return {edges.breaks(std::max(corner, turn) + p.D / 2), [&](double z) {
+            double largest = 0.0;
+            for (std::size_t j = 0; j < edges.teeth(); ++j) {
+              const geometry::EdgeAt at = edges.edge_at(j, z);
+              if (at.there) largest = std::max(largest, at.position.R);
+            }
+            return largest;
+          }};
 }
 
 /// Program::tools may be empty: then the one tool there is.
@@ -52,10 +74,10 @@ std::int16_t tool_of(const Job& job, std::int16_t tool) {
 
 /// The path and how fast it is gone.
 stock::Swept sweep(const Job& job, std::vector<stock::Speed>& speeds) {
-  std::vector<double> radius;
+  const stock::Heights all = stock::heights(job.stock);
+  std::vector<stock::Wall> walls;
   for (const Tool& tool : job.tools) {
-    check(tool);
-    radius.push_back(wall_radius(tool));
+    walls.push_back(wall_of(tool, all.top - all.bottom));
   }
   stock::Path path = stock::path(job.program.moves, job.options.rapid_feed);
   for (stock::Piece& piece : path.pieces) {
@@ -64,7 +86,7 @@ stock::Swept sweep(const Job& job, std::vector<stock::Speed>& speeds) {
   const double rapid = job.options.rapid_feed;
   speeds = job.options.drives ? stock::speeds(path, rapid, *job.options.drives)
                               : stock::speeds(path, rapid);
-  return {std::move(path), job.stock, std::move(radius)};
+  return {std::move(path), job.stock, std::move(walls)};
 }
 
 }  // namespace
@@ -89,7 +111,22 @@ Look::Look(const Job& job)
     : job_(job),
       swept_(sweep(job, speeds_)),
       kinks_(kinks(swept_.path())),
-      lengths_(feed_lengths(swept_.path())) {}
+      lengths_(feed_lengths(swept_.path())) {
+  // Volumes beside a field of heights, and surfaces left by tools that are not flat, are
+  // those of a map.
+  if (swept_.all_flat() && !std::holds_alternative<stock::HeightField>(job.stock)) {
+    return;
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < job.tools.size(); ++i) {
+    const double R = swept_.radius(static_cast<std::int16_t>(i));
+    if (R > 0) smallest = std::min(smallest, R);
+  }
+  if (!std::isfinite(smallest)) return;
+  constexpr double finest = 5e-5;
+  const double cell = job.options.cell > 0 ? job.options.cell : smallest / 20;
+  swept_.keep_map(std::max(cell, finest));
+}
 
 Found Look::at(const Ask& ask, std::span<const double> heights) const {
   const stock::Piece& piece = swept_.path().pieces[ask.piece];
@@ -99,7 +136,8 @@ Found Look::at(const Ask& ask, std::span<const double> heights) const {
   Step& step = out.step;
   StepTraits& traits = out.traits;
   traits.at = step.along;
-  traits.R = swept_.radius(piece.tool);
+  const stock::Wall& wall = swept_.wall(piece.tool);
+  traits.R = wall.largest();
   step.line = move.line;
   step.block = move.block;
   if (!(traits.R > 0) || !(turns > 0)) {
@@ -113,17 +151,18 @@ Found Look::at(const Ask& ask, std::span<const double> heights) const {
   step.f_z = traits.f_h / tool.cutter.teeth();
   step.curvature = piece.arc() ? std::copysign(1 / piece.radius, piece.turn) : 0.0;
   Contact contact = engagement::contact(swept_, ask.piece, ask.u,
-                                        {.R = traits.R,
+                                        {.wall = &wall,
                                          .feed = ask.share * piece.length,
                                          .turns = step.turns,
                                          .bottom = true,
                                          .layers = heights.empty(),
                                          .heights = {heights.begin(), heights.end()}});
   describe(contact, tool, out);
-  out.turn = {piece.tool, step.f_z, step.curvature, std::move(contact.layers)};
+  out.turn = {piece.tool, step.f_z, wall.is_upright() ? 0.0 : traits.f_a,
+              step.curvature, std::move(contact.layers)};
   if (!heights.empty()) {  // forces are those of all the heights between
     out.turn.layers =
-        engagement::contact(swept_, ask.piece, ask.u, {.R = traits.R, .bottom = false})
+        engagement::contact(swept_, ask.piece, ask.u, {.wall = &wall, .bottom = false})
             .layers;
   }
   return out;
@@ -174,7 +213,8 @@ void Look::describe(const Contact& contact, const Tool& tool, Found& out) const 
       thin = true;
       continue;
     }
-    const ArcSum sum = sum_of(layer, traits.R);
+    const stock::Wall& wall = swept_.wall(step.tool);
+    const ArcSum sum = sum_of(layer, wall.radius(0.5 * (layer.from + layer.to)));
     step.a_p += height;
     area += height * sum.width;
     if (sum.angle > step.engaged) {
@@ -186,13 +226,16 @@ void Look::describe(const Contact& contact, const Tool& tool, Found& out) const 
   step.a_e = step.a_p > 0 ? area / step.a_p : 0.0;
   step.removed = contact.flank_volume + contact.bottom_volume;
   step.removal_rate = step.removed / step.duration;
-  traits.bottom = traits.f_a > 0 && contact.bottom_length > 0;
+  const bool flat = swept_.wall(step.tool).is_upright();
+  const bool low =
+      !flat && !contact.layers.empty() && contact.layers.front().from < near_tip;
+  traits.bottom = traits.f_a > 0 && (contact.bottom_length > 0 || low);
   traits.stock = step.a_p > 0 || traits.bottom;
   if (thin && !traits.stock) step.flags |= thin_layer;
   if (tool.flute_length > 0 && step.a_p > tool.flute_length) {
     step.flags |= rubs_above_flute;
   }
-  if (traits.bottom && job_.options.bottom == Bottom::estimate) {
+  if (traits.bottom && flat && job_.options.bottom == Bottom::estimate) {
     // N-11
     const force::Terms law = force::terms(tool.law);
     const int teeth = tool.cutter.teeth();

@@ -39,8 +39,7 @@ std::uint32_t move_at(const stock::Path& path, const stock::Piece& piece,
 /// @brief The path of a program in its stock, for looks at any place of it.
 class Look {
  public:
-  /// @throws std::invalid_argument for a move with a tool that is not given, a cutter that
-  ///         forces are not computed for
+  /// @throws std::invalid_argument for a move with a tool that is not given
   explicit Look(const Job& job);
 
   [[nodiscard]] const stock::Swept& swept() const noexcept { return swept_; }
@@ -48,6 +47,14 @@ class Look {
   [[nodiscard]] std::span<const Kink> all_kinks() const noexcept { return kinks_; }
   /// Path of feed moves up to where a piece begins [m].
   [[nodiscard]] double along(std::uint32_t piece) const { return lengths_[piece]; }
+
+  /// @brief Have the stock ready up to a moment: looks at later moments are then quick.
+  void sweep_to(double turns) { swept_.sweep_to(turns); }
+  /// When a step is in its middle, in turns of the spindle.
+  [[nodiscard]] double turns_of(const Ask& ask) const noexcept {
+    const stock::Piece& piece = path().pieces[ask.piece];
+    return piece.turns_from + ask.u * (piece.turns_to - piece.turns_from);
+  }
 
   /// A step without its forces.
   /// @param heights  above the tip [m]: arcs at these instead of layers; may be empty

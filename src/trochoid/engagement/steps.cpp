@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace trochoid::engagement {
@@ -23,12 +24,16 @@ constexpr std::size_t batch = 8192;
 /// Turns that are kept at most.
 constexpr std::size_t most_turns = 20000;
 
+/// The same where a map of heights follows them: it stands at the first of them.
+constexpr std::size_t batch_with_map = 512;
+
 /// Looks at steps and adds their forces.
 class Steps {
  public:
   explicit Steps(const Job& job) : job_(job), look_(job) {}
 
   [[nodiscard]] const Look& look() const noexcept { return look_; }
+  void sweep_to(double turns) { look_.sweep_to(turns); }
 
   /// Forces of turns, each different one once, in parallel.
   void add_forces(std::span<Found> found) {
@@ -41,7 +46,7 @@ class Steps {
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     for (std::size_t i = 0; i < found.size(); ++i) {
       place[i] = none;
-      if (found[i].turn.layers.empty() || !(found[i].step.f_z > 0)) continue;
+      if (found[i].turn.layers.empty() || !feeds(found[i].turn)) continue;
       const auto [at, is_new] =
           turns_.try_emplace(key_of(found[i].turn), loads_.size() + fresh.size());
       if (is_new) fresh.push_back(i);
@@ -61,7 +66,9 @@ class Steps {
     for (std::size_t i = 0; i < found.size(); ++i) {
       Step& step = found[i].step;
       if (place[i] != none) {
-        step.forces = in_program(loads_[place[i]], step.direction, step.spindle);
+        const bool upright = !std::isfinite(step.direction);
+        step.forces =
+            in_program(loads_[place[i]], upright ? 0.0 : step.direction, step.spindle);
       } else {
         step.forces.peak_of_tooth.assign(teeth_of(step.tool), 0.0);
       }
@@ -188,52 +195,54 @@ class Rows {
   std::vector<StepTraits> traits_;
 };
 
-void look_all(const Steps& steps, std::span<const Ask> asks, std::vector<Found>& found,
+/// @param asks  in the order of the program
+void look_all(Steps& steps, std::span<const Ask> asks, std::vector<Found>& found,
               std::span<const double> heights) {
   found.resize(asks.size());
+  if (!asks.empty()) steps.sweep_to(steps.look().turns_of(asks.front()) - 1);
   numerics::for_each_index(
       asks.size(), [&](std::size_t i) { found[i] = steps.look().at(asks[i], heights); },
-      256);
+      steps.look().swept().map() == nullptr ? 256 : 8);
 }
 
-/// Rapids through stock: looked at every half radius.
-void warn_rapids(const Job& job, const stock::Swept& swept, Summary& out) {
-  const stock::Path& path = swept.path();
+/// By the map of heights where there is one, else exactly [m^3].
+double volume_removed(const Job& job, Steps& steps) {
+  steps.sweep_to(std::numeric_limits<double>::infinity());
+  const stock::Swept& swept = steps.look().swept();
+  if (swept.map() != nullptr) return swept.map()->removed(job.stock);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < job.tools.size(); ++i) {
+    const double R = swept.radius(static_cast<std::int16_t>(i));
+    if (R > 0) smallest = std::min(smallest, R);
+  }
+  return std::isfinite(smallest) ? stock::volume_removed(swept, smallest / 200) : 0.0;
+}
+
+/// Whether a rapid goes through stock: looked at every half radius.
+bool hits_stock(const stock::Swept& swept, std::uint32_t index) {
+  const stock::Piece& piece = swept.path().pieces[index];
+  const stock::Wall& wall = swept.wall(piece.tool);
+  const double R = wall.largest();
   const double top = stock::heights(swept.initial()).top;
-  for (std::uint32_t i = 0; i < path.pieces.size(); ++i) {
-    const stock::Piece& piece = path.pieces[i];
-    const double R = swept.radius(piece.tool);
-    if (piece.feed > 0 || !(R > 0) || std::min(piece.from[2], piece.to[2]) >= top) {
-      continue;
-    }
-    const int n = static_cast<int>(2 * piece.length / R) + 1;
-    for (int k = 1; k <= n; ++k) {
-      const stock::PathPoint at = stock::point_at(piece, static_cast<double>(k) / n);
-      const stock::Surroundings around(
-          swept,
-          {at.place, piece.upright() ? 0.0 : at.direction, piece.turns_from, i, true},
-          R);
-      const double high = std::min(top, std::max(piece.from[2], piece.to[2]));
-      const double z = std::max(0.5 * (high - at.place[2]), 1e-6);
-      if (at.place[2] + z < top && !around.arcs(z, R * 0.999).empty()) {
-        out.warnings.push_back(
-            {"rapid_through_stock",
-             fmt::format(
-                 "line {}: a rapid move goes through stock; it counts as cut away",
-                 job.program.moves[piece.first].line)});
-        return;
-      }
+  if (!(R > 0) || std::min(piece.from[2], piece.to[2]) >= top) return false;
+  const int n = static_cast<int>(2 * piece.length / R) + 1;
+  for (int k = 1; k <= n; ++k) {
+    const stock::PathPoint at = stock::point_at(piece, static_cast<double>(k) / n);
+    const stock::Surroundings around(
+        swept,
+        {at.place, piece.upright() ? 0.0 : at.direction, piece.turns_from, index, true},
+        R);
+    const double high = std::min(top, std::max(piece.from[2], piece.to[2]));
+    const double z = std::max(0.5 * (high - at.place[2]), 1e-6);
+    const double r = wall.radius(z);
+    if (r > 0 && at.place[2] + z < top && !around.arcs(z, r * 0.999).empty()) {
+      return true;
     }
   }
+  return false;
 }
 
 }  // namespace
-
-bool takes(const geometry::Cutter& cutter) noexcept {
-  const geometry::Profile& p = cutter.profile;
-  return p.R == 0 && p.alpha == 0 && p.beta == 0 &&
-         cutter.lag_law == geometry::LagLaw::constant_lead;
-}
 
 double step_count(const Job& job) {
   const stock::Path path = stock::path(job.program.moves, job.options.rapid_feed);
@@ -253,6 +262,9 @@ Summary compute_steps(const Job& job, const Sink& sink) {
   std::vector<Found> found;
   std::int64_t number = 0;
   bool stands = false;
+  bool through = false;
+  const std::size_t together =
+      steps.look().swept().map() == nullptr ? batch : batch_with_map;
   const auto run = [&] {
     look_all(steps, asks, found, {});
     steps.add_forces(found);
@@ -269,12 +281,20 @@ Summary compute_steps(const Job& job, const Sink& sink) {
   };
   for (std::uint32_t i = 0; i < path.pieces.size() && out.complete; ++i) {
     const stock::Piece& piece = path.pieces[i];
+    if (!(piece.feed > 0) && !through && hits_stock(steps.look().swept(), i)) {
+      through = true;
+      out.warnings.push_back(
+          {"rapid_through_stock",
+           fmt::format(
+               "line {}: a rapid move goes through stock; it counts as cut away",
+               job.program.moves[piece.first].line)});
+    }
     const std::int64_t n = count_of(piece, job.options.step_turns);
     for (std::int64_t k = 0; k < n; ++k) {
       const double u = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
       asks.push_back({i, u, 1.0 / static_cast<double>(n), number++,
                       move_at(path, piece, u * piece.length)});
-      if (asks.size() == batch) {
+      if (asks.size() == together) {
         run();
         if (job.options.stop.wanted()) {
           out.complete = false;
@@ -289,17 +309,7 @@ Summary compute_steps(const Job& job, const Sink& sink) {
   out.totals.steps = number;
   out.totals.distinct_turns = steps.distinct();
   out.totals.stock_before = stock::volume(job.stock);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < job.tools.size(); ++i) {
-    const double R = steps.look().swept().radius(static_cast<std::int16_t>(i));
-    if (R > 0) smallest = std::min(smallest, R);
-  }
-  out.totals.stock_after =
-      out.totals.stock_before -
-      (std::isfinite(smallest)
-           ? stock::volume_removed(steps.look().swept(), smallest / 200)
-           : 0.0);
-  warn_rapids(job, steps.look().swept(), out);
+  out.totals.stock_after = out.totals.stock_before - volume_removed(job, steps);
   return std::move(out);
 }
 
@@ -333,12 +343,17 @@ std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
     }
   }
   std::vector<Found> found;
-  look_all(steps, asks, found, heights);
-  steps.add_forces(found);
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    find_causes(path, steps.look().all_kinks(), std::span(&found[k].traits, 1),
-                std::span(&found[k].step, 1));
-    out[of_place[k]] = std::move(found[k].step);
+  // The stock follows them in the order of the program.
+  std::vector<std::size_t> order(asks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t k) { return steps.look().turns_of(asks[k]); });
+  for (const std::size_t k : order) {
+    look_all(steps, std::span(&asks[k], 1), found, heights);
+    steps.add_forces(found);
+    find_causes(path, steps.look().all_kinks(), std::span(&found[0].traits, 1),
+                std::span(&found[0].step, 1));
+    out[of_place[k]] = std::move(found[0].step);
   }
   return out;
 }

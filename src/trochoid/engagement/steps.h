@@ -35,10 +35,6 @@ struct Tool {
   bool cuts = true;           ///< false: its moves cut nothing, by consent
 };
 
-/// @brief Whether forces along a program can be computed for a cutter: a flat end mill of
-/// constant lead.
-bool takes(const geometry::Cutter& cutter) noexcept;
-
 /// Whether the bottom edges of flat cutters are estimated in plunges and ramps.
 enum class Bottom { estimate, none };
 
@@ -47,6 +43,7 @@ struct Options {
   double rapid_feed = 10.0 / 60;        ///< [m/s]
   std::optional<stock::Drives> drives;  ///< nothing: every feed is reached at once
   double floor = 1e-6;                  ///< layers thinner than this decide nothing [m]
+  double cell = 0.0;  ///< of the map of heights [m]; 0: a 20th of the smallest radius
   Bottom bottom = Bottom::estimate;
   base::Stop stop;
 };

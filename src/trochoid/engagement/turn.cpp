@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/force/arc_turn.h>
+#include <trochoid/geometry/tooth_edges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@ namespace {
 
 /// Angles of a turn at which forces are looked at, beside those where they have a kink.
 constexpr int angles = 240;
+/// The same without the kinks, of edges whose forces change smoothly.
+constexpr int few_angles = 144;
 constexpr double beside_jump = 1e-9;  ///< [rad]
 
 /// Coefficients of a cubic in the height above the tip.
@@ -47,11 +50,14 @@ double larger(double a, double b) noexcept {
   return std::abs(b) > std::abs(a) ? b : a;
 }
 
-std::vector<double> angles_of(const force::ArcTurn& turn) {
+/// @param every_event  kinks too, not only jumps
+std::vector<double> angles_of(const force::ArcTurn& turn, bool every_event) {
   std::vector<double> phi;
-  for (int i = 0; i < angles; ++i) {
-    phi.push_back(unit::turn * i / angles);
+  const int n = every_event ? angles : few_angles;
+  for (int i = 0; i < n; ++i) {
+    phi.push_back(unit::turn * i / n);
   }
+  if (!every_event && !turn.jumps()) return phi;
   for (const double event : turn.events()) {
     if (turn.jumps()) {
       phi.push_back(event - beside_jump);
@@ -91,11 +97,19 @@ std::vector<TurnLoads::InPlane> hull_of(std::vector<TurnLoads::InPlane> points) 
 
 }  // namespace
 
+bool is_plain(const Tool& tool) noexcept {
+  const geometry::Profile& p = tool.cutter.profile;
+  return p.R == 0 && p.alpha == 0 && p.beta == 0 &&
+         tool.cutter.lag_law == geometry::LagLaw::constant_lead &&
+         geometry::edges_alike(tool.cutter, tool.runout);
+}
+
 TurnLoads loads_of(const Turn& turn, const Tool& tool) {
   TurnLoads out;
   TurnForces& F = out.forces;
   F.peak_of_tooth.assign(static_cast<std::size_t>(tool.cutter.teeth()), 0.0);
-  if (turn.layers.empty() || !(turn.f_z > 0)) {
+  const bool plain = is_plain(tool);
+  if (turn.layers.empty() || !(turn.f_z > 0 || (!plain && turn.fall > 0))) {
     return out;
   }
   const double height = turn.layers.back().to;
@@ -109,12 +123,16 @@ TurnLoads loads_of(const Turn& turn, const Tool& tool) {
       .edge_length = tool.edge_length,
       .process_damping = {}};
   const bool moments = tool.body.has_value() || tool.gauge_length > 0;
-  const force::ArcTurn teeth(setup, tool.law, {0.0, std::numbers::pi}, moments);
+  const geometry::Arc within = plain ? geometry::Arc{0.0, std::numbers::pi}
+                                     : geometry::Arc{-2 * unit::turn, 3 * unit::turn};
+  const force::ArcTurn teeth(
+      setup, tool.law,
+      {.within = within, .heights = moments, .fall = turn.fall, .cones = !plain});
   const Cubic c = tip_compliance(tool.body, height);
   std::vector<TurnLoads::InPlane> curve;
   double deflection2 = 0.0;
   double moment2 = 0.0;
-  for (const double phi : angles_of(teeth)) {
+  for (const double phi : angles_of(teeth, plain)) {
     force::ToothLoads all;
     for (std::size_t j = 0; j < teeth.teeth(); ++j) {
       const force::ToothLoads one = teeth.at(j, phi);
@@ -167,6 +185,7 @@ TurnKey key_of(const Turn& turn) {
   };
   key.push_back(turn.tool);
   add(turn.f_z, 1e-11);
+  add(turn.fall, 1e-11);
   add(turn.curvature, 1e-4);
   for (const geometry::ArcLayer& layer : turn.layers) {
     add(layer.from, 1e-9);

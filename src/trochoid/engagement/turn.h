@@ -12,10 +12,16 @@ namespace trochoid::engagement {
 /// A turn of a tool in the stock, apart from where its feed goes.
 struct Turn {
   std::int16_t tool = 0;
-  double f_z = 0.0;        ///< [m]
+  double f_z = 0.0;   ///< sideways [m]
+  double fall = 0.0;  ///< feed of a turn downwards, of a cutter that is not flat [m]
   double curvature = 0.0;  ///< of the path [1/m]
   std::vector<geometry::ArcLayer> layers;
 };
+
+/// Whether a turn has a feed that makes chips.
+inline bool feeds(const Turn& turn) noexcept {
+  return turn.f_z > 0 || turn.fall > 0;
+}
 
 /// @brief Forces of a turn, feed along +x.
 struct TurnLoads {
@@ -26,6 +32,10 @@ struct TurnLoads {
   TurnForces forces;          ///< mean and peak of x and y are those of feed along +x
   std::vector<InPlane> hull;  ///< corners of the curve of F_x, F_y over the turn [N]
 };
+
+/// @brief Whether forces of a cutter have a closed form over the height: a flat end mill
+/// of constant lead whose teeth are alike but for runout across the axis.
+bool is_plain(const Tool& tool) noexcept;
 
 /// @brief Forces of a turn at all angles of the spindle.
 TurnLoads loads_of(const Turn& turn, const Tool& tool);

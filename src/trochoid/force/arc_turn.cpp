@@ -1,11 +1,14 @@
 #include <trochoid/force/arc_turn.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/chip/teeth_at_height.h>
 #include <trochoid/geometry/edge.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <variant>
 
 namespace trochoid::force {
@@ -22,9 +25,16 @@ constexpr double short_lag = 0.05;
 constexpr double look = 0.1;
 /// Runout that changes along the edge is taken as constant over such a lag [rad].
 constexpr double slab_lag = 0.05;
+/// The same where layers are cones, and the part of a wave that is one.
+constexpr double cone_lag = 0.3;
+constexpr double part_of_wave = 1.0 / 24;
 /// Longest panel [rad].
 constexpr double longest_arc_panel = 0.8;
 constexpr double arc_tolerance = 1e-7;
+/// The same where layers are cones: those stand for a curve, and err more than this.
+constexpr double cone_tolerance = 1e-4;
+/// A tool that only falls is fed sideways by next to nothing [m/rad].
+constexpr double least_feed = 1e-13;
 
 double into_turn(double theta) noexcept {
   return theta - unit::turn * std::floor((theta - turn_start) / unit::turn);
@@ -60,10 +70,11 @@ struct OnEdge {
 void add_window_moments(const std::array<double, 12>& v, const OnEdge& edge,
                         ToothLoads& out) noexcept {
   const auto& [A, q, m, lag] = edge;
+  const double each = std::abs(q);
   for (std::size_t i = 0; i < 2; ++i) {
     std::array<double, 3>& moment = i == 0 ? out.moment_x : out.moment_y;
-    const double whole = v[i] / q;
-    const double first = (A * v[i] - v[4 + i] / q) / q;
+    const double whole = v[i] / each;
+    const double first = (A * v[i] - v[4 + i] / q) / each;
     if (lag < short_lag) {
       const double about = lag < 1e-4 ? 0.0 : first - m * whole;
       moment[0] += m * whole + about;
@@ -72,76 +83,165 @@ void add_window_moments(const std::array<double, 12>& v, const OnEdge& edge,
       continue;
     }
     moment[0] += first;
-    moment[1] += (A * A * v[i] - 2 * A * v[4 + i] / q + v[6 + i] / (q * q)) / q;
+    moment[1] += (A * A * v[i] - 2 * A * v[4 + i] / q + v[6 + i] / (q * q)) / each;
     moment[2] += (A * A * A * v[i] - 3 * A * A * v[4 + i] / q +
                   3 * A * v[6 + i] / (q * q) - v[8 + i] / (q * q * q)) /
-                 q;
+                 each;
   }
 }
 
 }  // namespace
 
-ArcTurn::ArcTurn(const Setup& setup, const Law& law, geometry::Arc within, bool heights)
+ArcTurn::Edge::Edge() : integral(turn_start, unit::turn) {}
+
+ArcTurn::ArcTurn(const Setup& setup, const Law& law, const Options& options)
     : passage_(chip::passage(setup.cutter, setup.cut, setup.chip)),
+      options_(options),
       r_(setup.cutter.profile.D / 2),
       psi_(geometry::tooth_angles(setup.cutter)),
       lag_per_height_(2 * std::tan(setup.cutter.helix) / setup.cutter.lag_diameter),
-      heights_(heights),
+      tolerance_(options.cones ? cone_tolerance : arc_tolerance),
+      jumps_(!options.cones && !(lag_per_height_ > 0)),
       law_(terms(law)) {
   passage_.by_arcs = false;  // the arcs are looked at here, with what bounds them
+  if (options.fall > 0) passage_.feed = std::max(passage_.feed, least_feed);
   if (setup.edge_length == EdgeLength::true_length) {
     edge_factor_ = std::hypot(1.0, r_ * lag_per_height_);
   }
+  std::optional<geometry::ToothEdges> edges;
+  if (options.cones) edges.emplace(setup.cutter, runout_of(setup));
   const geometry::Arcs& arcs = std::get<geometry::Arcs>(setup.cut.engagement);
   for (const geometry::ArcLayer& given : arcs.layers) {
     const double to = std::min(given.to, setup.cut.a_p);
     if (given.arcs.empty() || !(to > given.from)) continue;
     const double height = to - given.from;
+    if (edges) {
+      add_cones(*edges, setup, given, {given.from, to});
+      continue;
+    }
     const double lag = lag_per_height_ * height;
     const int slabs = keeps_radius(setup) ? 1 : static_cast<int>(lag / slab_lag) + 1;
     for (int i = 0; i < slabs; ++i) {
-      add_slab(setup, given,
-               {given.from + height * i / slabs, given.from + height * (i + 1) / slabs},
-               within);
+      add_slab(
+          setup, given,
+          {given.from + height * i / slabs, given.from + height * (i + 1) / slabs});
     }
   }
 }
 
 void ArcTurn::add_slab(const Setup& setup, const geometry::ArcLayer& given,
-                       geometry::Arc slab, geometry::Arc within) {
-  Layer layer{.from = slab.from, .to = slab.to};
+                       geometry::Arc slab) {
+  Layer layer{.from = slab.from, .to = slab.to, .passage = passage_};
   layer.positions.resize(psi_.size());
   geometry::edge_positions(runout_of(setup), psi_, r_,
                            lag_per_height_ * 0.5 * (slab.from + slab.to),
                            layer.positions);
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    Edge edge;
+    edge.place = static_cast<int>(j);
+    edge.r = r_;
+    edge.R = layer.positions[j].R;
+    edge.epsilon = layer.positions[j].epsilon;
+    edge.length = edge_factor_;
+    edge.behind = psi_[j] - edge.epsilon + lag_per_height_ * slab.from;
+    edge.q = lag_per_height_;
+    layer.edges.push_back(std::move(edge));
+  }
+  finish(std::move(layer), given);
+}
+
+void ArcTurn::add_cones(const geometry::ToothEdges& edges, const Setup& setup,
+                        const geometry::ArcLayer& given, geometry::Arc layer) {
+  const bool constant =
+      geometry::runs_true(runout_of(setup)) && edges.wavelength() == 0;
+  std::vector<double> ends = edges.breaks(layer.to);
+  std::erase_if(ends, [&](double z) { return z <= layer.from; });
+  double from = layer.from;
+  for (const double end : ends) {
+    double turned = 0.0;
+    for (std::size_t j = 0; j < edges.teeth(); ++j) {
+      turned = std::max(turned, edges.turn_between(j, from, end));
+    }
+    double parts = constant ? 1.0 : turned / cone_lag;
+    if (edges.wavelength() > 0) {
+      parts = std::max(parts, (end - from) / (edges.wavelength() * part_of_wave));
+    }
+    const int n = static_cast<int>(parts) + 1;
+    for (int i = 0; i < n; ++i) {
+      add_cone(edges, setup, given,
+               {from + (end - from) * i / n, from + (end - from) * (i + 1) / n});
+    }
+    from = end;
+  }
+}
+
+void ArcTurn::add_cone(const geometry::ToothEdges& edges, const Setup& setup,
+                       const geometry::ArcLayer& given, geometry::Arc slab) {
+  chip::TeethAtHeight teeth(edges, passage_);
+  teeth.stand_at(0.5 * (slab.from + slab.to));
+  Layer layer{.from = slab.from, .to = slab.to, .passage = teeth.passage()};
+  for (std::size_t j = 0; j < psi_.size(); ++j) {
+    Edge& edge = layer.edges.emplace_back();
+    edge.place = teeth.place(j);
+    if (edge.place < 0) continue;
+    const geometry::EdgeAt& at = teeth.edge(j);
+    const double omega = edges.edge_at(j, slab.from).omega;
+    edge.r = at.r;
+    edge.R = at.position.R;
+    edge.epsilon = at.position.epsilon;
+    edge.sin_kappa = at.sin_kappa;
+    edge.cos_kappa = at.cos_kappa;
+    edge.length = setup.edge_length == EdgeLength::true_length ? at.dS_dz : 1.0;
+    edge.behind = omega - edge.epsilon;
+    edge.q = (edges.edge_at(j, slab.to).omega - omega) / (slab.to - slab.from);
+    layer.positions.push_back(at.position);
+    const auto teeth_there = static_cast<std::size_t>(layer.passage.teeth);
+    for (std::size_t m = 0; options_.fall != 0 && m < teeth_there; ++m) {  // N-18
+      const double back =
+          layer.passage.back[static_cast<std::size_t>(edge.place) * teeth_there + m];
+      const double above = options_.fall * back / unit::turn;
+      const geometry::EdgeAt before =
+          edges.edge_at(j, 0.5 * (slab.from + slab.to) - above);
+      edge.advance.push_back(at.r - (before.there ? before.r : 0.0));
+    }
+    jumps_ = jumps_ || std::abs(edge.q) * (slab.to - slab.from) < shortest_lag;
+  }
+  if (!layer.positions.empty()) finish(std::move(layer), given);
+}
+
+void ArcTurn::finish(Layer&& layer, const geometry::ArcLayer& given) {
   const double least =
       std::ranges::min_element(layer.positions, {}, &geometry::EdgePosition::R)->R;
   // No mark is older than a turn.
+  double oldest = passage_.feed * unit::turn;
+  for (const Edge& edge : layer.edges) {
+    if (!edge.advance.empty()) oldest += std::abs(edge.advance.back());
+  }
   layer.arcs =
-      chip::reached_arcs(given.arcs, least - passage_.feed * unit::turn, within);
-  layer.ends.resize(psi_.size());
-  for (std::size_t j = 0; j < psi_.size(); ++j) {
-    add_tooth(layer, j);
+      chip::reached_arcs(given.arcs, std::max(least - oldest, 0.0), options_.within);
+  for (Edge& edge : layer.edges) {
+    if (edge.place < 0) continue;
+    add_tooth(layer, edge);
     const double share = (layer.to - layer.from) / unit::turn;
-    const Values& total = layer.integrals[j].total();
+    const Values& total = edge.integral.total();
     mean_.x += share * total[0];  // N-8
     mean_.y += share * total[1];
     mean_.z += share * total[2];
-    mean_.torque += share * total[3] * layer.positions[j].R;
+    mean_.torque += share * total[3] * edge.R;
   }
   layers_.push_back(std::move(layer));
 }
 
-ArcTurn::Ray ArcTurn::ray(const Layer& layer, std::size_t tooth,
+ArcTurn::Ray ArcTurn::ray(const Layer& layer, const Edge& edge,
                           double theta) const noexcept {
-  const double nominal = theta - layer.positions[tooth].epsilon;
+  const chip::Slice slice{
+      .r = edge.r, .teeth = layer.positions, .advance = edge.advance};
   const chip::Chip chip =
-      chip::chip_at(passage_, {r_, layer.positions}, static_cast<int>(tooth), nominal);
+      chip::chip_at(layer.passage, slice, edge.place, theta - edge.epsilon);
   if (!chip.in_cut) {
     return {0.0, -1};
   }
-  const geometry::Stretch all{layer.positions[tooth].R - chip.h,
-                              layer.positions[tooth].R};
+  const geometry::Stretch all{edge.R - chip.h, edge.R};
   const double h = std::max(chip::stock_length(layer.arcs, theta, all),
                             chip::stock_length(layer.arcs, theta + unit::turn, all));
   if (!(h > chip::h_threshold)) {
@@ -151,16 +251,19 @@ ArcTurn::Ray ArcTurn::ray(const Layer& layer, std::size_t tooth,
   return {h, 2 * chip::mark_of(chip) + (clipped ? 1 : 0)};
 }
 
-ArcTurn::PerHeight ArcTurn::per_height(double h, double theta) const noexcept {
-  const ColumnWeights w = column_weights(law_.form, h, 1.0, edge_factor_);
-  const double t = law_.K[0] * w.cutting[0] + law_.K_e[0] * w.edge;
-  const double inward = law_.K[1] * w.cutting[1] + law_.K_e[1] * w.edge;
-  const double a = law_.K[2] * w.cutting[2] + law_.K_e[2] * w.edge;
+ArcTurn::PerHeight ArcTurn::per_height(const Edge& edge, double h,
+                                       double theta) const noexcept {
+  const double sine = edge.sin_kappa;
+  const ColumnWeights w = column_weights(law_.form, h, sine, edge.length * sine);
+  const double t = (law_.K[0] * w.cutting[0] + law_.K_e[0] * w.edge) / sine;
+  const double r = (law_.K[1] * w.cutting[1] + law_.K_e[1] * w.edge) / sine;
+  const double a = (law_.K[2] * w.cutting[2] + law_.K_e[2] * w.edge) / sine;
+  const double inward = r * sine + a * edge.cos_kappa;
   const auto [x, y] = in_plane(t, inward, std::sin(theta), std::cos(theta));
-  return {x, y, -a, t};
+  return {x, y, r * edge.cos_kappa - a * sine, t};
 }
 
-void ArcTurn::add_tooth(Layer& layer, std::size_t tooth) {
+void ArcTurn::add_tooth(const Layer& layer, Edge& edge) {
   // Between these nothing changes but what the marks do.
   std::vector<double> breaks{turn_start, turn_end};
   for (const chip::ReachedArc& arc : layer.arcs) {
@@ -171,18 +274,15 @@ void ArcTurn::add_tooth(Layer& layer, std::size_t tooth) {
     }
   }
   std::ranges::sort(breaks);
-  numerics::PiecewiseIntegral<12>& integral =
-      layer.integrals.emplace_back(turn_start, unit::turn);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     if (breaks[i + 1] - breaks[i] > 1e-9) {
-      add_stretch(layer, tooth, breaks[i], breaks[i + 1], integral);
+      add_stretch(layer, edge, breaks[i], breaks[i + 1]);
     }
   }
-  integral.finish();
+  edge.integral.finish();
 }
 
-void ArcTurn::add_stretch(Layer& layer, std::size_t tooth, double from, double to,
-                          numerics::PiecewiseIntegral<12>& integral) {
+void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to) {
   const double middle = 0.5 * (from + to);
   const auto holds = [&](const chip::ReachedArc& arc) {
     return (middle > arc.first() && middle < arc.last()) ||
@@ -193,27 +293,28 @@ void ArcTurn::add_stretch(Layer& layer, std::size_t tooth, double from, double t
   }
   const int n = std::max(4, static_cast<int>(std::ceil((to - from) / look)));
   const double a_little = 1e-9 * (to - from);
+  const double closest = options_.cones ? 1e-5 : 1e-12;
   const auto at = [&](int i) {
     return i == 0 ? from + a_little
                   : (i == n ? to - a_little : from + (to - from) * i / n);
   };
   double start = from;
-  int bound = ray(layer, tooth, at(0)).bound;
+  int bound = ray(layer, edge, at(0)).bound;
   const auto close = [&](double end) {
     if (bound >= 0 && end > start) {
-      add_smooth(layer, tooth, {start, end}, integral);
+      add_smooth(layer, edge, {start, end});
     }
     start = end;
   };
   for (int i = 1; i <= n; ++i) {
-    const int next = ray(layer, tooth, at(i)).bound;
+    const int next = ray(layer, edge, at(i)).bound;
     double lo = at(i - 1);
     while (next != bound) {  // several may follow one another
       double hi = at(i);
       int beyond = next;
-      for (int k = 0; k < 40 && hi - lo > 1e-12; ++k) {
+      for (int k = 0; k < 40 && hi - lo > closest; ++k) {
         const double half = 0.5 * (lo + hi);
-        const int there = ray(layer, tooth, half).bound;
+        const int there = ray(layer, edge, half).bound;
         if (there == bound) {
           lo = half;
         } else {
@@ -229,11 +330,10 @@ void ArcTurn::add_stretch(Layer& layer, std::size_t tooth, double from, double t
   close(to);
 }
 
-void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
-                         numerics::PiecewiseIntegral<12>& integral) {
-  layer.ends[tooth].push_back(piece.from);
-  layer.ends[tooth].push_back(piece.to);
-  const auto h_at = [&](double theta) { return ray(layer, tooth, theta).h; };
+void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
+  edge.ends.push_back(piece.from);
+  edge.ends.push_back(piece.to);
+  const auto h_at = [&](double theta) { return ray(layer, edge, theta).h; };
   double largest = 0.0;
   double at_largest = piece.from;
   const double inner = 1e-9 * (piece.to - piece.from);
@@ -250,9 +350,9 @@ void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
       largest = h;
       at_largest = theta;
     }
-    const PerHeight g = per_height(h, theta);
+    const PerHeight g = per_height(edge, h, theta);
     Values out{g[0], g[1], g[2], g[3]};
-    if (heights_) {
+    if (options_.heights) {
       double power = theta;
       for (std::size_t k = 0; k < 3; ++k) {
         out[4 + 2 * k] = power * g[0];
@@ -265,14 +365,20 @@ void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
     return out;
   };
   // The largest force that the chip here could make, and a little.
-  const PerHeight g = per_height(passage_.feed * unit::turn, 0.0);
+  const double most = passage_.feed * unit::turn +
+                      (edge.advance.empty() ? 0.0 : std::abs(edge.advance.back()));
+  const PerHeight g = per_height(edge, most, 0.0);
   const double scale = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]);
   Values allowed{};
   for (std::size_t q = 0; q < allowed.size(); ++q) {
-    allowed[q] = arc_tolerance * scale * (q < 4 ? 1.0 : 30.0);
+    allowed[q] = tolerance_ * scale * (q < 4 ? 1.0 : 30.0);
   }
-  integral.append(piece.from, piece.to, f, longest_arc_panel, allowed);
-  if (largest <= peak_chip_ * (1 - 1e-3)) return;
+  edge.integral.append(piece.from, piece.to, f, longest_arc_panel, allowed);
+  if (largest * edge.sin_kappa <= peak_chip_ * (1 - 1e-3)) return;
+  if (options_.cones) {
+    peak_chip_ = std::max(peak_chip_, edge.sin_kappa * largest);
+    return;
+  }
   constexpr double golden = 0.6180339887498949;
   double lo = std::max(piece.from + inner, at_largest - 0.5 * look);
   double hi = std::min(piece.to - inner, at_largest + 0.5 * look);
@@ -281,32 +387,32 @@ void ArcTurn::add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
     const double b = lo + golden * (hi - lo);
     (h_at(a) < h_at(b) ? lo : hi) = h_at(a) < h_at(b) ? a : b;
   }
-  peak_chip_ = std::max({peak_chip_, largest, h_at(0.5 * (lo + hi))});
+  peak_chip_ =
+      std::max(peak_chip_, edge.sin_kappa * std::max(largest, h_at(0.5 * (lo + hi))));
 }
 
-void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
+void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi,
                         ToothLoads& out) const noexcept {
   const double height = layer.to - layer.from;
-  const double lag = lag_per_height_ * height;
-  const double at_bottom =
-      into_turn(phi - behind(layer, tooth) - lag_per_height_ * layer.from);
+  const double lag = std::abs(edge.q) * height;
+  const double at_bottom = into_turn(phi - edge.behind);
   const double middle = layer.from + 0.5 * height;
   const auto add = [&](const PerHeight& F) {
     out.x += F[0];
     out.y += F[1];
     out.z += F[2];
-    out.torque += F[3] * layer.positions[tooth].R;
+    out.torque += F[3] * edge.R;
   };
   if (lag < shortest_lag) {
-    const double theta = into_turn(at_bottom - 0.5 * lag);
-    const double h = ray(layer, tooth, theta).h;
+    const double theta = into_turn(at_bottom - 0.5 * edge.q * height);
+    const double h = ray(layer, edge, theta).h;
     if (!(h > 0)) return;
-    PerHeight F = per_height(h, theta);
+    PerHeight F = per_height(edge, h, theta);
     for (double& f : F) f *= height;
     add(F);
-    out.axial_x += layer.positions[tooth].R * std::sin(theta) * F[2];
-    out.axial_y += layer.positions[tooth].R * std::cos(theta) * F[2];
-    for (std::size_t k = 0; heights_ && k < 3; ++k) {
+    out.axial_x += edge.R * std::sin(theta) * F[2];
+    out.axial_y += edge.R * std::cos(theta) * F[2];
+    for (std::size_t k = 0; options_.heights && k < 3; ++k) {
       const auto n = static_cast<int>(k) + 2;
       const double share =
           (std::pow(layer.to, n) - std::pow(layer.from, n)) / (n * height);
@@ -315,28 +421,32 @@ void ArcTurn::add_layer(const Layer& layer, std::size_t tooth, double phi,
     }
     return;
   }
-  const double q = lag_per_height_;
+  const double q = std::abs(edge.q);
   // The window of theta, from the top to the bottom of the layer, and its images.
-  for (double bottom = at_bottom; bottom - lag < turn_end; bottom += unit::turn) {
-    const double from = std::max(bottom - lag, turn_start);
-    const double to = std::min(bottom, turn_end);
+  const double ahead = edge.q < 0 ? lag : 0.0;
+  for (double bottom = at_bottom - (edge.q < 0 ? unit::turn : 0.0);
+       bottom + ahead - lag < turn_end; bottom += unit::turn) {
+    const double from = std::max(bottom + ahead - lag, turn_start);
+    const double to = std::min(bottom + ahead, turn_end);
     if (!(to > from)) continue;
     Values v{};
-    layer.integrals[tooth].add_to(v, to, 1.0);
-    layer.integrals[tooth].add_to(v, from, -1.0);
+    edge.integral.add_to(v, to, 1.0);
+    edge.integral.add_to(v, from, -1.0);
     add({v[0] / q, v[1] / q, v[2] / q, v[3] / q});  // N-7
-    if (!heights_) continue;
-    out.axial_x += layer.positions[tooth].R * v[10] / q;
-    out.axial_y += layer.positions[tooth].R * v[11] / q;
-    const double A = layer.from + bottom / q;  // z = A - theta/q
-    add_window_moments(v, {A, q, middle, lag}, out);
+    if (!options_.heights) continue;
+    out.axial_x += edge.R * v[10] / q;
+    out.axial_y += edge.R * v[11] / q;
+    const double A = layer.from + bottom / edge.q;  // z = A - theta/q
+    add_window_moments(v, {A, edge.q, middle, lag}, out);
   }
 }
 
 ToothLoads ArcTurn::at(std::size_t tooth, double phi) const noexcept {
   ToothLoads out;
   for (const Layer& layer : layers_) {
-    add_layer(layer, tooth, phi, out);
+    if (layer.edges[tooth].place >= 0) {
+      add_layer(layer, layer.edges[tooth], phi, out);
+    }
   }
   return out;
 }
@@ -344,10 +454,10 @@ ToothLoads ArcTurn::at(std::size_t tooth, double phi) const noexcept {
 std::vector<double> ArcTurn::events() const {
   std::vector<double> out;
   for (const Layer& layer : layers_) {
-    for (std::size_t j = 0; j < layer.ends.size(); ++j) {
-      for (const double end : layer.ends[j]) {
-        for (const double z : {layer.from, layer.to}) {
-          const double phi = end + behind(layer, j) + lag_per_height_ * z;
+    for (const Edge& edge : layer.edges) {
+      for (const double end : edge.ends) {
+        for (const double z : {0.0, layer.to - layer.from}) {
+          const double phi = end + edge.behind + edge.q * z;
           out.push_back(phi - unit::turn * std::floor(phi / unit::turn));
         }
       }

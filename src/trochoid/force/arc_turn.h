@@ -4,6 +4,7 @@
 #include <trochoid/chip/chip.h>
 #include <trochoid/force/law.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/geometry/tooth_edges.h>
 #include <trochoid/numerics/piecewise_integral.h>
 
 #include <array>
@@ -28,33 +29,43 @@ struct ToothLoads {
 
 ToothLoads& operator+=(ToothLoads& a, const ToothLoads& b) noexcept;
 
-/// @brief Forces of a turn of a constant-lead cylinder whose stock is given as arcs per
-/// layer. Where runout changes along the edge, thin layers keep it.
+/// @brief Forces of a turn whose stock is given as arcs per layer.
+///
+/// Within a layer the edge is straight: a cone, with its middle's radius, slope and runout.
+/// On a constant-lead cylinder that is exact; where runout changes along its edge, thin
+/// layers keep it. For other cutters the caller gives layers thin enough.
 ///
 /// The force per height of each tooth over theta, and its moments in theta, are integrated
 /// once; a turn of the spindle asks differences of the integrals.
 /// @eq N-7  F = (1/q) sum over layers and teeth of G_j(phi - psi_j - lag(from)) -
 ///          G_j(phi - psi_j - lag(to)), q = d lag/dz, G_j = int g_j dtheta
 /// @eq N-8  mean F = sum of (to - from)/(2 pi) int g_j dtheta over a turn
+/// @eq N-18 a tool that falls by f_a a turn: L_k is lower by r(z) - r(z - f_a (theta_j -
+///          theta_k)/2 pi), as the tooth before stood higher
 /// @src derived
 class ArcTurn {
  public:
-  /// @pre setup.cut.engagement holds geometry::Arcs, the cutter is a constant-lead cylinder,
-  ///      something is fed
-  /// @param within  theta in which there are chips at all [rad]
-  /// @param heights  whether moments over the height are asked for
-  ArcTurn(const Setup& setup, const Law& law, geometry::Arc within, bool heights);
+  struct Options {
+    geometry::Arc within;  ///< theta in which there are chips at all [rad]
+    bool heights = false;  ///< whether moments over the height are asked for
+    double fall = 0.0;     ///< feed of a turn downwards [m]; only with `cones`
+    bool cones = false;    ///< any cutter; false: a constant-lead cylinder
+  };
+  /// @pre setup.cut.engagement holds geometry::Arcs, the cutter is a constant-lead cylinder
+  ///      or Options::cones is set, something is fed
+  ArcTurn(const Setup& setup, const Law& law, const Options& options);
 
   [[nodiscard]] std::size_t teeth() const noexcept { return psi_.size(); }
   /// Loads of one tooth at the angle phi of the tip of tooth 1 [rad].
   [[nodiscard]] ToothLoads at(std::size_t tooth, double phi) const noexcept;
   /// Mean loads over a turn, of all teeth, without moments over the height.
   [[nodiscard]] ToothLoads mean() const noexcept { return mean_; }
-  [[nodiscard]] double peak_chip() const noexcept { return peak_chip_; }  ///< [m]
+  /// Largest chip, across the edge [m].
+  [[nodiscard]] double peak_chip() const noexcept { return peak_chip_; }
   /// Angles phi at which the force may have a kink or jump, in [0, 2 pi), ascending [rad].
   [[nodiscard]] std::vector<double> events() const;
   /// Whether forces jump at events: edges without lag.
-  [[nodiscard]] bool jumps() const noexcept { return !(lag_per_height_ > 0); }
+  [[nodiscard]] bool jumps() const noexcept { return jumps_; }
 
  private:
   /// F_x, F_y, F_z, F_t per height.
@@ -62,42 +73,61 @@ class ArcTurn {
   /// The same, theta to the power of 1, 2, 3 times F_x and F_y, and sin(theta),
   /// cos(theta) times F_z.
   using Values = std::array<double, 12>;
+  /// The edge of a tooth within a layer.
+  struct Edge {
+    int place = -1;        ///< among the teeth that are there; negative: it is not
+    double r = 0.0;        ///< nominal radius [m]
+    double R = 0.0;        ///< from the axis of rotation [m]
+    double epsilon = 0.0;  ///< [rad]
+    double sin_kappa = 1.0;
+    double cos_kappa = 0.0;
+    double length = 1.0;  ///< of edge per height
+    double behind = 0.0;  ///< phi less the effective theta at the lower end [rad]
+    double q = 0.0;       ///< d lag/dz [rad/m]; negative: left-hand
+    std::vector<double> advance = {};  ///< N-18, for each mark [m]; empty: no fall
+    numerics::PiecewiseIntegral<12> integral;
+    std::vector<double> ends = {};  ///< of pieces, theta [rad]
+
+    Edge();
+  };
   struct Layer {
-    double from = 0.0;  ///< [m]
-    double to = 0.0;    ///< [m]
+    double from = 0.0;      ///< [m]
+    double to = 0.0;        ///< [m]
+    chip::Passage passage;  ///< of the teeth that are there
     std::vector<chip::ReachedArc> arcs = {};
-    std::vector<geometry::EdgePosition> positions = {};  ///< of the teeth at its middle
-    /// Of each tooth.
-    std::vector<numerics::PiecewiseIntegral<12>> integrals = {};
-    std::vector<std::vector<double>> ends = {};  ///< of pieces, theta [rad]
+    std::vector<geometry::EdgePosition> positions = {};  ///< of those, at its middle
+    std::vector<Edge> edges = {};                        ///< of all teeth
   };
   struct Ray {
     double h;
     int bound;  ///< what bounds the chip; -1: air
   };
 
-  void add_slab(const Setup& setup, const geometry::ArcLayer& given, geometry::Arc slab,
-                geometry::Arc within);
-  [[nodiscard]] double behind(const Layer& layer, std::size_t tooth) const noexcept {
-    return psi_[tooth] - layer.positions[tooth].epsilon;
-  }
-  [[nodiscard]] Ray ray(const Layer& layer, std::size_t tooth,
+  void add_slab(const Setup& setup, const geometry::ArcLayer& given,
+                geometry::Arc slab);
+  void add_cones(const geometry::ToothEdges& edges, const Setup& setup,
+                 const geometry::ArcLayer& given, geometry::Arc layer);
+  void add_cone(const geometry::ToothEdges& edges, const Setup& setup,
+                const geometry::ArcLayer& given, geometry::Arc slab);
+  void finish(Layer&& layer, const geometry::ArcLayer& given);
+  [[nodiscard]] Ray ray(const Layer& layer, const Edge& edge,
                         double theta) const noexcept;
-  [[nodiscard]] PerHeight per_height(double h, double theta) const noexcept;
-  void add_tooth(Layer& layer, std::size_t tooth);
-  void add_stretch(Layer& layer, std::size_t tooth, double from, double to,
-                   numerics::PiecewiseIntegral<12>& integral);
-  void add_smooth(Layer& layer, std::size_t tooth, geometry::Arc piece,
-                  numerics::PiecewiseIntegral<12>& integral);
-  void add_layer(const Layer& layer, std::size_t tooth, double phi,
+  [[nodiscard]] PerHeight per_height(const Edge& edge, double h,
+                                     double theta) const noexcept;
+  void add_tooth(const Layer& layer, Edge& edge);
+  void add_stretch(const Layer& layer, Edge& edge, double from, double to);
+  void add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece);
+  void add_layer(const Layer& layer, const Edge& edge, double phi,
                  ToothLoads& out) const noexcept;
 
   chip::Passage passage_;
+  Options options_;
   double r_ = 0.0;
   std::vector<double> psi_;  ///< of the tips [rad]
   double lag_per_height_ = 0.0;
   double edge_factor_ = 1.0;
-  bool heights_ = false;
+  double tolerance_;
+  bool jumps_ = false;
   Terms law_;
   std::vector<Layer> layers_;
   ToothLoads mean_;

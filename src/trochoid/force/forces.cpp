@@ -204,7 +204,7 @@ std::optional<ArcTurn> arc_turn(const Setup& setup, const Law& law, bool heights
        setup.cutter.lag_diameter != p.D)) {
     return std::nullopt;
   }
-  return ArcTurn(setup, law, everywhere, heights);
+  return ArcTurn(setup, law, {.within = everywhere, .heights = heights});
 }
 
 ToothLoads all_teeth(const ArcTurn& turn, double phi) noexcept {

@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace trochoid::run {
 
@@ -90,24 +92,36 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
                name)});
     }
   }
-  if (!std::ranges::all_of(out.tools, [](const auto& t) {
-        return !t.cuts || engagement::takes(t.cutter);
-      })) {
-    out.why_not.push_back(
-        {"tool_not_flat",
-         "Forces along a program are computed for flat end mills of constant lead; with "
-         "another tool the answer is the moves alone."});
-  }
   return out;
 }
 
-std::optional<stock::Initial> stock_of(const cases::Stock& stock) {
+/// Cell of a height field [m]: as the case says, or a twentieth of the smallest radius.
+double cell_of(const cases::Stock& stock, std::span<const engagement::Tool> tools) {
+  if (stock.cell) return *stock.cell;
+  constexpr double finest = 0.05 * unit::mm;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const engagement::Tool& tool : tools) {
+    if (tool.cuts) smallest = std::min(smallest, tool.cutter.profile.D / 2);
+  }
+  return std::isfinite(smallest) ? std::max(smallest / 20, finest) : 1 * unit::mm;
+}
+
+stock::Initial stock_of(const cases::Stock& stock, double cell,
+                        std::vector<base::Warning>& warnings) {
   if (stock.box.size() == 2) return stock::Box{stock.box[0], stock.box[1]};
   if (stock.cylinder) {
     const cases::StockCylinder& c = *stock.cylinder;
     return stock::Cylinder{c.axis, c.radius, c.z[0], c.z[1]};
   }
-  return std::nullopt;
+  stock::FromAbove seen = stock::seen_from_above(stock.faces.get(), cell);
+  if (seen.undercut) {
+    warnings.push_back(
+        {"stock_undercut",
+         fmt::format("{} has air below its top somewhere; this counts as stock down to "
+                     "its lowest point.",
+                     stock.file.name)});
+  }
+  return std::move(seen.field);
 }
 
 /// A quantity of a line against its limit.
@@ -377,15 +391,12 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
                                   r.program.moves.size(), fed, time);
   const Tools tools = tools_of(given, r.program);
   base::add(r.heading.warnings, tools.why_not);
-  const auto stock = given.nc.stock ? stock_of(*given.nc.stock) : std::nullopt;
-  if (!stock) {
-    r.heading.warnings.push_back(
-        {"stock_not_read",
-         "[stock] file is not read yet, so no forces are computed; give box_mm or "
-         "cylinder_mm."});
-  }
-  if (!stock || !tools.why_not.empty()) return r;
-  const engagement::Job job{r.program, tools.tools, *stock, options_of(given, stop)};
+  if (!given.nc.stock || !tools.why_not.empty()) return r;
+  const double cell = cell_of(*given.nc.stock, tools.tools);
+  const stock::Initial stock = stock_of(*given.nc.stock, cell, r.heading.warnings);
+  engagement::Options options = options_of(given, stop);
+  options.cell = cell;
+  const engagement::Job job{r.program, tools.tools, stock, options};
   r.forces = forces_of(job, given, progress);
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);

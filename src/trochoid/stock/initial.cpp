@@ -8,20 +8,16 @@
 namespace trochoid::stock {
 
 Heights heights(const Initial& stock) noexcept {
-  return std::visit(
-      base::Overloaded{[](const Box& box) {
-                         return Heights{box.low[2], box.high[2]};
-                       },
-                       [](const Cylinder& c) {
-                         return Heights{c.bottom, c.top};
-                       },
-                       [](const HeightField& field) {
-                         const auto top = std::ranges::max_element(field.top);
-                         return Heights{field.bottom, top == field.top.end()
-                                                          ? field.bottom
-                                                          : static_cast<double>(*top)};
-                       }},
-      stock);
+  return std::visit(base::Overloaded{[](const Box& box) {
+                                       return Heights{box.low[2], box.high[2]};
+                                     },
+                                     [](const Cylinder& c) {
+                                       return Heights{c.bottom, c.top};
+                                     },
+                                     [](const HeightField& field) {
+                                       return Heights{field.bottom, field.highest};
+                                     }},
+                    stock);
 }
 
 double volume(const Initial& stock) noexcept {

@@ -30,6 +30,7 @@ struct HeightField {
   double bottom = 0.0;             ///< z of the floor [m]
   /// z of the top [m], row after row, shape (rows, columns); not above `bottom`: none
   std::vector<float> top;
+  double highest = 0.0;  ///< of them [m]
 };
 
 /// What is there before the first move.

@@ -1,4 +1,5 @@
 #include <trochoid/base/units.h>
+#include <trochoid/stock/slice_part.h>
 #include <trochoid/stock/swept.h>
 
 #include <algorithm>
@@ -16,6 +17,10 @@ using geometry::StockBoundary;
 constexpr double tie = 2e-7;
 /// Places on boundaries are found to this [m].
 constexpr double on_boundary = 1e-9;
+/// Angles at which a circle is asked for the edges of slopes.
+constexpr int looks = 144;
+/// Edges of a slope are found to this [rad].
+constexpr double crossing = 1e-10;
 /// Where a circle without any boundary is asked: never on the axis of an old slot [rad].
 constexpr double anywhere = 1.2345;
 double squared(double x) noexcept {
@@ -23,15 +28,14 @@ double squared(double x) noexcept {
 }
 
 constexpr double first_theta = -std::numbers::pi / 2;
+/// A helix of a tool that is not flat is taken as chords, this far from it [m].
+constexpr double sagitta = 5e-7;
+/// Of the wall of a tool that is not flat, and of what its slope rises, a layer takes this
+/// part.
+constexpr int layers_of_wall = 12;
 
 double wrapped(double theta) noexcept {
   return theta - unit::turn * std::floor((theta - first_theta) / unit::turn);
-}
-
-/// Whether an angle about a centre is in the sweep that begins at `start`.
-bool in_sweep(double angle, double start, double sweep) noexcept {
-  const double ahead = sweep > 0 ? angle - start : start - angle;
-  return ahead - unit::turn * std::floor(ahead / unit::turn) <= std::abs(sweep);
 }
 
 /// An angle where stock may begin or end.
@@ -48,12 +52,8 @@ Surroundings::Surroundings(const Swept& swept, const Place& place, double reach)
       reach_(reach),
       cosine_(std::cos(place.direction)),
       sine_(std::sin(place.direction)) {
-  const auto local = [&](double x, double y) {
-    const double dx = x - place_.tip[0];
-    const double dy = y - place_.tip[1];
-    return std::array{cosine_ * dx + sine_ * dy, cosine_ * dy - sine_ * dx};
-  };
-  for (const std::uint32_t i : swept.near(place.tip[0], place.tip[1])) {
+  for (const std::uint32_t i :
+       swept.near(place.tip[0], place.tip[1], place.turns, reach)) {
     const Piece& piece = swept.path().pieces[i];
     if (i > place.last || piece.turns_from > place.turns) {
       break;
@@ -62,36 +62,69 @@ Surroundings::Surroundings(const Swept& swept, const Place& place, double reach)
       continue;
     }
     const double span = piece.turns_to - piece.turns_from;
-    Near near{.piece = &piece,
-              .radius = swept.radius(piece.tool),
-              .until = span > 0 ? std::min((place.turns - piece.turns_from) / span, 1.0)
-                                : 1.0};
-    const double touch = near.radius + reach;
-    if (piece.arc()) {
-      const auto c = local(piece.center[0], piece.center[1]);
-      near.x0 = c[0];
-      near.y0 = c[1];
-      near.start = piece.start - place.direction;
-      if (std::abs(std::hypot(c[0], c[1]) - piece.radius) >= touch) {
-        continue;
-      }
+    const double until =
+        span > 0 ? std::min((place.turns - piece.turns_from) / span, 1.0) : 1.0;
+    const Wall& wall = swept.wall(piece.tool);
+    const bool helix = piece.arc() && piece.from[2] != piece.to[2];
+    if (helix && !wall.is_upright()) {
+      add_chords(piece, wall, until);
     } else {
-      const auto a = local(piece.from[0], piece.from[1]);
-      const auto b = local(piece.to[0], piece.to[1]);
-      near.x0 = a[0];
-      near.y0 = a[1];
-      near.x1 = b[0];
-      near.y1 = b[1];
-      const double dx = b[0] - a[0];
-      const double dy = b[1] - a[1];
-      const double l2 = dx * dx + dy * dy;
-      const double u =
-          l2 > 0 ? std::clamp(-(a[0] * dx + a[1] * dy) / l2, 0.0, 1.0) : 0.0;
-      if (squared(a[0] + u * dx) + squared(a[1] + u * dy) >= touch * touch) {
-        continue;
-      }
+      add_near(piece, wall, until);
     }
-    near_.push_back(near);
+  }
+}
+
+SlicePoint Surroundings::local(double x, double y) const noexcept {
+  const double dx = x - place_.tip[0];
+  const double dy = y - place_.tip[1];
+  return {cosine_ * dx + sine_ * dy, cosine_ * dy - sine_ * dx};
+}
+
+bool Surroundings::is_far(const Near& near) const noexcept {
+  const double touch = near.wall->largest() + reach_;
+  if (near.radius > 0) {
+    return std::abs(std::hypot(near.from[0], near.from[1]) - near.radius) >= touch;
+  }
+  const double dx = near.to[0] - near.from[0];
+  const double dy = near.to[1] - near.from[1];
+  const double l2 = dx * dx + dy * dy;
+  const double u =
+      l2 > 0 ? std::clamp(-(near.from[0] * dx + near.from[1] * dy) / l2, 0.0, 1.0)
+             : 0.0;
+  return squared(near.from[0] + u * dx) + squared(near.from[1] + u * dy) >=
+         touch * touch;
+}
+
+void Surroundings::add_near(const Piece& piece, const Wall& wall, double until) {
+  Near near{.wall = &wall,
+            .radius = piece.radius,
+            .turn = piece.turn,
+            .until = until,
+            .tip = {piece.from[2] - place_.tip[2], piece.to[2] - place_.tip[2]},
+            .upright = piece.upright()};
+  if (piece.arc()) {
+    near.from = local(piece.center[0], piece.center[1]);
+    near.start = piece.start - place_.direction;
+  } else {
+    near.from = local(piece.from[0], piece.from[1]);
+    near.to = local(piece.to[0], piece.to[1]);
+  }
+  if (!is_far(near)) near_.push_back(near);
+}
+
+void Surroundings::add_chords(const Piece& piece, const Wall& wall, double until) {
+  const double angle = 2 * std::acos(std::max(1 - sagitta / piece.radius, 0.0));
+  const int n = static_cast<int>(std::abs(piece.turn) * until / angle) + 1;
+  PathPoint a = point_at(piece, 0.0);
+  for (int k = 1; k <= n; ++k) {
+    const PathPoint b = point_at(piece, until * k / n);
+    const Near near{.wall = &wall,
+                    .until = 1.0,
+                    .tip = {a.place[2] - place_.tip[2], b.place[2] - place_.tip[2]},
+                    .from = local(a.place[0], a.place[1]),
+                    .to = local(b.place[0], b.place[1])};
+    if (!is_far(near)) near_.push_back(near);
+    a = b;
   }
 }
 
@@ -109,24 +142,28 @@ std::vector<double> Surroundings::heights(std::array<int, 2> sublayers) const {
   }
   std::vector<double> ends{from, to};
   std::vector<Slope> slopes;
+  const auto add = [&](double z) {
+    if (z > from && z < to) ends.push_back(z);
+  };
   for (const Near& near : near_) {
-    const Piece& piece = *near.piece;
-    const double z0 = piece.from[2] - tip;
-    const double z1 = z0 + near.until * (piece.to[2] - piece.from[2]);
-    const auto [low, high] = std::minmax(z0, z1);
-    if (low > from && low < to) {
-      ends.push_back(low);
-    }
-    if (piece.upright() || low == high) {
+    const auto [low, high] = near.tips();
+    if (!near.wall->is_upright()) {
+      const double top = high + near.wall->highest();
+      add(low + near.wall->lowest());
+      add(top);
+      slopes.push_back({low + near.wall->lowest(), top,
+                        (top - low - near.wall->lowest()) / layers_of_wall});
       continue;
     }
-    if (high > from && high < to) {
-      ends.push_back(high);
+    add(low);
+    if (near.upright || low == high) {
+      continue;
     }
+    add(high);
     // A helix comes back to the same place after a turn.
-    const double share = std::max(1.0, std::abs(piece.turn) * near.until / unit::turn);
+    const double share = std::max(1.0, std::abs(near.turn) * near.until / unit::turn);
     slopes.push_back(
-        {low, high, (high - low) / (share * sublayers[piece.arc() ? 1 : 0])});
+        {low, high, (high - low) / (share * sublayers[near.radius > 0 ? 1 : 0])});
   }
   std::ranges::sort(ends);
   std::vector<double> out{from};
@@ -154,10 +191,7 @@ std::vector<double> Surroundings::levels() const {
   const double tip = place_.tip[2];
   std::vector<double> out{all.bottom - tip, all.top - tip};
   for (const Near& near : near_) {
-    const Piece& piece = *near.piece;
-    const double z0 = piece.from[2] - tip;
-    const double z1 = z0 + near.until * (piece.to[2] - piece.from[2]);
-    out.push_back(std::min(z0, z1));
+    out.push_back(near.tips().first);
   }
   std::ranges::sort(out);
   return out;
@@ -166,7 +200,7 @@ std::vector<double> Surroundings::levels() const {
 class Surroundings::Search {
  public:
   Search(const Surroundings& around, double height, double r)
-      : around_(around), z_(around.place_.tip[2] + height), r_(r) {}
+      : around_(around), height_(height), z_(around.place_.tip[2] + height), r_(r) {}
 
   std::vector<geometry::EngagedArc> arcs() {
     const Heights all = stock::heights(around_.swept_.initial());
@@ -176,54 +210,64 @@ class Surroundings::Search {
     for (const Near& near : around_.near_) {
       add_part(near);
     }
+    add_slopes();
     add_initial();
     return joined();
   }
 
  private:
+  /// The part of a piece, from one fraction of it to another, that is below this height.
   void add_part(const Near& near) {
-    const Piece& piece = *near.piece;
-    const double z0 = piece.from[2];
-    const double z1 = piece.to[2];
+    const double base = near.wall->lowest();
+    const double z0 = near.tip[0] + base - height_;
+    const double z1 = near.tip[1] + base - height_;
     double from = 0.0;
     double to = near.until;
     if (z0 == z1) {
-      if (z0 > z_) return;
+      if (z0 > 0) return;
     } else if (z1 < z0) {
-      from = std::max(0.0, (z0 - z_) / (z0 - z1));
+      from = std::max(0.0, z0 / (z0 - z1));
     } else {
-      to = std::min(to, (z_ - z0) / (z1 - z0));
+      to = std::min(to, -z0 / (z1 - z0));
     }
     if (!(to >= from)) return;
-    Part part{near.radius, piece.radius, near.x0, near.y0};
-    if (piece.arc()) {
-      const double whole = piece.turn * (to - from);
-      const double sign = piece.turn > 0 ? 1.0 : -1.0;
+    const auto above_tip = [&](double u) { return base - z0 - u * (z1 - z0); };
+    SlicePart part{.R = near.wall->largest(), .radius = near.radius};
+    if (!near.wall->is_upright()) {
+      const std::array<double, 2> height{above_tip(from), above_tip(to)};
+      const double lower = near.wall->radius(std::min(height[0], height[1]));
+      part.R = near.wall->radius(std::max(height[0], height[1]));
+      if (!(part.R > 0)) return;
+      if (lower < part.R && !near.upright) {
+        part.wall = near.wall;
+        part.height = height;
+        part.smallest = lower;
+      }
+    }
+    if (near.radius > 0) {
+      const double whole = near.turn * (to - from);
+      const double sign = near.turn > 0 ? 1.0 : -1.0;
+      part.center = near.from;
       part.turn = sign * std::min(std::abs(whole), unit::turn);
-      part.start = near.start + piece.turn * to - part.turn;
+      part.start = near.start + near.turn * to - part.turn;
       const auto at = [&](double angle) {
-        return std::array{near.x0 + piece.radius * std::cos(angle),
-                          near.y0 + piece.radius * std::sin(angle)};
+        return SlicePoint{near.from[0] + near.radius * std::cos(angle),
+                          near.from[1] + near.radius * std::sin(angle)};
       };
       part.end = {at(part.start), at(part.start + part.turn)};
     } else {
-      const double dx = near.x1 - near.x0;
-      const double dy = near.y1 - near.y0;
-      part.end = {std::array{near.x0 + from * dx, near.y0 + from * dy},
-                  std::array{near.x0 + to * dx, near.y0 + to * dy}};
+      const double dx = near.to[0] - near.from[0];
+      const double dy = near.to[1] - near.from[1];
+      part.end = {SlicePoint{near.from[0] + from * dx, near.from[1] + from * dy},
+                  SlicePoint{near.from[0] + to * dx, near.from[1] + to * dy}};
+    }
+    if (part.slopes()) {
+      slopes_.push_back(part);
+      return;
     }
     parts_.push_back(part);
-    piece.arc() ? add_sector(part) : add_capsule(part);
+    part.radius > 0 ? add_sector(part) : add_capsule(part);
   }
-
-  struct Part {
-    double R;       ///< of the tool
-    double radius;  ///< of the path; 0: straight
-    double x, y;    ///< centre of an arc
-    double start = 0.0;
-    double turn = 0.0;
-    std::array<std::array<double, 2>, 2> end{};
-  };
 
   void add(double x, double y, const StockBoundary& boundary) {
     candidates_.push_back({wrapped(std::atan2(x, y)), boundary});
@@ -258,7 +302,7 @@ class Surroundings::Search {
     }
   }
 
-  void add_capsule(const Part& part) {
+  void add_capsule(const SlicePart& part) {
     const auto& [a, b] = part.end;
     const double l = std::hypot(b[0] - a[0], b[1] - a[1]);
     const double dx = l > 0 ? (b[0] - a[0]) / l : 0.0;
@@ -285,16 +329,102 @@ class Surroundings::Search {
     }
   }
 
-  void add_sector(const Part& part) {
+  void add_sector(const SlicePart& part) {
     const auto all = [](double, double) { return true; };
     for (const auto& end : part.end) {
       add_circle(end[0], end[1], part.R, StockBoundary::Kind::outside, all);
     }
-    add_circle(part.x, part.y, part.radius + part.R, StockBoundary::Kind::outside, all);
+    add_circle(part.center[0], part.center[1], part.radius + part.R,
+               StockBoundary::Kind::outside, all);
     if (part.radius > part.R) {
-      add_circle(part.x, part.y, part.radius - part.R, StockBoundary::Kind::inside,
-                 all);
+      add_circle(part.center[0], part.center[1], part.radius - part.R,
+                 StockBoundary::Kind::inside, all);
     }
+  }
+
+  /// The part on a slope that covers an angle, looked for from `first` on; none: their
+  /// number.
+  [[nodiscard]] std::size_t slope_over(double theta, std::size_t first) const noexcept {
+    const double x = r_ * std::sin(theta);
+    const double y = r_ * std::cos(theta);
+    const std::size_t n = slopes_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t k = (first + i) % n;
+      if (covers(slopes_[k], x, y)) return k;
+    }
+    return n;
+  }
+
+  /// Where the circle enters and leaves what the parts on slopes cover together.
+  void add_slopes() {
+    if (slopes_.empty()) return;
+    const std::size_t none = slopes_.size();
+    double at = first_theta;
+    std::size_t before = slope_over(at, 0);
+    for (int i = 1; i <= looks; ++i) {
+      const double next = first_theta + unit::turn * i / looks;
+      const std::size_t after = slope_over(next, before % none);
+      if (before != none && after == none) add_crossing(before, at, next);
+      if (before == none && after != none) add_crossing(after, next, at);
+      at = next;
+      before = after;
+    }
+  }
+
+  /// From an angle that a part covers to one that none does.
+  void add_crossing(std::size_t part, double from, double to) {
+    for (int tries = 0; tries < 8; ++tries) {
+      const double edge = leave(slopes_[part], from, to);
+      const std::size_t other = slope_over(edge + std::copysign(tie, to - from), part);
+      if (other == slopes_.size() || other == part) {
+        add_tangent(slopes_[part], edge);
+        return;
+      }
+      part = other;
+      from = edge;
+    }
+  }
+
+  /// Where the circle leaves a part: false position with halved ends.
+  [[nodiscard]] double leave(const SlicePart& part, double from,
+                             double to) const noexcept {
+    const auto depth = [&](double theta) {
+      return overlap(part, r_ * std::sin(theta), r_ * std::cos(theta)).depth;
+    };
+    double a = from;
+    double b = to;
+    double at_a = depth(a);
+    double at_b = depth(b);
+    double theta = 0.5 * (a + b);
+    for (int i = 0; i < 60 && std::abs(b - a) > crossing && at_a != at_b; ++i) {
+      theta = b - at_b * (b - a) / (at_b - at_a);
+      const double here = depth(theta);
+      if (std::abs(here) < 1e-14) break;
+      if ((here > 0) != (at_b > 0)) {
+        a = b;
+        at_a = at_b;
+      } else {
+        at_a *= 0.5;
+      }
+      b = theta;
+      at_b = here;
+    }
+    return theta;
+  }
+
+  /// The boundary there is the tangent of the disc that reaches farthest.
+  void add_tangent(const SlicePart& part, double theta) {
+    const double x = r_ * std::sin(theta);
+    const double y = r_ * std::cos(theta);
+    const Overlap found = overlap(part, x, y);
+    const double nx = x - found.center[0];
+    const double ny = y - found.center[1];
+    const double l = std::hypot(nx, ny);
+    StockBoundary tangent{};
+    if (l > 0) {
+      tangent = {StockBoundary::Kind::line, std::atan2(nx, ny), (x * nx + y * ny) / l};
+    }
+    candidates_.push_back({wrapped(theta), tangent});
   }
 
   void add_initial() {
@@ -314,13 +444,15 @@ class Surroundings::Search {
       add_circle(c * dx + s * dy, c * dy - s * dx, round->radius,
                  StockBoundary::Kind::inside, all);
     } else {
-      add_field();
+      add_field(std::get<HeightField>(initial).cell);
     }
   }
 
-  /// Where the circle enters and leaves a field of heights: samples, then halving.
-  void add_field() {
-    constexpr int samples = 720;
+  /// Where the circle enters and leaves a field of heights: samples, two a cell, then
+  /// halving.
+  void add_field(double cell) {
+    const int samples =
+        std::clamp(static_cast<int>(2 * unit::turn * r_ / cell), 36, 720);
     bool before = in_initial(first_theta);
     for (int i = 1; i <= samples; ++i) {
       double lo = first_theta + unit::turn * (i - 1) / samples;
@@ -351,30 +483,13 @@ class Surroundings::Search {
   [[nodiscard]] bool in_stock(double theta) const noexcept {
     const double x = r_ * std::sin(theta);
     const double y = r_ * std::cos(theta);
-    for (const Part& part : parts_) {
+    for (const SlicePart& part : parts_) {
+      if (covers(part, x, y)) return false;
+    }
+    for (const SlicePart& part : slopes_) {
       if (covers(part, x, y)) return false;
     }
     return in_initial(theta);
-  }
-
-  static bool covers(const Part& part, double x, double y) noexcept {
-    const double R2 = part.R * part.R;
-    const auto& [a, b] = part.end;
-    if (part.radius > 0) {
-      const double dx = x - part.x;
-      const double dy = y - part.y;
-      if (in_sweep(std::atan2(dy, dx), part.start, part.turn)) {
-        return std::abs(std::hypot(dx, dy) - part.radius) < part.R;
-      }
-      return squared(x - a[0]) + squared(y - a[1]) < R2 ||
-             squared(x - b[0]) + squared(y - b[1]) < R2;
-    }
-    const double dx = b[0] - a[0];
-    const double dy = b[1] - a[1];
-    const double l2 = dx * dx + dy * dy;
-    const double along = (x - a[0]) * dx + (y - a[1]) * dy;
-    const double u = l2 > 0 ? std::clamp(along / l2, 0.0, 1.0) : 0.0;
-    return squared(x - a[0] - u * dx) + squared(y - a[1] - u * dy) < R2;
   }
 
   /// The boundary among those that meet at an end, which has stock on one side only.
@@ -447,9 +562,11 @@ class Surroundings::Search {
   }
 
   const Surroundings& around_;
+  double height_;
   double z_;
   double r_;
-  std::vector<Part> parts_;
+  std::vector<SlicePart> parts_;
+  std::vector<SlicePart> slopes_;
   std::vector<Candidate> candidates_;
 };
 

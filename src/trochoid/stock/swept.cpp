@@ -12,6 +12,8 @@ namespace {
 
 /// Cells of the index at most.
 constexpr double most_cells = 4e6;
+/// So few pieces are all looked at, whatever the map says.
+constexpr std::size_t few = 24;
 
 double square(double x) noexcept {
   return x * x;
@@ -52,8 +54,8 @@ Extent extent(const Piece& piece) noexcept {
 
 }  // namespace
 
-Swept::Swept(Path path, Initial initial, std::vector<double> radius)
-    : path_(std::move(path)), initial_(std::move(initial)), radius_(std::move(radius)) {
+Swept::Swept(Path path, Initial initial, std::vector<Wall> walls)
+    : path_(std::move(path)), initial_(std::move(initial)), walls_(std::move(walls)) {
   fill();
 }
 
@@ -80,14 +82,18 @@ void Swept::for_each_cell(const Piece& piece, double reach, const Function& f) c
 
 void Swept::fill() {
   const double top = heights(initial_).top;
-  const double largest =
-      radius_.empty() ? 0.0 : *std::max_element(radius_.begin(), radius_.end());
+  double largest = 0.0;
+  for (const Wall& wall : walls_) {
+    largest = std::max(largest, wall.largest());
+    all_flat_ = all_flat_ && wall.is_upright();
+  }
   std::vector<std::uint32_t> cutting;
   std::array<double, 2> low{};
   std::array<double, 2> high{};
   for (std::uint32_t i = 0; i < path_.pieces.size(); ++i) {
     const Piece& piece = path_.pieces[i];
-    if (!(radius(piece.tool) > 0) || std::min(piece.from[2], piece.to[2]) >= top) {
+    if (!(radius(piece.tool) > 0) ||
+        std::min(piece.from[2], piece.to[2]) + wall(piece.tool).lowest() >= top) {
       continue;
     }
     const Extent e = extent(piece);
@@ -124,7 +130,7 @@ void Swept::fill() {
   each([&](std::size_t cell, std::uint32_t i) { pieces_[next[cell]++] = i; });
 }
 
-std::span<const std::uint32_t> Swept::near(double x, double y) const noexcept {
+std::span<const std::uint32_t> Swept::in_cell(double x, double y) const noexcept {
   const double u = (x - origin_[0]) / cell_;
   const double v = (y - origin_[1]) / cell_;
   if (!(u >= 0 && v >= 0 && u < columns_ && v < rows_)) {
@@ -134,6 +140,36 @@ std::span<const std::uint32_t> Swept::near(double x, double y) const noexcept {
       static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
       static_cast<std::size_t>(u);
   return std::span(pieces_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+}
+
+std::vector<std::uint32_t> Swept::near(double x, double y, double turns,
+                                       double reach) const {
+  const std::span<const std::uint32_t> all = in_cell(x, y);
+  const bool by_map =
+      map_ && !all_flat_ && mapped_ > 0 && path_.pieces[mapped_ - 1].turns_to <= turns;
+  if (!by_map || all.size() <= few) return {all.begin(), all.end()};
+  std::vector<std::uint32_t> out;
+  map_->add_near(x, y, reach, out);
+  const auto later = std::ranges::lower_bound(all, mapped_);
+  const auto future = std::partition_point(later, all.end(), [&](std::uint32_t i) {
+    return path_.pieces[i].turns_from <= turns;
+  });
+  out.insert(out.end(), later, future);
+  return out;
+}
+
+void Swept::keep_map(double cell) {
+  map_.emplace(initial_, cell);
+  mapped_ = 0;
+}
+
+void Swept::sweep_to(double turns) {
+  if (!map_) return;
+  for (; mapped_ < path_.pieces.size() && path_.pieces[mapped_].turns_to <= turns;
+       ++mapped_) {
+    const Piece& piece = path_.pieces[mapped_];
+    map_->cut(piece, mapped_, wall(piece.tool));
+  }
 }
 
 namespace {

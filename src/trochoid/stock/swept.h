@@ -1,48 +1,83 @@
 #pragma once
 
 #include <trochoid/geometry/arcs.h>
+#include <trochoid/stock/height_map.h>
 #include <trochoid/stock/initial.h>
 #include <trochoid/stock/path.h>
+#include <trochoid/stock/slice_part.h>
+#include <trochoid/stock/wall.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trochoid::stock {
 
-/// @brief What the tools of a program leave of the stock: exact for flat cutters.
+/// @brief What the tools of a program leave of the stock, without a grid.
 ///
 /// A cross-section at a height is the stock less a capsule or an annular sector for each
-/// piece of the path, as far as its tip was below that height.
+/// piece of the path, as far as its tip was below that height. On a slope of a tool that is
+/// not flat the disc grows along the capsule.
 class Swept {
  public:
-  /// @param radius  of each tool where walls stand [m], its longest tooth's, shape (tools);
-  ///                0: it cuts nothing
-  Swept(Path path, Initial initial, std::vector<double> radius);
+  /// @param walls  of each tool, its longest tooth's, shape (tools)
+  Swept(Path path, Initial initial, std::vector<Wall> walls);
 
   [[nodiscard]] const Path& path() const noexcept { return path_; }
   [[nodiscard]] const Initial& initial() const noexcept { return initial_; }
-  [[nodiscard]] double radius(std::int16_t tool) const noexcept {
-    return tool < 0 ? 0.0 : radius_[static_cast<std::size_t>(tool)];
+  [[nodiscard]] const Wall& wall(std::int16_t tool) const noexcept {
+    return tool < 0 ? nothing_ : walls_[static_cast<std::size_t>(tool)];
   }
-  /// Pieces that may come near a cutter whose axis is there, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> near(double x, double y) const noexcept;
+  /// Largest radius of a tool where walls stand [m]; 0: it cuts nothing.
+  [[nodiscard]] double radius(std::int16_t tool) const noexcept {
+    return wall(tool).largest();
+  }
+  /// @brief Pieces that bound the stock near a cutter, and perhaps others; ascending.
+  /// @param turns  of the spindle, up to when
+  /// @param reach  of the cutter [m]
+  [[nodiscard]] std::vector<std::uint32_t> near(double x, double y, double turns,
+                                                double reach) const;
+
+  /// Whether all tools leave upright walls: then all pieces near a place are looked at.
+  [[nodiscard]] bool all_flat() const noexcept { return all_flat_; }
+
+  /// @brief Keep a map of heights: with it `near` names few pieces of a path that passes a
+  /// place many times, unless all tools are flat.
+  /// @param cell  of the map [m]
+  void keep_map(double cell);
+  /// @brief Bring the map, if one is kept, up to a moment.
+  ///
+  /// What is asked of earlier moments afterwards is answered without it.
+  void sweep_to(double turns);
+  /// The map, if one is kept.
+  [[nodiscard]] const HeightMap* map() const noexcept {
+    return map_ ? &*map_ : nullptr;
+  }
 
  private:
   void fill();
+  [[nodiscard]] std::span<const std::uint32_t> in_cell(double x,
+                                                       double y) const noexcept;
   template <class Function>
   void for_each_cell(const Piece& piece, double reach, const Function& f) const;
 
   Path path_;
   Initial initial_;
-  std::vector<double> radius_;
+  std::vector<Wall> walls_;
+  Wall nothing_;
+  bool all_flat_ = true;
   std::array<double, 2> origin_{};
   double cell_ = 1.0;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<std::uint32_t> first_;  ///< shape (cells + 1)
   std::vector<std::uint32_t> pieces_;
+  std::optional<HeightMap> map_;
+  std::uint32_t mapped_ = 0;  ///< how many pieces are in the map
 };
 
 /// A cutter somewhere on its way.
@@ -81,15 +116,25 @@ class Surroundings {
 
  private:
   struct Near {
-    const Piece* piece;
-    double radius;    ///< R_e of its tool [m]
-    double until;     ///< fraction swept
-    double x0 = 0.0;  ///< start, or centre of an arc, in the frame of the cutter [m]
-    double y0 = 0.0;
-    double x1 = 0.0;  ///< end
-    double y1 = 0.0;
-    double start = 0.0;  ///< of an arc, angle of its start in this frame [rad]
+    const Wall* wall;
+    double radius = 0.0;          ///< of the path; 0: straight [m]
+    double turn = 0.0;            ///< of an arc [rad]
+    double until = 1.0;           ///< fraction swept
+    std::array<double, 2> tip{};  ///< at its ends, above that of the cutter [m]
+    SlicePoint from{};            ///< start, or centre of an arc [m]
+    SlicePoint to{};              ///< end [m]
+    double start = 0.0;           ///< of an arc, angle of its start in this frame [rad]
+    bool upright = false;
+
+    /// Lowest and highest tip of what is swept.
+    [[nodiscard]] std::pair<double, double> tips() const noexcept {
+      return std::minmax({tip[0], tip[0] + until * (tip[1] - tip[0])});
+    }
   };
+  [[nodiscard]] SlicePoint local(double x, double y) const noexcept;
+  [[nodiscard]] bool is_far(const Near& near) const noexcept;
+  void add_near(const Piece& piece, const Wall& wall, double until);
+  void add_chords(const Piece& piece, const Wall& wall, double until);
   class Search;
 
   const Swept& swept_;

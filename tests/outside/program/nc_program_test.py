@@ -1,5 +1,6 @@
 """program: what it answers, what it warns of and what it leaves out, as a user meets it."""
 import csv
+import struct
 
 from in_folder import InFolder, main, program, tables
 
@@ -147,16 +148,69 @@ class NcProgram(InFolder):
         self.assertIn("power", {row["held_by"] for row in self.rows("feeds.csv")})
 
     def test_without_forces_there_are_the_moves(self):
-        for code, changes in (
-                ("tool_not_described", {"program": {"file": "part.nc", "tool_number": 1}}),
-                ("tool_not_flat", {"tool": {"shape": "ball"}})):
-            with self.subTest(code=code):
-                self.case(**changes)
-                result, warnings = self.answer()
-                self.assertIn(code, warnings)
-                self.assertNotIn("peaks", result)
-                self.assertEqual({p.name for p in (self.folder / "out").iterdir()},
-                                 {"case.toml", "summary.json", "moves.csv"})
+        self.case(program={"file": "part.nc", "tool_number": 1})
+        result, warnings = self.answer()
+        self.assertIn("tool_not_described", warnings)
+        self.assertNotIn("peaks", result)
+        self.assertEqual({p.name for p in (self.folder / "out").iterdir()},
+                         {"case.toml", "summary.json", "moves.csv"})
+
+    def test_any_cutter_is_computed(self):
+        alike = {"shape": "cylinder", "teeth": 2, "diameter_mm": 10.0}
+        for tool in ({"shape": "ball"}, {"shape": "bull_nose", "corner_radius_mm": 1.0},
+                     {"shape": "taper", "taper_deg": 10.0},
+                     {**alike, "helix_deg": [30.0, 35.0]},
+                     {**alike, "serration": {"shape": "sine", "amplitude_mm": 0.2,
+                                             "wavelength_mm": 1.5}}):
+            with self.subTest(tool=tool):
+                self.case(tool=tool)
+                result, _ = self.answer()
+                self.assertGreater(result["peaks"]["peak_xy_N"]["value"], 10)
+                missing = result["stock_before_mm3"] - result["stock_after_mm3"]
+                self.assertLess(abs(result["removed_mm3"] - missing), 0.03 * missing)
+
+    def test_a_body_in_stl_is_a_stock(self):
+        self.case()
+        box = self.answer()[0]
+        for binary in (False, True):
+            self.write_body("stock.stl", binary, (0, -30, -10), (60, 60, 0))
+            self.case(stock={"file": "stock.stl", "cell_mm": 0.5})
+            body, warnings = self.answer()
+            self.assertNotIn("stock_undercut", warnings)
+            self.assertAlmostEqual(body["stock_before_mm3"], box["stock_before_mm3"], delta=1)
+            self.assertAlmostEqual(body["peaks"]["peak_xy_N"]["value"],
+                                   box["peaks"]["peak_xy_N"]["value"], delta=0.5)
+
+    def test_a_body_that_is_open_is_refused(self):
+        self.write_body("stock.stl", True, (0, -30, -10), (60, 60, 0), faces=11)
+        self.case(stock={"file": "stock.stl"})
+        told = self.run_program("program", "case.toml", "-o", "out", code=2).stderr
+        self.assertIn("stock.stl: the surface is not closed: 3 edges", told)
+        for text, why in (("solid x\nvertex 1 2\n", "line 3: a vertex must have three numbers"),
+                          ("solid x\n", "it has no face"), ("PK", "this is no STL")):
+            self.write("stock.stl", text)
+            told = self.run_program("program", "case.toml", "-o", "out", code=2).stderr
+            self.assertIn(why, told)
+
+    def write_body(self, name, binary, low, high, faces=12):
+        corners = [[(high if i >> k & 1 else low)[k] for k in range(3)] for i in range(8)]
+        quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2),
+                 (1, 3, 7, 5))
+        all_faces = [[corners[i] for i in t] for q in quads
+                     for t in ((q[0], q[1], q[2]), (q[0], q[2], q[3]))][:faces]
+        path = self.folder / name
+        if binary:
+            data = bytes(80) + struct.pack("<I", len(all_faces))
+            for face in all_faces:
+                data += struct.pack("<12fH", 0, 0, 0, *(x for p in face for x in p), 0)
+            path.write_bytes(data)
+            return
+        lines = ["solid box"]
+        for face in all_faces:
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += [f"vertex {p[0]:e} {p[1]:e} {p[2]:e}" for p in face]
+            lines += ["endloop", "endfacet"]
+        path.write_text("\n".join([*lines, "endsolid box", ""]))
 
     def test_a_program_that_cuts_nothing_has_no_good_answer(self):
         self.case(stock={"box_mm": [[0, -30, -10], [60, 60, -5]]})

@@ -160,4 +160,98 @@ TEST(ArcTurn, ChipsOnACircularPathAreTurned) {  // [N-4]
   }
 }
 
+/// A whole circle of stock in thin layers, closer at the tip.
+geometry::Arcs whole_circle(double a_p, int layers) {
+  geometry::Arcs arcs;
+  for (int i = 0; i < layers; ++i) {
+    const double from = static_cast<double>(i) / layers;
+    const double to = static_cast<double>(i + 1) / layers;
+    arcs.layers.push_back(
+        {a_p * from * from, a_p * to * to, {{{-pi / 2, 3 * pi / 2}}}});
+  }
+  return arcs;
+}
+
+SixLoads sum_of(const ArcTurn& turn, double phi, double gauge_length) {
+  ToothLoads F;
+  for (std::size_t j = 0; j < turn.teeth(); ++j) F += turn.at(j, phi);
+  return {F.x,
+          F.y,
+          F.z,
+          F.torque,
+          F.axial_y - F.moment_y[0] + gauge_length * F.y,
+          F.moment_x[0] - gauge_length * F.x - F.axial_x};
+}
+
+TEST(ArcTurn, ConesStandForAnyEdge) {  // [N-7]
+  struct Kind {
+    const char* name;
+    MadeCut cut;
+  };
+  std::vector<Kind> kinds{{"ball", slot(geometry::ball(6e-3), 2, 30)},
+                          {"bull nose", slot(geometry::bull_nose(10e-3, 2e-3), 3, 20)},
+                          {"taper", slot(geometry::taper(8e-3, 0.1, 1e-3), 4, 35)},
+                          {"left-hand", slot(geometry::cylinder(10e-3), 3, -20)},
+                          {"variable helix", slot(geometry::cylinder(10e-3), 3, 30)},
+                          {"serrated", slot(geometry::cylinder(10e-3), 3, 30)}};
+  kinds[4].cut.cutter.helices = {30 * unit::deg, 34 * unit::deg, 38 * unit::deg};
+  kinds[5].cut.cutter.serration = geometry::Serration{
+      .amplitude = 0.3e-3, .wavelength = 1.5e-3, .shift = {0.0, 0.5e-3, 1e-3}};
+  for (Kind& kind : kinds) {
+    MadeCut& s = kind.cut;
+    s.runout.radial_offsets.assign(s.cutter.pitch.size(), 0.0);
+    s.runout.radial_offsets[1] = -8e-6;
+    const auto phi = turn(24);
+    const auto known = six_loads(s, steel(), phi, 40e-3, 1e-6);
+    s.cut.engagement = whole_circle(s.cut.a_p, 40);
+    const ArcTurn cones(s, steel(),
+                        {.within = {-4 * pi, 6 * pi}, .heights = true, .cones = true});
+    SixLoads most{};
+    SixLoads error{};
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const SixLoads found = sum_of(cones, phi[i], 40e-3);
+      for (std::size_t q = 0; q < 6; ++q) {
+        most[q] = std::max(most[q], std::abs(known[i][q]));
+        error[q] = std::max(error[q], std::abs(found[q] - known[i][q]));
+      }
+    }
+    const double across = std::max(most[0], most[1]);
+    const double bending = std::max(most[4], most[5]);
+    for (std::size_t q = 0; q < 6; ++q) {
+      const double scale = q < 2 ? across : (q > 3 ? bending : most[q]);
+      EXPECT_LT(error[q], 0.01 * scale) << kind.name << ' ' << q;
+    }
+  }
+}
+
+TEST(ArcTurn, AFallingToolTakesTheVolumeThatItFallsInto) {  // [N-18]
+  // A law of h alone: the torque of a turn is K_tc times the sum of R h over the edges.
+  const LinearEdge only{1e9, 0.0, 0.0, 0.0, 0.0, 0.0};
+  for (const double slope : {0.0, 0.3, 1.0}) {
+    MadeCut s = slot(geometry::ball(6e-3), 2, 30);
+    s.cut.a_p = 1e-3;
+    s.cut.f_z = 5e-6;  // a chip is then little against the radius
+    s.cut.engagement = whole_circle(s.cut.a_p, 60);
+    const double f = 2 * s.cut.f_z;
+    const double fall = slope * f;
+    const ArcTurn turn(s, only,
+                       {.within = {-4 * pi, 6 * pi}, .fall = fall, .cones = true});
+    // Swept by the front: width f forward, and the disc at the height of each layer.
+    double volume = 0.0;
+    constexpr int n = 4000;
+    for (int i = 0; i < n; ++i) {
+      const double z = s.cut.a_p * (i + 0.5) / n;
+      const double r = std::sqrt(z * (6e-3 - z));
+      const double b = fall * (3e-3 - z) / r;  // of the disc growing
+      for (int k = 0; k < 720; ++k) {
+        const double theta = unit::turn * (k + 0.5) / 720;
+        volume += std::max(f * std::sin(theta) + b, 0.0) * r * unit::turn / 720 *
+                  s.cut.a_p / n;
+      }
+    }
+    const double work = turn.mean().torque * unit::turn;
+    EXPECT_NEAR(work, 1e9 * volume, 0.02 * 1e9 * volume) << slope;
+  }
+}
+
 }  // namespace trochoid::force::arc_turn_test

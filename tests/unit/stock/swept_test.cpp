@@ -76,7 +76,7 @@ TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
   constexpr double R = 5e-3;
   int looked = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
-    const Swept swept(stock::path(wild_moves(seed), 0.1), box, {R});
+    const Swept swept(stock::path(wild_moves(seed), 0.1), box, {Wall::upright(R)});
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(-0.03, 0.03);
     for (int k = 0; k < 3; ++k) {
@@ -116,7 +116,7 @@ TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
 TEST(Swept, ACircleOnTheAxisOfAnOldSlotOfItsOwnMeetsNothing) {  // [N-3]
   const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
                                 move(MoveKind::line, 0.04, 0, -0.002)};
-  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Swept swept(stock::path(moves, 0.1), box, {Wall::upright(5e-3)});
   for (const double direction : {0.0, 0.3, pi}) {
     const Surroundings around(
         swept, {.tip = {0, 0, -0.002}, .direction = direction, .turns = 1e9, .last = 9},
@@ -130,7 +130,7 @@ TEST(Swept, ACircleOnTheAxisOfAnOldSlotOfItsOwnMeetsNothing) {  // [N-3]
 TEST(Swept, WhatIsAboveTheTipOrLaterIsNotSwept) {  // [N-2]
   const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
                                 move(MoveKind::line, 0.04, 0, -0.002)};
-  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Swept swept(stock::path(moves, 0.1), box, {Wall::upright(5e-3)});
   const Place at{.tip = {0, 0.001, -0.004}, .turns = 1e9, .last = 9};
   const Surroundings around(swept, at, 5e-3);
   EXPECT_EQ(around.arcs(1e-3, 5e-3).size(), 1u);  // below its floor: a whole circle
@@ -148,7 +148,7 @@ TEST(Swept, WhatIsAboveTheTipOrLaterIsNotSwept) {  // [N-2]
 TEST(Swept, LayersBeginWhereFloorsDo) {
   const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
                                 move(MoveKind::line, 0.04, 0, -0.002)};
-  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Swept swept(stock::path(moves, 0.1), box, {Wall::upright(5e-3)});
   const Surroundings around(swept, {.tip = {0, 0.001, -0.005}, .turns = 1e9, .last = 9},
                             5e-3);
   const std::vector<double> z = around.heights({4, 24});
@@ -161,7 +161,7 @@ TEST(Swept, AVolumeIsThatOfItsSlot) {  // [N-9]
   const std::vector<Move> moves{move(MoveKind::rapid, -0.03, 0, 0.001),
                                 move(MoveKind::line, -0.03, 0, -0.002),
                                 move(MoveKind::line, 0.03, 0.01, -0.002)};
-  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Swept swept(stock::path(moves, 0.1), box, {Wall::upright(5e-3)});
   const double area = pi * 25e-6 + 10e-3 * std::hypot(0.06, 0.01);
   EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
 }
@@ -170,13 +170,13 @@ TEST(Swept, AVolumeOfARingIsThatOfItsRing) {  // [N-9]
   const std::vector<Move> moves{move(MoveKind::rapid, 0.02, 0, 0.001),
                                 move(MoveKind::line, 0.02, 0, -0.002),
                                 arc(0.02, 0, -0.002, {0.0, 0.0}, unit::turn)};
-  const Swept swept(stock::path(moves, 0.1), box, {5e-3});
+  const Swept swept(stock::path(moves, 0.1), box, {Wall::upright(5e-3)});
   const double area = pi * (625e-6 - 225e-6);
   EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
 }
 
 TEST(Stock, AFieldOfHeightsIsLinearBetweenItsPoints) {
-  HeightField field{{0.0, 0.0}, 1.0, 3, 2, -1.0, {0, 1, 2, 0, 1, 4}};
+  HeightField field{{0.0, 0.0}, 1.0, 3, 2, -1.0, {0, 1, 2, 0, 1, 4}, 4.0};
   EXPECT_DOUBLE_EQ(top_at(field, 0.5, 0.5), 0.5);
   EXPECT_DOUBLE_EQ(top_at(field, 2.0, 1.0), 4.0);
   EXPECT_DOUBLE_EQ(top_at(field, 2.1, 1.0), -1.0);
