@@ -52,6 +52,10 @@ ModesAlong modes_along(std::size_t axis, bool of_table, bool complex_too,
     const MeasuredResponse& one = all[i];
     if (one.of_table != of_table || one.motion != axis || one.force != axis) continue;
     structure::ModesFit fit = structure::identify_modes(one.response, {});
+    if (auto delayed = structure::delayed_fit(one.response, {}, fit)) {
+      fit = std::move(delayed->fit);
+      point.delays.push_back({i, delayed->delay});
+    }
     ModesAlong out{.real = fit.modes, .complex = {}};
     if (!fit.ok && !point.no_modes) {
       point.no_modes = NoModes{i, fit.reason};
@@ -82,6 +86,26 @@ void add_along(const ModesAlong& found, double x, double y, bool of_table,
   }
 }
 
+/// @brief A cross response without the delay that the direct ones have: the channels are
+/// the same.
+structure::FrequencyResponse at_one_time(const MeasuredResponse& cross,
+                                         std::size_t index,
+                                         std::span<const MeasuredResponse> all,
+                                         ToolPoint& point) {
+  structure::Delay mean;
+  double count = 0.0;
+  for (const FoundDelay& found : point.delays) {
+    if (all[found.response].of_table != cross.of_table) continue;
+    mean.time.value += found.delay.time.value;
+    mean.time.se = std::max(mean.time.se, found.delay.time.se);
+    ++count;
+  }
+  if (!(count > 0)) return cross.response;
+  mean.time.value /= count;
+  point.delays.push_back({index, mean});
+  return structure::without_delay(cross.response, mean.time.value);
+}
+
 /// Modes of one body, as the chip feels them; a cross response couples the axes.
 void add_modes(bool of_table, std::span<const MeasuredResponse> all, ToolPoint& point) {
   const auto cross = std::ranges::find_if(all, [&](const MeasuredResponse& one) {
@@ -96,7 +120,9 @@ void add_modes(bool of_table, std::span<const MeasuredResponse> all, ToolPoint& 
     add_along(y, 0.0, sign, of_table, point);
     return;
   }
-  for (const auto& m : structure::coupled_modes(x.real, y.real, cross->response)) {
+  const structure::FrequencyResponse together =
+      at_one_time(*cross, static_cast<std::size_t>(cross - all.begin()), all, point);
+  for (const auto& m : structure::coupled_modes(x.real, y.real, together)) {
     const ChipMode mode{m.mode.mass, m.mode.damping, m.mode.stiffness,
                         sign * m.x,  sign * m.y,     of_table};
     point.modes.modes.push_back(mode);
@@ -184,14 +210,20 @@ bool moves_against_force(const MeasuredReceptance& part) {
 
 ToolPoint tool_point(std::span<const MeasuredResponse> measured, bool fit_modes) {
   ToolPoint point;
-  for (const MeasuredResponse& one : measured) {
-    MeasuredReceptance part = receptance_of(one);
-    point.noise.push_back(structure::scatter_of_lines(part.H));
-    point.response.parts.push_back(std::move(part));
-  }
   if (fit_modes) {
     add_modes(false, measured, point);
     add_modes(true, measured, point);
+  }
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    MeasuredResponse one = measured[i];
+    for (const FoundDelay& found : point.delays) {
+      if (found.response != i) continue;
+      one.response =
+          structure::without_delay(std::move(one.response), found.delay.time.value);
+    }
+    MeasuredReceptance part = receptance_of(one);
+    point.noise.push_back(structure::scatter_of_lines(part.H));
+    point.response.parts.push_back(std::move(part));
   }
   add_transposed(point);
   return point;

@@ -2,6 +2,7 @@
 
 #include <trochoid/dynamics/point_response.h>
 #include <trochoid/dynamics/system.h>
+#include <trochoid/structure/delay.h>
 #include <trochoid/structure/frequency_response.h>
 #include <trochoid/structure/modes_fit.h>
 
@@ -39,6 +40,12 @@ struct NoModes {
   std::string reason;
 };
 
+/// A delay that was taken out of a response.
+struct FoundDelay {
+  std::size_t response = 0;  ///< which
+  structure::Delay delay;
+};
+
 /// What measured responses say.
 struct ToolPoint {
   PointResponse response;
@@ -49,6 +56,7 @@ struct ToolPoint {
   System real_modes;           ///< the same, or the real ones where those are complex
   bool complex_modes = false;  ///< some of them are
   std::optional<NoModes> no_modes;  ///< the first without; nothing: all have some
+  std::vector<FoundDelay> delays;   ///< the response is without them
 };
 
 /// @brief The tool point from the responses of tool and table.
@@ -56,7 +64,8 @@ struct ToolPoint {
 /// A cross response that is given in one of its two directions serves for both: structures
 /// without gyroscopic forces are symmetric. With one, modes lie askew (D-25) and are real.
 /// Without, complex modes take the place of real ones where these do not describe the
-/// response (M-30).
+/// response (M-30). A delay between force and response is taken out of a direct response
+/// where modes are looked for (M-36).
 /// @param measured   each with fewest_lines lines at least
 /// @param fit_modes  look for the modes, too
 ToolPoint tool_point(std::span<const MeasuredResponse> measured, bool fit_modes);

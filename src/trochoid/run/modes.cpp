@@ -32,14 +32,12 @@ structure::ModesOptions options_of(const cases::FrfTables& frf) {
   return options;
 }
 
-/// Take out a delay between force and response, unless complex modes explain as much.
+/// Take out a delay between force and response.
 void settle_delay(const structure::FrequencyResponse& response,
                   const structure::ModesOptions& options, results::ModesResult& r) {
   auto delayed = structure::delayed_fit(response, options, r.fit);
   if (!delayed) return;
-  const auto complex = structure::complex_check(r.fit);
-  if (complex && complex->complex() && complex->evidence > delayed->evidence) return;
-  add_delay_warning(*delayed, r.fit, r.heading.warnings);
+  add_delay_warning(delayed->delay, {}, r.heading.warnings);
   r.fit = std::move(delayed->fit);
 }
 

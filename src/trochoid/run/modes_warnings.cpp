@@ -149,24 +149,17 @@ void add_modes_warnings(const results::ModesResult& r, Warnings& warnings) {
   }
 }
 
-void add_delay_warning(const structure::DelayedFit& delayed, const ModesFit& without,
+void add_delay_warning(const structure::Delay& delay, std::string_view of,
                        Warnings& warnings) {
-  const double us = 1e6 * delayed.delay.value;
-  const auto largest = [](const ModesFit& fit) {
-    return std::ranges::max_element(
-               fit.modes, {},
-               [](const FittedMode& mode) { return 1 / mode.mass.value; })
-        ->mass.value;
-  };
-  const double change = largest(without) / largest(delayed.fit) - 1;
+  const double us = 1e6 * delay.time.value;
   warnings.push_back(
       {"time_delay",
        fmt::format(
-           "The response comes {:.3g} +- {:.2g} us {} the force: this was taken out. "
+           "The response{} comes {:.3g} +- {:.2g} us {} the force: this was taken out. "
            "Channels that are sampled one after the other do that, and a filter in one "
            "of them. With it the mass of the strongest mode would be {:+.1f} %.",
-           std::abs(us), 1e6 * base::normal_interval * delayed.delay.se,
-           us > 0 ? "after" : "before", 100 * change)});
+           of, std::abs(us), 1e6 * base::normal_interval * delay.time.se,
+           us > 0 ? "after" : "before", 100 * delay.mass_error)});
 }
 
 void add_complex_warning(const structure::ComplexCheck& check, Warnings& warnings) {

@@ -318,6 +318,15 @@ results::StabilityResult stability(const cases::Case& given, const Progress& pro
     if (fit_modes) progress("Fitting the modes");
     point = dynamics::tool_point(responses, fit_modes);
     if (fit_modes) r.problem.system = point->modes;
+    for (const dynamics::FoundDelay& found : point->delays) {
+      const auto& of = responses[found.response];
+      if (of.motion != of.force) continue;  // that of the direct ones
+      add_delay_warning(
+          found.delay,
+          fmt::format(" in {}",
+                      given.machine.measured_frfs[found.response].source.file.name),
+          r.heading.warnings);
+    }
     if (const auto& none = point->no_modes) {
       const std::string& file =
           given.machine.measured_frfs[none->response].source.file.path;

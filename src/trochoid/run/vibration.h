@@ -52,9 +52,8 @@ void add_tap_warnings(const signal::TapResponse& tap,
                       std::vector<base::Warning>& warnings);
 
 /// @brief That a delay was taken out of a response.
-/// @param without  the fit of the response as it was measured
-void add_delay_warning(const structure::DelayedFit& delayed,
-                       const structure::ModesFit& without,
+/// @param of  which response, for example " in xx"; empty: there is one
+void add_delay_warning(const structure::Delay& delay, std::string_view of,
                        std::vector<base::Warning>& warnings);
 
 /// @brief That real modes do not describe a response, if so.

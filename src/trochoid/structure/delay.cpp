@@ -2,6 +2,7 @@
 
 #include <trochoid/structure/identify_modes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -50,14 +51,21 @@ PhaseSlope phase_slope(const FittedResponse& one) {
   return out;
 }
 
-FrequencyResponse advanced(FrequencyResponse response, double delay) {
+/// Of the mode that answers most at its resonance for its stiffness.
+double smallest_mass(const ModesFit& fit) {
+  return std::ranges::min_element(
+             fit.modes, {}, [](const FittedMode& mode) { return mode.mass.value; })
+      ->mass.value;
+}
+
+}  // namespace
+
+FrequencyResponse without_delay(FrequencyResponse response, double delay) {
   for (std::size_t i = 0; i < response.H.size(); ++i) {
     response.H[i] *= std::polar(1.0, response.omega[i] * delay);
   }
   return response;
 }
-
-}  // namespace
 
 std::optional<DelayedFit> delayed_fit(const FrequencyResponse& response,
                                       const ModesOptions& options,
@@ -66,18 +74,24 @@ std::optional<DelayedFit> delayed_fit(const FrequencyResponse& response,
   if (!fit.ok || first.share < least_share || first.phase < least_phase) {
     return std::nullopt;
   }
-  DelayedFit out{.fit = fit, .delay = first.delay};
+  DelayedFit out{.fit = fit, .delay = {.time = first.delay}};
+  Known& delay = out.delay.time;
   for (int round = 0; round < most_delays; ++round) {  // M-36
-    out.fit = identify_modes(advanced(response, out.delay.value), options);
+    out.fit = identify_modes(without_delay(response, delay.value), options);
     if (!out.fit.ok) return std::nullopt;
     const PhaseSlope rest = phase_slope(out.fit.responses.front());
-    out.delay.se = rest.delay.se;
+    delay.se = rest.delay.se;
     if (std::abs(rest.delay.value) < still * rest.delay.se) break;
-    out.delay.value += rest.delay.value;
+    delay.value += rest.delay.value;
   }
   const auto lines = static_cast<double>(out.fit.responses.front().omega.size());
   out.evidence = fit.criterion - out.fit.criterion - std::log(2 * lines);
   if (!(out.evidence > enough_evidence)) return std::nullopt;
+  const auto complex = complex_check(fit);
+  if (complex && complex->complex() && complex->evidence > out.evidence) {
+    return std::nullopt;
+  }
+  out.delay.mass_error = smallest_mass(fit) / smallest_mass(out.fit) - 1;
   return out;
 }
 
