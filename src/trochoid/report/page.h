@@ -25,8 +25,9 @@ std::string_view groups_js();
 std::string_view channels_js();
 std::string_view identify_js();
 std::string_view drawing_js();  ///< canvases drawn by hand
-std::string_view map_js();      ///< a quantity over two others
-std::string_view bent_js();     ///< cutter and wall
+std::string_view tool_js();
+std::string_view map_js();   ///< a quantity over two others
+std::string_view bent_js();  ///< cutter and wall
 std::string_view surface_js();
 std::string_view wall_map_js();  ///< readings on a wall
 std::string_view ellipse_js();   ///< two coefficients known together

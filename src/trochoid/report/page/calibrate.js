@@ -43,6 +43,7 @@ function calibratePage(report) {
     { part: runoutPart(report) },
     adviceSection(result, keys, fitted),
     { part: datumPart(result) },
+    toolSection(),
     { part: restSection(result, calibrateKnown) },
   ];
 }

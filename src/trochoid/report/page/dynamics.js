@@ -30,6 +30,7 @@ function dynamicsPage(report) {
     onceSection(report),
     spectrumSection(report),
     { part: surfaceLocationSection(report.result) },
+    toolSection(),
     { part: restSection(report.result, dynamicsKnown) },
   ];
 }

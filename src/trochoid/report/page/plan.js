@@ -15,6 +15,7 @@ function planPage(report) {
     { part: cuts.length ? bestSection(result, cuts, keys) : null },
     allCutsSection(report, keys),
     { part: cuts.length ? basisSection(result) : null },
+    toolSection(),
     { part: restSection(result, planKnown) },
   ];
 }

@@ -18,6 +18,7 @@ function programPage(report) {
     overTime(report),
     { part: result.feed ? feedSection(report, result.feed) : null },
     { part: result.limits_broken?.length ? brokenSection(result.limits_broken) : null },
+    toolSection(),
     { part: restSection(result, programKnown) },
   ];
 }

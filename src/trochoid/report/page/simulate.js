@@ -24,6 +24,7 @@ function simulatePage(report) {
     chipSection(report),
     { part: engagementSection(result.teeth, result.teeth_height_mm) },
     { part: volumeSection(result.volume_check) },
+    toolSection(),
     channelsOverAngle(report),
     { part: restSection(result, simulateKnown) },
   ];

@@ -17,6 +17,7 @@ function stabilityPage(report) {
     limitSection(report),
     measuredSection(report),
     { part: modesSection(report.result.modes) },
+    toolSection(),
     { part: restSection(report.result, stabilityKnown) },
   ];
 }

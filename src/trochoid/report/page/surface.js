@@ -37,6 +37,7 @@ function surfacePage(report) {
     bentSection(report),
     wallForces(report, section, rows.length),
     { part: marksTable(heights, report.result.model === 'quasi_static') },
+    toolSection(),
     { part: restSection(report.result, surfaceKnown) },
   ];
 }
