@@ -9,6 +9,7 @@ ROOMS = {"base": "Units, errors, warnings", "geometry": "Cutter, cut, runout",
          "chip": "Uncut chip thickness", "force": "Forces", "signal": "Records of forces",
          "identification": "Coefficients from forces", "structure": "Structures and their modes",
          "surface": "Surfaces of thin walls", "dynamics": "Stability and motion",
+         "stock": "Stock along a program", "engagement": "Forces along a program",
          "correction": "Correction of runout", "files": "Files of measurements", "cases": "Case files",
          "results": "Answers", "report": "The report", "run": "Commands"}
 IN_C = ("correction/controller.h", "correction/online.h")

@@ -70,10 +70,9 @@ FrequencyResponse without_delay(FrequencyResponse response, double delay) {
 std::optional<DelayedFit> delayed_fit(const FrequencyResponse& response,
                                       const ModesOptions& options,
                                       const ModesFit& fit) {
+  if (!fit.ok) return std::nullopt;
   const PhaseSlope first = phase_slope(fit.responses.front());
-  if (!fit.ok || first.share < least_share || first.phase < least_phase) {
-    return std::nullopt;
-  }
+  if (first.share < least_share || first.phase < least_phase) return std::nullopt;
   DelayedFit out{.fit = fit, .delay = {.time = first.delay}};
   Known& delay = out.delay.time;
   for (int round = 0; round < most_delays; ++round) {  // M-36

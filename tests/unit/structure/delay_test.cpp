@@ -49,4 +49,12 @@ TEST(DelayedFit, ATurnedModeIsNoDelay) {  // [M-36]
   EXPECT_FALSE(delayed_fit(response, {}, direct).has_value());
 }
 
+TEST(DelayedFit, IsNotLookedForWithoutModes) {
+  const auto response = made::response({made::mode_of(5000, 0.02, 0.8)},
+                                       ResponseKind::receptance, {100, 1000, 8});
+  const ModesFit none = identify_modes(response, {});
+  ASSERT_FALSE(none.ok);
+  EXPECT_FALSE(delayed_fit(response, {}, none).has_value());
+}
+
 }  // namespace trochoid::structure::delay_test
