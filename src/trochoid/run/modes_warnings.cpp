@@ -155,9 +155,9 @@ void add_delay_warning(const structure::Delay& delay, std::string_view of,
   warnings.push_back(
       {"time_delay",
        fmt::format(
-           "The response{} comes {:.3g} +- {:.2g} us {} the force: this was taken out. "
-           "Channels that are sampled one after the other do that, and a filter in one "
-           "of them. With it the mass of the strongest mode would be {:+.1f} %.",
+           "The response{} comes {:.3g} +- {:.2g} us {} the force. The program removed "
+           "this delay: it changes the mass of the lightest mode by {:+.1f} %. Channels "
+           "that are sampled one after the other cause it, or a filter in one of them.",
            of, std::abs(us), 1e6 * base::normal_interval * delay.time.se,
            us > 0 ? "after" : "before", 100 * delay.mass_error)});
 }

@@ -16,7 +16,7 @@ constexpr double enough_evidence = 10.0;
 constexpr double least_share = 0.5;
 /// A phase this small at the strongest lines is no matter [rad].
 constexpr double least_phase = 0.01;
-constexpr int most_delays = 4;
+constexpr int most_fits = 4;
 /// A delay that changes by less of its standard error stays.
 constexpr double still = 0.5;
 
@@ -51,11 +51,16 @@ PhaseSlope phase_slope(const FittedResponse& one) {
   return out;
 }
 
-/// Of the mode that answers most at its resonance for its stiffness.
-double smallest_mass(const ModesFit& fit) {
-  return std::ranges::min_element(
-             fit.modes, {}, [](const FittedMode& mode) { return mode.mass.value; })
-      ->mass.value;
+/// By how much the mass of the lightest mode is off in a fit of the same response, where
+/// that has its nearest mode.
+double mass_error(const ModesFit& wrong, const ModesFit& right) {
+  const auto lightest = std::ranges::min_element(
+      right.modes, {}, [](const FittedMode& mode) { return mode.mass.value; });
+  const auto same =
+      std::ranges::min_element(wrong.modes, {}, [&](const FittedMode& mode) {
+        return std::abs(mode.omega.value - lightest->omega.value);
+      });
+  return same->mass.value / lightest->mass.value - 1;
 }
 
 }  // namespace
@@ -75,13 +80,13 @@ std::optional<DelayedFit> delayed_fit(const FrequencyResponse& response,
   if (first.share < least_share || first.phase < least_phase) return std::nullopt;
   DelayedFit out{.fit = fit, .delay = {.time = first.delay}};
   Known& delay = out.delay.time;
-  for (int round = 0; round < most_delays; ++round) {  // M-36
+  for (int fits = 1;; ++fits) {  // M-36
     out.fit = identify_modes(without_delay(response, delay.value), options);
     if (!out.fit.ok) return std::nullopt;
-    const PhaseSlope rest = phase_slope(out.fit.responses.front());
-    delay.se = rest.delay.se;
-    if (std::abs(rest.delay.value) < still * rest.delay.se) break;
-    delay.value += rest.delay.value;
+    const Known rest = phase_slope(out.fit.responses.front()).delay;
+    delay.se = rest.se;
+    if (std::abs(rest.value) < still * rest.se || fits == most_fits) break;
+    delay.value += rest.value;
   }
   const auto lines = static_cast<double>(out.fit.responses.front().omega.size());
   out.evidence = fit.criterion - out.fit.criterion - std::log(2 * lines);
@@ -90,7 +95,7 @@ std::optional<DelayedFit> delayed_fit(const FrequencyResponse& response,
   if (complex && complex->complex() && complex->evidence > out.evidence) {
     return std::nullopt;
   }
-  out.delay.mass_error = smallest_mass(fit) / smallest_mass(out.fit) - 1;
+  out.delay.mass_error = mass_error(fit, out.fit);
   return out;
 }
 

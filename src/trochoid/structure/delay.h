@@ -9,7 +9,7 @@ namespace trochoid::structure {
 /// A delay between force and response.
 struct Delay {
   Known time;  ///< by which the response comes after the force [s]
-  /// By how much the mass of the strongest mode would be wrong with it, as a part.
+  /// By how much the mass of the lightest mode would be wrong with it, as a part.
   double mass_error = 0.0;
 };
 

@@ -35,6 +35,29 @@ TEST(ToolPoint, HasTheModesOfItsDirectResponses) {
   EXPECT_TRUE(tool_point(x, false).modes.modes.empty());
 }
 
+TEST(ToolPoint, IsWithoutADelayOfItsChannels) {  // [M-36]
+  constexpr double delay = 20e-6;
+  const std::vector<MeasuredResponse> sound{one_mode(0, 0), one_mode(1, 1),
+                                            one_mode(0, 1, 0.3)};
+  std::vector<MeasuredResponse> late = sound;
+  for (MeasuredResponse& one : late) {
+    one.response = structure::without_delay(one.response, -delay);
+  }
+  const ToolPoint point = tool_point(late, true);
+  ASSERT_EQ(point.delays.size(), 3U);
+  for (const FoundDelay& found : point.delays) {
+    EXPECT_NEAR(found.delay.time.value, delay, 1e-3 * delay);
+  }
+  const ToolPoint known = tool_point(sound, true);
+  EXPECT_TRUE(known.delays.empty());
+  for (std::size_t k = 0; k < known.response.parts.size(); ++k) {
+    const auto& H = known.response.parts[k].H;
+    for (std::size_t i = 0; i < H.size(); i += 50) {
+      EXPECT_LT(std::abs(point.response.parts[k].H[i] - H[i]), 1e-3 * std::abs(H[i]));
+    }
+  }
+}
+
 TEST(ToolPoint, OfATableMovesAgainstTheTool) {
   MeasuredResponse y = one_mode(1, 1);
   y.of_table = true;
