@@ -3,7 +3,6 @@
 #include <trochoid/base/units.h>
 #include <trochoid/cases/held.h>
 #include <trochoid/files/program_file.h>
-#include <trochoid/stock/solid.h>
 
 #include <array>
 #include <map>

@@ -8,7 +8,6 @@
 #include <trochoid/files/command_file.h>
 #include <trochoid/files/program_file.h>
 #include <trochoid/files/record_file.h>
-#include <trochoid/files/stl.h>
 
 #include <fmt/core.h>
 

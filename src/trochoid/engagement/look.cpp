@@ -91,6 +91,16 @@ stock::Swept sweep(const Job& job, std::vector<stock::Speed>& speeds) {
 
 }  // namespace
 
+double usual_cell(std::span<const Tool> tools) noexcept {
+  constexpr double finest = 5e-5;
+  constexpr double where_nothing_cuts = 1e-3;
+  double cell = std::numeric_limits<double>::infinity();
+  for (const Tool& tool : tools) {
+    if (tool.cuts) cell = std::min(cell, tool.cutter.profile.D / 40);
+  }
+  return std::isfinite(cell) ? std::max(cell, finest) : where_nothing_cuts;
+}
+
 std::int64_t count_of(const stock::Piece& piece, double step_turns) noexcept {
   if (!(piece.feed > 0)) return 0;
   const double turns = piece.length / piece.feed_per_turn();
@@ -117,15 +127,7 @@ Look::Look(const Job& job)
   if (swept_.all_flat() && !std::holds_alternative<stock::HeightField>(job.stock)) {
     return;
   }
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < job.tools.size(); ++i) {
-    const double R = swept_.radius(static_cast<std::int16_t>(i));
-    if (R > 0) smallest = std::min(smallest, R);
-  }
-  if (!std::isfinite(smallest)) return;
-  constexpr double finest = 5e-5;
-  const double cell = job.options.cell > 0 ? job.options.cell : smallest / 20;
-  swept_.keep_map(std::max(cell, finest));
+  swept_.keep_map(job.options.cell > 0 ? job.options.cell : usual_cell(job.tools));
 }
 
 Found Look::at(const Ask& ask, std::span<const double> heights) const {

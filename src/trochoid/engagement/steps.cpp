@@ -205,11 +205,10 @@ void look_all(Steps& steps, std::span<const Ask> asks, std::vector<Found>& found
       steps.look().swept().map() == nullptr ? 256 : 8);
 }
 
-/// By the map of heights where there is one, else exactly [m^3].
+/// Of the whole program [m^3].
 double volume_removed(const Job& job, Steps& steps) {
   steps.sweep_to(std::numeric_limits<double>::infinity());
   const stock::Swept& swept = steps.look().swept();
-  if (swept.map() != nullptr) return swept.map()->removed(job.stock);
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < job.tools.size(); ++i) {
     const double R = swept.radius(static_cast<std::int16_t>(i));

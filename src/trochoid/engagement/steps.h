@@ -43,10 +43,14 @@ struct Options {
   double rapid_feed = 10.0 / 60;        ///< [m/s]
   std::optional<stock::Drives> drives;  ///< nothing: every feed is reached at once
   double floor = 1e-6;                  ///< layers thinner than this decide nothing [m]
-  double cell = 0.0;  ///< of the map of heights [m]; 0: a 20th of the smallest radius
+  double cell = 0.0;                    ///< of the map of heights [m]; 0: usual_cell
   Bottom bottom = Bottom::estimate;
   base::Stop stop;
 };
+
+/// @brief The usual distance between the points of heights: a 20th of the smallest radius, at
+/// least 0.05 mm [m].
+double usual_cell(std::span<const Tool> tools) noexcept;
 
 /// A program, its tools and the stock.
 struct Job {

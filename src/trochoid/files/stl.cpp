@@ -1,8 +1,7 @@
-#include <trochoid/files/stl.h>
-
 #include <trochoid/base/error.h>
 #include <trochoid/base/read_text.h>
 #include <trochoid/base/units.h>
+#include <trochoid/files/program_file.h>
 
 #include <fmt/core.h>
 

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -95,17 +94,6 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
   return out;
 }
 
-/// Cell of a height field [m]: as the case says, or a twentieth of the smallest radius.
-double cell_of(const cases::Stock& stock, std::span<const engagement::Tool> tools) {
-  if (stock.cell) return *stock.cell;
-  constexpr double finest = 0.05 * unit::mm;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const engagement::Tool& tool : tools) {
-    if (tool.cuts) smallest = std::min(smallest, tool.cutter.profile.D / 2);
-  }
-  return std::isfinite(smallest) ? std::max(smallest / 20, finest) : 1 * unit::mm;
-}
-
 stock::Initial stock_of(const cases::Stock& stock, double cell,
                         std::vector<base::Warning>& warnings) {
   if (stock.box.size() == 2) return stock::Box{stock.box[0], stock.box[1]};
@@ -117,8 +105,8 @@ stock::Initial stock_of(const cases::Stock& stock, double cell,
   if (seen.undercut) {
     warnings.push_back(
         {"stock_undercut",
-         fmt::format("{} has air below its top somewhere; this counts as stock down to "
-                     "its lowest point.",
+         fmt::format("{}: there is air below the top of the body. It counts as stock, "
+                     "down to the lowest point of the body.",
                      stock.file.name)});
   }
   return std::move(seen.field);
@@ -392,7 +380,8 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   const Tools tools = tools_of(given, r.program);
   base::add(r.heading.warnings, tools.why_not);
   if (!given.nc.stock || !tools.why_not.empty()) return r;
-  const double cell = cell_of(*given.nc.stock, tools.tools);
+  const double cell =
+      given.nc.stock->cell.value_or(engagement::usual_cell(tools.tools));
   const stock::Initial stock = stock_of(*given.nc.stock, cell, r.heading.warnings);
   engagement::Options options = options_of(given, stop);
   options.cell = cell;

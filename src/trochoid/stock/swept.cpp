@@ -369,6 +369,7 @@ double swept_area(const Swept& swept, double z, double step) {
 }  // namespace
 
 double volume_removed(const Swept& swept, double step) {
+  if (swept.map() != nullptr) return swept.map()->removed(swept.initial());
   constexpr std::array<double, 2> nodes = {0.21132486540518708, 0.78867513459481287};
   const std::vector<double> z = levels(swept.path(), heights(swept.initial()));
   const bool sloped = std::ranges::any_of(swept.path().pieces, [](const Piece& p) {

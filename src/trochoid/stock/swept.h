@@ -144,7 +144,8 @@ class Surroundings {
   std::vector<Near> near_;
 };
 
-/// @brief Volume that all moves together take from the stock, by scan lines [m^3].
+/// @brief Volume that all moves together take from the stock, by scan lines [m^3]; with a map
+/// of heights what it has lost so far.
 /// @eq N-9  V = sum over heights (Gauss) and y (midpoints) of the length swept along x
 /// @src derived
 /// @param step  from line to line [m]

@@ -13,6 +13,8 @@ constexpr std::size_t steps = 192;
 /// Steps of a quarter of a turn: heights are then good to some 1e-6 of the radius.
 constexpr std::size_t angles = 512;
 constexpr double angle_step = std::numbers::pi / 2 / angles;
+/// Slopes nearer to the lower end of a piece are those here: at a tip they have no limit.
+constexpr double least_t = 1e-4;
 /// Bisections that find a height to rounding.
 constexpr int halvings = 60;
 
@@ -66,9 +68,10 @@ Wall::At Wall::at(double height) const noexcept {
   const double length = piece.to - piece.from;
   const double t = std::sqrt((height - piece.from) / length);
   const At found = cubic(&values_[piece.first], t * steps);
-  const double steepest = 1e9;  // at the tip of a ball
-  const double slope = t > 0 ? found.slope * steps / (2 * t * length) : steepest;
-  return {found.radius, std::max(slope, 0.0)};
+  const double beyond = std::max(t, least_t);
+  const double per_step =
+      t < least_t ? cubic(&values_[piece.first], beyond * steps).slope : found.slope;
+  return {found.radius, std::max(per_step * steps / (2 * beyond * length), 0.0)};
 }
 
 double Wall::find_height(double radius) const noexcept {
