@@ -1,11 +1,14 @@
 #include <trochoid/dynamics/directional.h>
 
+#include <trochoid/base/units.h>
 #include <trochoid/dynamics/engaged.h>
+#include <trochoid/dynamics/layers.h>
 #include <trochoid/dynamics/nodes.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 namespace trochoid::dynamics {
 
@@ -13,6 +16,9 @@ namespace {
 
 /// Break points closer than this are one [rad].
 constexpr double same_angle = 1e-10;
+/// Layers leave ripples of this part of the matrices, those of waves more.
+constexpr double layers_tolerance = 1e-5;
+constexpr double waves_tolerance = 1e-4;
 
 /// Matrices of all channels at one angle.
 using Sample = std::vector<Matrix2>;
@@ -136,24 +142,35 @@ struct DirectionalModel::Parts {
   CylinderArcs cylinder;  ///< empty where the cutter is another one
   bool keeps_radius;
   Directional unit;  ///< of straight edges one metre deep; empty for others
+  Reach reach;
+  Layers layers;  ///< of other cutters, up to the deepest
 
   [[nodiscard]] Directional sampled(double a_p) const;
+  [[nodiscard]] Directional of_cylinder(double a_p) const;
+  [[nodiscard]] Directional in_layers(double a_p) const;
 };
 
 DirectionalModel::DirectionalModel(const force::Setup& setup, const force::Law& law,
-                                   double h_floor, double tolerance) {
+                                   double h_floor, double tolerance,
+                                   const Reach& reach) {
   auto parts = std::make_shared<Parts>(Parts{setup,
                                              force::terms(law),
                                              h_floor,
                                              tolerance,
                                              {},
                                              force::keeps_radius(setup),
+                                             {},
+                                             reach,
                                              {}});
+  parts->reach.deepest = std::max(reach.deepest, setup.cut.a_p);
   if (parts->keeps_radius) {
     parts->cylinder = cylinder_arcs(setup, parts->law, h_floor, tolerance);
     if (parts->cylinder.lag_per_height == 0) {
       parts->unit = parts->sampled(1.0);
     }
+  } else {
+    parts->layers =
+        layers_of(setup, parts->law, h_floor, parts->reach.deepest, reach.cycle);
   }
   parts_ = std::move(parts);
 }
@@ -179,44 +196,55 @@ Directional DirectionalModel::at_depth(double a_p) const {
   return out;
 }
 
-Directional DirectionalModel::Parts::sampled(double a_p) const {
-  Directional out;
-  std::vector<double> breaks;
-  Evaluate evaluate;
-  Largest largest;
-  AxialArcs axial;
-  if (keeps_radius) {
-    const CylinderArcs& arcs = cylinder;
-    const double lag =
-        arcs.lag_per_height * a_p < 1e-8 ? 0.0 : arcs.lag_per_height * a_p;
-    out.period = arcs.passes.period;
-    out.delays = arcs.passes.delays;
-    breaks = arcs.breaks(lag);
-    largest = {arcs.largest.cutting * a_p, arcs.largest.damping * a_p};
-    evaluate = [&arcs, lag, a_p](double phi, double middle, Sample& sample) {
-      evaluate_cylinder(arcs, lag, phi, middle, sample);
-      for (Matrix2& m : sample) {
-        for (double& value : m) {
-          value *= a_p;
-        }
-      }
-    };
-  } else {
-    axial = axial_arcs(setup, law, h_floor, a_p, tolerance);
-    out.period = axial.passes.period;
-    out.delays = axial.passes.delays;
-    breaks = axial.breaks;
-    largest = axial.largest;
-    evaluate = [&axial](double phi, double, Sample& sample) { axial.add(phi, sample); };
-  }
-  const std::vector<double> ends = ordered_breaks(std::move(breaks), out.period);
-  const Largest allowed{std::max(tolerance * largest.cutting, 1e-300),
-                        tolerance * largest.damping};
-  Sampler sampler(out, evaluate, allowed);
+namespace {
+
+/// @param evaluate  matrices at an angle
+/// @param start     period and delays of the cut, and nothing yet
+Directional cut_up(Directional start, std::vector<double> breaks,
+                   const Evaluate& evaluate, const Largest& allowed) {
+  const std::vector<double> ends = ordered_breaks(std::move(breaks), start.period);
+  Sampler sampler(start, evaluate,
+                  {std::max(allowed.cutting, 1e-300), allowed.damping});
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     sampler.add(ends[i], ends[i + 1], 0);
   }
-  return out;
+  return start;
+}
+
+}  // namespace
+
+Directional DirectionalModel::Parts::sampled(double a_p) const {
+  return keeps_radius ? of_cylinder(a_p) : in_layers(a_p);
+}
+
+Directional DirectionalModel::Parts::of_cylinder(double a_p) const {
+  const CylinderArcs& arcs = cylinder;
+  const double lag = arcs.lag_per_height * a_p < 1e-8 ? 0.0 : arcs.lag_per_height * a_p;
+  const auto evaluate = [&](double phi, double middle, Sample& sample) {
+    evaluate_cylinder(arcs, lag, phi, middle, sample);
+    for (Matrix2& m : sample) {
+      for (double& value : m) {
+        value *= a_p;
+      }
+    }
+  };
+  return cut_up(
+      {arcs.passes.period, arcs.passes.delays, {}}, arcs.breaks(lag), evaluate,
+      {tolerance * arcs.largest.cutting * a_p, tolerance * arcs.largest.damping * a_p});
+}
+
+Directional DirectionalModel::Parts::in_layers(double a_p) const {
+  if (a_p > reach.deepest * (1 + 1e-9)) {
+    throw std::invalid_argument("deeper than the reach of the model");
+  }
+  const auto evaluate = [&](double phi, double middle, Sample& sample) {
+    layers.add(a_p, phi, middle, sample);
+  };
+  const double ripples = setup.cutter.serration ? waves_tolerance : layers_tolerance;
+  const double part = std::max(tolerance, ripples);
+  const Largest largest = layers.largest(a_p);
+  return cut_up({layers.period, layers.delays.delays(), {}}, layers.breaks(a_p),
+                evaluate, {part * largest.cutting, part * largest.damping});
 }
 
 }  // namespace trochoid::dynamics

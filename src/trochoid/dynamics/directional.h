@@ -35,6 +35,14 @@ struct Directional {
   std::vector<DirectionalElement> elements;  ///< ascending, one period without gaps
 };
 
+/// How deep and how fast a cut is looked at.
+struct Reach {
+  double deepest = 0.0;  ///< greatest depth asked for [m]; at least that of the cut
+  /// Of the fastest vibration, as an angle of the spindle [rad]: needed where delays
+  /// change along the edge.
+  double cycle = 0.05;
+};
+
 /// @brief Makes D-8 of a cut for any axial depth.
 ///
 /// @eq D-9 A_d(phi) = sum over teeth and pieces with that delay of the integral
@@ -48,11 +56,13 @@ struct Directional {
 class DirectionalModel {
  public:
   /// @param h_floor    least chip of the gradient of a power law [m], positive
-  /// @param tolerance  of the matrices, relative to their largest entry
+  /// @param tolerance  of the matrices, relative to their largest entry; other cutters than
+  ///                   cylinders of constant lead reach 1e-5, serrated ones 1e-4 (D-37)
   DirectionalModel(const force::Setup& setup, const force::Law& law, double h_floor,
-                   double tolerance);
+                   double tolerance, const Reach& reach = {});
 
-  /// @param a_p  axial depth [m], positive
+  /// @param a_p  axial depth [m], positive; of other cutters than cylinders of constant lead
+  ///             at most the deepest, else std::invalid_argument
   [[nodiscard]] Directional at_depth(double a_p) const;
   /// Is all of it proportional to a_p? So it is on straight edges of a cylinder.
   [[nodiscard]] bool proportional() const noexcept;

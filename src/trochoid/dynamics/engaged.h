@@ -2,15 +2,13 @@
 
 #include <trochoid/chip/chip.h>
 #include <trochoid/dynamics/gradient.h>
-#include <trochoid/force/edge_curve.h>
 #include <trochoid/force/setup.h>
 #include <trochoid/numerics/piecewise_integral.h>
 
-#include <memory>
 #include <optional>
 #include <vector>
 
-/// Where the teeth cut, and which pass left what they meet: the two ways to D-9.
+/// Where the teeth of a cylinder cut, and which pass left what they meet.
 namespace trochoid::dynamics {
 
 /// @brief Which periods and delays a cutter has.
@@ -74,23 +72,5 @@ struct CylinderArcs {
 
 CylinderArcs cylinder_arcs(const force::Setup& setup, const force::Terms& law,
                            double h_floor, double tolerance);
-
-/// @brief The same for any cutter at one depth, by quadrature along the edges.
-struct AxialArcs {
-  Passes passes;
-  std::vector<double> breaks;  ///< spindle angles [rad]
-  std::shared_ptr<const force::Edges> edges;
-  force::Terms law;
-  force::Terms flank;    ///< process damping as a law, K [N/m]
-  double h_floor = 0.0;  ///< [m]
-  Largest largest;       ///< entries of the matrices [N/m], and [N]
-  double tolerance = 0.0;
-
-  /// Add the matrices at phi [N/m], last D where flanks damp [N].
-  void add(double phi, std::vector<Matrix2>& out) const;
-};
-
-AxialArcs axial_arcs(const force::Setup& given, const force::Terms& law, double h_floor,
-                     double a_p, double tolerance);
 
 }  // namespace trochoid::dynamics

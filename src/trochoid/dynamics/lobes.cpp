@@ -352,7 +352,7 @@ LobeGrid lobe_grid(const DirectionalModel& model, const System& system,
       columns[i].push_back(speed.at(d, near_limit));
     }
   });
-  LobeGrid grid{{}, {depth.begin(), depth.end()}, {}};
+  LobeGrid grid{{}, {depth.begin(), depth.end()}, {}, cuts.at_depth};
   for (std::size_t i = 0; i < Omega.size(); ++i) {
     if (done[i] != 0) {
       grid.Omega.push_back(Omega[i]);
@@ -390,7 +390,7 @@ std::vector<Limit> limit_curve(const DirectionalModel& model, const System& syst
   if (speeds == 0) {
     return {};
   }
-  const Cuts cuts = cuts_at(model, grid.depth);
+  const Cuts cuts{model, grid.depth, grid.at_depth};
   std::vector<std::optional<Limit>> limits(speeds);
   constexpr double half = 0.5;
   watched(speeds, {0.0, half}, watch, [&](std::size_t i) {

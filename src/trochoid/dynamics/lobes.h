@@ -35,6 +35,8 @@ struct LobeGrid {
   std::vector<double> Omega;                     ///< [rad/s], ascending
   std::vector<double> depth;                     ///< [m], ascending
   std::vector<std::complex<double>> multiplier;  ///< shape (speeds, depths)
+  /// The cut at each depth; empty where it is proportional to the depth.
+  std::vector<Directional> at_depth = {};
 };
 
 /// @brief Multipliers on a grid, at each speed with as many nodes as the shallowest cut

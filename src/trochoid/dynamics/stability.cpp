@@ -1,6 +1,7 @@
 #include <trochoid/dynamics/stability.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/dynamics/period_elements.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
@@ -24,7 +25,8 @@ constexpr int depths_looked_at = 100;
 constexpr double most_vibrations = 400;
 
 DirectionalModel directional_model(const StabilityProblem& problem, double floor) {
-  return {problem.setup, problem.law, floor, matrix_tolerance};
+  return {problem.setup, problem.law, floor, matrix_tolerance,
+          reach_of(problem, fastest_frequency(problem.system))};
 }
 
 /// The cut ready to be asked.
@@ -134,6 +136,19 @@ void add_lobes(const LimitOfSpeed& point, const StabilityProgress& progress,
 
 }  // namespace
 
+Reach reach_of(const StabilityProblem& problem, double fastest) {
+  const geometry::Cut& cut = problem.setup.cut;
+  Reach reach{cut.a_p, cut.Omega};
+  for (const double depth : problem.depths) {
+    reach.deepest = std::max(reach.deepest, depth);
+  }
+  for (const double Omega : problem.spindle_speeds) {
+    reach.cycle = std::min(reach.cycle, Omega);
+  }
+  reach.cycle /= fastest;
+  return reach;
+}
+
 Stability stability(const StabilityProblem& problem,
                     const StabilityProgress& progress) {
   const LimitOfSpeed point{problem};
@@ -170,7 +185,8 @@ std::optional<double> linear_growth(const force::Setup& setup, const force::Law&
   for (const ChipMode& mode : system.modes) {
     fastest = std::max(fastest, std::sqrt(mode.stiffness / mode.mass));
   }
-  const DirectionalModel model(setup, law, options.chip_floor, matrix_tolerance);
+  const DirectionalModel model(setup, law, options.chip_floor, matrix_tolerance,
+                               {setup.cut.a_p, Omega * unit::turn / fastest});
   const Directional directional = model.at_depth(setup.cut.a_p);
   if (fastest * directional.period / (unit::turn * Omega) > most_vibrations) {
     return std::nullopt;

@@ -85,6 +85,10 @@ struct Stability {
 /// Told what is computed and how much of it is done, from 0 to 1; may be empty.
 using StabilityProgress = std::function<void(const char* what, double share)>;
 
+/// @brief How deep and how fast a problem is looked at.
+/// @param fastest  vibration that counts [Hz]
+Reach reach_of(const StabilityProblem& problem, double fastest);
+
 /// @brief Floquet multiplier, limit depth and stability lobe diagram of a cut.
 ///
 /// The verdict is `marginal` within the margin of |mu| = 1, and where it depends on the

@@ -111,8 +111,10 @@ constexpr int depths_looked_at = 100;
 ByFrequency by_frequency(const dynamics::StabilityProblem& problem,
                          const dynamics::PointResponse& response, int harmonics,
                          double greatest, const Progress& progress) {
+  const double fastest = dynamics::band_of(response).to / unit::turn;
   const dynamics::DirectionalModel model(problem.setup, problem.law,
-                                         problem.options.chip_floor, matrix_tolerance);
+                                         problem.options.chip_floor, matrix_tolerance,
+                                         dynamics::reach_of(problem, fastest));
   std::vector<double> depths;
   for (int i = 1; i <= depths_looked_at; ++i) {
     depths.push_back(greatest * i / depths_looked_at);

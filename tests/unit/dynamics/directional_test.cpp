@@ -178,9 +178,10 @@ TEST(Directional, OfStraightEdgesIsProportionalToTheDepth) {  // [D-9]
 }
 
 TEST(Directional, AlongTheEdgeAsOverTheAngle) {  // [D-9]
-  // An eccentricity of nothing makes the cutter go through the quadrature along z.
+  // An eccentricity of nothing makes the cutter go through layers.
   force::Setup setup = straight_cut(2, geometry::DownMilling{3 * unit::mm});
   setup.cutter.helix = 0.5;
+  setup.cut.a_p = 2 * unit::mm;
   setup.chip = {chip::Model::radial, chip::Lookback::all};
   const Directional closed =
       DirectionalModel(setup, benchmark_law(), 1e-6, 1e-9).at_depth(2 * unit::mm);

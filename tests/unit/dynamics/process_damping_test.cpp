@@ -94,6 +94,7 @@ TEST(ProcessDamping, OfABallIsThatOfItsRadii) {  // [D-31]
   force::Setup setup = worn_cut();
   setup.cutter.profile = geometry::ball(10e-3);
   setup.cut.f_z = 1e-6;
+  setup.cut.a_p = 2e-3;
   const Directional cut = model_of(setup).at_depth(2e-3);
   const double theta = 1.0;
   const double s = std::sin(theta);
