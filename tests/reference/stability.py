@@ -32,15 +32,27 @@ class Mill:
     feed: float = 5e-5    # per tooth
     power: tuple = ()     # (m_t, m_r, floor); K_t and K_r then at 1 mm
     flank: tuple = ()     # worn: (land, force per volume, friction)
+    helices: tuple = ()   # empty: all teeth have `helix`
 
     def pitches(self):
         return np.array(self.pitch or [2 * np.pi / self.teeth] * self.teeth)
 
+    def angles(self, z):
+        """Of each tooth behind the tip of the first, at a height."""
+        helix = np.array(self.helices or [self.helix] * self.teeth)
+        tips = np.concatenate([[0], np.cumsum(self.pitches())[:-1]])
+        return tips + 2 * z * np.tan(helix) / self.diameter
 
-def marks(mill, theta):
+
+def pitches_at(angles):
+    """Angle from each tooth to the next, from the angles of all."""
+    return np.append(np.diff(angles), 2 * np.pi + angles[0] - angles[-1])
+
+
+def marks(mill, theta, angles):
     """For each tooth: chip and how many teeth before left the surface, at angles theta."""
     n = mill.teeth
-    pitch = mill.pitches()
+    pitch = pitches_at(angles)
     r = np.array(mill.offsets or [0.0] * n)
     per_angle = n * mill.feed / (2 * np.pi)
     h = np.empty((n, n) + theta.shape)
@@ -53,20 +65,21 @@ def marks(mill, theta):
 
 
 def matrices(mill, steps):
-    """Mean directional matrix of each step of a turn, for every tooth distance.
+    """Mean directional matrix of each step of a turn, by delay in steps.
 
-    Shape (steps, teeth, teeth, 2, 2): of tooth j, mark m teeth before."""
+    Shape (steps, steps + 2, 2, 2). A delay between two steps is shared among them, as a
+    straight line between two samples has it."""
     n = mill.teeth
     fine = 40                    # samples of a step
     phi = (np.arange(steps * fine) + 0.5) * 2 * np.pi / (steps * fine)
-    psi = np.concatenate([[0], np.cumsum(mill.pitches())[:-1]])
-    slices = 60 if mill.helix else 1
-    out = np.zeros((steps, n, n, 2, 2))
+    slices = 60 if mill.helix or mill.helices else 1
+    out = np.zeros((steps, steps + 2, 2, 2))
     for z in (np.arange(slices) + 0.5) / slices * mill.depth:
-        lag = 2 * z * np.tan(mill.helix) / mill.diameter
+        angles = mill.angles(z)
+        pitch = pitches_at(angles)
         for j in range(n):
-            theta = np.mod(phi - psi[j] - lag, 2 * np.pi)
-            h, mark = (a[j] for a in marks(mill, theta))
+            theta = np.mod(phi - angles[j], 2 * np.pi)
+            h, mark = (a[j] for a in marks(mill, theta, angles))
             cuts = (theta > mill.entry) & (theta < mill.leave) & (h > 0)
             s, c = np.sin(theta), np.cos(theta)
             t, r = np.full_like(s, mill.K_t), np.full_like(s, mill.K_r)
@@ -78,7 +91,13 @@ def matrices(mill, steps):
                           [(s * t - c * r) * s, (s * t - c * r) * c]])
             for m in range(n):
                 part = np.where(cuts & (mark == m), g, 0.0) * mill.depth / slices
-                out[:, j, m] += part.reshape(2, 2, steps, fine).mean(-1).transpose(2, 0, 1)
+                mean = part.reshape(2, 2, steps, fine).mean(-1).transpose(2, 0, 1)
+                delay = sum(pitch[(j - i) % n] for i in range(1, m + 2)) * steps / 2 / np.pi
+                whole = int(np.floor(delay + 1e-6))
+                beyond = max(0.0, delay - whole)
+                beyond = 0.0 if beyond < 1e-6 else beyond
+                out[:, whole] += (1 - beyond) * mean
+                out[:, whole + 1] += beyond * mean
     return out
 
 
@@ -91,13 +110,13 @@ def flank_matrices(mill, steps):
     # A triangle of the length of the land and the height land * (speed in / speed along).
     speed = mill.rpm * 2 * np.pi / 60 * mill.diameter / 2
     per_height = per_volume * land * land / 2 / speed
-    fine, slices = 40, 60 if mill.helix else 1
+    fine, slices = 40, 60 if mill.helix or mill.helices else 1
     phi = (np.arange(steps * fine) + 0.5) * 2 * np.pi / (steps * fine)
-    psi = np.concatenate([[0], np.cumsum(mill.pitches())[:-1]])
     for z in (np.arange(slices) + 0.5) / slices * mill.depth:
+        angles = mill.angles(z)
         for j in range(mill.teeth):
-            theta = np.mod(phi - psi[j] - 2 * z * np.tan(mill.helix) / mill.diameter, 2 * np.pi)
-            h = marks(mill, theta)[0][j]
+            theta = np.mod(phi - angles[j], 2 * np.pi)
+            h = marks(mill, theta, angles)[0][j]
             cuts = (theta > mill.entry) & (theta < mill.leave) & (h > 0)
             inward = np.array([-np.sin(theta), -np.cos(theta)])
             back = np.array([-np.cos(theta), np.sin(theta)])  # against the cutting speed
@@ -134,7 +153,6 @@ def exponential(M):
 
 def multiplier(mill, steps):
     """|mu| over a turn, with `steps` steps in it."""
-    n = mill.teeth
     dt = 60 / mill.rpm / steps
     A, B, C = state_space(mill)
     size = len(A)
@@ -142,19 +160,13 @@ def multiplier(mill, steps):
     flank = flank_matrices(mill, steps)
     k = size // 2
     speeds = np.hstack([np.zeros((2, k)), C[:, :k]])  # dq/dt of the state
-    pitch = mill.pitches()
-    # delays in steps, for tooth j and mark m: whole numbers by the choice of steps
-    delay = np.array([[sum(pitch[(j - i) % n] for i in range(1, m + 1))
-                       for m in range(1, n + 1)] for j in range(n)]) * steps / (2 * np.pi)
-    whole = np.rint(delay).astype(int)
-    assert np.abs(delay - whole).max() < 1e-6, "the delays must be whole steps"
-    longest = whole.max()
+    longest = np.flatnonzero(np.abs(D).sum((0, 2, 3)) > 0).max()
     # Columns: the state now, then q at the last `longest` steps, newest first.
     rows = size + 2 * longest
     # q after a step from two values of the delayed q: linear between them.
     U = np.eye(rows)
     for i in range(steps):
-        own = D[i].sum(axis=(0, 1))
+        own = D[i].sum(axis=0)
         L = A + B @ own @ C + B @ flank[i] @ speeds
         # x' = L x + B f, f = -sum D q_delayed(t), q_delayed linear over the step
         big = np.zeros((size + 4, size + 4))
@@ -164,8 +176,8 @@ def multiplier(mill, steps):
         E = exponential(big * dt)
         P, R0, R1 = E[:size, :size], E[:size, size:size + 2], E[:size, size + 2:]
         new = P @ U[:size]
-        for d in np.unique(whole[np.abs(D[i]).sum((2, 3)) > 0]):
-            M = D[i][whole == d].sum(axis=0)
+        for d in np.flatnonzero(np.abs(D[i]).sum((1, 2)) > 0):
+            M = D[i][d]
             # history block b holds q b steps ago; q(t_i - d) is block d, one later d - 1
             at = lambda b: (C @ U[:size] if b == 0 else  # noqa: E731
                             U[size + 2 * (b - 1):size + 2 * b])

@@ -20,8 +20,8 @@ constexpr int looks = 200;
 /// What commands that know closed forms only take.
 constexpr std::string_view alike_in_words =
     "takes cutters whose teeth have one edge: one helix_deg from 0 on, no serration, "
-    "axial_offsets_mm of 0 and tilt_deg = 0; simulate, identify, program and the finish "
-    "of surface take any";
+    "axial_offsets_mm of 0 and tilt_deg = 0; simulate, identify, stability, program and "
+    "the finish of surface take any";
 
 /// The first key that makes the teeth differ from one another, and how.
 struct Difference {
@@ -57,8 +57,8 @@ bool takes_any(const CaseTables& t, Command purpose) {
   const bool profile = !surface || (surface->model == surface::Model::envelope &&
                                     surface->probe_diameter == 0);
   return purpose == Command::simulate || purpose == Command::identify ||
-         purpose == Command::program || purpose == Command::modes ||
-         purpose == Command::actuator ||
+         purpose == Command::stability || purpose == Command::program ||
+         purpose == Command::modes || purpose == Command::actuator ||
          (purpose == Command::surface && rigid && profile && t.machine.passes.empty());
 }
 

@@ -165,6 +165,6 @@ function toolSection() {
   const differ = teeth.filter((t) => t.out !== 0 || t.deeper !== 0)
     .map((t) => `tooth ${t.number} ${ofLength(1e3 * t.out)}${t.deeper ? `, ${ofLength(1e3 * t.deeper)} deeper` : ''}`);
   return { part: section('tool', 'The tool', 'Tool',
-    prose(differ.length ? `Against a tool that runs true: ${differ.join('; ')}.` : 'All teeth are alike: the case has no runout.'),
+    prose(differ.length ? `Against a tool that runs true: ${differ.join('; ')}.` : 'The case has no runout.'),
     chart.element), draw: () => chart.resize() };
 }
