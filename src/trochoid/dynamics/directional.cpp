@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <variant>
 
 namespace trochoid::dynamics {
 
@@ -150,6 +151,15 @@ struct DirectionalModel::Parts {
   [[nodiscard]] Directional in_layers(double a_p) const;
 };
 
+namespace {
+
+bool has_closed_form(const force::Setup& setup) {
+  return force::keeps_radius(setup) &&
+         !std::holds_alternative<geometry::Arcs>(setup.cut.engagement);
+}
+
+}  // namespace
+
 DirectionalModel::DirectionalModel(const force::Setup& setup, const force::Law& law,
                                    double h_floor, double tolerance,
                                    const Reach& reach) {
@@ -158,7 +168,7 @@ DirectionalModel::DirectionalModel(const force::Setup& setup, const force::Law& 
                                              h_floor,
                                              tolerance,
                                              {},
-                                             force::keeps_radius(setup),
+                                             has_closed_form(setup),
                                              {},
                                              reach,
                                              {}});

@@ -126,7 +126,16 @@ class Builder {
   }
 
   void build(double deepest) {
-    const std::vector<double> ends = edges_.breaks(deepest);
+    std::vector<double> ends = edges_.breaks(deepest);
+    if (const auto* arcs = std::get_if<geometry::Arcs>(&setup_.cut.engagement)) {
+      for (const geometry::ArcLayer& layer : arcs->layers) {
+        for (const double end : {layer.from, layer.to}) {
+          if (end > ends.front() && end < ends.back()) ends.push_back(end);
+        }
+      }
+      std::ranges::sort(ends);
+      ends.erase(std::ranges::unique(ends).begin(), ends.end());
+    }
     depth_ = ends.back() - ends.front();
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       add_stack(ends[i], ends[i + 1]);
@@ -149,7 +158,8 @@ class Builder {
       stack_.there.push_back(there ? 1 : 0);
       if (there) turned = std::max(turned, edges_.turn_between(j, from, to));
     }
-    double count = std::max(fewest_layers, turned / layer_turn);
+    const double fewest = std::max(2.0, fewest_layers * (to - from) / depth_);
+    double count = std::max(fewest, turned / layer_turn);
     if (edges_.wavelength() > 0) {
       count = std::max(count, layers_of_wave * (to - from) / edges_.wavelength());
     }
@@ -182,6 +192,10 @@ class Builder {
       face.edges.push_back(teeth_.edge(j));
       std::vector<FaceArc>& arcs = face.arcs.emplace_back();
       if (!teeth_.there(j)) continue;
+      if (alike_ && j > 0) {
+        arcs = face.arcs.front();
+        continue;
+      }
       chip::Slice slice = teeth_.slice(j);
       slice.arcs = stock_at(face.z);
       for (const chip::ChipPiece& piece : chip::engaged_pieces(
@@ -245,6 +259,8 @@ class Builder {
                  .own = on[0]->own};
     for (std::size_t k = 0; k < 2; ++k) {
       arc.kappa[k] = kappa_of(*ends[k]);
+      arc.sine = ends[k]->sin_kappa;
+      arc.cosine = ends[k]->cos_kappa;
       arc.from[k] = on[k]->from + ends[k]->omega;
       arc.to[k] = on[k]->to + ends[k]->omega;
     }
@@ -477,9 +493,10 @@ void Layers::add_part(const LayerArc& arc, double from, double to, double phi,
       const auto place = static_cast<int>(arc.place);
       h = std::max(h_floor, chip::chip_at(layer.passage, slice, place, nominal).h);
     }
+    const bool upright = arc.kappa[0] == arc.kappa[1];
     const double kappa = std::lerp(arc.kappa[0], arc.kappa[1], at.root);
-    const double sine = std::sin(kappa);
-    const double cosine = std::cos(kappa);
+    const double sine = upright ? arc.sine : std::sin(kappa);
+    const double cosine = upright ? arc.cosine : std::cos(kappa);
     const double length = at.weight * (layer.to - layer.from) / sine;
     const Matrix2 g = directional_gradient(law, h, theta, sine, cosine);
     const auto [first, count] =

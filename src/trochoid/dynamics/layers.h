@@ -57,7 +57,9 @@ struct LayerArc {
   double epsilon = 0.0;           ///< [rad]
   std::array<double, 2> R{};      ///< [m]
   std::array<double, 2> kappa{};  ///< [rad]
-  bool own = true;                ///< the edge itself moves the outer end
+  double sine = 1.0;              ///< of kappa where it is the same on both faces
+  double cosine = 0.0;
+  bool own = true;  ///< the edge itself moves the outer end
   std::array<double, 2>
       delay{};  ///< to the mark [rad]; 0: the stock, which stands still
 };

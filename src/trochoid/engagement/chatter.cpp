@@ -1,0 +1,288 @@
+#include <trochoid/engagement/chatter.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/dynamics/chatter.h>
+#include <trochoid/dynamics/directional.h>
+#include <trochoid/dynamics/multiplier.h>
+#include <trochoid/dynamics/period_elements.h>
+#include <trochoid/numerics/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numeric>
+
+namespace trochoid::engagement {
+namespace {
+
+/// Cuts are one within these.
+constexpr double shared_arc = 2 * unit::deg;
+constexpr double shared_direction = 5 * unit::deg;
+constexpr double shared_height = 0.01;  // of the diameter
+constexpr double shared_feed = 0.05;    // relative
+
+/// Depths up to so many times that of the cut are looked at, and down to this part of it.
+constexpr double deepest = 2.0;
+constexpr double shallowest = 0.02;
+/// From one depth to the next in search of a change.
+constexpr double search_step = 1.4143;
+/// Of multipliers, of matrices, and of the limit depth, relative.
+constexpr double multiplier_tolerance = 3e-3;
+constexpr double matrices_tolerance = 1e-3;
+constexpr double limit_tolerance = 1e-2;
+constexpr int most_root_steps = 20;
+/// Other speeds: so far apart, so far off, and stable by this much.
+constexpr double speed_step = 0.02;
+constexpr double farthest_speed = 0.3;
+constexpr double clearly_stable = 0.95;
+/// Of which chatter frequencies only the strongest is wanted.
+constexpr double strongest = 0.9;
+
+/// More layers of stock than these become as many bands of one height.
+constexpr std::size_t most_bands = 3;
+
+/// Stock in a few bands: each with the arcs at its middle.
+std::vector<Layer> in_bands(const std::vector<Layer>& layers) {
+  if (layers.size() <= most_bands) return layers;
+  const double bottom = layers.front().from;
+  const double band = (layers.back().to - bottom) / static_cast<double>(most_bands);
+  std::vector<Layer> out;
+  for (std::size_t i = 0; i < most_bands; ++i) {
+    Layer one{bottom + band * static_cast<double>(i),
+              bottom + band * static_cast<double>(i + 1),
+              {}};
+    const double middle = 0.5 * (one.from + one.to);
+    const auto at = std::ranges::find_if(
+        layers, [&](const Layer& l) { return l.from <= middle && middle < l.to; });
+    if (at != layers.end()) one.arcs = at->arcs;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// Modes along the feed of a step and to its left.
+dynamics::System seen_along(const dynamics::System& system, double direction) {
+  dynamics::System out = system;
+  const double c = std::cos(direction);
+  const double s = std::sin(direction);
+  for (dynamics::ChipMode& mode : out.modes) {
+    const double x = mode.x;
+    mode.x = c * x + s * mode.y;
+    mode.y = c * mode.y - s * x;
+  }
+  return out;
+}
+
+/// The cut in the axes of its feed. Its upper arcs reach as high as one likes.
+force::Setup setup_of(const SharedCut& cut, const Tool& tool) {
+  geometry::Arcs arcs;
+  for (const Layer& layer : cut.layers) {
+    geometry::ArcLayer& out = arcs.layers.emplace_back();
+    out.from = layer.from;
+    out.to = layer.to;
+    for (const chip::Arc& arc : layer.arcs) {
+      out.arcs.push_back({{arc.from, arc.to}, {}, {}});
+    }
+  }
+  arcs.layers.back().to = std::numeric_limits<double>::infinity();
+  return {.cutter = tool.cutter,
+          .runout = tool.runout,
+          .cut = {std::move(arcs), cut.a_p, cut.f_z, cut.spindle},
+          .chip = tool.chip,
+          .edge_length = tool.edge_length,
+          .process_damping = {}};
+}
+
+/// One cut ready to be asked.
+class Asked {
+ public:
+  Asked(const SharedCut& cut, const Tool& tool, const Vibration& vibration)
+      : cut_(cut),
+        system_(seen_along(vibration.system, cut.direction)),
+        model_(setup_of(cut, tool), tool.law, vibration.chip_floor, matrices_tolerance,
+               {deepest * cut.a_p,
+                cut.spindle / dynamics::fastest_frequency(vibration.system)}) {}
+
+  [[nodiscard]] ChatterLimit limit() const {
+    ChatterLimit out{.known = true};
+    const double here = growth(cut_.a_p);
+    const auto found = here < 0 ? from_below(here) : from_above(here);
+    if (found) {
+      out.depth = *found;
+      const dynamics::Directional at = model_.at_depth(*found);
+      const double factor =
+          dynamics::multiplier(at, system_, cut_.spindle, multiplier_tolerance).factor;
+      const auto lines =
+          dynamics::chatter_lines(at, system_, cut_.spindle, factor, strongest);
+      if (!lines.empty()) out.frequency = lines.front().frequency;
+    }
+    if (here >= 0) out.better_spindle = better();
+    return out;
+  }
+
+ private:
+  struct Tried {
+    double depth = 0.0;
+    double growth = 0.0;  ///< ln |mu|
+  };
+
+  [[nodiscard]] double growth(double depth) const {
+    return growth_of(model_.at_depth(depth), cut_.spindle);
+  }
+  [[nodiscard]] double growth_of(const dynamics::Directional& at,
+                                 double spindle) const {
+    const auto mu = dynamics::multiplier(at, system_, spindle, multiplier_tolerance);
+    return std::log(std::abs(mu.value));
+  }
+
+  /// The next depth at which a stable cut becomes unstable.
+  [[nodiscard]] std::optional<double> from_below(double here) const {
+    Tried stable{cut_.a_p, here};
+    while (stable.depth < deepest * cut_.a_p) {
+      const double next = std::min(search_step * stable.depth, deepest * cut_.a_p);
+      const Tried tried{next, growth(next)};
+      if (tried.growth >= 0) return root(stable, tried);
+      stable = tried;
+    }
+    return std::nullopt;
+  }
+
+  /// The next depth at which an unstable cut becomes stable.
+  [[nodiscard]] std::optional<double> from_above(double here) const {
+    Tried unstable{cut_.a_p, here};
+    while (unstable.depth > shallowest * cut_.a_p) {
+      const double next = unstable.depth / search_step;
+      const Tried tried{next, growth(next)};
+      if (tried.growth < 0) return root(tried, unstable);
+      unstable = tried;
+    }
+    return unstable.depth;
+  }
+
+  /// False position, halved where one end stays (Illinois).
+  [[nodiscard]] double root(Tried stable, Tried unstable) const {
+    for (int i = 0; i < most_root_steps; ++i) {
+      const double width = unstable.depth - stable.depth;
+      if (width <= limit_tolerance * unstable.depth) break;
+      const double t = stable.growth / (stable.growth - unstable.growth);
+      const double depth = stable.depth + std::clamp(t, 0.02, 0.98) * width;
+      const double found = growth(depth);
+      if (std::abs(found) < multiplier_tolerance) return depth;
+      if (found < 0) {
+        stable = {depth, found};
+        unstable.growth *= 0.5;
+      } else {
+        unstable = {depth, found};
+        stable.growth *= 0.5;
+      }
+    }
+    return stable.depth;
+  }
+
+  /// The nearest speed at which the cut is stable, with the same feed of a tooth.
+  [[nodiscard]] std::optional<double> better() const {
+    const dynamics::Directional at = model_.at_depth(cut_.a_p);
+    const double allowed = std::log(clearly_stable);
+    for (double off = speed_step; off <= farthest_speed; off += speed_step) {
+      for (const double side : {1.0, -1.0}) {
+        const double spindle = cut_.spindle * (1 + side * off);
+        if (growth_of(at, spindle) < allowed) return spindle;
+      }
+    }
+    return std::nullopt;
+  }
+
+  const SharedCut& cut_;
+  dynamics::System system_;
+  dynamics::DirectionalModel model_;
+};
+
+/// Whether modes answer to all directions alike: a direction then needs no name.
+bool answers_alike(const dynamics::System& system) {
+  std::array<double, 3> sum{};  // of x x, x y, y y over the stiffness
+  for (const dynamics::ChipMode& mode : system.modes) {
+    sum[0] += mode.x * mode.x / mode.stiffness;
+    sum[1] += mode.x * mode.y / mode.stiffness;
+    sum[2] += mode.y * mode.y / mode.stiffness;
+  }
+  if (std::abs(sum[1]) > 1e-9 * sum[0] || std::abs(sum[0] - sum[2]) > 1e-9 * sum[0]) {
+    return false;
+  }
+  return std::ranges::all_of(system.modes, [&](const dynamics::ChipMode& mode) {
+    return mode.mass == system.modes.front().mass &&
+           mode.stiffness == system.modes.front().stiffness &&
+           mode.damping == system.modes.front().damping;
+  });
+}
+
+}  // namespace
+
+SharedCuts::SharedCuts(std::span<const Tool> tools,
+                       std::span<const Vibration> vibrations)
+    : tools_(tools), vibrations_(vibrations) {}
+
+void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& which) {
+  for (const Step& step : steps) {
+    const auto tool = static_cast<std::size_t>(std::max<std::int16_t>(step.tool, 0));
+    const bool cuts = step.tool >= 0 && !step.layers.empty() && step.f_z > 0 &&
+                      step.spindle > 0 && !vibrations_[tool].system.modes.empty();
+    if (!cuts) {
+      which.push_back(-1);
+      continue;
+    }
+    const bool alike = answers_alike(vibrations_[tool].system);
+    const double D = tools_[tool].cutter.profile.D;
+    std::vector<std::int64_t> key = {
+        step.tool, std::llround(step.spindle / (0.1 * unit::rpm)),
+        std::llround(std::log(step.f_z) / shared_feed),
+        alike ? 0 : std::llround(step.direction / shared_direction)};
+    std::vector<Layer> bands = in_bands(step.layers);
+    for (const Layer& layer : bands) {
+      key.push_back(std::llround(layer.from / (shared_height * D)));
+      key.push_back(std::llround(layer.to / (shared_height * D)));
+      for (const chip::Arc& arc : layer.arcs) {
+        key.push_back(std::llround(arc.from / shared_arc));
+        key.push_back(std::llround(arc.to / shared_arc));
+      }
+    }
+    const auto [at, is_new] =
+        known_.try_emplace(std::move(key), static_cast<std::int32_t>(cuts_.size()));
+    if (is_new) {
+      cuts_.push_back({tool, step.spindle, step.f_z, step.layers.back().to,
+                       alike ? 0.0 : step.direction, std::move(bands), 0.0, step.line});
+    }
+    cuts_[static_cast<std::size_t>(at->second)].duration += step.duration;
+    which.push_back(at->second);
+  }
+}
+
+std::vector<ChatterLimit> chatter_limits(std::span<const SharedCut> cuts,
+                                         std::span<const Tool> tools,
+                                         std::span<const Vibration> vibrations,
+                                         std::size_t most,
+                                         const ChatterProgress& progress) {
+  std::vector<std::size_t> order(cuts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      order, [&](auto a, auto b) { return cuts[a].duration > cuts[b].duration; });
+  order.resize(std::min(most, order.size()));
+  std::vector<ChatterLimit> out(cuts.size());
+  std::mutex one_at_a_time;
+  std::size_t done = 0;
+  numerics::for_each_index(
+      order.size(),
+      [&](std::size_t i) {
+        const SharedCut& cut = cuts[order[i]];
+        out[order[i]] = Asked(cut, tools[cut.tool], vibrations[cut.tool]).limit();
+        const std::lock_guard lock(one_at_a_time);
+        ++done;
+        if (progress) {
+          progress(static_cast<double>(done) / static_cast<double>(order.size()));
+        }
+      },
+      1);
+  return out;
+}
+
+}  // namespace trochoid::engagement
