@@ -158,6 +158,33 @@ const Fields<NewFeeds>& feed_fields() {
   return all;
 }
 
+const Fields<ChatteringLine>& chattering_fields() {
+  using C = const ChatteringLine&;
+  static const Fields<ChatteringLine> all{
+      {"line", "of the text", [](C c) { return c.line; }},
+      {"margin", "the least of its steps: limit depth over axial depth",
+       [](C c) { return c.margin; }},
+      {"limit_depth_mm", "of that step", [](C c) { return c.limit_depth; }},
+      {"frequency_Hz", "of the chatter", [](C c) { return c.frequency; }},
+      {"spindle_rpm", "of that step", [](C c) { return c.spindle; }},
+      {"better_spindle_rpm",
+       "the nearest within 30 % at which that step is stable, with the same feed of a "
+       "tooth",
+       [](C c) { return c.better_spindle; },
+       [](C c) { return c.better_spindle.has_value(); }}};
+  return all;
+}
+
+const Fields<ProgramChatter>& chatter_fields() {
+  using C = const ProgramChatter&;
+  static const Fields<ProgramChatter> all{
+      {"cuts", "different ones along the program", [](C c) { return c.cuts.size(); }},
+      {"looked_at", "part of the time in cut for which the limit is known",
+       [](C c) { return c.looked_at; }},
+      {"lines", "that chatter", chattering_fields(), [](C c) { return c.lines; }}};
+  return all;
+}
+
 const Fields<ProgramForces>& force_fields() {
   using F = const ProgramForces&;
   static const Fields<ProgramForces> all{
@@ -178,7 +205,9 @@ const Fields<ProgramForces>& force_fields() {
       {"limits_broken", "limits that lines go beyond", broken_fields(),
        [](F f) { return f.broken; }},
       {"feed", "the feeds of [feed]", feed_fields(), [](F f) { return f.feed; },
-       [](F f) { return f.feed.has_value(); }}};
+       [](F f) { return f.feed.has_value(); }},
+      {"chatter", "whether the cuts chatter", chatter_fields(),
+       [](F f) { return f.chatter; }, [](F f) { return f.chatter.has_value(); }}};
   return all;
 }
 
@@ -231,6 +260,13 @@ std::string short_table(const ProgramResult& r) {
   for (const BrokenLimit& one : r.forces->broken) {
     out += fmt::format("limit {} = {:.4g}: {} lines go beyond it, up to {:.4g}\n",
                        one.limit, one.allowed, one.lines.size(), one.worst);
+  }
+  if (r.forces->chatter) {
+    const ProgramChatter& chatter = *r.forces->chatter;
+    out += chatter.lines.empty()
+               ? std::string("chatter: in no line\n")
+               : fmt::format("chatter: in {} lines, line {} first\n",
+                             chatter.lines.size(), chatter.lines.front().line);
   }
   if (r.forces->feed) {
     const NewFeeds& feed = *r.forces->feed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/engagement/chatter.h>
 #include <trochoid/engagement/feed.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/program/move.h>
@@ -43,6 +44,26 @@ struct NewFeeds {
   std::vector<std::uint32_t> rubbing;  ///< lines with chips below the least one
 };
 
+/// A line in which a cut chatters.
+struct ChatteringLine {
+  std::uint32_t line = 0;
+  double margin = 0.0;       ///< the least: limit depth over axial depth
+  double limit_depth = 0.0;  ///< there [m]
+  double frequency = 0.0;    ///< of the chatter [Hz]
+  double spindle = 0.0;      ///< [rad/s]
+  std::optional<double>
+      better_spindle;  ///< nearest at which that cut is stable [rad/s]
+};
+
+/// Chatter along a program.
+struct ProgramChatter {
+  std::vector<engagement::SharedCut> cuts;
+  std::vector<engagement::ChatterLimit> limits;  ///< shape (cuts)
+  std::vector<std::int32_t> cut_of;              ///< of each row of steps; -1: none
+  double looked_at = 0.0;                        ///< part of the time in cut
+  std::vector<ChatteringLine> lines;             ///< ascending
+};
+
 /// Forces along a program.
 struct ProgramForces {
   std::size_t teeth = 0;                     ///< of the tool that has most
@@ -52,8 +73,9 @@ struct ProgramForces {
   std::vector<std::array<double, 2>> asked;  ///< line and fraction of each place
   engagement::Summary summary;
   std::vector<BrokenLimit> broken;
-  std::vector<std::string> texts;  ///< of the lines of the summary
-  std::optional<NewFeeds> feed;    ///< nothing: the case has no [feed]
+  std::vector<std::string> texts;         ///< of the lines of the summary
+  std::optional<NewFeeds> feed;           ///< nothing: the case has no [feed]
+  std::optional<ProgramChatter> chatter;  ///< nothing: the case has no [[mode]]
 };
 
 /// @brief What `program` answers: the moves of a whole NC program, and its forces.

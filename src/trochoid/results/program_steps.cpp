@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace trochoid::results {
@@ -23,7 +24,24 @@ struct StepRows {
   std::span<const std::array<double, 2>> asked;  ///< of places
   std::size_t teeth = 0;
   const std::vector<std::string>& tools;
+  const ProgramChatter* chatter = nullptr;  ///< of the steps
 };
+
+/// The limit of a row, with the depth of its cut; nothing: not known.
+struct RowLimit {
+  double depth = 0.0;
+  double margin = 0.0;
+};
+
+std::optional<RowLimit> limit_of_row(const ProgramChatter* chatter, std::size_t row) {
+  if (chatter == nullptr || chatter->cut_of[row] < 0) return std::nullopt;
+  const auto cut = static_cast<std::size_t>(chatter->cut_of[row]);
+  const engagement::ChatterLimit& limit = chatter->limits[cut];
+  if (!limit.known) return std::nullopt;
+  constexpr double most = 2.0;
+  return limit.depth ? RowLimit{*limit.depth, *limit.depth / chatter->cuts[cut].a_p}
+                     : RowLimit{nothing_there, most};
+}
 
 std::string flags_of(const Step& step) {
   using namespace engagement;
@@ -138,8 +156,26 @@ std::vector<Column<StepRows>> columns_of_forces() {
        [](R r, std::size_t i) { return flags_of(r.rows[i]); }}};
 }
 
+/// Where the cut of a row begins to chatter.
+std::vector<Column<StepRows>> columns_of_chatter() {
+  return {
+      {"limit_depth_mm",
+       "axial depth next to a_p at which this cut begins to chatter; empty: none up to "
+       "twice a_p, or not looked at",
+       [](R r, std::size_t i) {
+         const auto limit = limit_of_row(r.chatter, i);
+         return limit ? limit->depth : nothing_there;
+       }},
+      {"chatter_margin", "that depth over a_p, at most 2; empty: not looked at",
+       [](R r, std::size_t i) {
+         const auto limit = limit_of_row(r.chatter, i);
+         return limit ? limit->margin : nothing_there;
+       }}};
+}
+
 std::vector<Column<StepRows>> with_head(std::vector<Column<StepRows>> head) {
-  for (const auto& part : {columns_of_cut(), columns_of_forces()}) {
+  for (const auto& part :
+       {columns_of_cut(), columns_of_forces(), columns_of_chatter()}) {
     head.insert(head.end(), part.begin(), part.end());
   }
   return head;
@@ -347,9 +383,11 @@ const Columns<std::vector<FeedRow>>& feed_columns() {
 std::vector<base::Table> tables_of_forces(const ProgramResult& result) {
   const ProgramForces& all = *result.forces;
   const auto& tools = result.program.tools;
-  std::vector<base::Table> out{line_columns().table({all, tools}),
-                               step_columns().table({all.steps, {}, all.teeth, tools}),
-                               step_arc_columns().table(arcs_of(all.steps, false))};
+  std::vector<base::Table> out{
+      line_columns().table({all, tools}),
+      step_columns().table(
+          {all.steps, {}, all.teeth, tools, all.chatter ? &*all.chatter : nullptr}),
+      step_arc_columns().table(arcs_of(all.steps, false))};
   if (all.feed) out.push_back(feed_columns().table(feed_rows(all.feed->steps)));
   if (!all.places.empty()) {
     out.push_back(place_columns().table({all.places, all.asked, all.teeth, tools}));

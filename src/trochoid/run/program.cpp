@@ -4,6 +4,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/force/setup.h>
+#include <trochoid/run/chatter.h>
 #include <trochoid/run/feed.h>
 #include <trochoid/run/wall.h>
 
@@ -49,7 +50,8 @@ engagement::Tool tool_of(const cases::Case& given) {
 
 /// The tools of a program, or why there are no forces.
 struct Tools {
-  std::vector<engagement::Tool> tools;  ///< shape (program.tools), or one
+  std::vector<engagement::Tool> tools;            ///< shape (program.tools), or one
+  std::vector<engagement::Vibration> vibrations;  ///< the same
   std::vector<base::Warning> why_not;
 };
 
@@ -68,15 +70,19 @@ std::vector<std::string> unnamed(const cases::NcProgram& nc,
 Tools tools_of(const cases::Case& given, const program::Program& program) {
   const cases::NcProgram& nc = *given.nc.program;
   Tools out;
-  if (program.tools.empty()) out.tools.push_back(tool_of(given));
+  const auto add = [&](const cases::Case& one) {
+    out.tools.push_back(tool_of(one));
+    out.vibrations.push_back(vibration_of(one));
+  };
+  if (program.tools.empty()) add(given);
   const std::vector<std::string> left = unnamed(nc, program);
   for (const std::string& name : program.tools) {
     if (const auto other = nc.cases_of_tools.find(name);
         other != nc.cases_of_tools.end()) {
-      out.tools.push_back(tool_of(*other->second));
+      add(*other->second);
       continue;
     }
-    out.tools.push_back(tool_of(given));
+    add(given);
     const bool is_left = std::ranges::find(left, name) != left.end();
     const bool known =
         nc.tool_number.text.empty() ? left.size() == 1 : name == nc.tool_number.text;
@@ -387,6 +393,8 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   options.cell = cell;
   const engagement::Job job{r.program, tools.tools, stock, options};
   r.forces = forces_of(job, given, progress);
+  r.forces->chatter =
+      chatter_of(r.forces->steps, tools.tools, tools.vibrations, progress);
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);
   warn_of_unused(given.nc, r.heading.warnings);
@@ -396,6 +404,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
          "Without [machine] max_acceleration_m_per_s2 the feed is taken as reached at "
          "once: in corners, where a machine brakes, forces are upper bounds."});
   }
+  if (r.forces->chatter) warn_of_chatter(*r.forces->chatter, r.heading.warnings);
   warn_of_gaps(*r.forces, r.heading.warnings);
   if (r.forces->feed) {
     warn_of_feeds(*r.forces->feed, r.heading.warnings);

@@ -1,13 +1,15 @@
 // The page of `program`: the path from above in the colours of what loads the tool, its lines.
 
-const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken', 'feed'];
+const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken', 'feed',
+  'chatter'];
 const worstShown = 12;
 /** Columns of steps.csv that the path can show: key, name, label. */
 const pathViews = [['peak_xy_N', 'force', 'largest force across the tool [N]'],
   ['tooth', 'tooth', 'largest force of a tooth [N]'], ['torque_peak_Nm', 'torque', 'largest torque [N m]'],
   ['deflection_um', 'deflection', 'deflection of the tip [µm]'],
   ['peak_chip_mm', 'chip', 'largest uncut chip thickness [mm]'],
-  ['engaged_deg', 'engaged', 'engaged angle [°]'], ['a_p_mm', 'depth', 'axial depth [mm]']];
+  ['engaged_deg', 'engaged', 'engaged angle [°]'], ['a_p_mm', 'depth', 'axial depth [mm]'],
+  ['chatter_margin', 'chatter', 'limit depth over axial depth, red: chatter [1]']];
 
 function programPage(report) {
   const { result } = report;
@@ -17,6 +19,7 @@ function programPage(report) {
     { part: worstLines(report) },
     overTime(report),
     { part: result.feed ? feedSection(report, result.feed) : null },
+    { part: result.chatter?.lines.length ? chatterSection(result.chatter.lines) : null },
     { part: result.limits_broken?.length ? brokenSection(result.limits_broken) : null },
     toolSection(),
     { part: restSection(result, programKnown) },
@@ -58,7 +61,8 @@ function pathSection(report) {
   const dots = t?.drawn ? stepsOf(t) : [];
   if (dots.length < 2) return { part: null };
   const views = pathViews.filter(([key]) => dots.some((dot) => dot[key] > 0)).map(([key, name, label]) => ({ key, name,
-    label, colors: rising, range: [0, Math.max(...dots.map((dot) => dot[key]))] }));
+    label, ...(key === 'chatter_margin' ? { colors: [...aroundZero].reverse(), range: [0, 2] }
+      : { colors: rising, range: [0, Math.max(...dots.map((dot) => dot[key]))] }) }));
   const texts = new Map((columnNamed(tableNamed(report, 'lines.csv'), 'line') || []).map((line, i) =>
     [line, columnNamed(tableNamed(report, 'lines.csv'), 'text')?.[i]]));
   const chart = pathMap(dots, views, (dot, view) => [`line ${dot.line}`, texts.get(dot.line) ?
@@ -144,6 +148,16 @@ function feedSection(report, feed) {
       row('largest force across', 'peak_xy_N', 'N'), row('of one tooth', 'peak_tooth_N', 'N')]),
     held.length ? table(['what holds the feed', 'for'], held) : null,
     feed.not_reachable.length ? prose(`Even the lowest feed breaks a limit in lines ${some(feed.not_reachable)}.`) : null);
+}
+
+function chatterSection(lines) {
+  const worst = [...lines].sort((a, b) => a.margin - b.margin).slice(0, worstShown);
+  return section('chatter', 'Lines that chatter', 'Chatter',
+    prose('Worst first: the cut of the line that is farthest beyond its limit depth. At the better speed it is stable with the ' +
+      'same feed per tooth.'),
+    table(['line', 'limit depth', 'over axial depth', 'chatter', 'speed', 'better speed'], worst.map((one) => [number(one.line),
+      `${fixed(one.limit_depth_mm, 3)} mm`, fixed(one.margin, 2), `${number(one.frequency_Hz, 4)} Hz`,
+      `${number(one.spindle_rpm, 4)} rpm`, one.better_spindle_rpm ? `${number(one.better_spindle_rpm, 4)} rpm` : 'none within 30 %'])));
 }
 
 function brokenSection(broken) {
