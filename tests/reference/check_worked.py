@@ -13,6 +13,7 @@ import chip
 import force
 import geometry
 import identification
+import program
 import worked
 from case import Case, Tool
 
@@ -78,6 +79,7 @@ class Worked(unittest.TestCase):
                 np.testing.assert_allclose(fit["cond"], f["cond_scaled"],
                                            rtol=tol["cond_rel"])
 
+    @program.long_form
     def test_joint_fits_and_sweep_agree(self):  # [I-3] [I-4]
         for c in worked.read("ident"):
             if "joint" not in c and "sweep" not in c:

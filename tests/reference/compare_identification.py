@@ -127,6 +127,7 @@ class Identify(unittest.TestCase):
         left = (y - D @ want).reshape(len(feeds), -1, 3)
         return fit, D, angle, left, want
 
+    @program.long_form
     def test_what_repeats_counts_by_its_spectrum(self):  # [I-14] [I-15]
         for name, feeds in (("one", [0.04]), ("three", [0.04, 0.07, 0.1])):
             fit, D, angle, left, want = self.vibrating(name, 15, feeds)
@@ -285,6 +286,7 @@ class Identify(unittest.TestCase):
         tir = got["total_indicator_reading_um"]["value"]
         self.assertAlmostEqual(tir, 2000 * np.hypot(*e2), delta=4e-3)
 
+    @program.long_form
     def test_two_groups_share_one_runout(self):  # [I-19] [I-4]
         given = tables()
         worn = {**K, "K_rc_MPa": 1100.0, "K_te_N_per_mm": 19.0, "K_re_N_per_mm": 23.0}

@@ -130,6 +130,7 @@ class Compared(unittest.TestCase):
         self.compare([X, Y], UP, power=SMOOTH, pitch=[2 * math.pi / 3] * 3,
                      offsets=[4e-6, -5e-6, 1e-6], steps=2000)
 
+    @program.long_form
     def test_down(self):
         self.compare([X, Y, LOW, TABLE], DOWN, linear=LINEAR, pitch=[math.pi / 2] * 4,
                      offsets=[0.0] * 4, depth=0.3e-3, steps=2000)
@@ -140,9 +141,13 @@ class Compared(unittest.TestCase):
 
     def test_power_law_with_edge_forces(self):  # [F-9]
         self.compare([X, Y], SLOT, power=POWER_EDGE, offsets=[2e-6, -2e-6], steps=3000)
+
+    @program.long_form
+    def test_power_law_with_edge_forces_of_three_teeth(self):  # [F-9]
         self.compare([X, Y], BAND, power=POWER_EDGE, pitch=[2 * math.pi / 3] * 3,
                      offsets=[2e-6, -3e-6, 0.0])
 
+    @program.long_form
     def test_six_unequal_teeth(self):
         pitch = [1.0, 1.1, 1.05, 0.95, 1.15]
         self.compare([X, TABLE], SLOT, power=SMOOTH, pitch=pitch + [2 * math.pi - sum(pitch)],
@@ -155,11 +160,14 @@ class Compared(unittest.TestCase):
         self.compare([X, Y], SLOT, linear=LINEAR, offsets=[5e-6, -5e-6], helix=0.5,
                      slices=100)
 
-
     def test_process_damping(self):  # [F-16] [T-16] [T-17]
         flank = (60e-6, 3e13, 0.3)
         self.compare([X, Y, LOW, TABLE], UP, linear=EDGES, flank=flank, rpm=1500)
-        self.compare([X, Y], SLOT, linear=LINEAR, flank=flank, helix=0.5, slices=100)
+
+    @program.long_form
+    def test_process_damping_of_a_helix(self):  # [F-16] [T-16] [T-17]
+        self.compare([X, Y], SLOT, linear=LINEAR, flank=(60e-6, 3e13, 0.3), helix=0.5,
+                     slices=100)
 
 
 class Verdicts(unittest.TestCase):

@@ -56,6 +56,7 @@ class Plan(unittest.TestCase):
         self.assertEqual(len(seen), 10)
         self.assertEqual(seen, sorted(seen))
 
+    @program.long_form
     def test_after_a_record(self):
         given = made.tables()
         case, K_true = made.truth(given)

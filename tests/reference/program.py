@@ -5,9 +5,13 @@ import os
 import pathlib
 import re
 import subprocess
+import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TROCHOID", str(ROOT / "build/release/src/trochoid/cli/trochoid"))
+
+# `./test --all` runs every comparison; `./test` leaves out long ones whose parts others cover.
+long_form = unittest.skipUnless("TROCHOID_SEEDS" in os.environ, "of ./test --all")
 
 HANGS = 1200  # s; for a program that never ends, not for one on a busy machine
 # What is said of long work: how much depends on the machine.
