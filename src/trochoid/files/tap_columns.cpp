@@ -15,12 +15,28 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array tap_time_names = {"time"sv, "t"sv};
-constexpr std::array hammer_names = {"force"sv, "hammer"sv, "f"sv,     "fx"sv,
-                                     "fy"sv,    "fz"sv,     "impact"sv};
-constexpr std::array response_names = {
-    "acceleration"sv, "accelerometer"sv, "acc"sv,          "accel"sv, "a"sv,
-    "velocity"sv,     "vel"sv,           "displacement"sv, "disp"sv,  "response"sv};
+constexpr std::array tap_time_names = {"time"sv,  "t"sv,      "zeit"sv,
+                                       "temps"sv, "tiempo"sv, "tempo"sv};
+constexpr std::array hammer_names = {"force"sv,  "hammer"sv, "f"sv,      "fx"sv,
+                                     "fy"sv,     "fz"sv,     "impact"sv, "kraft"sv,
+                                     "fuerza"sv, "forza"sv};
+constexpr std::array response_names = {"acceleration"sv,
+                                       "accelerometer"sv,
+                                       "acc"sv,
+                                       "accel"sv,
+                                       "a"sv,
+                                       "velocity"sv,
+                                       "vel"sv,
+                                       "displacement"sv,
+                                       "disp"sv,
+                                       "response"sv,
+                                       "beschleunigung"sv,
+                                       "geschwindigkeit"sv,
+                                       "auslenkung"sv,
+                                       "weg"sv,
+                                       "antwort"sv,
+                                       "aceleracion"sv,
+                                       "accelerazione"sv};
 /// How far a time may be off its even grid, in steps: what few digits leave.
 constexpr double slack = 0.6;
 constexpr std::size_t least_samples = 64;
@@ -77,6 +93,10 @@ std::optional<std::string> unit_in_name(std::string_view name,
 std::string unit_of(const TapColumn& column, const std::string& rest) {
   std::string unit = column.unit.empty() ? rest : column.unit;
   std::erase_if(unit, [](char c) { return c == '[' || c == ']' || c == ' '; });
+  constexpr std::string_view per = "_per_";  // as in a_m_per_s2
+  for (std::size_t at = unit.find(per); at != std::string::npos; at = unit.find(per)) {
+    unit.replace(at, per.size(), "/");
+  }
   const auto open = std::count(unit.begin(), unit.end(), '(');
   const auto shut = std::count(unit.begin(), unit.end(), ')');
   if (shut > open && unit.ends_with(')')) unit.pop_back();

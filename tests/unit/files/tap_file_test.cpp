@@ -47,7 +47,9 @@ TEST(TapFile, UnitsMayStandInBrackets) {
         "Time_s,Force_N,Acceleration_m/s/s", "Time (s),Force (N),Acceleration (m/s^2)",
         "Time (s),Hammer force (N),Tip acceleration (m/s^2)",
         "time [s],Impact hammer [N],Response acceleration [m/s2]",
-        "Time (s),Hammer_N,tip acc_m/s2"}) {
+        "Time (s),Hammer_N,tip acc_m/s2", "t_s,F_N,a_m_per_s2",
+        "Zeit [s],Kraft [N],Beschleunigung [m/s2]",
+        "Zeit (s),Hammer Kraft (N),Beschleunigung x (m/s^2)"}) {
     const FrfFile file = read_frf(record(head), "made.csv", FrfSource{});
     ASSERT_TRUE(file.tap) << head;
     EXPECT_EQ(file.tap->response[3], 3.0) << head;
