@@ -17,7 +17,7 @@ namespace trochoid::results {
 
 /// A limit of the case that lines go beyond.
 struct BrokenLimit {
-  std::string_view limit;  ///< its key under [limits]
+  std::string_view limit;  ///< its key under [limits], or power_curve_W
   double allowed = 0.0;    ///< in the unit of the key
   double worst = 0.0;      ///< in the unit of the key
   std::vector<std::uint32_t> lines;

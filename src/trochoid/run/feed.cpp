@@ -121,7 +121,8 @@ std::vector<std::uint32_t> lines_where(std::span<const WantedFeed> wanted,
   return lines;
 }
 
-/// The limits of a case, the power of its spindle too.
+}  // namespace
+
 engagement::Limits limits_of(const cases::ProgramTables& nc) {
   const cases::ForceLimits given = nc.limits.value_or(cases::ForceLimits{});
   constexpr double none = engagement::Limits::none;
@@ -142,8 +143,6 @@ engagement::Limits limits_of(const cases::ProgramTables& nc) {
   }
   return out;
 }
-
-}  // namespace
 
 void check_name_of_program(const cases::Case& given) {
   if (!given.nc.feed) return;

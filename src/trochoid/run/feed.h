@@ -9,6 +9,9 @@
 
 namespace trochoid::run {
 
+/// @brief The limits of a case, the power of its spindle too.
+engagement::Limits limits_of(const cases::ProgramTables& nc);
+
 /// @brief The program of `[feed]` write has a name that no file of the answer has.
 /// @throws base::InputError else
 void check_name_of_program(const cases::Case& given);

@@ -153,6 +153,29 @@ std::vector<results::BrokenLimit> broken(const cases::ForceLimits& limits,
   return out;
 }
 
+/// The lines that need more power than the spindle has at their speed.
+std::optional<results::BrokenLimit> beyond_spindle(
+    const engagement::Limits& limits, std::span<const engagement::Step> steps) {
+  engagement::Limits spindle;
+  spindle.power_curve = limits.power_curve;
+  results::BrokenLimit found{"power_curve_W", 0.0, 0.0, {}};
+  double most = 1.0;
+  for (const engagement::Step& step : steps) {
+    const double allowed = engagement::power_at(spindle, step.spindle);
+    if (!(step.forces.power > allowed)) continue;
+    if (found.lines.empty() || found.lines.back() != step.line) {
+      found.lines.push_back(step.line);
+    }
+    if (step.forces.power > most * allowed || found.worst == 0) {
+      most = allowed > 0 ? step.forces.power / allowed : most;
+      found.allowed = allowed;
+      found.worst = step.forces.power;
+    }
+  }
+  if (found.lines.empty()) return std::nullopt;
+  return found;
+}
+
 /// The lines of a text that an answer names.
 std::vector<std::string> texts_of(std::string_view text, std::span<const Line> lines) {
   std::vector<std::string> out;
@@ -203,8 +226,6 @@ void warn_of_unused(const cases::ProgramTables& nc,
     if (given) keys.push_back(key);
   };
   const bool brakes = !nc.machine->max_acceleration.empty();
-  add(!nc.feed && !nc.machine->power_curve.empty(),
-      "machine.power_curve_W (only with [feed])");
   add(!nc.machine->max_jerk.empty(), "machine.max_jerk_m_per_s3");
   add(!brakes && !nc.machine->max_feed.empty(), "machine.max_feed_mm_per_min");
   add(!brakes && nc.machine->corner_tolerance > 0, "machine.corner_tolerance_mm");
@@ -336,6 +357,9 @@ ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
   }
   out.broken =
       broken(given.nc.limits.value_or(cases::ForceLimits{}), out.summary.lines);
+  if (auto beyond = beyond_spindle(limits_of(given.nc), out.steps)) {
+    out.broken.push_back(std::move(*beyond));
+  }
   out.texts = texts_of(*nc.text.get().text, out.summary.lines);
   if (given.nc.feed && out.summary.complete && out.summary.totals.time_in_cut > 0) {
     out.feed = new_feeds(job, given, out, progress);

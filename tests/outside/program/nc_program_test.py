@@ -138,10 +138,18 @@ class NcProgram(InFolder):
             self.assertIn("feed.write", run.stderr)
             self.assertFalse((self.folder / "out").exists())
 
-    def test_a_power_curve_counts_with_feed_only(self):
+    def test_a_power_curve_is_a_limit(self):
         curve = {"power_curve_W": [[0, 0], [4000, 20]]}
         self.case(machine=curve)
-        self.assertIn("power_curve_W", self.answer()[1]["not_used"])
+        result, warnings = self.answer()
+        self.assertNotIn("not_used", warnings)
+        self.assertIn("power_curve_W", warnings["limit_broken"])
+        broken, = result["limits_broken"]
+        self.assertEqual(broken["limit"], "power_curve_W")
+        self.assertLessEqual(broken["allowed"], 20)
+        self.assertGreater(broken["worst"], broken["allowed"])
+        powers = {int(r["line"]): float(r["power_W"]) for r in self.rows("lines.csv")}
+        self.assertEqual(set(broken["lines"]), {n for n, p in powers.items() if p > 20})
         self.case(machine=curve, limits={"peak_force_N": 1e6}, feed={"write": "new.nc"})
         warnings = self.answer()[1]
         self.assertNotIn("not_used", warnings)
