@@ -260,25 +260,26 @@ void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& whi
 std::vector<ChatterLimit> chatter_limits(std::span<const SharedCut> cuts,
                                          std::span<const Tool> tools,
                                          std::span<const Vibration> vibrations,
-                                         std::size_t most,
-                                         const ChatterProgress& progress) {
+                                         const ChatterOptions& options) {
   std::vector<std::size_t> order(cuts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(
       order, [&](auto a, auto b) { return cuts[a].duration > cuts[b].duration; });
-  order.resize(std::min(most, order.size()));
+  order.resize(std::min(options.most, order.size()));
   std::vector<ChatterLimit> out(cuts.size());
   std::mutex one_at_a_time;
   std::size_t done = 0;
   numerics::for_each_index(
       order.size(),
       [&](std::size_t i) {
+        if (options.stop.wanted()) return;
         const SharedCut& cut = cuts[order[i]];
         out[order[i]] = Asked(cut, tools[cut.tool], vibrations[cut.tool]).limit();
         const std::lock_guard lock(one_at_a_time);
         ++done;
-        if (progress) {
-          progress(static_cast<double>(done) / static_cast<double>(order.size()));
+        if (options.progress) {
+          options.progress(static_cast<double>(done) /
+                           static_cast<double>(order.size()));
         }
       },
       1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/stop.h>
 #include <trochoid/dynamics/system.h>
 #include <trochoid/engagement/steps.h>
 
@@ -63,20 +64,23 @@ class SharedCuts {
   std::map<std::vector<std::int64_t>, std::int32_t> known_;
 };
 
-/// Told how much is done, from 0 to 1; by one thread at a time; may be empty.
-using ChatterProgress = std::function<void(double share)>;
+struct ChatterOptions {
+  std::size_t most =
+      1000;         ///< cuts that are looked at: those of the longest time first
+  base::Stop stop;  ///< cuts that have not begun by then are left out
+  /// Told how much is done, from 0 to 1; by one thread at a time; may be empty.
+  std::function<void(double share)> progress = {};
+};
 
 /// @brief Where each cut begins to chatter.
 ///
 /// @eq  N-19 the limit: the depth d next to a_p with |mu(d)| = 1, of D-8 to D-14 with the
 ///           arcs of the cut, in the axes of its feed
 /// @src derived
-/// @param most  cuts that are looked at: those of the longest time first
 /// @return shape (cuts)
 std::vector<ChatterLimit> chatter_limits(std::span<const SharedCut> cuts,
                                          std::span<const Tool> tools,
                                          std::span<const Vibration> vibrations,
-                                         std::size_t most,
-                                         const ChatterProgress& progress = {});
+                                         const ChatterOptions& options = {});
 
 }  // namespace trochoid::engagement

@@ -123,7 +123,8 @@ const Fields<ProgramForces>& peaks_fields() {
 const Fields<BrokenLimit>& broken_fields() {
   using B = const BrokenLimit&;
   static const Fields<BrokenLimit> all{
-      {"limit", "its key under [limits], or `power_curve_W` of [machine]", [](B b) { return b.limit; }},
+      {"limit", "its key under [limits], or `power_curve_W` of [machine]",
+       [](B b) { return b.limit; }},
       {"allowed", "in the unit of that key", [](B b) { return as_named(b.allowed); }},
       {"worst", "the same", [](B b) { return as_named(b.worst); }},
       {"lines", "that go beyond it", [](B b) { return b.lines; }}};

@@ -12,8 +12,6 @@ namespace trochoid::run {
 
 namespace {
 
-/// Different cuts that are looked at; each takes some hundredths of a second.
-constexpr std::size_t most_cuts = 1000;
 /// Less of the time in cut than this is said.
 constexpr double nearly_all = 0.999;
 
@@ -57,7 +55,8 @@ engagement::Vibration vibration_of(const cases::Case& given) {
 
 std::optional<results::ProgramChatter> chatter_of(
     std::span<const engagement::Step> steps, std::span<const engagement::Tool> tools,
-    std::span<const engagement::Vibration> vibrations, const Progress& progress) {
+    std::span<const engagement::Vibration> vibrations, const Progress& progress,
+    const base::Stop& stop) {
   if (std::ranges::all_of(vibrations,
                           [](const auto& one) { return one.system.modes.empty(); })) {
     return std::nullopt;
@@ -66,10 +65,10 @@ std::optional<results::ProgramChatter> chatter_of(
   engagement::SharedCuts cuts(tools, vibrations);
   cuts.add(steps, out.cut_of);
   out.cuts = cuts.all();
-  out.limits = engagement::chatter_limits(out.cuts, tools, vibrations, most_cuts,
-                                          [&](double share) {
-                                            progress({"Chatter", share});
-                                          });
+  out.limits = engagement::chatter_limits(out.cuts, tools, vibrations,
+                                          {.stop = stop, .progress = [&](double share) {
+                                             progress({"Chatter", share});
+                                           }});
   out.looked_at = part_looked_at(out);
   out.lines = chattering(steps, out);
   return out;
@@ -93,13 +92,15 @@ void warn_of_chatter(const results::ProgramChatter& chatter,
              chatter.lines.size(), first.line, first.limit_depth / unit::mm,
              first.frequency, better)});
   }
+  const auto known =
+      std::ranges::count(chatter.limits, true, &engagement::ChatterLimit::known);
   if (chatter.looked_at < nearly_all) {
     warnings.push_back(
         {"chatter_not_everywhere",
          fmt::format(
              "The program has {} different cuts. Whether they chatter was looked at "
              "for {} of them, {:.0f} % of the time in cut.",
-             chatter.cuts.size(), most_cuts, 100 * chatter.looked_at)});
+             chatter.cuts.size(), known, 100 * chatter.looked_at)});
   }
 }
 

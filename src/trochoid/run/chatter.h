@@ -20,7 +20,8 @@ engagement::Vibration vibration_of(const cases::Case& given);
 /// @return nothing where no case has a mode
 std::optional<results::ProgramChatter> chatter_of(
     std::span<const engagement::Step> steps, std::span<const engagement::Tool> tools,
-    std::span<const engagement::Vibration> vibrations, const Progress& progress);
+    std::span<const engagement::Vibration> vibrations, const Progress& progress,
+    const base::Stop& stop);
 
 /// What an engineer should know of it.
 void warn_of_chatter(const results::ProgramChatter& chatter,

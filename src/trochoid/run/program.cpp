@@ -418,7 +418,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   const engagement::Job job{r.program, tools.tools, stock, options};
   r.forces = forces_of(job, given, progress);
   r.forces->chatter =
-      chatter_of(r.forces->steps, tools.tools, tools.vibrations, progress);
+      chatter_of(r.forces->steps, tools.tools, tools.vibrations, progress, stop);
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);
   warn_of_unused(given.nc, r.heading.warnings);

@@ -33,7 +33,7 @@ Found limits_of(const MadeProgram& made, const Tool& tool, const Vibration& vibr
   Found out;
   compute_steps(job, [&](std::span<const Step> rows) { cuts.add(rows, out.which); });
   out.cuts = cuts.all();
-  out.limits = chatter_limits(out.cuts, job.tools, std::span(&vibration, 1), 1000);
+  out.limits = chatter_limits(out.cuts, job.tools, std::span(&vibration, 1));
   for (std::size_t k = 0; k < out.cuts.size(); ++k) {
     if (out.cuts[k].duration > out.cuts[out.longest].duration) out.longest = k;
   }
