@@ -41,11 +41,11 @@ Found limits_of(const MadeProgram& made, const Tool& tool, const Vibration& vibr
 }
 
 /// The first depth at which a straight cut chatters.
-dynamics::Limit straight_limit(const Tool& tool, double a_e,
+dynamics::Limit straight_limit(const Tool& tool, const geometry::Engagement& engagement,
                                const dynamics::ChipMode& mode, double spindle) {
   force::Setup setup{.cutter = tool.cutter,
                      .runout = tool.runout,
-                     .cut = {geometry::DownMilling{a_e}, 2e-3, 0.05e-3, spindle},
+                     .cut = {engagement, 2e-3, 0.05e-3, spindle},
                      .chip = tool.chip};
   std::vector<double> depths;
   for (int i = 1; i <= 40; ++i) depths.push_back(0.25e-3 * i);
@@ -61,6 +61,7 @@ MadeProgram wall(double rpm, bool along_y = false) {
 }
 
 constexpr double slow = 4000 * unit::rpm;
+const geometry::Engagement side = geometry::DownMilling{4e-3};
 
 TEST(ChatterLimits, OfAStraightWallAreThoseOfThatCut) {  // [N-19]
   for (const bool even : {true, false}) {
@@ -70,7 +71,7 @@ TEST(ChatterLimits, OfAStraightWallAreThoseOfThatCut) {  // [N-19]
     const ChatterLimit& limit = found.limits[found.longest];
     EXPECT_NEAR(cut.a_p, 2e-3, 1e-9);
     ASSERT_TRUE(limit.known && limit.depth);
-    const dynamics::Limit alone = straight_limit(tool, 4e-3, mode(0, 1), slow);
+    const dynamics::Limit alone = straight_limit(tool, side, mode(0, 1), slow);
     EXPECT_NEAR(*limit.depth, alone.depth, 0.02 * alone.depth) << even;
     EXPECT_GT(limit.frequency, 800);
     EXPECT_LT(limit.frequency, 1100);
@@ -88,6 +89,21 @@ TEST(ChatterLimits, TurnWithTheFeed) {  // [N-19]
   EXPECT_GT(std::abs(depth(true, mode(0, 1)) - across), 0.2 * across);
 }
 
+TEST(ChatterLimits, OfASlotAcrossTheAxes) {  // [N-19]
+  const Tool tool = end_mill(10, 3, 30);
+  const double c = std::cos(60 * unit::deg);
+  const double s = std::sin(60 * unit::deg);
+  MadeProgram made(4000, 600);
+  made.rapid(-60 * c, -60 * s, 5).rapid(-60 * c, -60 * s, -2).line(60 * c, 60 * s, -2);
+  const Found found = limits_of(made, tool, {{{mode(1, 0)}}, 2e-6});
+  const double depth = found.limits[found.longest].depth.value_or(1.0);
+  const auto alone = [&](double across) {
+    return straight_limit(tool, geometry::Slot{}, mode(c, across), slow).depth;
+  };
+  EXPECT_NEAR(depth, alone(-s), 0.015 * depth);
+  EXPECT_GT(std::abs(depth - alone(s)), 0.03 * depth);
+}
+
 TEST(ChatterLimits, NameASpeedAtWhichTheCutIsStable) {
   const Tool tool = end_mill(10, 3, 30);
   const dynamics::ChipMode stiff = mode(0, 1, 0.9);
@@ -100,7 +116,7 @@ TEST(ChatterLimits, NameASpeedAtWhichTheCutIsStable) {
     if (!limit.better_spindle) continue;
     EXPECT_TRUE(chatters);
     ++named;
-    EXPECT_GT(straight_limit(tool, 4e-3, stiff, *limit.better_spindle).depth, 2e-3);
+    EXPECT_GT(straight_limit(tool, side, stiff, *limit.better_spindle).depth, 2e-3);
   }
   EXPECT_GT(named, 1);
 }
