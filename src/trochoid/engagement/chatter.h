@@ -65,8 +65,8 @@ class SharedCuts {
 };
 
 struct ChatterOptions {
-  std::size_t most =
-      1000;         ///< cuts that are looked at: those of the longest time first
+  /// Cuts that are looked at: those of the longest time first.
+  std::size_t most = 2500;
   base::Stop stop;  ///< cuts that have not begun by then are left out
   /// Told how much is done, from 0 to 1; by one thread at a time; may be empty.
   std::function<void(double share)> progress = {};
