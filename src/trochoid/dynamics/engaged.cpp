@@ -3,12 +3,10 @@
 #include <trochoid/base/units.h>
 #include <trochoid/chip/intervals.h>
 #include <trochoid/geometry/edge.h>
-#include <trochoid/numerics/gauss_kronrod.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <variant>
 
 namespace trochoid::dynamics {
 namespace {

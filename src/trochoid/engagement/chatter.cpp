@@ -24,7 +24,7 @@ constexpr double shared_feed = 0.05;    // relative
 
 /// Depths up to so many times that of the cut are looked at, and down to this part of it.
 constexpr double deepest = 2.0;
-constexpr double shallowest = 0.02;
+constexpr double shallowest = 1e-3;
 /// From one depth to the next in search of a change.
 constexpr double search_step = 1.4143;
 /// Of multipliers, of matrices, and of the limit depth, relative.
@@ -105,11 +105,12 @@ class Asked {
                 cut.spindle / dynamics::fastest_frequency(vibration.system)}) {}
 
   [[nodiscard]] ChatterLimit limit() const {
-    ChatterLimit out{.known = true};
+    ChatterLimit out{.known = true, .margin = deepest};
     const double here = growth(cut_.a_p);
     const auto found = here < 0 ? from_below(here) : from_above(here);
     if (found) {
       out.depth = *found;
+      out.margin = *found / cut_.a_p;
       const dynamics::Directional at = model_.at_depth(*found);
       const double factor =
           dynamics::multiplier(at, system_, cut_.spindle, multiplier_tolerance).factor;
@@ -241,6 +242,7 @@ void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& whi
     for (const Layer& layer : bands) {
       key.push_back(std::llround(layer.from / (shared_height * D)));
       key.push_back(std::llround(layer.to / (shared_height * D)));
+      key.push_back(static_cast<std::int64_t>(layer.arcs.size()));
       for (const chip::Arc& arc : layer.arcs) {
         key.push_back(std::llround(arc.from / shared_arc));
         key.push_back(std::llround(arc.to / shared_arc));

@@ -41,6 +41,7 @@ struct ChatterLimit {
   /// From the tip, the axial depth next to that of the cut at which it begins; the upper
   /// arcs reach higher as the depth grows [m]. Nothing: none up to twice the depth.
   std::optional<double> depth;
+  double margin = 0.0;     ///< that depth over the depth of the cut, at most 2
   double frequency = 0.0;  ///< of the chatter there [Hz]
   std::optional<double>
       better_spindle;  ///< of a cut that chatters: nearest that does not [rad/s]

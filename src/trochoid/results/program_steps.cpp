@@ -38,9 +38,7 @@ std::optional<RowLimit> limit_of_row(const ProgramChatter* chatter, std::size_t 
   const auto cut = static_cast<std::size_t>(chatter->cut_of[row]);
   const engagement::ChatterLimit& limit = chatter->limits[cut];
   if (!limit.known) return std::nullopt;
-  constexpr double most = 2.0;
-  return limit.depth ? RowLimit{*limit.depth, *limit.depth / chatter->cuts[cut].a_p}
-                     : RowLimit{nothing_there, most};
+  return RowLimit{limit.depth.value_or(nothing_there), limit.margin};
 }
 
 std::string flags_of(const Step& step) {
@@ -174,8 +172,7 @@ std::vector<Column<StepRows>> columns_of_chatter() {
 }
 
 std::vector<Column<StepRows>> with_head(std::vector<Column<StepRows>> head) {
-  for (const auto& part :
-       {columns_of_cut(), columns_of_forces(), columns_of_chatter()}) {
+  for (const auto& part : {columns_of_cut(), columns_of_forces()}) {
     head.insert(head.end(), part.begin(), part.end());
   }
   return head;
@@ -185,17 +182,24 @@ std::size_t count(R r) {
   return r.rows.size();
 }
 
+std::vector<Column<StepRows>> with_chatter(std::vector<Column<StepRows>> columns) {
+  const std::vector<Column<StepRows>> more = columns_of_chatter();
+  columns.insert(columns.end(), more.begin(), more.end());
+  return columns;
+}
+
 const Columns<StepRows>& step_columns() {
   static const Columns<StepRows> all{
       "steps.csv", count,
-      with_head({{"step", "of all feed moves, from 0; rows in air join several",
-                  [](R r, std::size_t i) { return r.rows[i].step; }},
-                 {"line", "of the text, from 1",
-                  [](R r, std::size_t i) { return r.rows[i].line; }},
-                 {"block", "its N number; empty: it has none", [](R r, std::size_t i) {
-                    const std::int32_t block = r.rows[i].block;
-                    return block < 0 ? nothing_there : static_cast<double>(block);
-                  }}})};
+      with_chatter(with_head(
+          {{"step", "of all feed moves, from 0; rows in air join several",
+            [](R r, std::size_t i) { return r.rows[i].step; }},
+           {"line", "of the text, from 1",
+            [](R r, std::size_t i) { return r.rows[i].line; }},
+           {"block", "its N number; empty: it has none", [](R r, std::size_t i) {
+              const std::int32_t block = r.rows[i].block;
+              return block < 0 ? nothing_there : static_cast<double>(block);
+            }}}))};
   return all;
 }
 

@@ -1,4 +1,4 @@
-#include <trochoid/run/chatter.h>
+#include <trochoid/run/program.h>
 
 #include <trochoid/base/units.h>
 #include <trochoid/run/problems.h>
@@ -25,11 +25,10 @@ std::vector<results::ChatteringLine> chattering(
     const engagement::SharedCut& cut = chatter.cuts[k];
     const engagement::ChatterLimit& limit = chatter.limits[k];
     if (!limit.known || !limit.depth || *limit.depth >= cut.a_p) continue;
-    const double margin = *limit.depth / cut.a_p;
     const auto [at, is_new] = worst.try_emplace(steps[i].line);
-    if (is_new || margin < at->second.margin) {
-      at->second = {steps[i].line,   margin,      *limit.depth,
-                    limit.frequency, cut.spindle, limit.better_spindle};
+    if (is_new || limit.margin < at->second.margin) {
+      at->second = {steps[i].line,   limit.margin, *limit.depth,
+                    limit.frequency, cut.spindle,  limit.better_spindle};
     }
   }
   std::vector<results::ChatteringLine> out;

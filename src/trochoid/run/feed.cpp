@@ -1,4 +1,4 @@
-#include <trochoid/run/feed.h>
+#include <trochoid/run/program.h>
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>

@@ -4,8 +4,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/force/setup.h>
-#include <trochoid/run/chatter.h>
-#include <trochoid/run/feed.h>
+#include <trochoid/run/program.h>
 #include <trochoid/run/wall.h>
 
 #include <fmt/core.h>

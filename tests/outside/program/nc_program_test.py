@@ -68,6 +68,28 @@ class NcProgram(InFolder):
         self.case(limits={"peak_force_N": 1.1 * most})
         self.assertEqual(self.answer()[0]["limits_broken"], [])
 
+    def test_lines_that_chatter_are_named(self):
+        self.case()
+        result, warnings = self.answer()
+        self.assertNotIn("chatter", result)
+        self.assertEqual({row["chatter_margin"] for row in self.rows("steps.csv")}, {""})
+        for mass, chatters in ((0.002, True), (50.0, False)):
+            self.case()
+            modes = "".join(f'\n[[mode]]\nbody = "tool"\naxis = "{axis}"\nmass_kg = {mass}\n'
+                            "frequency_Hz = 900\ndamping_ratio = 0.02\n" for axis in "xy")
+            self.write("case.toml", (self.folder / "case.toml").read_text() + modes)
+            result, warnings = self.answer()
+            self.assertEqual("chatter" in warnings, chatters)
+            self.assertEqual(result["chatter"]["looked_at"], 1)
+            margins = {}
+            for row in self.rows("steps.csv"):
+                if row["chatter_margin"]:
+                    margins.setdefault(int(row["line"]), []).append(float(row["chatter_margin"]))
+            beyond = {line: min(all) for line, all in margins.items() if min(all) < 1}
+            named = {one["line"]: one["margin"] for one in result["chatter"]["lines"]}
+            self.assertEqual(named, beyond)
+            self.assertEqual(bool(beyond), chatters)
+
     def test_what_is_not_used_is_said(self):
         self.case(machine={"max_jerk_m_per_s3": [50, 50, 50], "corner_tolerance_mm": 0.1})
         said = self.answer()[1]
