@@ -88,6 +88,8 @@ struct NcProgram {
   Held<files::ProgramFile> text;  ///< what it holds
   ProgramDialect dialect = ProgramDialect::automatic;
   ToolName tool_number;
+  files::FileRef
+      covariance;    ///< summary.json of what the numbers of the tool come from
   NamedFiles tools;  ///< by T: cases with [tool], [runout] and [force]
   std::map<std::string, std::shared_ptr<const Case>> cases_of_tools;
   std::vector<ToolName> ignored_tools;

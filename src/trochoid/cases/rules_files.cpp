@@ -13,6 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The key that takes the folder of an answer for the summary.json in it.
+constexpr std::string_view folder_key = "program.covariance";
+
 /// A file that a case names.
 struct Named {
   std::string_view table;
@@ -98,7 +101,12 @@ void settle_files(CaseTables& tables, const DataInMemory& data, Findings& findin
     file.path = file.name;
     look_in_memory(data, named);
     if (file.in_memory()) return;
-    file.path = resolved(file.name, named_at, findings).generic_string();
+    fs::path path = resolved(file.name, named_at, findings);
+    std::error_code error;
+    if (named.key == folder_key && fs::is_directory(path, error)) {
+      path /= "summary.json";
+    }
+    file.path = path.generic_string();
   });
 }
 

@@ -14,6 +14,14 @@ void describe_tools(const Visitor& v, NcProgram& t) {
      .standard = "every T that [program] names nowhere else, if there is one only",
      .example = "1"},
     &t.tool_number);
+  v({.name = "covariance",
+     .meaning =
+         "what identify or calibrate found of the tool of this case: the largest "
+         "forces then have an interval",
+     .standard = "no interval",
+     .example = "\"case.identify\"",
+     .file = "a summary.json of identify or calibrate, or its folder"},
+    &t.covariance);
   v({.name = "tools",
      .meaning = "other tools by their T: cases with [tool], [runout] and [force]",
      .standard = "none",

@@ -117,6 +117,14 @@ std::uint32_t move_at(const stock::Path& path, const stock::Piece& piece,
          static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - first, 1) - 1);
 }
 
+Ask ask_of(const stock::Path& path, std::uint32_t index, std::int64_t k,
+           std::int64_t n) {
+  const stock::Piece& piece = path.pieces[index];
+  const double u = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+  return {index, u, 1.0 / static_cast<double>(n), k,
+          move_at(path, piece, u * piece.length)};
+}
+
 Look::Look(const Job& job)
     : job_(job),
       swept_(sweep(job, speeds_)),

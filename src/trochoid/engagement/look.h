@@ -36,6 +36,10 @@ std::int64_t count_of(const stock::Piece& piece, double step_turns) noexcept;
 std::uint32_t move_at(const stock::Path& path, const stock::Piece& piece,
                       double s) noexcept;
 
+/// @brief The k-th of the n steps of a piece.
+Ask ask_of(const stock::Path& path, std::uint32_t piece, std::int64_t k,
+           std::int64_t n);
+
 /// @brief The path of a program in its stock, for looks at any place of it.
 class Look {
  public:

@@ -92,7 +92,7 @@ class Steps {
 
 void raise(Peak& peak, double value, const Step& step) {
   if (std::abs(value) > std::abs(peak.value)) {
-    peak = {value, step.line, step.place, step.cause};
+    peak = {value, step.line, step.place, step.cause, step.step, step.tool};
   }
 }
 
@@ -290,9 +290,8 @@ Summary compute_steps(const Job& job, const Sink& sink) {
     }
     const std::int64_t n = count_of(piece, job.options.step_turns);
     for (std::int64_t k = 0; k < n; ++k) {
-      const double u = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
-      asks.push_back({i, u, 1.0 / static_cast<double>(n), number++,
-                      move_at(path, piece, u * piece.length)});
+      asks.push_back(ask_of(path, i, k, n));
+      asks.back().number = number++;
       if (asks.size() == together) {
         run();
         if (job.options.stop.wanted()) {
@@ -353,6 +352,42 @@ std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
     find_causes(path, steps.look().all_kinks(), std::span(&found[0].traits, 1),
                 std::span(&found[0].step, 1));
     out[of_place[k]] = std::move(found[0].step);
+  }
+  return out;
+}
+
+std::vector<TurnForces> forces_with(const Job& job, std::span<const std::int64_t> steps,
+                                    std::span<const Tool> tools) {
+  Look look(job);
+  const stock::Path& path = look.path();
+  std::vector<std::size_t> order(steps.size());  // the stock follows the program
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return steps[k]; });
+  std::vector<TurnForces> out(steps.size() * tools.size());
+  std::uint32_t piece = 0;
+  std::int64_t first = 0;  // step of the piece
+  std::int64_t n = 0;
+  for (const std::size_t k : order) {
+    if (steps[k] < 0) continue;
+    for (; piece < path.pieces.size(); ++piece) {
+      n = count_of(path.pieces[piece], job.options.step_turns);
+      if (steps[k] < first + n) break;
+      first += n;
+    }
+    if (piece == path.pieces.size()) break;
+    const Ask ask = ask_of(path, piece, steps[k] - first, n);
+    look.sweep_to(look.turns_of(ask) - 1);
+    const Found found = look.at(ask);
+    if (found.turn.layers.empty() || !feeds(found.turn)) continue;
+    numerics::for_each_index(
+        tools.size(),
+        [&](std::size_t i) {
+          out[k * tools.size() + i] =
+              in_program(loads_of(found.turn, tools[i]),
+                         std::isfinite(found.step.direction) ? found.step.direction : 0,
+                         found.step.spindle);
+        },
+        1);
   }
   return out;
 }

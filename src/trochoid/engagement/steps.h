@@ -172,6 +172,8 @@ struct Peak {
   std::uint32_t line = 0;
   std::array<double, 3> place{};
   Cause cause = Cause::air;
+  std::int64_t step = -1;  ///< of Step::step
+  std::int16_t tool = -1;
 };
 
 struct Totals {
@@ -214,5 +216,14 @@ struct PlaceRequest {
 /// @return shape (places); a place on a line without a feed move has `count` 0
 std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
                            std::span<const double> heights = {});
+
+/// @brief Forces of steps as tools with other numbers would feel them, in the stock that
+/// the tools of the job leave.
+/// @param steps  numbers of Step::step
+/// @param tools  in place of the tool of these steps
+/// @return shape (steps, tools), row-major; without force where a step cuts nothing or is
+///         none (negative)
+std::vector<TurnForces> forces_with(const Job& job, std::span<const std::int64_t> steps,
+                                    std::span<const Tool> tools);
 
 }  // namespace trochoid::engagement

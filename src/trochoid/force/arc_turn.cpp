@@ -391,12 +391,12 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
       std::max(peak_chip_, edge.sin_kappa * std::max(largest, h_at(0.5 * (lo + hi))));
 }
 
-void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi,
+void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi, double from,
                         ToothLoads& out) const noexcept {
-  const double height = layer.to - layer.from;
+  const double height = layer.to - from;
   const double lag = std::abs(edge.q) * height;
-  const double at_bottom = into_turn(phi - edge.behind);
-  const double middle = layer.from + 0.5 * height;
+  const double at_bottom = into_turn(phi - edge.behind - edge.q * (from - layer.from));
+  const double middle = from + 0.5 * height;
   const auto add = [&](const PerHeight& F) {
     out.x += F[0];
     out.y += F[1];
@@ -414,8 +414,7 @@ void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi,
     out.axial_y += edge.R * std::cos(theta) * F[2];
     for (std::size_t k = 0; options_.heights && k < 3; ++k) {
       const auto n = static_cast<int>(k) + 2;
-      const double share =
-          (std::pow(layer.to, n) - std::pow(layer.from, n)) / (n * height);
+      const double share = (std::pow(layer.to, n) - std::pow(from, n)) / (n * height);
       out.moment_x[k] += share * F[0];
       out.moment_y[k] += share * F[1];
     }
@@ -426,26 +425,26 @@ void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi,
   const double ahead = edge.q < 0 ? lag : 0.0;
   for (double bottom = at_bottom - (edge.q < 0 ? unit::turn : 0.0);
        bottom + ahead - lag < turn_end; bottom += unit::turn) {
-    const double from = std::max(bottom + ahead - lag, turn_start);
-    const double to = std::min(bottom + ahead, turn_end);
-    if (!(to > from)) continue;
+    const double first = std::max(bottom + ahead - lag, turn_start);
+    const double last = std::min(bottom + ahead, turn_end);
+    if (!(last > first)) continue;
     Values v{};
-    edge.integral.add_to(v, to, 1.0);
-    edge.integral.add_to(v, from, -1.0);
+    edge.integral.add_to(v, last, 1.0);
+    edge.integral.add_to(v, first, -1.0);
     add({v[0] / q, v[1] / q, v[2] / q, v[3] / q});  // N-7
     if (!options_.heights) continue;
     out.axial_x += edge.R * v[10] / q;
     out.axial_y += edge.R * v[11] / q;
-    const double A = layer.from + bottom / edge.q;  // z = A - theta/q
+    const double A = from + bottom / edge.q;  // z = A - theta/q
     add_window_moments(v, {A, edge.q, middle, lag}, out);
   }
 }
 
-ToothLoads ArcTurn::at(std::size_t tooth, double phi) const noexcept {
+ToothLoads ArcTurn::at(std::size_t tooth, double phi, double above) const noexcept {
   ToothLoads out;
   for (const Layer& layer : layers_) {
-    if (layer.edges[tooth].place >= 0) {
-      add_layer(layer, layer.edges[tooth], phi, out);
+    if (layer.edges[tooth].place >= 0 && layer.to > above) {
+      add_layer(layer, layer.edges[tooth], phi, std::max(layer.from, above), out);
     }
   }
   return out;

@@ -57,7 +57,9 @@ class ArcTurn {
 
   [[nodiscard]] std::size_t teeth() const noexcept { return psi_.size(); }
   /// Loads of one tooth at the angle phi of the tip of tooth 1 [rad].
-  [[nodiscard]] ToothLoads at(std::size_t tooth, double phi) const noexcept;
+  /// @param above  height above the tip below which the edge does not count [m]
+  [[nodiscard]] ToothLoads at(std::size_t tooth, double phi,
+                              double above = 0.0) const noexcept;
   /// Mean loads over a turn, of all teeth, without moments over the height.
   [[nodiscard]] ToothLoads mean() const noexcept { return mean_; }
   /// Largest chip, across the edge [m].
@@ -117,7 +119,8 @@ class ArcTurn {
   void add_tooth(const Layer& layer, Edge& edge);
   void add_stretch(const Layer& layer, Edge& edge, double from, double to);
   void add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece);
-  void add_layer(const Layer& layer, const Edge& edge, double phi,
+  /// @param from  height from which the edge counts [m]
+  void add_layer(const Layer& layer, const Edge& edge, double phi, double from,
                  ToothLoads& out) const noexcept;
 
   chip::Passage passage_;

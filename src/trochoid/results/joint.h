@@ -75,4 +75,8 @@ struct ReadJoint {
 ///         they had no answer, or an older version wrote it
 ReadJoint read_joint(const std::filesystem::path& path, const std::string& group);
 
+/// @brief The same of a summary.json that is in memory.
+/// @param name  of it, for messages
+ReadJoint joint_in_text(const std::string& text, const std::string& name);
+
 }  // namespace trochoid::results

@@ -85,10 +85,12 @@ double total_time(const ProgramResult& r) noexcept {
 struct NamedPeak {
   engagement::Peak peak;
   double unit = 1.0;
+  std::optional<double> error;  ///< half of its interval
 };
 
 const Fields<NamedPeak>& peak_fields() {
   using P = const NamedPeak&;
+  const auto has_error = [](P p) { return p.error.has_value(); };
   static const Fields<NamedPeak> all{
       {"value", "in the unit of the key above",
        [](P p) { return as_named(p.peak.value / p.unit); }},
@@ -96,27 +98,42 @@ const Fields<NamedPeak>& peak_fields() {
       {"x_mm", "tip there", [](P p) { return given(p.peak.place[0]); }},
       {"y_mm", "the same", [](P p) { return given(p.peak.place[1]); }},
       {"z_mm", "the same", [](P p) { return given(p.peak.place[2]); }},
-      {"cause", "as in steps.csv", [](P p) { return name_of(p.peak.cause); }}};
+      {"cause", "as in steps.csv", [](P p) { return name_of(p.peak.cause); }},
+      {"low", "of the 95 % interval that `[program] covariance` gives",
+       [](P p) { return as_named((p.peak.value - p.error.value_or(0.0)) / p.unit); },
+       has_error},
+      {"high", "the same",
+       [](P p) { return as_named((p.peak.value + p.error.value_or(0.0)) / p.unit); },
+       has_error}};
   return all;
 }
 
 const Fields<ProgramForces>& peaks_fields() {
   using F = const ProgramForces&;
-  const auto of = [](engagement::Peak engagement::Totals::*which, double unit) {
-    return [which, unit](F f) { return NamedPeak{f.summary.totals.*which, unit}; };
+  using E = PeakErrors;
+  const auto of = [](engagement::Peak engagement::Totals::*which,
+                     std::optional<double> E::*error, double unit) {
+    return [which, error, unit](F f) {
+      return NamedPeak{f.summary.totals.*which, unit,
+                       f.errors ? (*f.errors).*error : std::nullopt};
+    };
   };
   using T = engagement::Totals;
   static const Fields<ProgramForces> all{
       {"peak_xy_N", "largest force across the axis", peak_fields(),
-       of(&T::peak_xy, 1.0)},
-      {"peak_tooth_N", "the same of one tooth", peak_fields(), of(&T::peak_tooth, 1.0)},
-      {"torque_peak_Nm", "largest torque", peak_fields(), of(&T::torque, 1.0)},
-      {"power_W", "largest mean power of a turn", peak_fields(), of(&T::power, 1.0)},
-      {"moment_peak_Nm", "largest bending moment", peak_fields(), of(&T::moment, 1.0)},
+       of(&T::peak_xy, &E::peak_xy, 1.0)},
+      {"peak_tooth_N", "the same of one tooth", peak_fields(),
+       of(&T::peak_tooth, &E::peak_tooth, 1.0)},
+      {"torque_peak_Nm", "largest torque", peak_fields(),
+       of(&T::torque, &E::torque, 1.0)},
+      {"power_W", "largest mean power of a turn", peak_fields(),
+       of(&T::power, &E::power, 1.0)},
+      {"moment_peak_Nm", "largest bending moment", peak_fields(),
+       of(&T::moment, &E::moment, 1.0)},
       {"deflection_um", "largest deflection of the tip", peak_fields(),
-       of(&T::deflection, unit::um)},
+       of(&T::deflection, &E::deflection, unit::um)},
       {"peak_chip_mm", "largest uncut chip thickness", peak_fields(),
-       of(&T::chip, unit::mm)}};
+       of(&T::chip, &E::chip, unit::mm)}};
   return all;
 }
 
@@ -186,6 +203,48 @@ const Fields<ProgramChatter>& chatter_fields() {
   return all;
 }
 
+std::string_view name_of_side(bool left) {
+  return left ? "left" : "right";
+}
+
+const Fields<WallExtreme>& wall_extreme_fields() {
+  using W = const WallExtreme&;
+  static const Fields<WallExtreme> all{
+      {"error_um", "positive: material left", [](W w) { return given(w.error); }},
+      {"line", "of the text", [](W w) { return w.line; }},
+      {"side", "`left` or `right` of the feed",
+       [](W w) { return name_of_side(w.left); }},
+      {"x_mm", "tip there", [](W w) { return given(w.place[0]); }},
+      {"y_mm", "the same", [](W w) { return given(w.place[1]); }},
+      {"z_mm", "the same", [](W w) { return given(w.place[2]); }}};
+  return all;
+}
+
+const Fields<LineWall>& line_wall_fields() {
+  using W = const LineWall&;
+  static const Fields<LineWall> all{
+      {"line", "of the text", [](W w) { return w.line; }},
+      {"side", "`left` or `right` of the feed",
+       [](W w) { return name_of_side(w.left); }},
+      {"least_um", "error, over its height and along the line: positive: material left",
+       [](W w) { return given(w.error.least); }},
+      {"most_um", "the same", [](W w) { return given(w.error.most); }},
+      {"mean_um", "the same", [](W w) { return given(w.error.mean); }}};
+  return all;
+}
+
+const Fields<ProgramWalls>& wall_fields() {
+  using W = const ProgramWalls&;
+  static const Fields<ProgramWalls> all{
+      {"most", "most material left on a wall that stays", wall_extreme_fields(),
+       [](W w) { return w.most; }, [](W w) { return w.most.has_value(); }},
+      {"least", "least, or cut deepest into such a wall", wall_extreme_fields(),
+       [](W w) { return w.least; }, [](W w) { return w.least.has_value(); }},
+      {"lines", "that leave a wall that stays", line_wall_fields(),
+       [](W w) { return w.lines; }}};
+  return all;
+}
+
 const Fields<ProgramForces>& force_fields() {
   using F = const ProgramForces&;
   static const Fields<ProgramForces> all{
@@ -208,7 +267,10 @@ const Fields<ProgramForces>& force_fields() {
       {"feed", "the feeds of [feed]", feed_fields(), [](F f) { return f.feed; },
        [](F f) { return f.feed.has_value(); }},
       {"chatter", "whether the cuts chatter", chatter_fields(),
-       [](F f) { return f.chatter; }, [](F f) { return f.chatter.has_value(); }}};
+       [](F f) { return f.chatter; }, [](F f) { return f.chatter.has_value(); }},
+      {"walls", "errors of the walls that stay, of flat tools with a [cutter_body]",
+       wall_fields(), [](F f) { return f.walls; },
+       [](F f) { return f.walls.has_value(); }}};
   return all;
 }
 
@@ -227,6 +289,27 @@ const Fields<ProgramResult>& program_fields() {
   return all;
 }
 
+/// What the table says of walls and of chatter.
+std::string walls_and_chatter(const ProgramForces& forces) {
+  std::string out;
+  if (forces.walls && forces.walls->most) {
+    const ProgramWalls& walls = *forces.walls;
+    out += fmt::format(
+        "walls that stay: from {:.3g} um (line {}) to {:.3g} um (line {}); positive: "
+        "material left\n",
+        walls.least->error / unit::um, walls.least->line, walls.most->error / unit::um,
+        walls.most->line);
+  }
+  if (forces.chatter) {
+    const ProgramChatter& chatter = *forces.chatter;
+    out += chatter.lines.empty()
+               ? std::string("chatter: in no line\n")
+               : fmt::format("chatter: in {} lines, line {} first\n",
+                             chatter.lines.size(), chatter.lines.front().line);
+  }
+  return out;
+}
+
 std::string short_table(const ProgramResult& r) {
   std::size_t fed = 0;
   for (const Move& move : r.program.moves) fed += is_fed(move) ? 1U : 0U;
@@ -241,34 +324,35 @@ std::string short_table(const ProgramResult& r) {
                      all.time, all.time_in_cut,
                      all.removed / (unit::mm * unit::mm * unit::mm));
   if (all.peak_xy.line == 0) return out;
-  out += fmt::format("{:<24}{:>12}{:>8}  {:<8}{}\n", "largest", "value", "line",
-                     "cause", "x, y, z mm");
+  const std::optional<PeakErrors>& errors = r.forces->errors;
+  out += fmt::format("{:<24}{:>12}{}{:>8}  {:<8}{}\n", "largest", "value",
+                     errors ? fmt::format("{:>11}", "+- (95 %)") : "", "line", "cause",
+                     "x, y, z mm");
   const auto row = [&](std::string_view name, const engagement::Peak& peak,
-                       double unit) {
+                       std::optional<double> PeakErrors::*error, double unit) {
     if (peak.line == 0) return;
-    out += fmt::format("{:<24}{:>12.4g}{:>8}  {:<8}{:.6g}, {:.6g}, {:.6g}\n", name,
-                       peak.value / unit, peak.line, name_of(peak.cause),
+    std::string interval;
+    if (errors) {
+      const std::optional<double> half = (*errors).*error;
+      interval = fmt::format("{:>11}", half ? fmt::format("{:.2g}", *half / unit) : "");
+    }
+    out += fmt::format("{:<24}{:>12.4g}{}{:>8}  {:<8}{:.6g}, {:.6g}, {:.6g}\n", name,
+                       peak.value / unit, interval, peak.line, name_of(peak.cause),
                        peak.place[0] / unit::mm, peak.place[1] / unit::mm,
                        peak.place[2] / unit::mm);
   };
-  row("force across N", all.peak_xy, 1.0);
-  row("force of a tooth N", all.peak_tooth, 1.0);
-  row("torque Nm", all.torque, 1.0);
-  row("power W", all.power, 1.0);
-  row("bending moment Nm", all.moment, 1.0);
-  row("deflection um", all.deflection, unit::um);
-  row("chip mm", all.chip, unit::mm);
+  row("force across N", all.peak_xy, &PeakErrors::peak_xy, 1.0);
+  row("force of a tooth N", all.peak_tooth, &PeakErrors::peak_tooth, 1.0);
+  row("torque Nm", all.torque, &PeakErrors::torque, 1.0);
+  row("power W", all.power, &PeakErrors::power, 1.0);
+  row("bending moment Nm", all.moment, &PeakErrors::moment, 1.0);
+  row("deflection um", all.deflection, &PeakErrors::deflection, unit::um);
+  row("chip mm", all.chip, &PeakErrors::chip, unit::mm);
   for (const BrokenLimit& one : r.forces->broken) {
     out += fmt::format("limit {} = {:.4g}: {} lines go beyond it, up to {:.4g}\n",
                        one.limit, one.allowed, one.lines.size(), one.worst);
   }
-  if (r.forces->chatter) {
-    const ProgramChatter& chatter = *r.forces->chatter;
-    out += chatter.lines.empty()
-               ? std::string("chatter: in no line\n")
-               : fmt::format("chatter: in {} lines, line {} first\n",
-                             chatter.lines.size(), chatter.lines.front().line);
-  }
+  out += walls_and_chatter(*r.forces);
   if (r.forces->feed) {
     const NewFeeds& feed = *r.forces->feed;
     out += fmt::format(

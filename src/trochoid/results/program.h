@@ -3,6 +3,7 @@
 #include <trochoid/engagement/chatter.h>
 #include <trochoid/engagement/feed.h>
 #include <trochoid/engagement/steps.h>
+#include <trochoid/engagement/walls.h>
 #include <trochoid/program/move.h>
 #include <trochoid/results/answer.h>
 
@@ -64,6 +65,41 @@ struct ProgramChatter {
   std::vector<ChatteringLine> lines;             ///< ascending
 };
 
+/// A wall that a line leaves.
+struct LineWall {
+  std::uint32_t line = 0;
+  bool left = false;  ///< of the feed; else right
+  engagement::WallError error;
+};
+
+/// The largest error of a wall, and where.
+struct WallExtreme {
+  double error = 0.0;  ///< positive: material left [m]
+  std::uint32_t line = 0;
+  bool left = false;
+  std::array<double, 3> place{};  ///< of the tip [m]
+};
+
+/// Errors of the walls that stay.
+struct ProgramWalls {
+  std::vector<engagement::StepWalls> of_steps;  ///< of each row of steps
+  std::vector<LineWall> lines;                  ///< ascending, the left one first
+  std::optional<WallExtreme> most;              ///< material left
+  std::optional<WallExtreme> least;             ///< cut too deep
+};
+
+/// Half of the 95 % interval of each largest value; nothing where it is of a tool of which
+/// nothing is known.
+struct PeakErrors {
+  std::optional<double> peak_xy;     ///< [N]
+  std::optional<double> peak_tooth;  ///< [N]
+  std::optional<double> torque;      ///< [N m]
+  std::optional<double> power;       ///< [W]
+  std::optional<double> moment;      ///< [N m]
+  std::optional<double> deflection;  ///< [m]
+  std::optional<double> chip;        ///< [m]
+};
+
 /// Forces along a program.
 struct ProgramForces {
   std::size_t teeth = 0;                     ///< of the tool that has most
@@ -72,10 +108,12 @@ struct ProgramForces {
   std::vector<engagement::Step> places;      ///< as asked for
   std::vector<std::array<double, 2>> asked;  ///< line and fraction of each place
   engagement::Summary summary;
+  std::optional<PeakErrors> errors;  ///< nothing: the case names no covariance
   std::vector<BrokenLimit> broken;
   std::vector<std::string> texts;         ///< of the lines of the summary
   std::optional<NewFeeds> feed;           ///< nothing: the case has no [feed]
   std::optional<ProgramChatter> chatter;  ///< nothing: the case has no [[mode]]
+  std::optional<ProgramWalls> walls;      ///< nothing: no tool has a [cutter_body]
 };
 
 /// @brief What `program` answers: the moves of a whole NC program, and its forces.

@@ -25,6 +25,7 @@ struct StepRows {
   std::size_t teeth = 0;
   const std::vector<std::string>& tools;
   const ProgramChatter* chatter = nullptr;  ///< of the steps
+  const ProgramWalls* walls = nullptr;      ///< of the steps
 };
 
 /// The limit of a row, with the depth of its cut; nothing: not known.
@@ -171,6 +172,29 @@ std::vector<Column<StepRows>> columns_of_chatter() {
        }}};
 }
 
+/// Errors of the walls that a row leaves.
+std::vector<Column<StepRows>> columns_of_walls() {
+  using engagement::StepWalls;
+  using engagement::WallError;
+  const auto of = [](std::optional<WallError> StepWalls::*side,
+                     double WallError::*value) {
+    return [side, value](R r, std::size_t i) {
+      if (r.walls == nullptr) return nothing_there;
+      const auto& wall = r.walls->of_steps[i].*side;
+      return wall ? (*wall).*value : nothing_there;
+    };
+  };
+  return {
+      {"wall_left_least_um",
+       "error of the wall left of the feed, over height and feed, positive: material "
+       "left; empty: no wall that stays",
+       of(&StepWalls::left, &WallError::least)},
+      {"wall_left_most_um", "the same", of(&StepWalls::left, &WallError::most)},
+      {"wall_right_least_um", "the same on the right",
+       of(&StepWalls::right, &WallError::least)},
+      {"wall_right_most_um", "the same", of(&StepWalls::right, &WallError::most)}};
+}
+
 std::vector<Column<StepRows>> with_head(std::vector<Column<StepRows>> head) {
   for (const auto& part : {columns_of_cut(), columns_of_forces()}) {
     head.insert(head.end(), part.begin(), part.end());
@@ -182,16 +206,17 @@ std::size_t count(R r) {
   return r.rows.size();
 }
 
-std::vector<Column<StepRows>> with_chatter(std::vector<Column<StepRows>> columns) {
-  const std::vector<Column<StepRows>> more = columns_of_chatter();
-  columns.insert(columns.end(), more.begin(), more.end());
+std::vector<Column<StepRows>> with_more(std::vector<Column<StepRows>> columns) {
+  for (const auto& more : {columns_of_chatter(), columns_of_walls()}) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  }
   return columns;
 }
 
 const Columns<StepRows>& step_columns() {
   static const Columns<StepRows> all{
       "steps.csv", count,
-      with_chatter(with_head(
+      with_more(with_head(
           {{"step", "of all feed moves, from 0; rows in air join several",
             [](R r, std::size_t i) { return r.rows[i].step; }},
            {"line", "of the text, from 1",
@@ -389,8 +414,12 @@ std::vector<base::Table> tables_of_forces(const ProgramResult& result) {
   const auto& tools = result.program.tools;
   std::vector<base::Table> out{
       line_columns().table({all, tools}),
-      step_columns().table(
-          {all.steps, {}, all.teeth, tools, all.chatter ? &*all.chatter : nullptr}),
+      step_columns().table({all.steps,
+                            {},
+                            all.teeth,
+                            tools,
+                            all.chatter ? &*all.chatter : nullptr,
+                            all.walls ? &*all.walls : nullptr}),
       step_arc_columns().table(arcs_of(all.steps, false))};
   if (all.feed) out.push_back(feed_columns().table(feed_rows(all.feed->steps)));
   if (!all.places.empty()) {

@@ -23,6 +23,15 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
   throw base::InputError({fmt::format("{}: {}", file.string(), why)});
 }
 
+Value summary_in(const std::optional<std::string>& text, const fs::path& file) {
+  if (!text || !is_our_summary(*text)) {
+    refuse_summary(file,
+                   "not a summary.json of trochoid; must be that of identify, modes or "
+                   "calibrate, or its folder");
+  }
+  return json_value(*text);
+}
+
 Value summary_of(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
@@ -31,13 +40,7 @@ Value summary_of(const fs::path& file) {
         "there is no such file; must be a summary.json of identify, modes or "
         "calibrate, or its folder");
   }
-  const auto text = base::read_text(file);
-  if (!text || !is_our_summary(*text)) {
-    refuse_summary(file,
-                   "not a summary.json of trochoid; must be that of identify, modes or "
-                   "calibrate, or its folder");
-  }
-  return json_value(*text);
+  return summary_in(base::read_text(file), file);
 }
 
 std::string text_of(const Value* value) {
@@ -104,12 +107,15 @@ bool known_names(const Joint& joint) {
   constexpr std::size_t most_teeth = 64;
   for (std::size_t i = 0; i < joint.names.size(); ++i) {
     const std::string& name = joint.names[i];
-    const std::size_t tooth = entry_in(name, "runout.radial_offsets_mm[", "]");
+    const std::size_t tooth = std::max(entry_in(name, "runout.radial_offsets_mm[", "]"),
+                                       entry_in(name, "runout.axial_offsets_mm[", "]"));
     const std::size_t mode = entry_in(name, "mode[", "].");
-    const bool pair =
-        name == "runout.e_x_mm"
-            ? i + 1 < joint.names.size() && joint.names[i + 1] == "runout.e_y_mm"
-            : name == "runout.e_y_mm" && i > 0 && joint.names[i - 1] == "runout.e_x_mm";
+    const auto of_pair = [&](std::string_view x, std::string_view y) {
+      return name == x ? i + 1 < joint.names.size() && joint.names[i + 1] == y
+                       : name == y && i > 0 && joint.names[i - 1] == x;
+    };
+    const bool pair = of_pair("runout.e_x_mm", "runout.e_y_mm") ||
+                      of_pair("runout.t_x", "runout.t_y");
     const bool law = name.starts_with("force.") && !joint.law.empty() &&
                      name.find_first_of(".[", 6) == std::string::npos;
     const bool offset = tooth > 0 && tooth <= joint.teeth && joint.teeth <= most_teeth;
@@ -157,12 +163,9 @@ Joint joint_in(const Value& value) {
   return joint;
 }
 
-}  // namespace
-
-ReadJoint read_joint(const fs::path& path, const std::string& group) {
-  std::error_code error;
-  ReadJoint out{.file = fs::is_directory(path, error) ? path / "summary.json" : path};
-  const Value summary = summary_of(out.file);
+ReadJoint joint_of_summary(const Value& summary, const fs::path& file,
+                           const std::string& group) {
+  ReadJoint out{.file = file};
   out.command = text_of(find(summary, "command"));
   if (out.command != "identify" && out.command != "modes" &&
       out.command != "calibrate") {
@@ -195,6 +198,18 @@ ReadJoint read_joint(const fs::path& path, const std::string& group) {
   }
   out.do_not_use = text_of(find(*result, "verdict")) == "do not use";
   return out;
+}
+
+}  // namespace
+
+ReadJoint read_joint(const fs::path& path, const std::string& group) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "summary.json" : path;
+  return joint_of_summary(summary_of(file), file, group);
+}
+
+ReadJoint joint_in_text(const std::string& text, const std::string& name) {
+  return joint_of_summary(summary_in(text, name), name, "");
 }
 
 }  // namespace trochoid::results

@@ -51,6 +51,7 @@ engagement::Tool tool_of(const cases::Case& given) {
 struct Tools {
   std::vector<engagement::Tool> tools;            ///< shape (program.tools), or one
   std::vector<engagement::Vibration> vibrations;  ///< the same
+  std::vector<std::size_t> own;                   ///< places of the tool of the case
   std::vector<base::Warning> why_not;
 };
 
@@ -73,7 +74,10 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
     out.tools.push_back(tool_of(one));
     out.vibrations.push_back(vibration_of(one));
   };
-  if (program.tools.empty()) add(given);
+  if (program.tools.empty()) {
+    add(given);
+    out.own.push_back(0);
+  }
   const std::vector<std::string> left = unnamed(nc, program);
   for (const std::string& name : program.tools) {
     if (const auto other = nc.cases_of_tools.find(name);
@@ -81,6 +85,7 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
       add(*other->second);
       continue;
     }
+    out.own.push_back(out.tools.size());
     add(given);
     const bool is_left = std::ranges::find(left, name) != left.end();
     const bool known =
@@ -117,28 +122,59 @@ stock::Initial stock_of(const cases::Stock& stock, double cell,
   return std::move(seen.field);
 }
 
-/// A quantity of a line against its limit.
+/// A quantity against its limit.
 struct Limited {
   std::string_view key;
   std::optional<double> allowed;
   double unit;
   double Line::*value;
+  engagement::Peak engagement::Totals::*peak;
+  std::optional<double> results::PeakErrors::*error;
 };
+
+std::vector<Limited> limited(const cases::ForceLimits& limits) {
+  using T = engagement::Totals;
+  using E = results::PeakErrors;
+  std::vector<Limited> all{
+      {"peak_force_N", limits.peak_force, 1.0, &Line::peak_xy, &T::peak_xy,
+       &E::peak_xy},
+      {"peak_tooth_N", limits.peak_tooth, 1.0, &Line::peak_tooth, &T::peak_tooth,
+       &E::peak_tooth},
+      {"torque_Nm", limits.torque, 1.0, &Line::torque_peak, &T::torque, &E::torque},
+      {"power_W", limits.power, 1.0, &Line::power, &T::power, &E::power},
+      {"bending_moment_Nm", limits.bending_moment, 1.0, &Line::moment_peak, &T::moment,
+       &E::moment},
+      {"deflection_um", limits.deflection, unit::um, &Line::deflection, &T::deflection,
+       &E::deflection}};
+  if (limits.chip.size() == 2) {
+    all.push_back(
+        {"chip_mm", limits.chip[1], unit::mm, &Line::peak_chip, &T::chip, &E::chip});
+  }
+  return all;
+}
+
+/// Limits that are kept, but lie within the interval of the largest value.
+void warn_of_close_limits(const cases::ForceLimits& limits, const ProgramForces& forces,
+                          std::vector<base::Warning>& warnings) {
+  if (!forces.errors) return;
+  for (const Limited& one : limited(limits)) {
+    const std::optional<double> error = (*forces.errors).*one.error;
+    const double value = std::abs((forces.summary.totals.*one.peak).value);
+    if (!one.allowed || !error || value > *one.allowed) continue;
+    if (value + *error <= *one.allowed) continue;
+    warnings.push_back(
+        {"limit_within_interval",
+         fmt::format("{} = {:.4g} is kept, but the largest value is {:.4g} +- {:.2g} "
+                     "(95 %), in line {}: it may go beyond.",
+                     one.key, *one.allowed / one.unit, value / one.unit,
+                     *error / one.unit, (forces.summary.totals.*one.peak).line)});
+  }
+}
 
 std::vector<results::BrokenLimit> broken(const cases::ForceLimits& limits,
                                          std::span<const Line> lines) {
-  std::vector<Limited> all{
-      {"peak_force_N", limits.peak_force, 1.0, &Line::peak_xy},
-      {"peak_tooth_N", limits.peak_tooth, 1.0, &Line::peak_tooth},
-      {"torque_Nm", limits.torque, 1.0, &Line::torque_peak},
-      {"power_W", limits.power, 1.0, &Line::power},
-      {"bending_moment_Nm", limits.bending_moment, 1.0, &Line::moment_peak},
-      {"deflection_um", limits.deflection, unit::um, &Line::deflection}};
-  if (limits.chip.size() == 2) {
-    all.push_back({"chip_mm", limits.chip[1], unit::mm, &Line::peak_chip});
-  }
   std::vector<results::BrokenLimit> out;
-  for (const Limited& one : all) {
+  for (const Limited& one : limited(limits)) {
     if (!one.allowed) continue;
     results::BrokenLimit found{one.key, *one.allowed / one.unit, 0.0, {}};
     for (const Line& line : lines) {
@@ -418,6 +454,11 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   r.forces = forces_of(job, given, progress);
   r.forces->chatter =
       chatter_of(r.forces->steps, tools.tools, tools.vibrations, progress, stop);
+  r.forces->walls = walls_of(job, r.forces->steps, progress);
+  r.forces->errors =
+      peak_errors(job, given, tools.own, r.forces->summary.totals, r.heading.warnings);
+  warn_of_close_limits(given.nc.limits.value_or(cases::ForceLimits{}), *r.forces,
+                       r.heading.warnings);
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);
   warn_of_unused(given.nc, r.heading.warnings);

@@ -28,6 +28,23 @@ std::optional<results::NewFeeds> new_feeds(const engagement::Job& job,
                                            const results::ProgramForces& forces,
                                            const Progress& progress);
 
+/// @brief Intervals of the largest values of a program, from `[program] covariance`.
+/// @param own  places of the tools of the job that are the tool of this case
+/// @return nothing where the case names none
+/// @throws base::InputError where it is of another tool, or cannot be read
+std::optional<results::PeakErrors> peak_errors(const engagement::Job& job,
+                                               const cases::Case& given,
+                                               std::span<const std::size_t> own,
+                                               const engagement::Totals& totals,
+                                               std::vector<base::Warning>& warnings);
+
+/// @brief Errors of the walls that stay when the program is done.
+/// @param steps  rows, in their order
+/// @return nothing where no tool has a body
+std::optional<results::ProgramWalls> walls_of(const engagement::Job& job,
+                                              std::span<const engagement::Step> steps,
+                                              const Progress& progress);
+
 /// What vibrates with a tool, from its case.
 engagement::Vibration vibration_of(const cases::Case& given);
 

@@ -139,6 +139,16 @@ void rename(results::Joint& joint, const std::vector<std::size_t>& place) {
 }
 
 constexpr std::string_view e_x = "runout.e_x_mm";
+constexpr std::string_view t_x = "runout.t_x";
+
+/// The key of a case that a name stands for.
+std::string key_of_name(const std::string& name) {
+  if (name == e_x) return "runout.eccentricity_mm";
+  if (name == "runout.e_y_mm") return "runout.angle_deg";
+  if (name == t_x) return "runout.tilt_deg";
+  if (name == "runout.t_y") return "runout.tilt_angle_deg";
+  return name;
+}
 
 /// What of a key cannot be set twice: of a mode its numbers, as they hang together.
 std::string whole_of(const std::string& key) {
@@ -308,7 +318,7 @@ class Putting {
     const Node* runout = find(found_.root, "runout");
     const Node* given =
         runout != nullptr && std::holds_alternative<cases::Members>(runout->value)
-            ? find(*runout, "radial_offsets_mm")
+            ? find(*runout, list.key.substr(list.key.find('.') + 1))
             : nullptr;
     const auto* entries =
         given != nullptr ? std::get_if<cases::Array>(&given->value) : nullptr;
@@ -336,17 +346,17 @@ class Putting {
     if (!joint.law.empty()) {
       set_key(found_.root, key_of("force.law"), {.value = joint.law, .where = where});
     }
-    if (std::ranges::any_of(set.names, [](const std::string& name) {
-          return name.starts_with("runout.radial_offsets_mm");
-        })) {
-      make_offsets(joint, key_of("runout.radial_offsets_mm"));
+    for (const char* list : {"runout.radial_offsets_mm", "runout.axial_offsets_mm"}) {
+      if (std::ranges::any_of(set.names, [&](const std::string& name) {
+            return name.starts_with(list);
+          })) {
+        make_offsets(joint, key_of(list));
+      }
     }
     const std::vector<double> values = as_keys(set, joint.values);
     std::size_t i = 0;
     for (const std::string& name : set.names) {
-      const SweptKey key = key_of(name == e_x               ? "runout.eccentricity_mm"
-                                  : name == "runout.e_y_mm" ? "runout.angle_deg"
-                                                            : name);
+      const SweptKey key = key_of(key_of_name(name));
       if (std::ranges::find(found_.keys, key.key, &SweptKey::key) !=
           found_.keys.end()) {
         wrong(fmt::format("{}: {} is drawn from another file too", file_, key.key));
@@ -390,6 +400,9 @@ std::vector<double> as_keys(const FoundSet& set, std::span<const double> numbers
   for (std::size_t i = 0; i < set.names.size(); ++i) {
     if (set.names[i] == e_x) {
       values[i] = std::hypot(numbers[i], numbers[i + 1]);
+      values[i + 1] = std::atan2(numbers[i + 1], numbers[i]) / unit::deg;
+    } else if (set.names[i] == t_x) {
+      values[i] = std::atan(std::hypot(numbers[i], numbers[i + 1])) / unit::deg;
       values[i + 1] = std::atan2(numbers[i + 1], numbers[i]) / unit::deg;
     } else if (set.names[i].ends_with(".angle_deg")) {
       // The direction of a mode is a line; a case has it within a right angle.

@@ -1,5 +1,6 @@
 """program: what it answers, what it warns of and what it leaves out, as a user meets it."""
 import csv
+import json
 import struct
 
 from in_folder import InFolder, main, program, tables
@@ -22,7 +23,10 @@ M30
 class NcProgram(InFolder):
     def case(self, text=PART, **changes):
         self.write("part.nc", text)
-        given = tables(**{"program": {"file": "part.nc", "tool_number": 1, "ignore_tools": [2]},
+        table = {"file": "part.nc", "tool_number": 1, "ignore_tools": [2],
+                 **changes.pop("program", {})}
+        table = {key: value for key, value in table.items() if value is not None}
+        given = tables(**{"program": table,
                           "stock": {"box_mm": [[0, -30, -10], [60, 60, 0]]}, **changes})
         del given["cut"]
         self.write("case.toml", program.case_text("a program", given))
@@ -89,6 +93,89 @@ class NcProgram(InFolder):
             named = {one["line"]: one["margin"] for one in result["chatter"]["lines"]}
             self.assertEqual(named, beyond)
             self.assertEqual(bool(beyond), chatters)
+
+    def found(self, names, found, matrix, **more):
+        """A summary.json as identify writes it."""
+        covariance = {"law": "linear_edge", "chip_model": "trochoidal", "teeth": 2, "modes": [],
+                      "names": names, "found": found, "matrix": matrix,
+                      "interval_factors": [1.96] * len(names), "not_found": [], **more}
+        self.write("found/summary.json", json.dumps(
+            {"trochoid": "0", "command": "identify", "status": "ok",
+             "result": {"covariance": covariance}}))
+
+    def test_intervals_follow_from_the_covariance(self):  # [N-20]
+        """By differences of whole runs."""
+        names = ["force.K_tc_MPa", "force.K_te_N_per_mm", "runout.radial_offsets_mm[2]"]
+        matrix = [[900.0, -3.0, 0.0], [-3.0, 0.04, 1e-4], [0.0, 1e-4, 1e-6]]
+        self.found(names, [2620, 7, -0.008], matrix)
+        self.case()
+        peaks = self.answer()[0]["peaks"]
+        self.assertNotIn("low", peaks["peak_xy_N"])
+        slopes = []
+        for (table, key), value, step in (
+                (("force", "K_tc_MPa"), 2620, 10), (("force", "K_te_N_per_mm"), 7, 0.1),
+                (("runout", "radial_offsets_mm"), -0.008, 2e-4)):
+            ends = []
+            for sign in (-1, 1):
+                changed = value + sign * step
+                self.case(**{table: {key: changed if table == "force" else [0, changed]}})
+                ends.append(self.answer()[0]["peaks"])
+            slopes.append({q: (ends[1][q]["value"] - ends[0][q]["value"]) / (2 * step)
+                           for q in peaks})
+        self.case(program={"covariance": "found"})
+        result, warnings = self.answer()
+        self.assertNotIn("other_value", warnings)
+        for q, peak in result["peaks"].items():
+            if peak["value"] == 0:  # nothing bends here
+                continue
+            g = [slope[q] for slope in slopes]
+            half = 1.96 * sum(a * matrix[i][j] * b for i, a in enumerate(g)
+                              for j, b in enumerate(g)) ** 0.5
+            self.assertEqual(peak["value"], peaks[q]["value"])
+            self.assertAlmostEqual(peak["high"] - peak["value"], half, delta=0.02 * half + 1e-12)
+            self.assertAlmostEqual(peak["value"] - peak["low"], half, delta=0.02 * half + 1e-12)
+        self.assertGreater(result["peaks"]["peak_chip_mm"]["high"], peaks["peak_chip_mm"]["value"])
+
+    def test_walls_that_stay(self):
+        """The line along +x leaves both walls of a slot, the one along +y only stock behind."""
+        self.case()
+        result, _ = self.answer()
+        self.assertNotIn("walls", result)
+        self.case(cutter_body={"overhang_mm": 30, "flute_length_mm": 20, "shank_diameter_mm": 8,
+                               "equivalent_diameter_mm": 6.4, "youngs_modulus_GPa": 210})
+        result, _ = self.answer()
+        rows = [row for row in self.rows("steps.csv") if row["wall_left_most_um"]]
+        self.assertEqual({row["line"] for row in rows}, {"6", "7"})
+        for side in ("left", "right"):
+            most = max(float(row[f"wall_{side}_most_um"]) for row in rows if row["line"] == "6")
+            (line,) = [w for w in result["walls"]["lines"] if (w["line"], w["side"]) == (6, side)]
+            self.assertEqual(line["most_um"], most)
+            self.assertLess(line["least_um"], line["mean_um"])
+            self.assertLess(line["mean_um"], line["most_um"])
+        worst = max(result["walls"]["lines"], key=lambda w: w["most_um"])
+        most = result["walls"]["most"]
+        self.assertEqual((most["error_um"], most["line"], most["side"]),
+                         (worst["most_um"], worst["line"], worst["side"]))
+
+    def test_what_the_covariance_says_of_another_tool(self):
+        self.found(["force.K_tc_MPa"], [1800], [[100.0]], not_found=[
+            {"name": "runout.radial_offsets_mm[2]", "why": "too short"}])
+        limit = {"limits": {"peak_force_N": 1.001 * self.most()}}
+        self.case(program={"covariance": "found/summary.json"}, **limit)
+        _, warnings = self.answer()
+        self.assertIn("found 1800", warnings["other_value"])
+        self.assertIn("radial_offsets_mm[2]", warnings["not_in_the_interval"])
+        self.assertIn("may go beyond", warnings["limit_within_interval"])
+        for change, what in (({"law": "power"}, "of the law power"), ({"teeth": 3}, "of 3 teeth"),
+                             ({"law": ""}, "no coefficients")):
+            self.found(["force.K_tc_MPa"], [1800], [[100.0]], **change)
+            done = self.run_program("program", "case.toml", "-o", "none", code=2)
+            self.assertIn(what if change != {"law": ""} else "names nothing", done.stderr)
+            self.assertFalse((self.folder / "none").exists())
+
+    def most(self):
+        self.case()
+        return self.answer()[0]["peaks"]["peak_xy_N"]["value"]
 
     def test_what_is_not_used_is_said(self):
         self.case(machine={"max_jerk_m_per_s3": [50, 50, 50], "corner_tolerance_mm": 0.1})
@@ -178,7 +265,7 @@ class NcProgram(InFolder):
         self.assertIn("power", {row["held_by"] for row in self.rows("feeds.csv")})
 
     def test_without_forces_there_are_the_moves(self):
-        self.case(program={"file": "part.nc", "tool_number": 1})
+        self.case(program={"ignore_tools": None})
         result, warnings = self.answer()
         self.assertIn("tool_not_described", warnings)
         self.assertNotIn("peaks", result)

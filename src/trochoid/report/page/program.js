@@ -1,7 +1,7 @@
 // The page of `program`: the path from above in the colours of what loads the tool, its lines.
 
 const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken', 'feed',
-  'chatter'];
+  'chatter', 'walls'];
 const worstShown = 12;
 /** Columns of steps.csv that the path can show: key, name, label. */
 const pathViews = [['peak_xy_N', 'force', 'largest force across the tool [N]'],
@@ -9,7 +9,9 @@ const pathViews = [['peak_xy_N', 'force', 'largest force across the tool [N]'],
   ['deflection_um', 'deflection', 'deflection of the tip [µm]'],
   ['peak_chip_mm', 'chip', 'largest uncut chip thickness [mm]'],
   ['engaged_deg', 'engaged', 'engaged angle [°]'], ['a_p_mm', 'depth', 'axial depth [mm]'],
-  ['chatter_margin', 'chatter', 'limit depth over axial depth, red: chatter [1]']];
+  ['chatter_margin', 'chatter', 'limit depth over axial depth, red: chatter [1]'],
+  ['wall', 'wall', 'largest error of a wall that stays, 0: none [µm]']];
+const wallColumns = ['left_least', 'left_most', 'right_least', 'right_most'].map((name) => `wall_${name}_um`);
 
 function programPage(report) {
   const { result } = report;
@@ -20,6 +22,7 @@ function programPage(report) {
     overTime(report),
     { part: result.feed ? feedSection(report, result.feed) : null },
     { part: result.chatter?.lines.length ? chatterSection(result.chatter.lines) : null },
+    { part: result.walls?.lines.length ? wallSection(result.walls.lines) : null },
     { part: result.limits_broken?.length ? brokenSection(result.limits_broken) : null },
     toolSection(),
     { part: restSection(result, programKnown) },
@@ -28,8 +31,9 @@ function programPage(report) {
 
 function programLead(result) {
   const { peaks } = result;
+  const interval = ({ value, high }) => (isNumber(high) ? `± ${fixed(high - value, 2)} (95 %), ` : '');
   const tile = (label, key, unit) => peaks[key]?.line && { label, value: fixed(peaks[key].value, 3), unit,
-    note: `line ${peaks[key].line}, ${peaks[key].cause}` };
+    note: `${interval(peaks[key])}line ${peaks[key].line}, ${peaks[key].cause}` };
   return [tiles([
     tile('Largest force across', 'peak_xy_N', 'N'), tile('Of one tooth', 'peak_tooth_N', 'N'),
     tile('Largest torque', 'torque_peak_Nm', 'N m'),
@@ -43,9 +47,11 @@ function stepsOf(t) {
   const values = (name) => columnNamed(t, name) || [];
   const teeth = t.columns.filter((column) => /^peak_tooth_\d+_N$/.test(column.name));
   const [x, y, z, depth] = ['x_mm', 'y_mm', 'z_mm', 'a_p_mm'].map(values);
-  const keys = pathViews.map(([key]) => key).filter((key) => key !== 'tooth');
+  const keys = pathViews.map(([key]) => key).filter((key) => key !== 'tooth' && key !== 'wall');
+  const walls = wallColumns.map(values);
   return depth.map((_, i) => ({ x: x[i], height: y[i], z: z[i], line: values('line')[i], cause: values('cause')[i],
     tooth: Math.max(0, ...teeth.map((column) => column.values[i] || 0)),
+    wall: Math.max(0, ...walls.map((errors) => Math.abs(errors[i] || 0))),
     ...Object.fromEntries(keys.map((key) => [key, values(key)[i]])) })).filter((_, i) => depth[i] > 0);
 }
 
@@ -158,6 +164,15 @@ function chatterSection(lines) {
     table(['line', 'limit depth', 'over axial depth', 'chatter', 'speed', 'better speed'], worst.map((one) => [number(one.line),
       `${fixed(one.limit_depth_mm, 3)} mm`, fixed(one.margin, 2), `${number(one.frequency_Hz, 4)} Hz`,
       `${number(one.spindle_rpm, 4)} rpm`, one.better_spindle_rpm ? `${number(one.better_spindle_rpm, 4)} rpm` : 'none within 30 %'])));
+}
+
+function wallSection(lines) {
+  const worst = [...lines].sort((a, b) => Math.max(b.most_um, -b.least_um) - Math.max(a.most_um, -a.least_um)).slice(0, worstShown);
+  return section('walls', 'Walls that stay', 'Walls',
+    prose('Errors by the runout and the deflection of the cutter, over the height and along the feed. Positive: material left. ' +
+      'Walls that a later pass cuts away do not count.'),
+    table(['line', 'side of the feed', 'least', 'mean', 'most'], worst.map((one) => [number(one.line), one.side,
+      ...['least_um', 'mean_um', 'most_um'].map((key) => `${fixed(one[key], 3)} µm`)])));
 }
 
 function brokenSection(broken) {
