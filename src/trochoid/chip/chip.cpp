@@ -31,6 +31,12 @@ double small_sine(double x) noexcept {
   return x * (1 - u / 6 * (1 - u / 20 * (1 - u / 42 * (1 - u / 72 * (1 - u / 110)))));
 }
 
+/// cos(x) as well.
+double small_cosine(double x) noexcept {
+  const double u = x * x;
+  return 1 - u / 2 * (1 - u / 12 * (1 - u / 30 * (1 - u / 56 * (1 - u / 90))));
+}
+
 /// @param half_sine  sin(delta / 2)
 double length_on_ray(double R_k, double turned, double feed, double sin_theta,
                      double half_sine) noexcept {
@@ -169,9 +175,13 @@ double above_rigid_mark(const Ray& ray, int m) noexcept {
             theta_p <= 0 ? unit::turn : (theta_p > unit::turn ? -unit::turn : 0.0);
       }
       if (ray.p.curvature != 0) {  // N-4
-        const double turned = ray.angle - 0.5 * ray.p.curvature * ray.p.feed * theta_p;
-        return own.R - surface_left(other.R, theta_p, ray.p.feed, std::sin(turned),
-                                    std::cos(turned));
+        const double turned = 0.5 * ray.p.curvature * ray.p.feed * theta_p;
+        const bool small = std::abs(turned) < 0.2;
+        const double s = small ? small_sine(turned) : std::sin(turned);
+        const double c = small ? small_cosine(turned) : std::cos(turned);
+        return own.R - surface_left(other.R, theta_p, ray.p.feed,
+                                    ray.sine * c - ray.cosine * s,
+                                    ray.cosine * c + ray.sine * s);
       }
       return own.R - surface_left(other.R, theta_p, ray.p.feed, ray.sine, ray.cosine);
     }

@@ -28,6 +28,9 @@ constexpr double slab_lag = 0.05;
 /// The same where layers are cones, and the part of a wave that is one.
 constexpr double cone_lag = 0.3;
 constexpr double part_of_wave = 1.0 / 24;
+/// How exactly the end of a chip is found, and where another mark bounds it [rad].
+constexpr double closest_end = 1e-7;
+constexpr double closest_kink = 1e-5;
 /// Longest panel [rad].
 constexpr double longest_arc_panel = 0.8;
 constexpr double arc_tolerance = 1e-7;
@@ -293,7 +296,6 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
   }
   const int n = std::max(4, static_cast<int>(std::ceil((to - from) / look)));
   const double a_little = 1e-9 * (to - from);
-  const double closest = options_.cones ? 1e-5 : 1e-12;
   const auto at = [&](int i) {
     return i == 0 ? from + a_little
                   : (i == n ? to - a_little : from + (to - from) * i / n);
@@ -312,7 +314,7 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
     while (next != bound) {  // several may follow one another
       double hi = at(i);
       int beyond = next;
-      for (int k = 0; k < 40 && hi - lo > closest; ++k) {
+      while (hi - lo > (bound < 0 || beyond < 0 ? closest_end : closest_kink)) {
         const double half = 0.5 * (lo + hi);
         const int there = ray(layer, edge, half).bound;
         if (there == bound) {
@@ -385,42 +387,30 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
   for (int i = 0; i < 20; ++i) {
     const double a = hi - golden * (hi - lo);
     const double b = lo + golden * (hi - lo);
-    (h_at(a) < h_at(b) ? lo : hi) = h_at(a) < h_at(b) ? a : b;
+    const bool rises = h_at(a) < h_at(b);
+    (rises ? lo : hi) = rises ? a : b;
   }
   peak_chip_ =
       std::max(peak_chip_, edge.sin_kappa * std::max(largest, h_at(0.5 * (lo + hi))));
 }
 
-void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi, double from,
-                        ToothLoads& out) const noexcept {
-  const double height = layer.to - from;
-  const double lag = std::abs(edge.q) * height;
+bool ArcTurn::at_one_angle(const Layer& layer, const Edge& edge) const noexcept {
+  return std::abs(edge.q) * (layer.to - layer.from) < shortest_lag;
+}
+
+ArcTurn::PerHeight ArcTurn::force_at_one_angle(const Layer& layer, const Edge& edge,
+                                               double theta) const noexcept {
+  const double h = ray(layer, edge, theta).h;
+  return h > 0 ? per_height(edge, h, theta) : PerHeight{};
+}
+
+template <std::size_t Q, class Use>
+void ArcTurn::for_each_window(const Layer& layer, const Edge& edge,
+                              std::array<double, 2> phi_and_from,
+                              const Use& use) const {
+  const auto [phi, from] = phi_and_from;
+  const double lag = std::abs(edge.q) * (layer.to - from);
   const double at_bottom = into_turn(phi - edge.behind - edge.q * (from - layer.from));
-  const double middle = from + 0.5 * height;
-  const auto add = [&](const PerHeight& F) {
-    out.x += F[0];
-    out.y += F[1];
-    out.z += F[2];
-    out.torque += F[3] * edge.R;
-  };
-  if (lag < shortest_lag) {
-    const double theta = into_turn(at_bottom - 0.5 * edge.q * height);
-    const double h = ray(layer, edge, theta).h;
-    if (!(h > 0)) return;
-    PerHeight F = per_height(edge, h, theta);
-    for (double& f : F) f *= height;
-    add(F);
-    out.axial_x += edge.R * std::sin(theta) * F[2];
-    out.axial_y += edge.R * std::cos(theta) * F[2];
-    for (std::size_t k = 0; options_.heights && k < 3; ++k) {
-      const auto n = static_cast<int>(k) + 2;
-      const double share = (std::pow(layer.to, n) - std::pow(from, n)) / (n * height);
-      out.moment_x[k] += share * F[0];
-      out.moment_y[k] += share * F[1];
-    }
-    return;
-  }
-  const double q = std::abs(edge.q);
   // The window of theta, from the top to the bottom of the layer, and its images.
   const double ahead = edge.q < 0 ? lag : 0.0;
   for (double bottom = at_bottom - (edge.q < 0 ? unit::turn : 0.0);
@@ -428,16 +418,46 @@ void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi, double
     const double first = std::max(bottom + ahead - lag, turn_start);
     const double last = std::min(bottom + ahead, turn_end);
     if (!(last > first)) continue;
-    Values v{};
-    edge.integral.add_to(v, last, 1.0);
-    edge.integral.add_to(v, first, -1.0);
-    add({v[0] / q, v[1] / q, v[2] / q, v[3] / q});  // N-7
-    if (!options_.heights) continue;
-    out.axial_x += edge.R * v[10] / q;
-    out.axial_y += edge.R * v[11] / q;
-    const double A = from + bottom / edge.q;  // z = A - theta/q
-    add_window_moments(v, {A, edge.q, middle, lag}, out);
+    std::array<double, Q> v{};
+    edge.integral.add_between(first, last, v);
+    use(v, bottom);
   }
+}
+
+void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi, double from,
+                        ToothLoads& out) const noexcept {
+  const double height = layer.to - from;
+  const double middle = from + 0.5 * height;
+  const auto add = [&](const PerHeight& F, double by) {
+    out.x += by * F[0];
+    out.y += by * F[1];
+    out.z += by * F[2];
+    out.torque += by * F[3] * edge.R;
+  };
+  if (at_one_angle(layer, edge)) {
+    const double theta = into_turn(phi - edge.behind - edge.q * (middle - layer.from));
+    const PerHeight F = force_at_one_angle(layer, edge, theta);
+    add(F, height);
+    out.axial_x += edge.R * std::sin(theta) * height * F[2];
+    out.axial_y += edge.R * std::cos(theta) * height * F[2];
+    for (std::size_t k = 0; options_.heights && k < 3; ++k) {
+      const auto n = static_cast<int>(k) + 2;
+      const double share = (std::pow(layer.to, n) - std::pow(from, n)) / n;
+      out.moment_x[k] += share * F[0];
+      out.moment_y[k] += share * F[1];
+    }
+    return;
+  }
+  const double q = std::abs(edge.q);
+  for_each_window<all_values>(
+      layer, edge, {phi, from}, [&](const Values& v, double bottom) {
+        add({v[0], v[1], v[2], v[3]}, 1 / q);  // N-7
+        if (!options_.heights) return;
+        out.axial_x += edge.R * v[10] / q;
+        out.axial_y += edge.R * v[11] / q;
+        const double A = from + bottom / edge.q;  // z = A - theta/q
+        add_window_moments(v, {A, edge.q, middle, q * height}, out);
+      });
 }
 
 ToothLoads ArcTurn::at(std::size_t tooth, double phi, double above) const noexcept {
@@ -445,6 +465,33 @@ ToothLoads ArcTurn::at(std::size_t tooth, double phi, double above) const noexce
   for (const Layer& layer : layers_) {
     if (layer.edges[tooth].place >= 0 && layer.to > above) {
       add_layer(layer, layer.edges[tooth], phi, std::max(layer.from, above), out);
+    }
+  }
+  return out;
+}
+
+std::vector<std::array<double, 4>> ArcTurn::forces_at(
+    std::size_t tooth, std::span<const double> phi) const {
+  std::vector<std::array<double, 4>> out(phi.size());
+  for (const Layer& layer : layers_) {
+    const Edge& edge = layer.edges[tooth];
+    if (edge.place < 0) continue;
+    const double height = layer.to - layer.from;
+    const bool at_one = at_one_angle(layer, edge);
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const auto add = [&](const PerHeight& F, double by) {
+        for (std::size_t k = 0; k < 3; ++k) out[i][k] += by * F[k];
+        out[i][3] += by * edge.R * F[3];
+      };
+      if (at_one) {
+        const double theta = into_turn(phi[i] - edge.behind - 0.5 * edge.q * height);
+        add(force_at_one_angle(layer, edge, theta), height);
+        continue;
+      }
+      for_each_window<4>(layer, edge, {phi[i], layer.from},
+                         [&](const PerHeight& v, double) {
+                           add(v, 1 / std::abs(edge.q));  // N-7
+                         });
     }
   }
   return out;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace trochoid::force {
@@ -60,6 +61,9 @@ class ArcTurn {
   /// @param above  height above the tip below which the edge does not count [m]
   [[nodiscard]] ToothLoads at(std::size_t tooth, double phi,
                               double above = 0.0) const noexcept;
+  /// F_x, F_y, F_z [N] and torque [N m] of one tooth at angles [rad].
+  [[nodiscard]] std::vector<std::array<double, 4>> forces_at(
+      std::size_t tooth, std::span<const double> phi) const;
   /// Mean loads over a turn, of all teeth, without moments over the height.
   [[nodiscard]] ToothLoads mean() const noexcept { return mean_; }
   /// Largest chip, across the edge [m].
@@ -74,7 +78,8 @@ class ArcTurn {
   using PerHeight = std::array<double, 4>;
   /// The same, theta to the power of 1, 2, 3 times F_x and F_y, and sin(theta),
   /// cos(theta) times F_z.
-  using Values = std::array<double, 12>;
+  static constexpr std::size_t all_values = 12;
+  using Values = std::array<double, all_values>;
   /// The edge of a tooth within a layer.
   struct Edge {
     int place = -1;        ///< among the teeth that are there; negative: it is not
@@ -87,7 +92,7 @@ class ArcTurn {
     double behind = 0.0;  ///< phi less the effective theta at the lower end [rad]
     double q = 0.0;       ///< d lag/dz [rad/m]; negative: left-hand
     std::vector<double> advance = {};  ///< N-18, for each mark [m]; empty: no fall
-    numerics::PiecewiseIntegral<12> integral;
+    numerics::PiecewiseIntegral<all_values> integral;
     std::vector<double> ends = {};  ///< of pieces, theta [rad]
 
     Edge();
@@ -119,9 +124,18 @@ class ArcTurn {
   void add_tooth(const Layer& layer, Edge& edge);
   void add_stretch(const Layer& layer, Edge& edge, double from, double to);
   void add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece);
+  /// Integrals over the windows of theta that a layer covers, from a height on.
+  /// @param use  use(integrals of the first Q of Values, theta of its lower end [rad])
+  template <std::size_t Q, class Use>
+  void for_each_window(const Layer& layer, const Edge& edge,
+                       std::array<double, 2> phi_and_from, const Use& use) const;
   /// @param from  height from which the edge counts [m]
   void add_layer(const Layer& layer, const Edge& edge, double phi, double from,
                  ToothLoads& out) const noexcept;
+  /// An edge without lag in its layer: all of it is at one theta.
+  [[nodiscard]] bool at_one_angle(const Layer& layer, const Edge& edge) const noexcept;
+  [[nodiscard]] PerHeight force_at_one_angle(const Layer& layer, const Edge& edge,
+                                             double theta) const noexcept;
 
   chip::Passage passage_;
   Options options_;

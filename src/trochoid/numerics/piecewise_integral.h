@@ -75,30 +75,19 @@ class PiecewiseIntegral {
     for (std::size_t q = 0; q < M; ++q) {
       out[q] += factor * turns * sum_[q];
     }
-    const double place = std::max(0.0, (u - start_) * per_bucket_);
-    std::size_t i =
-        buckets_[std::min(static_cast<std::size_t>(place), buckets_.size() - 1)];
-    while (i + 1 < panels_.size() && panels_[i].to <= u) {
-      ++i;
-    }
-    const Panel& panel = panels_[i];
-    if (panel.count == 0) {
-      for (std::size_t q = 0; q < M; ++q) {
-        out[q] += factor * panel.base[q];
-      }
-      return;
-    }
-    const double t = (u - panel.middle) * panel.per_half;
-    Values value = coefficients_[panel.first + panel_nodes];
-    for (std::size_t k = panel_nodes; k-- > 0;) {
-      const Values& c = coefficients_[panel.first + k];
-      for (std::size_t q = 0; q < M; ++q) {
-        value[q] = value[q] * t + c[q];
-      }
-    }
-    for (std::size_t q = 0; q < M; ++q) {
-      out[q] += factor * value[q];
-    }
+    add_up_to(panel_at(u), u, factor, out);
+  }
+
+  /// @brief Add the integral between two places of the first period, of the first Q
+  /// functions.
+  template <std::size_t Q>
+  void add_between(double from, double to, std::array<double, Q>& out) const noexcept {
+    static_assert(Q <= M);
+    const std::size_t a = panel_at(from);
+    const std::size_t b = panel_at(to);
+    if (a == b && panels_[a].count == 0) return;
+    add_up_to(b, to, 1.0, out);
+    add_up_to(a, from, -1.0, out);
   }
 
   /// @brief The same for linear combinations of the functions.
@@ -143,6 +132,42 @@ class PiecewiseIntegral {
     std::size_t count;  ///< of its coefficients; 0: nothing is integrated here
     Values base;        ///< integral up to its start
   };
+
+  /// The panel of a place of the first period.
+  [[nodiscard]] std::size_t panel_at(double u) const noexcept {
+    const double place = std::max(0.0, (u - start_) * per_bucket_);
+    std::size_t i =
+        buckets_[std::min(static_cast<std::size_t>(place), buckets_.size() - 1)];
+    while (i + 1 < panels_.size() && panels_[i].to <= u) {
+      ++i;
+    }
+    return i;
+  }
+
+  /// Add factor times the integral from the start of the first period to u in a panel.
+  template <std::size_t Q>
+  void add_up_to(std::size_t i, double u, double factor,
+                 std::array<double, Q>& out) const noexcept {
+    const Panel& panel = panels_[i];
+    if (panel.count == 0) {
+      for (std::size_t q = 0; q < Q; ++q) {
+        out[q] += factor * panel.base[q];
+      }
+      return;
+    }
+    const double t = (u - panel.middle) * panel.per_half;
+    std::array<double, Q> value;
+    std::copy_n(coefficients_[panel.first + panel_nodes].begin(), Q, value.begin());
+    for (std::size_t k = panel_nodes; k-- > 0;) {
+      const Values& c = coefficients_[panel.first + k];
+      for (std::size_t q = 0; q < Q; ++q) {
+        value[q] = value[q] * t + c[q];
+      }
+    }
+    for (std::size_t q = 0; q < Q; ++q) {
+      out[q] += factor * value[q];
+    }
+  }
 
   void add_air(double to) {
     const double from = panels_.empty() ? start_ : panels_.back().to;
