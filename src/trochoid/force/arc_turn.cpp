@@ -332,6 +332,23 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
   close(to);
 }
 
+namespace {
+
+/// Of a function with one maximum.
+template <class Function>
+double largest_between(const Function& f, double lo, double hi) {
+  constexpr double golden = 0.6180339887498949;
+  for (int i = 0; i < 20; ++i) {
+    const double a = hi - golden * (hi - lo);
+    const double b = lo + golden * (hi - lo);
+    const bool rises = f(a) < f(b);
+    (rises ? lo : hi) = rises ? a : b;
+  }
+  return f(0.5 * (lo + hi));
+}
+
+}  // namespace
+
 void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
   edge.ends.push_back(piece.from);
   edge.ends.push_back(piece.to);
@@ -381,17 +398,10 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
     peak_chip_ = std::max(peak_chip_, edge.sin_kappa * largest);
     return;
   }
-  constexpr double golden = 0.6180339887498949;
-  double lo = std::max(piece.from + inner, at_largest - 0.5 * look);
-  double hi = std::min(piece.to - inner, at_largest + 0.5 * look);
-  for (int i = 0; i < 20; ++i) {
-    const double a = hi - golden * (hi - lo);
-    const double b = lo + golden * (hi - lo);
-    const bool rises = h_at(a) < h_at(b);
-    (rises ? lo : hi) = rises ? a : b;
-  }
-  peak_chip_ =
-      std::max(peak_chip_, edge.sin_kappa * std::max(largest, h_at(0.5 * (lo + hi))));
+  const double largest_chip =
+      largest_between(h_at, std::max(piece.from + inner, at_largest - 0.5 * look),
+                      std::min(piece.to - inner, at_largest + 0.5 * look));
+  peak_chip_ = std::max(peak_chip_, edge.sin_kappa * std::max(largest, largest_chip));
 }
 
 bool ArcTurn::at_one_angle(const Layer& layer, const Edge& edge) const noexcept {
