@@ -131,8 +131,9 @@ Look::Look(const Job& job)
       kinks_(kinks(swept_.path())),
       lengths_(feed_lengths(swept_.path())) {
   // Volumes beside a field of heights, and surfaces left by tools that are not flat, are
-  // those of a map.
-  if (swept_.all_flat() && !std::holds_alternative<stock::HeightField>(job.stock)) {
+  // those of a map. In a crowd it finds the pieces that count.
+  if (swept_.all_flat() && !swept_.crowded() &&
+      !std::holds_alternative<stock::HeightField>(job.stock)) {
     return;
   }
   swept_.keep_map(job.options.cell > 0 ? job.options.cell : usual_cell(job.tools));

@@ -25,7 +25,7 @@ constexpr std::size_t batch = 8192;
 constexpr std::size_t most_turns = 20000;
 
 /// The same where a map of heights follows them: it stands at the first of them.
-constexpr std::size_t batch_with_map = 512;
+constexpr std::size_t batch_with_map = 128;
 
 /// Looks at steps and adds their forces.
 class Steps {
@@ -214,7 +214,9 @@ double volume_removed(const Job& job, Steps& steps) {
     const double R = swept.radius(static_cast<std::int16_t>(i));
     if (R > 0) smallest = std::min(smallest, R);
   }
-  return std::isfinite(smallest) ? stock::volume_removed(swept, smallest / 200) : 0.0;
+  constexpr std::size_t a_long_path = 5000;
+  const double lines = swept.path().pieces.size() > a_long_path ? 100.0 : 200.0;
+  return std::isfinite(smallest) ? stock::volume_removed(swept, smallest / lines) : 0.0;
 }
 
 /// Whether a rapid goes through stock: looked at every half radius.

@@ -210,18 +210,16 @@ void HeightMap::cut_arc(const Piece& piece, std::uint32_t index, const Wall& wal
 void HeightMap::add_near(double x, double y, double reach,
                          std::vector<std::uint32_t>& pieces) const {
   const double far = reach + 1.5 * std::max(cell_[0], cell_[1]);
-  const Range rows = range(y - far, y + far, 1);
-  const Range columns = range(x - far, x + far, 0);
   const auto begin = static_cast<std::ptrdiff_t>(pieces.size());
   std::uint32_t before = untouched;
+  const Range rows = range(y - far, y + far, 1);
   for (int i = rows.first; i <= rows.last; ++i) {
+    const double dy = center(i, 0)[1] - y;
+    const double half = std::sqrt(std::max(far * far - dy * dy, 0.0));
+    const Range columns = range(x - half, x + half, 0);
     for (int j = columns.first; j <= columns.last; ++j) {
       const std::uint32_t piece = piece_[at(i, j)];
-      const Point p = center(i, j);
-      if (piece == before || piece == untouched ||
-          std::hypot(p[0] - x, p[1] - y) > far) {
-        continue;
-      }
+      if (piece == before || piece == untouched) continue;
       pieces.push_back(piece);
       before = piece;
     }

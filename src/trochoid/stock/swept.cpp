@@ -14,6 +14,8 @@ namespace {
 constexpr double most_cells = 4e6;
 /// So few pieces are all looked at, whatever the map says.
 constexpr std::size_t few = 24;
+/// More pieces in a cell of the index, on the average, are a crowd.
+constexpr double many = 1500;
 
 double square(double x) noexcept {
   return x * x;
@@ -123,6 +125,7 @@ void Swept::fill() {
   };
   each([&](std::size_t cell, std::uint32_t) { ++first_[cell + 1]; });
   for (std::size_t i = 1; i < first_.size(); ++i) {
+    used_ += first_[i] > 0 ? 1U : 0U;
     first_[i] += first_[i - 1];
   }
   pieces_.resize(first_.back());
@@ -145,8 +148,8 @@ std::span<const std::uint32_t> Swept::in_cell(double x, double y) const noexcept
 std::vector<std::uint32_t> Swept::near(double x, double y, double turns,
                                        double reach) const {
   const std::span<const std::uint32_t> all = in_cell(x, y);
-  const bool by_map =
-      map_ && !all_flat_ && mapped_ > 0 && path_.pieces[mapped_ - 1].turns_to <= turns;
+  const bool by_map = map_ && (!all_flat_ || crowded()) && mapped_ > 0 &&
+                      path_.pieces[mapped_ - 1].turns_to <= turns;
   if (!by_map || all.size() <= few) return {all.begin(), all.end()};
   std::vector<std::uint32_t> out;
   map_->add_near(x, y, reach, out);
@@ -156,6 +159,10 @@ std::vector<std::uint32_t> Swept::near(double x, double y, double turns,
   });
   out.insert(out.end(), later, future);
   return out;
+}
+
+bool Swept::crowded() const noexcept {
+  return static_cast<double>(pieces_.size()) > many * static_cast<double>(used_);
 }
 
 void Swept::keep_map(double cell) {

@@ -45,8 +45,11 @@ class Swept {
   /// Whether all tools leave upright walls: then all pieces near a place are looked at.
   [[nodiscard]] bool all_flat() const noexcept { return all_flat_; }
 
+  /// @brief Whether so many pieces pass the same places that looking at all of them is slow.
+  [[nodiscard]] bool crowded() const noexcept;
+
   /// @brief Keep a map of heights: with it `near` names few pieces of a path that passes a
-  /// place many times, unless all tools are flat.
+  /// place many times, unless all tools are flat and it is not crowded.
   /// @param cell  of the map [m]
   void keep_map(double cell);
   /// @brief Bring the map, if one is kept, up to a moment.
@@ -76,6 +79,7 @@ class Swept {
   int rows_ = 0;
   std::vector<std::uint32_t> first_;  ///< shape (cells + 1)
   std::vector<std::uint32_t> pieces_;
+  std::size_t used_ = 0;  ///< cells of the index with a piece
   std::optional<HeightMap> map_;
   std::uint32_t mapped_ = 0;  ///< how many pieces are in the map
 };

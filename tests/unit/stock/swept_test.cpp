@@ -56,11 +56,33 @@ std::vector<Move> wild_moves(unsigned seed) {
   return moves;
 }
 
+/// Many short blocks, as CAM programs have them: to and fro, crossing one another.
+std::vector<Move> short_moves(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> bend(-0.35, 0.35);
+  std::uniform_real_distribution<double> length(1e-4, 8e-4);
+  std::vector<Move> moves{move(MoveKind::rapid, 0, 0, 0.001)};
+  double x = 0.01;
+  double y = 0.0;
+  double z = -0.002;
+  double angle = 1.0;
+  for (int i = 0; i < 400; ++i) {
+    angle += bend(random);
+    if (std::hypot(x, y) > 0.02) angle = std::atan2(-y, -x) + 2 * bend(random);
+    const double step = length(random);
+    x += step * std::cos(angle);
+    y += step * std::sin(angle);
+    if (i == 150) z = -0.003;
+    moves.push_back(move(MoveKind::line, x, y, z));
+  }
+  return moves;
+}
+
 /// Distance of a point at a height from all that was swept, by many places of the tip.
 bool swept_by_sampling(const Path& path, double R, double x, double y, double z,
                        double turns, double slack) {
   for (const Piece& piece : path.pieces) {
-    constexpr int n = 20000;
+    const int n = static_cast<int>(piece.length / 3e-6) + 10;
     for (int i = 0; i <= n; ++i) {
       const double u = static_cast<double>(i) / n;
       const double T = piece.turns_from + u * (piece.turns_to - piece.turns_from);
@@ -72,13 +94,14 @@ bool swept_by_sampling(const Path& path, double R, double x, double y, double z,
   return false;
 }
 
-TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
+/// Compares arcs at places with what sampling tells; how often.
+int compare_arcs(std::vector<Move> (*moves)(unsigned seed), double across) {
   constexpr double R = 5e-3;
   int looked = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
-    const Swept swept(stock::path(wild_moves(seed), 0.1), box, {Wall::upright(R)});
+    const Swept swept(stock::path(moves(seed), 0.1), box, {Wall::upright(R)});
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> place(-0.03, 0.03);
+    std::uniform_real_distribution<double> place(-across, across);
     for (int k = 0; k < 3; ++k) {
       const auto last = static_cast<std::uint32_t>(swept.path().pieces.size() - 1);
       const Place at{.tip = {place(random), place(random), -0.003},
@@ -110,7 +133,15 @@ TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
       }
     }
   }
-  EXPECT_GT(looked, 400);
+  return looked;
+}
+
+TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
+  EXPECT_GT(compare_arcs(wild_moves, 0.03), 400);
+}
+
+TEST(Swept, ArcsBesideManyShortBlocksAreTheseToo) {  // [N-3]
+  EXPECT_GT(compare_arcs(short_moves, 0.02), 400);
 }
 
 TEST(Swept, ACircleOnTheAxisOfAnOldSlotOfItsOwnMeetsNothing) {  // [N-3]
