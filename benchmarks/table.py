@@ -41,8 +41,9 @@ def main(program, which):
     print("|---|---|---|---|---|")
     for name, (ns, one) in sorted(found.items()):
         sample = one.get("per_sample")
+        turn = f"{time_text(ns / one['turns'])} a turn" if "turns" in one else ""
         cells = [name, time_text(ns),
-                 time_text(1e9 * sample) if sample else "",
+                 time_text(1e9 * sample) if sample else turn,
                  f"{one['error']:.1e}" if "error" in one else "",
                  f"{textbook / sample:.0f}" if sample else ""]
         print("| " + " | ".join(cells) + " |")

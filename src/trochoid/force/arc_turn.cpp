@@ -28,9 +28,11 @@ constexpr double slab_lag = 0.05;
 /// The same where layers are cones, and the part of a wave that is one.
 constexpr double cone_lag = 0.3;
 constexpr double part_of_wave = 1.0 / 24;
-/// How exactly the end of a chip is found, and where another mark bounds it [rad].
-constexpr double closest_end = 1e-7;
-constexpr double closest_kink = 1e-5;
+/// How exactly the end of a chip is found, on cones too, and where another mark bounds
+/// it [rad].
+constexpr double closest_end = 1e-6;
+constexpr double closest_end_of_cone = 1e-5;
+constexpr double closest_kink = 1e-4;
 /// Longest panel [rad].
 constexpr double longest_arc_panel = 0.8;
 constexpr double arc_tolerance = 1e-7;
@@ -300,6 +302,7 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
     return i == 0 ? from + a_little
                   : (i == n ? to - a_little : from + (to - from) * i / n);
   };
+  const double closest = options_.cones ? closest_end_of_cone : closest_end;
   double start = from;
   int bound = ray(layer, edge, at(0)).bound;
   const auto close = [&](double end) {
@@ -314,7 +317,7 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
     while (next != bound) {  // several may follow one another
       double hi = at(i);
       int beyond = next;
-      while (hi - lo > (bound < 0 || beyond < 0 ? closest_end : closest_kink)) {
+      while (hi - lo > (bound < 0 || beyond < 0 ? closest : closest_kink)) {
         const double half = 0.5 * (lo + hi);
         const int there = ray(layer, edge, half).bound;
         if (there == bound) {
@@ -338,7 +341,7 @@ namespace {
 template <class Function>
 double largest_between(const Function& f, double lo, double hi) {
   constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const double a = hi - golden * (hi - lo);
     const double b = lo + golden * (hi - lo);
     const bool rises = f(a) < f(b);
