@@ -231,14 +231,19 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   settle_turns(t, in_time, findings);
   check_sampling(t.sampling, findings);
   c.sampling = t.sampling;
-  const bool to_fit = purpose == Command::identify || !t.measurements.empty();
+  const bool of_program = purpose == Command::program;
+  const bool to_fit =
+      purpose == Command::identify || (!t.measurements.empty() && !of_program);
   c.law = law_of(t.force, to_fit || purpose == Command::calibrate);
   if (t.dynamometer) {
     c.dynamometer = dynamometer_of(*t.dynamometer, findings);
   }
   for (std::size_t i = 0; i < t.measurements.size(); ++i) {
-    c.measurements.push_back(
-        measurement_of(t.measurements[i], i + 1, c.setup.cutter, findings));
+    c.measurements.push_back(measurement_of(t.measurements[i], i + 1, findings));
+    if (of_program) continue;  // the program is the cut
+    c.measurements.back().cut =
+        cut_of(t.measurements[i].cut, fmt::format("measurement[{}].cut", i + 1),
+               c.setup.cutter, findings);
   }
   if ((to_fit || purpose == Command::plan) && !t.identify) {
     t.identify.emplace();

@@ -42,9 +42,10 @@ void settle_serrated_models(CaseTables& tables, Findings& findings);
 
 Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings);
 
+/// @brief What is measured, without its cut.
 /// @param number  1, 2 ... of the [[measurement]]
 Measurement measurement_of(MeasurementTable& table, std::size_t number,
-                           const geometry::Cutter& cutter, Findings& findings);
+                           Findings& findings);
 
 Identify identify_of(const IdentifyTable& table, const CaseTables& tables,
                      Findings& findings);

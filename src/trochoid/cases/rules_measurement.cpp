@@ -179,7 +179,7 @@ Dynamometer dynamometer_of(DynamometerTable& table, Findings& findings) {
 }
 
 Measurement measurement_of(MeasurementTable& table, std::size_t number,
-                           const geometry::Cutter& cutter, Findings& findings) {
+                           Findings& findings) {
   const std::string path = fmt::format("measurement[{}]", number);
   const files::RecordSource& source = table.source;
   Measurement m{.source = source,
@@ -187,8 +187,7 @@ Measurement measurement_of(MeasurementTable& table, std::size_t number,
                 .to = table.to,
                 .mean = table.mean,
                 .mean_sd = table.mean_sd,
-                .group = table.group,
-                .cut = cut_of(table.cut, path + ".cut", cutter, findings)};
+                .group = table.group};
   if (std::any_of(table.group.begin(), table.group.end(),
                   [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
     report(findings, path + ".group",

@@ -165,6 +165,22 @@ void check_power_curve(const Pairs& curve, Findings& findings) {
   }
 }
 
+/// A record made while the program ran.
+void check_record(const CaseTables& tables, Findings& findings) {
+  if (tables.measurements.size() > 1) {
+    report(findings, "measurement[2]",
+           "[[measurement]]: a program takes one record, made while it ran");
+  }
+  const bool automatic = tables.dynamometer &&
+                         tables.dynamometer->axes == std::vector<std::string>{"auto"};
+  if (!tables.measurements.empty() && automatic) {
+    report(
+        findings, "dynamometer.axes",
+        "dynamometer.axes = \"auto\": identify finds axes, program does not; must be "
+        "three names, as in [\"-x\", \"-y\", \"-z\"]");
+  }
+}
+
 void check_feed(const FeedRules& feed, const ProgramTables& nc, Findings& findings) {
   if (feed.factor.size() == 2 && sound(findings, {"feed.factor"})) {
     check_order("feed.factor", feed.factor[0], feed.factor[1],
@@ -187,7 +203,10 @@ void check_feed(const FeedRules& feed, const ProgramTables& nc, Findings& findin
 
 void check_program(CaseTables& tables, Findings& findings) {
   ProgramTables& nc = tables.nc;
-  if (nc.program) check_program_table(*nc.program, findings);
+  if (nc.program) {
+    check_program_table(*nc.program, findings);
+    check_record(tables, findings);
+  }
   if (nc.stock) check_stock(*nc.stock, findings);
   if (nc.limits && nc.limits->chip.size() == 2 && sound(findings, {"limits.chip_mm"})) {
     check_order("limits.chip_mm", nc.limits->chip[0], nc.limits->chip[1],

@@ -12,21 +12,35 @@ namespace trochoid::results {
 
 namespace {
 
-constexpr auto names = std::to_array<std::string_view>(
-    {"case.toml",         "summary.json",   "report.html",       "material.toml",
-     "forces.csv",        "chip.csv",       "chip_curve.csv",    "edges.csv",
-     "floor.csv",         "fitted.csv",     "channels.csv",      "residual.csv",
-     "sweep.csv",         "sweep.h5",       "bands.csv",         "folded.csv",
-     "surface.csv",       "deflection.csv", "influence.csv",     "motion.csv",
-     "lobes.csv",         "limit.csv",      "zeroth_order.csv",  "multi_frequency.csv",
-     "stabilisation.csv", "response.csv",   "command.csv",       "bent.csv",
-     "modes.toml",        "actuator.toml",  "once_per_turn.csv", "surface_location.csv",
-     "speeds.csv",        "spindle.csv",    "spectrum.csv",      "estimator.csv",
-     "command.h",         "controller.csv", "plan.csv",          "moves.csv",
-     "steps.csv",         "arcs.csv",       "lines.csv",         "feeds.csv",
-     "places.csv",        "place_arcs.csv", "error_map.csv",     "overview.csv",
-     "passes.csv",        "wall_loads.csv", "fitted_xx.csv",     "fitted_xy.csv",
-     "fitted_yx.csv",     "fitted_yy.csv"});
+constexpr auto names =
+    std::to_array<std::string_view>({"case.toml",          "summary.json",
+                                     "report.html",        "material.toml",
+                                     "forces.csv",         "chip.csv",
+                                     "chip_curve.csv",     "edges.csv",
+                                     "floor.csv",          "fitted.csv",
+                                     "channels.csv",       "residual.csv",
+                                     "sweep.csv",          "sweep.h5",
+                                     "bands.csv",          "folded.csv",
+                                     "surface.csv",        "deflection.csv",
+                                     "influence.csv",      "motion.csv",
+                                     "lobes.csv",          "limit.csv",
+                                     "zeroth_order.csv",   "multi_frequency.csv",
+                                     "stabilisation.csv",  "response.csv",
+                                     "command.csv",        "bent.csv",
+                                     "modes.toml",         "actuator.toml",
+                                     "once_per_turn.csv",  "surface_location.csv",
+                                     "speeds.csv",         "spindle.csv",
+                                     "spectrum.csv",       "estimator.csv",
+                                     "command.h",          "controller.csv",
+                                     "plan.csv",           "moves.csv",
+                                     "steps.csv",          "arcs.csv",
+                                     "lines.csv",          "feeds.csv",
+                                     "measured_steps.csv", "places.csv",
+                                     "place_arcs.csv",     "error_map.csv",
+                                     "overview.csv",       "passes.csv",
+                                     "wall_loads.csv",     "fitted_xx.csv",
+                                     "fitted_xy.csv",      "fitted_yx.csv",
+                                     "fitted_yy.csv"});
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

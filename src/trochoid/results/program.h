@@ -2,6 +2,7 @@
 
 #include <trochoid/engagement/chatter.h>
 #include <trochoid/engagement/feed.h>
+#include <trochoid/engagement/record.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/engagement/walls.h>
 #include <trochoid/program/move.h>
@@ -65,6 +66,29 @@ struct ProgramChatter {
   std::vector<ChatteringLine> lines;             ///< ascending
 };
 
+/// A coefficient as a record of the program tells it.
+struct RecordCoefficient {
+  std::string_view key;      ///< of [force]
+  double unit = 1.0;         ///< of the key
+  double stated = 0.0;       ///< by the case [SI]
+  double found = 0.0;        ///< [SI]; as stated where it is not told
+  std::optional<double> se;  ///< [SI]; nothing: the record does not tell it
+};
+
+/// A record made while the program ran, and what it says.
+struct ProgramRecord {
+  std::string file;
+  engagement::Alignment alignment;
+  engagement::RecordedSteps recorded;
+  std::size_t covered = 0;  ///< rows in cut that the record has
+  double mean_ratio = 0.0;  ///< of the measured to the computed mean force
+  double peak_ratio = 0.0;  ///< the same of the largest force of a turn
+  double factor = 2.0;      ///< of the 95 % intervals
+  std::size_t fitted_steps = 0;
+  double rms = 0.0;                             ///< that the fit leaves [N]
+  std::vector<RecordCoefficient> coefficients;  ///< empty: too few steady steps
+};
+
 /// A wall that a line leaves.
 struct LineWall {
   std::uint32_t line = 0;
@@ -113,6 +137,7 @@ struct ProgramForces {
   std::vector<std::string> texts;         ///< of the lines of the summary
   std::optional<NewFeeds> feed;           ///< nothing: the case has no [feed]
   std::optional<ProgramChatter> chatter;  ///< nothing: the case has no [[mode]]
+  std::optional<ProgramRecord> record;    ///< nothing: the case has no [[measurement]]
   std::optional<ProgramWalls> walls;      ///< nothing: no tool has a [cutter_body]
 };
 

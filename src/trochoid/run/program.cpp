@@ -454,6 +454,8 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   r.forces = forces_of(job, given, progress);
   r.forces->chatter =
       chatter_of(r.forces->steps, tools.tools, tools.vibrations, progress, stop);
+  r.forces->record =
+      record_of(job, given, tools.own, r.forces->steps, r.heading.warnings);
   r.forces->walls = walls_of(job, r.forces->steps, progress);
   r.forces->errors =
       peak_errors(job, given, tools.own, r.forces->summary.totals, r.heading.warnings);

@@ -45,6 +45,18 @@ std::optional<results::ProgramWalls> walls_of(const engagement::Job& job,
                                               std::span<const engagement::Step> steps,
                                               const Progress& progress);
 
+/// @brief The record of [[measurement]] laid over a program, and the coefficients of the
+/// tool of the case from it.
+/// @param own    places of the tools of the job that are the tool of this case
+/// @param steps  rows, in their order
+/// @return nothing where there is none, or it is of something else
+/// @throws base::InputError where it cannot be read, or has no times or too few channels
+std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
+                                                const cases::Case& given,
+                                                std::span<const std::size_t> own,
+                                                std::span<const engagement::Step> steps,
+                                                std::vector<base::Warning>& warnings);
+
 /// What vibrates with a tool, from its case.
 engagement::Vibration vibration_of(const cases::Case& given);
 

@@ -582,15 +582,17 @@ std::vector<identification::ChannelRun> channels_of(
 
 std::string describe_record(const signal::Record& record,
                             const cases::Measurement& measurement) {
-  std::string text =
-      fmt::format("{}: {} samples, {}, {}\n", record.file, record.size(),
-                  duration_text(record), revolutions_text(record, measurement.cut));
-  text += axis_text(record);
+  if (!(measurement.cut.Omega > 0)) {  // of a whole program: it has no one speed
+    return fmt::format("{}: {} samples, {}\n{}{}", record.file, record.size(),
+                       duration_text(record), axis_text(record),
+                       channels_text(record, measurement.source));
+  }
+  std::string text = fmt::format(
+      "{}: {} samples, {}, {}\n{}", record.file, record.size(), duration_text(record),
+      revolutions_text(record, measurement.cut), axis_text(record));
   const auto [angle, passes] = told_apart(record, measurement.cut);
   const UsedPart used = used_part(record, angle, passes, measurement);
-  if (!used.why.empty()) {
-    text += "  " + used.why + "\n";
-  }
+  if (!used.why.empty()) text += "  " + used.why + "\n";
   return text + channels_text(record, measurement.source);
 }
 

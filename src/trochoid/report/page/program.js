@@ -1,7 +1,7 @@
 // The page of `program`: the path from above in the colours of what loads the tool, its lines.
 
 const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken', 'feed',
-  'chatter', 'walls'];
+  'chatter', 'walls', 'record'];
 const worstShown = 12;
 /** Columns of steps.csv that the path can show: key, name, label. */
 const pathViews = [['peak_xy_N', 'force', 'largest force across the tool [N]'],
@@ -20,6 +20,7 @@ function programPage(report) {
     pathSection(report),
     { part: worstLines(report) },
     overTime(report),
+    result.record ? recordSection(report, result.record) : { part: null },
     { part: result.feed ? feedSection(report, result.feed) : null },
     { part: result.chatter?.lines.length ? chatterSection(result.chatter.lines) : null },
     { part: result.walls?.lines.length ? wallSection(result.walls.lines) : null },
@@ -133,6 +134,29 @@ function overTime(report) {
     series: [{ name: label, values: columnNamed(t, name), color: seriesColor(color) }] });
   return { part, draw: () => chart.draw([panel('largest force across', 'peak_xy_N', 'N', 0),
     panel('largest torque', 'torque_peak_Nm', 'N m', 1)]) };
+}
+
+/** The record beside what was computed, and the coefficients that it tells. */
+function recordSection(report, record) {
+  const t = tableNamed(report, 'measured_steps.csv');
+  const time = columnNamed(t, 'time_s');
+  const drawn = t?.drawn && time?.length > 2;
+  const chart = drawn ? figure({ key: 'record', x: time, label: 'time of the program', unit: 's',
+    caption: zoomHint + thinned(t) }) : null;
+  const rows = record.coefficients.map((one) => [el('code', {}, one.key), number(one.stated, 4),
+    isNumber(one.found) ? number(one.found, 4) : 'not told',
+    isNumber(one.found) ? `± ${fixed(one.high - one.found, 2)}` : '']);
+  const part = section('record', 'The record over the program', 'Record',
+    prose(`The program starts at ${number(record.start_s, 4)} s of the record. Over ${number(record.steps)} turns in cut the ` +
+      `measured mean force is ${fixed(record.mean_ratio, 3)} of the computed one, the largest force ${fixed(record.peak_ratio, 3)}.`),
+    chart?.element, rows.length ? prose(`Coefficients from the mean forces of ${number(record.fitted_steps)} steady turns. ` +
+      'The intervals are those of 95 %.') : null,
+    rows.length ? table(['coefficient', 'stated', 'found', 'interval'], rows) : null);
+  const panel = (label, name, unit) => ({ label, unit, height: 180, series: [
+    { name: 'measured', values: columnNamed(t, name), color: seriesColor(1) },
+    { name: 'computed', values: columnNamed(t, `computed_${name}`), color: seriesColor(0) }] });
+  return { part, draw: () => chart?.draw([panel('largest force across', 'peak_xy_N', 'N'), panel('mean force in x', 'Fx_mean_N', 'N'),
+    panel('mean force in y', 'Fy_mean_N', 'N')]) };
 }
 
 /** What the new feeds change, and what holds them for most of the time. */

@@ -1,0 +1,488 @@
+#include <trochoid/engagement/record.h>
+
+#include <trochoid/base/units.h>
+#include <trochoid/engagement/look.h>
+#include <trochoid/engagement/turn.h>
+#include <trochoid/numerics/least_squares.h>
+#include <trochoid/numerics/parallel.h>
+#include <trochoid/numerics/student.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+namespace trochoid::engagement {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// Bins of the program in which a first place of the record is looked for.
+constexpr std::size_t most_bins = 2048;
+/// Rows that are compared when the place is found exactly.
+constexpr std::size_t most_compared = 4000;
+/// Parts of the program that are laid over the record each by itself.
+constexpr int parts = 6;
+/// Steps that a fit takes at most, and needs at least for each unknown.
+constexpr std::size_t most_fitted = 2000;
+constexpr std::size_t fitted_each = 6;
+constexpr std::size_t most_blocks = 30;
+/// A step is steady if its neighbours have the same force but for this part.
+constexpr double steady = 0.15;
+/// Less air tells no offset [s].
+constexpr double least_air = 0.05;
+constexpr double rank_tolerance = 3e-3;
+
+/// Mean forces of a record over any of its stretches.
+class Means {
+ public:
+  explicit Means(const Recorded& record) : record_(record) {
+    sums_.resize(record.force.size() + 1);
+    for (std::size_t i = 0; i < record.force.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        sums_[i + 1][c] = sums_[i][c] + record.force[i][c];
+      }
+    }
+  }
+
+  struct Samples {
+    std::size_t from, to;
+  };
+  [[nodiscard]] Samples within(double from, double to) const noexcept {
+    const auto& t = record_.time;
+    const auto at = [&](double x) {
+      return static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), x) -
+                                      t.begin());
+    };
+    return {at(from), at(to)};
+  }
+
+  [[nodiscard]] std::optional<Vector> mean(double from, double to) const noexcept {
+    const auto [a, b] = within(from, to);
+    if (b <= a) return std::nullopt;
+    Vector out{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      out[c] = (sums_[b][c] - sums_[a][c]) / static_cast<double>(b - a);
+    }
+    return out;
+  }
+
+ private:
+  const Recorded& record_;
+  std::vector<Vector> sums_;
+};
+
+/// Weighted correlation of vectors, each component about its own mean.
+class Correlation {
+ public:
+  void add(const Vector& a, const Vector& b, double weight) noexcept {
+    weight_ += weight;
+    for (std::size_t c = 0; c < 3; ++c) {
+      a_[c] += weight * a[c];
+      b_[c] += weight * b[c];
+      aa_ += weight * a[c] * a[c];
+      bb_ += weight * b[c] * b[c];
+      ab_ += weight * a[c] * b[c];
+    }
+  }
+  [[nodiscard]] double weight() const noexcept { return weight_; }
+  [[nodiscard]] double value() const noexcept {
+    if (!(weight_ > 0)) return 0.0;
+    double aa = aa_;
+    double bb = bb_;
+    double ab = ab_;
+    for (std::size_t c = 0; c < 3; ++c) {
+      aa -= a_[c] * a_[c] / weight_;
+      bb -= b_[c] * b_[c] / weight_;
+      ab -= a_[c] * b_[c] / weight_;
+    }
+    return aa > 1e-12 * aa_ && bb > 1e-12 * bb_ ? ab / std::sqrt(aa * bb) : 0.0;
+  }
+
+ private:
+  double weight_ = 0.0;
+  Vector a_{}, b_{};
+  double aa_ = 0.0, bb_ = 0.0, ab_ = 0.0;
+};
+
+/// Mean forces in bins of time.
+std::vector<Vector> computed_bins(std::span<const Step> steps, double bin,
+                                  std::size_t count) {
+  std::vector<Vector> out(count);
+  for (const Step& step : steps) {
+    const double from = step.time - 0.5 * step.duration;
+    const double to = from + step.duration;
+    const auto first = static_cast<std::size_t>(std::max(0.0, from / bin));
+    for (std::size_t k = first; k < count && static_cast<double>(k) * bin < to; ++k) {
+      const double share = std::min(to, static_cast<double>(k + 1) * bin) -
+                           std::max(from, static_cast<double>(k) * bin);
+      for (std::size_t c = 0; c < 3; ++c) {
+        out[k][c] += std::max(share, 0.0) / bin * step.forces.mean[c];
+      }
+    }
+  }
+  return out;
+}
+
+double turn_time(std::span<const Step> steps) {
+  double longest = 0.0;
+  for (const Step& step : steps) {
+    if (step.a_p > 0 && step.turns > 0) {
+      longest = std::max(longest, step.duration / step.turns);
+    }
+  }
+  return longest;
+}
+
+/// A first place: every bin of the record is tried as the start.
+std::optional<double> coarse_start(std::span<const Step> steps, const Recorded& record,
+                                   const Means& means, double bin) {
+  const double end = steps.back().time + 0.5 * steps.back().duration;
+  const auto count = static_cast<std::size_t>(end / bin) + 1;
+  const std::vector<Vector> computed = computed_bins(steps, bin, count);
+  const double zero = record.time.front();
+  const auto there = static_cast<std::size_t>((record.time.back() - zero) / bin);
+  std::vector<Vector> measured(there);
+  for (std::size_t k = 0; k < there; ++k) {
+    const double from = zero + static_cast<double>(k) * bin;
+    measured[k] = means.mean(from, from + bin).value_or(Vector{});
+  }
+  const std::size_t least = std::min(count, there) * 6 / 10;
+  const auto lags = static_cast<std::ptrdiff_t>(count + there);
+  std::vector<double> found(static_cast<std::size_t>(lags), -1.0);
+  numerics::for_each_index(
+      found.size(),
+      [&](std::size_t i) {
+        const std::ptrdiff_t lag =
+            static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(count);
+        const std::size_t from = lag < 0 ? static_cast<std::size_t>(-lag) : 0;
+        Correlation sum;
+        for (std::size_t k = from; k < count; ++k) {
+          const auto m = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + lag);
+          if (m >= there) break;
+          sum.add(computed[k], measured[m], 1.0);
+        }
+        if (sum.weight() >= static_cast<double>(std::max<std::size_t>(least, 8))) {
+          found[i] = sum.value();
+        }
+      },
+      16);
+  const auto best = std::ranges::max_element(found);
+  if (best == found.end() || !(*best > 0)) return std::nullopt;
+  const auto lag =
+      static_cast<double>(best - found.begin()) - static_cast<double>(count);
+  return zero + lag * bin;
+}
+
+/// How well rows agree with the record at a place.
+double agreement(std::span<const Step* const> rows, const Means& means, double start,
+                 double stretch) {
+  Correlation sum;
+  for (const Step* row : rows) {
+    const double middle = start + stretch * row->time;
+    const double half = 0.5 * stretch * row->duration;
+    if (const auto mean = means.mean(middle - half, middle + half)) {
+      sum.add(row->forces.mean, *mean, row->duration);
+    }
+  }
+  return sum.value();
+}
+
+/// The start at which rows agree best, looked for about a place and finer and finer.
+double best_start(std::span<const Step* const> rows, const Means& means, double about,
+                  double reach, double stretch) {
+  constexpr int tries = 20;
+  double best = about;
+  for (int round = 0; round < 4; ++round) {
+    double most = -2.0;
+    const double center = best;
+    for (int i = -tries; i <= tries; ++i) {
+      const double start = center + reach * i / tries;
+      const double value = agreement(rows, means, start, stretch);
+      if (value > most) {
+        most = value;
+        best = start;
+      }
+    }
+    reach *= 2.0 / tries;
+  }
+  return best;
+}
+
+/// Rows evenly taken.
+std::vector<const Step*> some_of(std::span<const Step> steps, std::size_t most) {
+  std::vector<const Step*> out;
+  const std::size_t every = std::max<std::size_t>(1, steps.size() / most);
+  for (std::size_t i = 0; i < steps.size(); i += every) out.push_back(&steps[i]);
+  return out;
+}
+
+/// A line through the starts of the parts of the program.
+void stretch_over_parts(std::span<const Step* const> rows, const Means& means,
+                        double reach, Alignment& out) {
+  std::vector<double> at;
+  std::vector<double> start;
+  for (int p = 0; p < parts; ++p) {
+    const std::size_t n = rows.size();
+    const auto part = rows.subspan(n * static_cast<std::size_t>(p) / parts,
+                                   n * static_cast<std::size_t>(p + 1) / parts -
+                                       n * static_cast<std::size_t>(p) / parts);
+    if (part.size() < 10) continue;
+    const double found = best_start(part, means, out.start, reach, 1.0);
+    if (agreement(part, means, found, 1.0) < 0.7) continue;
+    at.push_back(0.5 * (part.front()->time + part.back()->time));
+    start.push_back(found);
+  }
+  if (at.size() < 3) return;
+  const auto n = static_cast<double>(at.size());
+  const double mean_t = std::accumulate(at.begin(), at.end(), 0.0) / n;
+  const double mean_s = std::accumulate(start.begin(), start.end(), 0.0) / n;
+  double tt = 0.0;
+  double ts = 0.0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    tt += (at[i] - mean_t) * (at[i] - mean_t);
+    ts += (at[i] - mean_t) * (start[i] - mean_s);
+  }
+  if (!(tt > 0)) return;
+  const double slope = ts / tt;
+  const double from = mean_s - slope * mean_t;
+  if (agreement(rows, means, from, 1 + slope) >
+      agreement(rows, means, out.start, 1.0)) {
+    out.start = from;
+    out.stretch = 1 + slope;
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double off = start[i] - (out.start + (out.stretch - 1) * at[i]);
+    sum += off * off;
+  }
+  out.scatter = std::sqrt(sum / n);
+}
+
+/// Means over a turn for a unit of each coefficient, in the axes of the program.
+std::vector<Vector> unit_means(const Found& found, const Tool& tool) {
+  const std::size_t n = force::coefficients(tool.law).size();
+  std::vector<Vector> out;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> unit(n);
+    unit[k] = 1.0;
+    Tool one = tool;
+    one.law = force::with_coefficients(tool.law, unit);
+    one.body.reset();
+    one.gauge_length = 0.0;
+    const TurnForces forces = in_program(
+        loads_of(found.turn, one),
+        std::isfinite(found.step.direction) ? found.step.direction : 0.0, 1.0);
+    out.push_back(forces.mean);
+  }
+  return out;
+}
+
+bool is_alike(const Step& a, const Step& b) noexcept {
+  double difference = 0.0;
+  double size = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    difference = std::max(difference, std::abs(a.forces.mean[c] - b.forces.mean[c]));
+    size = std::max(size, std::abs(a.forces.mean[c]));
+  }
+  return difference <= steady * size;
+}
+
+/// Places of steady steps of a tool that the record has.
+std::vector<std::size_t> steady_steps(std::span<const Step> steps,
+                                      const RecordedSteps& recorded, std::size_t tool) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
+    const Step& step = steps[i];
+    const bool bottom = step.cause == Cause::plunge || step.cause == Cause::ramp;
+    const std::size_t own = step.tool < 0 ? 0 : static_cast<std::size_t>(step.tool);
+    if (own == tool && step.a_p > 0 && !bottom && step.flags == 0 &&
+        recorded.steps[i].there && is_alike(step, steps[i - 1]) &&
+        is_alike(step, steps[i + 1])) {
+      all.push_back(i);
+    }
+  }
+  std::vector<std::size_t> out;
+  const std::size_t every = std::max<std::size_t>(1, all.size() / most_fitted);
+  for (std::size_t k = 0; k < all.size(); k += every) out.push_back(all[k]);
+  return out;
+}
+
+/// A linear fit of mean forces, rows three a step.
+struct Linear {
+  std::vector<double> A;  ///< row-major
+  std::vector<double> b;
+  std::size_t columns = 0;
+};
+
+/// Cov of N-24, from blocks of rows.
+std::vector<double> block_variances(const Linear& fit,
+                                    const numerics::LeastSquares& found,
+                                    std::size_t blocks) {
+  const std::size_t n = fit.columns;
+  const std::size_t rows = fit.b.size();
+  std::vector<double> meat(n * n);
+  for (std::size_t k = 0; k < blocks; ++k) {
+    std::vector<double> s(n);
+    for (std::size_t i = rows / 3 * k / blocks * 3; i < rows / 3 * (k + 1) / blocks * 3;
+         ++i) {
+      for (std::size_t c = 0; c < n; ++c) s[c] += fit.A[i * n + c] * found.residual[i];
+    }
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t c = 0; c < n; ++c) meat[a * n + c] += s[a] * s[c];
+    }
+  }
+  const double more = static_cast<double>(blocks) / static_cast<double>(blocks - n);
+  std::vector<double> out(n);
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t c = 0; c < n; ++c) {
+      for (std::size_t d = 0; d < n; ++d) {
+        out[a] += more * found.inverse_gram[a * n + c] * meat[c * n + d] *
+                  found.inverse_gram[d * n + a];
+      }
+    }
+  }
+  return out;
+}
+
+/// Columns of the unknowns of a fit: coefficients that are free, then offsets.
+Linear linear_of(const std::vector<std::vector<Vector>>& unit,
+                 std::span<const std::size_t> places, const RecordedSteps& recorded,
+                 std::span<const double> K, std::size_t free) {
+  Linear out;
+  const std::size_t offsets = recorded.idle.found ? 0 : 3;
+  out.columns = free + offsets;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      double known = 0.0;
+      for (std::size_t k = 0; k < K.size(); ++k) {
+        if (k < free) {
+          out.A.push_back(unit[i][k][c]);
+        } else {
+          known += K[k] * unit[i][k][c];
+        }
+      }
+      for (std::size_t o = 0; o < offsets; ++o) out.A.push_back(o == c ? 1.0 : 0.0);
+      out.b.push_back(recorded.steps[places[i]].mean[c] - known);
+    }
+  }
+  return out;
+}
+
+/// Looks at steps again for the stock around them, ascending.
+std::vector<Found> looked_at(const Job& job, std::span<const Step> steps,
+                             std::span<const std::size_t> places) {
+  Look look(job);
+  const stock::Path& path = look.path();
+  std::vector<Found> out;
+  std::uint32_t piece = 0;
+  std::int64_t first = 0;
+  std::int64_t count = 0;
+  for (const std::size_t i : places) {
+    for (; piece < path.pieces.size(); ++piece) {
+      count = count_of(path.pieces[piece], job.options.step_turns);
+      if (steps[i].step < first + count) break;
+      first += count;
+    }
+    const Ask ask = ask_of(path, piece, steps[i].step - first, count);
+    look.sweep_to(look.turns_of(ask) - 1);
+    out.push_back(look.at(ask));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<Alignment> align(std::span<const Step> steps, const Recorded& record) {
+  const double turn = turn_time(steps);
+  if (steps.empty() || record.time.size() < 2 || !(turn > 0) ||
+      record.time.back() - record.time.front() < 10 * turn) {
+    return std::nullopt;
+  }
+  const Means means(record);
+  const double end = steps.back().time + 0.5 * steps.back().duration;
+  const double bin = std::max(turn, end / most_bins);
+  const auto start = coarse_start(steps, record, means, bin);
+  if (!start) return std::nullopt;
+  const std::vector<const Step*> rows = some_of(steps, most_compared);
+  Alignment out;
+  out.start = best_start(rows, means, *start, 1.5 * bin, 1.0);
+  stretch_over_parts(rows, means, std::max(3 * bin, 0.02 * end), out);
+  out.correlation = agreement(rows, means, out.start, out.stretch);
+  return out;
+}
+
+RecordedSteps over_steps(std::span<const Step> steps, const Recorded& record,
+                         const Alignment& alignment) {
+  RecordedSteps out;
+  const Means means(record);
+  const auto window = [&](const Step& step) {
+    const double middle = alignment.start + alignment.stretch * step.time;
+    const double half = 0.5 * alignment.stretch * step.duration;
+    return std::pair(middle - half, middle + half);
+  };
+  double air = 0.0;
+  for (const Step& step : steps) {
+    if (!step.layers.empty() || step.cause != Cause::air) continue;
+    const auto [from, to] = window(step);
+    const double rest = 0.2 * (to - from);  // times are known roughly
+    const auto mean = means.mean(from + rest, to - rest);
+    if (!mean) continue;
+    air += step.duration;
+    for (std::size_t c = 0; c < 3; ++c)
+      out.idle.offset[c] += step.duration * (*mean)[c];
+  }
+  out.idle.found = air > least_air;
+  for (double& o : out.idle.offset) o = out.idle.found ? o / air : 0.0;
+  for (const Step& step : steps) {
+    StepRecord& one = out.steps.emplace_back();
+    const auto [from, to] = window(step);
+    const auto [a, b] = means.within(from, to);
+    one.there = b > a && from >= record.time.front() && to <= record.time.back();
+    if (!one.there) continue;
+    for (std::size_t i = a; i < b; ++i) {
+      Vector F = record.force[i];
+      for (std::size_t c = 0; c < 3; ++c) {
+        F[c] -= out.idle.offset[c];
+        one.mean[c] += F[c] / static_cast<double>(b - a);
+      }
+      one.peak_xy = std::max(one.peak_xy, std::hypot(F[0], F[1]));
+    }
+  }
+  return out;
+}
+
+std::optional<MeanFit> fit_means(const Job& job, std::span<const Step> steps,
+                                 const RecordedSteps& recorded, std::size_t tool) {
+  const std::vector<std::size_t> places = steady_steps(steps, recorded, tool);
+  const Tool& own = job.tools[tool];
+  const std::vector<double> K = force::coefficients(own.law);
+  if (places.size() < fitted_each * (K.size() + 3)) return std::nullopt;
+  const std::vector<Found> found = looked_at(job, steps, places);
+  std::vector<std::vector<Vector>> unit(found.size());
+  numerics::for_each_index(
+      found.size(), [&](std::size_t i) { unit[i] = unit_means(found[i], own); }, 4);
+  const std::size_t blocks = std::min(most_blocks, places.size() / 3);
+  for (const std::size_t free : {K.size(), std::min<std::size_t>(3, K.size())}) {
+    const Linear fit = linear_of(unit, places, recorded, K, free);
+    const numerics::LeastSquares least = numerics::least_squares(
+        fit.A, static_cast<int>(fit.columns), fit.b, rank_tolerance);
+    if (least.rank < static_cast<int>(fit.columns) || blocks < fit.columns + 3)
+      continue;
+    const std::vector<double> variance = block_variances(fit, least, blocks);
+    MeanFit out{.K = K, .se = std::vector<std::optional<double>>(K.size())};
+    for (std::size_t k = 0; k < free; ++k) {
+      out.K[k] = least.x[k];
+      out.se[k] = std::sqrt(std::max(variance[k], 0.0));
+    }
+    out.steps = places.size();
+    out.factor = numerics::student_t(0.975, static_cast<double>(blocks - fit.columns));
+    out.rms = std::sqrt(least.rss / static_cast<double>(fit.b.size()));
+    return out;
+  }
+  return std::nullopt;
+}
+
+}  // namespace trochoid::engagement

@@ -1,0 +1,167 @@
+"""program with a record made while the program ran: where it lies, and which coefficients it tells.
+
+Forces of the cuts come from `simulate`, a turn each, repeated over the time that `program` gives
+each move; so the record knows nothing of steps, arcs and alignment.
+"""
+import csv
+import math
+import random
+
+from in_folder import InFolder, main, program, tables
+
+RPM, RATE = 4000, 4103.0
+TRUE = {"law": "linear_edge", "K_tc_MPa": 2620, "K_rc_MPa": 1560, "K_ac_MPa": 331,
+        "K_te_N_per_mm": 7, "K_re_N_per_mm": 3, "K_ae_N_per_mm": 1}
+#: Passes over a block of 14 mm: y, direction, side, feed.
+#: (from, to) of the arc of each in degrees, where the block goes on before and behind.
+PASSES = [(0.0, 1, (0.0, 180.0), 320),
+          (6.0, -1, (60.0, 180.0), 480),
+          (8.0, 1, (0.0, 60.0), 800)]
+TURNS = {}
+FIRST, LAST = -8.0, 22.0
+LINES = ["G21 G90 G17", "T1 M6", f"S{RPM} M3"]
+for y, way, _, feed in PASSES:
+    start, end = (FIRST, LAST) if way > 0 else (LAST, FIRST)
+    LINES += [f"G0 X{start} Y{y} Z5.", "G0 Z-2.", f"G1 X{end} F{feed}", "G0 Z5."]
+LINES += ["M30"]
+
+
+def arcs_at(side, way, x):
+    """Arcs of a tool of radius 4 with its axis at x, in steps of an eighth of a millimetre."""
+    ahead = round((14 - x if way > 0 else x) * 8) / 8  # block in front, up to its end
+    since = round((x if way > 0 else 14 - x) * 8) / 8  # since the axis entered
+    if since <= -4 or ahead <= 0:
+        return []
+    arcs = [side]
+    if since < 0:
+        near = math.degrees(math.asin(-since / 4))
+        arcs = [(max(a, near), min(b, 180 - near)) for a, b in arcs]
+    if ahead < 4:
+        near = math.degrees(math.asin(ahead / 4))
+        arcs = [(max(a, lo), min(b, hi)) for a, b in arcs for lo, hi in
+                ((0.0, near), (180 - near, 180.0))]
+    return [[a, b] for a, b in arcs if b - a > 0.1]
+
+
+class Record(InFolder):
+    def case(self, force=TRUE, **changes):
+        self.write("part.nc", "\n".join(LINES) + "\n")
+        given = tables(**{"program": {"file": "part.nc", "tool_number": 1},
+                          "stock": {"box_mm": [[0, -30, -10], [14, 60, 0]]}, "force": force,
+                          **changes})
+        del given["cut"]
+        return given
+
+    def answer(self, given, measured=True, code=0):
+        records = [{"file": "record.csv"}] if measured else []
+        self.write("case.toml", program.case_text("a record", given, records))
+        done = self.run_program("program", "case.toml", "-o", "out", "-q", "--no-report", code=code)
+        if code == 2:
+            return done.stderr
+        summary = self.summary("out")
+        return summary["result"], {w["code"]: w["message"] for w in summary["warnings"]}
+
+    def rows(self, file):
+        with open(self.folder / "out" / file, newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def turn(self, side, way, feed, x, angles=120):
+        """Forces over a turn, feed along +x, with the tool at x of the block, at even angles."""
+        arcs = arcs_at(side, way, x)
+        key = (side, way, feed, tuple(map(tuple, arcs)))
+        if key not in TURNS:
+            self.write("turn.toml", program.case_text("a turn", tables(
+                cut={"engagement": "arcs", "arcs_deg": arcs, "axial_depth_mm": 2.0,
+                     "feed_per_tooth_mm": feed / RPM / 2, "spindle_rpm": RPM},
+                sampling={"angles_deg": [360 / angles * i for i in range(angles)]})))
+            self.run_program("simulate", "turn.toml", "-o", "turn", "-q", "--no-report")
+            with open(self.folder / "turn/forces.csv", newline="") as stream:
+                TURNS[key] = [[float(v) for v in row[2:5]] for row in list(csv.reader(stream))[1:]]
+        return TURNS[key]
+
+    def make_record(self, before=0.7, stretch=1.0, offset=(3.0, -5.0, 2.0), noise=2.0):
+        """As a table dynamometer reads it: the reaction, offsets, noise."""
+        self.answer(self.case(), measured=False)
+        ends, time = [], before
+        for row in self.rows("moves.csv"):
+            ends.append((time, time + stretch * float(row["time_s"] or 0), row))
+            time = ends[-1][1]
+        chance = random.Random(1)
+        fed = [end for end in ends if end[2]["kind"] == "line"]
+        lines = ["time_s,Fx_N,Fy_N,Fz_N"]
+        for i in range(int((time + 0.5) * RATE)):
+            t = i / RATE
+            F = [0.0, 0.0, 0.0]
+            for (a, b, _), (_, way, side, feed) in zip(fed, PASSES):
+                if not a <= t < b:
+                    continue
+                x = FIRST + (LAST - FIRST) * ((t - a) / (b - a) if way > 0 else (b - t) / (b - a))
+                if arcs_at(side, way, x):
+                    one = self.turn(side, way, feed, x)
+                    at = t * RPM / 60 % 1 * len(one)
+                    k, u = int(at) % len(one), at - int(at)
+                    now = [p + u * (q - p) for p, q in zip(one[k], one[(k + 1) % len(one)])]
+                    F = [way * now[0], way * now[1], now[2]]
+            lines.append(f"{t!r}," + ",".join(
+                repr(o - f + chance.gauss(0, noise)) for o, f in zip(offset, F)))
+        self.write("record.csv", "\n".join(lines) + "\n")
+
+    AXES = {"dynamometer": {"axes": ["-x", "-y", "-z"]}}
+
+    def test_a_record_is_laid_over_its_program(self):  # [N-23]
+        self.make_record()
+        result, warnings = self.answer(self.case(**self.AXES))
+        record = result["record"]
+        turn = 60 / RPM
+        self.assertAlmostEqual(record["start_s"], 0.7, delta=0.5 * turn)
+        self.assertAlmostEqual(record["stretch"], 1, delta=1e-3)
+        self.assertGreater(record["correlation"], 0.99)
+        self.assertAlmostEqual(record["mean_ratio"], 1, delta=0.01)
+        self.assertAlmostEqual(record["peak_ratio"], 1, delta=0.05)
+        self.assertNotIn("other_coefficients", warnings)
+        steps = [row for row in self.rows("measured_steps.csv") if row["line"] == "6"]
+        middle = steps[len(steps) // 2]
+        for axis in ("x", "y", "z"):
+            self.assertAlmostEqual(float(middle[f"F{axis}_mean_N"]),
+                                   float(middle[f"computed_F{axis}_mean_N"]), delta=3)
+
+        done = self.run_program("check", "case.toml")
+        self.assertIn("samples", done.stdout)
+
+    def test_coefficients_from_several_cuts(self):  # [N-24]
+        """The case states others than made the record; it tells them all, and their errors."""
+        self.make_record()
+        stated = {**TRUE, "K_tc_MPa": 2200, "K_rc_MPa": 1400, "K_te_N_per_mm": 12}
+        result, warnings = self.answer(self.case(stated, **self.AXES))
+        self.assertIn("other_coefficients", warnings)
+        found = {c["key"]: c for c in result["record"]["coefficients"]}
+        for key in ("K_tc_MPa", "K_rc_MPa", "K_ac_MPa", "K_te_N_per_mm", "K_re_N_per_mm"):
+            self.assertAlmostEqual(found[key]["found"], TRUE[key], delta=max(
+                0.03 * TRUE[key], 2 * (found[key]["high"] - found[key]["found"])), msg=key)
+        self.assertAlmostEqual(found["K_tc_MPa"]["found"], 2620, delta=0.03 * 2620)
+        self.assertLess(found["K_tc_MPa"]["high"] - found["K_tc_MPa"]["low"], 0.2 * 2620)
+
+    def test_a_machine_that_is_slower(self):
+        self.make_record(stretch=1.04)
+        result, warnings = self.answer(self.case(**self.AXES))
+        self.assertAlmostEqual(result["record"]["stretch"], 1.04, delta=0.004)
+        self.assertIn("times as long", warnings["record_stretch"])
+
+    def test_what_cannot_be_laid_over(self):
+        self.make_record()
+        chance = random.Random(2)
+        lines = (self.folder / "record.csv").read_text().splitlines()
+        self.write("record.csv", "\n".join(
+            [lines[0]] + [f"{line.split(',')[0]}," + ",".join(
+                repr(chance.gauss(0, 50)) for _ in range(3)) for line in lines[1:]]) + "\n")
+        result, warnings = self.answer(self.case(**self.AXES))
+        self.assertNotIn("record", result)
+        self.assertIn("not those of this program", warnings["record_does_not_fit"])
+        said = self.answer(self.case(dynamometer={"axes": "auto"}), code=2)
+        self.assertIn("identify finds axes, program does not", said)
+        self.write("record.csv", "\n".join(line.split(",", 1)[1] for line in lines) + "\n")
+        self.assertTrue(self.answer(self.case(**self.AXES), code=2))
+
+
+if __name__ == "__main__":
+    main()
