@@ -134,7 +134,7 @@ constexpr std::array of_sinumerik = {
     Code{700, Group::unit, inch_lengths},
     Code{710, Group::unit, metric_lengths},
     refuse(740, Fault::cycle, "a reference run", Group::once),
-    refuse(750, Fault::coordinates, "a place that is not in the program", Group::once),
+    Code{750, Group::once, fixed_point},
     refuse(1100, Fault::coordinates, "a pole", Group::once),
     refuse(1110, Fault::coordinates, "a pole", Group::once),
     refuse(1120, Fault::coordinates, "a pole", Group::once),

@@ -67,6 +67,8 @@ enum class Action : std::uint8_t {
   r_level,
   home,
   machine_place,
+  fixed_point,      ///< of the machine: the axes named go there
+  lift,             ///< z goes up, who knows where to
   offset,           ///< G54 and its like, by their own name
   numbered_offset,  ///< G54.1 P1, G154 P1
   no_offset,

@@ -36,7 +36,7 @@ struct Machine {
   double speed = 0.0;  ///< S [rad/s]
   bool turning = false;
   std::int16_t tool = -1;
-  std::int16_t chosen = -1;  ///< by T, for the next M6
+  std::string chosen = "0";  ///< by T, for the next M6
   Plane plane = Plane::xy;
   Action motion = Action::cancel_motion;
   bool incremental = false;

@@ -100,18 +100,16 @@ void set_tool(Run& run, Sorted& s) {
     if ((number && !whole) || run.program.tools.size() > most_tools) {
       return complain(run, s, t->at, Fault::number, "T takes the number of a tool");
     }
-    m.chosen = tool_index(
-        run, number ? fmt::format("{:.0f}", t->value) : std::string(t->inside));
+    m.chosen = number ? fmt::format("{:.0f}", t->value) : std::string(t->inside);
     if (!run.changes_tool) {
-      m.tool = m.chosen;
+      m.tool = tool_index(run, m.chosen);
       m.turning = false;
       remark(run.complaints, "tool_without_m6", place_at(s.block, t->at),
              "no M6 in the program: T is taken to change the tool where it stands");
     }
   }
   if (s.orders.tool_change) {
-    if (m.chosen < 0) m.chosen = tool_index(run, "0");
-    m.tool = m.chosen;
+    m.tool = tool_index(run, m.chosen);
     m.turning = false;
   }
 }

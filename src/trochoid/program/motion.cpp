@@ -159,6 +159,15 @@ void go_home(Motion& o) {
   rapid_to(o, end, MoveNote::retract);
 }
 
+/// Axes go to a place that is not in the program: G53, G75, CYCLE800 that lifts.
+void go_elsewhere(Motion& o, std::array<bool, 3> axes) {
+  std::array<double, 3> end = o.machine().place;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (axes[i]) end[i] = unknown;
+  }
+  rapid_to(o, end, MoveNote::retract);
+}
+
 /// G53, G153, SUPA: a place in the frame of the machine.
 void go_to_machine_place(Motion& o) {
   if (!o.has_axes()) return;
@@ -167,11 +176,7 @@ void go_to_machine_place(Motion& o) {
                       "a place of the machine is not in the program; it is read with "
                       "G0 only");
   }
-  std::array<double, 3> end = o.machine().place;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (o.axes[i] != nullptr) end[i] = unknown;
-  }
-  rapid_to(o, end, MoveNote::retract);
+  go_elsewhere(o, {o.axes[0] != nullptr, o.axes[1] != nullptr, o.axes[2] != nullptr});
 }
 
 bool is_cycle(Action action) noexcept {
@@ -242,6 +247,11 @@ void move(Run& run, Sorted& s) {
       return go_home(o);
     case Action::machine_place:
       return go_to_machine_place(o);
+    case Action::fixed_point:
+      return go_elsewhere(
+          o, {o.axes[0] != nullptr, o.axes[1] != nullptr, o.axes[2] != nullptr});
+    case Action::lift:
+      return go_elsewhere(o, {false, false, true});
     default:
       return modal_motion(o);
   }

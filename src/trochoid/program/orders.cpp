@@ -247,6 +247,40 @@ bool is_blank_text(std::string_view text) noexcept {
   return std::ranges::all_of(text, [](char c) { return c == ' ' || c == '\t'; });
 }
 
+/// What stands between commas, blanks cut off.
+std::vector<std::string_view> arguments_of(std::string_view inside) {
+  std::vector<std::string_view> out;
+  while (true) {
+    const std::size_t comma = inside.find(',');
+    std::string_view one = inside.substr(0, comma);
+    while (!one.empty() && is_blank_text(one.substr(0, 1))) one.remove_prefix(1);
+    while (!one.empty() && is_blank_text(one.substr(one.size() - 1)))
+      one.remove_suffix(1);
+    out.push_back(one);
+    if (comma == std::string_view::npos) return out;
+    inside.remove_prefix(comma + 1);
+  }
+}
+
+/// Left out, or a zero as in 0, -0.0.
+bool is_zero(std::string_view argument) noexcept {
+  return std::ranges::all_of(
+      argument, [](char c) { return c == '0' || c == '.' || c == '-' || c == '+'; });
+}
+
+/// CYCLE800: without shift and angles the plane stays level.
+void sort_plane(Sorting& s, const Word& word) {
+  static constexpr Code lift{0, Group::once, Action::lift};
+  constexpr std::size_t first_shift = 4;
+  constexpr std::size_t last_shift = 12;
+  const std::vector<std::string_view> all = arguments_of(word.inside);
+  for (std::size_t i = first_shift; i < std::min(all.size(), last_shift + 1); ++i) {
+    if (is_zero(all[i])) continue;
+    return s.complain(word, Fault::cycle, "CYCLE800: a tilted plane");
+  }
+  if (!is_zero(all.front())) add_code(s, word, lift);
+}
+
 bool is_dynamics(std::string_view name) noexcept {
   return name.size() > 3 && same_word(name.substr(0, 3), "DYN");
 }
@@ -269,10 +303,7 @@ void sort_name(Sorting& s, const Word& word) {
     return;
   }
   if (same_word(name, "SUPA")) return add_code(s, word, machine);
-  if (same_word(name, "CYCLE800")) {
-    if (is_blank_text(word.inside)) return;
-    return s.complain(word, Fault::cycle, "CYCLE800: a tilted plane");
-  }
+  if (same_word(name, "CYCLE800")) return sort_plane(s, word);
   if (changes_frame(name)) {
     if (is_alone(s.block) && !word.brackets) return;
     return s.complain(

@@ -55,11 +55,24 @@ struct Tools {
   std::vector<base::Warning> why_not;
 };
 
-/// Names in the program for which the case says nothing else.
+/// Tools of which a move is fed: others are only loaded.
+std::vector<std::string> fed_tools(const program::Program& program) {
+  std::vector<char> fed(program.tools.size());
+  for (const program::Move& move : program.moves) {
+    if (is_fed(move) && move.tool >= 0) fed[static_cast<std::size_t>(move.tool)] = 1;
+  }
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < fed.size(); ++i) {
+    if (fed[i] != 0) out.push_back(program.tools[i]);
+  }
+  return out;
+}
+
+/// Names of fed tools for which the case says nothing else.
 std::vector<std::string> unnamed(const cases::NcProgram& nc,
                                  const program::Program& program) {
   std::vector<std::string> out;
-  for (const std::string& name : program.tools) {
+  for (const std::string& name : fed_tools(program)) {
     const bool ignored = std::ranges::any_of(
         nc.ignored_tools, [&](const cases::ToolName& t) { return t.text == name; });
     if (!ignored && nc.cases_of_tools.count(name) == 0) out.push_back(name);

@@ -177,6 +177,14 @@ class NcProgram(InFolder):
         self.case()
         return self.answer()[0]["peaks"]["peak_xy_N"]["value"]
 
+    def test_a_tool_that_is_only_loaded_needs_no_case(self):
+        before = self.most()
+        self.case(PART.replace("S4000 M3\nG0 X-10.", "T9\nS4000 M3\nG0 X-10.", 1))
+        result, warnings = self.answer()
+        self.assertNotIn("tool_not_described", warnings)
+        self.assertEqual(result["peaks"]["peak_xy_N"]["value"], before)
+        self.assertEqual(result["tools"], ["1", "2"])
+
     def test_what_is_not_used_is_said(self):
         self.case(machine={"max_jerk_m_per_s3": [50, 50, 50], "corner_tolerance_mm": 0.1})
         said = self.answer()[1]

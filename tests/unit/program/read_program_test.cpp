@@ -91,6 +91,37 @@ TEST(ReadProgram, IncrementsAddUp) {
   EXPECT_EQ(moves[2].end[0], 7 * mm);
 }
 
+TEST(ReadProgram, AToolThatIsOnlyLoadedIsNone) {
+  const auto text = read(head + "T7\nG1 X5\nT3\nM6\nG1 X6\nT9\n");
+  EXPECT_EQ(text.program.tools, (std::vector<std::string>{"1", "3"}));
+  EXPECT_EQ(text.program.moves.back().tool, 1);
+}
+
+TEST(ReadProgram, APlaneOfZerosStaysLevel) {
+  const std::string level =
+      "CYCLE800(0,\"TC1\",0,27,0,0,0, 0,-0.0,0,0,0,0,-1)\nG1 X5\n";
+  EXPECT_EQ(moves_behind_head(level, Dialect::sinumerik).size(), 1U);
+  // With a first argument it lifts: where to is not in the program.
+  const auto lifted = moves_behind_head(
+      "CYCLE800(1,\"TC1\",200000,27,,,,0,0,0,,,,1,,0)\nG0 X7\nZ1\nG1 Z0\n",
+      Dialect::sinumerik);
+  ASSERT_EQ(lifted.size(), 4U);
+  EXPECT_TRUE(std::isnan(lifted[0].end[2]));
+  EXPECT_EQ(lifted[2].end[2], 1 * mm);
+  const auto tilted = read(head + "CYCLE800(0,\"TC1\",0,27,0,0,0,0,30,0,0,0,0,-1)\n",
+                           Dialect::sinumerik);
+  EXPECT_EQ(places(tilted), "6:1 ");
+}
+
+TEST(ReadProgram, AFixedPointOfTheMachineIsUnknown) {
+  const auto moves = moves_behind_head("G1 X5\nG75 X0 Z0\n", Dialect::sinumerik);
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_EQ(moves[1].note, MoveNote::retract);
+  EXPECT_TRUE(std::isnan(moves[1].end[0]));
+  EXPECT_EQ(moves[1].end[1], 0.0);
+  EXPECT_TRUE(std::isnan(moves[1].end[2]));
+}
+
 TEST(ReadProgram, InchesCount25Point4) {
   const auto moves = moves_behind_head("G20\nG1 X1 F10");
   ASSERT_EQ(moves.size(), 1U);
