@@ -67,11 +67,8 @@ std::vector<TableEntry> tables_of_cut(CaseTables& t) {
       one("sampling", "where a simulation is evaluated, and how exactly", t.sampling),
       perhaps("dynamometer", "what the channels read; left out: x, y, z",
               t.dynamometer),
-      several(
-          "measurement",
-          "a record, or means; several are fitted together. For `program`: the record "
-          "that was made while it ran",
-          t.measurements, {Command::identify}),
+      several("measurement", "a record, or means; several are fitted together",
+              t.measurements, {Command::identify}),
       perhaps("identify", "what is to be found from the measurements", t.identify),
       perhaps("prior",
               "what is known of the coefficients beforehand, for example of another "
