@@ -582,7 +582,8 @@ std::vector<identification::ChannelRun> channels_of(
 
 std::string describe_record(const signal::Record& record,
                             const cases::Measurement& measurement) {
-  if (!(measurement.cut.Omega > 0)) {  // of a whole program: it has no one speed
+  const bool of_program = !(measurement.cut.Omega > 0) && record.angle.empty();
+  if (of_program) {  // it has no one speed
     return fmt::format("{}: {} samples, {}\n{}{}", record.file, record.size(),
                        duration_text(record), axis_text(record),
                        channels_text(record, measurement.source));
