@@ -75,37 +75,83 @@ function pathSection(report) {
   const chart = pathMap(dots, views, (dot, view) => [`line ${dot.line}`, texts.get(dot.line) ?
     el('code', {}, ` ${texts.get(dot.line)} `) : ' ', `at z ${number(dot.z, 4)} mm, ${dot.cause}: `,
   el('b', {}, `${number(dot[view.key], 4)}`), ` ${view.label.replace(/.*\[(.*)\]/, '$1')}`]);
-  const part = section('path', 'The path from above', 'Path',
+  const part = section('path', 'The path of the tool', 'Path',
     prose('Every dot is a turn of the spindle in cut, at the middle of the tool. Its colour tells how much that turn loads ' +
       'the tool. Lower passes lie over higher ones.', thinned(t)), chart.element);
   return { part, draw: () => chart.resize() };
 }
 
+/** From where the path is seen: the angle about z, and how far up; none: from above. */
+const looks = [{ text: 'from above' }, { text: 'from the left', turn: Math.PI / 6 }, { text: 'from the right', turn: -Math.PI / 6 }];
+const lookUp = 0.6;
+/** Low programs are drawn higher, up to so many times. */
+const mostHigher = 10;
+
+/** Dots as a look sees them, the far ones first, and how many times higher they are drawn. */
+function seenFrom(dots, { turn }) {
+  if (turn === undefined) return { dots, higher: 1 };
+  const span = (key) => dots.reduce(([a, b], dot) => [Math.min(a, dot[key]), Math.max(b, dot[key])], [Infinity, -Infinity]);
+  const size = (key) => span(key)[1] - span(key)[0];
+  const higher = Math.max(1, Math.min(mostHigher, Math.round(0.25 * Math.max(size('x'), size('height')) / (size('z') || 1e9))));
+  const [c, s] = [Math.cos(turn), Math.sin(turn)];
+  const seen = dots.map((dot) => {
+    const away = dot.x * s + dot.height * c;
+    return { ...dot, x: dot.x * c - dot.height * s, height: lookUp * away + Math.sqrt(1 - lookUp ** 2) * higher * dot.z, away };
+  });
+  return { dots: seen.sort((a, b) => b.away - a.away), higher };
+}
+
+/** The axes of the program in a corner of a picture at an angle. */
+function axesIn(c, frame, { turn }) {
+  const [x, y] = [frame.left + 30, frame.top + frame.height - 24];
+  const ends = [['x', Math.cos(turn), lookUp * Math.sin(turn)], ['y', -Math.sin(turn), lookUp * Math.cos(turn)], ['z', 0, 0.8]];
+  for (const [name, right, up] of ends) {
+    line(c, [[x, y], [x + 26 * right, y - 26 * up]], css('--ink'));
+    write(c, name, x + 36 * right, y - 36 * up, { align: 'center', color: '--ink' });
+  }
+}
+
 function pathMap(dots, views, read) {
-  const [x, y] = ['x', 'height'].map((key) => aroundDots(dots.map((dot) => dot[key])));
-  const state = { view: views[0], places: null, frame: null };
+  const state = { view: views[0], look: looks[0], seen: seenFrom(dots, looks[0]), places: null, frame: null };
+  const around = () => ({ x: aroundDots(state.seen.dots.map((dot) => dot.x)), y: aroundDots(state.seen.dots.map((dot) => dot.height)) });
+  const all = around();
   const paint = (c, width, height) => {
-    const { view } = state;
-    const frame = { ...evenFrame({ left: 52, top: 76, width: width - 62, height: height - 76 - 44 }, x, y),
-      ...chart.view, xLabel: 'x [mm]', yLabel: 'y [mm]' };
-    write(c, view.label, 0, 8, { color: '--ink' });
+    const { view, look, seen } = state;
+    const frame = { ...evenFrame({ left: 52, top: 76, width: width - 62, height: height - 76 - 44 }, chart.view.x, chart.view.y),
+      xLabel: 'x [mm]', yLabel: 'y [mm]' };
+    write(c, view.label + (seen.higher > 1 ? `; heights ${seen.higher} times` : ''), 0, 8, { color: '--ink' });
     colorBar(c, view, frame.left, frame.width);
     state.frame = frame;
-    state.places = plane(c, frame, { grid: true });
-    paintDots(c, { dots, view, frame, ...state.places });
+    if (look.turn === undefined) {
+      state.places = plane(c, frame, { grid: true });
+    } else {
+      state.places = { px: (v) => frame.left + frame.width * (v - frame.x[0]) / (frame.x[1] - frame.x[0] || 1),
+        py: (v) => frame.top + frame.height * (1 - (v - frame.y[0]) / (frame.y[1] - frame.y[0] || 1)) };
+      axesIn(c, frame, look);
+    }
+    paintDots(c, { dots: seen.dots, view, frame, ...state.places });
   };
-  const chart = drawing({ label: 'Path of the tool from above', paint, lowOnPaper: true,
+  const chart = drawing({ label: 'Path of the tool', paint, lowOnPaper: true,
     data: () => ({ head: ['line', 'x [mm]', 'y [mm]', 'z [mm]', ...views.map((view) => view.label)],
       rows: dots.map((dot) => [dot.line, dot.x, dot.height, dot.z, ...views.map((view) => dot[view.key])]) }),
     height: (width) => Math.round(Math.min(560, Math.max(340, 0.62 * width))) });
-  zoomable(chart, () => state.frame, { x, y });
+  zoomable(chart, () => state.frame, all);
   readoutOf(chart, 'Point at a turn for its line and its numbers.', (place) => {
     const far = (dot) => Math.hypot(state.places.px(dot.x) - place[0], state.places.py(dot.height) - place[1]);
-    const near = dots.reduce((a, b) => (far(b) <= far(a) ? b : a));
+    const near = state.seen.dots.reduce((a, b) => (far(b) <= far(a) ? b : a));
     return far(near) < 30 ? read(near, state.view) : null;
   });
-  chart.controls.append(...[choice('Show', views.map((view) => ({ value: view, text: view.name })),
-    state.view, (view) => { state.view = view; chart.redraw(); })].filter(Boolean));
+  const lookFrom = (look) => {
+    Object.assign(state, { look, seen: seenFrom(dots, look) });
+    Object.assign(all, around());
+    chart.view = { ...all };
+    chart.redraw();
+  };
+  chart.controls.append(...[
+    choice('Show', views.map((view) => ({ value: view, text: view.name })), state.view,
+      (view) => { state.view = view; chart.redraw(); }),
+    choice('Seen', looks.map((look) => ({ value: look, text: look.text })), state.look, lookFrom),
+  ].filter(Boolean));
   return chart;
 }
 
