@@ -25,7 +25,7 @@ constexpr std::size_t batch = 8192;
 constexpr std::size_t most_turns = 20000;
 
 /// The same where a map of heights follows them: it stands at the first of them.
-constexpr std::size_t batch_with_map = 128;
+constexpr std::size_t batch_with_map = 512;
 
 /// Looks at steps and adds their forces.
 class Steps {

@@ -19,7 +19,7 @@ constexpr int few_angles = 144;
 constexpr double beside_jump = 1e-9;  ///< [rad]
 /// Moments over the height are looked at at about so many of the angles, and at all where
 /// they are near their largest values: at least this part of them.
-constexpr std::size_t coarse_angles = 72;
+constexpr std::size_t coarse_angles = 144;
 constexpr double nearly_largest = 0.92;
 
 /// Coefficients of a cubic in the height above the tip.

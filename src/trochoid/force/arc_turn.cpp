@@ -28,13 +28,15 @@ constexpr double slab_lag = 0.05;
 /// The same where layers are cones, and the part of a wave that is one.
 constexpr double cone_lag = 0.3;
 constexpr double part_of_wave = 1.0 / 24;
-/// How exactly the end of a chip is found, on cones too, and where another mark bounds
-/// it [rad].
-constexpr double closest_end = 1e-6;
-constexpr double closest_end_of_cone = 1e-5;
-constexpr double closest_kink = 1e-4;
+/// How exactly the end of a chip is found, and where another mark bounds it [rad].
+struct Closest {
+  double end;
+  double kink;
+};
+constexpr Closest closest_on_cylinder{1e-6, 1e-4};
+constexpr Closest closest_on_cone{1e-5, 1e-4};
 /// Longest panel [rad].
-constexpr double longest_arc_panel = 0.8;
+constexpr double longest_arc_panel = 1.6;
 constexpr double arc_tolerance = 1e-7;
 /// The same where layers are cones: those stand for a curve, and err more than this.
 constexpr double cone_tolerance = 1e-4;
@@ -257,14 +259,14 @@ ArcTurn::Ray ArcTurn::ray(const Layer& layer, const Edge& edge,
 }
 
 ArcTurn::PerHeight ArcTurn::per_height(const Edge& edge, double h,
-                                       double theta) const noexcept {
+                                       std::array<double, 2> direction) const noexcept {
   const double sine = edge.sin_kappa;
   const ColumnWeights w = column_weights(law_.form, h, sine, edge.length * sine);
   const double t = (law_.K[0] * w.cutting[0] + law_.K_e[0] * w.edge) / sine;
   const double r = (law_.K[1] * w.cutting[1] + law_.K_e[1] * w.edge) / sine;
   const double a = (law_.K[2] * w.cutting[2] + law_.K_e[2] * w.edge) / sine;
   const double inward = r * sine + a * edge.cos_kappa;
-  const auto [x, y] = in_plane(t, inward, std::sin(theta), std::cos(theta));
+  const auto [x, y] = in_plane(t, inward, direction[0], direction[1]);
   return {x, y, r * edge.cos_kappa - a * sine, t};
 }
 
@@ -302,7 +304,7 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
     return i == 0 ? from + a_little
                   : (i == n ? to - a_little : from + (to - from) * i / n);
   };
-  const double closest = options_.cones ? closest_end_of_cone : closest_end;
+  const Closest& closest = options_.cones ? closest_on_cone : closest_on_cylinder;
   double start = from;
   int bound = ray(layer, edge, at(0)).bound;
   const auto close = [&](double end) {
@@ -317,7 +319,7 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
     while (next != bound) {  // several may follow one another
       double hi = at(i);
       int beyond = next;
-      while (hi - lo > (bound < 0 || beyond < 0 ? closest : closest_kink)) {
+      while (hi - lo > (bound < 0 || beyond < 0 ? closest.end : closest.kink)) {
         const double half = 0.5 * (lo + hi);
         const int there = ray(layer, edge, half).bound;
         if (there == bound) {
@@ -372,7 +374,8 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
       largest = h;
       at_largest = theta;
     }
-    const PerHeight g = per_height(edge, h, theta);
+    const std::array<double, 2> direction = {std::sin(theta), std::cos(theta)};
+    const PerHeight g = per_height(edge, h, direction);
     Values out{g[0], g[1], g[2], g[3]};
     if (options_.heights) {
       double power = theta;
@@ -381,15 +384,15 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
         out[5 + 2 * k] = power * g[1];
         power *= theta;
       }
-      out[10] = std::sin(theta) * g[2];
-      out[11] = std::cos(theta) * g[2];
+      out[10] = direction[0] * g[2];
+      out[11] = direction[1] * g[2];
     }
     return out;
   };
   // The largest force that the chip here could make, and a little.
   const double most = passage_.feed * unit::turn +
                       (edge.advance.empty() ? 0.0 : std::abs(edge.advance.back()));
-  const PerHeight g = per_height(edge, most, 0.0);
+  const PerHeight g = per_height(edge, most, {0.0, 1.0});
   const double scale = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]);
   Values allowed{};
   for (std::size_t q = 0; q < allowed.size(); ++q) {
@@ -414,7 +417,7 @@ bool ArcTurn::at_one_angle(const Layer& layer, const Edge& edge) const noexcept 
 ArcTurn::PerHeight ArcTurn::force_at_one_angle(const Layer& layer, const Edge& edge,
                                                double theta) const noexcept {
   const double h = ray(layer, edge, theta).h;
-  return h > 0 ? per_height(edge, h, theta) : PerHeight{};
+  return h > 0 ? per_height(edge, h, {std::sin(theta), std::cos(theta)}) : PerHeight{};
 }
 
 template <std::size_t Q, class Use>

@@ -119,8 +119,9 @@ class ArcTurn {
   void finish(Layer&& layer, const geometry::ArcLayer& given);
   [[nodiscard]] Ray ray(const Layer& layer, const Edge& edge,
                         double theta) const noexcept;
+  /// @param direction  sine and cosine of theta
   [[nodiscard]] PerHeight per_height(const Edge& edge, double h,
-                                     double theta) const noexcept;
+                                     std::array<double, 2> direction) const noexcept;
   void add_tooth(const Layer& layer, Edge& edge);
   void add_stretch(const Layer& layer, Edge& edge, double from, double to);
   void add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece);
