@@ -35,6 +35,8 @@ struct Closest {
 };
 constexpr Closest closest_on_cylinder{1e-6, 1e-4};
 constexpr Closest closest_on_cone{1e-5, 1e-4};
+/// Of a cylinder without lag: its force jumps there, and is largest just before.
+constexpr Closest closest_at_jump{1e-12, 1e-12};
 /// Longest panel [rad].
 constexpr double longest_arc_panel = 1.6;
 constexpr double arc_tolerance = 1e-7;
@@ -304,7 +306,9 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
     return i == 0 ? from + a_little
                   : (i == n ? to - a_little : from + (to - from) * i / n);
   };
-  const Closest& closest = options_.cones ? closest_on_cone : closest_on_cylinder;
+  const Closest& closest = options_.cones ? closest_on_cone
+                           : jumps_       ? closest_at_jump
+                                          : closest_on_cylinder;
   double start = from;
   int bound = ray(layer, edge, at(0)).bound;
   const auto close = [&](double end) {

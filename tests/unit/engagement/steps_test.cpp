@@ -66,6 +66,24 @@ TEST(Steps, ForcesOfASidePassAreThoseOfDownMilling) {  // [N-7] [N-8] [N-10]
   EXPECT_NEAR(step.forces.power, step.forces.torque_mean * 1000 * unit::rpm, 1e-9);
 }
 
+TEST(Steps, AToothWithoutLagIsLargestJustBeforeItLeaves) {  // [N-7]
+  const Tool tool = end_mill(10, 2, 0, {0, -8});
+  const Step step = at(side_pass(-43), tool, block, 3, 0.5);
+  const force::Setup setup{
+      .cutter = tool.cutter,
+      .runout = tool.runout,
+      .cut = {.engagement = geometry::UpMilling{2e-3}, .a_p = 2e-3, .f_z = step.f_z}};
+  std::vector<double> phi;
+  for (int i = 0; i < 100000; ++i) phi.push_back(2 * pi * i / 100000);
+  std::array<double, 2> most{};  // one tooth at a time is in cut
+  for (std::size_t i = 0; const auto& F : force::forces(setup, tool.law, phi, 1e-9)) {
+    const std::size_t tooth = phi[i++] < pi ? 0 : 1;
+    most[tooth] = std::max(most[tooth], std::hypot(F[0], F[1]));
+  }
+  EXPECT_NEAR(step.forces.peak_of_tooth[0], most[0], 1e-3 * most[0]);
+  EXPECT_NEAR(step.forces.peak_of_tooth[1], most[1], 1e-3 * most[1]);
+}
+
 TEST(Steps, ATurnedPathTurnsItsForces) {  // [N-10]
   const Tool tool = end_mill(10, 2, 30, {0, -8});
   const Step along = at(side_pass(43), tool, block, 3, 0.4);
