@@ -125,6 +125,15 @@ Ask ask_of(const stock::Path& path, std::uint32_t index, std::int64_t k,
           move_at(path, piece, u * piece.length)};
 }
 
+Ask StepFinder::find(std::int64_t number) {
+  for (; piece_ < path_.pieces.size(); ++piece_) {
+    count_ = count_of(path_.pieces[piece_], step_turns_);
+    if (number < first_ + count_) break;
+    first_ += count_;
+  }
+  return ask_of(path_, piece_, number - first_, count_);
+}
+
 Look::Look(const Job& job)
     : job_(job),
       swept_(sweep(job, speeds_)),

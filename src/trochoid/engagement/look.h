@@ -40,6 +40,23 @@ std::uint32_t move_at(const stock::Path& path, const stock::Piece& piece,
 Ask ask_of(const stock::Path& path, std::uint32_t piece, std::int64_t k,
            std::int64_t n);
 
+/// Finds steps by their numbers, which ascend.
+class StepFinder {
+ public:
+  StepFinder(const stock::Path& path, double step_turns) noexcept
+      : path_(path), step_turns_(step_turns) {}
+
+  /// @pre the step exists, and its number is not below the last one asked for
+  Ask find(std::int64_t number);
+
+ private:
+  const stock::Path& path_;
+  double step_turns_;
+  std::uint32_t piece_ = 0;
+  std::int64_t first_ = 0;  ///< step of the piece
+  std::int64_t count_ = 0;  ///< steps of the piece
+};
+
 /// @brief The path of a program in its stock, for looks at any place of it.
 class Look {
  public:

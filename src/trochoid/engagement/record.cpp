@@ -9,9 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
 
 namespace trochoid::engagement {
 
@@ -272,10 +271,8 @@ std::vector<Vector> unit_means(const Found& found, const Tool& tool) {
     one.law = force::with_coefficients(tool.law, unit);
     one.body.reset();
     one.gauge_length = 0.0;
-    const TurnForces forces = in_program(
-        loads_of(found.turn, one),
-        std::isfinite(found.step.direction) ? found.step.direction : 0.0, 1.0);
-    out.push_back(forces.mean);
+    out.push_back(
+        in_program(loads_of(found.turn, one), found.step.direction, 1.0).mean);
   }
   return out;
 }
@@ -375,18 +372,10 @@ Linear linear_of(const std::vector<std::vector<Vector>>& unit,
 std::vector<Found> looked_at(const Job& job, std::span<const Step> steps,
                              std::span<const std::size_t> places) {
   Look look(job);
-  const stock::Path& path = look.path();
+  StepFinder finder(look.path(), job.options.step_turns);
   std::vector<Found> out;
-  std::uint32_t piece = 0;
-  std::int64_t first = 0;
-  std::int64_t count = 0;
   for (const std::size_t i : places) {
-    for (; piece < path.pieces.size(); ++piece) {
-      count = count_of(path.pieces[piece], job.options.step_turns);
-      if (steps[i].step < first + count) break;
-      first += count;
-    }
-    const Ask ask = ask_of(path, piece, steps[i].step - first, count);
+    const Ask ask = finder.find(steps[i].step);
     look.sweep_to(look.turns_of(ask) - 1);
     out.push_back(look.at(ask));
   }

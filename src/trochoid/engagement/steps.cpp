@@ -66,9 +66,7 @@ class Steps {
     for (std::size_t i = 0; i < found.size(); ++i) {
       Step& step = found[i].step;
       if (place[i] != none) {
-        const bool upright = !std::isfinite(step.direction);
-        step.forces =
-            in_program(loads_[place[i]], upright ? 0.0 : step.direction, step.spindle);
+        step.forces = in_program(loads_[place[i]], step.direction, step.spindle);
       } else {
         step.forces.peak_of_tooth.assign(teeth_of(step.tool), 0.0);
       }
@@ -361,33 +359,22 @@ std::vector<Step> steps_at(const Job& job, std::span<const PlaceRequest> places,
 std::vector<TurnForces> forces_with(const Job& job, std::span<const std::int64_t> steps,
                                     std::span<const Tool> tools) {
   Look look(job);
-  const stock::Path& path = look.path();
+  StepFinder finder(look.path(), job.options.step_turns);
   std::vector<std::size_t> order(steps.size());  // the stock follows the program
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return steps[k]; });
   std::vector<TurnForces> out(steps.size() * tools.size());
-  std::uint32_t piece = 0;
-  std::int64_t first = 0;  // step of the piece
-  std::int64_t n = 0;
   for (const std::size_t k : order) {
     if (steps[k] < 0) continue;
-    for (; piece < path.pieces.size(); ++piece) {
-      n = count_of(path.pieces[piece], job.options.step_turns);
-      if (steps[k] < first + n) break;
-      first += n;
-    }
-    if (piece == path.pieces.size()) break;
-    const Ask ask = ask_of(path, piece, steps[k] - first, n);
+    const Ask ask = finder.find(steps[k]);
     look.sweep_to(look.turns_of(ask) - 1);
     const Found found = look.at(ask);
     if (found.turn.layers.empty() || !feeds(found.turn)) continue;
     numerics::for_each_index(
         tools.size(),
         [&](std::size_t i) {
-          out[k * tools.size() + i] =
-              in_program(loads_of(found.turn, tools[i]),
-                         std::isfinite(found.step.direction) ? found.step.direction : 0,
-                         found.step.spindle);
+          out[k * tools.size() + i] = in_program(
+              loads_of(found.turn, tools[i]), found.step.direction, found.step.spindle);
         },
         1);
   }

@@ -157,6 +157,17 @@ bool is_plain(const Tool& tool) noexcept {
          geometry::edges_alike(tool.cutter, tool.runout);
 }
 
+force::Setup setup_of(const Turn& turn, const Tool& tool) {
+  return {.cutter = tool.cutter,
+          .runout = tool.runout,
+          .cut = {.engagement = geometry::Arcs{turn.layers, turn.curvature},
+                  .a_p = turn.layers.back().to,
+                  .f_z = turn.f_z},
+          .chip = tool.chip,
+          .edge_length = tool.edge_length,
+          .process_damping = {}};
+}
+
 TurnLoads loads_of(const Turn& turn, const Tool& tool) {
   TurnLoads out;
   TurnForces& F = out.forces;
@@ -166,15 +177,7 @@ TurnLoads loads_of(const Turn& turn, const Tool& tool) {
     return out;
   }
   const double height = turn.layers.back().to;
-  const force::Setup setup{
-      .cutter = tool.cutter,
-      .runout = tool.runout,
-      .cut = {.engagement = geometry::Arcs{turn.layers, turn.curvature},
-              .a_p = height,
-              .f_z = turn.f_z},
-      .chip = tool.chip,
-      .edge_length = tool.edge_length,
-      .process_damping = {}};
+  const force::Setup setup = setup_of(turn, tool);
   const bool moments = tool.body.has_value() || tool.gauge_length > 0;
   const geometry::Arc within = plain ? geometry::Arc{0.0, std::numbers::pi}
                                      : geometry::Arc{-2 * unit::turn, 3 * unit::turn};
@@ -214,8 +217,9 @@ TurnLoads loads_of(const Turn& turn, const Tool& tool) {
 
 TurnForces in_program(const TurnLoads& loads, double direction, double spindle) {
   TurnForces out = loads.forces;
-  const double c = std::cos(direction);
-  const double s = std::sin(direction);
+  const bool upright = !std::isfinite(direction);
+  const double c = upright ? 1.0 : std::cos(direction);
+  const double s = upright ? 0.0 : std::sin(direction);
   const TurnForces& F = loads.forces;
   out.mean[0] = c * F.mean[0] - s * F.mean[1];  // N-10
   out.mean[1] = s * F.mean[0] + c * F.mean[1];

@@ -2,6 +2,7 @@
 
 #include <trochoid/engagement/contact.h>
 #include <trochoid/engagement/steps.h>
+#include <trochoid/force/setup.h>
 
 #include <cstdint>
 #include <unordered_map>
@@ -37,10 +38,15 @@ struct TurnLoads {
 /// of constant lead whose teeth are alike but for runout across the axis.
 bool is_plain(const Tool& tool) noexcept;
 
+/// @brief The cut of a turn, feed along +x.
+/// @pre it has layers
+force::Setup setup_of(const Turn& turn, const Tool& tool);
+
 /// @brief Forces of a turn at all angles of the spindle.
 TurnLoads loads_of(const Turn& turn, const Tool& tool);
 
 /// Forces in the axes of the program [N].
+/// @param direction  of the feed [rad]; NaN: straight up or down
 /// @eq N-10  F_program = rotation by chi of F
 /// @src derived
 TurnForces in_program(const TurnLoads& loads, double direction, double spindle);

@@ -61,17 +61,6 @@ double bend(const HeightCompliance& at, const force::ToothLoads& all,
          at.k * (m[2] - 3 * z * m[1] + 3 * z * z * m[0] - z * z * z * above.y);
 }
 
-force::Setup setup_of(const Turn& turn, const Tool& tool) {
-  return {.cutter = tool.cutter,
-          .runout = tool.runout,
-          .cut = {.engagement = geometry::Arcs{turn.layers, turn.curvature},
-                  .a_p = turn.layers.back().to,
-                  .f_z = turn.f_z},
-          .chip = tool.chip,
-          .edge_length = tool.edge_length,
-          .process_damping = {}};
-}
-
 /// u_y at each of the heights over the spindle angle.
 numerics::PeriodicPieces bends(const force::ArcTurn& teeth,
                                std::span<const HeightCompliance> heights) {
@@ -197,10 +186,11 @@ struct WallTurn {
 class WallSearch {
  public:
   WallSearch(const Job& job, std::span<const Step> steps)
-      : job_(job), look_(job), steps_(steps), of_step_(steps.size(), none) {
-    // All stock is looked at once the program is done.
-    end_ = std::numeric_limits<double>::infinity();
-  }
+      : job_(job),
+        look_(job),
+        finder_(look_.path(), job.options.step_turns),
+        steps_(steps),
+        of_step_(steps.size(), none) {}
 
   std::vector<StepWalls> run(const WallOptions& options) {
     std::size_t first = 0;
@@ -224,36 +214,22 @@ class WallSearch {
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// The step's place on its piece; steps ascend.
-  const Ask& find(std::int64_t number) {
-    const stock::Path& path = look_.path();
-    while (piece_ < path.pieces.size() && number >= first_ + count_) {
-      first_ += count_;
-      ++piece_;
-      count_ = piece_ < path.pieces.size()
-                   ? count_of(path.pieces[piece_], job_.options.step_turns)
-                   : 0;
-    }
-    ask_ = ask_of(path, piece_, number - first_, count_);
-    return ask_;
-  }
-
   void add(std::size_t i) {
     const Step& step = steps_[i];
     if (step.layers.empty() || !(step.a_p > 0)) return;
     const std::size_t t = step.tool < 0 ? 0 : static_cast<std::size_t>(step.tool);
     const Tool& tool = job_.tools[t];
     if (!tool.body || !is_plain(tool)) return;
-    Found found = look_.at(find(step.step));
+    const Ask ask = finder_.find(step.step);
+    Found found = look_.at(ask);
     if (found.turn.layers.empty() || !feeds(found.turn)) return;
     const double R = look_.swept().wall(static_cast<std::int16_t>(t)).largest();
-    const stock::PathPoint at =
-        stock::point_at(look_.path().pieces[ask_.piece], ask_.u);
+    const stock::PathPoint at = stock::point_at(look_.path().pieces[ask.piece], ask.u);
     const stock::Surroundings around(
         look_.swept(),
         {.tip = at.place,
          .direction = at.direction,
-         .turns = end_,
+         .turns = std::numeric_limits<double>::infinity(),
          .last = static_cast<std::uint32_t>(look_.path().pieces.size() - 1)},
         R + outside);
     WallHeights heights = walls_of(found.turn, R, around);
@@ -292,15 +268,11 @@ class WallSearch {
 
   const Job& job_;
   Look look_;
+  StepFinder finder_;
   std::span<const Step> steps_;
-  double end_ = 0.0;
   std::vector<std::size_t> of_step_;
   std::unordered_map<TurnKey, std::size_t, TurnKeyHash> known_;
   std::vector<WallTurn> turns_;
-  std::uint32_t piece_ = 0;
-  std::int64_t first_ = 0;  ///< step of the piece
-  std::int64_t count_ = 0;  ///< steps of the piece
-  Ask ask_;
 };
 
 }  // namespace
