@@ -13,14 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The key that takes the folder of an answer for the summary.json in it.
-constexpr std::string_view folder_key = "program.covariance";
-
 /// A file that a case names.
 struct Named {
   std::string_view table;
-  std::string key;           ///< its path
-  std::string_view must_be;  ///< what it must be, in words
+  std::string key;             ///< its path
+  std::string_view must_be;    ///< what it must be, in words
+  std::string_view in_folder;  ///< as Key::in_folder
   files::FileRef& file;
 };
 
@@ -34,13 +32,13 @@ void for_each_file(CaseTables& tables, const std::function<void(const Named&)>& 
         };
         if (NamedFiles* const* all = std::get_if<NamedFiles*>(&field)) {
           for (auto& [name, one] : **all) {
-            use({table.name, path() + "." + name, key.file, one});
+            use({table.name, path() + "." + name, key.file, key.in_folder, one});
           }
           return;
         }
         files::FileRef* const* file = std::get_if<files::FileRef*>(&field);
         if (file == nullptr || (*file)->name.empty()) return;
-        use({table.name, path(), key.file, **file});
+        use({table.name, path(), key.file, key.in_folder, **file});
       });
     }
   }
@@ -103,8 +101,8 @@ void settle_files(CaseTables& tables, const DataInMemory& data, Findings& findin
     if (file.in_memory()) return;
     fs::path path = resolved(file.name, named_at, findings);
     std::error_code error;
-    if (named.key == folder_key && fs::is_directory(path, error)) {
-      path /= "summary.json";
+    if (!named.in_folder.empty() && fs::is_directory(path, error)) {
+      path /= named.in_folder;
     }
     file.path = path.generic_string();
   });

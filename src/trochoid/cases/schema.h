@@ -78,6 +78,7 @@ struct Key {
   std::string_view standard = {};      ///< the default in words, where it is computed
   std::string_view example = {};       ///< TOML, where there is no default to show
   std::string_view file = {};          ///< of a file: what it must be
+  std::string_view in_folder = {};     ///< the file meant where a folder is named
 };
 
 /// A closed choice; enumerators and names are in the same order.

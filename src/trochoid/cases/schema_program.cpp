@@ -20,7 +20,8 @@ void describe_tools(const Visitor& v, NcProgram& t) {
          "forces then have an interval",
      .standard = "no interval",
      .example = "\"case.identify\"",
-     .file = "a summary.json of identify or calibrate, or its folder"},
+     .file = "a summary.json of identify or calibrate, or its folder",
+     .in_folder = "summary.json"},
     &t.covariance);
   v({.name = "tools",
      .meaning = "other tools by their T: cases with [tool], [runout] and [force]",
