@@ -2,6 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
+#include <trochoid/numerics/median.h>
 #include <trochoid/signal/axes.h>
 
 #include <fmt/core.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trochoid::run {
 
@@ -52,13 +54,6 @@ engagement::Recorded recorded_of(const cases::Case& given) {
   return out;
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 double size_of(const std::array<double, 3>& F) {
   return std::hypot(F[0], F[1], F[2]);
 }
@@ -75,8 +70,9 @@ void compare(std::span<const engagement::Step> steps, results::ProgramRecord& ou
     peaks.push_back(one.peak_xy / F.peak_xy);
   }
   out.covered = means.size();
-  out.mean_ratio = median_of(std::move(means));
-  out.peak_ratio = median_of(std::move(peaks));
+  if (means.empty()) return;
+  out.mean_ratio = numerics::median(std::move(means));
+  out.peak_ratio = numerics::median(std::move(peaks));
 }
 
 void add_coefficients(const engagement::Job& job, std::size_t tool,
