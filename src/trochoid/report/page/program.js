@@ -1,4 +1,4 @@
-// The page of `program`: the path from above in the colours of what loads the tool, its lines.
+// The page of `program`: the path in the colours of what loads the tool, its lines.
 
 const programKnown = ['dialect', 'moves', 'tools', 'time_s', 'time_in_cut_s', 'removed_mm3', 'peaks', 'limits_broken', 'feed',
   'chatter', 'walls', 'record'];
@@ -77,7 +77,7 @@ function pathSection(report) {
   el('b', {}, `${number(dot[view.key], 4)}`), ` ${view.label.replace(/.*\[(.*)\]/, '$1')}`]);
   const part = section('path', 'The path of the tool', 'Path',
     prose('Every dot is a turn of the spindle in cut, at the middle of the tool. Its colour tells how much that turn loads ' +
-      'the tool. Lower passes lie over higher ones.', thinned(t)), chart.element);
+      'the tool. From above, lower passes lie over higher ones.', thinned(t)), chart.element);
   return { part, draw: () => chart.resize() };
 }
 
