@@ -1,6 +1,7 @@
 """program: what it answers, what it warns of and what it leaves out, as a user meets it."""
 import csv
 import json
+import math
 import struct
 
 from in_folder import InFolder, main, program, tables
@@ -28,6 +29,7 @@ class NcProgram(InFolder):
         table = {key: value for key, value in table.items() if value is not None}
         given = tables(**{"program": table,
                           "stock": {"box_mm": [[0, -30, -10], [60, 60, 0]]}, **changes})
+        given["runout"] = {k: v for k, v in given["runout"].items() if v is not None}
         del given["cut"]
         self.write("case.toml", program.case_text("a program", given))
 
@@ -135,6 +137,36 @@ class NcProgram(InFolder):
             self.assertAlmostEqual(peak["high"] - peak["value"], half, delta=0.02 * half + 1e-12)
             self.assertAlmostEqual(peak["value"] - peak["low"], half, delta=0.02 * half + 1e-12)
         self.assertGreater(result["peaks"]["peak_chip_mm"]["high"], peaks["peak_chip_mm"]["value"])
+
+    def test_intervals_of_every_kind_of_runout(self):  # [N-20]
+        """Eccentricity and tilt go by their components."""
+        def runout(e, t, deep):
+            return {"radial_offsets_mm": None, "axial_offsets_mm": [0, deep],
+                    "eccentricity_mm": math.hypot(*e),
+                    "angle_deg": math.degrees(math.atan2(e[1], e[0])),
+                    "tilt_deg": math.degrees(math.atan(math.hypot(*t))),
+                    "tilt_angle_deg": math.degrees(math.atan2(t[1], t[0]))}
+
+        def peak(x):
+            self.case(runout=runout(x[0:2], x[2:4], x[4]))
+            return self.answer()[0]["peaks"]["peak_xy_N"]["value"]
+
+        names = ["runout.e_x_mm", "runout.e_y_mm", "runout.t_x", "runout.t_y",
+                 "runout.axial_offsets_mm[2]"]
+        found = [0.004, 0.003, 0.0004, -0.0003, -0.02]
+        sd = [2e-4, 3e-4, 4e-5, 3e-5, 2e-3]
+        slopes = []
+        for i, step in enumerate(sd):
+            ends = [peak([v + sign * step * (i == k) for k, v in enumerate(found)])
+                    for sign in (-1, 1)]
+            slopes.append((ends[1] - ends[0]) / 2)
+        self.found(names, found, [[s * s * (i == k) for k in range(5)] for i, s in enumerate(sd)])
+        self.case(runout=runout(found[0:2], found[2:4], found[4]),
+                  program={"covariance": "found"})
+        told = self.answer()[0]["peaks"]["peak_xy_N"]
+        half = 1.96 * math.hypot(*slopes)
+        self.assertGreater(min(abs(s) for s in slopes), 1e-4)  # each counts
+        self.assertAlmostEqual(told["high"] - told["value"], half, delta=0.05 * half)
 
     def test_walls_that_stay(self):
         """The line along +x leaves both walls of a slot, the one along +y only stock behind."""

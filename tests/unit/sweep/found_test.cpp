@@ -108,6 +108,29 @@ TEST_F(FoundFile, IsPutIntoTheCase) {  // [U-6]
   EXPECT_EQ(found.warnings[0].code, "not_drawn");
 }
 
+TEST_F(FoundFile, AxialOffsetsAndTiltArePutIntoTheCaseToo) {  // [U-6]
+  const Joint inserts{
+      .law = "linear_edge",
+      .chip_model = "trochoidal",
+      .teeth = 2,
+      .names = {"runout.axial_offsets_mm[2]", "runout.t_x", "runout.t_y"},
+      .values = {-0.02, 0.0003, 0.0004},
+      .factors = {2, 2, 2},
+      .covariance = {1e-6, 0, 0, 0, 1e-10, 0, 0, 0, 1e-10}};
+  const Found found =
+      find_all({.covariance = {file(inserts, "identify")}, .draws = 5}, table({}));
+  ASSERT_EQ(found.keys.size(), 3U);
+  EXPECT_EQ(found.keys[0].key, "runout.axial_offsets_mm[2]");
+  EXPECT_EQ(found.keys[1].key, "runout.tilt_deg");
+  EXPECT_EQ(found.keys[2].key, "runout.tilt_angle_deg");
+  EXPECT_NEAR(std::get<double>(found.values[1].value), std::atan(0.0005) / unit::deg,
+              1e-12);
+  EXPECT_NEAR(std::get<double>(found.values[2].value), std::atan2(4, 3) / unit::deg,
+              1e-12);
+  const Node* list = find(*find(found.root, "runout"), "axial_offsets_mm");
+  EXPECT_EQ(std::get<double>(std::get<cases::Array>(list->value)[1].value), -0.02);
+}
+
 /// Found offsets count from tooth 1; so must those of the case that stay.
 TEST_F(FoundFile, OfOffsetsMovesThoseThatStayToTheSameZero) {
   const Joint second{.law = "linear_edge",
