@@ -145,7 +145,7 @@ std::map<std::string, Held> held(const Tool& tool, Disturbance how, int seeds) {
 
 /// TROCHOID_SEEDS asks for more than the few of a quick test.
 int seeds() {
-  constexpr int few = 40;
+  constexpr int few = 20;
   const char* asked = std::getenv("TROCHOID_SEEDS");
   return asked != nullptr ? std::atoi(asked) : few;
 }

@@ -136,7 +136,7 @@ class Channels(unittest.TestCase):
     def test_known_sums(self):  # [I-26]
         """Of power at one feed K_tc + c K_te is known, c by the means of the edges in cut"""
         tables = case_tables()
-        angle = (np.arange(7200) + 0.5) * 2 * np.pi / 7200
+        angle = (np.arange(1800) + 0.5) * 2 * np.pi / 1800
         D = rows(tb.to_case(tables | {"force": K}), ["power"], angle, 0.0).mean(axis=0)[0]
         truth = D @ np.array([K[key] for key in KEYS])
         tables |= {"dynamometer": {"axes": ["power"]},

@@ -220,7 +220,7 @@ class Identify(unittest.TestCase):
         self.assertLess(fit["unexplained"], 0.02)
         self.assertGreaterEqual(fit["band_harmonics"], 40)
 
-    def joint(self, name, given, kind, names, start, phase, per_turn=90, noise=6.0):
+    def joint(self, name, given, kind, names, start, phase, per_turn=60, noise=6.0):
         case, K_true = truth(given)
         angle = turns(per_turn)
         F = record(case, K_true, angle, phase, noise)
@@ -253,7 +253,7 @@ class Identify(unittest.TestCase):
         given = tables()
         given["runout"] = {"eccentricity_mm": 0.012, "angle_deg": -35.0}
         case, K_true = truth(given)
-        angle = turns(90)
+        angle = turns(60)
         F = record(case, K_true, angle, noise=4)
         before = {"eccentricity_mm": 0.008, "angle_deg": 70.0, "turned_deg": 150.0,
                   "eccentricity_se_mm": 0.0002, "angle_se_deg": 3.0}

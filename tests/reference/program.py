@@ -1,5 +1,6 @@
 """Run the program on a case and read what it answers."""
 import csv
+import itertools
 import json
 import os
 import pathlib
@@ -11,7 +12,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TROCHOID", str(ROOT / "build/release/src/trochoid/cli/trochoid"))
 
 # `./test --all` runs every comparison; `./test` leaves out long ones whose parts others cover.
-long_form = unittest.skipUnless("TROCHOID_SEEDS" in os.environ, "of ./test --all")
+WHOLE = "TROCHOID_SEEDS" in os.environ
+long_form = unittest.skipUnless(WHOLE, "of ./test --all")
+
+
+def some(cases, every, first=0):
+    """All with `./test --all`; else one in `every`, from the `first` on."""
+    return cases if WHOLE else itertools.islice(cases, first, None, every)
 
 HANGS = 1200  # s; for a program that never ends, not for one on a busy machine
 # What is said of long work: how much depends on the machine.

@@ -12,24 +12,28 @@ from scipy.sparse.linalg import splu
 GAUSS = np.polynomial.legendre.leggauss(4)  # exact for products of cubics
 
 
+@lru_cache(maxsize=None)
+def unit_hermite(s, order):
+    """Derivative of the four shapes of an element of length 1 at s"""
+    shapes = ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])
+    return np.array([np.polyval(np.polyder(np.poly1d(p[::-1]), order), s) for p in shapes])
+
+
 def hermite(s, length, order):
     """Derivative of the four shapes at s in [0, 1]: value and slope here, value and slope there"""
-    shapes = np.array([[1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1]], float)
-    shapes[[1, 3]] *= length
-    return np.array([np.polyval(np.polyder(np.poly1d(p[::-1]), order), s)
-                     for p in shapes]) / length**order
+    return unit_hermite(s, order) * (1, length, 1, length) / length**order
 
 
 def line(nodes, p, q, weight=None):
     """Integral of derivative p times derivative q of all shapes, times weight(element)"""
     size = 2 * len(nodes)
-    out = sparse.lil_matrix((size, size))
+    out = np.zeros((size, size))
     for e, (a, b) in enumerate(zip(nodes, nodes[1:])):
         one = sum(w / 2 * np.outer(hermite((t + 1) / 2, b - a, p), hermite((t + 1) / 2, b - a, q))
                   for t, w in zip(*GAUSS)) * (b - a)
         at = slice(2 * e, 2 * e + 4)
-        out[at, at] = out[at, at].toarray() + one * (1.0 if weight is None else weight[e])
-    return out.tocsr()
+        out[at, at] += one * (1.0 if weight is None else weight[e])
+    return sparse.csr_matrix(out)
 
 
 def even(nodes):
@@ -78,7 +82,9 @@ class FinitePlate:
         free_y = np.ones(2 * len(self.y), bool)
         free_y[:2] = False
         self.free = np.flatnonzero(np.kron(free_x, free_y))
-        self.solver = splu(K.tocsc()[self.free][:, self.free])
+        # Symmetric and definite: the diagonal is the pivot, in an order of its own pattern.
+        self.solver = splu(K.tocsc()[self.free][:, self.free], permc_spec="MMD_AT_PLUS_A",
+                           diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
     def at(self, x, y, slope=(0, 0)):
         """The number of the degree of freedom at a node: its value, or a slope"""
