@@ -8,6 +8,7 @@ option(TROCHOID_UNITY "Compile the files of a room together" ON)
 # release: a third of their time. A million rows of simulate, a record of identify and a sweep
 # of 2000 rows took 1 to 2 % more CPU for it (medians of nine pairs).
 set(rooms_of_words results cases report run sweep cli python)
+set(flags_of_words $<$<CONFIG:Release>:-O1>)
 
 # trochoid_unity(TARGET [BYTES]): group the sources of a target by their folder under src or
 # tests; 120 kB a unit, or what BYTES says. A source that has a UNITY_GROUP keeps it.
@@ -49,7 +50,7 @@ function(trochoid_unity target)
       get_target_property(build ${target} BINARY_DIR)
       set_source_files_properties(
         ${build}/CMakeFiles/${target}.dir/Unity/unity_${group}_cxx.cxx
-        TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+        TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${flags_of_words}")
     endif()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
