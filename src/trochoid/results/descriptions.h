@@ -22,6 +22,7 @@ Description description_of_surface();
 Description description_of_calibrate();
 Description description_of_stability();
 Description description_of_dynamics();
+Description description_of_modes();
 Description description_of_actuator();
 Description description_of_correct();
 Description description_of_plan();

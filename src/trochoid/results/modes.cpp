@@ -1,7 +1,9 @@
 #include <trochoid/results/modes.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/results/descriptions.h>
 #include <trochoid/results/joint.h>
+#include <trochoid/results/modes_tables.h>
 #include <trochoid/results/modes_text.h>
 
 #include <fmt/core.h>
@@ -16,7 +18,6 @@ namespace trochoid::results {
 
 namespace {
 
-using base::add_column;
 using structure::FittedMode;
 using structure::FittedResponse;
 using structure::Known;
@@ -24,89 +25,92 @@ using structure::ModesFit;
 
 constexpr std::array axis_names = {"x", "y"};
 
-void add_response(base::Table& table, const char* what, structure::ResponseKind kind,
-                  const std::vector<std::complex<double>>& H) {
-  const std::string_view suffix = unit_suffix(kind);
-  add_column(table, fmt::format("{}re_{}", what, suffix), H.size(),
-             [&](std::size_t i) { return H[i].real(); });
-  add_column(table, fmt::format("{}im_{}", what, suffix), H.size(),
-             [&](std::size_t i) { return H[i].imag(); });
+double hertz(double omega) {
+  return unit::in(omega, unit::Hz);
 }
 
-/// fitted.csv, fitted_xy.csv: the lines of one response as measured and as fitted.
-base::Table fitted_table(std::string file, const FittedResponse& one) {
-  base::Table table{std::move(file), {}};
-  add_column(table, "frequency_Hz", one.omega.size(),
-             [&](std::size_t i) { return unit::in(one.omega[i], unit::Hz); });
-  add_response(table, "", one.kind, one.H);
-  if (!one.fitted.empty()) {
-    add_response(table, "fitted_", one.kind, one.fitted);
-  }
-  return table;
-}
+/// A mode, and whether its shape is told as a complex one.
+struct ModeOf {
+  const FittedMode& mode;
+  bool complex_shapes = false;
+};
 
-/// stabilisation.csv: poles of rising order, and how they stand.
-base::Table stabilisation_table(const ModesResult& r) {
-  base::Table table{"stabilisation.csv", {}};
-  const std::size_t n = r.poles.size();
-  add_column(table, "order", n,
-             [&](std::size_t i) { return static_cast<double>(r.poles[i].order); });
-  add_column(table, "frequency_Hz", n,
-             [&](std::size_t i) { return unit::in(r.poles[i].omega, unit::Hz); });
-  add_column(table, "damping_ratio", n, [&](std::size_t i) { return r.poles[i].zeta; });
-  add_column(table, "standing", n,
-             [&](std::size_t i) { return static_cast<double>(r.poles[i].standing); });
-  return table;
-}
-
-/// The shape, each component with its errors; the imaginary parts where there are any.
-Array shape_value(const FittedMode& m, bool complex_shapes) {
-  Array out;
-  for (std::size_t k = 0; k < m.phi.size(); ++k) {
-    Object one{{"axis", axis_names[k]},
-               {"re_per_sqrt_kg", m.phi[k].real()},
-               {"re_se", m.phi_se[k].real()}};
-    if (complex_shapes) {
-      one.push_back({"im_per_sqrt_kg", m.phi[k].imag()});
-      one.push_back({"im_se", m.phi_se[k].imag()});
-    }
-    out.emplace_back(std::move(one));
-  }
-  return out;
-}
-
-Object mode_value(const FittedMode& m, bool complex_shapes) {
-  Object out;
-  Object se;
-  const auto add = [&](const char* key, const Known& known, double size) {
-    out.push_back({key, known.value / size});
-    se.push_back({key, known.se / size});
-  };
-  add("frequency_Hz", m.omega, unit::Hz);
-  add("damping_ratio", m.zeta, 1.0);
-  add("mass_kg", m.mass, 1.0);
-  add("stiffness_N_per_m", m.stiffness, 1.0);
-  add("damping_Ns_per_m", m.damping, 1.0);
-  if (m.phi.size() > 1) {
-    add("angle_deg", m.angle, unit::deg);
-  }
-  if (complex_shapes) {
-    add("imaginary_fraction", m.imaginary, 1.0);
-  }
-  out.push_back({"se", std::move(se)});
-  if (!m.phi.empty()) {
-    out.push_back({"shape", shape_value(m, complex_shapes)});
-  }
-  out.push_back({"lines_in_peak", m.lines_in_peak});
-  return out;
-}
-
-Array modes_value(const std::vector<FittedMode>& modes, bool complex_shapes) {
-  Array out;
+std::vector<ModeOf> modes_of(const std::vector<FittedMode>& modes,
+                             bool complex_shapes) {
+  std::vector<ModeOf> out;
   for (const FittedMode& mode : modes) {
-    out.emplace_back(mode_value(mode, complex_shapes));
+    out.push_back({mode, complex_shapes});
   }
   return out;
+}
+
+/// The numbers of a mode, or their standard errors under the same keys.
+Fields<ModeOf> numbers_of_mode(double Known::*part) {
+  const bool errors = part == &Known::se;
+  const auto meaning = [=](const char* what) {
+    return errors ? "of the same key" : what;
+  };
+  const auto of = [=](Known FittedMode::*known) {
+    return [=](const ModeOf& m) { return (m.mode.*known).*part; };
+  };
+  return {
+      {"frequency_Hz", meaning("natural frequency"),
+       [=](const ModeOf& m) { return m.mode.omega.*part / unit::Hz; }},
+      {"damping_ratio", meaning("of critical damping"), of(&FittedMode::zeta)},
+      {"mass_kg", meaning("modal mass; with a shape of motion along it"),
+       of(&FittedMode::mass)},
+      {"stiffness_N_per_m", meaning("likewise"), of(&FittedMode::stiffness)},
+      {"damping_Ns_per_m", meaning("likewise"), of(&FittedMode::damping)},
+      {"angle_deg", meaning("with both directions: of the shape, from +x towards +y"),
+       of(&FittedMode::angle), [](const ModeOf& m) { return m.mode.phi.size() > 1; }},
+      {"imaginary_fraction", meaning("of a complex shape (M-33)"),
+       of(&FittedMode::imaginary), [](const ModeOf& m) { return m.complex_shapes; }}};
+}
+
+/// A component of the shape of a mode.
+struct Component {
+  ModeOf of;
+  std::size_t axis = 0;
+};
+
+std::vector<Component> components(const ModeOf& of) {
+  std::vector<Component> out;
+  for (std::size_t k = 0; k < of.mode.phi.size(); ++k) {
+    out.push_back({of, k});
+  }
+  return out;
+}
+
+const Fields<Component>& component_fields() {
+  using C = const Component&;
+  const auto complex = [](C c) { return c.of.complex_shapes; };
+  static const Fields<Component> all{
+      {"axis", "of the component", [](C c) { return axis_names[c.axis]; }},
+      {"re_per_sqrt_kg", "its real part, scaled to a modal mass of 1",
+       [](C c) { return c.of.mode.phi[c.axis].real(); }},
+      {"re_se", "standard error of it",
+       [](C c) { return c.of.mode.phi_se[c.axis].real(); }},
+      {"im_per_sqrt_kg", "its imaginary part, where shapes are complex",
+       [](C c) { return c.of.mode.phi[c.axis].imag(); }, complex},
+      {"im_se", "standard error of it",
+       [](C c) { return c.of.mode.phi_se[c.axis].imag(); }, complex}};
+  return all;
+}
+
+const Fields<ModeOf>& mode_fields() {
+  using M = const ModeOf&;
+  static const Fields<ModeOf> values = numbers_of_mode(&Known::value);
+  static const Fields<ModeOf> errors = numbers_of_mode(&Known::se);
+  static const Fields<ModeOf> all{
+      {"", "", values, [](M m) { return &m; }},
+      {"se", "standard errors", errors, [](M m) { return &m; }},
+      {"shape",
+       "of several responses: the component along each axis, the largest one with a real "
+       "part above 0",
+       component_fields(), components, [](M m) { return !m.mode.phi.empty(); }},
+      {"lines_in_peak", "lines between its half-power points, where they are fewest",
+       [](M m) { return m.mode.lines_in_peak; }}};
+  return all;
 }
 
 /// What modes.toml holds, with its covariance.
@@ -131,236 +135,355 @@ Joint joint_of(const ModesResult& r) {
   return joint;
 }
 
-/// Resonances that the fit holds and that are no answer, with what is missing.
-Array unresolved_value(const ModesResult& r) {
-  Array out;
+/// A resonance that the fit holds and that is no answer.
+struct Unresolved {
+  std::optional<double> omega;  ///< of one response [rad/s]
+  const std::string& why;
+};
+
+std::vector<Unresolved> unresolved_of(const ModesResult& r) {
+  std::vector<Unresolved> out;
   for (std::size_t i = 0; i < r.fit.left_out.size(); ++i) {
-    Object one;
-    if (!r.shared) {
-      one.push_back(
-          {"frequency_Hz", unit::in(r.fit.unresolved[i].omega.value, unit::Hz)});
-    }
-    one.push_back({"why", r.fit.left_out[i]});
-    out.emplace_back(std::move(one));
+    out.push_back(
+        {r.shared ? std::nullopt : std::optional(r.fit.unresolved[i].omega.value),
+         r.fit.left_out[i]});
   }
   return out;
 }
 
-/// The fits that were tried: the evidence for each, less being better.
-Array orders_value(const ModesResult& r) {
+const Fields<Unresolved>& unresolved_fields() {
+  using U = const Unresolved&;
+  static const Fields<Unresolved> all{
+      {"frequency_Hz", "of one response: where it is",
+       [](U u) { return hertz(*u.omega); }, [](U u) { return u.omega.has_value(); }},
+      {"why", "it is no answer", [](U u) { return u.why; }}};
+  return all;
+}
+
+/// A fit that was tried, beside the best of them.
+struct TriedOrder {
+  const structure::ModesOrder& order;
+  double above = 0.0;  ///< of the criterion
+  bool shared = false;
+};
+
+std::vector<TriedOrder> orders_of(const ModesResult& r) {
   double least = std::numeric_limits<double>::infinity();
   for (const structure::ModesOrder& order : r.fit.orders) {
     least = std::min(least, order.criterion);
   }
-  Array orders;
+  std::vector<TriedOrder> out;
   for (const structure::ModesOrder& order : r.fit.orders) {
-    Array frequencies;
-    Array dampings;
-    for (const auto& [omega, zeta] : order.modes) {
-      frequencies.emplace_back(unit::in(omega, unit::Hz));
-      dampings.emplace_back(zeta);
-    }
-    Object one{{"modes", order.count}};
-    if (r.shared) {
-      one.push_back({"shapes", order.complex_shapes ? "complex" : "real"});
-    }
-    one.push_back({"residual_terms", order.residual_terms});
-    one.push_back({"criterion", order.criterion - least});
-    one.push_back({"frequencies_Hz", std::move(frequencies)});
-    one.push_back({"damping_ratios", std::move(dampings)});
-    one.push_back({"fault", order.fault.empty() ? Value(nullptr) : Value(order.fault)});
-    orders.emplace_back(std::move(one));
-  }
-  return orders;
-}
-
-Array outside_value(const ModesFit& fit) {
-  Array out;
-  for (const FittedMode& term : fit.outside) {
-    out.emplace_back(unit::in(term.omega.value, unit::Hz));
+    out.push_back({order, order.criterion - least, r.shared});
   }
   return out;
 }
 
-/// Band, quality and noise of one response, as both forms of the answer tell them.
-void add_band(const FittedResponse& one, Object& to) {
-  if (!one.omega.empty()) {
-    to.push_back({"band_Hz", Array{unit::in(one.omega.front(), unit::Hz),
-                                   unit::in(one.omega.back(), unit::Hz)}});
+const Fields<TriedOrder>& order_fields() {
+  using O = const TriedOrder&;
+  static const Fields<TriedOrder> all{
+      {"modes", "how many it would answer", [](O o) { return o.order.count; }},
+      {"shapes", "of several responses: `real` or `complex`",
+       [](O o) { return o.order.complex_shapes ? "complex" : "real"; },
+       [](O o) { return o.shared; }},
+      {"residual_terms", "whether it has them",
+       [](O o) { return o.order.residual_terms; }},
+      {"criterion", "above that of the best fit: the less, the better",
+       [](O o) { return o.above; }},
+      {"frequencies_Hz", "of all its terms",
+       [](O o) {
+         Array out;
+         for (const auto& [omega, zeta] : o.order.modes) out.emplace_back(hertz(omega));
+         return out;
+       }},
+      {"damping_ratios", "of all its terms",
+       [](O o) {
+         Array out;
+         for (const auto& [omega, zeta] : o.order.modes) out.emplace_back(zeta);
+         return out;
+       }},
+      {"fault", "why it cannot be the answer, or `null`", [](O o) {
+         return o.order.fault.empty() ? Value(nullptr) : Value(o.order.fault);
+       }}};
+  return all;
+}
+
+const Fields<FittedResponse>& band_fields() {
+  using R = const FittedResponse&;
+  static const Fields<FittedResponse> all{
+      {"kind", "`receptance`, `mobility` or `accelerance`",
+       [](R one) { return name_of(one.kind); }},
+      {"lines", "that were used", [](R one) { return one.omega.size(); }},
+      {"band_Hz", "the first of them and the last",
+       [](R one) {
+         return Array{hertz(one.omega.front()), hertz(one.omega.back())};
+       },
+       [](R one) { return !one.omega.empty(); }}};
+  return all;
+}
+
+/// A key whose name ends with the unit of the response.
+template <class Get>
+Field<FittedResponse> in_its_unit(std::string_view name, std::string_view meaning,
+                                  Get get) {
+  return Field<FittedResponse>{
+      "", "",
+      [=](const FittedResponse& one) {
+        return Object{
+            {fmt::format("{}_{}", name, unit_suffix(one.kind)), std::invoke(get, one)}};
+      }}
+      .with({{fmt::format(".{}_*", name), meaning}});
+}
+
+const Fields<FittedResponse>& explained_fields() {
+  static const Fields<FittedResponse> all{
+      {"explained",
+       "1 less the sum of squares of what the fit leaves over that of the response",
+       &FittedResponse::explained},
+      in_its_unit("rms",
+                  "of what the fit leaves: `rms_m_per_N`, `rms_m_per_s_N` or "
+                  "`rms_m_per_s2_N`",
+                  &FittedResponse::rms)};
+  return all;
+}
+
+const Fields<FittedResponse>& noise_fields() {
+  using R = const FittedResponse&;
+  static const Fields<FittedResponse> all{
+      in_its_unit("floor", "of each line: `floor_m_per_N` ...",
+                  [](R one) { return one.noise.floor; }),
+      {"magnitude_percent", "in proportion to the response",
+       [](R one) { return 100 * one.noise.magnitude; }},
+      {"phase_deg", "of its phase", [](R one) { return given(one.noise.phase); }}};
+  return all;
+}
+
+const Fields<FittedResponse>& residual_fields() {
+  using R = const FittedResponse&;
+  static const Fields<FittedResponse> all{
+      {"above_m_per_N", "U: of modes above the band",
+       [](R one) { return one.residual[0]; }},
+      {"below_per_kg", "L: of modes below the band",
+       [](R one) { return one.residual[1]; }}};
+  return all;
+}
+
+const Fields<signal::TapHit>& hit_fields() {
+  using H = const signal::TapHit&;
+  static const Fields<signal::TapHit> all{
+      {"time_s", "where its pulse begins", &signal::TapHit::time},
+      {"peak_N", "of the force", &signal::TapHit::peak},
+      {"left_out", "why it is not used, or `null`",
+       [](H hit) { return hit.fault.empty() ? Value(nullptr) : Value(hit.fault); }}};
+  return all;
+}
+
+const FittedResponse& first_response(const ModesResult& r) {
+  return r.fit.responses.front();
+}
+
+bool found(const ModesResult& r) {
+  return r.fit.ok;
+}
+
+Array terms_outside(const ModesResult& r) {
+  Array out;
+  for (const FittedMode& term : r.fit.outside) {
+    out.emplace_back(hertz(term.omega.value));
   }
+  return out;
 }
 
-void add_explained(const FittedResponse& one, Object& to) {
-  to.push_back({"explained", one.explained});
-  to.push_back({fmt::format("rms_{}", unit_suffix(one.kind)), one.rms});
+Field<ModesResult> modes_field(bool shared) {
+  return Field<ModesResult>{
+      "modes",
+      shared ? ""
+             : "by frequency, of all responses together; `null` with status failed",
+      [](const ModesResult& r) {
+        return r.fit.ok
+                   ? mode_fields().value(modes_of(r.fit.modes, r.fit.complex_shapes))
+                   : Value();
+      }}
+      .with(mode_fields().texts("[]."));
 }
 
-void add_noise(const FittedResponse& one, Object& to) {
-  const auto& [floor, magnitude, phase] = one.noise;
-  to.push_back({"noise", Object{{fmt::format("floor_{}", unit_suffix(one.kind)), floor},
-                                {"magnitude_percent", 100 * magnitude},
-                                {"phase_deg", unit::in(phase, unit::deg)}}});
+/// What both forms of the answer end with.
+const Fields<ModesResult>& search_fields() {
+  static const Fields<ModesResult> all{
+      {"unresolved", "resonances in the fit and not among the modes",
+       unresolved_fields(), unresolved_of},
+      {"orders", "every fit that was tried", order_fields(), orders_of}};
+  return all;
 }
 
-Object residual_terms(const FittedResponse& one) {
-  return {{"above_m_per_N", one.residual[0]}, {"below_per_kg", one.residual[1]}};
+const Fields<ModesResult>& tap_fields() {
+  using R = const ModesResult&;
+  static const Fields<ModesResult> all{{"hits", "of hammer blows in time: each blow",
+                                        hit_fields(),
+                                        [](R r) -> const auto& {return r.tap->hits;
+}
+}  // namespace
+, {"block_s", "what is taken from each blow on", [](R r) { return r.tap->block; }},
+    {"window_end", "of the exponential window, at the end of a block; 1: there is none",
+     [](R r) { return r.tap->window_end; }},
+{
+  "excited_to_Hz", "up to where the force is within 20 dB of its most",
+      [](R r) { return hertz(r.tap->excited); }
+}
+};  // namespace trochoid::results
+return all;
 }
 
-/// What puts a key and its value into an object.
-auto adder(Object& to) {
-  return [&to](std::string key, Value value) {
-    to.push_back({std::move(key), std::move(value)});
+/// The answer about one response.
+const Fields<ModesResult>& one_fields() {
+  using R = const ModesResult&;
+  static const Fields<ModesResult> all{
+      {"kind", "`receptance`, `mobility` or `accelerance`",
+       [](R r) { return name_of(first_response(r).kind); }},
+      modes_field(false),
+      {"lines", "that were used", [](R r) { return first_response(r).omega.size(); }},
+      {"band_Hz", "the first of them and the last",
+       [](R r) {
+         const std::vector<double>& omega = first_response(r).omega;
+         return Array{hertz(omega.front()), hertz(omega.back())};
+       },
+       [](R r) { return !first_response(r).omega.empty(); }},
+      {"covariance", "what `[sweep] covariance` draws from", joint_fields(),
+       [](R r) { return found_or_none(joint_of(r)); }, found},
+      {"", "", explained_fields(), first_response, found},
+      {"residual_terms", "M-6; `null` where none are needed", residual_fields(),
+       [](R r) { return r.fit.residual_terms ? &first_response(r) : nullptr; }, found},
+      {"terms_outside_Hz", "terms that stand for modes outside of the band",
+       terms_outside, found},
+      {"noise", "as standard deviations (M-15)", noise_fields(), first_response, found},
+      {"", "", search_fields(), [](R r) { return &r; }, found},
+      {"", "", tap_fields(), [](R r) { return &r; },
+       [](R r) { return r.tap.has_value(); }},
+      {"description", "what the file says of itself",
+       [](R r) { return r.responses.front().description; },
+       [](R r) { return !r.responses.front().description.empty(); }}};
+  return all;
+}
+
+/// One of several responses.
+struct ResponseOf {
+  const MeasuredResponse& response;
+  const FittedResponse& one;
+  const ModesFit& all;
+};
+
+std::vector<ResponseOf> responses_of(const ModesResult& r) {
+  std::vector<ResponseOf> out;
+  for (std::size_t q = 0; q < r.responses.size(); ++q) {
+    out.push_back({r.responses[q], r.fit.responses[q], r.fit});
+  }
+  return out;
+}
+
+/// phi_j phi_k of a mode in a response.
+struct ResidueOf {
+  const structure::ShapeResidue& residue;
+  bool complex_shapes = false;
+};
+
+std::vector<ResidueOf> residues_of(const ResponseOf& of) {
+  std::vector<ResidueOf> out;
+  for (const structure::ShapeResidue& residue : of.one.residues) {
+    out.push_back({residue, of.all.complex_shapes});
+  }
+  return out;
+}
+
+const Fields<ResidueOf>& residue_fields() {
+  using Z = const ResidueOf&;
+  const auto complex = [](Z z) { return z.complex_shapes; };
+  static const Fields<ResidueOf> all{
+      {"re_per_kg", "its real part", [](Z z) { return z.residue.value.real(); }},
+      {"re_se", "standard error of it", [](Z z) { return z.residue.se.real(); }},
+      {"im_per_kg", "its imaginary part, where shapes are complex",
+       [](Z z) { return z.residue.value.imag(); }, complex},
+      {"im_se", "standard error of it", [](Z z) { return z.residue.se.imag(); },
+       complex}};
+  return all;
+}
+
+const Fields<ResponseOf>& response_fields() {
+  using Q = const ResponseOf&;
+  const auto fitted = [](Q q) -> const auto& {
+    return q.one;
   };
+  const auto ok = [](Q q) { return q.all.ok; };
+  static const Fields<ResponseOf> all{
+      {"name", "motion, then force: `xy`", [](Q q) { return q.response.name; }},
+      {"axis", "of the motion", [](Q q) { return name_of(q.response.motion); }},
+      {"force_axis", "of the force", [](Q q) { return name_of(q.response.force); }},
+      {"", "", band_fields(), fitted},
+      {"description", "what the file says of it",
+       [](Q q) { return q.response.description; },
+       [](Q q) { return !q.response.description.empty(); }},
+      {"", "", explained_fields(), fitted, ok},
+      {"noise", "as standard deviations (M-15)", noise_fields(), fitted, ok},
+      {"residues", "of each mode (M-30)", residue_fields(), residues_of, ok},
+      {"residual_terms", "M-30, where they are needed", residual_fields(), fitted,
+       [](Q q) { return q.all.ok && q.all.residual_terms; }}};
+  return all;
 }
 
-/// The blows of a record, and why some of them are left out.
-Array hits_value(const signal::TapResponse& tap) {
-  Array hits;
-  for (const signal::TapHit& hit : tap.hits) {
-    hits.emplace_back(
-        Object{{"time_s", hit.time},
-               {"peak_N", hit.peak},
-               {"left_out", hit.fault.empty() ? Value(nullptr) : Value(hit.fault)}});
-  }
-  return hits;
-}
+/// A pair of cross responses.
+struct CrossPair {
+  const structure::Reciprocity& of;
+  const ModesResult& all;
+};
 
-/// response.csv: what the blows gave, with its coherence.
-base::Table response_table(const ModesResult& r) {
-  base::Table table{"response.csv", {}};
-  const signal::TapResponse& tap = *r.tap;
-  const std::size_t n = tap.omega.size();
-  add_column(table, "frequency_Hz", n,
-             [&](std::size_t i) { return unit::in(tap.omega[i], unit::Hz); });
-  add_response(table, "", r.fit.responses.front().kind, tap.H);
-  if (!tap.coherence.empty()) {
-    add_column(table, "coherence", n, [&](std::size_t i) { return tap.coherence[i]; });
-  }
-  return table;
-}
-
-Object result_of_one(const ModesResult& r) {
-  const ModesFit& fit = r.fit;
-  const FittedResponse& one = fit.responses.front();
-  Object result{{"kind", name_of(one.kind)},
-                {"modes", fit.ok ? Value(modes_value(fit.modes, false)) : nullptr},
-                {"lines", one.omega.size()}};
-  const auto add = adder(result);
-  add_band(one, result);
-  if (fit.ok) {
-    add("covariance", joint_value(joint_of(r)));
-    add_explained(one, result);
-    add("residual_terms", fit.residual_terms ? Value(residual_terms(one)) : nullptr);
-    add("terms_outside_Hz", outside_value(fit));
-    add_noise(one, result);
-    add("unresolved", unresolved_value(r));
-    add("orders", orders_value(r));
-  }
-  if (r.tap) {
-    add("hits", hits_value(*r.tap));
-    add("block_s", r.tap->block);
-    add("window_end", r.tap->window_end);
-    add("excited_to_Hz", unit::in(r.tap->excited, unit::Hz));
-  }
-  if (!r.responses.front().description.empty()) {
-    add("description", r.responses.front().description);
-  }
-  return result;
-}
-
-Object response_value(const MeasuredResponse& response, const FittedResponse& one,
-                      const ModesFit& all) {
-  Object out{{"name", response.name},
-             {"axis", name_of(response.motion)},
-             {"force_axis", name_of(response.force)},
-             {"kind", name_of(one.kind)},
-             {"lines", one.omega.size()}};
-  add_band(one, out);
-  if (!response.description.empty()) {
-    out.push_back({"description", response.description});
-  }
-  if (!all.ok) {
-    return out;
-  }
-  add_explained(one, out);
-  add_noise(one, out);
-  Array residues;
-  for (const structure::ShapeResidue& residue : one.residues) {
-    Object Z{{"re_per_kg", residue.value.real()}, {"re_se", residue.se.real()}};
-    if (all.complex_shapes) {
-      Z.push_back({"im_per_kg", residue.value.imag()});
-      Z.push_back({"im_se", residue.se.imag()});
-    }
-    residues.emplace_back(std::move(Z));
-  }
-  out.push_back({"residues", std::move(residues)});
-  if (all.residual_terms) {
-    out.push_back({"residual_terms", residual_terms(one)});
-  }
-  return out;
-}
-
-Array reciprocity_value(const ModesResult& r) {
-  Array out;
+std::vector<CrossPair> cross_pairs(const ModesResult& r) {
+  std::vector<CrossPair> out;
   for (const structure::Reciprocity& pair : r.fit.reciprocity) {
-    out.emplace_back(Object{{"response", r.responses[pair.other].name},
-                            {"over", r.responses[pair.one].name},
-                            {"gain", pair.gain.value},
-                            {"se", pair.gain.se}});
+    out.push_back({pair, r});
   }
   return out;
 }
 
-Object result_of_shared(const ModesResult& r) {
-  const ModesFit& fit = r.fit;
-  Object result{
-      {"shapes", fit.ok ? Value(fit.complex_shapes ? "complex" : "real") : nullptr},
-      {"modes", fit.ok ? Value(modes_value(fit.modes, fit.complex_shapes)) : nullptr}};
-  const auto add = adder(result);
-  if (fit.ok && fit.complex_shapes) {
-    add("real_modes", modes_value(fit.real_modes, false));
-  }
-  Array responses;
-  for (std::size_t q = 0; q < r.responses.size(); ++q) {
-    responses.emplace_back(response_value(r.responses[q], fit.responses[q], fit));
-  }
-  add("responses", std::move(responses));
-  if (!fit.ok) {
-    return result;
-  }
-  add("covariance", joint_value(joint_of(r)));
-  add("reciprocity", reciprocity_value(r));
-  add("complex_evidence",
-      fit.complex_evidence ? Value(*fit.complex_evidence) : Value(nullptr));
-  add("terms_outside_Hz", outside_value(fit));
-  add("unresolved", unresolved_value(r));
-  add("orders", orders_value(r));
-  return result;
+const Fields<CrossPair>& reciprocity_fields() {
+  using P = const CrossPair&;
+  static const Fields<CrossPair> all{
+      {"response", "one of the two",
+       [](P p) { return p.all.responses[p.of.other].name; }},
+      {"over", "the other", [](P p) { return p.all.responses[p.of.one].name; }},
+      {"gain", "of the first over the second; 1 where they agree",
+       [](P p) { return p.of.gain.value; }},
+      {"se", "standard error of it", [](P p) { return p.of.gain.se; }}};
+  return all;
 }
 
-std::vector<base::Table> tables_of_one(const ModesResult& r) {
-  const FittedResponse& one = r.fit.responses.front();
-  std::vector<base::Table> tables = {fitted_table("fitted.csv", one)};
-  const std::vector<double> mif =
-      structure::mode_indicator({.kind = one.kind, .omega = one.omega, .H = one.H});
-  add_column(tables.front(), "mode_indicator", mif.size(),
-             [&](std::size_t i) { return mif[i]; });
-  if (r.tap && !r.tap->omega.empty()) {
-    tables.push_back(response_table(r));
-  }
-  if (!r.poles.empty()) {
-    tables.push_back(stabilisation_table(r));
-  }
-  return tables;
-}
-
-std::vector<base::Table> tables_of_shared(const ModesResult& r) {
-  std::vector<base::Table> tables;
-  for (std::size_t q = 0; q < r.responses.size(); ++q) {
-    tables.push_back(fitted_table(fmt::format("fitted_{}.csv", r.responses[q].name),
-                                  r.fit.responses[q]));
-  }
-  return tables;
+/// The answer about several responses of one structure.
+const Fields<ModesResult>& shared_fields() {
+  using R = const ModesResult&;
+  static const Fields<ModesResult> all{
+      {"shapes", "of several responses: `real` or `complex`; `null` with status failed",
+       [](R r) {
+         return r.fit.ok ? Value(r.fit.complex_shapes ? "complex" : "real") : Value();
+       }},
+      modes_field(true),
+      {"real_modes",
+       "where shapes are complex: the real modes that fit best, those of `modes.toml`; keys "
+       "as in `modes`",
+       [](R r) { return mode_fields().value(modes_of(r.fit.real_modes, false)); },
+       [](R r) { return r.fit.ok && r.fit.complex_shapes; }},
+      {"responses", "of several: each of them", response_fields(), responses_of},
+      {"covariance", "", joint_fields(), [](R r) { return found_or_none(joint_of(r)); },
+       found},
+      {"reciprocity", "of several responses, where xy and yx were measured (M-34)",
+       reciprocity_fields(), cross_pairs, found},
+      {"complex_evidence",
+       "of several: criterion of the best real shapes less that of the best complex ones; "
+       "`null` where not both were tried",
+       [](R r) {
+         return r.fit.complex_evidence ? Value(*r.fit.complex_evidence) : Value();
+       },
+       found},
+      {"terms_outside_Hz", "", terms_outside, found},
+      {"", "", search_fields(), [](R r) { return &r; }, found}};
+  return all;
 }
 
 }  // namespace
@@ -368,13 +491,22 @@ std::vector<base::Table> tables_of_shared(const ModesResult& r) {
 Answer answer_of(const ModesResult& r) {
   Answer answer{.command = "modes",
                 .heading = r.heading,
-                .result = r.shared ? result_of_shared(r) : result_of_one(r),
-                .tables = r.shared ? tables_of_shared(r) : tables_of_one(r)};
+                .result = (r.shared ? shared_fields() : one_fields()).object(r),
+                .tables = modes_tables(r)};
   if (r.fit.ok) {
     answer.short_table = short_table(r);
     answer.texts.push_back({"modes.toml", modes_toml(r)});
   }
   return answer;
+}
+
+Description description_of_modes() {
+  Description all{.command = "modes", .keys = one_fields().texts()};
+  for (const KeyText& text : shared_fields().texts()) {
+    add_text(all.keys, text.path, text.meaning);
+  }
+  add_modes_columns(all.columns);
+  return all;
 }
 
 }  // namespace trochoid::results
