@@ -16,12 +16,13 @@ def pattern(name):
 
 
 def described():
-    """{command: (keys, columns)} of the tables that are made of the program, as patterns."""
+    """{command: (keys, columns)} of the tables that are made of the program, as patterns; of
+    columns with their files."""
     out = {}
     for command, text in MARKED.findall(PAGE):
         rows = ROW.findall(text)
         out[command] = ({pattern(a) for a, b in rows if not b},
-                        {(a, pattern(b)) for a, b in rows if b})
+                        {(pattern(a), re.escape(b).replace(r"\*", ".+")) for a, b in rows if b})
     return out
 
 
@@ -60,9 +61,9 @@ def undescribed(folder):
     for file in folder.glob("*.csv"):
         with file.open(newline="") as lines:
             for column in next(csv.reader(lines)):
-                if not (known(column, {c for f, c in columns if f == file.name})
+                if not (known(column, {c for f, c in columns if re.fullmatch(f, file.name)})
                         if columns is not None else
                         set(re.findall(r"\w+", column)) <= WORDS or
-                        column.startswith("half_width_") or command == "sweep"):
+                        column.startswith("half_width_")):
                     out.add(f"{command}: column {column} of {file.name}")
     return out

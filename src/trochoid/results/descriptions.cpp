@@ -9,7 +9,8 @@ std::vector<Description> descriptions() {
       description_of_simulate(),  description_of_identify(),  description_of_surface(),
       description_of_calibrate(), description_of_stability(), description_of_dynamics(),
       description_of_modes(),     description_of_actuator(),  description_of_correct(),
-      description_of_plan(),      description_of_wall_plan(), description_of_program()};
+      description_of_plan(),      description_of_wall_plan(), description_of_program(),
+      description_of_sweep()};
 }
 
 namespace {

@@ -28,6 +28,7 @@ Description description_of_correct();
 Description description_of_plan();
 Description description_of_wall_plan();
 Description description_of_program();
+Description description_of_sweep();
 
 /// @brief Of the commands that are described.
 std::vector<Description> descriptions();

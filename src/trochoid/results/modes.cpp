@@ -464,11 +464,12 @@ const Fields<ModesResult>& shared_fields() {
          return r.fit.ok ? Value(r.fit.complex_shapes ? "complex" : "real") : Value();
        }},
       modes_field(true),
-      {"real_modes",
-       "where shapes are complex: the real modes that fit best, those of `modes.toml`; keys "
-       "as in `modes`",
-       [](R r) { return mode_fields().value(modes_of(r.fit.real_modes, false)); },
-       [](R r) { return r.fit.ok && r.fit.complex_shapes; }},
+      Field<ModesResult>{
+          "real_modes",
+          "where shapes are complex: the real modes that fit best, those of `modes.toml`",
+          [](R r) { return mode_fields().value(modes_of(r.fit.real_modes, false)); },
+          [](R r) { return r.fit.ok && r.fit.complex_shapes; }}
+          .with(mode_fields().texts("[].")),
       {"responses", "of several: each of them", response_fields(), responses_of},
       {"covariance", "", joint_fields(), [](R r) { return found_or_none(joint_of(r)); },
        found},

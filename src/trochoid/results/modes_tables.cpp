@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace trochoid::results {
 
@@ -124,7 +125,13 @@ std::vector<base::Table> modes_tables(const ModesResult& result) {
 }
 
 void add_modes_columns(std::vector<ColumnText>& to) {
-  fitted_columns().add_texts(to);
+  std::vector<ColumnText> fitted;
+  fitted_columns().add_texts(fitted);
+  to.insert(to.end(), fitted.begin(), fitted.end());
+  for (ColumnText& column : fitted) {  // the same of each of several
+    column.file = "fitted_*.csv";
+    if (column.name != "mode_indicator") to.push_back(std::move(column));
+  }
   response_columns().add_texts(to);
   stabilisation_columns().add_texts(to);
 }

@@ -1,5 +1,6 @@
 #include <trochoid/results/sweep.h>
 
+#include <trochoid/results/descriptions.h>
 #include <trochoid/results/hdf5_table.h>
 #include <trochoid/results/spread.h>
 #include <trochoid/results/text_table.h>
@@ -71,27 +72,52 @@ std::optional<Spread> spread_in(const SweepResult& r, std::size_t take, Part par
   return values.empty() ? std::optional<Spread>() : spread_of(std::move(values));
 }
 
-/// What is said of one quantity: of rows drawn by chance its 95 % interval.
-Value quantity(const SweepResult& r, std::size_t i) {
-  const auto spread = spread_in(r, i, all_of(r));
-  Object object = {{"take", r.take[i]}, {"answers", spread ? spread->count : 0}};
-  if (!spread) {
-    return object;
+/// What the rows say of one quantity.
+struct Taken {
+  const SweepResult& sweep;
+  const std::string& path;
+  std::optional<Spread> spread;  ///< none: no row has a number
+};
+
+std::vector<Taken> taken_of(const SweepResult& r) {
+  std::vector<Taken> out;
+  for (std::size_t i = 0; i < r.take.size(); ++i) {
+    out.push_back({r, r.take[i], spread_in(r, i, all_of(r))});
   }
-  set(object, "min", spread->min);
-  set(object, "median", spread->median);
-  set(object, "max", spread->max);
-  if (r.by_chance) {
-    set(object, "mean", spread->mean);
-    set(object, "sd", spread->sd);
-    set(object, "low", spread->low);
-    set(object, "high", spread->high);
-    set(object, "low_between", spread->low_between);
-    set(object, "high_between", spread->high_between);
-    set(object, "without_answer",
-        1 - static_cast<double>(spread->count) / static_cast<double>(r.rows.size()));
-  }
-  return object;
+  return out;
+}
+
+const Fields<Taken>& taken_fields() {
+  using Q = const Taken&;
+  const auto known = [](Q q) { return q.spread.has_value(); };
+  const auto by_chance = [](Q q) { return q.spread && q.sweep.by_chance; };
+  const auto of = [](auto Spread::*member) {
+    return [=](Q q) { return as_named(Value((*q.spread).*member)); };
+  };
+  static const Fields<Taken> all{
+      {"take", "path of the quantity in the summary of a row",
+       [](Q q) { return q.path; }},
+      {"answers", "how many rows have a number of it",
+       [](Q q) { return q.spread ? q.spread->count : 0; }},
+      {"min", "least of them", of(&Spread::min), known},
+      {"median", "half of them are below", of(&Spread::median), known},
+      {"max", "most of them", of(&Spread::max), known},
+      {"mean", "of rows by chance, or of draws of a single case", of(&Spread::mean),
+       by_chance},
+      {"sd", "likewise: standard deviation", of(&Spread::sd), by_chance},
+      {"low", "likewise: 95 % of the rows lie from here", of(&Spread::low), by_chance},
+      {"high", "to here", of(&Spread::high), by_chance},
+      {"low_between",
+       "likewise: between which `low` lies with 95 % (U-7); `null` of fewer than 146 rows",
+       of(&Spread::low_between), by_chance},
+      {"high_between", "the same of `high`", of(&Spread::high_between), by_chance},
+      {"without_answer", "likewise: fraction of rows without a number",
+       [](Q q) {
+         return 1 - static_cast<double>(q.spread->count) /
+                        static_cast<double>(q.sweep.rows.size());
+       },
+       by_chance}};
+  return all;
 }
 
 std::size_t answered(const SweepResult& r) {
@@ -100,6 +126,23 @@ std::size_t answered(const SweepResult& r) {
     if (r.rows.status(i) == "ok") ++count;
   }
   return count;
+}
+
+const Fields<SweepResult>& sweep_fields() {
+  using R = const SweepResult&;
+  static const Fields<SweepResult> all{
+      {"command", "that answered each row", &SweepResult::command},
+      {"method", "`grid`, `list` or by chance, as in the case", &SweepResult::method},
+      {"rows", "how many there are", [](R r) { return r.rows.size(); }},
+      {"failed", "rows without an answer",
+       [](R r) { return r.rows.size() - answered(r); }},
+      {"keys", "that were swept", &SweepResult::keys},
+      {"draws", "of each point; 0: none", &SweepResult::draws},
+      {"drawn", "keys that were drawn", &SweepResult::drawn},
+      {"quantities",
+       "what was taken from each row. Of draws over a grid the intervals are in bands.csv",
+       taken_fields(), taken_of}};
+  return all;
 }
 
 /// Whether every point has an interval of its own.
@@ -250,20 +293,9 @@ std::string ranges_of(const SweepResult& r) {
 }
 
 Answer answer_of(const SweepResult& r) {
-  Array quantities;
-  for (std::size_t i = 0; i < r.take.size(); ++i) {
-    quantities.push_back(quantity(r, i));
-  }
   Answer answer{.command = "sweep",
                 .heading = r.heading,
-                .result = Object{{"command", r.command},
-                                 {"method", r.method},
-                                 {"rows", r.rows.size()},
-                                 {"failed", r.rows.size() - answered(r)},
-                                 {"keys", r.keys},
-                                 {"draws", r.draws},
-                                 {"drawn", r.drawn},
-                                 {"quantities", quantities}},
+                .result = sweep_fields().object(r),
                 .short_table = short_table(r),
                 .tables = {table_of(r)}};
   if (r.hdf5) {
@@ -273,6 +305,24 @@ Answer answer_of(const SweepResult& r) {
     answer.tables.push_back(bands_table(r));
   }
   return answer;
+}
+
+Description description_of_sweep() {
+  return {.command = "sweep",
+          .keys = sweep_fields().texts(),
+          .columns = {
+              {"sweep.csv", "*", "each swept key, under its own name"},
+              {"sweep.csv", "draw", "with draws: number of the draw of a point"},
+              {"sweep.csv", "*", "each drawn key, under its own name"},
+              {"sweep.csv", "*", "what was taken, by its path without `result.`"},
+              {"sweep.csv", "status", "`ok`, `failed` or `wrong_input`"},
+              {"sweep.csv", "message", "of the row"},
+              {"bands.csv", "*", "each swept key: a row for each point"},
+              {"bands.csv", "median_*", "of the draws of the point, of what was taken"},
+              {"bands.csv", "low_*", "95 % of the draws lie from here"},
+              {"bands.csv", "high_*", "to here"},
+              {"bands.csv", "sd_*", "standard deviation of the draws"},
+              {"bands.csv", "failed_*", "draws without a number"}}};
 }
 
 }  // namespace trochoid::results
