@@ -1,4 +1,5 @@
 #include <trochoid/cases/case.h>
+#include <trochoid/cases/sweep.h>
 #include <trochoid/cases/tables.h>
 #include <trochoid/cases/usual_values.h>
 
@@ -40,7 +41,6 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
   default filled in. It is a case file again.
 * A force record is a file of [one of these formats](record.md); a measured surface is
   [text or a map](surface.md).
-* `[sweep]` sets keys to many values, one after another: see [the guide](../guide/sweep.md).
 * Editors complete and check keys by [case.schema.json](case.schema.json) (JSON Schema,
   draft 7, with units, ranges and defaults): the line `#:schema case.schema.json` at the
   top of a case, for Even Better TOML and other editors with
@@ -114,6 +114,12 @@ std::string describe_case_file() {
       table.add();
     }
     table.describe(0, row);
+  }
+  head("`[sweep]`",
+       "One case over many values of its keys ([the guide](../guide/sweep.md))");
+  for (const SweepKeyText& key : sweep_keys()) {
+    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, key.value, key.standard,
+                        key.meaning);
   }
   return text + usual_table();
 }

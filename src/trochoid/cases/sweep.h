@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -98,6 +99,16 @@ Sweep read_sweep(const Node& root, const std::filesystem::path& file);
 
 /// @brief [sweep] as a file would say it.
 std::string sweep_toml(const Sweep& sweep);
+
+/// A key of [sweep] in words, for the page of keys and the schema.
+struct SweepKeyText {
+  std::string_view name;
+  std::string_view value;     ///< what it accepts
+  std::string_view standard;  ///< where it is left out
+  std::string_view meaning;
+};
+
+std::span<const SweepKeyText> sweep_keys() noexcept;
 
 /// @brief [sweep] in JSON Schema (draft 7): what read_sweep takes.
 std::string sweep_schema();

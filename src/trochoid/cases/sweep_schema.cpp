@@ -1,6 +1,8 @@
 #include <trochoid/base/names.h>
 #include <trochoid/cases/sweep.h>
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 namespace trochoid::cases {
@@ -42,7 +44,36 @@ Json drawn() {
   return {{"anyOf", {one, {{"type", "array"}, {"minItems", 1}, {"items", one}}}}};
 }
 
+constexpr std::string_view left_out = "left out";
+
+constexpr SweepKeyText key_texts[] = {
+    {"over",
+     "a table of keys of the case in quotes, each set to one of the forms below",
+     "needed, or `covariance`",
+     "keys such as \"cut.spindle_rpm\", and their values: { from, to, count } evenly, "
+     "{ values = [...] }, { file, column } of a text file, or by chance { mean, sd }"},
+    {"method", "one of \"grid\", \"list\", \"latin_hypercube\", \"random\"",
+     "`\"grid\"`",
+     "grid: every combination, the last key fastest; list: all keys together; random, "
+     "latin_hypercube: by chance"},
+    {"count", "a whole number from 1 to 100000000", "200",
+     "rows of random and latin_hypercube"},
+    {"seed", "a whole number of 0 or more", "`1`", "of what is drawn by chance"},
+    {"command", "text", "that of the command line", "what answers each row"},
+    {"take", "a list of texts", "needed, here or with `--take`",
+     "what is taken from each answer, such as \"result.peak_xy_N\""},
+    {"covariance", "text, { file, group }, or a list of them", left_out,
+     "results of identify, modes or calibrate, or their folders, whose numbers are drawn "
+     "together"},
+    {"draws", "a whole number from 1 to 1000000", "200 with `covariance`",
+     "how many; of each point of a grid or list"},
+    {"hdf5", "true or false", "`false`", "the table as HDF5 too: sweep.h5"}};
+
 }  // namespace
+
+std::span<const SweepKeyText> sweep_keys() noexcept {
+  return key_texts;
+}
 
 std::string sweep_schema() {
   const Json text{{"type", "string"}};
@@ -60,21 +91,14 @@ std::string sweep_schema() {
   out["anyOf"] = {{{"required", Json::array({"over"})}},
                   {{"required", Json::array({"covariance"})}}};
   out["properties"]["over"]["minProperties"] = 1;
-  out["properties"]["over"]["description"] =
-      "keys of the case in quotes, such as \"cut.spindle_rpm\", and their values";
-  out["properties"]["method"]["description"] =
-      "grid: every combination; list: all keys together; random, latin_hypercube: by "
-      "chance";
-  out["properties"]["count"]["description"] =
-      "rows of random and latin_hypercube; default: 200";
-  out["properties"]["covariance"]["description"] =
-      "results of identify, modes or calibrate whose numbers are drawn together";
-  out["properties"]["draws"]["description"] =
-      "how many; of each point of a grid or list";
-  out["properties"]["hdf5"]["description"] = "the table as HDF5 too: sweep.h5";
-  out["properties"]["command"]["description"] = "what answers each row";
-  out["properties"]["take"]["description"] =
-      "what is taken from each answer, such as \"result.peak_xy_N\"";
+  for (const SweepKeyText& key : key_texts) {
+    Json& property = out["properties"][key.name];
+    const bool tells = property.contains("default") || key.standard == left_out ||
+                       key.standard.starts_with("needed");
+    property["description"] =
+        tells ? std::string(key.meaning)
+              : fmt::format("{}; default: {}", key.meaning, key.standard);
+  }
   out["description"] = "one case over many values of its keys";
   return out.dump();
 }

@@ -1,6 +1,10 @@
 #include "case_text.h"
 
+#include <trochoid/cases/sweep.h>
+
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 #include <vector>
@@ -26,6 +30,15 @@ TEST(CasePage, IsWhatTheSchemaSays) {
 
 TEST(CasePage, JsonSchemaIsWhatTheSchemaSays) {
   expect_up_to_date("case.schema.json", case_schema());
+}
+
+TEST(CasePage, HasEveryKeyOfASweep) {
+  const auto schema = nlohmann::json::parse(sweep_schema());
+  EXPECT_EQ(schema["properties"].size(), sweep_keys().size());
+  for (const auto& [key, form] : schema["properties"].items()) {
+    EXPECT_GT(form.size(), 1U) << key;  // a form, beside the description
+    EXPECT_NE(describe_case_file().find("\n| `" + key + "` | "), std::string::npos);
+  }
 }
 
 TEST(CasePage, NewSimulateIsAValidCase) {
