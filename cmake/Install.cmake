@@ -47,9 +47,9 @@ endforeach()
 # of who ran the examples here.
 install(FILES LICENSE README.md CHANGELOG.md ARCHITECTURE.md CONTRIBUTING.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
-install(DIRECTORY docs examples linuxcnc DESTINATION ${CMAKE_INSTALL_DOCDIR}
+install(DIRECTORY docs examples linuxcnc matlab DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT documents
-  REGEX "\\.(simulate|identify|check|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|sweep)$" EXCLUDE
+  REGEX "\\.(simulate|identify|check|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|program|sweep)$" EXCLUDE
   PATTERN __pycache__ EXCLUDE)
 
 # The licences of what is linked into a program that stands alone, as Debian has them:

@@ -34,6 +34,8 @@ web_programs=(emcc=emscripten)
 # Of the program for Windows (./run windows), and what runs it in the tests.
 windows_programs=(x86_64-w64-mingw32-g++-posix=g++-mingw-w64-x86-64-posix wine=wine)
 windows_libraries=(libz-mingw-w64-dev wine64)
+# Of the functions for MATLAB (./test --octave).
+octave_programs=(octave-cli=octave)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
   mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
@@ -134,7 +136,7 @@ install_node_modules() {
   printf '%s' "$1" >"$root/node_modules/.complete"
 }
 
-# setup run|python|docs|packages|web|windows|test: install what it needs, unless its stamp says that this was done.
+# setup run|python|docs|packages|web|windows|octave|test: install what it needs, unless its stamp says that this was done.
 setup() {
   local stamp=$root/build/.setup-$1
   if [ "$stamp" -nt "$root/tools/setup.sh" ] && have_node_modules "$1"; then
@@ -147,6 +149,7 @@ setup() {
   [ "$1" = docs ] && needs+=("${python_libraries[@]}" "${site_libraries[@]}")
   [ "$1" = web ] && needs+=("${web_programs[@]}")
   [ "$1" = windows ] && needs+=("${windows_programs[@]}" "${windows_libraries[@]}")
+  [ "$1" = octave ] && needs+=("${octave_programs[@]}")
   [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
   if ! command -v dpkg-query >/dev/null; then
     stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \
@@ -224,6 +227,11 @@ compile_elsewhere() {
       { rm -f "$folder/build.ninja"; tail -n 25 "$log" >&2; stop "CMake did not succeed; above is the end of $log."; }
   fi
   build=$folder compile "$target"
+}
+
+# Nothing: Octave runs the functions as they are, once CMake has looked for it again.
+compile_octave() {
+  cmake "$build" </dev/null >>"$log" 2>&1
 }
 
 # The page that runs in a browser.
