@@ -68,7 +68,7 @@ enum class ChannelOffset {
   fit,        ///< one constant and one slope a channel, found with the coefficients
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(ChannelOffset offset) noexcept {
   switch (offset) {
     case ChannelOffset::automatic:
@@ -86,7 +86,7 @@ constexpr std::string_view name_of(ChannelOffset offset) noexcept {
 /// What measurements of different groups have in common.
 enum class Shared { runout, coefficients };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Shared shared) noexcept {
   switch (shared) {
     case Shared::runout:
@@ -123,7 +123,7 @@ struct Identify {
 /// A kind of cut that a plan looks at.
 enum class PlannedEngagement { slot, up, down };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(PlannedEngagement engagement) noexcept {
   switch (engagement) {
     case PlannedEngagement::slot:

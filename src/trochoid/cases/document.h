@@ -19,7 +19,7 @@ struct Location {
   int column = 1;
 };
 
-/// Of what was set beside the file (set_beside.h).
+/// Of what was set beside the file (settings.h).
 inline constexpr int beside_the_file = -1;
 
 /// `file:line:col`, or `case` for what stands in no file, `--set` for what is set beside it.

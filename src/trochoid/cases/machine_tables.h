@@ -61,7 +61,7 @@ struct WallPass {
 /// What becomes of readings far from what all others say.
 enum class Outliers { leave_out, keep };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Outliers outliers) noexcept {
   switch (outliers) {
     case Outliers::leave_out:

@@ -20,7 +20,7 @@ struct Case;
 /// Which rules of writing an NC program follows.
 enum class ProgramDialect { automatic, iso, linuxcnc, sinumerik, heidenhain_iso };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(ProgramDialect dialect) noexcept {
   switch (dialect) {
     case ProgramDialect::automatic:
@@ -40,7 +40,7 @@ constexpr std::string_view name_of(ProgramDialect dialect) noexcept {
 /// What G41 and G42 are.
 enum class Compensation { refuse, wear_zero };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Compensation compensation) noexcept {
   switch (compensation) {
     case Compensation::refuse:
@@ -54,7 +54,7 @@ constexpr std::string_view name_of(Compensation compensation) noexcept {
 /// What is told of the bottom edges of flat cutters in plunges and ramps.
 enum class BottomEdges { estimate, none };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(BottomEdges bottom) noexcept {
   switch (bottom) {
     case BottomEdges::estimate:
@@ -144,7 +144,7 @@ struct MachineDrives {
 
 enum class FeedTarget { limits, even };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(FeedTarget target) noexcept {
   switch (target) {
     case FeedTarget::limits:

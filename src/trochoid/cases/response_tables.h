@@ -16,7 +16,7 @@ namespace trochoid::cases {
 
 enum class ResidualTerms { choose, yes, no };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(ResidualTerms terms) noexcept {
   switch (terms) {
     case ResidualTerms::choose:
@@ -32,7 +32,7 @@ constexpr std::string_view name_of(ResidualTerms terms) noexcept {
 /// Whether modes may move all directions in step only.
 enum class Shapes { choose, real, complex };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Shapes shapes) noexcept {
   switch (shapes) {
     case Shapes::choose:

@@ -1,7 +1,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cases/findings.h>
 #include <trochoid/cases/inches.h>
-#include <trochoid/cases/set_beside.h>
+#include <trochoid/cases/settings.h>
 #include <trochoid/cases/sweep.h>
 
 #include <fmt/core.h>

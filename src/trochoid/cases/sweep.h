@@ -47,7 +47,7 @@ enum class SweepMethod {
   random,           ///< by chance
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(SweepMethod method) noexcept {
   switch (method) {
     case SweepMethod::grid:
@@ -116,7 +116,7 @@ std::string sweep_schema();
 /// @brief The same case without its [sweep].
 Node without_sweep(Node root);
 
-/// @brief As set_key of set_beside.h.
+/// @brief As set_key of settings.h.
 void set_key(Node& root, const SweptKey& key, const Node& value);
 
 }  // namespace trochoid::cases

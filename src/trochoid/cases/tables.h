@@ -15,7 +15,7 @@ namespace trochoid::cases {
 
 enum class Shape { cylinder, ball, bull_nose, taper, apt };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Shape shape) noexcept {
   switch (shape) {
     case Shape::cylinder:
@@ -33,7 +33,7 @@ constexpr std::string_view name_of(Shape shape) noexcept {
 }
 enum class EngagementKind { slot, up, down, band, arcs };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(EngagementKind kind) noexcept {
   switch (kind) {
     case EngagementKind::slot:
@@ -112,7 +112,7 @@ struct OrthogonalTable {
 /// What is done about a dynamometer that rings.
 enum class Resonance { automatic, none };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Resonance resonance) noexcept {
   switch (resonance) {
     case Resonance::automatic:
@@ -156,7 +156,7 @@ enum class RunoutGroup {
   tilt,
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(RunoutGroup group) noexcept {
   switch (group) {
     case RunoutGroup::automatic:

@@ -11,7 +11,7 @@ namespace trochoid::cases {
 /// What a plan is about.
 enum class PlanOf { forces, wall };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(PlanOf of) noexcept {
   switch (of) {
     case PlanOf::forces:
@@ -25,7 +25,7 @@ constexpr std::string_view name_of(PlanOf of) noexcept {
 /// Which error of a wall counts against a limit.
 enum class LimitedError { peak, mean };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(LimitedError error) noexcept {
   switch (error) {
     case LimitedError::peak:

@@ -1,6 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/cases/case_source.h>
-#include <trochoid/cases/set_beside.h>
+#include <trochoid/cases/settings.h>
 #include <trochoid/cli/deliver.h>
 #include <trochoid/cli/given_case.h>
 #include <trochoid/results/folder.h>

@@ -12,7 +12,7 @@ namespace trochoid::correction {
 
 enum class LimitKind { stroke, slew, push, pull, resonance, speed };
 
-/// Names of files: of the value, with its unit.
+/// As files spell it: of the value, with its unit.
 constexpr std::string_view name_of(LimitKind kind) noexcept {
   switch (kind) {
     case LimitKind::stroke:

@@ -1,6 +1,6 @@
 #include <trochoid/files/hdf5_record.h>
 
-#include <trochoid/files/apart.h>
+#include <trochoid/files/child_process.h>
 #include <trochoid/files/csv.h>
 #include <trochoid/files/disk_file.h>
 #include <trochoid/files/hdf5_handle.h>
@@ -255,7 +255,7 @@ NumericTable hdf5_table(std::shared_ptr<Hdf5Handle> file, const std::string& nam
 signal::Record read_hdf5_columns(std::istream& in, const std::string& name,
                                  const RecordSource& source, Hdf5Kind kind) {
   const DiskFile disk(in, name, source);
-  return read_apart(name, [&] {
+  return read_in_child_process(name, [&] {
     const Hdf5Silence silence;
     const auto file = std::make_shared<Hdf5Handle>(
         H5Fopen(disk.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);

@@ -25,7 +25,7 @@ struct SurfaceFrame {
 /// Units of lengths that a file may have.
 enum class LengthUnit { mm, um, m, in, thou };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(LengthUnit unit) noexcept {
   switch (unit) {
     case LengthUnit::mm:

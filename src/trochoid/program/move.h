@@ -11,7 +11,7 @@ namespace trochoid::program {
 
 enum class MoveKind : std::uint8_t { rapid, line, arc, chord, dwell };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(MoveKind kind) noexcept {
   switch (kind) {
     case MoveKind::rapid:
@@ -35,7 +35,7 @@ enum class MoveNote : std::uint8_t {
   retract,  ///< to a place that is not in the program: G28, G30, G53, SUPA
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(MoveNote note) noexcept {
   switch (note) {
     case MoveNote::none:
@@ -81,7 +81,7 @@ struct Move {
 
 enum class Dialect : std::uint8_t { iso, linuxcnc, sinumerik };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::iso:

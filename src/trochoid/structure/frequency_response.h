@@ -16,7 +16,7 @@ enum class ResponseKind {
   accelerance,  ///< acceleration over force [m/(s^2 N)]
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(ResponseKind kind) noexcept {
   switch (kind) {
     case ResponseKind::receptance:

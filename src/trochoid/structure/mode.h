@@ -9,7 +9,7 @@ namespace trochoid::structure {
 /// What a mode moves.
 enum class ModeBody { tool, table };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(ModeBody body) noexcept {
   switch (body) {
     case ModeBody::tool:
@@ -23,7 +23,7 @@ constexpr std::string_view name_of(ModeBody body) noexcept {
 /// In which direction of the machine.
 enum class Axis { x, y, z };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Axis axis) noexcept {
   switch (axis) {
     case Axis::x:

@@ -17,7 +17,7 @@ enum class Ends {
   free,        ///< both: a cantilever plate
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(Ends ends) noexcept {
   switch (ends) {
     case Ends::clamped:

@@ -14,7 +14,7 @@ enum class WallLoad {
   line_load,  ///< even and upright, at one place from the free edge down
 };
 
-/// Names of files.
+/// As files spell it.
 constexpr std::string_view name_of(WallLoad load) noexcept {
   switch (load) {
     case WallLoad::pressure:

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <trochoid/base/error.h>
-#include <trochoid/files/apart.h>
+#include <trochoid/files/child_process.h>
 #include <trochoid/files/record_source.h>
 
 #include <array>
@@ -170,11 +170,11 @@ void tell(int /*signal*/) {
 TEST(ReadApart, BreaksDownWithoutWhatTheProgramDoesThen) {
   ASSERT_EQ(pipe2(told_by, O_NONBLOCK), 0);
   const auto before = std::signal(SIGSEGV, tell);
-  EXPECT_THROW(read_apart("record",
-                          [] {
-                            std::raise(SIGSEGV);
-                            return signal::Record{};
-                          }),
+  EXPECT_THROW(read_in_child_process("record",
+                                     [] {
+                                       std::raise(SIGSEGV);
+                                       return signal::Record{};
+                                     }),
                base::InputError);
   std::signal(SIGSEGV, before);
   char nothing = 0;

@@ -1,4 +1,4 @@
-#include <trochoid/files/apart.h>
+#include <trochoid/files/child_process.h>
 
 #include <trochoid/base/error.h>
 #include <trochoid/files/numeric_table.h>
@@ -154,8 +154,8 @@ std::string all_of(int from) {
 
 }  // namespace
 
-signal::Record read_apart(const std::string& name,
-                          const std::function<signal::Record()>& read) {
+signal::Record read_in_child_process(const std::string& name,
+                                     const std::function<signal::Record()>& read) {
   int ends[2] = {-1, -1};
   const pid_t child = pipe(ends) == 0 ? fork() : -1;
   if (child == 0) {

@@ -13,7 +13,7 @@ namespace trochoid::files {
 /// breaks down, that it never ends or that it forgets memory.
 /// @param read  may throw base::InputError; nothing else that it changes is seen here
 /// @throws base::InputError  that of `read`, or that the process did not end well
-signal::Record read_apart(const std::string& name,
-                          const std::function<signal::Record()>& read);
+signal::Record read_in_child_process(const std::string& name,
+                                     const std::function<signal::Record()>& read);
 
 }  // namespace trochoid::files

@@ -1,4 +1,4 @@
-#include <trochoid/cases/set_beside.h>
+#include <trochoid/cases/settings.h>
 
 #include <trochoid/base/error.h>
 #include <trochoid/cases/findings.h>

@@ -1,12 +1,12 @@
 #include <trochoid/base/error.h>
-#include <trochoid/cases/set_beside.h>
+#include <trochoid/cases/settings.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-namespace trochoid::cases::set_beside_test {
+namespace trochoid::cases::settings_test {
 
 using Settings = std::vector<std::string>;
 
@@ -79,4 +79,4 @@ TEST(WithSettings, NamesEveryOneThatLeadsNowhere) {
   }
 }
 
-}  // namespace trochoid::cases::set_beside_test
+}  // namespace trochoid::cases::settings_test
