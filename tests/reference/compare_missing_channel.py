@@ -22,7 +22,7 @@ class MissingChannel(unittest.TestCase):
     def test_a_record_without_z(self):  # [I-1] [I-3] [I-4] [I-5]
         """The same least squares without the rows of z and the columns that only they have"""
         case, K_true = made.truth(made.tables())
-        angle = made.turns(90, 3)
+        angle = made.turns(90, 6)
         F = made.record(case, K_true, angle, noise=6)
         want = ident.joint_in_plane(case, angle, F, ["shift:1", "shift:2"], [0.009, -0.006])
         for errors in ("white", "auto"):
