@@ -58,7 +58,7 @@ constexpr SweepKeyText key_texts[] = {
      "latin_hypercube: by chance"},
     {"count", "a whole number from 1 to 100000000", "200",
      "rows of random and latin_hypercube"},
-    {"seed", "a whole number of 0 or more", "`1`", "of what is drawn by chance"},
+    {"seed", "a whole number of 0 or more", "`1`", "start of the random numbers"},
     {"command", "text", "that of the command line", "what answers each row"},
     {"take", "a list of texts", "needed, here or with `--take`",
      "what is taken from each answer, such as \"result.peak_xy_N\""},

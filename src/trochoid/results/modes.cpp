@@ -3,8 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/results/descriptions.h>
 #include <trochoid/results/joint.h>
-#include <trochoid/results/modes_tables.h>
-#include <trochoid/results/modes_text.h>
+#include <trochoid/results/modes_parts.h>
 
 #include <fmt/core.h>
 
@@ -24,10 +23,6 @@ using structure::Known;
 using structure::ModesFit;
 
 constexpr std::array axis_names = {"x", "y"};
-
-double hertz(double omega) {
-  return unit::in(omega, unit::Hz);
-}
 
 /// A mode, and whether its shape is told as a complex one.
 struct ModeOf {
@@ -57,13 +52,19 @@ Fields<ModeOf> numbers_of_mode(double Known::*part) {
       {"frequency_Hz", meaning("natural frequency"),
        [=](const ModeOf& m) { return m.mode.omega.*part / unit::Hz; }},
       {"damping_ratio", meaning("of critical damping"), of(&FittedMode::zeta)},
-      {"mass_kg", meaning("modal mass; with a shape of motion along it"),
+      {"mass_kg",
+       meaning("modal mass; of several responses: of motion along the shape"),
        of(&FittedMode::mass)},
-      {"stiffness_N_per_m", meaning("likewise"), of(&FittedMode::stiffness)},
-      {"damping_Ns_per_m", meaning("likewise"), of(&FittedMode::damping)},
-      {"angle_deg", meaning("with both directions: of the shape, from +x towards +y"),
+      {"stiffness_N_per_m", meaning("modal stiffness, likewise"),
+       of(&FittedMode::stiffness)},
+      {"damping_Ns_per_m", meaning("modal damping, likewise"),
+       of(&FittedMode::damping)},
+      {"angle_deg",
+       meaning(
+           "angle of the shape from +x towards +y, where both directions were measured"),
        of(&FittedMode::angle), [](const ModeOf& m) { return m.mode.phi.size() > 1; }},
-      {"imaginary_fraction", meaning("of a complex shape (M-33)"),
+      {"imaginary_fraction",
+       meaning("share of the imaginary part in a complex shape (M-33)"),
        of(&FittedMode::imaginary), [](const ModeOf& m) { return m.complex_shapes; }}};
 }
 
@@ -156,7 +157,7 @@ const Fields<Unresolved>& unresolved_fields() {
   static const Fields<Unresolved> all{
       {"frequency_Hz", "of one response: where it is",
        [](U u) { return hertz(*u.omega); }, [](U u) { return u.omega.has_value(); }},
-      {"why", "it is no answer", [](U u) { return u.why; }}};
+      {"why", "why it is no answer", [](U u) { return u.why; }}};
   return all;
 }
 
@@ -211,8 +212,6 @@ const Fields<TriedOrder>& order_fields() {
 const Fields<FittedResponse>& band_fields() {
   using R = const FittedResponse&;
   static const Fields<FittedResponse> all{
-      {"kind", "`receptance`, `mobility` or `accelerance`",
-       [](R one) { return name_of(one.kind); }},
       {"lines", "that were used", [](R one) { return one.omega.size(); }},
       {"band_Hz", "the first of them and the last",
        [](R one) {
@@ -318,16 +317,18 @@ const Fields<ModesResult>& search_fields() {
 
 const Fields<ModesResult>& tap_fields() {
   using R = const ModesResult&;
-  static const Fields<ModesResult> all{{"hits", "of hammer blows in time: each blow",
-                                        hit_fields(),
-                                        [](R r) -> const auto& {return r.tap->hits;
+  static const Fields<ModesResult> all{
+      {"hits", "each blow, where the record holds hammer blows", hit_fields(),
+       [](R r) -> const auto& {return r.tap->hits;
 }
 }  // namespace
-, {"block_s", "what is taken from each blow on", [](R r) { return r.tap->block; }},
-    {"window_end", "of the exponential window, at the end of a block; 1: there is none",
+, {"block_s", "length of what is taken of each blow", [](R r) { return r.tap->block; }},
+    {"window_end",
+     "value of the exponential window at the end of a block; 1: no window",
      [](R r) { return r.tap->window_end; }},
 {
-  "excited_to_Hz", "up to where the force is within 20 dB of its most",
+  "excited_to_Hz",
+      "highest frequency at which the force is within 20 dB of its maximum",
       [](R r) { return hertz(r.tap->excited); }
 }
 };  // namespace trochoid::results
@@ -341,13 +342,7 @@ const Fields<ModesResult>& one_fields() {
       {"kind", "`receptance`, `mobility` or `accelerance`",
        [](R r) { return name_of(first_response(r).kind); }},
       modes_field(false),
-      {"lines", "that were used", [](R r) { return first_response(r).omega.size(); }},
-      {"band_Hz", "the first of them and the last",
-       [](R r) {
-         const std::vector<double>& omega = first_response(r).omega;
-         return Array{hertz(omega.front()), hertz(omega.back())};
-       },
-       [](R r) { return !first_response(r).omega.empty(); }},
+      {"", "", band_fields(), first_response},
       {"covariance", "what `[sweep] covariance` draws from", joint_fields(),
        [](R r) { return found_or_none(joint_of(r)); }, found},
       {"", "", explained_fields(), first_response, found},
@@ -417,6 +412,8 @@ const Fields<ResponseOf>& response_fields() {
       {"name", "motion, then force: `xy`", [](Q q) { return q.response.name; }},
       {"axis", "of the motion", [](Q q) { return name_of(q.response.motion); }},
       {"force_axis", "of the force", [](Q q) { return name_of(q.response.force); }},
+      {"kind", "`receptance`, `mobility` or `accelerance`",
+       [](Q q) { return name_of(q.one.kind); }},
       {"", "", band_fields(), fitted},
       {"description", "what the file says of it",
        [](Q q) { return q.response.description; },

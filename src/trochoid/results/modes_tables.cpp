@@ -1,6 +1,4 @@
-#include <trochoid/results/modes_tables.h>
-
-#include <trochoid/base/units.h>
+#include <trochoid/results/modes_parts.h>
 
 #include <fmt/core.h>
 
@@ -13,10 +11,6 @@ namespace trochoid::results {
 namespace {
 
 using structure::FittedResponse;
-
-double as_hertz(double omega) {
-  return unit::in(omega, unit::Hz);
-}
 
 /// A response, the fit through it and, of a single one, its mode indicator.
 struct FittedCurve {
@@ -39,7 +33,7 @@ const Columns<FittedCurve>& fitted_columns() {
       "fitted.csv",
       [](C c) { return c.one.omega.size(); },
       {{"frequency_Hz", "of the line",
-        [](C c, Row i) { return as_hertz(c.one.omega[i]); }},
+        [](C c, Row i) { return hertz(c.one.omega[i]); }},
        {"re_*",
         "real part as measured: `re_m_per_N`, of a mobility `re_m_per_s_N`, of an "
         "accelerance `re_m_per_s2_N`",
@@ -67,7 +61,7 @@ const Columns<ModesResult>& response_columns() {
       "response.csv",
       [](R r) { return r.tap->omega.size(); },
       {{"frequency_Hz", "of the line",
-        [](R r, Row i) { return as_hertz(r.tap->omega[i]); }},
+        [](R r, Row i) { return hertz(r.tap->omega[i]); }},
        {"re_*", "real part: `re_m_per_N` ...", its_kind,
         [](R r, Row i, Row) { return r.tap->H[i].real(); }},
        {"im_*", "imaginary part", its_kind,
@@ -87,7 +81,7 @@ const Columns<ModesResult>& stabilisation_columns() {
       [](R r) { return r.poles.size(); },
       {{"order", "of the rational fit", [](R r, Row i) { return r.poles[i].order; }},
        {"frequency_Hz", "of the pole",
-        [](R r, Row i) { return as_hertz(r.poles[i].omega); }},
+        [](R r, Row i) { return hertz(r.poles[i].omega); }},
        {"damping_ratio", "of the pole", [](R r, Row i) { return r.poles[i].zeta; }},
        {"standing",
         "0: new, 1: the frequency of one of the order before, 2: its damping too (M-18)",
@@ -120,8 +114,8 @@ std::vector<base::Table> tables_of_shared(const ModesResult& r) {
 
 }  // namespace
 
-std::vector<base::Table> modes_tables(const ModesResult& result) {
-  return result.shared ? tables_of_shared(result) : tables_of_one(result);
+std::vector<base::Table> modes_tables(const ModesResult& r) {
+  return r.shared ? tables_of_shared(r) : tables_of_one(r);
 }
 
 void add_modes_columns(std::vector<ColumnText>& to) {

@@ -1,4 +1,4 @@
-#include <trochoid/results/modes_text.h>
+#include <trochoid/results/modes_parts.h>
 
 #include <trochoid/base/estimate.h>
 #include <trochoid/base/units.h>
