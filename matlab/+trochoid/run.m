@@ -49,22 +49,23 @@ folder = char(asked.output);
 if isempty(folder)
   folder = fullfile(own, 'answer');
 end
+words = {command, '-', '-o', folder};
+input = fullfile(own, 'case.toml');
 if isstruct(case_)
-  file = fullfile(own, 'case.toml');
-  write_text(file, case_text(absolute_files(case_)));
+  write_text(input, case_text(case_));
 else
-  file = char(case_);
+  words{2} = char(case_);
+  write_text(input, '');
 end
 
-words = {command, file, '-o', folder};
 if isempty(asked.output) || ~asked.report
   words{end + 1} = '--no-report';
 end
-for one = cellstr(asked.set)
+for one = row_of(asked.set)
   words = [words, {'--set', one{1}}];  %#ok<AGROW>
 end
-words = [words, cellstr(asked.options)];
-[code, said, wrong] = call(words, own);
+words = [words, row_of(asked.options)];
+[code, said, wrong] = call(words, input, own);
 if code == 2
   error('trochoid:input', '%s', strtrim(wrong));
 elseif code == 127 || code == 9009  % of the shell, and of cmd
@@ -78,13 +79,19 @@ summary = jsondecode(fileread(fullfile(folder, 'summary.json')));
 answer = struct('ok', strcmp(summary.status, 'ok'), 'message', summary.message, ...
                 'warnings', {summary.warnings}, 'result', {summary.result}, ...
                 'tables', {tables_of(folder)}, 'text', said, 'folder', '');
-if ~isempty(asked.output)
+if isempty(asked.output)
+  answer.text = regexprep(said, '\n?results: [^\n]*\n$', '');  % of a folder that goes
+else
   answer.folder = folder;
 end
 end
 
-function [code, said, wrong] = call(words, folder)
-% What the program answers, prints, and says of mistakes.
+function list = row_of(texts)
+list = reshape(cellstr(texts), 1, []);
+end
+
+function [code, said, wrong] = call(words, input, folder)
+% The exit code of the program, what it prints, and what it says of mistakes.
 program = getenv('TROCHOID');
 if isempty(program)
   program = 'trochoid';
@@ -95,7 +102,7 @@ for i = 1:numel(words)
 end
 out = fullfile(folder, 'out.txt');
 err = fullfile(folder, 'err.txt');
-line = [line, ' > ', quoted(out), ' 2> ', quoted(err)];
+line = [line, ' < ', quoted(input), ' > ', quoted(out), ' 2> ', quoted(err)];
 if ispc
   line = ['"', line, '"'];  % cmd takes the first and the last quote away
 else
@@ -166,24 +173,6 @@ for i = 1:numel(names)
 end
 end
 
-function tables = absolute_files(tables)
-% Names of files of a struct count from the current folder: the case is written elsewhere.
-for name = fieldnames(tables)'
-  value = tables.(name{1});
-  if isstruct(value)
-    for i = 1:numel(value)
-      for key = {'file', 'frf', 'covariance'}
-        if isfield(value, key{1}) && ischar(value(i).(key{1})) && ...
-            exist(fullfile(pwd, value(i).(key{1})), 'file')
-          value(i).(key{1}) = fullfile(pwd, value(i).(key{1}));
-        end
-      end
-    end
-    tables.(name{1}) = value;
-  end
-end
-end
-
 function text = case_text(tables)
 % A case file of a struct: what stands above all tables, then the tables.
 text = '';
@@ -198,7 +187,8 @@ for name = names
   if ~isstruct(table)
     continue
   end
-  many = numel(table) > 1 || any(strcmp(name{1}, {'measurement', 'mode', 'measured_frf', 'pass'}));
+  many = any(strcmp(name{1}, {'measurement', 'pass', 'surface_measurement', 'mode', ...
+                              'measured_frf'}));
   for i = 1:numel(table)
     if many
       text = [text, newline, '[[', name{1}, ']]', newline];  %#ok<AGROW>

@@ -1,5 +1,6 @@
 function answer = sweep(case_, varargin)
-%SWEEP  Parameter sweep ([sweep]): one row per case in one table.
+%SWEEP  Parameter sweep ([sweep]): one row per case in one table;
+%   resumes where it was stopped.
 %
 %   answer = trochoid.sweep(case_) of a case file, or of a struct of its tables.
 %

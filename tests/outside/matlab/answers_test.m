@@ -45,13 +45,22 @@ same(of_struct.folder, '', 'folder that nobody asked for');
 same(exist(fullfile('kept', 'summary.json'), 'file'), 2, 'folder that was asked for');
 same(exist(fullfile('kept', 'report.html'), 'file'), 0, 'report that nobody asked for');
 same(of_struct.ok, true, 'ok');
+same(isempty(strfind(of_struct.text, 'results:')), true, 'a folder that is gone');
+same(isempty(strfind(of_file.text, 'results: kept')), false, 'a folder that is kept');
 force = of_struct.tables.forces;
 peak = max(hypot(force.Fx_N, force.Fy_N));
 same(abs(peak / of_struct.result.peak_xy_N - 1) < 1e-12, true, 'peak of the table');
 
-% In place of what the case says; lists of tables; files from the current folder.
-half = trochoid.simulate(made, 'set', {'cut.axial_depth_mm=1', 'cut.spindle_rpm=900'});
-same(half.result.peak_xy_N < of_struct.result.peak_xy_N, true, 'half the depth');
+% In place of what the case says, and files from the current folder.
+half = made;
+half.cut.axial_depth_mm = 1;
+half.cut.spindle_rpm = 900;
+settings = {'cut.axial_depth_mm=1', 'cut.spindle_rpm=900'};
+want = trochoid.simulate(half);
+for given = {settings, settings'}  % in a row, in a column
+  got = trochoid.simulate(made, 'set', given{1});
+  same(got.result, want.result, 'settings');
+end
 copyfile(fullfile(root, 'examples', 'st52_slot', 'record.csv'), 'record.csv');
 measured = struct('tool', tool, 'cut', cut, ...
                   'dynamometer', struct('axes', {{'-x', '-y', '-z'}}), ...
@@ -63,6 +72,11 @@ example = trochoid.identify(fullfile(root, 'examples', 'st52_slot', 'case.toml')
   'set', {'identify.chip_models=["trochoidal"]'});
 same(found.result.fits.coefficients, example.result.fits.coefficients, 'coefficients');
 same(isfield(found.tables, 'fitted'), true, 'fitted.csv');
+
+% What the page shows finds what the record was made with.
+blocks = regexp(fileread(fullfile(root, 'docs', 'matlab.md')), '```matlab\n(.*?)```', 'tokens');
+evalc(strrep(blocks{2}{1}, 'plot(', 'horzcat('));
+same(found.ok && K_tc.low < 2620 && 2620 < K_tc.high, true, 'the example of the page');
 
 % Texts in a table, and names that are none of MATLAB.
 over = struct();

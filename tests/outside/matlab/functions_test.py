@@ -31,7 +31,13 @@ class Functions(unittest.TestCase):
             self.assertIn(f"trochoid.run('{name}', case_, varargin{{:}})", text)
             head = " ".join(line.lstrip("% ") for line in text.split("%\n")[0].splitlines()[1:])
             said = head.removeprefix(f"{name.upper()}  ").strip().rstrip(".")
-            self.assertTrue(sentence.startswith(said), f"{name}: {said}")
+            self.assertEqual(said, sentence)
+
+    def test_a_struct_knows_the_tables_that_may_stand_several_times(self):
+        known = re.search(r"many = any\(strcmp\(name\{1\}, \{(.*?)\}", (FOLDER / "run.m").read_text(),
+                          re.DOTALL)[1]
+        page = (ROOT / "docs/formats/case.md").read_text()
+        self.assertEqual(re.findall(r"'(\w+)'", known), re.findall(r"^## `\[\[(\w+)\]\]`", page, re.MULTILINE))
 
 
 if __name__ == "__main__":
