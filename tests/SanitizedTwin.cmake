@@ -50,20 +50,10 @@ if(TROCHOID_SANITIZED_TESTS)
   set_target_properties(trochoid_sanitized PROPERTIES CXX_EXTENSIONS OFF)
 endif()
 
-function(trochoid_sanitized_twin name)
-  if(NOT TROCHOID_SANITIZED_TESTS)
-    return()
-  endif()
-  list(JOIN TROCHOID_SANITIZED_ROOMS "|" rooms)
-  if(NOT TROCHOID_SANITIZED_TESTS STREQUAL all
-      AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES
-        "/tests/(unit/(${rooms})|broken|fuzz|outside/linuxcnc)$")
-    return()
-  endif()
+# The test itself is watched as well.
+function(trochoid_compile_sanitized name)
   get_target_property(sources ${name} SOURCES)
   add_executable(${name}_sanitized ${sources})
-  target_link_libraries(${name}_sanitized PRIVATE trochoid_sanitized
-    trochoid_compile_options GTest::gtest_main)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/(property|unit/surface)$")
     # Of an inline function the linker takes the test's copy: in these it is called often.
     target_compile_options(${name}_sanitized PRIVATE -O1)
@@ -74,6 +64,34 @@ function(trochoid_sanitized_twin name)
     $<TARGET_PROPERTY:${name},INCLUDE_DIRECTORIES>)
   target_compile_definitions(${name}_sanitized PRIVATE
     $<TARGET_PROPERTY:${name},COMPILE_DEFINITIONS>)
+endfunction()
+
+# The test as it was compiled, with the library that is watched. The library comes first on
+# the command line: of an inline function the linker takes the copy that is watched.
+function(trochoid_link_sanitized name)
+  add_executable(${name}_sanitized $<TARGET_OBJECTS:${name}>)
+  set_target_properties(${name}_sanitized PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_options(${name}_sanitized PRIVATE
+    "LINKER:--whole-archive,$<TARGET_FILE:trochoid_sanitized>,--no-whole-archive")
+endfunction()
+
+function(trochoid_sanitized_twin name)
+  if(NOT TROCHOID_SANITIZED_TESTS)
+    return()
+  endif()
+  list(JOIN TROCHOID_SANITIZED_ROOMS "|" rooms)
+  if(NOT TROCHOID_SANITIZED_TESTS STREQUAL all
+      AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES
+        "/tests/(unit/(${rooms})|broken|fuzz|outside/linuxcnc)$")
+    return()
+  endif()
+  if(TROCHOID_SANITIZED_TESTS STREQUAL all)
+    trochoid_compile_sanitized(${name})
+  else()
+    trochoid_link_sanitized(${name})
+  endif()
+  target_link_libraries(${name}_sanitized PRIVATE trochoid_sanitized
+    trochoid_compile_options GTest::gtest_main)
   add_test(NAME sanitized.${name} COMMAND ${name}_sanitized --gtest_brief=1)
   set_tests_properties(sanitized.${name} PROPERTIES
     ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1")
