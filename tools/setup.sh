@@ -150,16 +150,23 @@ setup() {
   [ "$1" = web ] && needs+=("${web_programs[@]}")
   [ "$1" = windows ] && needs+=("${windows_programs[@]}" "${windows_libraries[@]}")
   [ "$1" = octave ] && needs+=("${octave_programs[@]}")
-  [ "$1" = test ] && needs+=("${test_libraries[@]}" "${test_programs[@]}")
+  [ "$1" = test ] && needs+=("${test_libraries[@]}")
   if ! command -v dpkg-query >/dev/null; then
     stop "This is not a Debian system. Please install what tools/setup.sh lists, then:" \
       "  npm ci --omit=dev && cmake --preset release && cmake --build --preset release"
   fi
   install_packages "${needs[@]}"
-  [ "$1" = test ] && install_optional "${optional_test_libraries[@]}"
   install_node_modules "$1"
   : >"$stamp"
 }
+
+# What running the tests needs and building most of them does not.
+setup_for_running() {
+  install_packages "${test_programs[@]}"
+  install_optional "${optional_test_libraries[@]}"
+  : >"$root/build/.setup-running"
+}
+is_set_up_for_running() { [ "$root/build/.setup-running" -nt "$root/tools/setup.sh" ]; }
 
 # configure [CMAKE OPTION...]: once; afterwards ninja sees by itself what changed. Without
 # options any earlier choice stands.
@@ -229,10 +236,14 @@ compile_elsewhere() {
   build=$folder compile "$target"
 }
 
-# Nothing: Octave runs the functions as they are, once CMake has looked for it again.
-compile_octave() {
-  cmake "$build" </dev/null >>"$log" 2>&1
+# After more was installed: CMake finds what it had not found.
+look_again() {
+  cmake "$build" </dev/null >>"$log" 2>&1 ||
+    { tail -n 25 "$log" >&2; stop "CMake did not succeed; above is the end of $log."; }
 }
+
+# Nothing: Octave runs the functions as they are.
+compile_octave() { look_again; }
 
 # The page that runs in a browser.
 compile_web() {
