@@ -72,7 +72,7 @@ async function photograph(browser, url, to, { part, height, ready }) {
 
 async function make(names) {
   const { chromium } = createRequire(path.join(root, 'package.json'))('playwright-core');
-  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium-headless-shell',
                                           args: ['--no-sandbox', '--disable-dev-shm-usage'] });
   const place = fs.mkdtempSync(path.join(os.tmpdir(), 'gallery-'));
   fs.cpSync(path.join(root, 'examples'), place, { recursive: true, filter: (one) => !/\.(identify|modes|sweep)$/.test(one) });

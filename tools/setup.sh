@@ -42,7 +42,7 @@ optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
   python3-distributed python3-mpi4py openmpi-bin python3-jsonschema
   man-db zsh fish dpkg-dev file
   "${site_libraries[@]}")
-test_programs=(clang-format=clang-format chromium=chromium ctags=universal-ctags)
+test_programs=(clang-format=clang-format chromium-headless-shell=chromium-headless-shell ctags=universal-ctags)
 
 # One argument, one line.
 say() { printf '%s\n' "$@" >&2; }

@@ -25,8 +25,6 @@ async function check(name, options, plots) {
   const overflow = await page.evaluate(() =>
     document.documentElement.scrollWidth - window.innerWidth);
   assert.ok(overflow <= 0, `the page is ${overflow} px too wide`);
-  const label = `${name}_${options.width || 1200}_${options.colorScheme || 'light'}`;
-  await page.screenshot({ path: path.join(pictures, `${label}.png`), fullPage: true });
   return { page, canvases, close };
 }
 

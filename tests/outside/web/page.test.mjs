@@ -18,7 +18,7 @@ if (skip) console.log(skip);
 let browser;
 
 before(async () => {
-  if (!skip) browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+  if (!skip) browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium-headless-shell',
                                                args: ['--no-sandbox', '--disable-dev-shm-usage'], timeout: hangs });
 });
 after(() => browser?.close());
