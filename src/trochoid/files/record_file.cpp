@@ -1,6 +1,7 @@
 #include <trochoid/files/record_file.h>
 
 #include <trochoid/base/error.h>
+#include <trochoid/base/names.h>
 #include <trochoid/files/csv_table.h>
 #include <trochoid/files/dynoware.h>
 #include <trochoid/files/hdf5_record.h>
@@ -52,6 +53,7 @@ constexpr std::array record_readers{
                  "begins with a line that holds only -1", is_uff, read_uff58_record},
     RecordReader{RecordFormat::csv, "a CSV file", "is text",
                  [](std::string_view) { return true; }, read_csv_record}};
+static_assert(record_readers.size() == base::count_of<RecordFormat>());
 
 /// Enough to recognise a format by.
 constexpr std::size_t longest_head = 4096;

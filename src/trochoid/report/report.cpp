@@ -76,11 +76,11 @@ std::string without_script(const results::Answer& answer) {
   return text;
 }
 
-/// The page of each command: a function of its script, named after it.
+/// The page of each command: a function of its script, named after it; not all have one.
 std::string pages_js() {
   std::string text = "const pages = {";
   for (const std::string_view name : base::names<base::Command>) {
-    text += fmt::format("{0}: {0}Page, ", name);
+    text += fmt::format("{0}: typeof {0}Page === 'function' && {0}Page, ", name);
   }
   return text + "sweep: sweepPage, compare: comparePage};\n";
 }
