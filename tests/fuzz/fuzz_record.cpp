@@ -53,7 +53,8 @@ void use(const trochoid::signal::Record& record) {
                          : trochoid::signal::unwrapped(record.angle);
   trochoid::signal::fold(record.channel, angle, 36);
   const auto passes = trochoid::signal::passes_of(record.channel, angle);
-  trochoid::signal::idle_drift(record.channel, angle, passes.air);
+  trochoid::signal::idle_drift(record.channel, angle, passes.air,
+                               trochoid::signal::longest_steady(passes));
 }
 
 }  // namespace

@@ -364,6 +364,27 @@ std::optional<std::array<bool, 3>> measured_forces(const std::array<bool, 3>& ch
   return out;
 }
 
+namespace {
+
+/// Of errors that are independent of each other.
+std::array<double, 3> offsets_on_tool(const std::array<double, 3>& of_channels,
+                                      const signal::Matrix3& M) {
+  std::array<double, 3> out{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!(of_channels[c] > 0)) continue;
+    std::array<std::vector<double>, 3> one{std::vector{0.0}, std::vector{0.0},
+                                           std::vector{0.0}};
+    one[c][0] = of_channels[c];
+    const auto force = signal::force_on_tool(one, M);
+    for (std::size_t q = 0; force && q < 3; ++q) {
+      out[q] = std::hypot(out[q], (*force)[0][q]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3& M) {
   std::vector<Run> out;
   for (const ChannelRun& run : runs) {
@@ -376,8 +397,8 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
       throw std::invalid_argument(
           "a channel is missing: no force can be told by a matrix");
     }
-    out.push_back(
-        {run.cut, run.angle, std::move(*force), run.group, *measured, run.Omega_se});
+    out.push_back({run.cut, run.angle, std::move(*force), run.group, *measured,
+                   run.Omega_se, offsets_on_tool(run.offset_se, M)});
   }
   return out;
 }

@@ -21,6 +21,7 @@ struct ChannelRun {
   std::string group = {};                      ///< as of Run
   std::array<bool, 3> measured = {true, true, true};  ///< channels that there are
   double Omega_se = 0.0;                              ///< as of Run
+  std::array<double, 3> offset_se{};                  ///< as of Run, of each channel
 };
 
 /// @brief Whether the force in x, y and z follows from the channels that are measured;

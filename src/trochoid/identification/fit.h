@@ -28,6 +28,8 @@ struct Run {
   /// Standard error of the speed by which the angles follow from times [rad/s]; 0: they
   /// were measured.
   double Omega_se = 0.0;
+  /// Standard error of the offset that was taken out of each force [N].
+  std::array<double, 3> offset_se{};
 };
 
 /// What is not searched is kept as the setup gives it: with `offsets` a given

@@ -232,6 +232,7 @@ FoldedRun fold(const Run& run, const Options& options, const Response& response)
   FoldedRun out;
   out.cut = run.cut;
   out.measured = run.measured;
+  out.offset_se = run.offset_se;
   out.lever_se = lever_se(run);
   Groups same = groups(run.angle);
   out.group = std::move(same.of_sample);
@@ -257,6 +258,7 @@ FoldedRun coarsen(const FoldedRun& run, int bins) {
   FoldedRun out;
   out.cut = run.cut;
   out.measured = run.measured;
+  out.offset_se = run.offset_se;
   out.harmonics = run.harmonics;
   std::vector<double> n(count, 0.0);
   std::vector<std::array<double, 5>> sums(count, std::array<double, 5>{});

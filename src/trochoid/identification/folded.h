@@ -38,6 +38,9 @@ struct FoldedRun {
   /// Of the three rows of each angle or wave; what is not measured has rows of zeros.
   std::array<bool, 3> measured = {true, true, true};
 
+  /// Standard error of the offset that was taken out of each force [N].
+  std::array<double, 3> offset_se{};
+
   /// What the error of the speed adds to that of the phase at the first sample [rad].
   double lever_se = 0.0;
 

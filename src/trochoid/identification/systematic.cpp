@@ -252,20 +252,47 @@ std::vector<double> systematic_column(const ComputedRows& computed,
   return cut_column(computed, one.kind);
 }
 
+namespace {
+
+/// A constant in one force of one run.
+std::vector<double> offset_column(const Problem& problem, std::size_t r,
+                                  std::size_t q) {
+  const FoldedRun& run = problem.runs[r];
+  std::vector<double> constant(3 * run.angle.size(), 0.0);
+  for (std::size_t g = 0; g < run.angle.size(); ++g) constant[3 * g + q] = 1.0;
+  const std::vector<double> rows = rows_of(run, constant, 1);
+  std::vector<double> out(index(problem.rows()), 0.0);
+  std::ranges::copy(rows,
+                    out.begin() + static_cast<std::ptrdiff_t>(first_row(problem, r)));
+  return out;
+}
+
+}  // namespace
+
 void add_tolerances(const ComputedRows& computed, const numerics::Columns& J,
                     std::span<double> covariance) {
   const Tolerances& t = computed.problem.tolerances;
-  const auto add = [&](const Systematic& one, const std::optional<double>& sd) {
-    if (!sd) return;
-    const std::vector<double> column = systematic_column(computed, one);
-    if (column.empty()) return;
+  const auto add_column = [&](std::span<const double> column, double sd) {
     const std::vector<double> x = numerics::least_squares(J, column, rank_tolerance).x;
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (std::size_t j = 0; j < x.size(); ++j) {
-        covariance[i * x.size() + j] += *sd * *sd * x[i] * x[j];
+        covariance[i * x.size() + j] += sd * sd * x[i] * x[j];
       }
     }
   };
+  const auto add = [&](const Systematic& one, const std::optional<double>& sd) {
+    if (!sd) return;
+    const std::vector<double> column = systematic_column(computed, one);
+    if (!column.empty()) add_column(column, *sd);
+  };
+  for (std::size_t r = 0; r < computed.problem.runs.size(); ++r) {
+    const FoldedRun& run = computed.problem.runs[r];
+    for (std::size_t q = 0; q < 3; ++q) {
+      if (run.measured[q] && run.offset_se[q] > 0) {
+        add_column(offset_column(computed.problem, r, q), run.offset_se[q]);
+      }
+    }
+  }
   for (std::size_t q = 0; q < 3; ++q) add({SystematicKind::gain, q, q}, t.gain);
   add({SystematicKind::turn}, t.turn);
   add({SystematicKind::axial_depth}, t.axial_depth);

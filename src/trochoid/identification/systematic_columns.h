@@ -27,7 +27,8 @@ std::vector<double> force_rows(const Problem& problem, const Evaluation& at,
 std::vector<double> systematic_column(const ComputedRows& computed,
                                       const Systematic& one);
 
-/// @brief Let a covariance hold the tolerances of the problem.
+/// @brief Let a covariance contain the tolerances of the problem, and the errors of the
+/// offsets that were taken out of its runs.
 /// @eq I-24 cov + sum over systematics of sd^2 x x^T, x = (J^T J)^-1 J^T c
 /// @param J           columns of the unknowns that are determined
 /// @param covariance  of these, row-major

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/signal/channel_faults.h>
+#include <trochoid/signal/curved_drift.h>
 #include <trochoid/signal/drift.h>
 #include <trochoid/signal/foreign_line.h>
 #include <trochoid/signal/passes.h>
@@ -194,10 +195,15 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
   if (found.ok) follow_wander(record, run, warnings);
 }
 
+/// Where drift is read off.
+struct DriftParts {
+  std::span<const signal::Part> air;
+  const signal::Part& cut;
+};
+
 /// The same of further channels, three at a time.
 void take_drift_out_of(std::vector<std::vector<double>>& channels,
-                       std::span<const double> angle,
-                       std::span<const signal::Part> air) {
+                       std::span<const double> angle, const DriftParts& parts) {
   for (std::size_t first = 0; first < channels.size(); first += 3) {
     std::array<std::vector<double>, 3> three;
     const std::size_t count = std::min<std::size_t>(3, channels.size() - first);
@@ -205,27 +211,46 @@ void take_drift_out_of(std::vector<std::vector<double>>& channels,
       three[c] = c < count ? std::move(channels[first + c])
                            : std::vector<double>(angle.size(), 0.0);
     }
-    if (const auto drift = signal::idle_drift(three, angle, air)) {
+    if (const auto drift = signal::idle_drift(three, angle, parts.air, parts.cut)) {
       signal::remove_drift(three, *drift);
     }
+    signal::remove_drift(three,
+                         signal::curved_drift(three, angle, parts.air, parts.cut));
     for (std::size_t c = 0; c < count; ++c) channels[first + c] = std::move(three[c]);
   }
 }
 
+void warn_of_curve(const signal::Record& record, const signal::CurvedDrift& curve,
+                   Warnings& warnings) {
+  const auto most = std::ranges::max_element(curve.bend);
+  if (!(*most > 0)) return;
+  warnings.push_back(
+      {"curved_drift",
+       fmt::format(
+           "{}: channel {} drifts along a curve, up to {:.3g} N from a straight "
+           "line. The curve was removed, as the mean force of a steady cut does "
+           "not change.",
+           record.file, most - curve.bend.begin() + 1, *most)});
+}
+
+/// What was taken out of the channels of a record.
+struct TakenOut {
+  bool offset = false;                ///< there was a place where nothing cuts
+  std::array<double, 3> offset_se{};  ///< of each channel [N]
+};
+
 /// Where nothing cuts a channel reads its offset.
-/// @return whether there was any such place
-bool take_drift_out(const cases::Case& given, std::span<const double> angle,
-                    std::span<const signal::Part> air, signal::Record& record,
-                    Warnings& warnings) {
+TakenOut take_drift_out(const cases::Case& given, std::span<const double> angle,
+                        const DriftParts& parts, signal::Record& record,
+                        Warnings& warnings) {
   using cases::ChannelOffset;
   const ChannelOffset how = given.identify.channel_offsets;
   if (how != ChannelOffset::idle && how != ChannelOffset::automatic) {
-    return false;
+    return {};
   }
-  const auto drift = signal::idle_drift(record.channel, angle, air);
+  const auto drift = signal::idle_drift(record.channel, angle, parts.air, parts.cut);
   if (drift) {
     signal::remove_drift(record.channel, *drift);
-    take_drift_out_of(record.further, angle, air);
   } else if (how == ChannelOffset::idle) {
     warnings.push_back({"no_idle_part",
                         record.file +
@@ -233,7 +258,17 @@ bool take_drift_out(const cases::Case& given, std::span<const double> angle,
                             "of the channels cannot be read off it; it is left in. "
                             "channel_offsets = \"fit\" estimates it with the rest."});
   }
-  return drift.has_value();
+  const signal::CurvedDrift curve =
+      signal::curved_drift(record.channel, angle, parts.air, parts.cut);
+  signal::remove_drift(record.channel, curve);
+  take_drift_out_of(record.further, angle, parts);
+  warn_of_curve(record, curve, warnings);
+  TakenOut out{.offset = drift.has_value()};
+  for (std::size_t c = 0; c < 3 && drift; ++c) {
+    out.offset_se[c] =
+        curve.terms[c].empty() ? drift->se_in_cut[c] : curve.offset_se[c];
+  }
+  return out;
 }
 
 /// Code of the warning, and what the channel does.
@@ -459,7 +494,10 @@ void keep_cut(const cases::Case& given, const cases::Measurement& measurement,
   const auto [angle, passes] = told_apart(record, measurement.cut);
   const UsedPart used = used_part(record, angle, passes, measurement);
   run.overview = signal::overview_of(record, angle, used.part);
-  run.offset_taken_out = take_drift_out(given, angle, passes.air, record, warnings);
+  const TakenOut out =
+      take_drift_out(given, angle, {passes.air, used.part}, record, warnings);
+  run.offset_taken_out = out.offset;
+  run.run.offset_se = out.offset_se;
   if (!used.why.empty()) {
     warnings.push_back({"part_used", record.file + ": " + used.why});
   }

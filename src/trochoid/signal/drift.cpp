@@ -72,7 +72,7 @@ void check(const Channels& channels, std::span<const double> angle) {
 }  // namespace
 
 std::optional<Drift> idle_drift(const Channels& channels, std::span<const double> angle,
-                                std::span<const Part> idle) {
+                                std::span<const Part> idle, const Part& cut) {
   check(channels, angle);
   std::vector<Part> turns;
   std::size_t samples = 0;
@@ -87,6 +87,7 @@ std::optional<Drift> idle_drift(const Channels& channels, std::span<const double
   const bool far_apart = turns.back().begin - turns.front().begin > angle.size() / 2;
   drift.sloped = (far_apart || 4 * samples >= angle.size()) && turns.size() >= 3;
   const auto last = static_cast<double>(angle.size() - 1);
+  const double in_cut = 0.5 * static_cast<double>(cut.begin + cut.end) / last;
   std::vector<double> x(turns.size());
   std::vector<double> y(turns.size());
   for (std::size_t c = 0; c < 3; ++c) {
@@ -103,6 +104,8 @@ std::optional<Drift> idle_drift(const Channels& channels, std::span<const double
     d.last = line.mean + line.slope * (1.0 - line.middle);
     d.first_se = std::hypot(line.mean_se, line.slope_se * line.middle);
     d.last_se = std::hypot(line.mean_se, line.slope_se * (1.0 - line.middle));
+    drift.se_in_cut[c] =
+        std::hypot(line.mean_se, line.slope_se * (in_cut - line.middle));
   }
   return drift;
 }

@@ -22,6 +22,8 @@ struct ChannelDrift {
 struct Drift {
   std::array<ChannelDrift, 3> channel;
   bool sloped = false;  ///< false: a constant only
+  /// Standard error of each channel's line in the middle of the cut [N].
+  std::array<double, 3> se_in_cut{};
 };
 
 /// @brief Offset and drift of each channel from its idle parts.
@@ -31,10 +33,11 @@ struct Drift {
 /// A slope is estimated only where idle parts lie on both sides of the cut or cover a
 /// quarter of the record; else the constant alone, for it would be carried far.
 /// @param idle  where nothing cuts, ascending (passes_of)
+/// @param cut   from which the drift is to be removed
 /// @return none where there is no whole idle turn
 std::optional<Drift> idle_drift(const std::array<std::vector<double>, 3>& channels,
                                 std::span<const double> angle,
-                                std::span<const Part> idle);
+                                std::span<const Part> idle, const Part& cut);
 
 /// @brief Take a drift out of the channels.
 void remove_drift(std::array<std::vector<double>, 3>& channels, const Drift& drift);

@@ -9,7 +9,8 @@
 namespace trochoid::signal::drift_test {
 
 std::optional<Drift> drift_of(const Samples& s) {
-  return idle_drift(s.channel, s.angle, passes_of(s.channel, s.angle).air);
+  const Passes passes = passes_of(s.channel, s.angle);
+  return idle_drift(s.channel, s.angle, passes.air, longest_steady(passes));
 }
 
 // [S-4]
@@ -25,6 +26,8 @@ TEST(IdleDrift, IsFoundBeforeAndAfterTheCut) {
   EXPECT_NEAR(drift->channel[2].last, -50.0, 0.2);
   EXPECT_GT(drift->channel[0].first_se, 0.0);
   EXPECT_LT(drift->channel[0].first_se, 0.1);
+  EXPECT_GT(drift->se_in_cut[0], 0.0);
+  EXPECT_LT(drift->se_in_cut[0], drift->channel[0].first_se);
 }
 
 TEST(IdleDrift, HasNoSlopeFromAShortAirCutAtOneEnd) {

@@ -1,0 +1,336 @@
+"""Records with one thing wrong each, and what `identify` says of them.
+
+Three tools, a number of kinds of disturbance, some seeds of each: is the truth in the 95 %
+interval of every coefficient, and if it is not, does the answer say so? A coefficient is
+wrong where the truth is farther outside its interval than 1 %. Wrong in silence is one that
+the answer calls good.
+
+Usage: disturbances.py [--seeds N] [--only KIND,...] [--list]
+The table is that of docs/theory/identification.md.
+"""
+import argparse
+import concurrent.futures
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+import numpy
+
+from program import PROGRAM, toml
+
+TRUTH = {"K_tc_MPa": 1900.0, "K_rc_MPa": 800.0, "K_ac_MPa": 300.0,
+         "K_te_N_per_mm": 22.0, "K_re_N_per_mm": 18.0, "K_ae_N_per_mm": 4.0}
+WITHIN = 300  # s of one run
+FINE = 1440  # angles of a turn
+
+TOOLS = {
+    "two flutes, slot": {
+        "tool": {"shape": "cylinder", "teeth": 2, "diameter_mm": 12.0, "helix_deg": 30.0},
+        "runout": {"radial_offsets_mm": [0.0, -0.011]},
+        "cut": {"engagement": "slot", "axial_depth_mm": 3.0, "feed_per_tooth_mm": 0.06,
+                "spindle_rpm": 2400}},
+    "three flutes, half immersion, up": {
+        "tool": {"shape": "cylinder", "teeth": 3, "diameter_mm": 12.0, "helix_deg": 30.0},
+        "runout": {"radial_offsets_mm": [0.0, -0.006, 0.005]},
+        "cut": {"engagement": "up", "radial_depth_mm": 6.0, "axial_depth_mm": 3.0,
+                "feed_per_tooth_mm": 0.06, "spindle_rpm": 3000}},
+    "four flutes, quarter immersion, down": {
+        "tool": {"shape": "cylinder", "teeth": 4, "diameter_mm": 16.0, "helix_deg": 30.0},
+        "runout": {"eccentricity_mm": 0.014, "angle_deg": 50.0},
+        "cut": {"engagement": "down", "radial_depth_mm": 4.0, "axial_depth_mm": 3.0,
+                "feed_per_tooth_mm": 0.06, "spindle_rpm": 2800}},
+}
+
+
+class Cut:
+    """The forces of one tool over a turn, as the program computes them."""
+
+    def __init__(self, name, **changes):
+        self.case = {table: dict(keys) for table, keys in TOOLS[name].items()}
+        for table, keys in changes.items():
+            if table == "runout":
+                self.case[table] = keys
+            else:
+                self.case[table] = {**self.case[table], **keys}
+        self.rpm = self.case["cut"]["spindle_rpm"]
+        self.teeth = self.case["tool"]["teeth"]
+        sampled = {**self.case, "force": {"law": "linear_edge", **TRUTH},
+                   "sampling": {"samples_per_rev": FINE, "revolutions": 1}}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "truth.toml").write_text(text_of(sampled))
+            subprocess.run([PROGRAM, "simulate", "truth.toml", "-o", "out", "-q", "--no-report"],
+                           cwd=folder, check=True, timeout=WITHIN)
+            rows = list(csv.DictReader((folder / "out/forces.csv").open()))
+        force = numpy.array([[float(r[c]) for c in ("Fx_N", "Fy_N", "Fz_N")] for r in rows])
+        self.lines = numpy.fft.rfft(force, axis=0) / FINE
+        self.size = numpy.sqrt((force ** 2).sum(axis=1).mean())
+
+    def at(self, turns, response=None):
+        """Forces where the spindle has made so many turns; response(axis, Hz) of the sensor."""
+        out = numpy.empty((len(turns), 3))
+        k = numpy.arange(len(self.lines))
+        for axis in range(3):
+            lines = self.lines[:, axis].copy()
+            lines[1:] *= 2
+            if response:
+                lines *= response(axis, k * self.rpm / 60)
+            wave = numpy.fft.irfft(numpy.concatenate([lines[:1] * 2, lines[1:]]) / 2, 16 * FINE) * 16 * FINE
+            out[:, axis] = numpy.interp(turns % 1, numpy.arange(16 * FINE + 1) / (16 * FINE),
+                                        numpy.append(wave, wave[0]))
+        return out
+
+
+def text_of(case):
+    lines = []
+    for table, keys in case.items():
+        for one in keys if isinstance(keys, list) else [keys]:
+            lines.append(f"[[{table}]]" if isinstance(keys, list) else f"[{table}]")
+            lines += [f"{key} = {toml(value)}" for key, value in one.items()]
+    return "\n".join(lines) + "\n"
+
+
+class Record:
+    """Air, a cut of forty turns, air again; white noise of 2 % of the force."""
+
+    def __init__(self, cut, seed, per_turn=200.0, air=0.12, noise=0.02, response=None, turns=None):
+        self.cut = cut
+        self.random = numpy.random.default_rng(seed)
+        self.rate = per_turn * cut.rpm / 60
+        cutting = 40 * 60 / cut.rpm
+        self.time = numpy.arange(int((2 * air + cutting) * self.rate)) / self.rate
+        self.inside = (self.time >= air) & (self.time < air + cutting)
+        self.part = numpy.clip((self.time - air) / cutting, 0, 1)  # of the cut
+        self.turns = (self.time - air) * cut.rpm / 60 + self.random.uniform()
+        if turns:
+            self.turns = turns(self)
+        self.force = -cut.at(self.turns, response) * self.inside[:, None]
+        self.add(noise * cut.size * self.random.standard_normal(self.force.shape))
+
+    def add(self, what):
+        self.force = self.force + what
+        return self
+
+    def scaled(self, by):
+        """Noise of 2 % stays in: the sensor's, of what is small."""
+        self.force = self.force * by
+        return self
+
+
+def oscillator(frequency, damping):
+    return lambda f: 1 / (1 - (f / frequency) ** 2 + 2j * damping * f / frequency)
+
+
+def ringing(per_turn):
+    modes = [oscillator(f, 0.03) for f in (880.0, 1040.0, 1310.0)]
+    return lambda cut, seed: Record(cut, seed, per_turn, response=lambda axis, f: modes[axis](f))
+
+
+def two_modes(cut, seed):
+    low = [oscillator(f, 0.03) for f in (820.0, 960.0, 1200.0)]
+    high = [oscillator(f, 0.03) for f in (1450.0, 1700.0, 2100.0)]
+    return Record(cut, seed, response=lambda axis, f: 0.7 * low[axis](f) + 0.3 * high[axis](f))
+
+
+def low_pass(cut, seed):
+    return Record(cut, seed, response=lambda axis, f: oscillator(280.0, 0.7)(f))
+
+
+def coloured(cut, seed):
+    r = Record(cut, seed)
+    white = r.random.standard_normal(r.force.shape)
+    red = numpy.zeros_like(white)
+    for i in range(1, len(white)):
+        red[i] = 0.95 * red[i - 1] + white[i]
+    return r.add(0.02 * cut.size * red)
+
+
+def speed(change):
+    """change(part of the cut): of the speed, relative."""
+    def turns(r):
+        step = r.cut.rpm / 60 / r.rate * (1 + change(r.part))
+        return r.random.uniform() + numpy.cumsum(step)
+    return lambda cut, seed: Record(cut, seed, turns=turns)
+
+
+def offsets_without_air(cut, seed):
+    r = Record(cut, seed, air=0.0)
+    return r.add(cut.size * r.random.uniform(-0.2, 0.2, 3))
+
+
+def drift(cut, seed):
+    r = Record(cut, seed)
+    bend = numpy.exp(-r.time / (0.3 * r.time[-1]))[:, None]
+    return r.add(0.15 * cut.size * bend * numpy.array([1.0, -0.7, 0.5]))
+
+
+def gain(cut, seed):
+    return Record(cut, seed).scaled(numpy.array([1.0, 1.03, 1.0]))
+
+
+def cross_talk(cut, seed):
+    r = Record(cut, seed)
+    x, y, z = r.force.T
+    r.force = numpy.array([x + 0.02 * y, y, z]).T
+    return r
+
+
+def wear(cut, seed):
+    r = Record(cut, seed)
+    return r.scaled(1 + 0.08 * r.part[:, None])
+
+
+def line(frequency, size):
+    """A line in all channels; frequency(cut) [Hz]."""
+    def record(cut, seed):
+        r = Record(cut, seed)
+        phase = r.random.uniform(0, 2 * numpy.pi, 3)
+        wave = numpy.sin(2 * numpy.pi * frequency(cut) * r.time[:, None] + phase)
+        return r.add(size * cut.size * wave)
+    return record
+
+
+def in_the_cut(frequency, size):
+    def record(cut, seed):
+        r = Record(cut, seed)
+        wave = numpy.sin(2 * numpy.pi * frequency(cut) * r.time[:, None] + r.random.uniform(0, 6, 3))
+        return r.add(size * cut.size * wave * r.inside[:, None])
+    return record
+
+
+def stuck(cut, seed):
+    r = Record(cut, seed)
+    for start in numpy.flatnonzero(r.random.uniform(size=len(r.time)) < 0.004):
+        r.force[start:start + 12] = r.force[start]
+    return r
+
+
+def late_channels(cut, seed):
+    r = Record(cut, seed)
+    by = 3e-4 * r.rate  # samples
+    at = numpy.arange(len(r.time))
+    r.force[:, 1] = numpy.interp(at - by, at, r.force[:, 1])
+    return r
+
+
+KINDS = {
+    "white noise of 2 %": Record,
+    "white noise of 8 %": lambda cut, seed: Record(cut, seed, noise=0.08),
+    "coloured noise": coloured,
+    "rings, 131 samples a turn": ringing(131.0),
+    "rings, 200 samples a turn": ringing(200.0),
+    "rings, 214.3 samples a turn": ringing(10000 / 2800 * 60),
+    "rings, 300 samples a turn": ringing(300.0),
+    "rings in two modes": two_modes,
+    "low-pass at 280 Hz": low_pass,
+    "speed sags by 0.2 %": speed(lambda part: -0.002 * part),
+    "speed sags by 1 %": speed(lambda part: -0.01 * part),
+    "speed ripples by 1 %": speed(lambda part: 0.01 * numpy.sin(6 * numpy.pi * part)),
+    "offsets, no air": offsets_without_air,
+    "drift that is no line": drift,
+    "gain of y 3 % high": gain,
+    "cross talk of 2 %": cross_talk,
+    "forces grow by 8 %": wear,
+    "hum between the lines": line(lambda cut: 50.0 if cut.rpm != 3000 else 60.0, 0.1),
+    "hum on a line": line(lambda cut: cut.rpm / 60, 0.1),
+    "hum on the second line": line(lambda cut: cut.rpm / 30, 0.1),
+    "chatter": in_the_cut(lambda cut: 7.37 * cut.rpm / 60, 0.25),
+    "stuck samples, 5 %": stuck,
+    "y is late by 0.3 ms": late_channels,
+}
+DEAD = "a tooth that never cuts"
+
+
+def dead_tooth(name):
+    """Its neighbours cut what it leaves."""
+    teeth = TOOLS[name]["tool"]["teeth"]
+    return Cut(name, runout={"radial_offsets_mm": [0.0, -0.08] + [0.0] * (teeth - 2)})
+
+
+def asked(cut, folder):
+    case = {table: keys for table, keys in cut.case.items() if table != "runout"}
+    case["force"] = {"law": "linear_edge"}
+    case["dynamometer"] = {"axes": ["-x", "-y", "-z"]}
+    case["measurement"] = [{"file": "record.csv"}]
+    (folder / "case.toml").write_text(text_of(case))
+
+
+def identified(cut, record, keep=None):
+    """Exit code and summary."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(keep or name)
+        folder.mkdir(exist_ok=True)
+        asked(cut, folder)
+        with (folder / "record.csv").open("w") as file:
+            file.write("time_s,Fx_N,Fy_N,Fz_N\n")
+            numpy.savetxt(file, numpy.column_stack([record.time, record.force]), fmt="%.9g",
+                          delimiter=",")
+        done = subprocess.run([PROGRAM, "identify", "case.toml", "-o", "out", "-q", "--no-report"],
+                              cwd=folder, capture_output=True, text=True, timeout=WITHIN, check=False)
+        file = folder / "out/summary.json"
+        return done.returncode, json.loads(file.read_text()) if file.exists() else None
+
+
+def judged(summary):
+    """(misses {key: (value, low, high)}, whether they are called good, width of K_tc)"""
+    result = summary["result"]
+    fit = result["fits"][result["chosen"]] if isinstance(result["chosen"], int) else next(
+        f for f in result["fits"] if f["chip_model"] == result["chosen"])
+    misses = {}
+    doubted = set(result.get("with_care", [])) | set(result.get("do_not_use", []))
+    for key, truth in TRUTH.items():
+        found = fit["coefficients"].get(key)
+        if found is None or found.get("value") is None or found.get("low") is None:
+            continue
+        outside = max(found["low"] - truth, truth - found["high"])
+        if outside > 0.01 * truth:
+            misses[key] = (found["value"], found["low"], found["high"], key in doubted)
+    return misses, result.get("verdict")
+
+
+def one(kind, tool, seed, keep=None):
+    cut = dead_tooth(tool) if kind == DEAD else Cut(tool)
+    make = Record if kind == DEAD else KINDS[kind]
+    code, summary = identified(cut, make(cut, 1000 + seed), keep)
+    if code != 0 or summary is None or summary["status"] != "ok":
+        return {"refused": True, "message": summary["message"] if summary else "?"}
+    misses, verdict = judged(summary)
+    codes = [w["code"] for w in summary["warnings"]]
+    silent = verdict == "usable" and any(not doubted for *_, doubted in misses.values())
+    return {"refused": False, "misses": misses, "verdict": verdict, "silent": silent,
+            "codes": codes, "message": summary["message"]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--list", action="store_true")
+    chosen = parser.parse_args()
+    kinds = [k for k in [*KINDS, DEAD]
+             if not chosen.only or any(part in k for part in chosen.only.split(","))]
+    work = [(kind, tool, seed) for kind in kinds for tool in TOOLS
+            for seed in range(chosen.seeds)]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        answers = dict(zip(work, pool.map(lambda w: one(*w), work)))
+    print("| kind | right | doubted | refused | wrong in silence |\n|---|---|---|---|---|")
+    for kind in kinds:
+        these = [a for (k, _, _), a in answers.items() if k == kind]
+        refused = sum(a["refused"] for a in these)
+        silent = sum(a.get("silent", False) for a in these)
+        right = sum(not a["refused"] and not a["misses"] for a in these)
+        print(f"| {kind} | {right} | {len(these) - right - refused - silent} | {refused} | {silent} |")
+    for (kind, tool, seed), a in answers.items():
+        if chosen.list and (a["refused"] or a["misses"]):
+            print(f"\n{kind}, {tool}, seed {seed}: {a.get('verdict', 'refused')}"
+                  f"\n  {a['message'][:200]}\n  {a.get('codes')}")
+            for key, (value, low, high, doubted) in a.get("misses", {}).items():
+                print(f"    {key} {value:.4g} in {low:.4g} to {high:.4g}, true {TRUTH[key]:g}"
+                      f"{' (doubted)' if doubted else ''}")
+
+
+if __name__ == "__main__":
+    main()
