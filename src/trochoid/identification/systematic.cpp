@@ -33,6 +33,8 @@ constexpr double least_fault = 0.003;
 constexpr double separate = 1e-3;
 /// Step of a depth or feed, relative.
 constexpr double cut_step = 1e-4;
+/// Step of a phase [rad].
+constexpr double phase_step = 1e-4;
 
 /// Rows are x, y, z by turns.
 void add_part(const ComputedRows& computed, std::size_t reading, std::size_t force,
@@ -85,6 +87,27 @@ std::vector<double> cut_column(const ComputedRows& computed, SystematicKind kind
   return out;
 }
 
+/// A reading that comes later by a second.
+std::vector<double> delay_column(const ComputedRows& computed, std::size_t reading) {
+  const Problem& problem = computed.problem;
+  Problem changed = problem;
+  changed.fixed_phase += phase_step;
+  std::vector<double> p(computed.p.begin(), computed.p.end());
+  for (int r = 0; r < problem.unknowns.phases; ++r) {
+    p[index(problem.unknowns.first_phase() + r)] += phase_step;
+  }
+  std::vector<double> out = force_rows(changed, evaluate(changed, p), computed.x);
+  std::size_t row = 0;
+  for (const FoldedRun& run : problem.runs) {
+    for (int i = 0; i < run.rows; ++i, ++row) {
+      const bool of_reading = index(i) % 3 == reading && run.measured[reading];
+      const double slope = (out[row] - computed.force[row]) / phase_step;
+      out[row] = of_reading ? -run.cut.Omega * slope : 0.0;
+    }
+  }
+  return out;
+}
+
 /// A fit as it stands, linear about its answer.
 class LinearFit {
  public:
@@ -122,6 +145,7 @@ class LinearFit {
   }
 
   [[nodiscard]] std::span<const double> residual() const { return residual_; }
+  [[nodiscard]] std::span<const double> force() const { return force_; }
 
  private:
   Prepared prepared_;
@@ -139,6 +163,7 @@ std::vector<Systematic> tellable() {
     for (std::size_t j = 0; j < 3; ++j) {
       out.push_back({i == j ? SystematicKind::gain : SystematicKind::cross_talk, i, j});
     }
+    out.push_back({SystematicKind::delay, i});
   }
   return out;
 }
@@ -176,6 +201,9 @@ std::optional<SensorFault> tried(const LinearFit& linear, const Systematic& one,
   const double whole = numerics::dot(column, column);
   if (!(effect.rss > separate * separate * whole)) return std::nullopt;
   SensorFault out{one};
+  if (one.kind == SystematicKind::delay) {
+    out.size = std::sqrt(whole / numerics::dot(linear.force(), linear.force()));
+  }
   out.value = numerics::dot(column, linear.residual()) / effect.rss;  // I-24
   const double gained = out.value * out.value * effect.rss;
   const double part = rest.excess > 0.0 ? std::min(gained / rest.excess, 1.0) : 0.0;
@@ -215,7 +243,7 @@ std::vector<SensorFault> faults_of(const LinearFit& linear, const Rest& rest) {
   const double best = out.empty() ? 0.0 : out.front().explained;
   std::erase_if(out, [&](const SensorFault& fault) {
     return fault.explained < std::max(clear_evidence, as_good * best) ||
-           std::abs(fault.value) < least_fault;
+           std::abs(fault.value) * fault.size < least_fault;
   });
   return out;
 }
@@ -238,6 +266,8 @@ std::vector<double> systematic_column(const ComputedRows& computed,
     case SystematicKind::cross_talk:
       add_part(computed, one.reading, one.force, 1.0, out);
       return out;
+    case SystematicKind::delay:
+      return delay_column(computed, one.reading);
     case SystematicKind::all_gains:
       return {computed.force.begin(), computed.force.end()};
     case SystematicKind::turn:  // the force seen from a frame that was turned

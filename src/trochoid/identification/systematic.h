@@ -13,6 +13,7 @@ namespace trochoid::identification {
 enum class SystematicKind {
   gain,          ///< of one reading [1]
   cross_talk,    ///< part of one force in the reading of another [1]
+  delay,         ///< of one reading behind the others [s]
   all_gains,     ///< of all readings alike [1]
   turn,          ///< of the dynamometer about z [rad]
   axial_depth,   ///< [m]
@@ -37,8 +38,9 @@ struct SystematicEffect {
 /// @brief A dynamometer that is not what it says, as the record tells it.
 struct SensorFault {
   Systematic systematic;
-  double value = 0.0;                ///< part of the reading
+  double value = 0.0;                ///< part of the reading, or delay [s]
   double se = 0.0;                   ///< its standard error
+  double size = 1.0;                 ///< part of the force that one unit changes
   double explained = 0.0;            ///< in what one unknown explains by chance
   double part = 0.0;                 ///< of what repeats turn by turn, from 0 to 1
   std::vector<double> coefficients;  ///< of the first group, with it told
@@ -48,7 +50,7 @@ struct SensorFault {
 struct Systematics {
   /// Turn, gains, depths and feed, of which no record tells; those that apply.
   std::vector<SystematicEffect> untold;
-  /// Gains of single channels and cross talk that the record tells: what explains most, and
+  /// Gains and delays of single channels and cross talk that the record tells: what explains most, and
   /// what explains nearly as much; empty: nothing explains clearly.
   std::vector<SensorFault> faults;
 };

@@ -27,13 +27,14 @@ std::vector<int> bands(const force::Setup& setup, std::span<const Run> runs) {
 }
 
 /// A gain or cross talk that explains so much of what repeats is its cause, not a resonance
-/// that mimics it.
+/// that mimics it. A delay may be left to a resonance that does.
 constexpr double explains_most = 0.8;
 
 bool is_sensor_fault(const force::Setup& setup, const force::Law& law,
                      std::span<const Run> runs, const Fit& rigid) {
   const std::vector<SensorFault> faults = systematics(setup, law, runs, rigid).faults;
-  return !faults.empty() && faults.front().part > explains_most;
+  return !faults.empty() && faults.front().part > explains_most &&
+         faults.front().systematic.kind != SystematicKind::delay;
 }
 
 }  // namespace

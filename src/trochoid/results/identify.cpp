@@ -138,6 +138,8 @@ struct Untold {
       case cross_talk:
       case all_gains:
         return 0.01;
+      case delay:
+        return 1e-3;
       case axial_depth:
       case radial_depth:
         return 0.1 * unit::mm;
@@ -155,6 +157,8 @@ struct Untold {
         return "1 % of one gain";
       case cross_talk:
         return "1 % of cross talk";
+      case delay:
+        return "1 ms of one channel";
       case all_gains:
         return "1 % of all gains";
       case axial_depth:

@@ -52,6 +52,7 @@ constexpr auto care = std::to_array<std::pair<std::string_view, std::string_view
     {"runout_above_feed", "the teeth differ by more than the feed"},
     {"spindle_speed_unknown", "the spindle speed could not be found"},
     {"channel_gain", "the gain of a channel does not fit the others"},
+    {"channel_delay", "the channels do not read at the same time"},
     {"cross_talk", "a channel reads part of another force"},
     {"response_scaled", "the given response does not fit the record"},
 });
@@ -304,6 +305,12 @@ std::string fault_words(const identification::SensorFault& fault, const Fit& cho
                         const signal::Matrix3& M) {
   constexpr std::array axes{"x", "y", "z"};
   const auto& one = fault.systematic;
+  if (one.kind == identification::SystematicKind::delay) {
+    return fmt::format("the reading of {} is {} by {} ms",
+                       reading_words(one.reading, M),
+                       fault.value > 0 ? "late" : "early",
+                       base::with_error(1e3 * std::abs(fault.value), 2e3 * fault.se));
+  }
   const bool gain = one.kind == identification::SystematicKind::gain;
   const std::string size = base::with_error(
       100 * (gain ? std::abs(fault.value) : fault.value), 200 * fault.se);
@@ -326,8 +333,16 @@ void warn_sensor(std::span<const identification::SensorFault> faults, const Fit&
   if (faults.empty()) return;
   std::vector<std::string> words;
   for (const auto& fault : faults) words.push_back(fault_words(fault, chosen, M));
-  const bool gain =
-      faults.front().systematic.kind == identification::SystematicKind::gain;
+  const auto kind = faults.front().systematic.kind;
+  if (kind == identification::SystematicKind::delay) {
+    warnings.push_back(
+        {"channel_delay",
+         fmt::format("The channels do not read at the same time: {}. Channels that are "
+                     "sampled one after the other do this, and filters that differ.",
+                     fmt::join(words, "; or "))});
+    return;
+  }
+  const bool gain = kind == identification::SystematicKind::gain;
   warnings.push_back(
       {gain ? "channel_gain" : "cross_talk",
        fmt::format(

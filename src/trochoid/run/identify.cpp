@@ -276,6 +276,7 @@ bool told(identification::SystematicKind kind,
   switch (kind) {
     case gain:
     case cross_talk:
+    case delay:
     case all_gains:
       return tolerances.gain.has_value();
     case turn:

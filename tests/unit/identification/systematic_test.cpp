@@ -109,6 +109,39 @@ TEST(Systematic, GainOfOneChannelIsTold) {  // [I-24]
   EXPECT_TRUE(named);
 }
 
+TEST(Systematic, DelayOfOneChannelIsTold) {  // [I-24]
+  constexpr std::size_t late = 2;  // samples, of which a turn has 120
+  Record run = noisy(two_flutes_with_runout());
+  for (std::size_t i = run.force.size(); i-- > late;) {
+    run.force[i][1] = run.force[i - late][1];
+  }
+  for (std::size_t i = 0; i < late; ++i) {
+    run.force[i][1] = run.force[i + 120][1];  // it repeats
+  }
+  const auto faults = found_in({run}).faults;
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.front().systematic.kind, SystematicKind::delay);
+  EXPECT_EQ(faults.front().systematic.reading, 1u);
+  const double delay = late * unit::turn / 120 / run.cut.Omega;
+  EXPECT_NEAR(faults.front().value / delay, 1.0, 0.15);
+}
+
+TEST(Systematic, TheErrorOfAnOffsetIsInTheIntervals) {  // [I-24]
+  std::vector<Record> runs{noisy(two_flutes_with_runout())};
+  const Fit fit = fitted(runs);
+  constexpr double offset = 3.0;  // [N]
+  std::vector<Record> moved = runs;
+  for (auto& F : moved[0].force) F[2] += offset;
+  const Fit other = fitted(moved);
+  runs[0].offset_se = {0.0, 0.0, offset};
+  const Fit wider = fitted(runs);
+  const std::size_t K_ae = 5;
+  const double effect = other.coefficients[K_ae]->value - fit.coefficients[K_ae]->value;
+  EXPECT_GT(std::abs(effect), fit.coefficients[K_ae]->se);
+  EXPECT_NEAR(wider.coefficients[K_ae]->se / std::hypot(fit.coefficients[K_ae]->se, effect),
+              1.0, 0.01);
+}
+
 TEST(Systematic, CrossTalkIsTold) {  // [I-24]
   Record run = noisy(two_flutes_with_runout());
   for (auto& F : run.force) F[0] += 0.03 * F[1];
