@@ -31,7 +31,7 @@ class Held {
 
   /// @throws base::InputError  with all that is wrong with the file
   const Data& get() const {
-    if (!state_) throw std::logic_error("the case holds no such data");
+    if (!state_) throw std::logic_error("the case has no such data");
     const std::lock_guard lock(state_->guard);
     if (!state_->data) state_->data = state_->read();
     return *state_->data;

@@ -290,8 +290,8 @@ std::string put_tool(const ToolChoice& choice, CaseTables& t) {
     usual->put(t);
     t.title = std::string(usual->meaning);
     return fmt::format(
-        "# The tool is {}. Its numbers are usual ones: put in\n"
-        "# those of yours.\n",
+        "# The tool is {}. Its numbers are usual ones:\n"
+        "# put in the numbers of your tool.\n",
         usual->meaning);
   }
   const FoundTool found = read_tool(choice);
@@ -304,8 +304,8 @@ std::string put_tool(const ToolChoice& choice, CaseTables& t) {
     t.runout.radial_offsets.resize(static_cast<std::size_t>(t.tool.teeth));
   }
   return fmt::format(
-      "# The tool is that of {}{}. Not said there, and to be looked\n"
-      "# after: {}\n",
+      "# The tool is from {}{}. That file does not give these\n"
+      "# keys, so check them: {}\n",
       base::one_line(choice.file.filename().string()),
       found.name.empty() ? "" : fmt::format(" ({})", base::one_line(found.name)),
       fmt::join(stay, ", "));

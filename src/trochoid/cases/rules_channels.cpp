@@ -54,11 +54,10 @@ void check_mean(const MeasurementTable& table, const std::string& path,
         std::pair{"from_s", table.from.has_value()},
         std::pair{"to_s", table.to.has_value()}}) {
     if (!there) continue;
-    report(
-        findings, path + "." + key,
-        fmt::format("{}.{}: a mean has no record of which that could be said; must be "
-                    "left out, or file in place of mean",
-                    path, key));
+    report(findings, path + "." + key,
+           fmt::format("{}.{}: this describes a record, and a mean has none; must be "
+                       "left out, or file in place of mean",
+                       path, key));
   }
 }
 
@@ -147,8 +146,8 @@ void check_weights(Findings& findings, const Case& c) {
   if (one_unit || weighted || c.measurements.empty()) return;
   report(findings, "dynamometer.axes",
          fmt::format(
-             "dynamometer.axes: channels of different units ({}) cannot be weighed "
-             "against one another; must go with channel_sd",
+             "dynamometer.axes: channels of different units ({}) cannot be weighted "
+             "against each other; must go with channel_sd",
              axes_text(channels)));
 }
 

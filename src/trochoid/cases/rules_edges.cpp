@@ -151,12 +151,12 @@ void check_order(const force::Setup& setup, Findings& findings) {
       const double gap = edges.edge_at(next, z).omega - edges.edge_at(j, z).omega +
                          (next == 0 ? unit::turn : 0.0);
       if (gap > 0 && gap < unit::turn) continue;
-      report(findings, "tool.helix_deg",
-             fmt::format(
-                 "tool.helix_deg: at {:.4g} mm above the tip the edge of tooth {} "
-                 "crosses that of tooth {}; the angle between them must stay above "
-                 "0 over the axial depth",
-                 z / unit::mm, next + 1, j + 1));
+      report(
+          findings, "tool.helix_deg",
+          fmt::format("tool.helix_deg: at {:.4g} mm above the tip the edge of tooth {} "
+                      "crosses the edge of tooth {}; the angle between them must stay "
+                      "above 0 over the axial depth",
+                      z / unit::mm, next + 1, j + 1));
       return;
     }
   }

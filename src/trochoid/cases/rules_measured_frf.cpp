@@ -64,8 +64,8 @@ void check_joined(const std::vector<MeasuredFrf>& all, Findings& findings) {
         findings, "measured_frf[1]",
         "measured_frf: along x and along y, and no cross response between them; must "
         "have one with axis = \"x\" and force_axis = \"y\", or the other way round: "
-        "without it nobody knows how the modes lie between the axes. Or fit each by "
-        "itself, as [frf] file");
+        "without it nobody knows how the modes lie between the axes. Or fit each "
+        "alone, as [frf] file");
   }
 }
 

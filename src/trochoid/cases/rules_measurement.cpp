@@ -93,8 +93,8 @@ void check_invertible(const Matrix& m, Findings& findings) {
   // |det| / size^3 bounds how much of a force the channels still tell apart.
   if (!(std::abs(det) > least_determinant * size2 * std::sqrt(size2))) {
     report(findings, "dynamometer.matrix",
-           fmt::format("dynamometer.matrix: the determinant is {:.3g}, so the force "
-                       "cannot be told from the channels; must be invertible",
+           fmt::format("dynamometer.matrix: the determinant is {:.3g}, so the "
+                       "channels do not determine the force; must be invertible",
                        det));
   }
 }
@@ -108,11 +108,11 @@ void check_clamping(const IdentifyTable& table, Findings& findings) {
   constexpr double least_turn = 1 * unit::deg;
   if (std::abs(std::remainder(table.previous_clamping->turned, unit::turn)) <
       least_turn) {
-    report(
-        findings, key + ".turned_deg",
-        fmt::format("{}.turned_deg = {} deg: the tool stood as before, so that nothing "
-                    "can be told apart; must be at least 1 deg off a whole turn",
-                    key, number_text(table.previous_clamping->turned, unit::deg)));
+    report(findings, key + ".turned_deg",
+           fmt::format("{}.turned_deg = {} deg: the tool stood as before, so tool and "
+                       "holder cannot be separated; must be at least 1 deg off a whole "
+                       "turn",
+                       key, number_text(table.previous_clamping->turned, unit::deg)));
   }
   const bool searched = std::ranges::any_of(table.runout, [](RunoutGroup group) {
     return group == RunoutGroup::eccentricity || group == RunoutGroup::both;

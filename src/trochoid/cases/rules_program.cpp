@@ -89,8 +89,8 @@ void settle_words(NcProgram& p, Findings& findings) {
 void check_tools(const NcProgram& p, Findings& findings) {
   const auto twice = [&](const std::string& name) {
     report(findings, "program.tools",
-           fmt::format("program.tools: {} is there twice; each tool is that of this "
-                       "case, one of tools, or one of ignore_tools",
+           fmt::format("program.tools: {} is there twice; each tool must be the "
+                       "case's own, one of tools, or one of ignore_tools",
                        toml_string(name)));
   };
   if (p.tools.count(p.tool_number.text) > 0) twice(p.tool_number.text);

@@ -28,10 +28,10 @@ void describe(const Visitor& v, Correction& t) {
   v({.name = "target",
      .meaning =
          "what is made equal from tooth to tooth. peak_force: the peaks of the "
-         "whole force, which a dynamometer shows; own_force: those of each tooth "
-         "alone, another thing where several cut at once; chip_area: what they "
-         "remove; least_squares: the chips over the whole cut, as nearly as "
-         "possible"},
+         "whole force, which a dynamometer shows; own_force: the peaks of each "
+         "tooth's own force, which is not the whole force where several cut at once; "
+         "chip_area: what they remove; least_squares: the chips over the whole cut, "
+         "as nearly as possible"},
     choice(t.options.target));
   v({.name = "strategy",
      .meaning = "how the motion becomes a command. plain: they are the same; lead: "
@@ -67,8 +67,8 @@ void describe(const Visitor& v, Correction& t) {
     &t.options.peak_to_peak);
   v({.name = "sample_rate_Hz",
      .meaning =
-         "sampling rate of a command that is held between samples (zero-order hold); "
-         "0: continuous",
+         "sampling rate of a command that is constant between samples (zero-order "
+         "hold); 0: continuous",
      .range = at_least(0)},
     &t.options.sample_rate);
   v({.name = "learning_gain",

@@ -177,14 +177,14 @@ namespace {
 void describe_tolerances(const Visitor& v, CutTable& t) {
   v({.name = "axial_depth_sd_mm",
      .meaning = "standard deviation of axial_depth_mm: the intervals of identify then "
-                "hold it",
+                "include it",
      .range = above_up_to(0, longest_mm),
      .standard = "in no interval",
      .example = "0.02"},
     &t.axial_depth_sd);
   v({.name = "radial_depth_sd_mm",
      .meaning = "standard deviation of radial_depth_mm: the intervals of identify then "
-                "hold it",
+                "include it",
      .range = above_up_to(0, longest_mm),
      .only = {"engagement", {"up", "down"}},
      .standard = "in no interval",
@@ -192,7 +192,7 @@ void describe_tolerances(const Visitor& v, CutTable& t) {
     &t.radial_depth_sd);
   v({.name = "feed_per_tooth_sd_mm",
      .meaning = "standard deviation of the feed per tooth: the intervals of identify "
-                "then hold it",
+                "then include it",
      .range = above_up_to(0, 1000),
      .standard = "in no interval",
      .example = "0.0005"},

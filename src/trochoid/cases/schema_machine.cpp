@@ -23,13 +23,15 @@ void describe_loads(const Visitor& v, Wall& t) {
       &value);
   };
   load("pressure_kPa",
-       "a pressure on the whole wall, whose deflection is told beside the cut",
+       "a pressure on the whole wall: the deflection under it is reported in addition "
+       "to the cut",
        t.pressure);
   load("edge_load_N_per_mm",
-       "a load along the whole free edge, whose deflection is told", t.edge_load);
+       "a load along the whole free edge: the deflection under it is reported",
+       t.edge_load);
   load("line_load_N_per_mm",
        "a load on an upright line at position_mm, from the free edge down to the axial "
-       "depth, whose deflection is told",
+       "depth: the deflection under it is reported",
        t.line_load);
   v({.name = "loads_x_mm",
      .meaning = "where along the wall the deflections under these loads are wanted",
@@ -82,13 +84,13 @@ void describe(const Visitor& v, WallPass& t) {
      .meaning = "how much this pass takes off; 0: a spring pass, which takes what the "
                 "pass before left",
      .range = between(0, longest_mm),
-     .standard = "that of [cut]",
+     .standard = "as in [cut]",
      .example = "0.5"},
     &t.radial_depth);
   v({.name = "feed_per_tooth_mm",
      .meaning = "feed per tooth of this pass",
      .range = above_up_to(0, 1000),
-     .standard = "that of [cut]",
+     .standard = "as in [cut]",
      .example = "0.1"},
     &t.feed_per_tooth);
   v({.name = "below_edge_mm",
@@ -124,8 +126,9 @@ void describe(const Visitor& v, Wall& t) {
      .standard = "half of length_mm"},
     &t.position);
   v({.name = "ends",
-     .meaning = "how the two ends of the wall are held, at 0 and at length_mm; "
-                "free_start: only the far one is clamped; free_end: only the near one"},
+     .meaning =
+         "which ends of the wall are clamped, at 0 and at length_mm; free_start: "
+         "only the far one; free_end: only the near one"},
     choice(t.ends));
   describe_loads(v, t);
 }
@@ -198,8 +201,8 @@ void describe(const Visitor& v, Surface& t) {
     choice(t.errors));
   v({.name = "also_bends",
      .meaning =
-         "forces that bend cutter and wall beside that across the wall; x: along "
-         "the feed; z: along the axis, by its lever arm",
+         "forces that bend cutter and wall in addition to the force across the wall; "
+         "x: along the feed; z: along the axis, by its lever arm",
      .standard = "none",
      .example = "[\"x\", \"z\"]"},
     choices(t.also_bends));

@@ -74,14 +74,14 @@ void describe(const Visitor& v, DynamometerTable& t) {
   v({.name = "gain_sd",
      .meaning =
          "standard deviation of the gain of each channel, 0.01 for one per cent: "
-         "the intervals then hold it",
+         "the intervals then include it",
      .range = above_up_to(0, 1),
      .standard = "in no interval",
      .example = "0.01"},
     &t.gain_sd);
   v({.name = "turn_sd_deg",
      .meaning = "standard deviation of the angle by which the dynamometer is turned "
-                "about z: the intervals then hold it",
+                "about z: the intervals then include it",
      .range = above_up_to(0, 45),
      .standard = "in no interval",
      .example = "0.5"},
@@ -182,8 +182,8 @@ void describe(const Visitor& v, MeasurementTable& t) {
      .example = "3.2"},
     &t.to);
   v({.name = "group",
-     .meaning = "measurements of the same group share coefficients, for example those "
-                "of one state of wear; those without share one set as well",
+     .meaning = "measurements of one group share coefficients, for example of one "
+                "state of wear; measurements without a group share one set as well",
      .standard = "all share them",
      .example = "\"after 10 min\""},
     &t.group);
@@ -214,12 +214,12 @@ void describe(const Visitor& v, PreviousClamping& t) {
   v({.name = "eccentricity_se_mm",
      .meaning = "standard error of that eccentricity",
      .range = between(0, 10),
-     .standard = "that of the present one"},
+     .standard = "as of the present eccentricity"},
     &t.eccentricity_se);
   v({.name = "angle_se_deg",
      .meaning = "standard error of that angle",
      .range = between(0, 360),
-     .standard = "that of the present one"},
+     .standard = "as of the present angle"},
     &t.angle_se);
 }
 

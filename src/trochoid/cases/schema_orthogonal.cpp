@@ -30,8 +30,8 @@ void describe(const Visitor& v, OrthogonalTable& t) {
     &t.shear_angle);
   v({.name = "chip_ratio",
      .meaning =
-         "thickness of the uncut chip over that of the chip, at an uncut chip of 1 "
-         "mm: at zero rake, more with each degree of rake",
+         "thickness of the uncut chip over thickness of the chip, at an uncut chip of "
+         "1 mm: at zero rake, more with each degree of rake",
      .range = between(-most_ratio, most_ratio),
      .rival = "shear_angle_deg",
      .example = "[1.8, -0.03]"},

@@ -22,8 +22,8 @@ void describe_shared(const Visitor& v, Plan& t) {
   v({.name = "feed_per_tooth_mm",
      .meaning = "feeds per tooth to look at; of a wall: of the map of its error",
      .range = above_up_to(0, 100),
-     .standard = "half, 0.75, 1, 1.5 and 2 times that of [cut]; of a wall: 15 from a "
-                 "quarter to twice that",
+     .standard = "half, 0.75, 1, 1.5 and 2 times the feed of [cut]; of a wall: 15 from "
+                 "a quarter to twice that feed",
      .example = "[0.02, 0.04, 0.08]"},
     &t.feeds);
   v({.name = "radial_depth_mm",
@@ -33,7 +33,7 @@ void describe_shared(const Visitor& v, Plan& t) {
      .range = above_up_to(0, 10000),
      .standard =
          "0.1, 0.25, 0.5 and 0.75 of the diameter; of a wall: 15 from a quarter "
-         "to twice that of [cut]",
+         "to twice the depth of [cut]",
      .example = "[1, 2, 4]"},
     &t.radial_depths);
 }
@@ -43,7 +43,7 @@ void describe_force_records(const Visitor& v, Plan& t) {
      .meaning = "axial depths of cut to look at",
      .range = above_up_to(0, 10000),
      .only = of_forces(),
-     .standard = "that of [cut]",
+     .standard = "as in [cut]",
      .example = "[1, 2]"},
     &t.axial_depths);
   v({.name = "turns",

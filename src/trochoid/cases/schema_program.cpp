@@ -56,7 +56,7 @@ void describe_frame(const Visitor& v, NcProgram& t) {
     &t.offsets);
   v({.name = "compensation",
      .meaning = "what G41 and G42 are. refuse: mistakes; wear_zero: without effect, "
-                "the path is that of the center"},
+                "the program has the path of the center"},
     choice(t.compensation));
   v({.name = "block_delete", .meaning = "whether blocks with / are left out"},
     &t.block_delete);
@@ -72,7 +72,7 @@ void describe_places(const Visitor& v, NcProgram& t) {
      .example = "[[11, 0.97]]"},
     &t.places);
   v({.name = "place_heights_mm",
-     .meaning = "heights above the tip of the arcs that are told there",
+     .meaning = "heights above the tip at which the arcs at these places are reported",
      .range = between(0, longest_mm),
      .standard = "every layer",
      .example = "[0.05, 0.3]"},

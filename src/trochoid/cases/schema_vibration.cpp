@@ -117,13 +117,13 @@ void describe(const Visitor& v, Actuator& t) {
   v({.name = "coupling_stiffness_N_per_m",
      .meaning = "stiffness between actuator and table",
      .range = above(0),
-     .standard = "that of the table's mode",
+     .standard = "stiffness of the table's mode",
      .example = "17000000"},
     &t.coupling_stiffness);
   v({.name = "coupling_damping_Ns_per_m",
      .meaning = "damping between actuator and table",
      .range = at_least(0),
-     .standard = "that of the table's mode, in proportion to the stiffness",
+     .standard = "damping of the table's mode, in proportion to the stiffness",
      .example = "77.3"},
     &t.coupling_damping);
   v({.name = "slew_um_per_s",
@@ -137,7 +137,7 @@ void describe(const Visitor& v, Actuator& t) {
     &t.push);
   v({.name = "pull_N", .meaning = "and the other way", .range = above(0)}, &t.pull);
   v({.name = "highest_frequency_Hz",
-     .meaning = "highest frequency that a command may hold",
+     .meaning = "highest frequency that a command may contain",
      .range = above(0),
      .standard = "0.27 of the frequency of the table",
      .example = "400"},
@@ -161,8 +161,8 @@ void describe(const Visitor& v, FrfTables& t) {
          "time real with a warning"},
     choice(t.shapes));
   v({.name = "estimator",
-     .meaning = "of hammer blows in time: H1 lets the noise of the sensor average out, "
-                "H2 that of the force"},
+     .meaning = "of hammer blows in time: H1 averages out the noise of the sensor, H2 "
+                "the noise of the force"},
     choice(t.tap.estimator));
   v({.name = "block_s",
      .meaning = "how much of the record is taken after each blow; 0: until the next, a "
@@ -238,7 +238,7 @@ void describe(const Visitor& v, Stability& t) {
          "first, last and number of the spindle speeds of the stability lobe diagram; "
          "one speed: [5000, 5000, 1]",
      .range = above_up_to(0, 1e6),
-     .standard = "from half to one and a half of that of [cut]",
+     .standard = "from 0.5 to 1.5 times the speed of [cut]",
      .example = "[5000, 25000, 200]"},
     &t.spindle_speed);
   v({.name = "axial_depth_mm",
@@ -246,7 +246,7 @@ void describe(const Visitor& v, Stability& t) {
          "first, last and number of the axial depths of the stability lobe diagram; one "
          "depth: [1, 1, 1]",
      .range = above_up_to(0, longest_mm),
-     .standard = "up to twice that of [cut]",
+     .standard = "up to twice the depth of [cut]",
      .example = "[0.05, 5, 100]"},
     &t.axial_depth);
   v({.name = "harmonics",

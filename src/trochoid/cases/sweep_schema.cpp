@@ -59,7 +59,7 @@ constexpr SweepKeyText key_texts[] = {
     {"count", "a whole number from 1 to 100000000", "200",
      "rows of random and latin_hypercube"},
     {"seed", "a whole number of 0 or more", "`1`", "start of the random numbers"},
-    {"command", "text", "that of the command line", "what answers each row"},
+    {"command", "text", "from the command line", "what answers each row"},
     {"take", "a list of texts", "needed, here or with `--take`",
      "what is taken from each answer, such as \"result.peak_xy_N\""},
     {"covariance", "text, { file, group }, or a list of them", left_out,

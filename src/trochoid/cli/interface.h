@@ -27,7 +27,7 @@ struct ExitCode {
 };
 inline constexpr std::array exit_codes{
     ExitCode{answered, "answered"},
-    ExitCode{no_answer, "no good answer exists (the reason is said)"},
+    ExitCode{no_answer, "no good answer exists (the reason is given)"},
     ExitCode{wrong_input, "the input is wrong"}, ExitCode{our_bug, "a bug of ours"}};
 
 /// What to start with, a line a command.

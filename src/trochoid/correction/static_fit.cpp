@@ -483,7 +483,7 @@ StaticFit static_fit(const force::Setup& setup, const ForceRecord& record,
       residuals_of(problem), static_cast<int>(problem.residuals()), best.p,
       best.final_cost, rank_tolerance);
   if (C.empty()) {
-    fit.reason = "coefficients, exponents and runout cannot be told apart";
+    fit.reason = "coefficients, exponents and runout cannot be determined separately";
     return fit;
   }
   fill_values(problem, best.p, C, fit);

@@ -288,7 +288,7 @@ bool lacks_names(const ColumnSearch& search, std::string_view example) {
     return false;
   }
   search.problems.add(search.head.names_line, 1,
-                      fmt::format("the first row holds numbers: a row of names, for "
+                      fmt::format("the first row has numbers: a row of names, for "
                                   "example {}, must come before them{}",
                                   example, search.without_names));
   return true;

@@ -32,8 +32,8 @@ double settle_unit(const UnitText& said, const FrfSource& source, FrfFile& out,
   }
   if (unit && source.kind && *source.kind != unit->kind) {
     problems.add(said.line, said.column,
-                 fmt::format("the unit {} is not that of the kind that was said: leave "
-                             "out the kind, or correct one of the two",
+                 fmt::format("the unit {} does not fit the given kind: leave out the "
+                             "kind, or correct one of the two",
                              excerpt(text)));
   }
   if (!unit && !source.kind) {

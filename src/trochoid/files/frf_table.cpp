@@ -99,7 +99,7 @@ FrfTable read_frf_table(const std::string& content, Problems& problems) {
   problems.lines = std::move(text.problems.lines);
   if (table.rows.empty() && problems.lines.empty()) {
     problems.add(std::max<std::size_t>(text.lines.number(), 1), 1,
-                 "the file holds no row of numbers: a universal file with a set 58, or "
+                 "the file has no row of numbers: a universal file with a set 58, or "
                  "a table with, for example, freq_Hz,re_m/N,im_m/N is needed");
   }
   return table;

@@ -88,8 +88,8 @@ std::string without_response(const UffFile& file) {
     }
   }
   return fmt::format(
-      "the file holds {} measured function{} ({}), and no frequency response (data set 58 "
-      "with function type 4): export the FRF from the analyser",
+      "the file has {} measured function{} ({}), and no frequency response (data set "
+      "58 with function type 4): export the FRF from the analyser",
       file.sets.size(), file.sets.size() == 1 ? "" : "s", held);
 }
 
@@ -113,7 +113,7 @@ const Uff58* chosen(const UffFile& file, const FrfSource& source, Problems& prob
   if (wanted > responses.size() || (wanted == 0 && responses.size() > 1)) {
     problems.add(
         1, 1,
-        fmt::format("the file holds {} frequency responses: choose one by "
+        fmt::format("the file has {} frequency responses: choose one by "
                     "--dataset, or dataset = in [frf]; they are fitted together "
                     "where all are of one point, along x and y, a direct one "
                     "and a cross one among them{}",
@@ -161,11 +161,10 @@ FrfFile taken(const Uff58& set, const FrfSource& source, Problems& problems) {
 /// What else a file holds is not read.
 void note_others(const UffFile& file, FrfFile& out) {
   if (!file.others.empty()) {
-    out.notes.push_back(
-        {"sets_passed_over",
-         fmt::format("The file holds {} data sets of other kinds, which "
-                     "were passed over.",
-                     file.others.size())});
+    out.notes.push_back({"sets_passed_over",
+                         fmt::format("The file has {} data sets of other kinds, which "
+                                     "were not read.",
+                                     file.others.size())});
   }
 }
 

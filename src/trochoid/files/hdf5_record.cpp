@@ -170,7 +170,7 @@ void add_group(Hdf5Reading& reading, hid_t group, const std::string& path,
   const Facts facts = facts_of(group, around);
   for (hsize_t i = 0; i < info.nlinks; ++i) {
     if (++reading.objects > most_objects) {
-      refuse(reading.name, fmt::format("the file holds more than {} objects: save the "
+      refuse(reading.name, fmt::format("the file has more than {} objects: save the "
                                        "forces alone",
                                        most_objects));
     }

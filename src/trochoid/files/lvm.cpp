@@ -267,7 +267,7 @@ signal::Record read_lvm_record(std::istream& in, const std::string& name,
   if (reading.further_segments) {
     columns.table.notes.push_back(
         {"part_of_record",
-         fmt::format("The file holds several segments: the first one is read, {} "
+         fmt::format("The file has several segments: the first one is read, {} "
                      "samples.",
                      columns.rows)});
   }

@@ -24,8 +24,8 @@ signal::Record read_mat_record(std::istream& in, const std::string& name,
 void refuse_matlab_object(const std::string& name) {
   refuse(
       name,
-      "the file holds an object, a table or timetable perhaps, which only MATLAB reads: "
-      "save it as a struct, for example: s = table2struct(T, 'ToScalar', true); "
+      "the file contains an object, perhaps a table or timetable, which only MATLAB "
+      "reads: save it as a struct, for example: s = table2struct(T, 'ToScalar', true); "
       "save('record.mat', '-struct', 's'); of a timetable, T = timetable2table(TT) "
       "first");
 }

@@ -230,7 +230,7 @@ std::vector<Variable> variables_of(MatReading& reading) {
     refuse_damaged(reading, "the head of this MATLAB file says no byte order");
   }
   reading.order = big ? std::endian::big : std::endian::little;
-  if (size == head_bytes) refuse_damaged(reading, "this MATLAB file holds no variable");
+  if (size == head_bytes) refuse_damaged(reading, "this MATLAB file has no variable");
   std::vector<Variable> variables;
   for (std::uint64_t at = head_bytes; at < size;) {
     const auto tag = bytes_at(reading.in, at, 8);

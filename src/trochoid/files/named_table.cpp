@@ -36,7 +36,7 @@ NamedTable read_named_table(TableText& table, const FindColumns& find) {
   if (names.empty() && table.problems.lines.empty()) {
     table.problems.add(
         1, 1,
-        fmt::format("the file holds no data: a row of names, for example {}, and rows "
+        fmt::format("the file has no data: a row of names, for example {}, and rows "
                     "of numbers are needed",
                     table.kind.example));
   }

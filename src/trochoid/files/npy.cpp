@@ -64,7 +64,7 @@ NpyArray array_of(std::istream& in, const std::string& name) {
   if (!fits || rows * columns * array.head.item_bytes != there) {
     refuse(name, fmt::format(
                      "this NumPy array is to have {} x {} items of {} bytes, {} bytes "
-                     "follow: the file is cut off or damaged, or holds several arrays",
+                     "follow: the file is cut off or damaged, or has several arrays",
                      rows, columns, array.head.item_bytes, there));
   }
   array.rows = static_cast<std::size_t>(rows);

@@ -130,10 +130,9 @@ void read_items(NpyHead& head, Pieces& pieces) {
     }
     add_field(head, pieces.quoted(), field, pieces.name);
     if (pieces.take_if(',') && !pieces.next_is(')')) {
-      refuse(pieces.name,
-             fmt::format("the field {} of this NumPy array holds an array: "
-                         "save its columns side by side",
-                         excerpt(field)));
+      refuse(pieces.name, fmt::format("the field {} of this NumPy array is an array: "
+                                      "save its columns side by side",
+                                      excerpt(field)));
     }
     pieces.take(')');
     pieces.take_if(',');

@@ -236,7 +236,7 @@ void refuse(const std::string& name, const std::string& why) {
 
 signal::Record record_of(const NumericTable& table, const std::string& name,
                          const RecordSource& source) {
-  if (table.columns.empty()) refuse(name, "the file holds no column of numbers");
+  if (table.columns.empty()) refuse(name, "the file has no column of numbers");
   const auto names = searched_names(table);
   TableHead head{.paths = true};
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -50,7 +50,7 @@ constexpr std::array record_readers{
     RecordReader{RecordFormat::npy, "a NumPy array",
                  "begins with the byte 0x93 and `NUMPY`", is_npy, read_npy_record},
     RecordReader{RecordFormat::uff58, "a universal file",
-                 "begins with a line that holds only -1", is_uff, read_uff58_record},
+                 "begins with a line that contains only -1", is_uff, read_uff58_record},
     RecordReader{RecordFormat::csv, "a CSV file", "is text",
                  [](std::string_view) { return true; }, read_csv_record}};
 static_assert(record_readers.size() == base::count_of<RecordFormat>());

@@ -48,7 +48,7 @@ std::optional<std::string> first_content(RecordReading& reading) {
   if (reading.text.problems.lines.empty()) {
     reading.text.problems.add(
         1, 1,
-        "the file holds no data: a row of names, for example "
+        "the file has no data: a row of names, for example "
         "angle_deg,Fx_N,Fy_N,Fz_N, and rows of numbers are needed");
   }
   return std::nullopt;
@@ -114,7 +114,7 @@ void note_text_columns(RecordReading& reading, const TableHead& head,
     if (used(i) || parse_number(row[i].text).fault != NumberFault::not_a_number)
       continue;
     reading.record.notes.push_back(
-        {"column_skipped", fmt::format("Column {} holds text and is not used.",
+        {"column_skipped", fmt::format("Column {} contains text and is not used.",
                                        excerpt(head.names[i].text))});
   }
 }

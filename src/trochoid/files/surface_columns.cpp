@@ -159,7 +159,7 @@ struct Finder {
     if (!error_known()) {
       lacks("error or deviation, for example error_mm",
             columns.actual || columns.nominal
-                ? "; measured values need nominal ones beside them"
+                ? "; measured values need nominal values as well"
             : points ? frame
             : has(coordinate_names[2]) && !source.height
                 ? "; of a trace at one height, whose z is the error, the case says "

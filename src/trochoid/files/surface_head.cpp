@@ -127,7 +127,7 @@ struct Nearest {
   if (table.problems.lines.empty() && nearest.number == 0) {
     table.problems.add(
         1, 1,
-        fmt::format("the file holds no data: a row of names, for example {}, and rows "
+        fmt::format("the file has no data: a row of names, for example {}, and rows "
                     "of numbers are needed",
                     surface_kind.example));
   }

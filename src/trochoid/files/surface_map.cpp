@@ -22,7 +22,7 @@ std::string wrong_size(double columns, double rows) {
   if (!(columns >= 1 && rows >= 1) || columns != std::floor(columns) ||
       rows != std::floor(rows)) {
     return fmt::format(
-        "the map is said to have {:g} x {:g} points: at least one each "
+        "the file states a map of {:g} x {:g} points: at least one each "
         "way is needed",
         columns, rows);
   }

@@ -168,14 +168,13 @@ const TapColumn* chosen(const std::vector<const TapColumn*>& responses, int data
   for (std::size_t i = 0; i < responses.size(); ++i) {
     list += fmt::format("; {}: {}", i + 1, excerpt(responses[i]->name));
   }
-  problems.add(
-      1, 1,
-      responses.empty()
-          ? std::string("no column is a response: acceleration_m/s2, "
-                        "velocity_m/s or displacement_um, for example")
-          : fmt::format("the file holds {} responses: choose one by --dataset, "
-                        "or dataset = in [frf]{}",
-                        responses.size(), list));
+  problems.add(1, 1,
+               responses.empty()
+                   ? std::string("no column is a response: acceleration_m/s2, "
+                                 "velocity_m/s or displacement_um, for example")
+                   : fmt::format("the file has {} responses: choose one by --dataset, "
+                                 "or dataset = in [frf]{}",
+                                 responses.size(), list));
   return nullptr;
 }
 
@@ -233,8 +232,8 @@ double settle_response(const TapColumn& column, const FrfSource& source, FrfFile
   const auto unit = response_unit("(" + text + ")/N");
   if (unit && source.kind && *source.kind != unit->kind) {
     problems.add(column.line, column.at,
-                 fmt::format("the unit {} is not that of the kind that was said: leave "
-                             "out the kind, or correct one of the two",
+                 fmt::format("the unit {} does not fit the given kind: leave out the "
+                             "kind, or correct one of the two",
                              excerpt(text)));
   }
   if (!unit && !(text.empty() && source.kind)) {

@@ -79,8 +79,8 @@ std::vector<Scale> scales_of(const TdmsObject& object, const std::string& name) 
     double input = raw_input;
     scales.push_back(scale_of(object, at, name, input));
     if (input != raw_input && !(input >= 0.0 && input < at)) {
-      refuse(name, fmt::format("the scales of channel {} feed one another in a circle: "
-                               "the file is damaged",
+      refuse(name, fmt::format("the scales of channel {} refer to each other in a "
+                               "circle: the file is damaged",
                                excerpt(object.channel)));
     }
     at = input;

@@ -167,7 +167,7 @@ void take_interleaved(TdmsReading& reading, const Segment& segment,
   std::uint64_t row = 0;
   for (const auto* object : objects) {
     if (!object->layout->kind)
-      refuse_data(reading, segment, "hold texts between numbers");
+      refuse_data(reading, segment, "contain texts between numbers");
     row += size_of(*object->layout->kind);
   }
   const std::uint64_t rows = chunks(reading, segment, row);

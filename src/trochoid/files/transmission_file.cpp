@@ -124,8 +124,8 @@ bool of_forces(const Uff58& set, Problems& problems) {
   };
   if (fits(set.ordinate) && fits(set.denominator)) return true;
   problems.add(set.line, 1,
-               "this frequency response is not of force over force: that of a "
-               "dynamometer is what a channel reads over the force of the hammer");
+               "this frequency response is not of force over force: a dynamometer "
+               "needs the reading of a channel over the force of the hammer");
   return false;
 }
 
@@ -188,7 +188,7 @@ Given from_uff(const std::string& text, const std::string& name, Transmission& o
   }
   if (!any) {
     problems.add(1, 1,
-                 "the file holds no frequency response (data set 58, function type 4)");
+                 "the file has no frequency response (data set 58, function type 4)");
   }
   return given;
 }

@@ -98,11 +98,12 @@ void read_record_7(std::string_view line, Cursor& cursor, Uff58& set) {
   const auto first = take_number(rest);
   const auto step = take_number(rest);
   if (!type || !points || !even || !first || !step || *points < 1) {
-    cursor.problems.add(cursor.line, 1,
-                        fmt::format("{}: this line must hold the type of the data, the "
-                                    "number of points, 0 or 1 for the spacing, the "
-                                    "first abscissa and its increment",
-                                    excerpt(line)));
+    cursor.problems.add(
+        cursor.line, 1,
+        fmt::format("{}: this line must contain the type of the data, the "
+                    "number of points, 0 or 1 for the spacing, the "
+                    "first abscissa and its increment",
+                    excerpt(line)));
     return;
   }
   if (*type != 2 && *type != 4 && *type != 5 && *type != 6) {
@@ -308,7 +309,7 @@ UffFile read_uff(std::string_view text, const std::string& name) {
     if (!is_delimiter(line)) {
       cursor.problems.add(
           cursor.line, 1,
-          fmt::format("{}: a data set must begin with a line that holds "
+          fmt::format("{}: a data set must begin with a line that contains "
                       "only -1",
                       excerpt(line)));
       break;

@@ -88,7 +88,7 @@ std::vector<Uff58> histories_of(UffFile file, const std::string& name) {
   });
   if (file.sets.empty()) {
     refuse(name,
-           fmt::format("the universal file holds no time history (data set 58, "
+           fmt::format("the universal file has no time history (data set 58, "
                        "function type 1, real numbers){}{}",
                        others.empty() ? "" : "; its functions are of type", others));
   }

@@ -109,11 +109,10 @@ NumberKind kind_of_points(const Description& main) {
 SurfaceMap described_map(const Description& main) {
   const auto feature = main.text({"Record1", "FeatureType"}).value_or("");
   if (feature != "SUR" && feature != "PRF") {
-    refuse(
-        main.name,
-        fmt::format("this X3P file holds {} instead of a map (SUR): export it as text "
-                    "with columns X, Y, Z",
-                    feature == "PCL" ? "a cloud of points" : excerpt(feature)));
+    refuse(main.name,
+           fmt::format("this X3P file has {} instead of a map (SUR): export it as text "
+                       "with columns X, Y, Z",
+                       feature == "PCL" ? "a cloud of points" : excerpt(feature)));
   }
   SurfaceMap map;
   const double columns = main.number({"Record3", "MatrixDimension", "SizeX"}, {});
@@ -164,7 +163,7 @@ struct Archive {
   [[nodiscard]] std::string unpack(std::string_view file, std::uint64_t most) const {
     const ZipEntry* entry = find(file);
     if (entry == nullptr) {
-      refuse(name, fmt::format("this X3P file holds no {}", excerpt(file)));
+      refuse(name, fmt::format("this X3P file has no {}", excerpt(file)));
     }
     std::string why;
     auto bytes = unzipped(in, *entry, most, why);
@@ -188,7 +187,7 @@ void take_numbers(const Archive& archive, const Description& main, SurfaceMap& m
   const std::string bytes = archive.unpack(*link, size);
   if (bytes.size() != size) {
     refuse(main.name, fmt::format("main.xml of this X3P file says {} x {} points of {} "
-                                  "bytes, but {} holds {} bytes",
+                                  "bytes, but {} has {} bytes",
                                   map.columns, map.rows, size_of(kind), excerpt(*link),
                                   bytes.size()));
   }

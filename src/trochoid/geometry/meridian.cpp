@@ -59,7 +59,7 @@ Meridian meridian(const Profile& p) {
   const double slack = relative_slack * p.D;
   if (m.M.r < -slack || m.N.r < -slack || m.N.z < m.M.z - slack ||
       chi_N < -relative_slack) {
-    throw std::invalid_argument("cone, corner and flank do not follow one another");
+    throw std::invalid_argument("cone, corner and flank do not meet in this order");
   }
   m.s_M = p.alpha > 0 ? std::max(m.M.r, 0.0) / std::cos(p.alpha) : 0.0;
   m.s_N = m.s_M + p.R * std::max(chi_N, 0.0);

@@ -182,7 +182,7 @@ void fill_single_direction(const Unknowns& u, std::size_t i, double e,
                            Reasons& reasons) {
   const std::string reason = fmt::format(
       "only its component rho cos(lambda - {:.3g} deg) = {:.4g} +- {:.2g} mm (95 %) "
-      "changes the radii of the teeth against one another",
+      "makes the radii of the teeth differ",
       *u.direction / unit::deg, e * u.length / unit::mm,
       reasons.half_width(i) * u.length / unit::mm);
   reasons.refuse("eccentricity_mm", reason);
@@ -211,7 +211,7 @@ std::string not_held(const Unknowns& u, std::size_t i, std::array<double, 2> e,
   return fmt::format(
       "the 95 % region of the eccentricity {}; what is known is its component rho "
       "cos(lambda - {:.3g} deg) = {:.4g} +- {:.2g} mm (95 %)",
-      holds_zero ? "holds zero" : "is as long as the eccentricity itself",
+      holds_zero ? "includes zero" : "is as long as the eccentricity itself",
       (longest + 0.5 * pi) / unit::deg, across * u.length / unit::mm,
       base::normal_interval * std::sqrt(narrow) * u.length / unit::mm);
 }

@@ -395,7 +395,7 @@ std::vector<Run> on_tool(std::span<const ChannelRun> runs, const signal::Matrix3
     const auto measured = measured_forces(run.measured, M);
     if (!measured) {
       throw std::invalid_argument(
-          "a channel is missing: no force can be told by a matrix");
+          "a channel is missing: the matrix gives no force without it");
     }
     out.push_back({run.cut, run.angle, std::move(*force), run.group, *measured,
                    run.Omega_se, offsets_on_tool(run.offset_se, M)});

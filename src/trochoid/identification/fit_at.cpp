@@ -107,7 +107,8 @@ std::string rank_refusal(const Problem& problem, const numerics::Columns& D,
   const int wanted = told(problem.force_columns());
   if (force.rank == wanted) return "";
   return fmt::format(
-      "the forces determine only {} of {} coefficients: {} cannot be told apart",
+      "the forces determine only {} of {} coefficients: {} cannot be determined "
+      "separately",
       force.rank, wanted, dependent_names(problem, force, unmeasured));
 }
 
@@ -160,7 +161,7 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
   fit.ok = std::ranges::any_of(fit.groups, [](const Group& group) {
     return std::ranges::any_of(group.coefficients, [](const auto& K) { return !!K; });
   });
-  if (!fit.ok) fit.message = "none of the coefficients can be told from the record";
+  if (!fit.ok) fit.message = "the record determines none of the coefficients";
 }
 
 }  // namespace trochoid::identification

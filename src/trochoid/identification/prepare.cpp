@@ -38,8 +38,8 @@ std::string refusal(const geometry::Cutter& cutter, std::span<const Run> runs) {
     return !(run.cut.f_z * cutter.teeth() > 0.0) || !(run.cut.a_p > 0.0);
   };
   if (std::ranges::all_of(runs, idle)) {
-    return "the feed or the axial depth is zero: nothing is cut, so the forces hold no "
-           "information about the material";
+    return "the feed or the axial depth is zero: nothing is cut, so the forces contain "
+           "no information about the material";
   }
   return "";
 }

@@ -93,7 +93,7 @@ std::string together(const std::vector<std::string>& names,
   for (const std::size_t m : members) {
     if (m != self) list += (list.empty() ? "" : ", ") + names[m];
   }
-  return "cannot be told apart from " + list;
+  return "cannot be determined separately from " + list;
 }
 
 /// Forces of a run that are not measured: `the axial force was not measured`.

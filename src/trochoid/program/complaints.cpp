@@ -8,8 +8,8 @@ std::string_view advice_on(Fault fault) noexcept {
   switch (fault) {
     case Fault::compensation:
       return "let the CAM program compute the path of the center, or say "
-             "compensation = \"wear_zero\" in [program] where the program holds that "
-             "path already";
+             "compensation = \"wear_zero\" in [program] where the program already has "
+             "that path";
     case Fault::subprogram:
       return "post the program as one text without subprograms";
     case Fault::variable:

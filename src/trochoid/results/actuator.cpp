@@ -93,7 +93,9 @@ const Fields<ActuatorResult>& actuator_fields() {
        },
        ok},
       {"rms_um", "that the fit leaves", [](R r) { return r.fit.rms; }, ok},
-      {"explained", "1 less the sum of squares of that over that of the motion",
+      {"explained",
+       "1 less the sum of squares of the residual over the sum of squares of the "
+       "motion",
        [](R r) { return r.fit.explained; }, ok}};
   return all;
 }

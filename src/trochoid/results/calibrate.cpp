@@ -313,7 +313,7 @@ const Fields<CalibrateResult>& calibrate_fields() {
   const auto ok = [](R r) { return r.calibration.ok; };
   const auto decided = [](R r) { return !r.calibration.explanations.empty(); };
   static const Fields<CalibrateResult> scatter{
-      {"own_mm", "standard deviation of a reading by itself",
+      {"own_mm", "standard deviation of each reading's own scatter",
        [](R r) { return r.calibration.own_scatter; }},
       {"shared_mm", "of what readings of a height or a place share",
        [](R r) { return r.calibration.shared_scatter; }}};
@@ -357,7 +357,7 @@ const Fields<CalibrateResult>& calibrate_fields() {
       {"runout", "with standard errors, or why it is not known", wall_runout_fields(),
        [](R r) { return &r; }, ok},
       {"with_runout",
-       "whether `coefficients` are those of the fit to all readings together with the "
+       "whether `coefficients` are from the fit to all readings together with the "
        "runout",
        [](R r) { return r.calibration.with_runout; },
        [](R r) { return r.calibration.runout.ok; }},
@@ -367,8 +367,8 @@ const Fields<CalibrateResult>& calibrate_fields() {
        [](R r) { return surface::name_of(r.calibration.explanations.front().form); },
        decided},
       {"explanations",
-       "every form and feedback tried, likeliest first. The answer is the mean over them, "
-       "`datum` and `residual.csv` are those of the likeliest",
+       "every form and feedback tried, likeliest first. The answer is the mean over "
+       "them. `datum` and `residual.csv` are from the likeliest one",
        explanation_fields(), [](R r) { return all_of(r, r.calibration.explanations); },
        decided},
       {"scatter", "of the readings", scatter, [](R r) { return &r; }, decided}};

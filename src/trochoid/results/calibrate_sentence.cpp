@@ -47,7 +47,7 @@ std::string trust(const CalibrateResult& r) {
   constexpr double rough = 0.25;  // half of an interval over the value
   const auto& found = r.calibration.coefficients;
   if (!std::isfinite(found.K_tc.se)) {
-    return "How well they are known cannot be told: there are no readings to spare.";
+    return "Their accuracy is not known: there are no readings to spare.";
   }
   if (found.K_tc.value <= 0 || found.K_rc.value <= 0) {
     return "Do not use them: a coefficient is not above 0.";
@@ -69,8 +69,8 @@ std::string trust(const CalibrateResult& r) {
   };
   return std::any_of(r.heading.warnings.begin(), r.heading.warnings.end(),
                      names_a_doubt)
-             ? "The intervals hold what is random; see the warnings for what may bias "
-               "them."
+             ? "The intervals include random errors. See the warnings for what may "
+               "bias the numbers."
              : "Nothing speaks against them.";
 }
 

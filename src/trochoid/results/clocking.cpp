@@ -75,7 +75,8 @@ const Fields<Clocked>& clocking_fields() {
          return ClampingPart{c.clocking.separation->tool, c.factor};
        },
        separated},
-      {"holder", "and that of the holder", clamping_part_fields(),
+      {"holder", "with `previous_clamping`: the part of the holder",
+       clamping_part_fields(),
        [](Of c) {
          return ClampingPart{c.clocking.separation->holder, c.factor};
        },

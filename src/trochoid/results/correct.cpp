@@ -30,7 +30,8 @@ const Fields<Setting>& correct_runout_fields() {
   static const Fields<Fit> fit{
       {"chip_difference_um", "of each tooth", estimate, &Fit::h_ro},
       {"rms_N", "that it leaves", &Fit::rms},
-      {"explained", "1 less the sum of squares of that over that of the force",
+      {"explained",
+       "1 less the sum of squares of the residual over the sum of squares of the force",
        &Fit::explained}};
   static const Fields<Setting> all{
       {"radial_offsets_um", "of what is there, mean 0", &Setting::rho},

@@ -145,7 +145,7 @@ const Fields<MotionResult>& motion_fields() {
        [](R r) { return std::holds_alternative<Periodic>(r.steady->verdict); }},
       {"chatter",
        "whether the cut feeds a vibration: `growing`, `bounded` unless it settles, and "
-       "`periodic` with a period longer than that of the cut. Chatter that does not grow "
+       "`periodic` with a period longer than the cut's. Chatter that does not grow "
        "is answered, with the warning `chatter`",
        [](R r) { return dynamics::chatters(r.steady->verdict); }},
       {"settles",
@@ -166,8 +166,8 @@ const Fields<MotionResult>& motion_fields() {
       {"steps_per_tooth", "how finely", &MotionResult::steps_per_tooth},
       {"linear_growth_per_turn",
        "the Floquet multiplier over a turn: what a turn makes of a small vibration, from "
-       "the linearised cut as in `stability`; `null` where a period of the cut holds more "
-       "than 400 vibrations of the fastest mode",
+       "the linearised cut as in `stability`; `null` where a period of the cut "
+       "contains more than 400 vibrations of the fastest mode",
        &MotionResult::linear_growth},
       {"growth_per_turn",
        "the same read from the motion (T-11), or `null` where it shows none",

@@ -252,8 +252,8 @@ const Fields<Fit>& quality_fields() {
       {"interval_widening",
        "by how much the intervals of the coefficients are wider than white noise would "
        "make them (rms of them), because residuals agree with their neighbours, repeat "
-       "turn by turn, or records disagree (I-13 to I-15): `se`, `low` and `high` hold it; "
-       "1 with `errors = \"white\"`",
+       "turn by turn, or records disagree (I-13 to I-15): `se`, `low` and `high` "
+       "include it; 1 with `errors = \"white\"`",
        of_success(&Fit::widening)},
       {"unexplained_in_band",
        "what the fit does not explain as a fraction of the force (rms, 0 to 1), within "
@@ -312,14 +312,14 @@ const Fields<Fit>& found_fields() {
          return alone_or_list(Array(f.phase_se.begin(), f.phase_se.end()));
        }},
       Field<Fit>{"channel_offsets",
-                 "where they were fitted: for each measurement those of its channels",
+                 "where they were fitted: of each channel, for each measurement",
                  [](const Fit& f) { return as_named(channel_offsets_value(f)); },
                  [](const Fit& f) { return !f.channel_offsets.empty(); }}
           .with({{"[][].constant_N", "at the middle of the record"},
                  {"[][].slope_N", "from its beginning to its end"}}),
       {"", "", quality_fields(), [](const Fit& f) { return &f; }},
       Field<Fit>{"identifiable",
-                 "for each quantity `true`, or the reason why it cannot be told",
+                 "for each quantity `true`, or the reason why it cannot be determined",
                  [](const Fit& f) {
                    Object K;
                    Object identifiable;
@@ -341,7 +341,7 @@ const Fields<GroupOfRecords>& group_fields() {
          return name.empty() ? Value() : Value(name);
        }},
       Field<GroupOfRecords>{
-          "coefficients", "as those of the fit",
+          "coefficients", "as in the fit",
           [](Of g) { return as_named(coefficients_value(g.fit.groups[g.group])); }}
           .with(below_estimate(".*.")),
       {"covariance", "as below", joint_fields(),
@@ -375,7 +375,7 @@ const Fields<FitOfRecords>& fit_fields() {
          return of.sensor != nullptr && of.fit.channels.has_value();
        }},
       {"groups",
-       "where a record names its `group`; `coefficients` of the fit are those of the "
+       "where a record names its `group`; the fit's own `coefficients` are for the "
        "first group",
        group_fields(), groups_of, &FitOfRecords::grouped}};
   return all;

@@ -87,7 +87,7 @@ void check_replaceable(const fs::path& folder) {
     if (type != fs::file_type::regular ||
         !(is_ours_in(folder, name) || name.starts_with(unfinished_report))) {
       cannot_write(folder,
-                   "it holds '" + name +
+                   "it contains '" + name +
                        "', which trochoid did not write; move that away, or name "
                        "another folder with -o");
     }

@@ -64,7 +64,7 @@ const Fields<IdentifyResult>& signal_fields() {
        })},
       {"stated_rpm", "spindle speed of the case",
        [](R r) { return all_given(of_records(&RecordSummary::stated_Omega)(r)); }},
-      {"revolutions", "how many turns of each record were laid over one another",
+      {"revolutions", "how many turns of each record were laid over each other",
        [](R r) {
          Array turns;
          for (const signal::OneRevolution& one : r.folded) {
@@ -277,7 +277,7 @@ const Fields<Identified>& identified_fields() {
          return fits;
        }},
       {"chosen",
-       "the fit that `material.toml` holds: the trochoidal one if it was asked for, else "
+       "the fit in `material.toml`: the trochoidal one if it was asked for, else "
        "the best",
        [](Of of) {
          return of.r.chosen ? Value(chip::name_of(of.r.fits[*of.r.chosen].chip.model))
@@ -289,7 +289,7 @@ const Fields<Identified>& identified_fields() {
        joint_fields(),
        [](Of of) { return found_or_none(joint_of(of.r.fits[*of.r.chosen], 0)); },
        chosen},
-      {"groups", "those of the chosen fit", group_fields(),
+      {"groups", "of the chosen fit", group_fields(),
        [](Of of) { return groups_of(of.fit(*of.r.chosen)); },
        [](Of of) { return of.r.chosen && of.grouped; }},
       {"signal", "what was found in the records before anything was fitted",
@@ -319,13 +319,13 @@ const Fields<Identified>& identified_fields() {
                  {"[].K_*.high", "of the 95 % confidence interval"},
                  {"[].unexplained", "part of the whole force"}}),
       {"not_in_the_intervals",
-       "what the record cannot tell, so that no interval holds it, and what it would "
-       "make of the coefficients (I-24)",
+       "errors that the record cannot show and no interval includes, and how they "
+       "would change the coefficients (I-24)",
        untold_fields(), [](Of of) { return untold_of(of.r); },
        [](Of of) { return of.r.chosen && !of.r.not_in_intervals.empty(); }},
       {"curves",
        "`whole`, or `mean turn` where the records are long and `fitted.csv`, "
-       "`residual.csv` hold the mean turn of each (`--curves` keeps every sample)",
+       "`residual.csv` contain the mean turn of each (`--curves` keeps every sample)",
        [](Of of) { return whole(of.r) ? "whole" : "mean turn"; }, chosen},
       {"verdict",
        "`usable`, `usable with care` or `do not use`: the first line printed and the "
@@ -333,7 +333,7 @@ const Fields<Identified>& identified_fields() {
        [](Of of) { return verdict_of(of.r); }, chosen},
       {"with_care",
        "why to use the numbers with care, a few words for each; empty: no reason seen, or "
-       "`do_not_use` holds some",
+       "`do_not_use` has some",
        [](Of of) { return of.r.reasons_for_care; }, chosen},
       {"do_not_use",
        "reasons why the numbers must not be used; empty: none. Then `message`, the table "

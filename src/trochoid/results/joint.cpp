@@ -53,7 +53,7 @@ const Fields<Joint>& joint_fields() {
       {"interval_factors",
        "half of each 95 % interval over the square root of its variance",
        &Joint::factors},
-      {"matrix", "covariance, row by row: that of which the intervals are (U-1)",
+      {"matrix", "covariance that gives the intervals (U-1), row by row",
        [](const Joint& j) {
          const auto n = static_cast<std::ptrdiff_t>(j.names.size());
          Array rows;

@@ -189,7 +189,7 @@ const Fields<TriedOrder>& order_fields() {
        [](O o) { return o.shared; }},
       {"residual_terms", "whether it has them",
        [](O o) { return o.order.residual_terms; }},
-      {"criterion", "above that of the best fit: the less, the better",
+      {"criterion", "above the criterion of the best fit: the less, the better",
        [](O o) { return o.above; }},
       {"frequencies_Hz", "of all its terms",
        [](O o) {
@@ -237,7 +237,8 @@ Field<FittedResponse> in_its_unit(std::string_view name, std::string_view meanin
 const Fields<FittedResponse>& explained_fields() {
   static const Fields<FittedResponse> all{
       {"explained",
-       "1 less the sum of squares of what the fit leaves over that of the response",
+       "1 less the sum of squares of the residual over the sum of squares of the "
+       "response",
        &FittedResponse::explained},
       in_its_unit("rms",
                   "of what the fit leaves: `rms_m_per_N`, `rms_m_per_s_N` or "
@@ -318,7 +319,7 @@ const Fields<ModesResult>& search_fields() {
 const Fields<ModesResult>& tap_fields() {
   using R = const ModesResult&;
   static const Fields<ModesResult> all{
-      {"hits", "each blow, where the record holds hammer blows", hit_fields(),
+      {"hits", "each blow, where the record has hammer blows", hit_fields(),
        [](R r) -> const auto& {return r.tap->hits;
 }
 }  // namespace
@@ -463,7 +464,7 @@ const Fields<ModesResult>& shared_fields() {
       modes_field(true),
       Field<ModesResult>{
           "real_modes",
-          "where shapes are complex: the real modes that fit best, those of `modes.toml`",
+          "where shapes are complex: the real modes that fit best, as in `modes.toml`",
           [](R r) { return mode_fields().value(modes_of(r.fit.real_modes, false)); },
           [](R r) { return r.fit.ok && r.fit.complex_shapes; }}
           .with(mode_fields().texts("[].")),
@@ -473,8 +474,8 @@ const Fields<ModesResult>& shared_fields() {
       {"reciprocity", "of several responses, where xy and yx were measured (M-34)",
        reciprocity_fields(), cross_pairs, found},
       {"complex_evidence",
-       "of several: criterion of the best real shapes less that of the best complex ones; "
-       "`null` where not both were tried",
+       "of several: criterion of the best real shapes less criterion of the best "
+       "complex ones; `null` where not both were tried",
        [](R r) {
          return r.fit.complex_evidence ? Value(*r.fit.complex_evidence) : Value();
        },

@@ -92,9 +92,9 @@ std::string modes_toml(const ModesResult& r) {
             "case with\n#   include = \"<this file>\"\n"
           : "# Found by trochoid modes. Use it in another case with\n"
             "#   include = \"<this file>\"\n"
-            "# or, with others beside it, with\n"
+            "# or, together with other files, with\n"
             "#   include = [\"<this file>\", \"<another one>\"]\n"
-            "# A list of modes in the case itself replaces those of all files.\n";
+            "# A list of modes in the case itself replaces the modes of all files.\n";
   if (r.fit.complex_shapes) {
     text += "# The shapes are complex: these are the real modes nearest to them.\n";
   }

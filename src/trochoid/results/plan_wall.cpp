@@ -70,7 +70,8 @@ std::vector<OfWallPlan<One>> of_wall_plan(const PlanWallResult& r,
 template <class One>
 Field<OfWallPlan<One>> told_field() {
   return Field<OfWallPlan<One>>{
-      "predicted", "about what is expected; `null` where they cannot be told apart",
+      "predicted",
+      "about what is expected; `null` where they cannot be determined separately",
       [](const OfWallPlan<One>& of) { return told_value(of.r, of.one.told); }}
       .with(texts_of_told());
 }
@@ -220,7 +221,7 @@ const Columns<PlanWallResult>& design_columns() {
         [](R r, std::size_t i) { return r.designs[i].enough ? 1 : 0; }},
        {"half_width_*",
         "of the 95 % interval of each coefficient and of `eccentricity_mm`; empty where "
-        "it cannot be told",
+        "it cannot be determined",
         names_told, [](R r, std::size_t i, std::size_t k) {
           return as_named(half_width(r, r.designs[i].told, k));
         }}}};

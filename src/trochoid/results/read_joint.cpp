@@ -25,9 +25,10 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 Value summary_in(const std::optional<std::string>& text, const fs::path& file) {
   if (!text || !is_our_summary(*text)) {
-    refuse_summary(file,
-                   "not a summary.json of trochoid; must be that of identify, modes or "
-                   "calibrate, or its folder");
+    refuse_summary(
+        file,
+        "not a summary.json of trochoid; must be one from identify, modes or "
+        "calibrate, or its folder");
   }
   return json_value(*text);
 }

@@ -301,7 +301,7 @@ std::string comparison_text(const Comparison& c) {
   return text + (c.match.measured_rms > 0
                      ? fmt::format(" ({:.1f} % of the force)\n",
                                    100 * c.match.rms / c.match.measured_rms)
-                     : std::string(" (the record holds no force)\n"));
+                     : std::string(" (the record shows no force)\n"));
 }
 
 std::string tooth_text(std::size_t tooth, const force::ToothEngagement& engagement) {

@@ -40,8 +40,8 @@ std::string idle_teeth(const SimulateResult& r) {
 /// How far the force is from what was measured, and that nothing was.
 std::string measured_beside(const SimulateResult& r) {
   if (r.comparison.empty()) {
-    return " Nothing measured is beside it: it is as good as the coefficients and the "
-           "runout of the case.";
+    return " It is not compared with a measurement: it is as good as the coefficients "
+           "and the runout of the case.";
   }
   std::string text;
   for (const Comparison& c : r.comparison) {
@@ -50,7 +50,7 @@ std::string measured_beside(const SimulateResult& r) {
                       " From the force measured in {} it differs by {:.2g} % of that "
                       "(rms, noise and offsets of the record included).",
                       c.file, 100 * c.match.rms / c.match.measured_rms)
-                : fmt::format(" The record {} holds no force.", c.file);
+                : fmt::format(" The record {} shows no force.", c.file);
   }
   return text;
 }

@@ -51,10 +51,11 @@ bool has_modes(const StabilityResult& r) {
 const Fields<BetterSpeed>& better_speed_fields() {
   static const Fields<BetterSpeed> all{
       {"spindle_rpm",
-       "within 30 % of that of the case, the one of the diagram that allows most",
+       "the speed of the diagram that allows the deepest cut, within 30 % of the speed "
+       "of the case",
        [](const BetterSpeed& better) { return given(better.Omega); }},
       {"limit_depth_mm",
-       "what it allows within 2 % of that speed, all of which the diagram holds",
+       "depth that it allows within 2 % of that speed, a range inside the diagram",
        &BetterSpeed::depth}};
   return all;
 }
@@ -302,12 +303,11 @@ std::string measured_table(const StabilityResult& r) {
       "limit by the measured response: {} with the mean force (zeroth order), {} with "
       "{} harmonics (multi-frequency)\n{}",
       limit_text(m.zeroth_order), limit_text(m.multi_frequency), m.harmonics,
-      m.modes_fitted
-          ? fmt::format("the multiplier is that of {} {}mode{} fitted to it\n",
-                        r.problem.system.modes.size(),
-                        m.complex_modes ? "complex " : "",
-                        r.problem.system.modes.size() == 1 ? "" : "s")
-          : "");
+      m.modes_fitted ? fmt::format("the multiplier is from {} {}mode{} fitted to it\n",
+                                   r.problem.system.modes.size(),
+                                   m.complex_modes ? "complex " : "",
+                                   r.problem.system.modes.size() == 1 ? "" : "s")
+                     : "");
 }
 
 /// Verdict, limit and better speed by the measured response.

@@ -58,7 +58,7 @@ std::string verdict_of(StabilityVerdict verdict, const Asked& asked,
                        const std::optional<double>& limit, double greatest) {
   if (verdict == StabilityVerdict::marginal) {
     return fmt::format(
-        "Marginal: whether the cut at {:g} mm and {:g} rpm is stable cannot be told.",
+        "Marginal: it is uncertain whether the cut at {:g} mm and {:g} rpm is stable.",
         unit::in(asked.depth, unit::mm), asked.speed);
   }
   if (verdict == StabilityVerdict::stable) {

@@ -46,7 +46,7 @@ fs::path make_beside(const fs::path& place, std::string_view kind) {
     }
     if (error) break;  // else the name is taken
   }
-  cannot_write(place, error ? error.message() : "no name is free beside it");
+  cannot_write(place, error ? error.message() : "no name is free in its parent folder");
 }
 
 bool is_left_over(const fs::path& entry, const fs::path& place, std::string_view kind) {

@@ -95,7 +95,7 @@ const Columns<ErrorMap>& influence_columns() {
       [](Of map) {
         return map.influence_heights.size() * map.influence_heights.size();
       },
-      {{"height_mm", "at which the deflection is told",
+      {{"height_mm", "at which the deflection is taken",
         [](Of map, std::size_t i) {
           return given(map.influence_heights[i / map.influence_heights.size()]);
         }},
@@ -133,7 +133,7 @@ const Fields<surface::Roughness>& filtered_fields() {
        [](Of r) { return given(r.cutoff); }},
       {"Ra_um", "over five cutoffs", [](Of r) { return r.Ra; }},
       {"Rq_um", "over five cutoffs", [](Of r) { return r.Rq; }},
-      {"Rz_um", "mean of those of the five", [](Of r) { return r.Rz; }},
+      {"Rz_um", "mean of the Rz of the five", [](Of r) { return r.Rz; }},
       {"Rt_um", "over five cutoffs", [](Of r) { return r.Rt; }}};
   return all;
 }

@@ -38,7 +38,7 @@ correction::ForceRecord record_of(const cases::Case& given,
   for (const MeasuredRun& one : runs) {
     if (std::ranges::all_of(one.run.measured, std::identity())) continue;
     throw base::InputError(
-        {one.file + ": not all three channels were measured; must hold three forces"});
+        {one.file + ": not all three channels were measured; must have three forces"});
   }
   const auto M = given.dynamometer.value_or(cases::Dynamometer{}).matrix;
   identification::Run run = identification::on_tool(channels_of(runs), M).front();
@@ -75,8 +75,8 @@ void warn_flutes(const correction::BeforeAfter& cuts, Warnings& warnings) {
     warnings.push_back(
         {"unequal_forces",
          fmt::format("Several teeth cut at once: the peaks of the whole force, which a "
-                     "dynamometer shows, are made equal; those of the flutes' own "
-                     "forces still differ by {:.0f} % ({:.0f} % before).",
+                     "dynamometer shows, are made equal. The peaks of the flutes' "
+                     "own forces still differ by {:.0f} % ({:.0f} % before).",
                      100 * own, 100 * correction::own_difference(cuts.before))});
   }
   if (dynamics::area_difference(after) > unequal_area) {
@@ -105,11 +105,12 @@ void warn_estimate(const correction::Setting& s, Warnings& warnings) {
   if (s.fit && s.designed_for != s.rho) {
     warnings.push_back(
         {"static_estimate",
-         fmt::format("The command is made for what a rigid model reads from the forces "
-                     "({:.3g} um between tooth 1 and the one before); {:.3g} um are "
-                     "there, as tool and table give way.",
-                     correction::chip_differences(s.designed_for)[0] / unit::um,
-                     correction::chip_differences(s.rho)[0] / unit::um)});
+         fmt::format(
+             "The command is made for what a rigid model reads from the forces: "
+             "{:.3g} um between tooth 1 and the one before. The true difference "
+             "is {:.3g} um, as tool and table deflect.",
+             correction::chip_differences(s.designed_for)[0] / unit::um,
+             correction::chip_differences(s.rho)[0] / unit::um)});
   }
 }
 
@@ -204,7 +205,7 @@ void add_setting_warnings(const correction::Setting& setting, Warnings& warnings
   if (!setting.behind->ok) {
     warnings.push_back(
         {"compliance_not_removed",
-         "What tool and table give way was not taken out of the estimate: " +
+         "The deflection of tool and table was not taken out of the estimate: " +
              setting.behind->reason});
   }
 }

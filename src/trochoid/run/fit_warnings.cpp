@@ -318,10 +318,10 @@ std::string fault_words(const identification::SensorFault& fault, const Fit& cho
       gain ? fmt::format("the reading of {} is {} % too {}",
                          reading_words(one.reading, M), size,
                          fault.value > 0 ? "large" : "small")
-           : fmt::format("the reading of {} holds {} % of the force in {}",
+           : fmt::format("the reading of {} contains {} % of the force in {}",
                          reading_words(one.reading, M), size, axes[one.force]);
   const auto names = force::coefficient_quantities(chosen.law);
-  return fmt::format("{}; with that told {} = {:.4g} and {} = {:.4g}", what,
+  return fmt::format("{}; with that corrected {} = {:.4g} and {} = {:.4g}", what,
                      names[0].key, fault.coefficients[0] / names[0].unit, names[1].key,
                      fault.coefficients[1] / names[1].unit);
 }

@@ -124,8 +124,8 @@ void warn_axes(const AxesChoice& axes, const force::Law& law,
   } else if (!axes.signs_clear) {
     warnings.push_back(
         {"axes_signs",
-         "Several readings of the channels fit the record equally well and were told "
-         "apart by K_tc, K_rc, K_ac > 0, but these coefficients are not all clearly "
+         "Several readings of the channels fit the record equally well. K_tc, K_rc, "
+         "K_ac > 0 decided between them, but these coefficients are not all clearly "
          "positive: check the axes of the dynamometer."});
   }
   if (axes.next_rms < 1.5 * axes.rms) {
@@ -384,8 +384,8 @@ void add_clocking(const cases::Case& given, IdentifyResult& r) {
       r.heading.warnings.push_back(
           {"teeth_renumbered",
            "previous_clamping: with phase_deg = \"free\" the fit chooses which of the "
-           "equal teeth is tooth 1. If that is another one than before, what is said "
-           "of tool and holder is wrong: give phase_deg as a number."});
+           "equal teeth is tooth 1. If that is another one than before, the parts "
+           "of tool and holder are wrong: give phase_deg as a number."});
     }
   }
   r.clocking = c;

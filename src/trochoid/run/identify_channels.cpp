@@ -217,7 +217,7 @@ void warn_residual(const cases::Case& given, const Fit& fit,
              "the numbers are. The intervals are {}. More measurements, or mean_sd, "
              "tell.",
              stated ? "by channel_sd and mean_sd as stated"
-                    : "those of means known to 1 % of their rms")});
+                    : "for means known to 1 % of their rms")});
   }
 }
 
@@ -284,7 +284,7 @@ std::string nothing_told(const Fit& fit) {
 /// Why a warning of this code asks for care; empty: it does not.
 std::string_view care_for(std::string_view code) {
   if (code == "more_than_noise" || code == "poor_fit") {
-    return "the channels hold more than the model and noise";
+    return "the channels contain more than the model and noise";
   }
   if (code == "bent_means") return "the means bend over the feed";
   return code == "no_errors" ? "nothing tells how exact the numbers are" : "";

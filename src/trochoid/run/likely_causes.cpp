@@ -74,10 +74,10 @@ std::string better_cut(const cases::Case& given, const std::vector<MeasuredRun>&
   if (found->turns_with_spindle != 0) {
     const bool with = found->turns_with_spindle > 0;
     return fmt::format(
-        "The dynamometer: x and y seem to turn with the spindle, as those of a rotating "
-        "dynamometer do, which is not read. With Fx cos phi {} Fy sin phi and Fy cos phi "
-        "{} Fx sin phi in their place, phi the spindle angle of each sample, the fit "
-        "leaves {} less.",
+        "The dynamometer: x and y seem to turn with the spindle, as in records of a "
+        "rotating dynamometer, which trochoid does not read. With Fx cos phi {} "
+        "Fy sin phi and Fy cos phi {} Fx sin phi in their place, phi the spindle angle "
+        "of each sample, the fit leaves {} less.",
         with ? "+" : "-", with ? "-" : "+", less);
   }
   return found->teeth

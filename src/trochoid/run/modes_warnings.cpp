@@ -40,8 +40,9 @@ void warn_of_complex_shapes(const ModesFit& fit, Warnings& warnings) {
   warnings.push_back(
       {"complex_modes",
        fmt::format(
-           "{}As a fraction of the shape their imaginary part is {}. The cut is simulated with "
-           "real modes only: modes.toml holds those that fit all responses best.",
+           "{}As a fraction of the shape their imaginary part is {}. The cut is "
+           "simulated with real modes only: modes.toml has the real modes that fit all "
+           "responses best.",
            fit.complex_evidence
                ? fmt::format("Real modes do not describe these responses: complex "
                              "shapes are likelier, their criterion is less by "
@@ -61,8 +62,8 @@ void warn_overlap(const ModesFit& fit, Warnings& warnings) {
       warnings.push_back(
           {"modes_overlap",
            fmt::format("The modes at {:.5g} and {:.5g} Hz lie inside each other's "
-                       "half-power widths: together they are known better than each by "
-                       "itself. Use both or none.",
+                       "half-power widths: together they are known better than each "
+                       "alone. Use both or none.",
                        a.omega.value / unit::Hz, b.omega.value / unit::Hz)});
     }
   }

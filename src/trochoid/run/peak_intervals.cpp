@@ -162,7 +162,7 @@ void check_joint(const results::ReadJoint& read, const cases::Case& given) {
   if (joint.law != force::name_of(given.law)) {
     refuse(
         fmt::format("coefficients of the law {}, but the case has force.law = "
-                    "\"{}\"; must be the same, as in the material.toml beside it",
+                    "\"{}\"; must be the same, as in the material.toml next to it",
                     joint.law, force::name_of(given.law)));
   }
   const auto teeth = static_cast<std::size_t>(given.setup.cutter.teeth());

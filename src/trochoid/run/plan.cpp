@@ -187,7 +187,7 @@ std::string settle_expectation(const cases::Case& given, WallTrial& trial,
   const std::vector<double> K = force::coefficients(trial.setting.law);
   if (!(K[0] > 0.0) || !(K[1] > 0.0)) {
     return "a plan needs a tangential and a radial cutting coefficient above 0, as "
-           "expected: those of a similar material will do";
+           "expected: values of a similar material are enough";
   }
   if (!(trial.noise > 0.0)) {
     return "the readings have no noise to plan by: give noise_um";

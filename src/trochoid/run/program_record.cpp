@@ -137,11 +137,10 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
   if (!alignment || alignment->correlation < least_correlation) {
     warnings.push_back(
         {"record_does_not_fit",
-         fmt::format(
-             "{}: its forces are not those of this program (correlation {:.2f}). "
-             "Check the axes of the dynamometer, and that the record is of "
-             "this program.",
-             out.file, alignment ? alignment->correlation : 0.0)});
+         fmt::format("{}: its forces do not fit this program (correlation {:.2f}). "
+                     "Check the axes of the dynamometer, and that the record is of "
+                     "this program.",
+                     out.file, alignment ? alignment->correlation : 0.0)});
     return std::nullopt;
   }
   out.alignment = *alignment;

@@ -149,7 +149,7 @@ void warn_foreign_line(const signal::Record& record, const MeasuredRun& run,
   warnings.push_back(
       {"chatter",
        fmt::format(
-           "{}: channel {} holds a line at {:.1f} Hz, {:.0f} % of the force (rms), "
+           "{}: channel {} has a line at {:.1f} Hz, {:.0f} % of the force (rms), "
            "which is no harmonic of the spindle: {}.",
            run.file, line->channel + 1, line->frequency, 100 * line->share,
            hum ? "hum of the mains"
@@ -275,8 +275,7 @@ TakenOut take_drift_out(const cases::Case& given, std::span<const double> angle,
 std::pair<std::string_view, std::string_view> in_words(signal::ChannelFault fault) {
   switch (fault) {
     case signal::ChannelFault::constant:
-      return {"dead_channel",
-              "holds the same number in every sample: was it connected?"};
+      return {"dead_channel", "has the same number in every sample: was it connected?"};
     case signal::ChannelFault::clipped:
       return {"clipped_channel",
               "stays at its largest or smallest number again and again: it was driven "

@@ -216,9 +216,9 @@ results::JudgedBy judged_by(const results::StabilityResult& r,
   warnings.push_back(
       {"solutions_differ",
        fmt::format(
-           "The Floquet multiplier of the modes gives {}, the measured response by "
-           "itself {}. Near {:.5g} Hz the modes leave {:.1f} % of the response{}. "
-           "Verdict and diagram are those of {}.",
+           "The Floquet multiplier of the modes gives {}, the measured response "
+           "alone {}. Near {:.5g} Hz the modes leave {:.1f} % of the response{}. "
+           "Verdict and diagram come from {}.",
            words(limits->by_modes), words(limits->by_response), limits->frequency,
            100 * misfit.modes, poor ? "" : ", little more than its noise",
            by_response ? "the response" : "the modes")});

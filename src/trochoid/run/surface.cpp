@@ -68,8 +68,8 @@ void add_floor(const cases::Case& given, results::SurfaceResult& r) {
     r.heading.warnings.push_back(
         {"flat_floor",
          "The bottom edge is flat up to the axis: the deepest tooth wipes away all marks "
-         "and the floor has no roughness but that of a tilted tool. Inserts rise towards "
-         "the axis; give dish_deg of [tool], often 1 to 3 deg."});
+         "and the floor has no roughness unless the tool is tilted. Inserts rise "
+         "towards the axis; give dish_deg of [tool], often 1 to 3 deg."});
   }
 }
 

@@ -114,17 +114,16 @@ Warnings motion_warnings(const cases::Case& given, const SteadyState& steady,
     if (given.setup.process_damping.acts()) {
       warnings.push_back(
           {"process_damping_of_chatter",
-           "Process damping is that of small vibrations, on the way out as much as on "
-           "the way in. Of chatter it tells where it begins; its amplitude would be "
-           "another one."});
+           "Process damping is modelled for small vibrations, on the way out as much "
+           "as on the way in. It shows where chatter begins, but the true amplitude of "
+           "chatter is different."});
     }
   } else if (std::holds_alternative<Bounded>(steady.verdict)) {
     warnings.push_back(
         {"not_periodic",
-         fmt::format(
-             "The force still changes by {:.3g} N from turn to turn, less and "
-             "less: ask for more revolutions. Peaks are those of the last turn.",
-             steady.motion.last_change)});
+         fmt::format("The force still changes by {:.3g} N from turn to turn, less and "
+                     "less: ask for more revolutions. Peaks are from the last turn.",
+                     steady.motion.last_change)});
   }
   if (!chatter && linear_growth.value_or(0.0) > dynamics::chatter_growth) {
     warnings.push_back(
@@ -142,7 +141,7 @@ Warnings motion_warnings(const cases::Case& given, const SteadyState& steady,
         {"sampling_ignored",
          fmt::format(
              "[sampling] {} has no meaning here and is ignored: a motion begins "
-             "with the tip of tooth 1 at theta = 0 and is told at "
+             "with the tip of tooth 1 at theta = 0 and is written at "
              "samples_per_rev equal steps.",
              sampling.angles.empty() ? "start_deg" : "angles_deg")});
   }

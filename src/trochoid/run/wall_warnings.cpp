@@ -84,9 +84,11 @@ void judge_explanations(const cases::Case& given,
   }
   warnings.push_back(
       {"not_decided",
-       fmt::format("The readings do not decide how they came about: {}. The answer is "
-                   "that of all of them; state form or feedback where you know it.",
-                   which)});
+       fmt::format(
+           "The readings do not decide how they came about: {}. The answer is "
+           "the mean over these explanations. State form or feedback if you know "
+           "it.",
+           which)});
 }
 
 std::string full_name(const CoefficientFit& fit) {

@@ -184,7 +184,8 @@ SpeedEstimate refine(const TimedSamples& s, std::span<const int> orders,
   e.explained = 1.0 - fit.rss / total;
   if (e.explained < 0.1) {
     return refused(fmt::format(
-        "Only {:.1f} % of the force varies with the spindle: no speed can be told.",
+        "Only {:.1f} % of the force varies with the spindle: the speed cannot be "
+        "determined.",
         100.0 * e.explained));
   }
   if (std::abs(Omega - search.Omega) > search.range * search.Omega) {
@@ -204,7 +205,7 @@ SpeedEstimate spindle_speed(const Record& record, const SpeedSearch& search) {
     throw std::invalid_argument("spindle_speed: speed, range or teeth out of range");
   }
   if (record.time.size() != record.size() || record.size() < 2) {
-    return refused("The record has no times, so no speed can be told.");
+    return refused("The record has no times, so the speed cannot be determined.");
   }
   const double duration = record.time.back() - record.time.front();
   const double turns = duration * search.Omega / unit::turn;
@@ -224,7 +225,7 @@ SpeedEstimate spindle_speed(const Record& record, const SpeedSearch& search) {
         return std::all_of(channel.begin(), channel.end(),
                            [](double y) { return std::abs(y) < 1e-12; });
       })) {
-    return refused("The record is constant: no speed can be told.");
+    return refused("The record is constant: the speed cannot be determined.");
   }
   // Pieces so short that the whole range of speeds turns the highest order by less
   // than an eighth of a turn within one.

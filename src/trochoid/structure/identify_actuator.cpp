@@ -311,7 +311,8 @@ ActuatorFit identify_actuator(const StepRecord& record) {
                                          static_cast<int>(record.time.size()), solved.p,
                                          solved.cost, steps_rank_tolerance);
   if (C.empty()) {
-    fit.reason = "gain, sum and product of the time constants cannot be told apart";
+    fit.reason =
+        "gain, sum and product of the time constants cannot be determined separately";
     return fit;
   }
   add_errors(C, solved.p.size(), problem.tau, fit);

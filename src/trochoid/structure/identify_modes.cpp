@@ -45,7 +45,7 @@ std::string refusal(const FrequencyResponse& lines, const FrequencyResponse& few
   const std::size_t needed = lines_needed(std::max(count, 1));
   if (lines.omega.size() < needed) {
     return fmt::format(
-        "the band holds {} lines: {} need at least {}", lines.omega.size(),
+        "the band has {} lines: {} need at least {}", lines.omega.size(),
         count > 1 ? fmt::format("{} modes", count) : "one mode and its surroundings",
         needed);
   }
@@ -95,8 +95,8 @@ std::string without_damping(const ModesFit& fit) {
   for (const FittedMode& mode : fit.modes) {
     if (!(mode.damping.value > 0)) {
       return fmt::format(
-          "the damping of the mode at {:.5g} Hz cannot be told from that of the "
-          "exponential window: take longer blocks, or a weaker window",
+          "the damping of the mode at {:.5g} Hz cannot be separated from the "
+          "damping of the exponential window: take longer blocks, or a weaker window",
           mode.omega.value / unit::Hz);
     }
   }

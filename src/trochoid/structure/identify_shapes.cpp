@@ -91,7 +91,7 @@ std::string refusal(Responses all, Responses few, const ModesOptions& options) {
     const std::size_t needed = lines_needed(std::max(options.count, 1));
     if (one.response.omega.size() < needed) {
       return fmt::format(
-          "the band of the response {} holds {} lines: at least {} are "
+          "the band of the response {} has {} lines: at least {} are "
           "needed",
           one.name, one.response.omega.size(), needed);
     }

@@ -163,7 +163,7 @@ TermVerdict verdict_on(Responses all, const ModesSolution& solution, std::size_t
     return {
         TermRole::none,
         why.empty()
-            ? fmt::format("the mass of the mode at {} cannot be told from {}",
+            ? fmt::format("the mass of the mode at {} cannot be determined from {}",
                           hertz(t.omega), single ? "this record" : "these responses")
             : why};
   }

@@ -201,7 +201,7 @@ void put_modes(Node& root, results::Joint& joint, const ModesFile& from,
     if (!near.place) {
       report(fmt::format(
           "{}: a mode of the {} along {} at {:.5g} Hz, but the case has {}; must be "
-          "there, as by include of the modes.toml beside it",
+          "there, as by include of the modes.toml next to it",
           from.file, wanted.body, wanted.axis, frequency,
           near.frequency ? fmt::format("none nearer than {:.5g} Hz", *near.frequency)
                          : std::string("no such mode")));
@@ -278,7 +278,7 @@ class Putting {
     if (!joint.law.empty() && !law.empty() && law != joint.law) {
       wrong(
           fmt::format("{}: coefficients of the law {}, but the case has force.law = "
-                      "\"{}\"; must be the same, as in the material.toml beside it",
+                      "\"{}\"; must be the same, as in the material.toml next to it",
                       file_, joint.law, law));
     }
     const auto teeth = number_at(root, "tool.teeth");

@@ -32,9 +32,8 @@ void warn_of_missing_numbers(SweepResult& r) {
     if (missing > 0) {
       r.heading.warnings.push_back(
           {"draws_without_number",
-           fmt::format(
-               "{} of {} rows have no {}: the intervals are those of the others",
-               missing, r.rows.size(), r.take[t])});
+           fmt::format("{} of {} rows have no {}: the intervals are from the others",
+                       missing, r.rows.size(), r.take[t])});
     }
   }
 }

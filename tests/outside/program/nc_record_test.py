@@ -156,7 +156,7 @@ class Record(InFolder):
                 repr(chance.gauss(0, 50)) for _ in range(3)) for line in lines[1:]]) + "\n")
         result, warnings = self.answer(self.case(**self.AXES))
         self.assertNotIn("record", result)
-        self.assertIn("not those of this program", warnings["record_does_not_fit"])
+        self.assertIn("do not fit this program", warnings["record_does_not_fit"])
         said = self.answer(self.case(dynamometer={"axes": "auto"}), code=2)
         self.assertIn("identify finds axes, program does not", said)
         self.write("record.csv", "\n".join(line.split(",", 1)[1] for line in lines) + "\n")

@@ -136,8 +136,9 @@ TEST_F(ToolFile, ANewCaseWithItIsOne) {
       new_case(Command::simulate, {.tool = ToolChoice{.file = file_}});
   EXPECT_NE(text.find("diameter_mm = 10 "), std::string::npos) << text;
   EXPECT_NE(
-      text.find("(new, 3 flutes). Not said there, and to be looked\n# after: shape, "
-                "teeth, helix_deg\n"),
+      text.find(
+          "(new, 3 flutes). That file does not give these\n# keys, so check them: "
+          "shape, teeth, helix_deg\n"),
       std::string::npos)
       << text;
 }

@@ -122,8 +122,8 @@ TEST(FrfFile, WhatIsWrongIsToldWithItsPlace) {
   expect_problem("f,re_m/N,im_m/N,real_m/N\n2,2,3,4\n", "made.txt:1:17", "could both");
   FrfSource wrong;
   wrong.kind = ResponseKind::mobility;
-  expect_problem("f,re_m/N,im_m/N\n2,2,3\n", "made.txt:1:3", "not that of the kind",
-                 wrong);
+  expect_problem("f,re_m/N,im_m/N\n2,2,3\n", "made.txt:1:3",
+                 "does not fit the given kind", wrong);
 }
 
 TEST(FrfFile, WhatIsWrongWithAUniversalFile) {

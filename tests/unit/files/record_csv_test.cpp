@@ -150,7 +150,8 @@ TEST(RecordCsv, FindsColumnsByNameWhateverTheirCaseAndOrder) {
   EXPECT_DOUBLE_EQ(record.time[1], 1e-3);
   EXPECT_DOUBLE_EQ(record.sample_rate, 1e3);
   ASSERT_EQ(record.notes.size(), 1u);
-  EXPECT_EQ(record.notes[0].message, "Column \"comment\" holds text and is not used.");
+  EXPECT_EQ(record.notes[0].message,
+            "Column \"comment\" contains text and is not used.");
 }
 
 TEST(RecordCsv, TakesNewtonsPerUnitOfTheCaseFile) {

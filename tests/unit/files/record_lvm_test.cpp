@@ -70,7 +70,7 @@ TEST(RecordLvm, ReadsTheFirstOfSeveralSegmentsAndSaysSo) {
   EXPECT_EQ(record.size(), 2u);
   ASSERT_EQ(record.notes.size(), 1u);
   EXPECT_EQ(record.notes[0].message,
-            "The file holds several segments: the first one is read, 2 samples.");
+            "The file has several segments: the first one is read, 2 samples.");
 }
 
 TEST(RecordLvm, IsCutOffNowhereWithoutAWord) {

@@ -107,7 +107,7 @@ TEST(RecordNumeric, TellsColumnsOfOneNameByTheirPaths) {
 
 TEST(RecordNumeric, RefusesWhatIsNoRecord) {
   const std::vector<double> two{1, 2};
-  EXPECT_EQ(refusal({}), "r.bin: the file holds no column of numbers\n");
+  EXPECT_EQ(refusal({}), "r.bin: the file has no column of numbers\n");
   EXPECT_EQ(refusal({column("Fx", "N", two), column("Fy", "N", {1, 2, 3}),
                      column("Fz", "N", two), column("t", "s", two)}),
             "r.bin: column \"Fy\" has 3 samples, \"Fx\" has 2: they must be sampled "

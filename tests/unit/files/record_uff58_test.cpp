@@ -58,10 +58,9 @@ TEST(RecordUff58, TakesUnevenTimes) {
 }
 
 TEST(RecordUff58, RefusesWhatIsNoRecord) {
-  EXPECT_EQ(
-      refusal(as_text(MadeSet{.x = {1, 2}, .y = {1, 2}})),
-      "r.uff: the universal file holds no time history (data set 58, function type "
-      "1, real numbers); its functions are of type 4\n");
+  EXPECT_EQ(refusal(as_text(MadeSet{.x = {1, 2}, .y = {1, 2}})),
+            "r.uff: the universal file has no time history (data set 58, function type "
+            "1, real numbers); its functions are of type 4\n");
   auto acceleration = force(1, {1, 2, 3});
   acceleration.kind = 12;
   EXPECT_EQ(

@@ -151,7 +151,7 @@ TEST(SurfaceText, UnitsInColumnsStandBelowTheirNames) {
 
 TEST(SurfaceText, WithoutNamesOrNumbersIsRefusedInWords) {
   EXPECT_TRUE(says(refusal("10 0.5 0.048\n11 0.5 0.047\n"),
-                   "wall.csv:1:1: the first row holds numbers"));
+                   "wall.csv:1:1: the first row has numbers"));
   EXPECT_TRUE(says(refusal("x_mm,z_mm,dev_mm\nten,1,1\neleven,1,1\n"),
                    "wall.csv:2:1: this line is no row of numbers"));
 }

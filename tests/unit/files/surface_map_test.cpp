@@ -80,14 +80,14 @@ TEST(SurfaceX3p, SaysWhatIsWrong) {
   EXPECT_TRUE(says(wrong({.type = "Q"}), "must be I, L, F or D"));
   EXPECT_TRUE(says(wrong({.feature = "PCL"}), "a cloud of points"));
   EXPECT_TRUE(
-      says(wrong({.size = "<SizeX>4</SizeX><SizeY>2</SizeY>"}), "holds 48 bytes"));
+      says(wrong({.size = "<SizeX>4</SizeX><SizeY>2</SizeY>"}), "has 48 bytes"));
   EXPECT_TRUE(says(wrong({.size = "<SizeX>4000000</SizeX><SizeY>4000000</SizeY>"}),
                    "at most 4194304 are read"));
   EXPECT_TRUE(
       says(wrong({.size = "<SizeX>-1</SizeX><SizeY>2</SizeY>"}), "at least one"));
   EXPECT_TRUE(says(wrong({.size = "<SizeX>3</SizeX>"}), "SizeY"));
   EXPECT_TRUE(says(refusal(zip_file({{"main.xml", x3p_description({})}})),
-                   "holds no \"bindata/data.bin\""));
+                   "has no \"bindata/data.bin\""));
   EXPECT_TRUE(
       says(refusal(zip_file({{"sheet1.xml", "<a/>"}})), "perhaps a spreadsheet"));
   std::string damaged = x3p_file({}, points);

@@ -101,7 +101,7 @@ TEST(TapFile, WhatIsWrongIsSaid) {
   expect_problem(record("time_h,force_N,acc_g"), "s is right");
   expect_problem(record("time_s,force_N,acc_g,hammer_N", ",1"),
                  "could both be the force");
-  expect_problem(record("time_s,force_N,acc_g"), "not that of the kind",
+  expect_problem(record("time_s,force_N,acc_g"), "does not fit the given kind",
                  {.kind = ResponseKind::mobility});
   expect_problem("time_s,force_N,acc_g\n0,1,2\n1,1,2\n2,1,2\n", "at least 64");
   std::string uneven = record("time_s,force_N,acc_g");

@@ -55,8 +55,8 @@ TEST(SimulateSentence, SaysTheForceAndThatNothingIsBesideIt) {
       simulation_sentence(made()),
       "The force in the plane of the table is 2.24 N at most, the mean force 0, 1, "
       "3 N in x, y, z; the torque is 3 N m on average and 4 N m at most. Tooth 2 "
-      "cuts nothing 1 mm above the tip. Nothing measured is beside it: it is as "
-      "good as the coefficients and the runout of the case.");
+      "cuts nothing 1 mm above the tip. It is not compared with a measurement: "
+      "it is as good as the coefficients and the runout of the case.");
 }
 
 TEST(SimulateSentence, SaysHowMuchOfARecordIsMissed) {

@@ -106,7 +106,7 @@ TEST(StabilitySentence, SaysHowFarBelowTheLimitAStableCutIs) {
   r.stability.verdict = dynamics::StabilityVerdict::marginal;
   EXPECT_EQ(
       first(),
-      "Marginal: whether the cut at 0.5 mm and 5000 rpm is stable cannot be told.");
+      "Marginal: it is uncertain whether the cut at 0.5 mm and 5000 rpm is stable.");
 }
 
 TEST(StabilityAnswer, TablesCarryNamesAndUnits) {

@@ -141,7 +141,7 @@ function combinationPart(result, keys) {
   const { combination } = result;
   const { value, low, high } = combination.value_MPa || {};
   return section('combination', 'What is known all the same', 'Known',
-    prose('The two coefficients cannot be told apart, but one combination of them is known: ', el('b', {},
+    prose('The two coefficients cannot be determined separately, but one combination of them is known: ', el('b', {},
       `${number(combination.K_tc_weight, 3)} `, symbol(nameAndUnit(keys[0] || 'K_tc').name),
       ` + ${number(combination.K_rc_weight, 3)} `, symbol(nameAndUnit(keys[1] || 'K_rc').name),
       ` = ${number(value, 4)} MPa`), isNumber(high - low) ?

@@ -17,11 +17,11 @@ function explanationsPart(result, keys) {
   const { own_mm: own, shared_mm: shared } = result.scatter || {};
   return section('explanations', 'How the readings may have come about', 'Explanations',
     list.length > 1 ? prose('What besides the cutting may be in the readings, likeliest first: a constant offset of them all, a tilt or a curvature over the height, ' +
-      'and a deflection that changes the chip (feedback). The answer is the mean over all of them; datum and residuals on this page are those of the likeliest.') : null,
+      'and a deflection that changes the chip (feedback). The answer is the mean over all of them; datum and residuals on this page are from the likeliest one.') : null,
     list.length > 1 ? table(['form', 'probability', ...keys.map((key) => [symbol(nameAndUnit(key).name),
       el('small', {}, nameAndUnit(key).unit)]), 'runout, µm', 'left, µm rms'], rows, { class: 'fits' }) : null,
-    isNumber(own) ? prose(`A reading scatters by ${fixed(micro(own), 2)} µm by itself`, isNumber(shared) && shared > 0 ?
-      ` and by ${fixed(micro(shared), 2)} µm together with those of its height or place.` : '.') : null,
+    isNumber(own) ? prose(`A reading scatters by ${fixed(micro(own), 2)} µm alone`, isNumber(shared) && shared > 0 ?
+      ` and by ${fixed(micro(shared), 2)} µm together with the readings of its height or place.` : '.') : null,
     out.length ? prose(`${out.length} reading${out.length > 1 ? 's were' : ' was'} left out as far off: `,
       out.slice(0, 6).map((one) => `no. ${one.reading} (${number(micro(one.off_mm), 3)} µm)`).join(', '),
       out.length > 6 ? ', ...' : '', '.') : null);

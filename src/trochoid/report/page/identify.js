@@ -46,7 +46,7 @@ const numbersOf = (list) => [list].flat().map((entry) => entry?.value ?? entry);
 function reasonOf(fit, key) {
   const entry = fit?.identifiable?.[key] ?? fit?.identifiable?.[nameAndUnit(key).name];
   if (typeof entry === 'string') return entry;
-  return entry?.reason || entry?.message || (entry === false ? 'cannot be told apart' : '');
+  return entry?.reason || entry?.message || (entry === false ? 'cannot be determined separately' : '');
 }
 
 /** How much of the force stays unexplained, else what is left in newtons. */

@@ -114,12 +114,12 @@ function overviewSection(report) {
   return { part, draw: () => draw(runs[0]) };
 }
 
-/** "5 revolutions laid over one another. " */
+/** "5 revolutions laid over each other. " */
 function turnWords(turns, runs) {
   const counts = [turns ?? []].flat();
-  if (counts.length !== runs.length) return 'All revolutions laid over one another. ';
+  if (counts.length !== runs.length) return 'All revolutions laid over each other. ';
   const of = counts.length > 1 ? ` of run ${runs.join(', ')}` : '';
-  return [el('b', {}, `${counts.join(', ')} revolutions`), `${of} laid over one another. `];
+  return [el('b', {}, `${counts.join(', ')} revolutions`), `${of} laid over each other. `];
 }
 
 /** One revolution: the mean of all, and how far single ones scatter around it. */

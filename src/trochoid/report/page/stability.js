@@ -40,8 +40,8 @@ function dampingProse({ process_damping: damping }) {
 }
 
 const judges = {
-  complex_modes: 'Verdict and diagram are those of complex modes, which real ones do not describe. ',
-  response: 'Verdict and limit are those of the measured response, which modes do not describe. ',
+  complex_modes: 'Verdict and diagram come from complex modes, which real ones do not describe. ',
+  response: 'Verdict and limit come from the measured response, which modes do not describe. ',
 };
 
 /** The limit by the measured response beside that of the multiplier. */
@@ -72,7 +72,7 @@ function measuredSection(report) {
       .map(([name, s]) => [name, ...shown(s), signed(s.difference_percent),
         isNumber(s.median_difference_percent) ? `${number(s.median_difference_percent, 2)} %` : '']),
   ].filter(Boolean);
-  const words = prose('The limit depth three times. The measured response by itself, with the mean force ' +
+  const words = prose('The limit depth three times. The measured response alone, with the mean force ' +
     '(zeroth order) and with harmonics of it (multi-frequency), ' +
     `${number(measured.band_Hz[0])} to ${number(measured.band_Hz[1])} Hz; and the Floquet multiplier of modes ` +
     (measured.modes_fitted ? 'fitted to it. ' : 'given in the case. ') +
