@@ -269,7 +269,7 @@ class Words(unittest.TestCase):
     def test_texts_of_the_program(self):
         for line, count in (('say("It is told at once.");', 1), ("// It is told.", 0),
                             ('#include "held/a b.h"', 0), ('key("held");', 0)):
-            found = answers(check_words.faults_of_messages,
+            found = answers(check_words.faults,
                             files={"src/trochoid/chip/m.cpp": f"\n{line}\n"})
             self.assertEqual(len(found), count, found)
             self.assertTrue(all(f.startswith("src/trochoid/chip/m.cpp:2: 'is told'") for f in found))

@@ -2,9 +2,8 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
+#include <trochoid/run/channel_offsets.h>
 #include <trochoid/signal/channel_faults.h>
-#include <trochoid/signal/curved_drift.h>
-#include <trochoid/signal/drift.h>
 #include <trochoid/signal/foreign_line.h>
 #include <trochoid/signal/passes.h>
 #include <trochoid/signal/revolutions.h>
@@ -193,82 +192,6 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
   }
   angle = signal::angle_from_time(record.time, run.Omega);
   if (found.ok) follow_wander(record, run, warnings);
-}
-
-/// Where drift is read off.
-struct DriftParts {
-  std::span<const signal::Part> air;
-  const signal::Part& cut;
-};
-
-/// The same of further channels, three at a time.
-void take_drift_out_of(std::vector<std::vector<double>>& channels,
-                       std::span<const double> angle, const DriftParts& parts) {
-  for (std::size_t first = 0; first < channels.size(); first += 3) {
-    std::array<std::vector<double>, 3> three;
-    const std::size_t count = std::min<std::size_t>(3, channels.size() - first);
-    for (std::size_t c = 0; c < 3; ++c) {
-      three[c] = c < count ? std::move(channels[first + c])
-                           : std::vector<double>(angle.size(), 0.0);
-    }
-    if (const auto drift = signal::idle_drift(three, angle, parts.air, parts.cut)) {
-      signal::remove_drift(three, *drift);
-    }
-    signal::remove_drift(three,
-                         signal::curved_drift(three, angle, parts.air, parts.cut));
-    for (std::size_t c = 0; c < count; ++c) channels[first + c] = std::move(three[c]);
-  }
-}
-
-void warn_of_curve(const signal::Record& record, const signal::CurvedDrift& curve,
-                   Warnings& warnings) {
-  const auto most = std::ranges::max_element(curve.bend);
-  if (!(*most > 0)) return;
-  warnings.push_back(
-      {"curved_drift",
-       fmt::format(
-           "{}: channel {} drifts along a curve, up to {:.3g} N from a straight "
-           "line. The curve was removed, as the mean force of a steady cut does "
-           "not change.",
-           record.file, most - curve.bend.begin() + 1, *most)});
-}
-
-/// What was taken out of the channels of a record.
-struct TakenOut {
-  bool offset = false;                ///< there was a place where nothing cuts
-  std::array<double, 3> offset_se{};  ///< of each channel [N]
-};
-
-/// Where nothing cuts a channel reads its offset.
-TakenOut take_drift_out(const cases::Case& given, std::span<const double> angle,
-                        const DriftParts& parts, signal::Record& record,
-                        Warnings& warnings) {
-  using cases::ChannelOffset;
-  const ChannelOffset how = given.identify.channel_offsets;
-  if (how != ChannelOffset::idle && how != ChannelOffset::automatic) {
-    return {};
-  }
-  const auto drift = signal::idle_drift(record.channel, angle, parts.air, parts.cut);
-  if (drift) {
-    signal::remove_drift(record.channel, *drift);
-  } else if (how == ChannelOffset::idle) {
-    warnings.push_back({"no_idle_part",
-                        record.file +
-                            ": nothing in the record is free of cutting, so the offset "
-                            "of the channels cannot be read off it; it is left in. "
-                            "channel_offsets = \"fit\" estimates it with the rest."});
-  }
-  const signal::CurvedDrift curve =
-      signal::curved_drift(record.channel, angle, parts.air, parts.cut);
-  signal::remove_drift(record.channel, curve);
-  take_drift_out_of(record.further, angle, parts);
-  warn_of_curve(record, curve, warnings);
-  TakenOut out{.offset = drift.has_value()};
-  for (std::size_t c = 0; c < 3 && drift; ++c) {
-    out.offset_se[c] =
-        curve.terms[c].empty() ? drift->se_in_cut[c] : curve.offset_se[c];
-  }
-  return out;
 }
 
 /// Code of the warning, and what the channel does.
