@@ -138,7 +138,7 @@ class Place(InFolder):
             make(table)
             before = self.everything()
             said = self.run_program("simulate", "cut.toml", "-q", "-o", "out", code=2).stderr
-            self.assertIn("it holds 'forces.csv', which trochoid did not write", said)
+            self.assertIn("it contains 'forces.csv', which trochoid did not write", said)
             self.assertEqual(self.everything(), before)
             shutil.rmtree(self.folder / "out")
 

@@ -34,7 +34,7 @@ class Place(InFolder):
         self.refused("file/deep/out", "file")
 
     def test_a_folder_of_somebody_else(self):
-        self.refused("foreign", "it holds 'notes.txt', which trochoid did not write")
+        self.refused("foreign", "it contains 'notes.txt', which trochoid did not write")
 
     def test_a_folder_that_cannot_be_written(self):
         self.refused(LOCKED, LOCKED)

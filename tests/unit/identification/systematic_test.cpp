@@ -110,7 +110,7 @@ TEST(Systematic, GainOfOneChannelIsTold) {  // [I-24]
 }
 
 TEST(Systematic, DelayOfOneChannelIsTold) {  // [I-24]
-  constexpr std::size_t late = 2;  // samples, of which a turn has 120
+  constexpr std::size_t late = 2;            // samples, of which a turn has 120
   Record run = noisy(two_flutes_with_runout());
   for (std::size_t i = run.force.size(); i-- > late;) {
     run.force[i][1] = run.force[i - late][1];
@@ -138,8 +138,9 @@ TEST(Systematic, TheErrorOfAnOffsetIsInTheIntervals) {  // [I-24]
   const std::size_t K_ae = 5;
   const double effect = other.coefficients[K_ae]->value - fit.coefficients[K_ae]->value;
   EXPECT_GT(std::abs(effect), fit.coefficients[K_ae]->se);
-  EXPECT_NEAR(wider.coefficients[K_ae]->se / std::hypot(fit.coefficients[K_ae]->se, effect),
-              1.0, 0.01);
+  EXPECT_NEAR(
+      wider.coefficients[K_ae]->se / std::hypot(fit.coefficients[K_ae]->se, effect),
+      1.0, 0.01);
 }
 
 TEST(Systematic, CrossTalkIsTold) {  // [I-24]

@@ -131,7 +131,7 @@ TEST_F(Folder, NeverReplacesFilesOfSomebodyElse) {
   write_folder(folder_, sample(), "");
   put(folder_ / "notes.txt", "mine");
   const std::string reason = reason_of([&] { write_folder(folder_, sample(), ""); });
-  EXPECT_NE(reason.find("it holds 'notes.txt'"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("it contains 'notes.txt'"), std::string::npos) << reason;
   EXPECT_NE(reason.find(folder_.string()), std::string::npos) << reason;
   EXPECT_EQ(content(folder_ / "notes.txt"), "mine");
   EXPECT_EQ(entries_of_root(), 1);

@@ -103,7 +103,7 @@ TEST(CorrectionWarnings, SayThatTheCommandIsForAReading) {
   c.setting.fit = correction::StaticFit{.ok = true};
   const auto warnings = of(c);
   ASSERT_EQ(codes(warnings), Codes{"static_estimate"});
-  EXPECT_NE(warnings[0].message.find("(18 um between"), std::string::npos)
+  EXPECT_NE(warnings[0].message.find(": 18 um between"), std::string::npos)
       << warnings[0].message;
 }
 
