@@ -293,6 +293,13 @@ test('numbers that must not be used are called so, and nothing is well known', a
   await close();
 });
 
+test('a unit stands behind its number, before the full stop', async () => {
+  const { page, close } = await open('doubtful');
+  const text = await page.locator('.warnings').innerText();
+  assert.match(text.replace(/\s/g, ' '), /= 1885 MPa and K\s?rc\s?= 812\.5 MPa\. Check it/);
+  await close();
+});
+
 test('how well a coefficient is known is not clipped on a narrow page', async () => {
   for (const name of ['identify', 'doubtful']) {
     const { page, close } = await open(name, { width: 480 });

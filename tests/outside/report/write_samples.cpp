@@ -275,6 +275,8 @@ Answer doubtful() {
   answer.heading.warnings.insert(answer.heading.warnings.begin(),
                                  {"do_not_use", verdict});
   answer.heading.warnings.push_back({"part_of_record", std::string(120, 'x')});
+  answer.heading.warnings.push_back(
+      {"cross_talk", "Corrected K_tc_MPa = 1885 and K_rc_MPa = 812.5. Check it."});
   set(std::get<trochoid::results::Object>(answer.result.data), "do_not_use",
       std::vector<std::string>{"80 % of the force (rms) is not explained"});
   return answer;

@@ -22,7 +22,7 @@ function build() {
 }
 
 /** Numbers as they are printed: a true minus and ±, units that stay beside them. */
-const inPrint = (text) => text.replace(/\b(K_[a-z][a-z0-9])_MPa = ([\d.]+)(?! MPa|[\d.])/g, '$1 = $2 MPa')
+const inPrint = (text) => text.replace(/\b(K_[a-z][a-z0-9])_MPa = (\d+(?:\.\d+)?)(?! MPa|\.?\d)/g, '$1 = $2 MPa')
   .replace(/\b(K_[a-z][a-z0-9])_(?:MPa|N_per_mm)\b/g, '$1').replaceAll(' +- ', '\u00a0±\u00a0').replace(/(\d) um\b/g, '$1 µm').replace(/(\d) um\//g, '$1 µm/')
   .replace(/mm3\/min\b/g, 'mm³/min').replace(/(^|[\s(])-(?=\d)/g, '$1−')
   .replace(/(\d) (?=(?:MPa|µm|N|mm|rpm|Hz|%|s|ms)(?![\w]))/g, '$1\u00a0');
