@@ -17,7 +17,7 @@ AIM, HEADER, MOST = 400, 250, 600  # lines of a file
 # A source or header below LEAST lines belongs to its neighbour of the same idea. So many still
 # stand alone, each for a reason (a type that many rooms share, a case of a variant). The number
 # falls; only a new law, command or reader may raise it, by its own files.
-LEAST, SHORT = 40, 225
+LEAST, SHORT = 40, 224
 # Functions of what is released and measured; a test may be one long table.
 CODE = ("src", "benchmarks", "linuxcnc")
 LINES, PARAMETERS = 60, 5

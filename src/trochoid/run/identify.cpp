@@ -276,7 +276,6 @@ bool told(identification::SystematicKind kind,
   switch (kind) {
     case gain:
     case cross_talk:
-    case delay:
     case all_gains:
       return tolerances.gain.has_value();
     case turn:
@@ -287,6 +286,8 @@ bool told(identification::SystematicKind kind,
       return tolerances.radial_depth.has_value();
     case feed:
       return tolerances.feed.has_value();
+    case delay:
+      break;
   }
   return false;
 }

@@ -2,8 +2,8 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
-#include <trochoid/run/channel_offsets.h>
 #include <trochoid/signal/channel_faults.h>
+#include <trochoid/signal/curved_drift.h>
 #include <trochoid/signal/foreign_line.h>
 #include <trochoid/signal/passes.h>
 #include <trochoid/signal/revolutions.h>
@@ -192,6 +192,38 @@ void lay_over_angle(const signal::Record& record, int teeth, MeasuredRun& run,
   }
   angle = signal::angle_from_time(record.time, run.Omega);
   if (found.ok) follow_wander(record, run, warnings);
+}
+
+void warn_of_drift(const signal::Record& record, const signal::RemovedDrift& drift,
+                   bool idle_part_wanted, Warnings& warnings) {
+  if (!drift.offset && idle_part_wanted) {
+    warnings.push_back({"no_idle_part",
+                        record.file +
+                            ": nothing in the record is free of cutting, so the offset "
+                            "of the channels cannot be read off it; it is left in. "
+                            "channel_offsets = \"fit\" estimates it with the rest."});
+  }
+  const auto most = std::ranges::max_element(drift.bend);
+  if (!(*most > 0)) return;
+  warnings.push_back(
+      {"curved_drift",
+       fmt::format(
+           "{}: channel {} drifts along a curve, up to {:.3g} N from a straight "
+           "line. The curve was removed, as the mean force of a steady cut does "
+           "not change.",
+           record.file, most - drift.bend.begin() + 1, *most)});
+}
+
+/// Where nothing cuts a channel reads its offset.
+signal::RemovedDrift take_drift_out(const cases::Case& given,
+                                    std::span<const double> angle,
+                                    std::span<const signal::Part> air,
+                                    const signal::Part& cut, signal::Record& record) {
+  using cases::ChannelOffset;
+  const ChannelOffset how = given.identify.channel_offsets;
+  if (how != ChannelOffset::idle && how != ChannelOffset::automatic) return {};
+  signal::remove_drift(record.further, angle, air, cut);
+  return signal::remove_drift(record.channel, angle, air, cut);
 }
 
 /// Code of the warning, and what the channel does.
@@ -416,10 +448,12 @@ void keep_cut(const cases::Case& given, const cases::Measurement& measurement,
   const auto [angle, passes] = told_apart(record, measurement.cut);
   const UsedPart used = used_part(record, angle, passes, measurement);
   run.overview = signal::overview_of(record, angle, used.part);
-  const TakenOut out =
-      take_drift_out(given, angle, {passes.air, used.part}, record, warnings);
-  run.offset_taken_out = out.offset;
-  run.run.offset_se = out.offset_se;
+  const signal::RemovedDrift drift =
+      take_drift_out(given, angle, passes.air, used.part, record);
+  warn_of_drift(record, drift,
+                given.identify.channel_offsets == cases::ChannelOffset::idle, warnings);
+  run.offset_taken_out = drift.offset;
+  run.run.offset_se = drift.offset_se;
   if (!used.why.empty()) {
     warnings.push_back({"part_used", record.file + ": " + used.why});
   }

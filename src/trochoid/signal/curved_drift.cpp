@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
+#include <trochoid/signal/drift.h>
 #include <trochoid/signal/wander.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 
 using Channels = std::array<std::vector<double>, 3>;
 
-constexpr std::size_t least_turns_of_cut = 12;  ///< of the cut
+/// Fewer turns of the cut tell no curve.
+constexpr std::size_t least_turns_of_cut = 12;
 constexpr int highest_order = 6;
 /// Of a drift that is known on one side of the cut only.
 constexpr int highest_order_one_sided = 3;
@@ -28,6 +30,9 @@ constexpr double gain_of_curve = 25.0;
 constexpr double most_left = 4.0;
 /// The scatter of a mean is no less than this part of the force.
 constexpr double least_scatter = 1e-3;
+/// So many triples of neighbouring turns tell a scatter. That of the cut, which is no less,
+/// stands for the air where it has fewer.
+constexpr double least_triples = 8.0;
 /// A force that grows by more, and by so many standard errors, is not steady.
 constexpr double much_growth = 0.02;
 constexpr double sure_growth = 4.0;
@@ -56,23 +61,28 @@ void add_turns(std::span<const double> y, std::span<const double> angle,
   }
 }
 
-/// Standard deviation of the means of turns about what changes slowly, from what three
-/// neighbours leave of a straight line.
-double scatter_of(std::span<const TurnMean> turns, bool cuts) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t b = 2; b < turns.size(); ++b) {
-    const auto three = turns.subspan(b - 2, 3);
-    if (!std::ranges::all_of(three,
-                             [&](const TurnMean& t) { return t.cuts == cuts; })) {
-      continue;
+/// How means of turns scatter about what changes slowly: by what three neighbours leave of a
+/// straight line.
+class Scatter {
+ public:
+  /// @param turns  one after the other
+  void add(std::span<const TurnMean> turns) {
+    for (std::size_t b = 2; b < turns.size(); ++b) {
+      const double left = turns[b - 2].mean - 2 * turns[b - 1].mean + turns[b].mean;
+      squares_ += left * left / 6;
+      count_ += 1;
     }
-    const double left = three[0].mean - 2 * three[1].mean + three[2].mean;
-    sum += left * left / 6;
-    count += 1;
   }
-  return count > 0 ? std::sqrt(sum / count) : 0.0;
-}
+  /// @return standard deviation; nothing: too few turns tell it
+  [[nodiscard]] std::optional<double> value() const {
+    return count_ >= least_triples ? std::optional(std::sqrt(squares_ / count_))
+                                   : std::nullopt;
+  }
+
+ private:
+  double squares_ = 0.0;
+  double count_ = 0.0;
+};
 
 /// Legendre polynomials one after the other, each from the two before it.
 class Legendre {
@@ -171,18 +181,25 @@ std::optional<Curve> curve_through(const Means& means, int highest) {
 std::optional<Means> means_of(std::span<const double> y, std::span<const double> angle,
                               std::span<const Part> idle, const Part& cut) {
   Means means;
-  for (const Part& part : idle) add_turns(y, angle, part, false, means.turns);
+  Scatter in_air;
+  for (const Part& part : idle) {
+    const std::size_t first = means.turns.size();
+    add_turns(y, angle, part, false, means.turns);
+    in_air.add(std::span(means.turns).subspan(first));
+  }
   means.of_air = means.turns.size();
   add_turns(y, angle, cut, true, means.turns);
   if (means.turns.size() - means.of_air < least_turns_of_cut) return std::nullopt;
-  const auto in_cut = y.subspan(cut.begin, cut.size());
+  const auto forces = y.subspan(cut.begin, cut.size());
   const double squares =
-      std::inner_product(in_cut.begin(), in_cut.end(), in_cut.begin(), 0.0);
+      std::inner_product(forces.begin(), forces.end(), forces.begin(), 0.0);
   const double least =
       least_scatter * std::sqrt(squares / static_cast<double>(cut.size()));
   if (!(least > 0)) return std::nullopt;
-  means.in_air = std::max(scatter_of(means.turns, false), least);
-  means.in_cut = std::max(scatter_of(means.turns, true), least);
+  Scatter in_cut;
+  in_cut.add(std::span(means.turns).subspan(means.of_air));
+  means.in_cut = std::max(in_cut.value().value_or(0.0), least);
+  means.in_air = std::max(in_air.value().value_or(means.in_cut), least);
   return means;
 }
 
@@ -223,13 +240,39 @@ CurvedDrift curved_drift(const Channels& channels, std::span<const double> angle
   return out;
 }
 
-void remove_drift(Channels& channels, const CurvedDrift& drift) {
+RemovedDrift remove_drift(Channels& channels, std::span<const double> angle,
+                          std::span<const Part> idle, const Part& cut) {
+  RemovedDrift out;
+  if (const auto line = idle_drift(channels, angle, idle, cut)) {
+    remove_drift(channels, *line);
+    out.offset = true;
+    out.offset_se = line->se_in_cut;
+  }
+  const CurvedDrift curve = curved_drift(channels, angle, idle, cut);
+  out.bend = curve.bend;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (drift.terms[c].empty()) continue;
+    if (curve.terms[c].empty()) continue;
     const double last = static_cast<double>(channels[c].size()) - 1;
     for (std::size_t i = 0; i < channels[c].size(); ++i) {
-      channels[c][i] -= sum_of(drift.terms[c], 2 * static_cast<double>(i) / last - 1);
+      channels[c][i] -= sum_of(curve.terms[c], 2 * static_cast<double>(i) / last - 1);
     }
+    out.offset_se[c] = curve.offset_se[c];
+  }
+  return out;
+}
+
+void remove_drift(std::vector<std::vector<double>>& channels,
+                  std::span<const double> angle, std::span<const Part> idle,
+                  const Part& cut) {
+  for (std::size_t first = 0; first < channels.size(); first += 3) {
+    Channels three;
+    const std::size_t count = std::min<std::size_t>(3, channels.size() - first);
+    for (std::size_t c = 0; c < 3; ++c) {
+      three[c] = c < count ? std::move(channels[first + c])
+                           : std::vector<double>(angle.size(), 0.0);
+    }
+    remove_drift(three, angle, idle, cut);
+    for (std::size_t c = 0; c < count; ++c) channels[first + c] = std::move(three[c]);
   }
 }
 

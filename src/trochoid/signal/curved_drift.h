@@ -35,8 +35,22 @@ CurvedDrift curved_drift(const std::array<std::vector<double>, 3>& channels,
                          std::span<const double> angle, std::span<const Part> idle,
                          const Part& cut);
 
-/// @brief Take it out of the channels.
-void remove_drift(std::array<std::vector<double>, 3>& channels,
-                  const CurvedDrift& drift);
+/// What was taken out of the channels of a record.
+struct RemovedDrift {
+  bool offset = false;                ///< there was a place where nothing cuts
+  std::array<double, 3> offset_se{};  ///< standard error of what is out of the cut [N]
+  std::array<double, 3> bend{};       ///< as of CurvedDrift
+};
+
+/// @brief Take out of the channels what they read where nothing cuts (idle_drift), and what
+/// then drifts along a curve.
+RemovedDrift remove_drift(std::array<std::vector<double>, 3>& channels,
+                          std::span<const double> angle, std::span<const Part> idle,
+                          const Part& cut);
+
+/// @brief The same of any number of channels, three at a time.
+void remove_drift(std::vector<std::vector<double>>& channels,
+                  std::span<const double> angle, std::span<const Part> idle,
+                  const Part& cut);
 
 }  // namespace trochoid::signal

@@ -32,7 +32,8 @@ CurvedDrift drift_of(const Samples& s) {
 /// Farthest from what it was without drift, in the cut [N].
 double farthest(const Samples& drifting, const Samples& true_ones) {
   Channels now = drifting.channel;
-  remove_drift(now, drift_of(drifting));
+  const Passes passes = passes_of(now, drifting.angle);
+  remove_drift(now, drifting.angle, passes.air, longest_steady(passes));
   double most = 0.0;
   for (std::size_t i = 0; i < drifting.angle.size(); ++i) {
     const double x = part_of(drifting, i);
