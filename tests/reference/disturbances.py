@@ -2,8 +2,8 @@
 
 Three tools, a number of kinds of disturbance, some seeds of each: is the truth in the 95 %
 interval of every coefficient, and if it is not, does the answer say so? A coefficient is
-wrong where the truth is farther outside its interval than 1 %. Wrong in silence is one that
-the answer calls good.
+wrong where the truth is farther outside its interval than 1 %. A record is wrong in silence
+where a coefficient is wrong and the verdict is "usable" without more.
 
 Usage: disturbances.py [--seeds N] [--only KIND,...] [--list] [--most-silent N]
 The table stands in docs/theory/identification.md. With --most-silent the exit code is 1 where
@@ -74,15 +74,14 @@ class Cut:
     def at(self, turns, response=None):
         """Forces where the spindle has made so many turns; response(axis, Hz) of the sensor."""
         out = numpy.empty((len(turns), 3))
+        finer = 16 * FINE
         k = numpy.arange(len(self.lines))
         for axis in range(3):
-            lines = self.lines[:, axis].copy()
-            lines[1:] *= 2
+            lines = self.lines[:, axis]
             if response:
-                lines *= response(axis, k * self.rpm / 60)
-            wave = numpy.fft.irfft(numpy.concatenate([lines[:1] * 2, lines[1:]]) / 2, 16 * FINE) * 16 * FINE
-            out[:, axis] = numpy.interp(turns % 1, numpy.arange(16 * FINE + 1) / (16 * FINE),
-                                        numpy.append(wave, wave[0]))
+                lines = lines * response(axis, k * self.rpm / 60)
+            wave = numpy.fft.irfft(lines, finer) * finer
+            out[:, axis] = numpy.interp(turns % 1, numpy.arange(finer) / finer, wave, period=1)
         return out
 
 
@@ -117,7 +116,6 @@ class Record:
         return self
 
     def scaled(self, by):
-        """Noise of 2 % stays in: the sensor's, of what is small."""
         self.force = self.force * by
         return self
 
@@ -277,20 +275,18 @@ def identified(cut, record, keep=None):
 
 
 def judged(summary):
-    """(misses {key: (value, low, high)}, whether they are called good, width of K_tc)"""
+    """({key: (value, low, high)} of what is wrong, verdict)"""
     result = summary["result"]
-    fit = result["fits"][result["chosen"]] if isinstance(result["chosen"], int) else next(
-        f for f in result["fits"] if f["chip_model"] == result["chosen"])
+    fit = next(f for f in result["fits"] if f["chip_model"] == result["chosen"])
     misses = {}
-    doubted = set(result.get("with_care", [])) | set(result.get("do_not_use", []))
     for key, truth in TRUTH.items():
         found = fit["coefficients"].get(key)
         if found is None or found.get("value") is None or found.get("low") is None:
             continue
         outside = max(found["low"] - truth, truth - found["high"])
         if outside > 0.01 * truth:
-            misses[key] = (found["value"], found["low"], found["high"], key in doubted)
-    return misses, result.get("verdict")
+            misses[key] = (found["value"], found["low"], found["high"])
+    return misses, result["verdict"]
 
 
 def one(kind, tool, seed, keep=None):
@@ -301,9 +297,8 @@ def one(kind, tool, seed, keep=None):
         return {"refused": True, "message": summary["message"] if summary else "?"}
     misses, verdict = judged(summary)
     codes = [w["code"] for w in summary["warnings"]]
-    silent = verdict == "usable" and any(not doubted for *_, doubted in misses.values())
-    return {"refused": False, "misses": misses, "verdict": verdict, "silent": silent,
-            "codes": codes, "message": summary["message"]}
+    return {"refused": False, "misses": misses, "verdict": verdict,
+            "silent": verdict == "usable" and bool(misses), "codes": codes, "message": summary["message"]}
 
 
 def main():
@@ -330,9 +325,8 @@ def main():
         if chosen.list and (a["refused"] or a["misses"]):
             print(f"\n{kind}, {tool}, seed {seed}: {a.get('verdict', 'refused')}"
                   f"\n  {a['message'][:200]}\n  {a.get('codes')}")
-            for key, (value, low, high, doubted) in a.get("misses", {}).items():
-                print(f"    {key} {value:.4g} in {low:.4g} to {high:.4g}, true {TRUTH[key]:g}"
-                      f"{' (doubted)' if doubted else ''}")
+            for key, (value, low, high) in a.get("misses", {}).items():
+                print(f"    {key} {value:.4g} in {low:.4g} to {high:.4g}, true {TRUTH[key]:g}")
 
 
     return sum(a.get("silent", False) for a in answers.values()) > chosen.most_silent

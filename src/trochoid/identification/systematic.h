@@ -50,8 +50,8 @@ struct SensorFault {
 struct Systematics {
   /// Turn, gains, depths and feed, of which no record tells; those that apply.
   std::vector<SystematicEffect> untold;
-  /// Gains and delays of single channels and cross talk that the record tells: what explains most, and
-  /// what explains nearly as much; empty: nothing explains clearly.
+  /// Gains and delays of single channels and cross talk that the record tells: what
+  /// explains most, and what explains nearly as much; empty: nothing explains clearly.
   std::vector<SensorFault> faults;
 };
 
