@@ -171,16 +171,20 @@ is_set_up_for_running() { [ "$root/build/.setup-running" -nt "$root/tools/setup.
 # configure [CMAKE OPTION...]: once; afterwards ninja sees by itself what changed. Without
 # options any earlier choice stands.
 configure() {
-  local stamp=$build/.configured wanted="$root $*"
+  local stamp=$build/.configured wanted="$root $*" how=--fresh
   if [ -f "$stamp" ]; then
     local had
     had=$(<"$stamp")
     [ "$had" = "$wanted" ] && return
     [ $# = 0 ] && [[ $had == "$root "* ]] && return
+    if [[ $had == "$root "* ]]; then  # --fresh would take away what is compiled, too
+      how=
+      rm -f "$build/CMakeCache.txt"
+    fi
   fi
   say "Configuring the build"
   rm -f "$stamp"
-  if ! (cd "$root" && cmake --fresh --preset release "$@") </dev/null >>"$log" 2>&1; then
+  if ! (cd "$root" && cmake $how --preset release "$@") </dev/null >>"$log" 2>&1; then
     tail -n 25 "$log" >&2
     stop "CMake did not succeed; above is the end of $log." \
       "A fresh start may help: rm -rf '$root/build'"
