@@ -53,5 +53,6 @@ if(TARGET trochoid_python)
 endif()
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian_copyright RENAME copyright
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian EXCLUDE_FROM_ALL)
+trochoid_install_licences(debian libhdf5-dev libaec-dev)
 
 include(CPack)

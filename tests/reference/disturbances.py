@@ -51,12 +51,15 @@ class Cut:
     """The forces of one tool over a turn, as the program computes them."""
 
     def __init__(self, name, **changes):
+        self.name = name
         self.case = {table: dict(keys) for table, keys in TOOLS[name].items()}
         for table, keys in changes.items():
             if table == "runout":
                 self.case[table] = keys
             else:
                 self.case[table] = {**self.case[table], **keys}
+        if self.case["cut"]["engagement"] == "arcs":
+            self.case["cut"].pop("radial_depth_mm", None)
         self.rpm = self.case["cut"]["spindle_rpm"]
         self.teeth = self.case["tool"]["teeth"]
         sampled = {**self.case, "force": {"law": "linear_edge", **TRUTH},
@@ -70,6 +73,19 @@ class Cut:
         force = numpy.array([[float(r[c]) for c in ("Fx_N", "Fy_N", "Fz_N")] for r in rows])
         self.lines = numpy.fft.rfft(force, axis=0) / FINE
         self.size = numpy.sqrt((force ** 2).sum(axis=1).mean())
+
+    def between(self, sines):
+        """The same where the stock lies within these bounds of sin(immersion angle) only: the
+        cutter enters it, or leaves it, through a wall that stands across the path."""
+        low, high = (numpy.degrees(numpy.arcsin(numpy.clip(s, -1, 1))) for s in sines)
+        R = self.case["tool"]["diameter_mm"] / 2
+        full = numpy.degrees(numpy.arccos(1 - self.case["cut"].get("radial_depth_mm", 2 * R) / R))
+        arc = (180 - full, 180) if self.case["cut"]["engagement"] == "down" else (0, full)
+        arcs = [[max(a, arc[0]), min(b, arc[1])] for a, b in ((low, high), (180 - high, 180 - low))]
+        if arcs[0][1] == arcs[1][0]:
+            arcs = [[arcs[0][0], arcs[1][1]]]
+        arcs = [[float(a), float(b)] for a, b in arcs if b - a > 1e-9]
+        return Cut(self.name, cut={"engagement": "arcs", "arcs_deg": arcs}) if arcs else None
 
     def at(self, turns, response=None):
         """Forces where the spindle has made so many turns; response(axis, Hz) of the sensor."""
@@ -109,6 +125,8 @@ class Record:
         if turns:
             self.turns = turns(self)
         self.force = -cut.at(self.turns, response) * self.inside[:, None]
+        self.frf = None  # rows of the file that the case names
+        self.starts = None  # of the channels [s], where the file tells them
         self.add(noise * cut.size * self.random.standard_normal(self.force.shape))
 
     def add(self, what):
@@ -133,6 +151,59 @@ def two_modes(cut, seed):
     low = [oscillator(f, 0.03) for f in (820.0, 960.0, 1200.0)]
     high = [oscillator(f, 0.03) for f in (1450.0, 1700.0, 2100.0)]
     return Record(cut, seed, response=lambda axis, f: 0.7 * low[axis](f) + 0.3 * high[axis](f))
+
+
+def given_frf(high):
+    """Rings, and the case gives the response with its frequencies so much too high."""
+    modes = [(880.0, 0.03), (1040.0, 0.03), (1310.0, 0.03)]
+
+    def record(cut, seed):
+        true = [oscillator(*mode) for mode in modes]
+        told = [oscillator(f * (1 + high), damping) for f, damping in modes]
+        r = Record(cut, seed, response=lambda axis, f: true[axis](f))
+        f = numpy.arange(0.0, 3001.0, 2.0)
+        r.frf = numpy.column_stack([f] + [part for axis in range(3)
+                                          for part in (told[axis](f).real, told[axis](f).imag)])
+        return r
+    return record
+
+
+def a_pass(cut, seed):
+    """Through a block: the arc of the cut grows over the first radius of feed, to the last sine
+    of the immersion angle, and goes in the same way at the far end."""
+    r = Record(cut, seed)
+    levels = 40
+    R = cut.case["tool"]["diameter_mm"] / 2
+    speed = cut.case["cut"]["feed_per_tooth_mm"] * cut.teeth * cut.rpm / 60
+    ramp = R / speed  # s
+    whole = 40 * 60 / cut.rpm + 2 * ramp
+    r.time = numpy.arange(int((0.24 + whole) * r.rate)) / r.rate
+    travelled = (r.time - 0.12) / ramp
+    entered = numpy.clip(1 - travelled, 0, 1)
+    left = numpy.clip(whole / ramp - travelled, 0, 1)
+    r.turns = (r.time - 0.12) * cut.rpm / 60 + r.random.uniform()
+    r.force = numpy.zeros((len(r.time), 3))
+    for part, bounds in ((entered, lambda s: (s, 1)), (left, lambda s: (0, s))):
+        ends = part * levels
+        waves = [cut.between(bounds(i / levels)) for i in range(levels + 1)]
+        for i in range(levels):
+            here = numpy.flatnonzero((ends > i) & (ends < i + 1))
+            for one, weight in ((waves[i], i + 1 - ends), (waves[i + 1], ends - i)):
+                if one is not None:
+                    r.force[here] -= one.at(r.turns[here]) * weight[here, None]
+    inside = (entered == 0) & (left == 1)
+    r.force[inside] -= cut.at(r.turns[inside])
+    return r.add(0.02 * cut.size * r.random.standard_normal(r.force.shape))
+
+
+def from_the_entry_on(cut, seed):
+    """The same, triggered a third into the entry and stopped a third before the end of the exit."""
+    r = a_pass(cut, seed)
+    R = cut.case["tool"]["diameter_mm"] / 2
+    ramp = R / (cut.case["cut"]["feed_per_tooth_mm"] * cut.teeth * cut.rpm / 60)
+    here = (r.time > 0.12 + ramp / 3) & (r.time < r.time[-1] - 0.12 - ramp / 3)
+    r.time, r.force = r.time[here], r.force[here]
+    return r
 
 
 def low_pass(cut, seed):
@@ -216,6 +287,17 @@ def late_channels(cut, seed):
     return r
 
 
+def starts_apart(cut, seed):
+    """The channels begin up to 1.4 ms apart, and the file says so."""
+    r = Record(cut, seed)
+    r.starts = numpy.array([0.0, 9e-4, -5e-4])
+    for axis, start in enumerate(r.starts):
+        turns = r.turns + start * cut.rpm / 60
+        inside = (r.time + start >= 0.12) & (r.time + start < 0.12 + 40 * 60 / cut.rpm)
+        r.force[:, axis] = -cut.at(turns)[:, axis] * inside
+    return r.add(0.02 * cut.size * r.random.standard_normal(r.force.shape))
+
+
 KINDS = {
     "white noise of 2 %": Record,
     "white noise of 8 %": lambda cut, seed: Record(cut, seed, noise=0.08),
@@ -225,7 +307,11 @@ KINDS = {
     "rings, 214.3 samples a turn": ringing(10000 / 2800 * 60),
     "rings, 300 samples a turn": ringing(300.0),
     "rings in two modes": two_modes,
+    "rings, response given": given_frf(0.0),
+    "rings, response 1 % too high": given_frf(0.01),
     "low-pass at 280 Hz": low_pass,
+    "entry and exit": a_pass,
+    "entry and exit, no air": from_the_entry_on,
     "speed sags by 0.2 %": speed(lambda part: -0.002 * part),
     "speed sags by 1 %": speed(lambda part: -0.01 * part),
     "speed ripples by 1 %": speed(lambda part: 0.01 * numpy.sin(6 * numpy.pi * part)),
@@ -240,6 +326,7 @@ KINDS = {
     "chatter": in_the_cut(lambda cut: 7.37 * cut.rpm / 60, 0.25),
     "stuck samples, 5 %": stuck,
     "y is late by 0.3 ms": late_channels,
+    "channels start 1.4 ms apart": starts_apart,
 }
 DEAD = "a tooth that never cuts"
 
@@ -250,12 +337,38 @@ def dead_tooth(name):
     return Cut(name, runout={"radial_offsets_mm": [0.0, -0.08] + [0.0] * (teeth - 2)})
 
 
-def asked(cut, folder):
+def asked(cut, record, folder):
     case = {table: keys for table, keys in cut.case.items() if table != "runout"}
     case["force"] = {"law": "linear_edge"}
     case["dynamometer"] = {"axes": ["-x", "-y", "-z"]}
-    case["measurement"] = [{"file": "record.csv"}]
+    case["measurement"] = [{"file": "record.lvm" if record.starts is not None else "record.csv"}]
+    if record.frf is not None:
+        case["dynamometer"]["frf"] = "response.csv"
+        names = [f"H{axis}{axis}_{part}" for axis in (1, 2, 3) for part in ("re", "im")]
+        numpy.savetxt(folder / "response.csv", record.frf, fmt="%.9g", delimiter=",",
+                      header="freq_Hz," + ",".join(names), comments="")
     (folder / "case.toml").write_text(text_of(case))
+
+
+def written(record, folder):
+    if record.starts is None:
+        with (folder / "record.csv").open("w") as file:
+            file.write("time_s,Fx_N,Fy_N,Fz_N\n")
+            numpy.savetxt(file, numpy.column_stack([record.time, record.force]), fmt="%.9g",
+                          delimiter=",")
+        return
+    rows = {"Channels": ["3"], "Samples": [str(len(record.time))] * 3, "Y_Unit_Label": ["N"] * 3,
+            "X_Dimension": ["Time"] * 3, "X0": [f"{start:.9g}" for start in record.starts],
+            "Delta_X": [f"{1 / record.rate:.12g}"] * 3}
+    with (folder / "record.lvm").open("w") as file:
+        file.write("LabVIEW Measurement\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\n"
+                   "Decimal_Separator\t.\nMulti_Headings\tYes\nX_Columns\tNo\n"
+                   "***End_of_Header***\n\n")
+        for name, values in rows.items():
+            file.write("\t".join([name, *values]) + "\n")
+        file.write("***End_of_Header***\nX_Value\tFx\tFy\tFz\tComment\n")
+        for row in record.force:
+            file.write("\t" + "\t".join(f"{value:.9g}" for value in row) + "\n")
 
 
 def identified(cut, record, keep=None):
@@ -263,11 +376,8 @@ def identified(cut, record, keep=None):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(keep or name)
         folder.mkdir(exist_ok=True)
-        asked(cut, folder)
-        with (folder / "record.csv").open("w") as file:
-            file.write("time_s,Fx_N,Fy_N,Fz_N\n")
-            numpy.savetxt(file, numpy.column_stack([record.time, record.force]), fmt="%.9g",
-                          delimiter=",")
+        asked(cut, record, folder)
+        written(record, folder)
         done = subprocess.run([PROGRAM, "identify", "case.toml", "-o", "out", "-q", "--no-report"],
                               cwd=folder, capture_output=True, text=True, timeout=WITHIN, check=False)
         file = folder / "out/summary.json"
