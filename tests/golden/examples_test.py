@@ -220,6 +220,18 @@ class ProcessDamping(Example):
             self.assertEqual(moved.result["linear_growth_per_turn"] > 1, chatter)
 
 
+class RunoutCorrection(Example):
+    def test_a_short_tooth_of_a_moving_cut_is_found_by_the_exact_chip(self):
+        """A search that stopped at its iteration limit left 20 % of the force, by the feed's chip."""
+        shutil.copytree(EXAMPLES / "runout_correction", self.folder / "correction")
+        answer = program.run("identify", (EXAMPLES / "runout_correction/measured.toml").read_text(),
+                             self.folder / "correction", "measured")
+        self.assertEqual(answer.result["chosen"], "trochoidal")
+        fit = next(f for f in answer.result["fits"] if f["chip_model"] == "trochoidal")
+        self.assertAlmostEqual(fit["runout"]["radial_offsets_mm"][1], -0.0256, delta=1e-3)
+        self.assertLess(fit["unexplained"]["in_band"], 0.05)
+
+
 class RunoutOnATable(Example):
     """Peaks of Fy made by an adaptive method of steps, in G26 and G27 of the worked cases."""
 

@@ -144,6 +144,18 @@ ChipCurve chip_curve(const Setup& setup, double height) {
   return curve;
 }
 
+std::vector<std::size_t> idle_teeth(const ChipCurve& curve) {
+  constexpr double hardly = 0.02;
+  std::vector<double> peaks;
+  for (const auto& h : curve.h) peaks.push_back(std::ranges::max(h));
+  const double peak = peaks.empty() ? 0.0 : std::ranges::max(peaks);
+  std::vector<std::size_t> idle;
+  for (std::size_t j = 0; j < peaks.size() && peak > 0.0; ++j) {
+    if (peaks[j] < hardly * peak) idle.push_back(j);
+  }
+  return idle;
+}
+
 ChipGrid chip_grid(const Setup& setup, std::span<const double> theta,
                    std::span<const double> heights) {
   ChipGrid grid{.theta = {theta.begin(), theta.end()},

@@ -77,6 +77,10 @@ struct ChipCurve {
   std::vector<std::vector<double>> h;  ///< [m], shape (teeth, angles)
 };
 
+/// @brief Teeth that cut less than a fiftieth of the thickest chip, from 0; none where no tooth
+/// cuts.
+std::vector<std::size_t> idle_teeth(const ChipCurve& curve);
+
 /// @brief From a little before to a little after the front of the tool, in half degrees.
 ChipCurve chip_curve(const Setup& setup, double height);
 

@@ -412,6 +412,27 @@ bool teeth_are_alike(const Problem& problem) {
   return geometry::runs_true(given);
 }
 
+namespace {
+
+/// A tooth that is shorter than the longest by more feeds than this is no reference.
+constexpr double too_short = 0.5;
+
+/// By how many teeth to renumber beside `passed`: none, or to the next tooth that has the
+/// stated diameter. From a tooth that hardly cuts all others would stand out, and so far
+/// deeper into the stock than the radial depth says.
+int to_a_long_tooth(const Unknowns& u, std::span<const double> offsets, int passed) {
+  if (offsets.empty()) return 0;
+  const double least = std::ranges::max(offsets) - too_short * u.length;
+  for (int by = 0; by < u.teeth; ++by) {
+    const int step = by % 2 == 0 ? -by / 2 : (by + 1) / 2;
+    const int tooth = ((passed + step) % u.teeth + u.teeth) % u.teeth;
+    if (offsets[index(tooth)] >= least) return step;
+  }
+  return 0;
+}
+
+}  // namespace
+
 bool apply_gauge(const Problem& problem, std::vector<double>& p) {
   const Unknowns& u = problem.unknowns;
   if (u.phases == 0) return false;
@@ -419,7 +440,8 @@ bool apply_gauge(const Problem& problem, std::vector<double>& p) {
   const double pitch = unit::turn / u.teeth;
   int shift = 0;
   if (teeth_are_alike(problem)) {
-    const auto passed = static_cast<int>(std::floor(point.phase[0] / pitch + 0.5));
+    auto passed = static_cast<int>(std::floor(point.phase[0] / pitch + 0.5));
+    passed += to_a_long_tooth(u, point.runout.radial_offsets, passed);
     shift = ((passed % u.teeth) + u.teeth) % u.teeth;
     for (double& phase : point.phase) phase -= passed * pitch;
   }

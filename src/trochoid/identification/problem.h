@@ -174,7 +174,8 @@ std::size_t first_column(const Problem& problem, std::size_t r) noexcept;
 bool teeth_are_alike(const Problem& problem);
 
 /// @brief Choose names: phase of the first run in [-pi/N, pi/N) when the teeth are
-/// alike, else in [-pi, pi); other phases in [-pi, pi).
+/// alike, or as near to it as no tooth that is half a feed shorter than another becomes
+/// tooth 1; else in [-pi, pi). Other phases in [-pi, pi).
 /// @return whether teeth were renumbered
 bool apply_gauge(const Problem& problem, std::vector<double>& p);
 

@@ -67,8 +67,8 @@ std::vector<double> amplitudes(const Problem& problem, double some, double much)
 void add_pair_starts(const Problem& problem, std::vector<std::vector<double>>& out) {
   const bool alike = teeth_are_alike(problem);
   for (const double s : amplitudes(problem, 0.4, 1.3)) {
-    out.push_back({s});
-    if (!alike) out.push_back({-s});
+    out.push_back({-s});
+    if (!alike) out.push_back({s});
   }
 }
 
@@ -85,8 +85,10 @@ void add_offset_starts(const Problem& problem, std::vector<std::vector<double>>&
       out.push_back(eccentric_offsets(psi, amplitude, lambda));
     }
   }
-  for (std::size_t tooth = 0; tooth < (alike ? 1 : n) && n <= 8; ++tooth) {
-    std::vector<double> s(n - 1, tooth == 0 ? 0.8 : 0.0);  // tooth 1 alone is short
+  // One tooth alone is short: tooth 2 where they are alike, for tooth 1 has the diameter that
+  // bounds the arc of the cut.
+  for (std::size_t tooth = alike ? 1 : 0; tooth < (alike ? 2 : n) && n <= 8; ++tooth) {
+    std::vector<double> s(n - 1, tooth == 0 ? 0.8 : 0.0);
     if (tooth > 0) s[tooth - 1] = -0.8;
     out.push_back(s);
   }

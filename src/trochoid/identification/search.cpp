@@ -256,12 +256,15 @@ Minimum settle(const Problem& problem, const std::vector<double>& start) {
   options.function_tolerance = 1e-24;
   options.standard_errors = last_step;
   Minimum out = refine(problem, start, {}, options);
-  if (out.converged || problem.stop.exhausted()) return out;
-  // Kinks of the sum of squares can keep the steps from vanishing; what counts is that
-  // they no longer gain anything.
-  Minimum again = refine(problem, out.p, {}, options);
-  again.converged = again.converged || again.rss > out.rss * (1.0 - 1e-6);
-  return again;
+  // Kinks of the sum of squares can keep the steps from vanishing, at a tooth that just stops
+  // cutting above all; what counts is that they no longer gain anything.
+  constexpr int rounds = 12;
+  for (int i = 0; i < rounds && !out.converged && !problem.stop.exhausted(); ++i) {
+    Minimum again = refine(problem, out.p, {}, options);
+    again.converged = again.converged || again.rss > out.rss * (1.0 - 1e-6);
+    out = std::move(again);
+  }
+  return out;
 }
 
 Minimum coarse_search(const Problem& problem,

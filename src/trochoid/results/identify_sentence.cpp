@@ -68,10 +68,25 @@ std::string eccentricity_of(const Fit& fit) {
                        fit.interval_factor * *fit.eccentricity_se / unit::um));
 }
 
-std::string runout_of(const Fit& fit) {
+/// The teeth that cut nothing, as they were warned of.
+std::string idle_of(const IdentifyResult& r) {
+  const bool warned = std::ranges::any_of(
+      r.heading.warnings,
+      [](const base::Warning& w) { return w.code == "idle_tooth"; });
+  if (!warned) return {};
+  const auto idle = force::idle_teeth(*r.curve);
+  if (idle.size() == 1) return fmt::format("; tooth {} cuts nothing", idle.front() + 1);
+  std::vector<std::size_t> numbers;
+  for (const std::size_t tooth : idle) numbers.push_back(tooth + 1);
+  return fmt::format("; teeth {} cut nothing", fmt::join(numbers, ", "));
+}
+
+std::string runout_of(const IdentifyResult& r) {
+  const Fit& fit = r.fits[*r.chosen];
   if (!chip::feels_runout(fit.chip.model)) {
     return {};
   }
+  if (std::string idle = idle_of(r); !idle.empty()) return idle;
   std::string text;
   for (const std::string& part : {offsets_of(fit), eccentricity_of(fit)}) {
     if (!part.empty()) text += "; " + part;
@@ -121,7 +136,7 @@ std::string identification_sentence(const IdentifyResult& r) {
     return fmt::format("{} {}", verdict, unexplained_of(r));
   }
   const Fit& fit = r.fits[*r.chosen];
-  return fmt::format("{} {}{}. {}", verdict, coefficients_of(fit), runout_of(fit),
+  return fmt::format("{} {}{}. {}", verdict, coefficients_of(fit), runout_of(r),
                      unexplained_of(r));
 }
 

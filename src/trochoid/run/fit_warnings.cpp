@@ -47,6 +47,7 @@ constexpr auto care = std::to_array<std::pair<std::string_view, std::string_view
     {"poor_fit", "much of the force is not explained"},
     {"outside_the_band", "much of the force lies outside of the band"},
     {"other_model_fits_better", "a simpler chip model fits better"},
+    {"no_exact_fit", "a more exact chip model has no fit"},
     {"runout_form", "another form of runout explains more"},
     {"few_equations", "hardly more equations than unknowns"},
     {"runout_above_feed", "the teeth differ by more than the feed"},
@@ -237,7 +238,9 @@ void warn_large_runout(const cases::Case& given, const Fit& chosen,
       hi = std::max(hi, offsets[k]);
     }
   }
-  if (hi - lo > given.setup.cut.f_z) {
+  const bool idle = std::ranges::any_of(
+      warnings, [](const base::Warning& w) { return w.code == "idle_tooth"; });
+  if (!idle && hi - lo > given.setup.cut.f_z) {
     warnings.push_back(
         {"runout_above_feed",
          fmt::format("The teeth differ by {:.1f} um, more than the feed per tooth: a "
@@ -262,11 +265,11 @@ void warn_edge(const Fit& chosen, Warnings& warnings) {
 void add_fit_warnings(const cases::Case& given, std::span<const Fit> fits,
                       const Fit& chosen, Warnings& warnings) {
   for (const Fit& fit : fits) {
-    if (!fit.ok) {
-      warnings.push_back(
-          {"no_fit", fmt::format("chip model {}: {}", chip::name_of(fit.chip.model),
-                                 fit.message)});
-    }
+    if (fit.ok) continue;
+    const bool better = fit.chip.model > chosen.chip.model;
+    warnings.push_back(
+        {better ? "no_exact_fit" : "no_fit",
+         fmt::format("chip model {}: {}", chip::name_of(fit.chip.model), fit.message)});
   }
   warn_unidentifiable(chosen, warnings);
   for (const Group& group : identification::groups_of(chosen)) {

@@ -325,11 +325,24 @@ void add_left_out(const std::vector<std::string>& left_out, const base::Stop& st
       warnings);
 }
 
+void warn_idle_teeth(const IdentifyResult& r, Warnings& warnings) {
+  for (const std::size_t tooth : force::idle_teeth(*r.curve)) {
+    warnings.push_back(
+        {"idle_tooth",
+         fmt::format(
+             "Tooth {} cuts nothing: it is too short for the chips that the others "
+             "leave. Its offset is a limit: it may be shorter. Look whether it is "
+             "broken, and whether the number of teeth is right.",
+             tooth + 1)});
+  }
+}
+
 /// Warnings, and before everything else whether the numbers may be used at all.
 void judge(const Task& task, IdentifyResult& r, std::vector<std::string>& left_out) {
   const Fit& chosen = r.fits[*r.chosen];
   auto& warnings = r.heading.warnings;
   r.reasons_against = identification::reasons_against(chosen);
+  if (!task.given.setup.cutter.serration) warn_idle_teeth(r, warnings);
   add_fit_warnings(task.given, r.fits, chosen, warnings);
   warn_form(r.runout_form, warnings);
   if (!r.reasons_against.empty()) {

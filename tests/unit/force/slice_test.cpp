@@ -61,6 +61,15 @@ TEST(ChipCurve, HasOneCurveATooth) {
   EXPECT_GT(*std::max_element(curve.h[0].begin(), curve.h[0].end()), 59.9e-6);
 }
 
+TEST(IdleTeeth, CutHardlyAnything) {
+  force::Setup setup = setup_of(geometry::cylinder(10e-3));
+  EXPECT_TRUE(idle_teeth(chip_curve(setup, 0.0)).empty());
+  setup.runout.radial_offsets = {0.0, -0.9 * setup.cut.f_z};
+  EXPECT_TRUE(idle_teeth(chip_curve(setup, 0.0)).empty());
+  setup.runout.radial_offsets = {0.0, -1.2 * setup.cut.f_z};
+  EXPECT_EQ(idle_teeth(chip_curve(setup, 0.0)), (std::vector<std::size_t>{1}));
+}
+
 TEST(ForceStatistics, AreThoseOfTheCourse) {
   const std::vector<Loads> loads = {{{1, 0, -2}, 3, 1}, {{3, 4, -2}, -1, 5}};
   const ForceStatistics s = force_statistics(loads);

@@ -129,6 +129,13 @@ TEST(FitWarnings, SayThatALesserModelFitsBetter) {
   other.ok = false;
   other.message = "too few samples";
   EXPECT_EQ(code(sound(), given(), {other}), "no_fit");
+  other.chip.model = chip::Model::trochoidal;
+  Fit lesser = sound();
+  lesser.chip.model = chip::Model::feed;
+  const auto all = warnings(lesser, given(), {other});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all.front().code, "no_exact_fit");
+  EXPECT_EQ(reasons_for_care(all).size(), 1U);
 }
 
 TEST(FitWarnings, SayThatAToothMayIdle) {
