@@ -67,6 +67,29 @@ double inner_rss_of(const ChannelProblem& problem) {
   return sum;
 }
 
+/// Let the covariance grow by the errors of the offsets that were taken out (I-24).
+/// @param A  equations of `known`, data weighted by `scale`
+void count_offsets(const ChannelProblem& problem, const std::vector<double>& A,
+                   double scale, double tolerance, numerics::Combinations& known) {
+  const std::size_t channels = problem.channels();
+  std::size_t first = 0;  // row of the block
+  for (const ChannelBlock& block : problem.blocks) {
+    for (std::size_t k = 0; k < block.offset_se.size(); ++k) {
+      if (!(block.offset_se[k] > 0.0)) continue;
+      std::vector<double> b(A.size() / known.x.size(), 0.0);
+      for (std::size_t i = 0; i < block.angles(); ++i) {
+        b[first + i * channels + k] =
+            scale * block.root[i] * block.weight[k] * block.offset_se[k];
+      }
+      const auto moved = solved({A, b}, tolerance).value;
+      for (std::size_t i = 0; i < known.covariance.size(); ++i) {
+        known.covariance[i] += moved[i / moved.size()] * moved[i % moved.size()];
+      }
+    }
+    first += block.angles() * channels;
+  }
+}
+
 /// @param search  its scale becomes what the data tell, where standard deviations are relative
 ChannelAnswer answer_at(ChannelSearch& search, std::vector<double> p) {
   const ChannelProblem& problem = search.problem;
@@ -94,10 +117,13 @@ ChannelAnswer answer_at(ChannelSearch& search, std::vector<double> p) {
       out.p.empty() ? channel_rank_tolerance
                     : std::clamp(hardly_apart / out.data.condition,
                                  channel_rank_tolerance, slope_rank_tolerance);
-  out.known = solved(with_prior(problem, J, search.y, search.scale), tolerance);
+  const Equations all = with_prior(problem, J, search.y, search.scale);
+  out.known = solved(all, tolerance);
+  count_offsets(problem, all.A, search.scale, tolerance, out.known);
   std::vector<double> scaled = J;
   for (double& a : scaled) a *= search.scale;
   out.alone = solved({scaled, search.y}, tolerance);
+  count_offsets(problem, scaled, search.scale, tolerance, out.alone);
   return out;
 }
 

@@ -19,6 +19,8 @@ struct ChannelData {
       angle;  ///< recorded angle [rad], shape (n); empty: a mean of turns
   std::vector<double> value;  ///< N, N m, W, shape (n, channels); of a mean (channels)
   std::vector<double> sd;     ///< of one value of each channel, shape (channels)
+  /// Standard error of the offset that was taken out of each channel; empty: none was.
+  std::vector<double> offset_se = {};
 };
 
 /// What is to be found from channels, and how.
@@ -47,7 +49,8 @@ struct ChannelRequest {
 ///
 /// @eq I-27 minimise |W (y - D(p) K)|^2 + sum of ((K_c - K0_c)/sd_c)^2 over K and p
 /// @eq I-28 covariance s^2 (J^T J)^-1, J = [W D | W d(D K)/dp] with the rows of the prior;
-///          s^2 = 1 where the standard deviations are known, else RSS/(n - rank - dim p)
+///          s^2 = 1 where the standard deviations are known, else RSS/(n - rank - dim p);
+///          it grows by the errors of the offsets that were taken out (I-24)
 /// @src derived
 ///
 /// @param setup  tool and given runout, which is the start of the search; its `cut` and

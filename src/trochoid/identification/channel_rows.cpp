@@ -63,9 +63,10 @@ std::size_t bins_for(const ChannelProblem& problem, std::size_t angles) {
 
 void check_shapes(const ChannelData& data, std::size_t channels) {
   const std::size_t rows = data.angle.empty() ? 1 : data.angle.size();
-  if (data.value.size() != rows * channels || data.sd.size() != channels) {
+  if (data.value.size() != rows * channels || data.sd.size() != channels ||
+      (!data.offset_se.empty() && data.offset_se.size() != channels)) {
     throw std::invalid_argument(
-        "channels: one value and one sd of each channel needed");
+        "channels: one value, sd and offset_se of each channel needed");
   }
 }
 
@@ -167,6 +168,7 @@ ChannelBlock block_of(const ChannelData& data, const ChannelProblem& problem) {
   const std::size_t channels = problem.channels();
   check_shapes(data, channels);
   ChannelBlock block{.cut = data.cut, .angle = data.angle};
+  if (!problem.request.fit_channel_offsets) block.offset_se = data.offset_se;
   for (const double sd : data.sd) block.weight.push_back(1.0 / sd);
   std::vector<double> value = data.value;
   block.equations = static_cast<double>(value.size());

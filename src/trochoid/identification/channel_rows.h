@@ -17,8 +17,9 @@ struct ChannelBlock {
   geometry::Cut cut;
   std::vector<double> angle;  ///< recorded [rad]; empty: means
   std::vector<double> root;   ///< of the samples behind each angle, shape (angles or 1)
-  std::vector<double> weight;  ///< 1/sd of each channel
-  std::vector<double> y;       ///< weighted, shape (angles or 1, channels)
+  std::vector<double> weight;     ///< 1/sd of each channel
+  std::vector<double> offset_se;  ///< as of ChannelData
+  std::vector<double> y;          ///< weighted, shape (angles or 1, channels)
   /// Orthonormal courses that are no force: constant and slope; empty: none.
   std::vector<std::vector<double>> drift;
   double inner_rss =

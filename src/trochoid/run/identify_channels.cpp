@@ -53,6 +53,10 @@ ChannelData data_of(const MeasuredRun& run, std::size_t channels) {
           run.file, c + 1)});
     }
     columns.push_back(c < 3 ? &run.run.channel[c] : &run.further[c - 3]);
+    const auto& further_se = run.further_offset_se;
+    data.offset_se.push_back(c < 3                ? run.run.offset_se[c]
+                             : further_se.empty() ? 0.0
+                                                  : further_se[c - 3]);
   }
   data.value.reserve(data.angle.size() * channels);
   for (std::size_t i = 0; i < data.angle.size(); ++i) {

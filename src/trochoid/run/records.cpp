@@ -215,15 +215,8 @@ void warn_of_drift(const signal::Record& record, const signal::RemovedDrift& dri
 }
 
 /// Where nothing cuts a channel reads its offset.
-signal::RemovedDrift take_drift_out(const cases::Case& given,
-                                    std::span<const double> angle,
-                                    std::span<const signal::Part> air,
-                                    const signal::Part& cut, signal::Record& record) {
-  using cases::ChannelOffset;
-  const ChannelOffset how = given.identify.channel_offsets;
-  if (how != ChannelOffset::idle && how != ChannelOffset::automatic) return {};
-  signal::remove_drift(record.further, angle, air, cut);
-  return signal::remove_drift(record.channel, angle, air, cut);
+bool is_read_off_air(cases::ChannelOffset how) {
+  return how == cases::ChannelOffset::idle || how == cases::ChannelOffset::automatic;
 }
 
 /// Code of the warning, and what the channel does.
@@ -448,8 +441,12 @@ void keep_cut(const cases::Case& given, const cases::Measurement& measurement,
   const auto [angle, passes] = told_apart(record, measurement.cut);
   const UsedPart used = used_part(record, angle, passes, measurement);
   run.overview = signal::overview_of(record, angle, used.part);
-  const signal::RemovedDrift drift =
-      take_drift_out(given, angle, passes.air, used.part, record);
+  signal::RemovedDrift drift;
+  if (is_read_off_air(given.identify.channel_offsets)) {
+    drift = signal::remove_drift(record.channel, angle, passes.air, used.part);
+    run.further_offset_se =
+        signal::remove_drift(record.further, angle, passes.air, used.part);
+  }
   warn_of_drift(record, drift,
                 given.identify.channel_offsets == cases::ChannelOffset::idle, warnings);
   run.offset_taken_out = drift.offset;

@@ -22,6 +22,7 @@ struct MeasuredRun {
   bool offset_taken_out = false;   ///< what the channels read where nothing cuts
   signal::Overview overview = {};  ///< of the whole record
   std::vector<std::vector<double>> further = {};  ///< channels beyond the third
+  std::vector<double> further_offset_se = {};     ///< as of Run, of these channels
 };
 
 /// @brief Why a record without all three channels cannot be used with the dynamometer of a

@@ -49,8 +49,9 @@ RemovedDrift remove_drift(std::array<std::vector<double>, 3>& channels,
                           const Part& cut);
 
 /// @brief The same of any number of channels, three at a time.
-void remove_drift(std::vector<std::vector<double>>& channels,
-                  std::span<const double> angle, std::span<const Part> idle,
-                  const Part& cut);
+/// @return offset_se of RemovedDrift, shape (channels)
+std::vector<double> remove_drift(std::vector<std::vector<double>>& channels,
+                                 std::span<const double> angle,
+                                 std::span<const Part> idle, const Part& cut);
 
 }  // namespace trochoid::signal

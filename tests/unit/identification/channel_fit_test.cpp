@@ -109,6 +109,39 @@ TEST(ChannelFit, FindsTheAngleOfTheSensor) {  // [I-27]
   for (std::size_t c = 0; c < 6; ++c) EXPECT_LT(std::abs(off(fit, c)), 4.0) << c;
 }
 
+/// What one standard error of an offset does to a coefficient is in its interval.
+TEST(ChannelFit, CountsTheErrorOfOffsetsThatWereTakenOut) {  // [I-24] [I-28]
+  force::Setup setup = slot_setup(3, 30.0, 3.0 * unit::mm);
+  setup.runout.radial_offsets = {0.0, 9.0 * unit::um, -6.0 * unit::um};
+  const force::Sensor sensor =
+      sensor_of({ChannelAxis::u, ChannelAxis::v, ChannelAxis::z, ChannelAxis::torque});
+  const ChannelData data =
+      made_data(setup, sensor, {.phase = 2.1, .per_turn = 180}, 0.01);
+  const auto fitted = [&](const ChannelData& one) {
+    return fit_channels(setup, steel(), sensor, std::vector{one},
+                        {.runout = RunoutUnknowns::offsets, .phase = 2.1});
+  };
+  const Fit exact = fitted(data);
+  ChannelData read = data;
+  read.offset_se = {0.0, 0.0, 1e-3 * data.sd[2], 0.0};
+  const Fit known = fitted(read);
+  for (double& se : read.offset_se) se *= 1e3;
+  const Fit wide = fitted(read);
+  ChannelData moved = data;
+  for (std::size_t i = 2; i < moved.value.size(); i += 4) {
+    moved.value[i] += read.offset_se[2];
+  }
+  const Fit off_by_one = fitted(moved);
+  for (std::size_t c = 0; c < 6; ++c) {
+    const double by = value_of(off_by_one, c) - value_of(exact, c);
+    const double se = exact.coefficients[c]->se;
+    EXPECT_NEAR(known.coefficients[c]->se, se, 1e-3 * se) << c;
+    EXPECT_NEAR(wide.coefficients[c]->se, std::hypot(se, by),
+                0.02 * std::hypot(se, by));
+  }
+  EXPECT_GT(wide.coefficients[2]->se, 2 * exact.coefficients[2]->se);
+}
+
 /// Four teeth half a turn later read the same with all coefficients turned: the spindle drives.
 TEST(ChannelFit, TakesTheReadingThatTheSpindleDrives) {  // [I-27]
   force::Setup setup = slot_setup(4, 30.0, 3.0 * unit::mm);

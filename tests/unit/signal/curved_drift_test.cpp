@@ -88,6 +88,23 @@ TEST(CurvedDrift, HasNoConstantWithoutAir) {
   EXPECT_EQ(drift.offset_se[0], 0.0);
 }
 
+TEST(CurvedDrift, IsTakenOutOfAnyNumberOfChannels) {
+  const Samples s = with({}, [](double x) { return 30.0 * fading(x); });
+  const Passes passes = passes_of(s.channel, s.angle);
+  const Part cut = longest_steady(passes);
+  Channels three = s.channel;
+  const RemovedDrift removed = remove_drift(three, s.angle, passes.air, cut);
+  std::vector<std::vector<double>> four(s.channel.begin(), s.channel.end());
+  four.push_back(s.channel[0]);
+  const std::vector<double> se = remove_drift(four, s.angle, passes.air, cut);
+  ASSERT_EQ(se.size(), 4U);
+  for (std::size_t c = 0; c < 4; ++c) {
+    EXPECT_GT(se[c], 0.0);
+    EXPECT_EQ(se[c], removed.offset_se[c % 3]);
+    EXPECT_EQ(four[c], three[c % 3]);
+  }
+}
+
 TEST(CurvedDrift, IsNotReadOffMeansThatJump) {
   Samples s = make({});
   for (std::size_t i = 0; i < s.angle.size(); ++i) {
