@@ -19,6 +19,8 @@ using Channels = std::array<std::vector<double>, 3>;
 
 /// Fewer turns of the cut tell no curve.
 constexpr std::size_t least_turns_of_cut = 12;
+/// The first and last of a cut may have a part of entry or exit in them.
+constexpr std::size_t turns_beside_entry = 2;
 constexpr int highest_order = 6;
 /// Of a drift that is known on one side of the cut only.
 constexpr int highest_order_one_sided = 3;
@@ -41,6 +43,8 @@ constexpr double sure_growth = 4.0;
 struct TurnMean {
   double x = 0.0;  ///< -1 to 1 over the record
   double mean = 0.0;
+  double variance =
+      0.0;  ///< of the mean, were all that varies within the turn white noise
   bool cuts = false;
 };
 
@@ -48,16 +52,17 @@ struct TurnMean {
 void add_turns(std::span<const double> y, std::span<const double> angle,
                const Part& part, bool cuts, std::vector<TurnMean>& out) {
   std::size_t begin = part.begin;
-  double sum = 0.0;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (angle[i] >= angle[begin] + unit::turn - 1e-9) {
-      const double middle = 0.5 * static_cast<double>(begin + i - 1);
-      out.push_back({2 * middle / static_cast<double>(y.size() - 1) - 1,
-                     sum / static_cast<double>(i - begin), cuts});
-      begin = i;
-      sum = 0.0;
-    }
-    sum += y[i];
+    if (angle[i] < angle[begin] + unit::turn - 1e-9) continue;
+    const auto turn = y.subspan(begin, i - begin);
+    const auto n = static_cast<double>(turn.size());
+    const double mean = std::accumulate(turn.begin(), turn.end(), 0.0) / n;
+    double squares = 0.0;
+    for (const double v : turn) squares += (v - mean) * (v - mean);
+    const double middle = 0.5 * static_cast<double>(begin + i - 1);
+    out.push_back({2 * middle / static_cast<double>(y.size() - 1) - 1, mean,
+                   squares / (n * n), cuts});
+    begin = i;
   }
 }
 
@@ -176,6 +181,14 @@ std::optional<Curve> curve_through(const Means& means, int highest) {
   return best->squares < most_left * free ? best : std::nullopt;
 }
 
+/// How far means of turns in air scatter at least: a few of them may agree by chance.
+double white_noise_of(std::span<const TurnMean> air) {
+  if (air.empty()) return 0.0;
+  double sum = 0.0;
+  for (const TurnMean& turn : air) sum += turn.variance;
+  return std::sqrt(sum / static_cast<double>(air.size()));
+}
+
 /// Means of the turns of a channel, and how far they scatter.
 /// @return nothing: the cut is too short, or there is no force
 std::optional<Means> means_of(std::span<const double> y, std::span<const double> angle,
@@ -189,7 +202,11 @@ std::optional<Means> means_of(std::span<const double> y, std::span<const double>
   }
   means.of_air = means.turns.size();
   add_turns(y, angle, cut, true, means.turns);
-  if (means.turns.size() - means.of_air < least_turns_of_cut) return std::nullopt;
+  const std::size_t of_cut = means.turns.size() - means.of_air;
+  if (of_cut < least_turns_of_cut + 2 * turns_beside_entry) return std::nullopt;
+  const auto first = means.turns.begin() + static_cast<std::ptrdiff_t>(means.of_air);
+  means.turns.erase(first, first + turns_beside_entry);
+  means.turns.resize(means.turns.size() - turns_beside_entry);
   const auto forces = y.subspan(cut.begin, cut.size());
   const double squares =
       std::inner_product(forces.begin(), forces.end(), forces.begin(), 0.0);
@@ -198,8 +215,9 @@ std::optional<Means> means_of(std::span<const double> y, std::span<const double>
   if (!(least > 0)) return std::nullopt;
   Scatter in_cut;
   in_cut.add(std::span(means.turns).subspan(means.of_air));
-  means.in_cut = std::max(in_cut.value().value_or(0.0), least);
-  means.in_air = std::max(in_air.value().value_or(means.in_cut), least);
+  const double white = white_noise_of(std::span(means.turns).first(means.of_air));
+  means.in_cut = std::max({in_cut.value().value_or(0.0), white, least});
+  means.in_air = std::max({in_air.value().value_or(means.in_cut), white, least});
   return means;
 }
 
@@ -261,9 +279,10 @@ RemovedDrift remove_drift(Channels& channels, std::span<const double> angle,
   return out;
 }
 
-void remove_drift(std::vector<std::vector<double>>& channels,
-                  std::span<const double> angle, std::span<const Part> idle,
-                  const Part& cut) {
+std::vector<double> remove_drift(std::vector<std::vector<double>>& channels,
+                                 std::span<const double> angle,
+                                 std::span<const Part> idle, const Part& cut) {
+  std::vector<double> offset_se;
   for (std::size_t first = 0; first < channels.size(); first += 3) {
     Channels three;
     const std::size_t count = std::min<std::size_t>(3, channels.size() - first);
@@ -271,9 +290,13 @@ void remove_drift(std::vector<std::vector<double>>& channels,
       three[c] = c < count ? std::move(channels[first + c])
                            : std::vector<double>(angle.size(), 0.0);
     }
-    remove_drift(three, angle, idle, cut);
-    for (std::size_t c = 0; c < count; ++c) channels[first + c] = std::move(three[c]);
+    const RemovedDrift removed = remove_drift(three, angle, idle, cut);
+    for (std::size_t c = 0; c < count; ++c) {
+      channels[first + c] = std::move(three[c]);
+      offset_se.push_back(removed.offset_se[c]);
+    }
   }
+  return offset_se;
 }
 
 }  // namespace trochoid::signal

@@ -35,7 +35,9 @@ struct Line {
 };
 
 /// A line through the means of the idle revolutions.
-Line line_through(std::span<const double> x, std::span<const double> y, bool sloped) {
+/// @param least  variance of a mean: a few of them may agree by chance
+Line line_through(std::span<const double> x, std::span<const double> y, bool sloped,
+                  double least) {
   const auto n = static_cast<double>(x.size());
   Line line;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -55,7 +57,7 @@ Line line_through(std::span<const double> x, std::span<const double> y, bool slo
     rest += r * r;
   }
   const double free = n - (sloped ? 2.0 : 1.0);
-  const double variance = free > 0.0 ? rest / free : 0.0;
+  const double variance = std::max(free > 0.0 ? rest / free : 0.0, least);
   line.mean_se = std::sqrt(variance / n);
   if (sloped && xx > 0.0) line.slope_se = std::sqrt(variance / xx);
   return line;
@@ -91,14 +93,21 @@ std::optional<Drift> idle_drift(const Channels& channels, std::span<const double
   std::vector<double> x(turns.size());
   std::vector<double> y(turns.size());
   for (std::size_t c = 0; c < 3; ++c) {
+    double white =
+        0.0;  // variance of a mean, were all that varies in a turn white noise
     for (std::size_t k = 0; k < turns.size(); ++k) {
       const auto& part = turns[k];
       const auto n = static_cast<double>(part.end - part.begin);
       x[k] = 0.5 * static_cast<double>(part.begin + part.end - 1) / last;
       y[k] = 0.0;
       for (std::size_t i = part.begin; i < part.end; ++i) y[k] += channels[c][i] / n;
+      double squares = 0.0;
+      for (std::size_t i = part.begin; i < part.end; ++i) {
+        squares += (channels[c][i] - y[k]) * (channels[c][i] - y[k]);
+      }
+      white += squares / (n * n) / static_cast<double>(turns.size());
     }
-    const Line line = line_through(x, y, drift.sloped);
+    const Line line = line_through(x, y, drift.sloped, white);
     auto& d = drift.channel[c];
     d.first = line.mean - line.slope * line.middle;
     d.last = line.mean + line.slope * (1.0 - line.middle);

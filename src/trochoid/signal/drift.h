@@ -13,10 +13,11 @@ namespace trochoid::signal {
 
 /// What a channel reads without any force: a straight line over the record.
 struct ChannelDrift {
-  double first = 0.0;     ///< at the first sample [N]
-  double last = 0.0;      ///< at the last sample [N]
-  double first_se = 0.0;  ///< [N], from the scatter of whole revolutions
-  double last_se = 0.0;   ///< [N]
+  double first = 0.0;  ///< at the first sample [N]
+  double last = 0.0;   ///< at the last sample [N]
+  /// [N], from the scatter of whole revolutions, no less than by white noise within them.
+  double first_se = 0.0;
+  double last_se = 0.0;  ///< [N]
 };
 
 struct Drift {

@@ -22,6 +22,8 @@ constexpr std::size_t least_samples = 12;  ///< of a turn
 constexpr double quiet = 0.2;              ///< of the cut: at most this in air
 constexpr double nothing = 1e-3;      ///< of the cut: what a program may leave in air
 constexpr double twice_quietest = 2;  ///< of the quietest turn: at most this in air
+constexpr double like_most_air =
+    1.15;                           ///< of the median of air: at most this beside a cut
 constexpr double like_most = 0.9;   ///< of the upper quartile: at least this if steady
 constexpr double told_apart = 0.7;  ///< of the upper quartile: entry or exit below
 constexpr double most_lines = 12;   ///< two for each tooth of most cutters
@@ -148,6 +150,27 @@ std::vector<Steps> air_of(const Turns& turns, const TurnLines& lines) {
   return by_means.empty() ? by_level : by_means;
 }
 
+/// Air without what is louder than most of it at its ends, half of it at most: there the
+/// cutter cuts thin chips, whose mean is no offset. They begin before they are heard: if the
+/// force grows in proportion, by half of the way from there to twice the noise.
+Steps without_light_cut(const Turns& turns, Steps air) {
+  const std::span<const double> level(&turns.level[air.from],
+                                      air.to - a_turn + 1 - air.from);
+  const double most =
+      like_most_air * quantile(std::vector<double>(level.begin(), level.end()), 0.5);
+  const auto loud = [most](double v) { return v > most; };
+  const auto too_many = [](auto count) { return count + count / 2; };
+  const auto before = std::ranges::find_if_not(level, loud) - level.begin();
+  const auto after =
+      std::ranges::find_if_not(level.rbegin(), level.rend(), loud) - level.rbegin();
+  const std::size_t spare = (air.to - air.from) / 2;
+  if (air.from > 0)
+    air.from += std::min(spare / 2, static_cast<std::size_t>(too_many(before)));
+  if (air.to < turns.quarters())
+    air.to -= std::min(spare / 2, static_cast<std::size_t>(too_many(after)));
+  return air;
+}
+
 /// Runs with less than two turns between them as one: with few samples a turn, or much
 /// noise, single turns vary less than most.
 std::vector<Steps> bridged(const std::vector<Steps>& runs) {
@@ -266,7 +289,8 @@ Passes passes_of(const Channels& channels, std::span<const double> angle) {
     for (const Part& part : steady_in(turns, lines, pass)) found.steady.push_back(part);
   }
   if (found.steady.empty()) return whole;
-  for (Steps s : air) {  // the turn next to a cut still rings
+  for (const Steps& all : air) {
+    Steps s = without_light_cut(turns, all);  // the turn next to a cut still rings
     s.from += s.from > 0 ? a_turn : 0;
     s.to -= s.to < turns.quarters() ? a_turn : 0;
     if (s.to > s.from) found.air.push_back(turns.part(s));

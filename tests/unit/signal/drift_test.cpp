@@ -53,6 +53,15 @@ TEST(IdleDrift, IsNotFoundWhereTheToolAlwaysCuts) {
   EXPECT_FALSE(drift_of(few));
 }
 
+TEST(IdleDrift, OfOneTurnIsKnownAsWellAsItsNoiseLets) {
+  const Samples s = make({});
+  const Part turn{5 * a_turn, 6 * a_turn + 1};
+  const auto drift =
+      idle_drift(s.channel, s.angle, std::vector{turn}, {25 * a_turn, 60 * a_turn});
+  ASSERT_TRUE(drift);
+  EXPECT_NEAR(drift->se_in_cut[1], 1.0 / std::sqrt(double{a_turn}), 0.02);
+}
+
 TEST(IdleDrift, IsExactWithoutNoise) {
   const auto s = make({.noise = 0.0});
   const auto drift = drift_of(s);

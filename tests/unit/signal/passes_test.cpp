@@ -192,6 +192,17 @@ TEST(Passes, DoNotTakeALighterCutForAir) {
   EXPECT_TRUE(passes_of(s.channel, s.angle).air.empty());
 }
 
+TEST(Passes, LeaveThinChipsOfAnEntryOutOfTheAir) {
+  // Forty turns of entry in noise of 6 N: seven of them vary less than twice the air.
+  const Samples s = make({.before = 16, .entering = 40, .after = 16, .noise = 6.0});
+  const Passes passes = passes_of(s.channel, s.angle);
+  ASSERT_EQ(passes.air.size(), 2U);
+  EXPECT_LE(passes.air[0].end, 16U * a_turn + a_turn / 2);
+  EXPECT_GE(passes.air[0].end, 10U * a_turn);
+  EXPECT_EQ(passes.air[0].begin, 0U);
+  EXPECT_EQ(passes.air[1].end, s.angle.size());
+}
+
 TEST(Passes, DoNotTakeASlowEntryForAir) {
   const auto s = make({.before = 10, .entering = 60, .after = 0});
   const auto parts = passes_of(s.channel, s.angle).air;
