@@ -126,13 +126,25 @@ void follow(const RegenerativeLoop& loop, const LoopAt& a, const LoopAt& b,
 /// So many steps of the scan on each side of a known onset are looked at first.
 constexpr std::size_t steps_beside = 3;
 
+/// Which frequencies an onset is looked for at.
+enum class Frequencies {
+  all,
+  beside_known,  ///< next to an onset at another depth
+};
+
+/// How an onset is looked for.
+struct Look {
+  double most = 1.0;  ///< greatest factor
+  double known =
+      0.0;  ///< an onset at a depth nearby [rad/s]; 0: none. What is found there
+            ///< first spares the eigenvalues of vibrations that fade faster.
+  Frequencies frequencies = Frequencies::all;
+};
+
 /// @brief The least onset of one cut.
-/// @param known  an onset at a depth nearby [rad/s]; 0: none. What is found there first
-///               spares the eigenvalues of vibrations that fade faster.
 std::optional<Onset> onset_of(const RegenerativeLoop& loop,
-                              const std::vector<KeptResponse>& scan, double most,
-                              double known) {
-  Onset best{.factor = most};
+                              const std::vector<KeptResponse>& scan, const Look& how) {
+  Onset best{.factor = how.most};
   const auto look = [&](std::size_t from, std::size_t to) {
     LoopAt before;
     for (std::size_t i = from; i <= to; ++i) {
@@ -143,15 +155,18 @@ std::optional<Onset> onset_of(const RegenerativeLoop& loop,
       before = std::move(now);
     }
   };
-  const auto above = std::ranges::lower_bound(scan, known, {}, &KeptResponse::omega);
+  const auto above =
+      std::ranges::lower_bound(scan, how.known, {}, &KeptResponse::omega);
   const auto here = static_cast<std::size_t>(above - scan.begin());
   const std::size_t last = scan.size() - 1;
   const std::size_t from = here > steps_beside ? here - steps_beside : 0;
-  const std::size_t to = known > 0 ? std::min(here + steps_beside, last) : from;
+  const std::size_t to = how.known > 0 ? std::min(here + steps_beside, last) : from;
   look(from, to);
-  look(0, from);
-  look(to, last);
-  return best.factor < most ? std::optional(best) : std::nullopt;
+  if (how.frequencies == Frequencies::all) {
+    look(0, from);
+    look(to, last);
+  }
+  return best.factor < how.most ? std::optional(best) : std::nullopt;
 }
 
 /// The strongest of the frequencies of a vibration: where the point is softest [Hz].
@@ -167,9 +182,8 @@ double strongest_frequency(const PointResponse& point, double omega, double step
   return best / unit::turn;
 }
 
-/// The onset of a cut of some depth, up to a factor; one of a depth nearby may be known.
-using OnsetAt =
-    std::function<std::optional<Onset>(double depth, double most, double known)>;
+/// The onset of a cut of some depth.
+using OnsetAt = std::function<std::optional<Onset>(double depth, const Look& how)>;
 
 /// A depth, and the logarithm of the factor to the onset: negative where unstable.
 struct TriedDepth {
@@ -184,16 +198,16 @@ constexpr double far_enough = 4.0;
 /// depth, in logarithms: the next depth looked at.
 constexpr double next_look = 0.75;
 
-TriedDepth tried(const OnsetAt& at, double depth, double most, double known) {
-  const auto found = at(depth, most, known);
+TriedDepth tried(const OnsetAt& at, double depth, const Look& how) {
+  const auto found = at(depth, how);
   return found ? TriedDepth{depth, std::log(found->factor), found->omega}
-               : TriedDepth{depth, std::log(most), 0.0};
+               : TriedDepth{depth, std::log(how.most), 0.0};
 }
 
-/// Between a stable depth and an unstable one: false position over the logarithm of the
-/// depth (Illinois).
-FrequencyLimit limit_between(const OnsetAt& at, double Omega, TriedDepth stable,
-                             TriedDepth unstable, double tolerance) {
+/// Where one onset becomes unstable between a depth at which it is not and one at which it is:
+/// false position over the logarithm of the depth (Illinois).
+TriedDepth followed_down(const OnsetAt& at, TriedDepth stable, TriedDepth unstable,
+                         double tolerance) {
   double weight_stable = stable.g;
   double weight_unstable = unstable.g;
   while (unstable.depth - stable.depth > tolerance * unstable.depth &&
@@ -201,7 +215,8 @@ FrequencyLimit limit_between(const OnsetAt& at, double Omega, TriedDepth stable,
     const double t = weight_stable / (weight_stable - weight_unstable);
     const double ratio = unstable.depth / stable.depth;
     const double depth = stable.depth * std::pow(ratio, std::clamp(t, 0.02, 0.98));
-    const TriedDepth middle = tried(at, depth, far_enough, unstable.omega);
+    const TriedDepth middle =
+        tried(at, depth, {far_enough, unstable.omega, Frequencies::beside_known});
     if (middle.g > 0) {
       stable = middle;
       weight_stable = middle.g;
@@ -212,7 +227,34 @@ FrequencyLimit limit_between(const OnsetAt& at, double Omega, TriedDepth stable,
       weight_stable *= 0.5;
     }
   }
-  return {Omega, unstable.depth, unstable.omega};  // D-24
+  return unstable;
+}
+
+/// The least depth of an onset between a stable depth and an unstable one: one onset is
+/// followed down at its own frequencies, and all are looked at where it ends.
+FrequencyLimit limit_between(const OnsetAt& at, double Omega, const TriedDepth& stable,
+                             TriedDepth unstable, double tolerance) {
+  for (;;) {
+    unstable = followed_down(at, stable, unstable, tolerance);
+    const double below = unstable.depth * (1 - tolerance);
+    const TriedDepth other =
+        below > stable.depth ? tried(at, below, {1.0, unstable.omega}) : stable;
+    if (other.g >= 0) return {Omega, unstable.depth, unstable.omega};  // D-24
+    unstable = other;
+  }
+}
+
+/// Followed so far beyond where an onset would be if the force were proportional to the depth.
+constexpr double beyond = 1.1;
+
+/// Where the onset of a stable depth is unstable, if that is about where it is expected.
+std::optional<TriedDepth> unstable_above(const OnsetAt& at, const TriedDepth& stable,
+                                         double deepest) {
+  if (!(stable.omega > 0)) return std::nullopt;
+  const double depth = std::min(stable.depth * std::exp(beyond * stable.g), deepest);
+  const TriedDepth there =
+      tried(at, depth, {far_enough, stable.omega, Frequencies::beside_known});
+  return there.g <= 0 ? std::optional(there) : std::nullopt;
 }
 
 /// The limit of a cut whose force is not proportional to the depth, on the depths given.
@@ -222,11 +264,14 @@ std::optional<FrequencyLimit> searched(const OnsetAt& at, double Omega,
   TriedDepth stable{1e-3 * depth.front(), std::log(1e3)};
   std::size_t k = 0;
   while (k < depth.size()) {
-    const TriedDepth here = tried(at, depth[k], far_enough, stable.omega);
+    const TriedDepth here = tried(at, depth[k], {far_enough, stable.omega});
     if (here.g <= 0) {
       return limit_between(at, Omega, stable, here, tolerance);
     }
     stable = here;
+    if (const auto unstable = unstable_above(at, stable, depth.back())) {
+      return limit_between(at, Omega, stable, *unstable, tolerance);
+    }
     const double towards = depth[k] * std::exp(next_look * here.g);
     const auto next = std::upper_bound(depth.begin(), depth.end(), towards);
     k = std::max(k + 1, static_cast<std::size_t>(next - depth.begin()) - 1);
@@ -248,12 +293,12 @@ std::optional<FrequencyLimit> limit_at(const DepthHarmonics& forces,
     }
   } else {
     std::optional<ResponseAtSpeed> response;
-    const auto at = [&](double a_p, double most, double known) {
+    const auto at = [&](double a_p, const Look& how) {
       const ForceHarmonics here = forces.at(a_p);
       if (!response || !response->serves(here)) {
         response.emplace(here, point, Omega, h);
       }
-      return onset_of({here, *response}, response->scan(), most, known);
+      return onset_of({here, *response}, response->scan(), how);
     };
     limit = searched(at, Omega, forces.depths(), tolerance);
   }
@@ -270,7 +315,7 @@ std::optional<FrequencyLimit> limit_at(const DepthHarmonics& forces,
 std::optional<Onset> onset(const ForceHarmonics& forces, const PointResponse& point,
                            double Omega, int h, double most) {
   const ResponseAtSpeed response(forces, point, Omega, h);
-  return onset_of({forces, response}, response.scan(), most, 0.0);
+  return onset_of({forces, response}, response.scan(), {.most = most});
 }
 
 std::optional<FrequencyLimit> frequency_limit(const DirectionalModel& model,
