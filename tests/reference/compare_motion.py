@@ -116,6 +116,7 @@ class Compared(unittest.TestCase):
         self.assertLess(force_off / force_largest, tolerance)
         self.assertGreater(largest, 0.3)
 
+    @program.long_form
     def test_slot(self):  # [T-1] [T-4]
         self.compare([X, Y], SLOT, linear=LINEAR)
 
@@ -126,6 +127,7 @@ class Compared(unittest.TestCase):
                      actuator=drive, steps=2000,
                      command=lambda t: 10e-6 * math.sin(lead * (t + 0.001)))
 
+    @program.long_form
     def test_up(self):
         self.compare([X, Y], UP, power=SMOOTH, pitch=[2 * math.pi / 3] * 3,
                      offsets=[4e-6, -5e-6, 1e-6], steps=2000)
