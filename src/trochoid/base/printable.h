@@ -7,7 +7,8 @@ namespace trochoid::base {
 
 /// @brief The text without anything that a terminal would obey.
 ///
-/// Control characters (of ASCII, and C1 in UTF-8) but line feed and tab become `\xNN`.
+/// Control characters (of ASCII, and C1 in UTF-8) but line feed and tab become `\xNN`, and so
+/// do bytes that are no UTF-8.
 std::string printable(std::string_view text);
 
 /// @brief The same on one line: a line feed becomes `\n`.

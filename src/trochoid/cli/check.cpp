@@ -1,5 +1,6 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/names.h>
+#include <trochoid/base/printable.h>
 #include <trochoid/cases/case_source.h>
 #include <trochoid/cli/given_case.h>
 #include <trochoid/run/commands.h>
@@ -80,7 +81,8 @@ int check(const Options& options) {
     throw base::InputError(std::move(problems));
   }
   if (!options.quiet) {
-    fmt::print("{}: no mistakes found\n{}", options.file.string(), found);
+    fmt::print("{}: no mistakes found\n{}", options.file.string(),
+               base::printable(found));
   }
   return answered;
 }

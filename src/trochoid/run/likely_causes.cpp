@@ -72,13 +72,13 @@ std::string better_cut(const cases::Case& given, const std::vector<MeasuredRun>&
   if (!found) return "";
   const std::string less = how_much(found->stated_rms, found->rms);
   if (found->turns_with_spindle != 0) {
-    const bool with = found->turns_with_spindle > 0;
     return fmt::format(
         "The dynamometer: x and y seem to turn with the spindle, as in records of a "
-        "rotating dynamometer, which trochoid does not read. With Fx cos phi {} "
-        "Fy sin phi and Fy cos phi {} Fx sin phi in their place, phi the spindle angle "
-        "of each sample, the fit leaves {} less.",
-        with ? "+" : "-", with ? "-" : "+", less);
+        "rotating dynamometer. It reads u and v: write axes = [\"u\", \"v\", \"z\"], or "
+        "\"-v\", and sensor_deg in [dynamometer], and columns = [...] in "
+        "[[measurement]] if the columns have other names. With x and y turned back "
+        "the fit leaves {} less.",
+        less);
   }
   return found->teeth
              ? fmt::format(

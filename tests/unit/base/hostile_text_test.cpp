@@ -59,7 +59,16 @@ TEST(Printable, NothingThatATerminalObeys) {
             "\\x9B2J");                            // C1 in UTF-8
   EXPECT_EQ(printable("\xc2\xb5m"), "\xc2\xb5m");  // micro
   EXPECT_EQ(printable("gr\xc3\xbc\xc3\x9f"), "gr\xc3\xbc\xc3\x9f");
+  EXPECT_EQ(printable("\xe2\x82\xac \xf0\x9f\x94\xa7"),
+            "\xe2\x82\xac \xf0\x9f\x94\xa7");
   EXPECT_EQ(one_line("a\nb"), "a\\nb");
+}
+
+TEST(Printable, BytesOfAnotherEncoding) {
+  EXPECT_EQ(printable("\xca\xb1\xbc\xe4"), "\xca\xb1\\xBC\\xE4");  // GBK
+  EXPECT_EQ(printable("Kr\xe4"
+                      "fte \xe2\x82"),
+            "Kr\\xE4fte \\xE2\\x82");  // Latin-1, and a character cut off
 }
 
 TEST(ReadText, WhatTheDiskDoesNotGive) {
