@@ -74,11 +74,10 @@ std::string better_cut(const cases::Case& given, const std::vector<MeasuredRun>&
   if (found->turns_with_spindle != 0) {
     return fmt::format(
         "The dynamometer: x and y seem to turn with the spindle, as in records of a "
-        "rotating dynamometer. It reads u and v: write axes = [\"u\", \"v\", \"z\"], or "
-        "\"-v\", and sensor_deg in [dynamometer], and columns = [...] in "
-        "[[measurement]] if the columns have other names. With x and y turned back "
-        "the fit leaves {} less.",
-        less);
+        "rotating dynamometer. It reads u and v: write axes = [\"u\", \"{}v\", \"z\"] and "
+        "sensor_deg in [dynamometer], and columns = [...] in [[measurement]] if the "
+        "columns have other names. With x and y turned back the fit leaves {} less.",
+        found->turns_with_spindle > 0 ? "-" : "", less);
   }
   return found->teeth
              ? fmt::format(
