@@ -22,11 +22,10 @@ bool is_c1(std::string_view text, std::size_t at) noexcept {
 /// Bytes of the character that begins here, in UTF-8; 0: no such character is there.
 std::size_t length_of(std::string_view text) noexcept {
   const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead < 0x80U                    ? 1
-                             : lead >= 0xC2U && lead < 0xE0U ? 2
-                             : lead >= 0xE0U && lead < 0xF0U ? 3
-                             : lead >= 0xF0U && lead < 0xF5U ? 4
-                                                             : 0;
+  std::size_t length = 1;
+  if (lead >= 0x80U) length = lead < 0xE0U ? 2 : (lead < 0xF0U ? 3 : 4);
+  const bool begins = lead < 0x80U || (lead >= 0xC2U && lead < 0xF5U);
+  if (!begins) return 0;
   if (length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i) {
     if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return 0;
@@ -43,14 +42,17 @@ std::string printable(std::string_view text) {
     const auto code = static_cast<unsigned char>(text[i]);
     if (is_c1(text, i)) {
       append_escaped(out, static_cast<unsigned char>(text[++i]));
-    } else if ((code < 0x20U && text[i] != '\n' && text[i] != '\t') || code == 0x7FU) {
-      append_escaped(out, code);
-    } else if (const std::size_t length = length_of(text.substr(i)); length > 0) {
-      out += text.substr(i, length);
-      i += length - 1;
-    } else {  // of another encoding
-      append_escaped(out, code);
+      continue;
     }
+    const bool control =
+        (code < 0x20U && text[i] != '\n' && text[i] != '\t') || code == 0x7FU;
+    const std::size_t length = control ? 0 : length_of(text.substr(i));
+    if (length == 0) {  // or a byte of another encoding
+      append_escaped(out, code);
+      continue;
+    }
+    out += text.substr(i, length);
+    i += length - 1;
   }
   return out;
 }

@@ -50,6 +50,7 @@ std::vector<double> directions(const Problem& problem, int over_turn) {
   const int count = alike ? std::max(2, (over_turn + teeth - 1) / teeth) : over_turn;
   const double span = alike ? unit::turn / teeth : unit::turn;
   std::vector<double> out;
+  out.reserve(index(count));
   for (int k = 0; k < count; ++k) out.push_back(span * k / count);
   return out;
 }

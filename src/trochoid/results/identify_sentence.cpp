@@ -77,6 +77,7 @@ std::string idle_of(const IdentifyResult& r) {
   const auto idle = force::idle_teeth(*r.curve);
   if (idle.size() == 1) return fmt::format("; tooth {} cuts nothing", idle.front() + 1);
   std::vector<std::size_t> numbers;
+  numbers.reserve(idle.size());
   for (const std::size_t tooth : idle) numbers.push_back(tooth + 1);
   return fmt::format("; teeth {} cut nothing", fmt::join(numbers, ", "));
 }

@@ -325,7 +325,7 @@ void add_left_out(const std::vector<std::string>& left_out, const base::Stop& st
       warnings);
 }
 
-void warn_idle_teeth(const IdentifyResult& r, Warnings& warnings) {
+void warn_idle_teeth(const IdentifyResult& r, std::vector<base::Warning>& warnings) {
   for (const std::size_t tooth : force::idle_teeth(*r.curve)) {
     warnings.push_back(
         {"idle_tooth",
