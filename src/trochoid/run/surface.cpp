@@ -24,8 +24,9 @@ std::string why_no_map(const surface::ErrorMap& map) {
                          "after {} turns the deflection still changed by {:.2g} % from "
                          "turn to turn: no state was found that repeats",
                          map.turns, 100 * map.change)
-                   : "no deflection agrees with the chip that it makes: the force "
-                     "pulls cutter and wall together faster than they resist";
+                   : "no deflection was found that agrees with the chip that it "
+                     "makes: the force changes faster with the deflection than cutter "
+                     "and wall resist";
 }
 
 /// The cut, or all passes.

@@ -84,14 +84,50 @@ void EdgeMoments::integrate(double phi, const force::Bend* bend, const Add& add)
   });
 }
 
+void EdgeMoments::from_nodes(double phi, const NodeBend* bend,
+                             std::span<double> out) const {
+  MomentSums sums;
+  nodes_->at(phi, bend, sums);
+  for (std::size_t c = 0; c < columns; ++c) {
+    put_moments(sums.across[c], sums.along[c], out.subspan(c * values(), values()));
+  }
+}
+
+void EdgeMoments::bent_at(double phi, const NodeBend& bend,
+                          std::span<double> out) const {
+  if (nodes_) {
+    from_nodes(phi, &bend, out);
+    return;
+  }
+  const std::size_t points = basis_.size();
+  std::vector<double> now(points);
+  basis_.series(bend.shift, now);
+  std::vector<double> then(bend.before.size());
+  for (std::size_t k = 0; k < then.size(); k += points) {
+    basis_.series(bend.before.subspan(k, points), std::span(then).subspan(k, points));
+  }
+  force::Bend curve;
+  curve.shift = [&](double z) { return basis_.series_value(now, z); };
+  if (!then.empty()) {
+    curve.advance = [&](double z, std::size_t tooth, double theta,
+                        std::span<double> gained) {
+      const double here = basis_.series_value(now, z);
+      const double cosine = std::cos(theta);
+      for (std::size_t m = 0; m < gained.size(); ++m) {
+        const std::size_t mark = tooth * gained.size() + m;
+        const double before =
+            basis_.series_value(std::span(then).subspan(mark * points, points), z);
+        gained[m] = cosine * (here - before);  // E-10
+      }
+    };
+  }
+  at(phi, &curve, out);
+}
+
 void EdgeMoments::at(double phi, const force::Bend* bend, std::span<double> out) const {
   const std::size_t n = values();
   if (bend == nullptr && nodes_) {
-    MomentSums sums;
-    nodes_->at(phi, nullptr, sums);
-    for (std::size_t c = 0; c < columns; ++c) {
-      put_moments(sums.across[c], sums.along[c], out.subspan(c * n, n));
-    }
+    from_nodes(phi, nullptr, out);
     return;
   }
   std::fill(out.begin(), out.end(), 0.0);

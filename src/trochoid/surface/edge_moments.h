@@ -13,6 +13,7 @@
 namespace trochoid::surface {
 
 class EdgeNodes;
+struct NodeBend;
 
 /// Coefficients that matter for the force across and along the wall: cutting t, cutting
 /// r, edge t, edge r. The axial ones do nothing there on a cylinder.
@@ -53,6 +54,12 @@ class EdgeMoments {
   /// @param[out] out   per unit coefficient, row-major, shape (columns, values())
   void at(double phi, const force::Bend* bend, std::span<double> out) const;
 
+  /// @brief The same of a cutter that is bent between the basis points.
+  ///
+  /// From chips at fixed nodes where the law is linear and no stock was left: there no cut
+  /// that is short in height is overlooked.
+  void bent_at(double phi, const NodeBend& bend, std::span<double> out) const;
+
   /// @brief Forces along the feed and couples of forces out of line, by the same L_q.
   ///
   /// @eq E-42 m_q = integral of L_q(z) dM_q of dF_x, of sigma l dF_x, of R cos(theta) dF_z
@@ -77,6 +84,8 @@ class EdgeMoments {
   [[nodiscard]] const numerics::LagrangeBasis& basis() const noexcept { return basis_; }
 
  private:
+  void from_nodes(double phi, const NodeBend* bend, std::span<double> out) const;
+
   /// add(point, state, ds) at the nodes of all edges in the cut.
   template <class Add>
   void integrate(double phi, const force::Bend* bend, const Add& add) const;

@@ -9,6 +9,7 @@
 #include <trochoid/surface/nominal_model.h>
 #include <trochoid/surface/probe.h>
 #include <trochoid/surface/setting.h>
+#include <trochoid/surface/stepwise_turn.h>
 #include <trochoid/surface/turn.h>
 
 #include <algorithm>
@@ -193,8 +194,18 @@ numerics::PeriodicPieces moments_of(const Setting& setting, const MapOptions& op
                                     const EdgeMoments& edges,
                                     const Compliance& compliance, ErrorMap& map) {
   const auto K = wall_coefficients(setting.law);
-  if (options.feedback == Feedback::none) {
+  const auto straight = [&] {
     return with_coefficients(unit_moments(edges, tolerance_of(setting, options)), K);
+  };
+  if (options.feedback == Feedback::none) {
+    return straight();
+  }
+  if (options.stepwise && !setting.left) {
+    const StepwiseTurn turn = stepwise_steady_state(setting.setup, setting.law, K,
+                                                    compliance, options.feedback);
+    if (turn.converged) {
+      return with_feedback(straight(), turn);
+    }
   }
   SteadyState state =
       steady_state(edges, K, compliance, options.feedback, setting.tolerance);

@@ -24,6 +24,8 @@ struct MapOptions {
   double position = 0.0;  ///< of the cutter along the wall at the phase [m]
   Feedback feedback = Feedback::none;
   double tolerance = 1e-6;  ///< of the force, where that of the setting is wider
+  /// Feedback by equal steps first: to some parts in a thousand, and much faster.
+  bool stepwise = false;
 };
 
 /// The wall at one height.

@@ -1,6 +1,7 @@
 #include <trochoid/surface/feedback.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/surface/edge_nodes.h>
 #include <trochoid/surface/fixed_point.h>
 #include <trochoid/surface/turn.h>
 
@@ -87,43 +88,28 @@ class Passage {
     }
   }
 
-  /// Deflections when the teeth before each tooth left their marks, as series over the
-  /// height: shape (teeth, teeth, points).
+  /// Deflections when the teeth before each tooth left their marks, shape (teeth, teeth,
+  /// points).
   void look_back(double phi, std::span<double> before) const {
     if (feedback_ != Feedback::regenerative || past_.functions() == 0) {
       return;
     }
     const std::span<const double> back = edges_.back();
-    Values values(basis_.size());
     for (std::size_t k = 0; k < back.size(); ++k) {
-      past_.value(phi - back[k], values);
-      basis_.series(values, before.subspan(k * basis_.size(), basis_.size()));
+      past_.value(phi - back[k], before.subspan(k * basis_.size(), basis_.size()));
     }
   }
 
   void forces(double phi, const Values& u, const Values& before, Values& unit,
               std::span<double> out) const {
-    Values series(basis_.size());
-    basis_.series(u, series);
-    force::Bend bend;
-    bend.shift = [&](double z) { return basis_.series_value(series, z); };
     const bool chip_changes =
         feedback_ == Feedback::direct ||
         (feedback_ == Feedback::regenerative && past_.functions() > 0);
+    NodeBend bend{.shift = u};
     if (chip_changes) {
-      bend.advance = [&](double z, std::size_t tooth, double theta,
-                         std::span<double> gained) {
-        const double now = basis_.series_value(series, z);
-        const double cosine = std::cos(theta);
-        for (std::size_t m = 0; m < gained.size(); ++m) {
-          const std::size_t mark = tooth * gained.size() + m;
-          const double then = basis_.series_value(
-              std::span(before).subspan(mark * basis_.size(), basis_.size()), z);
-          gained[m] = cosine * (now - then);  // E-10
-        }
-      };
+      bend.before = before;
     }
-    edges_.at(phi, &bend, unit);
+    edges_.bent_at(phi, bend, unit);
     const std::size_t n = edges_.values();
     for (std::size_t q = 0; q < n; ++q) {
       out[q] = 0.0;

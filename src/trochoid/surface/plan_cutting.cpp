@@ -20,7 +20,8 @@ MapOptions coarse_map(const Setting& setting, double position, Feedback feedback
       .turns = 1.0,
       .position = position,
       .feedback = feedback,
-      .tolerance = setting.tolerance};
+      .tolerance = setting.tolerance,
+      .stepwise = true};
   for (int i = 0; i < heights_of_map; ++i) {
     out.heights.push_back(i + 1 < heights_of_map
                               ? setting.setup.cut.a_p * i / (heights_of_map - 1)

@@ -131,6 +131,24 @@ TEST(ErrorMap, WithoutASteadyStateThereIsNoMap) {  // [E-10]
   EXPECT_EQ(solved, 1);
 }
 
+TEST(ErrorMap, BySteadyStatesOfEqualStepsIsTheSame) {  // [E-10]
+  const Setting setting = cutting(Model::envelope);
+  MapOptions options{.samples_per_turn = 36,
+                     .heights = {0.3e-3, 1.5e-3, 2.7e-3},
+                     .position = 30e-3,
+                     .feedback = Feedback::regenerative};
+  const ErrorMap exact = error_map(setting, options);
+  options.stepwise = true;
+  const ErrorMap steps = error_map(setting, options);
+  ASSERT_TRUE(exact.converged && steps.converged);
+  EXPECT_GT(exact.turns, 1);
+  EXPECT_EQ(steps.turns, 1);  // another way
+  const double size = std::max(std::abs(exact.error.max), std::abs(exact.error.min));
+  EXPECT_NEAR(steps.error.max, exact.error.max, 0.01 * size);
+  EXPECT_NEAR(steps.error.min, exact.error.min, 0.01 * size);
+  EXPECT_NEAR(steps.error.mean, exact.error.mean, 0.005 * size);
+}
+
 TEST(ErrorMap, HeightsAreSpreadOverTheAxialDepthUnlessNamed) {
   const ErrorMap map = error_map(cutting(Model::imprint));
   ASSERT_EQ(map.rows.size(), 21U);

@@ -277,6 +277,24 @@ TEST(Feedback, NoMaterialIsLostBetweenTheTeeth) {  // [E-10]
   EXPECT_GT(uneven, 0.1);
 }
 
+/// Before a wall that gives more than the chip is thick, cuts come and go and are short in
+/// height: overlooked ones made the force jump, and no deflection agreed with it.
+TEST(Feedback, IsFoundWhereCutsAreShort) {  // [E-10]
+  for (const double K_te : {0.0, 5e3}) {
+    MadeCut s = with_runout(made_cut(), 3.8e-6, 1.24);
+    s.cut.engagement = geometry::DownMilling{0.125e-3};
+    s.cut.f_z = 25e-6;
+    s.chip.model = chip::Model::trochoidal;
+    const Bodies thin = with_wall()(30e-3);
+    const Compliance compliance(thin, s.cut.a_p, 30e-3, Load::distributed);
+    const EdgeMoments edges(s, law(0, 0, 1, 1), compliance.basis());
+    const SteadyState state =
+        steady_state(edges, {{750e6, 319e6, K_te, K_te}}, compliance,
+                     Feedback::regenerative, tolerance);
+    EXPECT_TRUE(state.found && state.converged) << K_te;
+  }
+}
+
 TEST(Feedback, ATooSoftCutterIsToldAndEnds) {  // [E-10]
   // a thousand times too soft: the deflection would be many times the radial depth
   Bodies soft = cutter_only()(0.0);
