@@ -1,4 +1,6 @@
 #include <trochoid/structure/modes_order.h>
+
+#include <trochoid/numerics/parallel.h>
 #include <trochoid/structure/thinned.h>
 
 #include <algorithm>
@@ -112,19 +114,32 @@ void judge_in_many(const SearchLines& lines, const ModesOptions& options,
                    std::vector<ModesOrder>& orders) {
   const double least = best.trial.criterion;
   const bool complex_shapes = best.trial.solution.model.complex_shapes();
+  std::vector<const Sound*> near;
   std::vector<std::size_t> again;
+  for (const Sound& one : sound) {
+    if (one.candidate.trial.criterion - least <= near_the_best) {
+      near.push_back(&one);
+      again.push_back(one.order);
+    }
+  }
+  std::vector<Candidate> anew(near.size());
+  numerics::for_each_index(
+      near.size(),
+      [&](std::size_t i) {
+        const ModesTrial& rough = near[i]->candidate.trial;
+        anew[i] =
+            judged(lines.all, settle_exactly(lines.many, rough.solution.model, rough),
+                   options);
+      },
+      1);
   Candidate found;
   double shift = 0.0;
-  for (const auto& [order, rough] : sound) {
-    const double behind = rough.trial.criterion - least;
-    if (behind > near_the_best) continue;
-    Candidate next = judged(
-        lines.all, settle_exactly(lines.many, rough.trial.solution.model, rough.trial),
-        options);
-    if (behind <= 0) shift = next.trial.criterion - least;
-    orders[order] = order_of(next);
-    again.push_back(order);
-    taken(found, std::move(next), options.count);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (near[i]->candidate.trial.criterion <= least) {
+      shift = anew[i].trial.criterion - least;
+    }
+    orders[near[i]->order] = order_of(anew[i]);
+    taken(found, std::move(anew[i]), options.count);
   }
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const bool done = std::ranges::find(again, i) != again.end();
@@ -166,13 +181,20 @@ void search_orders(const SearchLines& lines, const ModesOptions& options, ModeFo
       break;
     }
     since += count >= options.count ? 1 : 0;
-    for (const bool terms : {false, true}) {
-      if (options.residual_terms.value_or(terms) != terms) {
+    std::array<Candidate, 2> tried;
+    numerics::for_each_index(
+        2,
+        [&](std::size_t terms) {
+          if (options.residual_terms.value_or(terms == 1) == (terms == 1)) {
+            before[terms] = with_one_more(few, before[terms]);
+            tried[terms] = judged(lines.all, before[terms], options);
+          }
+        },
+        1);
+    for (Candidate& next : tried) {
+      if (!next.found()) {
         continue;
       }
-      ModesTrial& trial = before[terms ? 1 : 0];
-      trial = with_one_more(few, trial);
-      Candidate next = judged(lines.all, trial, options);
       out.orders.push_back(order_of(next));
       if (!next.fault.empty() &&
           (out.first_fault.empty() || count <= std::max(options.count, 1))) {

@@ -282,6 +282,7 @@ TEST(Feedback, NoMaterialIsLostBetweenTheTeeth) {  // [E-10]
 TEST(Feedback, IsFoundWhereCutsAreShort) {  // [E-10]
   for (const double K_te : {0.0, 5e3}) {
     MadeCut s = with_runout(made_cut(), 3.8e-6, 1.24);
+    s.runout.order = geometry::EccentricityOrder::exact;
     s.cut.engagement = geometry::DownMilling{0.125e-3};
     s.cut.f_z = 25e-6;
     s.chip.model = chip::Model::trochoidal;
