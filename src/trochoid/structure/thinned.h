@@ -33,7 +33,7 @@ struct Thinning {
   double tolerance = 0.0;  ///< as of thinned()
 };
 /// Of a search for number and start of modes, and of the last fit.
-inline constexpr Thinning for_a_search{1000, 0.1};
+inline constexpr Thinning for_a_search{400, 0.1};
 inline constexpr Thinning for_a_fit{3000, 0.005};
 
 /// @brief Those of several responses that have too many lines; where the tolerance leaves
