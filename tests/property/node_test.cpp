@@ -1,6 +1,8 @@
 #include <trochoid/base/units.h>
+#include <trochoid/force/axial.h>
 #include <trochoid/force/edge_curve.h>
 #include <trochoid/force/forces.h>
+#include <trochoid/force/node_force.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
 #include <gtest/gtest.h>
@@ -194,6 +196,61 @@ TEST(Nodes, GiveTheForceOfTheChipAlone) {  // [F-15]
             << n << " at " << phi[i] << ", tolerance " << tolerance << ", model "
             << static_cast<int>(cut.chip.model) << ", peak " << peak << ", teeth "
             << cut.cutter.teeth();
+      }
+    }
+  }
+}
+
+/// The same under a power of the chip, against a quadrature of it.
+TEST(Nodes, GiveAPowerOfTheChip) {  // [F-2] [F-15]
+  Random random(12);
+  for (int n = 0; n < 200; ++n) {
+    const Cut cut = random_cut(random);
+    const PowerEdge both{900e6,
+                         400e6,
+                         150e6,
+                         between(random, -0.5, 0.9),
+                         between(random, -0.5, 0.9),
+                         between(random, -0.5, 0.9),
+                         7e3,
+                         3e3,
+                         1e3};
+    const Law law = n % 2 == 0
+                        ? Law(both)
+                        : Law(Power{900e6, 400e6, 150e6, both.m_t, both.m_r, both.m_a});
+    const auto nodes = NodeForce::make(cut, law, 1e-6);
+    if (!nodes) {
+      continue;
+    }
+    std::vector<double> phi;
+    for (int i = 0; i < 12; ++i) phi.push_back(between(random, 0, 2 * pi));
+    std::vector<Vector3> F(phi.size());
+    std::vector<SixLoads> all(phi.size());
+    std::vector<std::array<double, 18>> C(phi.size());
+    nodes->forces(phi, F);
+    nodes->loads(phi, 0.03, all);
+    nodes->matrices(phi, C);
+    const std::vector<double> k = coefficients(law);
+    const AxialForce quadrature(cut, law, 1e-10);
+    double peak = both.K_te * 1e-2 * cut.cut.a_p;
+    std::vector<SixLoads> expected;
+    for (const double angle : phi) {
+      expected.push_back(quadrature.loads(angle, 0.03));
+      peak = std::max(
+          peak, size({expected.back()[0], expected.back()[1], expected.back()[2]}));
+    }
+    const double arm = std::max({cut.cutter.profile.D / 2, 0.03, cut.cut.a_p});
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      for (std::size_t q = 0; q < 6; ++q) {
+        EXPECT_NEAR(all[i][q], expected[i][q], 1e-7 * peak * (q < 3 ? 1.0 : arm))
+            << n << " at " << phi[i] << ", load " << q;
+      }
+      for (std::size_t row = 0; row < 3; ++row) {
+        double sum = 0.0;
+        for (std::size_t q = 0; q < k.size(); ++q)
+          sum += C[i][row * k.size() + q] * k[q];
+        EXPECT_NEAR(F[i][row], all[i][row], 1e-9 * peak) << n;
+        EXPECT_NEAR(sum, all[i][row], 1e-9 * peak) << n;
       }
     }
   }

@@ -49,6 +49,8 @@ class Walk {
     chips_.over.resize(static_cast<std::size_t>(all.passage.marks) * all.rule->width);
   }
 
+  [[nodiscard]] bool power() const noexcept { return all_.form.power; }
+
   /// @param visit  takes panel, tooth, chips and weights of what is in cut
   template <class Visit>
   void at(double phi, const Visit& visit) {
@@ -80,7 +82,7 @@ Sums moments_at(Walk& walk, double phi) {
   NodeMoments sum;
   walk.at(phi, [&](const NodePanel& panel, const NodeTooth& /*tooth*/,
                    const NodeChips& chips, const NodeWeights& weights) {
-    add_moments(panel, chips, weights, sum);
+    add_moments(panel, walk.power(), chips, weights, sum);
   });
   Sums sums{};
   for (std::size_t q = 0; q < sums.size(); ++q) {
@@ -91,6 +93,17 @@ Sums moments_at(Walk& walk, double phi) {
   return sums;
 }
 
+/// Weights of a node in t, r and a for unit coefficients.
+std::array<double, 3> cutting_at(const NodePanels& all, const NodePanel& panel,
+                                 const NodeWeights& weights, std::size_t k) noexcept {
+  if (all.form.power) {
+    return {weights.power[0][k] * panel.half, weights.power[1][k] * panel.half,
+            weights.power[2][k] * panel.half};
+  }
+  const double h = weights.chip[k] * panel.width[k];
+  return {h, h, h};
+}
+
 }  // namespace
 
 NodeForce::NodeForce(NodePanels panels, const Law& law)
@@ -98,14 +111,12 @@ NodeForce::NodeForce(NodePanels panels, const Law& law)
 
 std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
                                          double tolerance) {
-  if (form(law).power) {
-    return std::nullopt;
-  }
   const Edges edges(setup);
   auto panels = node_panels(edges, std::min(tolerance, coarsest_at_nodes));
   if (!panels) {
     return std::nullopt;
   }
+  panels->form = form(law);
   NodeForce force(std::move(*panels), law);
   if (force.panels_.begin > 0) {
     Setup tip = setup;
@@ -166,7 +177,7 @@ void NodeForce::loads(std::span<const double> phi, double gauge_length,
                         const NodeChips& chips, const NodeWeights& weights) {
       const double* R = &tooth.rows[NodeTooth::radius * panels_.rule->width];
       for (std::size_t k = 0; k < panels_.rule->nodes; ++k) {
-        const double h = weights.chip[k] * panel.width[k];
+        const std::array<double, 3> cutting = cutting_at(panels_, panel, weights, k);
         const double edge = weights.edge[k] * panel.edge[k];
         add_loads({.sine = chips.sine[k],
                    .cosine = chips.cosine[k],
@@ -174,9 +185,9 @@ void NodeForce::loads(std::span<const double> phi, double gauge_length,
                    .cos_kappa = panel.cos_kappa[k],
                    .R = R[k],
                    .z = panel.z[k] - gauge_length},
-                  {terms_.K[0] * h + terms_.K_e[0] * edge,
-                   terms_.K[1] * h + terms_.K_e[1] * edge,
-                   terms_.K[2] * h + terms_.K_e[2] * edge},
+                  {terms_.K[0] * cutting[0] + terms_.K_e[0] * edge,
+                   terms_.K[1] * cutting[1] + terms_.K_e[1] * edge,
+                   terms_.K[2] * cutting[2] + terms_.K_e[2] * edge},
                   sum);
       }
     });

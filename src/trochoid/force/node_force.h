@@ -9,12 +9,12 @@
 
 namespace trochoid::force {
 
-/// @brief Forces of any cutter under a law linear in the chip, from chips at fixed nodes
-/// along the edges.
+/// @brief Forces of any cutter from chips at fixed nodes along the edges.
 ///
 /// What does not depend on the spindle angle is worked out once a node. At an angle the
 /// chips over all marks are polynomials through their values at the nodes; where they
-/// cross one another, zero or the edge of the stock, pieces begin and end.
+/// cross one another, zero or the edge of the stock, pieces begin and end. Under a power
+/// law Gauss points lie on each piece, crowded where the chip begins and ends.
 ///
 /// @eq F-15
 /// @src derived

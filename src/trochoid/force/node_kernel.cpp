@@ -6,6 +6,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+// After the others: it is compiled once for each kind of vectors too.
+#include <hwy/contrib/math/math-inl.h>
+
 HWY_BEFORE_NAMESPACE();
 namespace trochoid::force {
 namespace HWY_NAMESPACE {
@@ -116,26 +119,93 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
   }
 }
 
+HWY_INLINE Vector value(const NodeRow& powers, std::size_t nodes, Vector t) noexcept {
+  Vector v = constant(powers[nodes - 1]);
+  for (std::size_t k = nodes - 1; k-- > 0;) {
+    v = hn::MulAdd(v, t, constant(powers[k]));
+  }
+  return v;
+}
+
+// Highway's table takes no noexcept functions.
+void products(const NodeRule& rule, const double* a, const double* b, const double* t,
+              double* out) {
+  const NodeRow first = powers_of(rule, a);
+  const NodeRow second = powers_of(rule, b);
+  for (std::size_t g = 0; g < power_room; g += hn::Lanes(tag)) {
+    const Vector at = hn::LoadU(tag, t + g);
+    hn::StoreU(hn::Mul(value(first, rule.nodes, at), value(second, rule.nodes, at)),
+               tag, out + g);
+  }
+}
+
+/// Sums over the places of a power of the chip times 1, t, t^2 ...
+void powers(const NodeRule& rule, const PowerPiece& piece,
+            std::array<NodeRow, 3>& out) {
+  constexpr double nothing = 1e-300;
+  std::array<std::array<Vector, node_room>, 3> sums;
+  for (auto& of_one : sums) {
+    for (std::size_t k = 0; k < rule.nodes; ++k) {
+      of_one[k] = hn::Zero(tag);
+    }
+  }
+  for (std::size_t g = 0; g < piece.places; g += hn::Lanes(tag)) {
+    const Vector x = hn::Mul(hn::LoadU(tag, &piece.across[g]), constant(1 / h_0));
+    const auto some = hn::Gt(x, hn::Zero(tag));
+    const Vector log = hn::Log(tag, hn::Max(x, constant(nothing)));
+    const Vector w =
+        hn::Mul(hn::LoadU(tag, &piece.weight[g]), constant(piece.length * h_0));
+    const Vector t = hn::LoadU(tag, &piece.t[g]);
+    for (std::size_t q = 0; q < sums.size(); ++q) {
+      const Vector power = hn::Exp(tag, hn::Mul(constant(1 - piece.m[q]), log));
+      Vector term = hn::IfThenElseZero(some, hn::Mul(w, power));
+      for (std::size_t k = 0; k < rule.nodes; ++k) {
+        sums[q][k] = hn::Add(sums[q][k], term);
+        term = hn::Mul(term, t);
+      }
+    }
+  }
+  for (std::size_t q = 0; q < sums.size(); ++q) {
+    for (std::size_t k = 0; k < rule.nodes; ++k) {
+      const Vector sum = hn::SumOfLanes(tag, sums[q][k]);
+      for (std::size_t i = 0; i < rule.width; i += hn::Lanes(tag)) {
+        hn::StoreU(
+            hn::MulAdd(sum, hn::LoadU(tag, &rule.l[k][i]), hn::LoadU(tag, &out[q][i])),
+            tag, &out[q][i]);
+      }
+    }
+  }
+}
+
 HWY_INLINE void add(double* lanes, Vector a, Vector b) noexcept {
   hn::StoreU(hn::MulAdd(a, b, hn::LoadU(tag, lanes)), tag, lanes);
 }
 
-/// Eight moments of one weight.
-HWY_INLINE void add_eight(double* lanes, Vector q, const Angle& theta, Vector sin_kappa,
-                          Vector cos_kappa) noexcept {
-  const Vector qs = hn::Mul(q, sin_kappa);
-  const Vector qc = hn::Mul(q, cos_kappa);
-  add(lanes, q, theta.sine);
-  add(lanes + 8, q, theta.cosine);
-  add(lanes + 16, qs, theta.sine);
-  add(lanes + 24, qs, theta.cosine);
-  hn::StoreU(hn::Add(qc, hn::LoadU(tag, lanes + 32)), tag, lanes + 32);
-  add(lanes + 40, qc, theta.sine);
-  add(lanes + 48, qc, theta.cosine);
-  hn::StoreU(hn::Add(qs, hn::LoadU(tag, lanes + 56)), tag, lanes + 56);
+/// Eight moments of the weights of t, r and a.
+struct Pull {
+  Vector t;
+  Vector r;
+  Vector a;
+};
+
+HWY_INLINE void add_eight(double* lanes, const Pull& q, const Angle& theta,
+                          Vector sin_kappa, Vector cos_kappa) noexcept {
+  const Vector rs = hn::Mul(q.r, sin_kappa);
+  const Vector ac = hn::Mul(q.a, cos_kappa);
+  add(lanes, q.t, theta.sine);
+  add(lanes + 8, q.t, theta.cosine);
+  add(lanes + 16, rs, theta.sine);
+  add(lanes + 24, rs, theta.cosine);
+  hn::StoreU(hn::Add(hn::Mul(q.r, cos_kappa), hn::LoadU(tag, lanes + 32)), tag,
+             lanes + 32);
+  add(lanes + 40, ac, theta.sine);
+  add(lanes + 48, ac, theta.cosine);
+  hn::StoreU(hn::Add(hn::Mul(q.a, sin_kappa), hn::LoadU(tag, lanes + 56)), tag,
+             lanes + 56);
 }
 
-void add_at_nodes(const NodePanel& panel, const NodeChips& chips,
+// Highway's table takes no noexcept functions.
+void add_at_nodes(const NodePanel& panel, bool power, const NodeChips& chips,
                   const NodeWeights& weights, NodeMoments& sum) {
   double* const lanes = sum.lanes.front().data();
   for (std::size_t i = 0; i < node_room; i += hn::Lanes(tag)) {
@@ -149,8 +219,15 @@ void add_at_nodes(const NodePanel& panel, const NodeChips& chips,
         hn::Mul(hn::LoadU(tag, &weights.chip[i]), hn::LoadU(tag, &panel.width[i]));
     const Vector edge =
         hn::Mul(hn::LoadU(tag, &weights.edge[i]), hn::LoadU(tag, &panel.edge[i]));
-    add_eight(lanes, chip, theta, sin_kappa, cos_kappa);
-    add_eight(lanes + 64, edge, theta, sin_kappa, cos_kappa);
+    Pull pull{chip, chip, chip};
+    if (power) {
+      const Vector half = constant(panel.half);
+      pull = {hn::Mul(hn::LoadU(tag, &weights.power[0][i]), half),
+              hn::Mul(hn::LoadU(tag, &weights.power[1][i]), half),
+              hn::Mul(hn::LoadU(tag, &weights.power[2][i]), half)};
+    }
+    add_eight(lanes, pull, theta, sin_kappa, cos_kappa);
+    add_eight(lanes + 64, {edge, edge, edge}, theta, sin_kappa, cos_kappa);
   }
 }
 
@@ -164,6 +241,8 @@ namespace trochoid::force {
 namespace {
 
 HWY_EXPORT(chips_at_nodes);
+HWY_EXPORT(products);
+HWY_EXPORT(powers);
 HWY_EXPORT(add_at_nodes);
 
 }  // namespace
@@ -173,9 +252,19 @@ void node_chips(const NodePanels& all, const NodePanel& panel, const NodeTooth& 
   HWY_DYNAMIC_DISPATCH(chips_at_nodes)(all, panel, tooth, sine_cosine.data(), out);
 }
 
-void add_moments(const NodePanel& panel, const NodeChips& chips,
+void chips_across(const NodeRule& rule, const double* h, const double* sin_kappa,
+                  const PowerRow& t, PowerRow& out) noexcept {
+  HWY_DYNAMIC_DISPATCH(products)(rule, h, sin_kappa, t.data(), out.data());
+}
+
+void add_powers(const NodeRule& rule, const PowerPiece& piece,
+                std::array<NodeRow, 3>& out) noexcept {
+  HWY_DYNAMIC_DISPATCH(powers)(rule, piece, out);
+}
+
+void add_moments(const NodePanel& panel, bool power, const NodeChips& chips,
                  const NodeWeights& weights, NodeMoments& sum) noexcept {
-  HWY_DYNAMIC_DISPATCH(add_at_nodes)(panel, chips, weights, sum);
+  HWY_DYNAMIC_DISPATCH(add_at_nodes)(panel, power, chips, weights, sum);
 }
 
 }  // namespace trochoid::force

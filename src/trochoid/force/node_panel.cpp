@@ -120,7 +120,7 @@ double reach_of(const geometry::Runout& runout) noexcept {
 }
 
 NodePanel node_panel(const Edges& edges, const NodeRule& rule, double from, double to) {
-  NodePanel panel{.from = from, .to = to};
+  NodePanel panel{.from = from, .to = to, .half = 0.5 * (to - from)};
   const auto marks = static_cast<std::size_t>(edges.passage.marks);
   const std::size_t rows = NodeTooth::first_mark + marks * NodeTooth::rows_of_mark;
   panel.teeth.resize(edges.psi.size());

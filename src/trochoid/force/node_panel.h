@@ -83,6 +83,7 @@ struct NodePanel {
   NodeRow z{};               ///< height above the tip [m]
   NodeRow width{};           ///< dz/dt, t from -1 to 1: of the chip [m]
   NodeRow edge{};            ///< dS/dt: of the edge force [m]
+  double half = 0.0;         ///< ds/dt [m]
   NodeRow sin_kappa{};
   NodeRow cos_kappa{};
   std::vector<NodeTooth> teeth;
@@ -93,6 +94,7 @@ struct NodePanels {
   chip::Passage passage;
   std::vector<double> psi;  ///< [rad]
   const NodeRule* rule = nullptr;
+  Form form;                   ///< of the law whose forces are summed
   double begin = 0.0;          ///< arc length before which the panels do not hold [m]
   bool at_stock_edge = false;  ///< whether the stock ends somewhere in y
   std::vector<NodePanel> panels;

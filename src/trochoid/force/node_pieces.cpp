@@ -3,9 +3,13 @@
 #include <trochoid/force/node_kernel.h>
 #include <trochoid/numerics/gauss_kronrod.h>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trochoid::force {
@@ -111,6 +115,14 @@ struct Look {
   [[nodiscard]] const double* over(std::size_t mark) const noexcept {
     return &chips.over[mark * rule().width];
   }
+  /// The polynomial through some values at a place.
+  [[nodiscard]] double at(const NodeRow& basis, const double* values) const noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rule().nodes; ++i) {
+      sum += basis[i] * values[i];
+    }
+    return sum;
+  }
 };
 
 void add_breaks(const Look& look, const double* values, double slack) {
@@ -168,13 +180,7 @@ struct Place {
 
 Place place_at(const Look& look, const NodeRow& basis) noexcept {
   Place p{.least = 1e300};
-  const auto at = [&](const double* values) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < look.rule().nodes; ++i) {
-      sum += basis[i] * values[i];
-    }
-    return sum;
-  };
+  const auto at = [&](const double* values) { return look.at(basis, values); };
   for (const std::size_t m : look.scratch.marks) {
     const double h = at(look.over(m));
     if (h < p.least) {
@@ -216,14 +222,6 @@ Clipped clip(const Look& look, const Place& p) noexcept {
   return {by_stock ? outer - inner : p.least, by_stock};
 }
 
-void add_whole(const Look& look, std::size_t mark, const NodeRow& w,
-               NodeWeights& weights) {
-  for (std::size_t i = 0; i < look.rule().nodes; ++i) {
-    weights.chip[i] += w[i] * look.over(mark)[i];
-    weights.edge[i] += w[i];
-  }
-}
-
 /// Where the stock cuts the chip short h is no polynomial: Gauss' nodes between.
 void add_clipped(const Look& look, double from, double to, NodeWeights& weights) {
   const numerics::KronrodRule& gauss = numerics::kronrod_rule();
@@ -236,6 +234,128 @@ void add_clipped(const Look& look, double from, double to, NodeWeights& weights)
     const double h = clip(look, place_at(look, basis)).h * half * gauss.gauss[k];
     for (std::size_t i = 0; i < look.rule().nodes; ++i) {
       weights.chip[i] += h * basis[i];
+    }
+  }
+}
+
+/// Gauss' nodes and weights on (0, 1), crowded where a chip begins or ends.
+struct PowerRule {
+  std::size_t places = 0;
+  PowerRow t{};
+  PowerRow weight{};
+};
+
+/// What of an end is near zero.
+enum class ThinEnd { none, first, last, both };
+
+template <unsigned points, class Map>
+PowerRule mapped(const Map& map) {
+  using Gauss = boost::math::quadrature::gauss<double, points>;
+  PowerRule rule;
+  const auto add = [&](double x, double weight) {
+    const auto [t, slope] = map(0.5 * (1 + x));
+    rule.t[rule.places] = t;
+    rule.weight[rule.places++] = 0.5 * weight * slope;
+  };
+  for (std::size_t k = 0; k < Gauss::abscissa().size(); ++k) {
+    add(Gauss::abscissa()[k], Gauss::weights()[k]);
+    if (Gauss::abscissa()[k] != 0) {
+      add(-Gauss::abscissa()[k], Gauss::weights()[k]);
+    }
+  }
+  return rule;
+}
+
+/// A chip that begins grows like the distance from there, and its power 1 - m has no
+/// slope: in the third root of the distance it is smooth enough.
+const PowerRule& power_rule(ThinEnd thin) {
+  using Place = std::pair<double, double>;  // and its slope
+  static const std::array<PowerRule, 4> rules = {
+      mapped<10>([](double v) {
+        return Place{v, 1.0};
+      }),
+      mapped<15>([](double v) {
+        return Place{v * v * v, 3 * v * v};
+      }),
+      mapped<15>([](double v) {
+        const double u = 1 - v;
+        return Place{1 - u * u * u, 3 * u * u};
+      }),
+      mapped<20>([](double v) {
+        return Place{v * v * v * (10 - v * (15 - 6 * v)),
+                     30 * v * v * (1 - v) * (1 - v)};
+      })};
+  return rules[static_cast<std::size_t>(thin)];
+}
+
+/// One mark bounds the chip between two places, or the stock does.
+struct MarkPiece {
+  double from = 0.0;
+  double to = 0.0;
+  std::size_t mark = 0;
+  bool by_stock = false;
+};
+
+/// What F-2 takes the power of, times h_0: the chip across the edge.
+double chip_across(const Look& look, const MarkPiece& s, double t) noexcept {
+  const NodeRow basis = basis_at(look.rule(), t);
+  const double h = s.by_stock ? clip(look, place_at(look, basis)).h
+                              : look.at(basis, look.over(s.mark));
+  return h * look.at(basis, look.panel.sin_kappa.data());
+}
+
+/// Where the chip begins or ends, or the edge lies flat, as at the tip of a corner.
+ThinEnd thin_end(const Look& look, const MarkPiece& s) noexcept {
+  constexpr double thin = 0.3;  // of the middle
+  const bool whole = s.from == -1 && s.to == 1 && !s.by_stock;
+  const auto at = [&](std::size_t node, double t) {
+    return whole ? look.over(s.mark)[node] * look.panel.sin_kappa[node]
+                 : chip_across(look, s, t);
+  };
+  const std::size_t end = look.rule().nodes - 1;
+  const double middle = thin * at(end / 2, 0.5 * (s.from + s.to));
+  const bool first = at(0, s.from) < middle;
+  const bool last = at(end, s.to) < middle;
+  return first ? (last ? ThinEnd::both : ThinEnd::first)
+               : (last ? ThinEnd::last : ThinEnd::none);
+}
+
+/// Under a power law: h^(1 - m) is no polynomial through its values at the nodes, and the
+/// frame and the edge still are.
+void add_power(const Look& look, const MarkPiece& s, NodeWeights& weights) {
+  const PowerRule& rule = power_rule(thin_end(look, s));
+  const double length = s.to - s.from;
+  PowerRow t{};
+  PowerRow across{};
+  for (std::size_t g = 0; g < power_room; ++g) {
+    t[g] = s.from + length * rule.t[g];
+  }
+  if (s.by_stock) {
+    for (std::size_t g = 0; g < rule.places; ++g) {
+      across[g] = chip_across(look, s, t[g]);
+    }
+  } else {
+    chips_across(look.rule(), look.over(s.mark), look.panel.sin_kappa.data(), t,
+                 across);
+  }
+  add_powers(look.rule(),
+             {look.all.form.m, t, across, rule.weight, rule.places, length},
+             weights.power);
+}
+
+/// @param w  weights of the nodes for a polynomial on the piece
+void add_piece(const Look& look, const MarkPiece& s, const NodeRow& w,
+               NodeWeights& weights) {
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    weights.edge[i] += w[i];
+  }
+  if (look.all.form.power) {
+    add_power(look, s, weights);
+  } else if (s.by_stock) {
+    add_clipped(look, s.from, s.to, weights);
+  } else {
+    for (std::size_t i = 0; i < look.rule().nodes; ++i) {
+      weights.chip[i] += w[i] * look.over(s.mark)[i];
     }
   }
 }
@@ -257,13 +377,8 @@ void add_pieces(const Look& look, NodeWeights& weights) {
     for (std::size_t i = 0; i < w.size(); ++i) {
       w[i] = after[i] - before[i];
     }
-    if (chip.h > chip::h_threshold && !chip.by_stock) {
-      add_whole(look, p.mark, w, weights);
-    } else if (chip.h > chip::h_threshold) {
-      add_clipped(look, from, to, weights);
-      for (std::size_t i = 0; i < w.size(); ++i) {
-        weights.edge[i] += w[i];
-      }
+    if (chip.h > chip::h_threshold) {
+      add_piece(look, {from, to, p.mark, chip.by_stock}, w, weights);
     }
     from = to;
     before = after;
@@ -317,7 +432,8 @@ bool weigh(const NodePanels& all, const NodePanel& panel, const NodeChips& chips
   weights = {};
   if (inside == Inside::everywhere && *least > panel.slack &&
       scratch.marks.size() == 1) {
-    add_whole(look, scratch.marks.front(), all.rule->whole, weights);
+    add_piece(look, {-1.0, 1.0, scratch.marks.front(), false}, all.rule->whole,
+              weights);
     return true;
   }
   scratch.breaks.clear();
