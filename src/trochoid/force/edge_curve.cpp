@@ -296,8 +296,13 @@ class Ring {
 double end_of_meetings(const Edges& edges) {
   const auto& pitch = edges.setup.cutter.pitch;
   const double gap = *std::min_element(pitch.begin(), pitch.end());
-  const double far =
-      edges.setup.runout.eccentricity / std::sin(0.5 * std::min(gap, std::numbers::pi));
+  double shortest = 0.0;  // radius of a tooth against the nominal one
+  for (const double offset : edges.setup.runout.radial_offsets) {
+    shortest = std::min(shortest, offset);
+  }
+  const double far = edges.setup.runout.eccentricity /
+                         std::sin(0.5 * std::min(gap, std::numbers::pi)) -
+                     shortest;
   double lo = 0.0;
   double hi = edges.ends.back();
   for (int i = 0; i < halvings && edges.point(hi).meridian.r > far; ++i) {

@@ -2,6 +2,7 @@
 
 #include <trochoid/force/node_panels.h>
 
+#include <trochoid/base/overloaded.h>
 #include <trochoid/base/units.h>
 
 #include <algorithm>
@@ -16,6 +17,8 @@ namespace {
 constexpr double coarsest_at_nodes = 1e-6;
 /// The quadrature keeps its error so much below its tolerance, at the least.
 constexpr double caution_of_quadrature = 10.0;
+/// Panels near the axis err by about what they are allowed: they are allowed so much less.
+constexpr double caution_near_axis = 0.05;
 /// Tolerance of a tip that is next to nothing of the edge.
 constexpr double coarsest_at_tip = 1e-2;
 
@@ -122,8 +125,13 @@ std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
     Setup tip = setup;
     tip.cut.a_p = edges.point(force.panels_.begin).meridian.z;
     const double share = force.panels_.begin / edges.ends.back();
-    force.tip_.emplace(
-        tip, law, std::min(coarsest_at_tip, caution_of_quadrature * tolerance / share));
+    const double allowed =
+        std::min(coarsest_at_tip, caution_of_quadrature * tolerance / share);
+    if (auto near = TipForce::make(tip, law, caution_near_axis * allowed)) {
+      force.tip_ = std::move(*near);
+    } else {
+      force.tip_.emplace<AxialForce>(tip, law, allowed);
+    }
   }
   return force;
 }
@@ -133,9 +141,9 @@ void NodeForce::matrices(std::span<const double> phi,
   Walk walk(panels_);
   const std::size_t columns = terms_.form.columns();
   std::ranges::fill(C, std::array<double, 18>{});
-  if (tip_) {
-    tip_->matrices(phi, C);
-  }
+  std::visit(base::Overloaded{[](std::monostate) {},
+                              [&](const auto& tip) { tip.matrices(phi, C); }},
+             tip_);
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const std::array<double, 18> all = to_matrix(moments_at(walk, phi[i]));
     for (std::size_t row = 0; row < 3; ++row) {
@@ -146,13 +154,19 @@ void NodeForce::matrices(std::span<const double> phi,
   }
 }
 
+void NodeForce::add_tip(std::span<const double> phi, double gauge_length,
+                        std::span<SixLoads> all) const {
+  std::visit(
+      base::Overloaded{[](std::monostate) {},
+                       [&](const auto& tip) { tip.loads(phi, gauge_length, all); }},
+      tip_);
+}
+
 void NodeForce::forces(std::span<const double> phi,
                        std::span<std::array<double, 3>> F) const {
   Walk walk(panels_);
   std::vector<SixLoads> at_tip(phi.size());
-  if (tip_) {
-    tip_->loads(phi, 0.0, at_tip);
-  }
+  add_tip(phi, 0.0, at_tip);
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const std::array<double, 18> C = to_matrix(moments_at(walk, phi[i]));
     std::copy_n(at_tip[i].begin(), 3, F[i].begin());
@@ -168,9 +182,7 @@ void NodeForce::loads(std::span<const double> phi, double gauge_length,
                       std::span<SixLoads> all) const {
   Walk walk(panels_);
   std::ranges::fill(all, SixLoads{});
-  if (tip_) {
-    tip_->loads(phi, gauge_length, all);
-  }
+  add_tip(phi, gauge_length, all);
   for (std::size_t i = 0; i < phi.size(); ++i) {
     SixLoads& sum = all[i];
     walk.at(phi[i], [&](const NodePanel& panel, const NodeTooth& tooth,

@@ -3,9 +3,11 @@
 #include <trochoid/force/axial.h>
 
 #include <trochoid/force/node_pieces.h>
+#include <trochoid/force/tip_force.h>
 
 #include <optional>
 #include <span>
+#include <variant>
 
 namespace trochoid::force {
 
@@ -41,9 +43,13 @@ class NodeForce {
  private:
   NodeForce(NodePanels panels, const Law& law);
 
+  void add_tip(std::span<const double> phi, double gauge_length,
+               std::span<SixLoads> all) const;
+
   NodePanels panels_;
   Terms terms_;
-  std::optional<AxialForce> tip_;  ///< of the edge near the axis, where it gets there
+  /// Of the edge near the axis, where it gets there.
+  std::variant<std::monostate, TipForce, AxialForce> tip_;
 };
 
 }  // namespace trochoid::force
