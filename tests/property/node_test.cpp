@@ -299,6 +299,50 @@ TEST(Nodes, AtTheAxisMeetAGradedReference) {  // [F-15]
   EXPECT_GE(close, 0.95 * cases);
 }
 
+/// Panels near the axis against the quadrature along the edge: all loads, and any law. Where
+/// the edge of the stock is near, the quadrature is what is compared with itself.
+TEST(Nodes, NearTheAxisAreThatOfTheQuadrature) {  // [F-4] [F-6] [F-7]
+  Random random(23);
+  int close = 0;
+  int cases = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Cut cut = random_tip(random);
+    const Law law =
+        n % 2 == 0 ? Law(K)
+                   : Law(PowerEdge{900e6, 400e6, 150e6, 0.25, 0.4, 0.1, 7e3, 3e3, 1e3});
+    const auto nodes = NodeForce::make(cut, law, 1e-6);
+    if (!nodes) continue;
+    ++cases;
+    std::vector<double> phi;
+    for (int i = 0; i < 5; ++i) phi.push_back(2 * pi * (i + 0.3) / 5);
+    std::vector<SixLoads> all(phi.size());
+    std::vector<std::array<double, 18>> C(phi.size());
+    nodes->loads(phi, 0.03, all);
+    nodes->matrices(phi, C);
+    const AxialForce quadrature(cut, law, 1e-8);
+    const std::vector<double> k = coefficients(law);
+    double peak = 1e-6;
+    double error = 0.0;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const SixLoads expected = quadrature.loads(phi[i], 0.03);
+      peak = std::max(peak, size({expected[0], expected[1], expected[2]}));
+      for (std::size_t q = 0; q < 6; ++q) {
+        error = std::max(error, std::abs(all[i][q] - expected[q]) / (q < 3 ? 1 : 0.03));
+      }
+      for (std::size_t row = 0; row < 3; ++row) {
+        double sum = 0.0;
+        for (std::size_t q = 0; q < k.size(); ++q)
+          sum += C[i][row * k.size() + q] * k[q];
+        EXPECT_NEAR(sum, all[i][row], 1e-7 * peak) << n;
+      }
+    }
+    EXPECT_LE(error, 1e-4 * peak) << n;
+    close += error <= 1e-6 * peak ? 1 : 0;
+  }
+  EXPECT_GE(cases, 40);
+  EXPECT_GE(close, 0.95 * cases);
+}
+
 TEST(Nodes, MatricesTimesCoefficientsAreTheForce) {  // [F-4] [F-15]
   Random random(8);
   const std::array<double, 6> k = {K.K_tc, K.K_rc, K.K_ac, K.K_te, K.K_re, K.K_ae};

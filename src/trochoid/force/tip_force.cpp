@@ -21,7 +21,7 @@ constexpr double begin_of_growth = 0.06;  ///< of the tip
 constexpr double left_out = 0.03;
 constexpr double known_to = 0.1;
 /// Gaps between places are this narrow before a straight line leads to where marks change.
-constexpr double straight = 0.01;
+constexpr double straight = 1e-3;
 /// A peak of the margin is followed where it may rise so much more than it seems to.
 constexpr double safety = 3.0;
 /// Panels end so much before what jumps there.
@@ -167,15 +167,18 @@ std::optional<TipForce> TipForce::make(const Setup& setup, const Law& law,
   tip.allowed_ = known_to * tolerance * length * edges.passage.feed * unit::turn;
   const std::vector<double> ends = panel_ends(edges, left_out * tolerance * length);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    tip.add_panel(edges, ends[i] * (1 + beside), ends[i + 1] * (1 - beside));
+    tip.add_panel(edges, ends[i], ends[i + 1]);
   }
   return tip;
 }
 
 void TipForce::add_panel(const Edges& edges, double from, double to) {
   const NodeRule& rule = *panels_.rule;
-  const double middle = 0.5 * (from + to);
-  NodePanel panel = node_panel(edges, rule, from, to);
+  NodePanel panel = node_panel(edges, rule, from * (1 + beside), to * (1 - beside));
+  // Its nodes stay clear of what jumps at its ends, and stand for the whole of it.
+  const double whole = (to - from) / (panel.to - panel.from);
+  panel.half *= whole;
+  for (double& e : panel.edge) e *= whole;
   unwrap(panel, panels_);
   Powers powers;
   for (const NodeRow* row :
@@ -185,11 +188,13 @@ void TipForce::add_panel(const Edges& edges, double from, double to) {
   for (const NodeTooth& tooth : panel.teeth) {
     powers.of_teeth.push_back(powers_of_rows(rule, tooth.rows));
   }
+  const double middle = 0.5 * (panel.from + panel.to);
   const double close = std::min(loosest, resolution_ / to);
   const bool follows =
-      follow(rule, powers.of_teeth, node_panel(edges, rule, from, middle), -0.5,
+      follow(rule, powers.of_teeth, node_panel(edges, rule, panel.from, middle), -0.5,
              close) &&
-      follow(rule, powers.of_teeth, node_panel(edges, rule, middle, to), 0.5, close);
+      follow(rule, powers.of_teeth, node_panel(edges, rule, middle, panel.to), 0.5,
+             close);
   if (!follows && to - from > 2 * resolution_) {
     add_panel(edges, from, middle);
     add_panel(edges, middle, to);
@@ -406,8 +411,9 @@ class TipForce::Walk {
     for (std::size_t i = 0; i < places; ++i) {
       found[i] = bound(some_.chips, i);
     }
-    if (t[1] - t[0] < straight && found[0] == bounds[0] && found[7] == bounds[1] &&
-        cross(at, found)) {
+    const double gap = (t[1] - t[0]) / (places + 1);
+    if (gap < straight && gap * gap * panel_->half < 2 * tip_.resolution_ &&
+        found[0] == bounds[0] && found[7] == bounds[1] && cross(at, found)) {
       return;
     }
     std::size_t before = bounds[0];

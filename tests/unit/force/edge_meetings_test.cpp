@@ -31,6 +31,21 @@ double ahead(const Edges& edges, double s, std::size_t j, std::size_t k) {
       edges.psi[j] - edges.psi[k] + teeth[k].epsilon - teeth[j].epsilon, unit::turn);
 }
 
+/// A shorter tooth meets others farther from the axis than the eccentricity alone says.
+TEST(EdgeMeetings, OfAShorterToothAreFartherOut) {
+  force::Setup setup = eccentric_ball(4);
+  setup.runout = {.radial_offsets = {0.0, -5 * unit::um, -2 * unit::um, -7 * unit::um},
+                  .eccentricity = 6 * unit::um,
+                  .angle = 0.7};
+  const Edges edges(setup);
+  double farthest = 0.0;
+  for (const double s : edges.meetings[3]) {
+    farthest = std::max(farthest, edges.point(s).meridian.r);
+  }
+  EXPECT_GT(farthest, 9 * unit::um);
+  EXPECT_LT(farthest, 16 * unit::um);
+}
+
 TEST(EdgeMeetings, AreWhereTwoTeethStandOnOneRay) {
   const Edges edges(eccentric_ball(5));
   std::size_t found = 0;
