@@ -44,6 +44,24 @@ Kernel eccentric_samples() {
   };
 }
 
+/// Along edges whose chip changes with the height, under a power of it.
+Kernel power_samples() {
+  force::Setup setup = paper_cut();
+  setup.cutter.pitch = geometry::equal_pitch(4);
+  setup.runout = {.eccentricity = 10 * unit::um, .angle = 0.3};
+  const force::PowerEdge law{900e6, 400e6, 150e6, 0.25, 0.4, 0.1, 7e3, 3e3, 1e3};
+  return [=, phi = turns(8, 1)] { return force::forces(setup, law, phi, 1e-6)[1][0]; };
+}
+
+/// The tip of a ball among them.
+Kernel ball_samples() {
+  force::Setup setup = paper_cut();
+  setup.cutter.profile = geometry::ball(setup.cutter.profile.D);
+  return [setup, phi = turns(180, 1)] {
+    return force::forces(setup, paper_law(), phi, 1e-6)[30][0];
+  };
+}
+
 Kernel fit_from_nothing() {
   force::Setup setup = paper_cut();
   identification::Run run{.cut = setup.cut, .angle = turns(90, 1)};
@@ -90,6 +108,8 @@ constexpr std::array kernels{
     Named{"turn of 720 forces, feed", [] { return turn_of_forces(chip::Model::feed); }},
     Named{"turn of 720 matrices", turn_of_matrices},
     Named{"8 forces of an eccentric cutter of four teeth", eccentric_samples},
+    Named{"8 forces of the same under a power law", power_samples},
+    Named{"180 forces of a ball", ball_samples},
     Named{"fit of 90 samples from nothing known", fit_from_nothing},
     Named{"multiplier of a slot", slot_multiplier},
     Named{"turn of 2000 steps of motion, power law", turn_of_motion}};
