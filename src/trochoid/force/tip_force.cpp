@@ -167,7 +167,9 @@ std::optional<TipForce> TipForce::make(const Setup& setup, const Law& law,
   tip.allowed_ = known_to * tolerance * length * edges.passage.feed * unit::turn;
   const std::vector<double> ends = panel_ends(edges, left_out * tolerance * length);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    tip.add_panel(edges, ends[i], ends[i + 1]);
+    if (ends[i + 1] - ends[i] > 4 * beside * ends[i + 1]) {
+      tip.add_panel(edges, ends[i], ends[i + 1]);
+    }
   }
   return tip;
 }
@@ -252,6 +254,13 @@ class TipForce::Walk {
     return bound < marks_ ? chips.over[bound * places + i] : chips.radius[i];
   }
 
+  /// The chip where a bound is what the edge is above; where that mark ends, the closest.
+  [[nodiscard]] double thickness(const TipChips& at, std::size_t bound,
+                                 std::size_t i) const {
+    const double h = above(at.chips, bound, i);
+    return h < 0.5 * no_mark ? h : at.chips.least[i];
+  }
+
   template <class Visit>
   void add(std::size_t p, std::size_t j, const Visit& visit) {
     panel_ = &tip_.panels_.panels[p];
@@ -283,7 +292,7 @@ class TipForce::Walk {
     for (const NodeRow& row : tip_.panels_.rule->tail) {
       double c = 0.0;
       for (std::size_t i = 0; i < places; ++i) {
-        c += row[i] * above(at.chips, bound, i);
+        c += row[i] * thickness(at, bound, i);
       }
       most = std::max(most, std::abs(c));
     }
@@ -307,7 +316,7 @@ class TipForce::Walk {
              .cos_kappa = panel.cos_kappa[i],
              .R = chips_.chips.radius[i],
              .z = panel.z[i]},
-            above(chips_.chips, bound, i), panel.edge[i] / panel.half,
+            thickness(chips_, bound, i), panel.edge[i] / panel.half,
             tip_.panels_.rule->whole[i] * panel.half);
     }
   }
@@ -476,9 +485,8 @@ class TipForce::Walk {
     std::array<double, panel_rows * places> rows;
     tip_polynomials(powers_->of_panel, t.data(), rows.data());
     for (std::size_t i = 0; i < places; ++i) {
-      double h = above(some_.chips, bound, i);
-      if (h > 0.5 * no_mark) h = some_.chips.least[i];  // a mark that ends there
-      h = std::max(h, chip::h_threshold);               // at an end of the part
+      // At an end of the part rounding may leave none.
+      const double h = std::max(thickness(some_, bound, i), chip::h_threshold);
       visit({.sine = some_.chips.sine[i],
              .cosine = some_.chips.cosine[i],
              .sin_kappa = rows[sin_kappa * places + i],

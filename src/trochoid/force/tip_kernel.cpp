@@ -63,15 +63,22 @@ HWY_INLINE Vector root_is_there(Vector A, Vector back) noexcept {
   return hn::IfThenElse(hn::Ge(A, hn::Zero(tag)), ahead, behind);
 }
 
+/// The rows of a mark, at one block.
+struct Mark {
+  Vector apart;
+  Vector back;
+  Vector R;
+};
+
 /// C-5 and C-6. The function rises up to where its slope is zero, and bends away from the
 /// side of the start: steps of Newton stay on that side.
 template <class Mask>
-HWY_INLINE Vector over_path(Vector apart, Vector back, Vector R, Vector A,
-                            Vector advance, Mask has_none) noexcept {
+HWY_INLINE Vector over_path(const Mark& mark, Vector A, Vector advance,
+                            Mask has_none) noexcept {
   constexpr int most_steps = 16;
   constexpr double enough = 1e-9;
   const Vector one = constant(1.0);
-  const Vector turn = hn::Mul(A, back);
+  const Vector turn = hn::Mul(A, mark.back);
   const Vector half = constant(std::numbers::pi / 2);
   Vector x = hn::Div(hn::Neg(turn), hn::Max(hn::Add(one, A), constant(1e-3)));
   x = hn::Min(hn::Max(x, hn::Neg(half)), half);
@@ -87,8 +94,8 @@ HWY_INLINE Vector over_path(Vector apart, Vector back, Vector R, Vector A,
       break;
     }
   }
-  const Vector along = hn::Mul(hn::Add(back, x), advance);
-  return hn::Add(hn::MulAdd(R, fall_of(hn::Mul(x, x)), apart), along);
+  const Vector along = hn::Mul(hn::Add(mark.back, x), advance);
+  return hn::Add(hn::MulAdd(mark.R, fall_of(hn::Mul(x, x)), mark.apart), along);
 }
 
 }  // namespace tip
@@ -125,8 +132,8 @@ void chips_near_axis(const NodePanels& all, const NodeTooth& tooth,
       const auto has_none = hn::Not(hn::Ge(there, hn::Zero(tag)));
       Vector h = constant(no_mark);
       if (!hn::AllTrue(tag, has_none)) {
-        h = hn::IfThenElse(has_none, h,
-                           over_path(apart, back, R, A, hn::Mul(feed, sine), has_none));
+        h = hn::IfThenElse(
+            has_none, h, over_path({apart, back, R}, A, hn::Mul(feed, sine), has_none));
       }
       hn::StoreU(there, tag, &all_out.there[m * width + i]);
       hn::StoreU(h, tag, &out.over[m * width + i]);
