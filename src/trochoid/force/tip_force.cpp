@@ -68,18 +68,19 @@ double place_of(const Edges& edges, double r) {
 std::vector<double> panel_ends(const Edges& edges, double least) {
   const double end = edges.ends.back();
   std::vector<double> ends;
-  for (double s = end; s > least;
-       s /= s > begin_of_growth * end ? growth : fast_growth) {
+  double s = end;
+  while (s > least) {
     ends.push_back(s);
+    s /= s > begin_of_growth * end ? growth : fast_growth;
   }
   ends.push_back(least);
   for (const auto& of_tooth : edges.meetings) {
-    for (const double s : of_tooth) {
-      if (s > least && s < end) ends.push_back(s);
+    for (const double at : of_tooth) {
+      if (at > least && at < end) ends.push_back(at);
     }
   }
-  for (const double s : edges.ends) {
-    if (s > least && s < end) ends.push_back(s);
+  for (const double at : edges.ends) {
+    if (at > least && at < end) ends.push_back(at);
   }
   // Up to there a shorter tooth is not there at all.
   for (const double offset : edges.setup.runout.radial_offsets) {
