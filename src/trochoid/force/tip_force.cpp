@@ -26,6 +26,8 @@ constexpr double straight = 1e-3;
 constexpr double safety = 3.0;
 /// Panels end so much before what jumps there.
 constexpr double beside = 1e-8;
+/// Panels are no shorter than this, as a part of how far out they lie.
+constexpr double shortest_share = 8 * beside;
 /// The teeth are known at least so well, as sines.
 constexpr double loosest = 1e-3;
 /// Nodes of the rule with eight.
@@ -168,7 +170,7 @@ std::optional<TipForce> TipForce::make(const Setup& setup, const Law& law,
   tip.allowed_ = known_to * tolerance * length * edges.passage.feed * unit::turn;
   const std::vector<double> ends = panel_ends(edges, left_out * tolerance * length);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    if (ends[i + 1] - ends[i] > 4 * beside * ends[i + 1]) {
+    if (ends[i + 1] - ends[i] > shortest_share * ends[i + 1]) {
       tip.add_panel(edges, ends[i], ends[i + 1]);
     }
   }
@@ -198,7 +200,7 @@ void TipForce::add_panel(const Edges& edges, double from, double to) {
              close) &&
       follow(rule, powers.of_teeth, node_panel(edges, rule, middle, panel.to), 0.5,
              close);
-  if (!follows && to - from > 2 * resolution_) {
+  if (!follows && to - from > std::max(2 * resolution_, 2 * shortest_share * to)) {
     add_panel(edges, from, middle);
     add_panel(edges, middle, to);
     return;
