@@ -15,8 +15,8 @@ namespace trochoid::force {
 /// Nearer to the axis than about a feed marks begin and end, and teeth pass one another.
 /// Panels grow with the distance from the axis and end where teeth meet, which no spindle
 /// angle changes. Where all nodes of a panel have their chip from one mark, the nodes are
-/// the quadrature. Else the places between which the mark changes are narrowed down eight
-/// at a time, and the parts between them have Gauss points of their own.
+/// the quadrature. Otherwise the places where the mark changes are narrowed down, eight
+/// places at a time, and the parts between them have eight nodes of their own.
 ///
 /// @eq F-4
 /// @src derived
