@@ -250,6 +250,15 @@ class TipForce::Walk {
     return marks_;
   }
 
+  [[nodiscard]] std::array<std::size_t, places> bounds_of(
+      const NodeChips& chips) const {
+    std::array<std::size_t, places> out;
+    for (std::size_t i = 0; i < places; ++i) {
+      out[i] = bound(chips, i);
+    }
+    return out;
+  }
+
   /// How far above a bound the edge is; over air: above the closest.
   [[nodiscard]] double above(const NodeChips& chips, std::size_t bound,
                              std::size_t i) const {
@@ -333,10 +342,7 @@ class TipForce::Walk {
   /// @param t  of the places, ascending
   template <class Places>
   [[nodiscard]] Seen seen_in(const TipChips& all, const Places& t) const {
-    Seen seen;
-    for (std::size_t i = 0; i < places; ++i) {
-      seen.bounds[i] = bound(all.chips, i);
-    }
+    Seen seen{.bounds = bounds_of(all.chips)};
     for (std::size_t i = 0; i < places; ++i) {
       const std::size_t a = i > 0 ? i - 1 : i;
       const std::size_t c = std::min(i + 1, places - 1);
@@ -419,10 +425,7 @@ class TipForce::Walk {
     }
     const std::array<double, places> at = between(t);
     look(at);
-    std::array<std::size_t, places> found;
-    for (std::size_t i = 0; i < places; ++i) {
-      found[i] = bound(some_.chips, i);
-    }
+    const std::array<std::size_t, places> found = bounds_of(some_.chips);
     const double gap = (t[1] - t[0]) / (places + 1);
     if (gap < straight && gap * gap * panel_->half < 2 * tip_.resolution_ &&
         found[0] == bounds[0] && found[7] == bounds[1] && cross(at, found)) {
