@@ -17,11 +17,6 @@ constexpr int angles = 240;
 /// The same without the kinks, of edges whose forces change smoothly.
 constexpr int few_angles = 144;
 constexpr double beside_jump = 1e-9;  ///< [rad]
-/// Moments over the height are looked at at about so many of the angles, and at all where
-/// they are near their largest values: at least this part of them.
-constexpr std::size_t coarse_angles = 144;
-constexpr double nearly_largest = 0.92;
-
 /// Coefficients of a cubic in the height above the tip.
 using Cubic = std::array<double, 4>;
 
@@ -80,10 +75,7 @@ struct Bending {
   double moment = 0.0;      ///< [N^2 m^2]
 };
 
-Bending bending_at(const force::ArcTurn& teeth, double phi, const Cubic& c,
-                   double gauge_length) {
-  force::ToothLoads all;
-  for (std::size_t j = 0; j < teeth.teeth(); ++j) all += teeth.at(j, phi);
+Bending bending_of(const force::ToothLoads& all, const Cubic& c, double gauge_length) {
   const auto& mx = all.moment_x;
   const auto& my = all.moment_y;
   const double dx = c[0] * all.x + c[1] * mx[0] + c[2] * mx[1] + c[3] * mx[2];
@@ -91,36 +83,6 @@ Bending bending_at(const force::ArcTurn& teeth, double phi, const Cubic& c,
   const double bx = gauge_length * all.x - mx[0];
   const double by = gauge_length * all.y - my[0];
   return {dx * dx + dy * dy, bx * bx + by * by};
-}
-
-/// The largest of both over the angles.
-Bending largest_bending(const force::ArcTurn& teeth, std::span<const double> phi,
-                        const Cubic& c, double gauge_length) {
-  Bending largest;
-  std::vector<Bending> seen;
-  const std::size_t coarse = std::max<std::size_t>(1, phi.size() / coarse_angles);
-  const auto look = [&](std::size_t i) {
-    const Bending one = bending_at(teeth, phi[i], c, gauge_length);
-    largest.deflection = std::max(largest.deflection, one.deflection);
-    largest.moment = std::max(largest.moment, one.moment);
-    return one;
-  };
-  for (std::size_t i = 0; i < phi.size(); i += coarse) seen.push_back(look(i));
-  const Bending near{nearly_largest * nearly_largest * largest.deflection,
-                     nearly_largest * nearly_largest * largest.moment};
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    const Bending& a = seen[k];
-    const Bending& b = seen[(k + 1) % seen.size()];
-    if (std::max(a.deflection, b.deflection) < near.deflection &&
-        std::max(a.moment, b.moment) < near.moment) {
-      continue;
-    }
-    for (std::size_t i = k * coarse + 1; i < std::min((k + 1) * coarse, phi.size());
-         ++i) {
-      look(i);
-    }
-  }
-  return largest;
 }
 
 /// Corners of the convex hull, counter-clockwise: what is largest in any direction is one.
@@ -185,28 +147,31 @@ TurnLoads loads_of(const Turn& turn, const Tool& tool) {
       setup, tool.law,
       {.within = within, .heights = moments, .fall = turn.fall, .cones = !plain});
   const std::vector<double> phi = angles_of(teeth, plain);
-  std::vector<std::array<double, 4>> all(phi.size());
+  std::vector<force::ToothLoads> all(phi.size());
   for (std::size_t j = 0; j < teeth.teeth(); ++j) {
-    const std::vector<std::array<double, 4>> one = teeth.forces_at(j, phi);
+    const std::vector<force::ToothLoads> one = teeth.loads_at(j, phi);
+    double largest = 0.0;
     for (std::size_t i = 0; i < phi.size(); ++i) {
-      F.peak_of_tooth[j] =
-          std::max(F.peak_of_tooth[j], std::hypot(one[i][0], one[i][1]));
-      for (std::size_t k = 0; k < 4; ++k) all[i][k] += one[i][k];
+      largest = std::max(largest, one[i].x * one[i].x + one[i].y * one[i].y);
+      all[i] += one[i];
     }
+    F.peak_of_tooth[j] = std::sqrt(largest);
   }
+  const Cubic compliance = tip_compliance(tool.body, height);
   std::vector<TurnLoads::InPlane> curve;
-  for (const auto& [x, y, z, torque] : all) {
-    curve.push_back({x, y});
-    F.peak_xy = std::max(F.peak_xy, std::hypot(x, y));
-    F.peak[2] = larger(F.peak[2], z);
-    F.torque_peak = larger(F.torque_peak, torque);
+  Bending most;
+  for (const force::ToothLoads& here : all) {
+    curve.push_back({here.x, here.y});
+    F.peak_xy = std::max(F.peak_xy, std::hypot(here.x, here.y));
+    F.peak[2] = larger(F.peak[2], here.z);
+    F.torque_peak = larger(F.torque_peak, here.torque);
+    if (!moments) continue;
+    const Bending bending = bending_of(here, compliance, tool.gauge_length);
+    most.deflection = std::max(most.deflection, bending.deflection);
+    most.moment = std::max(most.moment, bending.moment);
   }
-  if (moments) {
-    const Bending most = largest_bending(teeth, phi, tip_compliance(tool.body, height),
-                                         tool.gauge_length);
-    F.deflection = std::sqrt(most.deflection);
-    F.moment_peak = tool.gauge_length > 0 ? std::sqrt(most.moment) : 0.0;
-  }
+  F.deflection = std::sqrt(most.deflection);
+  F.moment_peak = tool.gauge_length > 0 ? std::sqrt(most.moment) : 0.0;
   const force::ToothLoads mean = teeth.mean();
   F.mean = {mean.x, mean.y, mean.z};
   F.torque_mean = mean.torque;

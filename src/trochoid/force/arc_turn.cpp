@@ -15,12 +15,6 @@ namespace trochoid::force {
 
 namespace {
 
-constexpr double turn_start = -std::numbers::pi / 2;
-constexpr double turn_end = turn_start + unit::turn;
-/// A layer in which the edge lags less is cut at one angle [rad].
-constexpr double shortest_lag = 1e-7;
-/// Below this the moments over the height are those about the middle of the layer [rad].
-constexpr double short_lag = 0.05;
 /// Samples in which what bounds a chip is looked for [rad].
 constexpr double look = 0.1;
 /// Runout that changes along the edge is taken as constant over such a lag [rad].
@@ -42,61 +36,24 @@ constexpr double longest_arc_panel = 1.6;
 constexpr double arc_tolerance = 1e-7;
 /// The same where layers are cones: those stand for a curve, and err more than this.
 constexpr double cone_tolerance = 1e-4;
+/// How far from its ends a piece is looked at, as a part of it.
+constexpr double inner_part = 1e-9;
 /// A tool that only falls is fed sideways by next to nothing [m/rad].
 constexpr double least_feed = 1e-13;
 
-double into_turn(double theta) noexcept {
-  return theta - unit::turn * std::floor((theta - turn_start) / unit::turn);
-}
+/// How rays at an angle lie in the stock, as far as chips reach.
+enum class Inside { none, partly, wholly };
 
-}  // namespace
-
-ToothLoads& operator+=(ToothLoads& a, const ToothLoads& b) noexcept {
-  a.x += b.x;
-  a.y += b.y;
-  a.z += b.z;
-  a.torque += b.torque;
-  for (std::size_t i = 0; i < 3; ++i) {
-    a.moment_x[i] += b.moment_x[i];
-    a.moment_y[i] += b.moment_y[i];
-  }
-  a.axial_x += b.axial_x;
-  a.axial_y += b.axial_y;
-  return a;
-}
-
-namespace {
-
-/// A layer on its edge: z = A - theta/q, from its middle over a lag.
-struct OnEdge {
-  double A;
-  double q;
-  double middle;
-  double lag;
-};
-
-/// Moments over the height from those over theta.
-void add_window_moments(const std::array<double, 12>& v, const OnEdge& edge,
-                        ToothLoads& out) noexcept {
-  const auto& [A, q, m, lag] = edge;
-  const double each = std::abs(q);
-  for (std::size_t i = 0; i < 2; ++i) {
-    std::array<double, 3>& moment = i == 0 ? out.moment_x : out.moment_y;
-    const double whole = v[i] / each;
-    const double first = (A * v[i] - v[4 + i] / q) / each;
-    if (lag < short_lag) {
-      const double about = lag < 1e-4 ? 0.0 : first - m * whole;
-      moment[0] += m * whole + about;
-      moment[1] += m * (m * whole + 2 * about);
-      moment[2] += m * m * (m * whole + 3 * about);
-      continue;
+Inside inside(std::span<const chip::ReachedArc> arcs, double theta) noexcept {
+  Inside out = Inside::none;
+  for (const chip::ReachedArc& arc : arcs) {
+    for (const double at : {theta, theta + unit::turn}) {
+      if (!(at > arc.first() && at < arc.last())) continue;
+      if (at > arc.at_from.to && at < arc.at_to.from) return Inside::wholly;
+      out = Inside::partly;
     }
-    moment[0] += first;
-    moment[1] += (A * A * v[i] - 2 * A * v[4 + i] / q + v[6 + i] / (q * q)) / each;
-    moment[2] += (A * A * A * v[i] - 3 * A * A * v[4 + i] / q +
-                  3 * A * v[6 + i] / (q * q) - v[8 + i] / (q * q * q)) /
-                 each;
   }
+  return out;
 }
 
 }  // namespace
@@ -120,6 +77,8 @@ ArcTurn::ArcTurn(const Setup& setup, const Law& law, const Options& options)
   std::optional<geometry::ToothEdges> edges;
   if (options.cones) edges.emplace(setup.cutter, runout_of(setup));
   const geometry::Arcs& arcs = std::get<geometry::Arcs>(setup.cut.engagement);
+  const bool alike = !options.cones && keeps_radius(setup);
+  if (alike) find_unbounded(setup, arcs);
   for (const geometry::ArcLayer& given : arcs.layers) {
     const double to = std::min(given.to, setup.cut.a_p);
     if (given.arcs.empty() || !(to > given.from)) continue;
@@ -129,7 +88,7 @@ ArcTurn::ArcTurn(const Setup& setup, const Law& law, const Options& options)
       continue;
     }
     const double lag = lag_per_height_ * height;
-    const int slabs = keeps_radius(setup) ? 1 : static_cast<int>(lag / slab_lag) + 1;
+    const int slabs = alike ? 1 : static_cast<int>(lag / slab_lag) + 1;
     for (int i = 0; i < slabs; ++i) {
       add_slab(
           setup, given,
@@ -138,8 +97,7 @@ ArcTurn::ArcTurn(const Setup& setup, const Law& law, const Options& options)
   }
 }
 
-void ArcTurn::add_slab(const Setup& setup, const geometry::ArcLayer& given,
-                       geometry::Arc slab) {
+ArcTurn::Layer ArcTurn::slab_of(const Setup& setup, geometry::Arc slab) const {
   Layer layer{.from = slab.from, .to = slab.to, .passage = passage_};
   layer.positions.resize(psi_.size());
   geometry::edge_positions(runout_of(setup), psi_, r_,
@@ -156,7 +114,26 @@ void ArcTurn::add_slab(const Setup& setup, const geometry::ArcLayer& given,
     edge.q = lag_per_height_;
     layer.edges.push_back(std::move(edge));
   }
-  finish(std::move(layer), given);
+  return layer;
+}
+
+void ArcTurn::find_unbounded(const Setup& setup, const geometry::Arcs& arcs) {
+  Layer layer = slab_of(setup, {0.0, setup.cut.a_p});
+  layer.arcs = reached(layer, arcs.layers);
+  if (layer.arcs.empty()) return;
+  const auto by_first = std::ranges::minmax(layer.arcs, {}, &chip::ReachedArc::first);
+  const auto by_last = std::ranges::minmax(layer.arcs, {}, &chip::ReachedArc::last);
+  geometry::Arc all{by_first.min.first(), by_last.max.last()};
+  if (all.from < turn_start || all.to > turn_end) all = {turn_start, turn_end};
+  layer.arcs = {{{all}, {all.from, all.from}, {all.to, all.to}}};
+  for (Edge& edge : layer.edges) add_tooth(layer, edge, nullptr);
+  peak_chip_ = 0.0;  // the stock may end before it
+  unbounded_ = std::move(layer);
+}
+
+void ArcTurn::add_slab(const Setup& setup, const geometry::ArcLayer& given,
+                       geometry::Arc slab) {
+  finish(slab_of(setup, slab), given);
 }
 
 void ArcTurn::add_cones(const geometry::ToothEdges& edges, const Setup& setup,
@@ -213,12 +190,13 @@ void ArcTurn::add_cone(const geometry::ToothEdges& edges, const Setup& setup,
           edges.edge_at(j, 0.5 * (slab.from + slab.to) - above);
       edge.advance.push_back(at.r - (before.there ? before.r : 0.0));
     }
-    jumps_ = jumps_ || std::abs(edge.q) * (slab.to - slab.from) < shortest_lag;
+    jumps_ = jumps_ || at_one_angle(layer, edge);
   }
   if (!layer.positions.empty()) finish(std::move(layer), given);
 }
 
-void ArcTurn::finish(Layer&& layer, const geometry::ArcLayer& given) {
+std::vector<chip::ReachedArc> ArcTurn::reached(
+    const Layer& layer, std::span<const geometry::ArcLayer> given) const {
   const double least =
       std::ranges::min_element(layer.positions, {}, &geometry::EdgePosition::R)->R;
   // No mark is older than a turn.
@@ -226,11 +204,21 @@ void ArcTurn::finish(Layer&& layer, const geometry::ArcLayer& given) {
   for (const Edge& edge : layer.edges) {
     if (!edge.advance.empty()) oldest += std::abs(edge.advance.back());
   }
-  layer.arcs =
-      chip::reached_arcs(given.arcs, std::max(least - oldest, 0.0), options_.within);
-  for (Edge& edge : layer.edges) {
+  std::vector<chip::ReachedArc> out;
+  for (const geometry::ArcLayer& one : given) {
+    const auto some =
+        chip::reached_arcs(one.arcs, std::max(least - oldest, 0.0), options_.within);
+    out.insert(out.end(), some.begin(), some.end());
+  }
+  return out;
+}
+
+void ArcTurn::finish(Layer&& layer, const geometry::ArcLayer& given) {
+  layer.arcs = reached(layer, std::span(&given, 1));
+  for (std::size_t j = 0; j < layer.edges.size(); ++j) {
+    Edge& edge = layer.edges[j];
     if (edge.place < 0) continue;
-    add_tooth(layer, edge);
+    add_tooth(layer, edge, unbounded_ ? &unbounded_->edges[j] : nullptr);
     const double share = (layer.to - layer.from) / unit::turn;
     const Values& total = edge.integral.total();
     mean_.x += share * total[0];  // N-8
@@ -250,14 +238,29 @@ ArcTurn::Ray ArcTurn::ray(const Layer& layer, const Edge& edge,
   if (!chip.in_cut) {
     return {0.0, -1};
   }
-  const geometry::Stretch all{edge.R - chip.h, edge.R};
-  const double h = std::max(chip::stock_length(layer.arcs, theta, all),
-                            chip::stock_length(layer.arcs, theta + unit::turn, all));
+  const double h = in_stock(layer, edge, theta, chip.h);
   if (!(h > chip::h_threshold)) {
     return {0.0, -1};
   }
-  const bool clipped = h < chip.h;
-  return {h, 2 * chip::mark_of(chip) + (clipped ? 1 : 0)};
+  return {h, 2 * chip::mark_of(chip) + (h < chip.h ? 1 : 0)};
+}
+
+double ArcTurn::in_stock(const Layer& layer, const Edge& edge, double theta,
+                         double h) const noexcept {
+  const geometry::Stretch all{edge.R - h, edge.R};
+  return std::max(chip::stock_length(layer.arcs, theta, all),
+                  chip::stock_length(layer.arcs, theta + unit::turn, all));
+}
+
+double ArcTurn::chip_over(const Layer& layer, const Edge& edge, int mark,
+                          double theta) const noexcept {
+  if (mark == 0) return ray(layer, edge, theta).h;
+  const chip::Slice slice{
+      .r = edge.r, .teeth = layer.positions, .advance = edge.advance};
+  const double h = chip::chip_over_mark(layer.passage, slice, edge.place,
+                                        theta - edge.epsilon, mark);
+  return h > chip::h_threshold ? in_stock(layer, edge, theta, std::min(h, edge.R))
+                               : 0.0;
 }
 
 ArcTurn::PerHeight ArcTurn::per_height(const Edge& edge, double h,
@@ -272,7 +275,7 @@ ArcTurn::PerHeight ArcTurn::per_height(const Edge& edge, double h,
   return {x, y, r * edge.cos_kappa - a * sine, t};
 }
 
-void ArcTurn::add_tooth(const Layer& layer, Edge& edge) {
+void ArcTurn::add_tooth(const Layer& layer, Edge& edge, const Edge* unbounded) {
   // Between these nothing changes but what the marks do.
   std::vector<double> breaks{turn_start, turn_end};
   for (const chip::ReachedArc& arc : layer.arcs) {
@@ -284,24 +287,47 @@ void ArcTurn::add_tooth(const Layer& layer, Edge& edge) {
   }
   std::ranges::sort(breaks);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    if (breaks[i + 1] - breaks[i] > 1e-9) {
-      add_stretch(layer, edge, breaks[i], breaks[i + 1]);
+    if (!(breaks[i + 1] - breaks[i] > 1e-9)) continue;
+    const geometry::Arc stretch{breaks[i], breaks[i + 1]};
+    switch (inside(layer.arcs, 0.5 * (stretch.from + stretch.to))) {
+      case Inside::none:
+        break;
+      case Inside::wholly:
+        if (unbounded != nullptr) {
+          add_unbounded(*unbounded, edge, stretch);
+          break;
+        }
+        [[fallthrough]];
+      case Inside::partly:
+        add_stretch(layer, edge, stretch.from, stretch.to);
     }
   }
   edge.integral.finish();
 }
 
-void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to) {
-  const double middle = 0.5 * (from + to);
-  const auto holds = [&](const chip::ReachedArc& arc) {
-    return (middle > arc.first() && middle < arc.last()) ||
-           (middle + unit::turn > arc.first() && middle + unit::turn < arc.last());
+void ArcTurn::add_unbounded(const Edge& unbounded, Edge& edge, geometry::Arc stretch) {
+  edge.integral.append(unbounded.integral, stretch.from, stretch.to);
+  const auto add_chip = [&](double h) {
+    peak_chip_ = std::max(peak_chip_, edge.sin_kappa * h);
   };
-  if (std::ranges::none_of(layer.arcs, holds)) {
-    return;
+  for (std::size_t i = 0; i + 1 < unbounded.ends.size(); i += 2) {
+    const double from = std::max(unbounded.ends[i], stretch.from);
+    const double to = std::min(unbounded.ends[i + 1], stretch.to);
+    if (!(to > from)) continue;
+    edge.ends.push_back(from);
+    edge.ends.push_back(to);
+    const double inner = inner_part * (to - from);
+    for (const double theta : {from + inner, to - inner}) {
+      add_chip(ray(*unbounded_, unbounded, theta).h);
+    }
+    const Crest& crest = unbounded.crests[i / 2];
+    if (crest.theta > from && crest.theta < to) add_chip(crest.h);
   }
+}
+
+void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to) {
   const int n = std::max(4, static_cast<int>(std::ceil((to - from) / look)));
-  const double a_little = 1e-9 * (to - from);
+  const double a_little = inner_part * (to - from);
   const auto at = [&](int i) {
     return i == 0 ? from + a_little
                   : (i == n ? to - a_little : from + (to - from) * i / n);
@@ -313,7 +339,7 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
   int bound = ray(layer, edge, at(0)).bound;
   const auto close = [&](double end) {
     if (bound >= 0 && end > start) {
-      add_smooth(layer, edge, {start, end});
+      add_smooth(layer, edge, {start, end}, bound / 2);
     }
     start = end;
   };
@@ -343,41 +369,51 @@ void ArcTurn::add_stretch(const Layer& layer, Edge& edge, double from, double to
 
 namespace {
 
-/// Of a function with one maximum.
-template <class Function>
-double largest_between(const Function& f, double lo, double hi) {
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 12; ++i) {
-    const double a = hi - golden * (hi - lo);
-    const double b = lo + golden * (hi - lo);
-    const bool rises = f(a) < f(b);
-    (rises ? lo : hi) = rises ? a : b;
+/// Where the parabola through three places is largest; the middle one if it has no top.
+double top_of_parabola(const std::array<double, 3>& x, const std::array<double, 3>& f) {
+  const double left = (f[1] - f[0]) / (x[1] - x[0]);
+  const double right = (f[2] - f[1]) / (x[2] - x[1]);
+  const double bend = (right - left) / (x[2] - x[0]);
+  if (!(bend < 0)) return x[1];
+  return std::clamp(0.5 * (x[0] + x[1]) - 0.5 * left / bend, x[0], x[2]);
+}
+
+/// The largest chip near the largest one of some.
+template <class Crest, class Chip>
+Crest crest_near(const Chip& h_at, Crest best, geometry::Arc piece) {
+  // Neighbouring nodes are at most this far from the largest one.
+  double reach = std::min(0.14, 0.25 * (piece.to - piece.from));
+  for (int i = 0; i < 2; ++i, reach /= 6) {
+    const double at = best.theta;
+    const std::array<double, 3> x{std::max(at - reach, piece.from), at,
+                                  std::min(at + reach, piece.to)};
+    if (!(x[0] < at && at < x[2])) break;
+    const std::array<double, 3> h{h_at(x[0]), best.h, h_at(x[2])};
+    const double top = top_of_parabola(x, h);
+    for (const Crest& one :
+         {Crest{x[0], h[0]}, Crest{x[2], h[2]}, Crest{top, h_at(top)}}) {
+      if (one.h > best.h) best = one;
+    }
   }
-  return f(0.5 * (lo + hi));
+  return best;
 }
 
 }  // namespace
 
-void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
+void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece,
+                         int mark) {
   edge.ends.push_back(piece.from);
   edge.ends.push_back(piece.to);
-  const auto h_at = [&](double theta) { return ray(layer, edge, theta).h; };
-  double largest = 0.0;
-  double at_largest = piece.from;
-  const double inner = 1e-9 * (piece.to - piece.from);
+  const auto h_at = [&](double theta) { return chip_over(layer, edge, mark, theta); };
+  Crest crest{piece.from, 0.0};
+  const double inner = inner_part * (piece.to - piece.from);
   for (const double theta : {piece.from + inner, piece.to - inner}) {
     const double h = h_at(theta);
-    if (h > largest) {
-      largest = h;
-      at_largest = theta;
-    }
+    if (h > crest.h) crest = {theta, h};
   }
   const auto f = [&](double theta) {
     const double h = h_at(theta);
-    if (h > largest) {
-      largest = h;
-      at_largest = theta;
-    }
+    if (h > crest.h) crest = {theta, h};
     const std::array<double, 2> direction = {std::sin(theta), std::cos(theta)};
     const PerHeight g = per_height(edge, h, direction);
     Values out{g[0], g[1], g[2], g[3]};
@@ -403,137 +439,11 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece) {
     allowed[q] = tolerance_ * scale * (q < 4 ? 1.0 : 30.0);
   }
   edge.integral.append(piece.from, piece.to, f, longest_arc_panel, allowed);
-  if (largest * edge.sin_kappa <= peak_chip_ * (1 - 1e-3)) return;
-  if (options_.cones) {
-    peak_chip_ = std::max(peak_chip_, edge.sin_kappa * largest);
-    return;
+  if (!options_.cones) {
+    crest = crest_near(h_at, crest, {piece.from + inner, piece.to - inner});
   }
-  const double largest_chip =
-      largest_between(h_at, std::max(piece.from + inner, at_largest - 0.5 * look),
-                      std::min(piece.to - inner, at_largest + 0.5 * look));
-  peak_chip_ = std::max(peak_chip_, edge.sin_kappa * std::max(largest, largest_chip));
-}
-
-bool ArcTurn::at_one_angle(const Layer& layer, const Edge& edge) const noexcept {
-  return std::abs(edge.q) * (layer.to - layer.from) < shortest_lag;
-}
-
-ArcTurn::PerHeight ArcTurn::force_at_one_angle(const Layer& layer, const Edge& edge,
-                                               double theta) const noexcept {
-  const double h = ray(layer, edge, theta).h;
-  return h > 0 ? per_height(edge, h, {std::sin(theta), std::cos(theta)}) : PerHeight{};
-}
-
-template <std::size_t Q, class Use>
-void ArcTurn::for_each_window(const Layer& layer, const Edge& edge,
-                              std::array<double, 2> phi_and_from,
-                              const Use& use) const {
-  const auto [phi, from] = phi_and_from;
-  const double lag = std::abs(edge.q) * (layer.to - from);
-  const double at_bottom = into_turn(phi - edge.behind - edge.q * (from - layer.from));
-  // The window of theta, from the top to the bottom of the layer, and its images.
-  const double ahead = edge.q < 0 ? lag : 0.0;
-  for (double bottom = at_bottom - (edge.q < 0 ? unit::turn : 0.0);
-       bottom + ahead - lag < turn_end; bottom += unit::turn) {
-    const double first = std::max(bottom + ahead - lag, turn_start);
-    const double last = std::min(bottom + ahead, turn_end);
-    if (!(last > first)) continue;
-    std::array<double, Q> v{};
-    edge.integral.add_between(first, last, v);
-    use(v, bottom);
-  }
-}
-
-void ArcTurn::add_layer(const Layer& layer, const Edge& edge, double phi, double from,
-                        ToothLoads& out) const noexcept {
-  const double height = layer.to - from;
-  const double middle = from + 0.5 * height;
-  const auto add = [&](const PerHeight& F, double by) {
-    out.x += by * F[0];
-    out.y += by * F[1];
-    out.z += by * F[2];
-    out.torque += by * F[3] * edge.R;
-  };
-  if (at_one_angle(layer, edge)) {
-    const double theta = into_turn(phi - edge.behind - edge.q * (middle - layer.from));
-    const PerHeight F = force_at_one_angle(layer, edge, theta);
-    add(F, height);
-    out.axial_x += edge.R * std::sin(theta) * height * F[2];
-    out.axial_y += edge.R * std::cos(theta) * height * F[2];
-    for (std::size_t k = 0; options_.heights && k < 3; ++k) {
-      const auto n = static_cast<int>(k) + 2;
-      const double share = (std::pow(layer.to, n) - std::pow(from, n)) / n;
-      out.moment_x[k] += share * F[0];
-      out.moment_y[k] += share * F[1];
-    }
-    return;
-  }
-  const double q = std::abs(edge.q);
-  for_each_window<all_values>(
-      layer, edge, {phi, from}, [&](const Values& v, double bottom) {
-        add({v[0], v[1], v[2], v[3]}, 1 / q);  // N-7
-        if (!options_.heights) return;
-        out.axial_x += edge.R * v[10] / q;
-        out.axial_y += edge.R * v[11] / q;
-        const double A = from + bottom / edge.q;  // z = A - theta/q
-        add_window_moments(v, {A, edge.q, middle, q * height}, out);
-      });
-}
-
-ToothLoads ArcTurn::at(std::size_t tooth, double phi, double above) const noexcept {
-  ToothLoads out;
-  for (const Layer& layer : layers_) {
-    if (layer.edges[tooth].place >= 0 && layer.to > above) {
-      add_layer(layer, layer.edges[tooth], phi, std::max(layer.from, above), out);
-    }
-  }
-  return out;
-}
-
-std::vector<std::array<double, 4>> ArcTurn::forces_at(
-    std::size_t tooth, std::span<const double> phi) const {
-  std::vector<std::array<double, 4>> out(phi.size());
-  for (const Layer& layer : layers_) {
-    const Edge& edge = layer.edges[tooth];
-    if (edge.place < 0) continue;
-    const double height = layer.to - layer.from;
-    const bool at_one = at_one_angle(layer, edge);
-    for (std::size_t i = 0; i < phi.size(); ++i) {
-      const auto add = [&](const PerHeight& F, double by) {
-        for (std::size_t k = 0; k < 3; ++k) out[i][k] += by * F[k];
-        out[i][3] += by * edge.R * F[3];
-      };
-      if (at_one) {
-        const double theta = into_turn(phi[i] - edge.behind - 0.5 * edge.q * height);
-        add(force_at_one_angle(layer, edge, theta), height);
-        continue;
-      }
-      for_each_window<4>(layer, edge, {phi[i], layer.from},
-                         [&](const PerHeight& v, double) {
-                           add(v, 1 / std::abs(edge.q));  // N-7
-                         });
-    }
-  }
-  return out;
-}
-
-std::vector<double> ArcTurn::events() const {
-  std::vector<double> out;
-  for (const Layer& layer : layers_) {
-    for (const Edge& edge : layer.edges) {
-      for (const double end : edge.ends) {
-        for (const double z : {0.0, layer.to - layer.from}) {
-          const double phi = end + edge.behind + edge.q * z;
-          out.push_back(phi - unit::turn * std::floor(phi / unit::turn));
-        }
-      }
-    }
-  }
-  std::ranges::sort(out);
-  out.erase(std::unique(out.begin(), out.end(),
-                        [](double a, double b) { return b - a < 1e-9; }),
-            out.end());
-  return out;
+  edge.crests.push_back(crest);
+  peak_chip_ = std::max(peak_chip_, edge.sin_kappa * crest.h);
 }
 
 }  // namespace trochoid::force

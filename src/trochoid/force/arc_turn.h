@@ -1,5 +1,6 @@
 #pragma once
 
+#include <trochoid/base/units.h>
 #include <trochoid/chip/arc_chip.h>
 #include <trochoid/chip/chip.h>
 #include <trochoid/force/law.h>
@@ -9,6 +10,8 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,9 +64,9 @@ class ArcTurn {
   /// @param above  height above the tip below which the edge does not count [m]
   [[nodiscard]] ToothLoads at(std::size_t tooth, double phi,
                               double above = 0.0) const noexcept;
-  /// F_x, F_y, F_z [N] and torque [N m] of one tooth at angles [rad].
-  [[nodiscard]] std::vector<std::array<double, 4>> forces_at(
-      std::size_t tooth, std::span<const double> phi) const;
+  /// The same of one tooth at ascending angles of one turn [rad], without axial_x, axial_y.
+  [[nodiscard]] std::vector<ToothLoads> loads_at(std::size_t tooth,
+                                                 std::span<const double> phi) const;
   /// Mean loads over a turn, of all teeth, without moments over the height.
   [[nodiscard]] ToothLoads mean() const noexcept { return mean_; }
   /// Largest chip, across the edge [m].
@@ -80,6 +83,15 @@ class ArcTurn {
   /// cos(theta) times F_z.
   static constexpr std::size_t all_values = 12;
   using Values = std::array<double, all_values>;
+  /// Theta of the turn that integrals are of [rad].
+  static constexpr double turn_start = -std::numbers::pi / 2;
+  static constexpr double turn_end = turn_start + unit::turn;
+  static double into_turn(double theta) noexcept;
+  /// Where a chip is largest.
+  struct Crest {
+    double theta = 0.0;  ///< [rad]
+    double h = 0.0;      ///< [m]
+  };
   /// The edge of a tooth within a layer.
   struct Edge {
     int place = -1;        ///< among the teeth that are there; negative: it is not
@@ -93,7 +105,8 @@ class ArcTurn {
     double q = 0.0;       ///< d lag/dz [rad/m]; negative: left-hand
     std::vector<double> advance = {};  ///< N-18, for each mark [m]; empty: no fall
     numerics::PiecewiseIntegral<all_values> integral;
-    std::vector<double> ends = {};  ///< of pieces, theta [rad]
+    std::vector<double> ends = {};   ///< of pieces, theta [rad]
+    std::vector<Crest> crests = {};  ///< of each piece
 
     Edge();
   };
@@ -110,6 +123,11 @@ class ArcTurn {
     int bound;  ///< what bounds the chip; -1: air
   };
 
+  [[nodiscard]] Layer slab_of(const Setup& setup, geometry::Arc slab) const;
+  /// What all layers have in common where the stock bounds no chip.
+  void find_unbounded(const Setup& setup, const geometry::Arcs& arcs);
+  [[nodiscard]] std::vector<chip::ReachedArc> reached(
+      const Layer& layer, std::span<const geometry::ArcLayer> given) const;
   void add_slab(const Setup& setup, const geometry::ArcLayer& given,
                 geometry::Arc slab);
   void add_cones(const geometry::ToothEdges& edges, const Setup& setup,
@@ -119,12 +137,22 @@ class ArcTurn {
   void finish(Layer&& layer, const geometry::ArcLayer& given);
   [[nodiscard]] Ray ray(const Layer& layer, const Edge& edge,
                         double theta) const noexcept;
+  /// What is stock of a chip of thickness h.
+  [[nodiscard]] double in_stock(const Layer& layer, const Edge& edge, double theta,
+                                double h) const noexcept;
+  /// Chip over one mark, or the closest one if it is 0.
+  [[nodiscard]] double chip_over(const Layer& layer, const Edge& edge, int mark,
+                                 double theta) const noexcept;
   /// @param direction  sine and cosine of theta
   [[nodiscard]] PerHeight per_height(const Edge& edge, double h,
                                      std::array<double, 2> direction) const noexcept;
-  void add_tooth(const Layer& layer, Edge& edge);
+  /// @param unbounded  the same edge where the stock bounds nothing, if it is known
+  void add_tooth(const Layer& layer, Edge& edge, const Edge* unbounded);
+  void add_unbounded(const Edge& unbounded, Edge& edge, geometry::Arc stretch);
   void add_stretch(const Layer& layer, Edge& edge, double from, double to);
-  void add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece);
+  void add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece, int mark);
+  void add_windows(const Layer& layer, const Edge& edge, std::span<const double> phi,
+                   std::span<ToothLoads> out) const;
   /// Integrals over the windows of theta that a layer covers, from a height on.
   /// @param use  use(integrals of the first Q of Values, theta of its lower end [rad])
   template <std::size_t Q, class Use>
@@ -147,6 +175,7 @@ class ArcTurn {
   double tolerance_;
   bool jumps_ = false;
   Terms law_;
+  std::optional<Layer> unbounded_;  ///< of cylinders whose runout is the same all along
   std::vector<Layer> layers_;
   ToothLoads mean_;
   double peak_chip_ = 0.0;

@@ -28,6 +28,10 @@ Surroundings::Surroundings(const Swept& swept, const Place& place, double reach)
     if (i > place.last || piece.turns_from > place.turns) {
       break;
     }
+    const double dx = piece.from[0] - place.tip[0];
+    const double dy = piece.from[1] - place.tip[1];
+    const double farthest = swept.wall(piece.tool).largest() + reach + piece.length;
+    if (dx * dx + dy * dy >= farthest * farthest) continue;
     if (i == place.last && place.without_last) {
       continue;
     }

@@ -228,10 +228,21 @@ class Scan {
   }
 
  private:
+  /// What touches the one before becomes a part of it: most pieces follow one another.
+  void take(geometry::Stretch s) {
+    if (!stretches_.empty() && s.from <= stretches_.back().to &&
+        s.to >= stretches_.back().from) {
+      geometry::Stretch& last = stretches_.back();
+      last = {std::min(last.from, s.from), std::max(last.to, s.to)};
+    } else {
+      stretches_.push_back(s);
+    }
+  }
+
   void add_disc(double x, double y0, double R, double y) {
     const double rest = R * R - square(y - y0);
     if (rest > 0) {
-      stretches_.push_back({x - std::sqrt(rest), x + std::sqrt(rest)});
+      take({x - std::sqrt(rest), x + std::sqrt(rest)});
     }
   }
 
@@ -258,7 +269,7 @@ class Scan {
     limit(-dy, dx * (y - a[1]), -R * l, R * l);
     limit(dx, dy * (y - a[1]), 0.0, l * l);
     if (hi > lo) {
-      stretches_.push_back({a[0] + lo, a[0] + hi});
+      take({a[0] + lo, a[0] + hi});
     }
   }
 
@@ -294,8 +305,7 @@ class Scan {
       const double behind = std::copysign(1.0, turn) * (std::atan2(dy, x) - start);
       const double past = behind - unit_turn * std::floor(behind / unit_turn);
       if (past <= std::abs(turn)) {
-        stretches_.push_back(
-            {piece.center[0] + ends[i], piece.center[0] + ends[i + 1]});
+        take({piece.center[0] + ends[i], piece.center[0] + ends[i + 1]});
       }
     }
   }
@@ -348,7 +358,7 @@ double swept_area(const Swept& swept, double z, double step) {
     }
   }
   if (reaches.empty()) return 0.0;
-  std::ranges::sort(reaches, {}, &Reach::from);
+  std::ranges::stable_sort(reaches, {}, &Reach::from);  // moves in a row stay in a row
   const double from = reaches.front().from;
   const double to = std::ranges::max_element(reaches, {}, &Reach::to)->to;
   const auto lines = static_cast<std::size_t>((to - from) / step) + 1;

@@ -183,6 +183,59 @@ SixLoads sum_of(const ArcTurn& turn, double phi, double gauge_length) {
           F.moment_x[0] - gauge_length * F.x - F.axial_x};
 }
 
+/// Layers with arcs of their own: bounded by lines and a circle, with a ridge between.
+geometry::Arcs three_layers(double R, double a_p) {
+  const StockBoundary side{StockBoundary::Kind::line, 0.3, R - 1e-4};
+  geometry::Arcs out;
+  out.layers = {{0.0, 0.3 * a_p, {{{0.4, 2.9}, {}, side}}},
+                {0.3 * a_p, 0.5 * a_p, {{{0.9, 1.5}}, {{1.8, 3.0}}}},
+                {0.5 * a_p, a_p, {{{-pi / 2, 3 * pi / 2}}}}};
+  return out;
+}
+
+TEST(ArcTurn, LayersShareWhatTheStockDoesNotBound) {
+  for (const double helix : {0.0, 30.0, 70.0}) {
+    MadeCut s = lively(helix);
+    s.cut.a_p = 20e-3;
+    s.cut.engagement = three_layers(5e-3, s.cut.a_p);
+    MadeCut other = s;
+    other.runout.eccentricity = 1e-14;  // each part of each layer for itself
+    const ArcTurn::Options options{.within = {0.0, pi}, .heights = true};
+    const ArcTurn shared(s, steel(), options);
+    const ArcTurn alone(other, steel(), options);
+    EXPECT_NEAR(shared.peak_chip(), alone.peak_chip(), 1e-4 * alone.peak_chip());
+    EXPECT_NEAR(shared.mean().y, alone.mean().y, 1e-6 * std::abs(alone.mean().y));
+    for (double phi = 0.013; phi < 2 * pi; phi += 0.2) {
+      const SixLoads a = sum_of(shared, phi, 40e-3);
+      const SixLoads b = sum_of(alone, phi, 40e-3);
+      EXPECT_NEAR(a[0], b[0], 2e-3) << helix << ' ' << phi;
+      EXPECT_NEAR(a[5], b[5], 1e-4) << helix << ' ' << phi;
+    }
+  }
+}
+
+TEST(ArcTurn, AtManyAnglesIsThatAtEach) {
+  for (const double helix : {0.0, 30.0, -30.0, 70.0}) {
+    MadeCut s = lively(helix);
+    s.cut.a_p = 20e-3;
+    s.cut.engagement = three_layers(5e-3, s.cut.a_p);
+    const ArcTurn turn(s, steel(),
+                       {.within = {-pi, 3 * pi}, .heights = true, .cones = helix < 0});
+    const std::vector<double> phi = trochoid::force::turn(97);
+    for (std::size_t j = 0; j < turn.teeth(); ++j) {
+      const std::vector<ToothLoads> all = turn.loads_at(j, phi);
+      for (std::size_t i = 0; i < phi.size(); ++i) {
+        const ToothLoads one = turn.at(j, phi[i]);
+        EXPECT_NEAR(all[i].x, one.x, 1e-9);
+        EXPECT_NEAR(all[i].z, one.z, 1e-9);
+        EXPECT_NEAR(all[i].torque, one.torque, 1e-11);
+        EXPECT_NEAR(all[i].moment_x[0], one.moment_x[0], 1e-11) << helix << phi[i];
+        EXPECT_NEAR(all[i].moment_y[2], one.moment_y[2], 1e-14) << helix << phi[i];
+      }
+    }
+  }
+}
+
 TEST(ArcTurn, ConesStandForAnyEdge) {  // [N-7]
   struct Kind {
     const char* name;

@@ -1,4 +1,4 @@
-#include <trochoid/numerics/piecewise_integral.h>
+#include <trochoid/numerics/panels.h>
 
 #include <numbers>
 
