@@ -160,6 +160,17 @@ void general_turn(benchmark::State& state, Tool tool) {
   time_turn(state, setup, 720);
 }
 
+/// A power law on them.
+void general_power(benchmark::State& state, Tool tool) {
+  const force::Setup setup = general_cut(tool);
+  const force::Law law =
+      force::Power{.K_t1 = 1.2e9, .K_r1 = 0.5e9, .m_t = 0.3, .m_r = 0.4};
+  const auto phi = turns(720, 1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(force::forces(setup, law, phi, tolerance));
+  }
+}
+
 /// The same by adaptive quadrature.
 void general_along_the_edge(benchmark::State& state, Tool tool) {
   const force::Setup setup = general_cut(tool);
@@ -248,6 +259,10 @@ BENCHMARK_CAPTURE(general_turn, ball, Tool::ball)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(general_turn, taper, Tool::taper)
     ->Arg(2)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_power, eccentric, Tool::eccentric)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(general_power, bull_nose, Tool::bull_nose)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(general_along_the_edge, eccentric, Tool::eccentric)
     ->Unit(benchmark::kMicrosecond);

@@ -65,6 +65,14 @@ void identify_from_start(benchmark::State& state) {
                       options);
 }
 
+/// Two straight teeth: their force jumps.
+void identify_straight(benchmark::State& state) {
+  force::Setup setup = paper_cut();
+  setup.cutter.helix = 0.0;
+  fit_again_and_again(state, without_runout(setup),
+                      noisy_run(setup, 2, static_cast<double>(state.range(0))), {});
+}
+
 /// Coefficients, eccentricity and phase of four teeth, one turn.
 void identify_eccentricity(benchmark::State& state, bool start) {
   force::Setup setup = paper_cut();
@@ -91,6 +99,7 @@ BENCHMARK_CAPTURE(identify, feed, chip::Model::feed)
     ->Arg(20)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(identify_from_start)->Arg(20)->Unit(benchmark::kMillisecond);
+BENCHMARK(identify_straight)->Arg(20)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(identify_eccentricity, from_nothing, false)
     ->Arg(20)
     ->Unit(benchmark::kMillisecond);

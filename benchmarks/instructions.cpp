@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/dynamics/motion.h>
 #include <trochoid/dynamics/multiplier.h>
+#include <trochoid/engagement/turn.h>
 #include <trochoid/force/forces.h>
 #include <trochoid/identification/identify.h>
 
@@ -62,6 +63,20 @@ Kernel ball_samples() {
   };
 }
 
+/// Six layers, each with arcs of its own.
+Kernel turn_of_layers() {
+  engagement::Tool tool;
+  tool.cutter = geometry::end_mill(8 * unit::mm, 3, 35 * unit::deg);
+  tool.runout.radial_offsets = {0.0, 6 * unit::um, -4 * unit::um};
+  tool.law = paper_law();
+  tool.gauge_length = 32 * unit::mm;
+  engagement::Turn turn{.f_z = 50 * unit::um};
+  for (int i = 0; i < 6; ++i) {
+    turn.layers.push_back({i * unit::mm, (i + 1) * unit::mm, {{{0.3 + 0.1 * i, 3.0}}}});
+  }
+  return [=] { return engagement::loads_of(turn, tool).forces.peak_xy; };
+}
+
 Kernel fit_from_nothing() {
   force::Setup setup = paper_cut();
   identification::Run run{.cut = setup.cut, .angle = turns(90, 1)};
@@ -110,6 +125,7 @@ constexpr std::array kernels{
     Named{"8 forces of an eccentric cutter of four teeth", eccentric_samples},
     Named{"8 forces of the same under a power law", power_samples},
     Named{"180 forces of a ball", ball_samples},
+    Named{"turn of a program in six layers", turn_of_layers},
     Named{"fit of 90 samples from nothing known", fit_from_nothing},
     Named{"multiplier of a slot", slot_multiplier},
     Named{"turn of 2000 steps of motion, power law", turn_of_motion}};

@@ -18,10 +18,11 @@ def time_text(ns):
     return f"{ns * 1e-9:.3g} s"
 
 
-def medians(program, which):
-    """CPU time [ns] and counters of each benchmark."""
+def medians(program, which, repetitions=REPETITIONS, least_s="0.5"):
+    """CPU time [ns] and counters of each benchmark that a pattern finds, and of the textbook's."""
     run = subprocess.run(
-        [program, f"--benchmark_filter=({which})|^{TEXTBOOK}$", f"--benchmark_repetitions={REPETITIONS}",
+        [program, f"--benchmark_filter=({which})|^{TEXTBOOK}$", f"--benchmark_repetitions={repetitions}",
+         f"--benchmark_min_time={least_s}",
          "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true",
          "--benchmark_format=json"],
         stdout=subprocess.PIPE, text=True, check=True)
