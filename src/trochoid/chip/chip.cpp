@@ -251,9 +251,25 @@ struct Closest {
   int mark = Bounds::axis;
 };
 
+/// No mark of an undeflected straight path that lies deeper than this can be the closest:
+/// the tooth's own is a turn old. With what it turns back, and rounding, in the last terms.
+double deepest_mark(const Ray& ray) noexcept {
+  const double own = position(ray, 0).R;
+  const double f = ray.p.feed * unit::turn;
+  const bool plain = ray.p.model.model == Model::trochoidal && ray.p.curvature == 0 &&
+                     ray.slice.advance.empty() && ray.p.marks == ray.p.teeth &&
+                     ray.sine >= 0 && f < 0.1 * own;
+  if (!plain) return infinity;
+  const double back = f * ray.cosine / own;
+  return 1.03 * f * ray.sine + own * back * back + 1e-9 * own;
+}
+
 Closest closest_mark(const Ray& ray) noexcept {
   Closest best;
+  const double own = position(ray, 0).R;
+  const double deepest = deepest_mark(ray);
   const auto look = [&](int m) {
+    if (own - position(ray, m).R > deepest) return;  // L_k <= R_k
     const double above = above_mark(ray, m);
     if (above < best.above) {
       best = {above, m};

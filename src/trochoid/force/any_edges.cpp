@@ -3,6 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/chip/intervals.h>
 #include <trochoid/numerics/gauss_kronrod.h>
+#include <trochoid/numerics/parallel.h>
 #include <trochoid/numerics/pieces.h>
 
 #include <algorithm>
@@ -21,6 +22,10 @@ constexpr int fewest_looks = 6;
 constexpr double resolution_of_zone = 1e-13;
 /// Errors allowed on a piece, in parts of the tolerance.
 constexpr double share_of_any_piece = 0.02;
+/// The mean of a turn may err by this much more on a piece: it has few.
+constexpr double share_of_turn = 20;
+/// Parts of a zone whose means are computed side by side.
+constexpr std::size_t parts_of_zone = 8;
 /// Pieces of a zone shorter than this are taken as they are.
 constexpr double shortest_any_piece = 1e-9;
 
@@ -281,7 +286,7 @@ void AnyForce::add_turn(const chip::TeethAtHeight& teeth, double z, double gauge
   constexpr double opposite = -0.5 * std::numbers::pi;
   TenMeans allowed = allowed_means(gauge_length);
   const double length = edges_.zones.back().to - edges_.zones.front().from;
-  for (double& x : allowed) x *= unit::turn / length;  // per height, over a turn
+  for (double& x : allowed) x *= share_of_turn * unit::turn / length;
   TenMeans turn{};
   for (std::size_t j = 0; j < teeth.teeth(); ++j) {
     if (!teeth.there(j)) continue;
@@ -306,16 +311,24 @@ void AnyForce::add_turn(const chip::TeethAtHeight& teeth, double z, double gauge
 }
 
 TurnMeans AnyForce::mean(double gauge_length) const {
-  TenMeans sum{};
   const TenMeans allowed = allowed_means(gauge_length);
-  for (const Zone& zone : edges_.zones) {
+  std::vector<TenMeans> parts(parts_of_zone * edges_.zones.size());
+  const auto integrate_part = [&](std::size_t i) {
+    const Zone& zone = edges_.zones[i / parts_of_zone];
+    const double from = static_cast<double>(i % parts_of_zone) / parts_of_zone;
     chip::TeethAtHeight teeth(edges_.edges, edges_.passage);
     const auto add = [&](double t, double weight, TenMeans& out) {
       teeth.stand_at(zone.from, zone.beyond(t), zone.there);
       add_turn(teeth, zone.from + zone.beyond(t), gauge_length, weight * zone.slope(t),
                out);
     };
-    numerics::add_integral(0.0, 1.0, add, allowed, 1e-4, sum);
+    numerics::add_integral(from, from + 1.0 / parts_of_zone, add, allowed, 1e-4,
+                           parts[i]);
+  };
+  numerics::for_each_index(parts.size(), integrate_part, 1);
+  TenMeans sum{};
+  for (const TenMeans& one : parts) {
+    for (std::size_t q = 0; q < sum.size(); ++q) sum[q] += one[q];
   }
   TurnMeans out;
   std::copy_n(sum.begin(), 6, out.fixed.begin());
