@@ -22,8 +22,6 @@ constexpr int fewest_looks = 6;
 constexpr double resolution_of_zone = 1e-13;
 /// Errors allowed on a piece, in parts of the tolerance.
 constexpr double share_of_any_piece = 0.02;
-/// The mean of a turn may err by this much more on a piece: it has few.
-constexpr double share_of_turn = 20;
 /// Parts of a zone whose means are computed side by side.
 constexpr std::size_t parts_of_zone = 8;
 /// Pieces of a zone shorter than this are taken as they are.
@@ -286,7 +284,7 @@ void AnyForce::add_turn(const chip::TeethAtHeight& teeth, double z, double gauge
   constexpr double opposite = -0.5 * std::numbers::pi;
   TenMeans allowed = allowed_means(gauge_length);
   const double length = edges_.zones.back().to - edges_.zones.front().from;
-  for (double& x : allowed) x *= share_of_turn * unit::turn / length;
+  for (double& x : allowed) x *= unit::turn / length;  // per height, over a turn
   TenMeans turn{};
   for (std::size_t j = 0; j < teeth.teeth(); ++j) {
     if (!teeth.there(j)) continue;
