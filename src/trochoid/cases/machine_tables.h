@@ -88,8 +88,18 @@ struct Surface {
   std::vector<surface::AlsoBends> also_bends;  ///< what more than y
 };
 
+/// What a measured surface is of.
+enum class MeasuredOf { wall, finish };
+
+/// As files spell it.
+constexpr std::string_view name_of(MeasuredOf of) noexcept {
+  return of == MeasuredOf::wall ? "wall" : of == MeasuredOf::finish ? "finish" : "";
+}
+
 /// One [[surface_measurement]].
 struct SurfaceMeasurement {
+  MeasuredOf of = MeasuredOf::wall;
+  std::optional<double> floor_y;  ///< of a trace on the floor, across the feed [m]
   files::SurfaceSource source;
   Held<files::SurfaceFile> surface;
   bool datum_offset = false;          ///< a constant shift of the readings is estimated

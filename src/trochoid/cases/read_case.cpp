@@ -254,7 +254,9 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   }
   settle_channels(t, purpose, findings, c);
   check_machine(t.machine, t.tool, findings);
-  if (purpose == Command::surface || purpose == Command::calibrate) {
+  if (purpose == Command::calibrate && is_finish(t.machine)) {
+    check_finish(t, findings);
+  } else if (purpose == Command::surface || purpose == Command::calibrate) {
     check_wall_cut(t, name_of(purpose), findings);
   }
   check_surface(t, findings);
@@ -327,6 +329,12 @@ void hold_data(Case& c) {
   }
   MachineTables& machine = c.machine;
   for (SurfaceMeasurement& m : machine.surface_measurements) {
+    if (m.of == MeasuredOf::finish) {
+      if (!m.source.height) m.source.height = 0.0;  // its file has none
+      m.surface = Held<files::SurfaceFile>::by(
+          [source = m.source] { return files::read_surface_file(source); });
+      continue;
+    }
     m.surface = Held<files::SurfaceFile>::by(
         [wall = wall_of(c), source = m.source] { return read_wall(source, wall); });
   }

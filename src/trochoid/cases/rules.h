@@ -61,6 +61,12 @@ void check_machine(MachineTables& machine, const ToolTable& tool, Findings& find
 /// @param verb  `surface` or `calibrate`, for messages
 void check_wall_cut(CaseTables& tables, std::string_view verb, Findings& findings);
 
+/// @brief Whether what was measured are roughness traces.
+bool is_finish(const MachineTables& machine);
+
+/// @brief What roughness traces need; fills in [surface].
+void check_finish(CaseTables& tables, Findings& findings);
+
 /// @brief Whether a surface is asked for of which only the floor is wanted.
 bool is_floor_only(const CaseTables& tables, std::string_view verb);
 

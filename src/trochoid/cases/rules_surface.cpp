@@ -101,6 +101,72 @@ void check_feed(const CutTable& cut, std::string_view verb, Findings& findings) 
 
 }  // namespace
 
+bool is_finish(const MachineTables& machine) {
+  return std::ranges::any_of(machine.surface_measurements,
+                             [](const auto& m) { return m.of == MeasuredOf::finish; });
+}
+
+namespace {
+
+/// Where one trace lies.
+void check_trace(CaseTables& tables, std::size_t number, Findings& findings) {
+  const SurfaceMeasurement& m = tables.machine.surface_measurements[number - 1];
+  const std::string path = fmt::format("surface_measurement[{}].", number);
+  if (m.of != MeasuredOf::finish) {
+    report(
+        findings, path + "of",
+        fmt::format("{}of = \"wall\": another one is of a finish; must be the same for "
+                    "all (a wall and a finish are two cases)",
+                    path));
+    return;
+  }
+  if (m.floor_y.has_value() == m.source.height.has_value()) {
+    report(
+        findings, m.floor_y ? path + "height_mm" : path + "file",
+        fmt::format("surface_measurement[{}]: {} of floor_y_mm and height_mm; must be "
+                    "one: floor_y_mm of a trace on the floor, height_mm of one on the "
+                    "wall",
+                    number, m.floor_y ? "both" : "neither"));
+    return;
+  }
+  const double radius = tables.tool.diameter / 2;
+  if (m.floor_y && sound(findings, {path + "floor_y_mm", "tool.diameter_mm"}) &&
+      std::abs(*m.floor_y) >= radius) {
+    report(findings, path + "floor_y_mm",
+           fmt::format("{}floor_y_mm = {} mm: beside the tool, which reaches to {} mm; "
+                       "must be between -{} and {} mm",
+                       path, mm(*m.floor_y), mm(radius), mm(radius), mm(radius)));
+  }
+  const auto engagement = tables.cut.engagement;
+  if (!m.floor_y && engagement != EngagementKind::up &&
+      engagement != EngagementKind::down && sound(findings, {"cut.engagement"})) {
+    report(
+        findings, "cut.engagement",
+        fmt::format("cut.engagement = {}: leaves no single finished wall; must be "
+                    "\"up\" or \"down\" for a trace on the wall (floor_y_mm says that "
+                    "it is on the floor)",
+                    shown_choice(tables.cut, "engagement")));
+  }
+  if (m.source.frame) {
+    report(findings, path + "frame",
+           fmt::format("{}frame: a trace has a place along the feed and a height only; "
+                       "must be left out",
+                       path));
+  }
+}
+
+}  // namespace
+
+void check_finish(CaseTables& tables, Findings& findings) {
+  if (!tables.machine.surface && sound(findings, {"surface"})) {
+    tables.machine.surface.emplace();
+  }
+  check_feed(tables.cut, "calibrate", findings);
+  for (std::size_t i = 0; i < tables.machine.surface_measurements.size(); ++i) {
+    check_trace(tables, i + 1, findings);
+  }
+}
+
 bool is_floor_only(const CaseTables& tables, std::string_view verb) {
   const auto& surface = tables.machine.surface;
   return verb == "surface" && surface && !surface->floor_y.empty() &&

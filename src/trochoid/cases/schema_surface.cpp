@@ -10,6 +10,16 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
      .need = Need::always,
      .file = "a measured surface (csv, x3p or sdf)"},
     &t.source.file);
+  v({.name = "of",
+     .meaning = "what was measured; wall: its error, which tells forces; finish: a "
+                "roughness trace along the feed, which tells how far teeth stand out"},
+    choice(t.of));
+  v({.name = "floor_y_mm",
+     .meaning = "finish: the trace is on the floor, so far from the axis across the "
+                "feed; left out: it is on the wall, at height_mm",
+     .range = between(-longest_mm, longest_mm),
+     .example = "0"},
+    &t.floor_y);
   v({.name = "datum_offset", .meaning = "estimate a constant shift of the readings"},
     &t.datum_offset);
   v({.name = "datum_tilt",
@@ -25,8 +35,9 @@ void describe(const Visitor& v, SurfaceMeasurement& t) {
      .meaning = "unit of lengths whose column names none; as_named: every column must"},
     choice(t.source.unit, "as_named"));
   v({.name = "height_mm",
-     .meaning = "height above the tip of a trace along the feed, whose file has no "
-                "column of heights; its column Z is the error",
+     .meaning =
+         "height above the tip of a trace along the feed on the wall, whose file "
+         "has no column of heights; its column Z is the error",
      .range = between(0, 10000),
      .example = "1.5"},
     &t.source.height);

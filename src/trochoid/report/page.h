@@ -33,6 +33,7 @@ std::string_view wall_map_js();  ///< readings on a wall
 std::string_view ellipse_js();   ///< two coefficients known together
 std::string_view calibrate_js();
 std::string_view calibrate_words_js();
+std::string_view finish_js();  ///< roughness traces
 std::string_view stability_js();
 std::string_view correct_js();
 std::string_view modes_js();  ///< modes and actuators

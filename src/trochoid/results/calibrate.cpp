@@ -444,6 +444,7 @@ const Columns<surface::ModelFits>& mean_columns() {
 }  // namespace
 
 Answer answer_of(const CalibrateResult& r) {
+  if (!r.traces.empty()) return answer_of_finish(r);
   Answer answer{.command = "calibrate",
                 .heading = r.heading,
                 .result = calibrate_fields().object(r)};
@@ -460,6 +461,7 @@ Description description_of_calibrate() {
   Description all{.command = "calibrate", .keys = calibrate_fields().texts()};
   reading_columns().add_texts(all.columns);
   mean_columns().add_texts(all.columns);
+  add_finish_description(all);
   return all;
 }
 

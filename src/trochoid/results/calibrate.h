@@ -2,6 +2,7 @@
 
 #include <trochoid/results/answer.h>
 #include <trochoid/surface/calibrate.h>
+#include <trochoid/surface/trace_fit.h>
 
 #include <cstddef>
 #include <optional>
@@ -10,7 +11,15 @@
 
 namespace trochoid::results {
 
-/// @brief What `calibrate` answers: coefficients and runout from a measured wall.
+/// @brief What a roughness trace tells of the teeth.
+struct MeasuredTrace {
+  std::string file;  ///< as the case names it
+  surface::Trace trace;
+  surface::TraceFit fit;
+};
+
+/// @brief What `calibrate` answers: coefficients and runout from a measured wall, or what
+/// roughness traces tell of the teeth.
 struct CalibrateResult {
   Heading heading;
   std::vector<surface::Reading> readings;  ///< of all files
@@ -23,11 +32,15 @@ struct CalibrateResult {
   force::EdgeLength edge_length = force::EdgeLength::true_length;
   geometry::EccentricityOrder order = geometry::EccentricityOrder::exact;
   int teeth = 1;
+  std::vector<MeasuredTrace> traces;  ///< of a finish: all else is empty then
 };
 
 /// @brief `K_tc = 812 +- 40 MPa and K_rc = ... from 468 readings; runout ...`, and
 /// whether to trust it; of an answer that is there, its warnings known.
 std::string calibration_sentence(const CalibrateResult& result);
+
+/// @brief How far teeth stand out by the first trace, in words.
+std::string finish_sentence(const CalibrateResult& result);
 
 Answer answer_of(const CalibrateResult& result);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <trochoid/results/calibrate.h>
+#include <trochoid/results/descriptions.h>
 
 #include <string>
 
@@ -11,5 +12,11 @@ std::string calibration_table(const CalibrateResult& result);
 
 /// @brief material.toml: what another case includes to use what was found.
 std::string calibrated_material(const CalibrateResult& result);
+
+/// @brief The answer of roughness traces.
+Answer answer_of_finish(const CalibrateResult& result);
+
+/// @brief Keys and columns that only that answer has.
+void add_finish_description(Description& all);
 
 }  // namespace trochoid::results

@@ -40,7 +40,8 @@ constexpr auto names =
                                      "overview.csv",       "passes.csv",
                                      "wall_loads.csv",     "fitted_xx.csv",
                                      "fitted_xy.csv",      "fitted_yx.csv",
-                                     "fitted_yy.csv"});
+                                     "fitted_yy.csv",      "trace.csv",
+                                     "runout.toml"});
 
 /// material_2.toml, material_3.toml, ...: of the second group of records and on.
 bool is_further_material(std::string_view name) {

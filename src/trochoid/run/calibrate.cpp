@@ -83,6 +83,9 @@ void withdraw_hidden_runout(const cases::Case& given, const surface::Setting& se
 }  // namespace
 
 results::CalibrateResult calibrate(const cases::Case& given, const Progress& progress) {
+  if (given.machine.surface_measurements.front().of == cases::MeasuredOf::finish) {
+    return calibrate_finish(given, progress);
+  }
   const auto tell = [&](const char* what) { progress(what); };
   MeasuredWall wall = measured_wall(given);
   const surface::Setting setting = wall_setting(given);

@@ -54,6 +54,9 @@ results::SurfaceResult surface(const cases::Case& given, const Progress& progres
 /// @brief Cutting coefficients, and runout where it shows, from measured walls.
 /// @throws base::InputError when a measurement cannot be used
 results::CalibrateResult calibrate(const cases::Case& given, const Progress& progress);
+/// Where what was measured are roughness traces.
+results::CalibrateResult calibrate_finish(const cases::Case& given,
+                                          const Progress& progress);
 
 /// @brief How to measure a wall so that it tells the coefficients and the runout as well
 /// as is wanted (E-60), and which cut and which wall keep an allowed error.

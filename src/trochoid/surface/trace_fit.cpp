@@ -4,6 +4,7 @@
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
 #include <trochoid/numerics/student.h>
+#include <trochoid/surface/flat_trace.h>
 #include <trochoid/surface/tooth_profiles.h>
 
 #include <fmt/core.h>
@@ -14,15 +15,10 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace trochoid::surface {
 namespace {
 
-/// How far the feed may be from the stated one, and how much of a turn the last turn of a
-/// trace may drift from one feed that is tried to the next.
-constexpr double feed_range = 0.03;
-constexpr double drift = 0.04;
 /// Bins of a turn in which a trace is folded to look for its start, and places of it.
 constexpr std::size_t folds = 512;
 constexpr std::size_t shifts = 1024;
@@ -33,98 +29,15 @@ constexpr double clearly = 9.0;
 /// Starts that are fitted.
 constexpr std::size_t most_starts = 6;
 
-struct Line {
-  double level = 0.0;
-  double slope = 0.0;
-};
-
-/// The line through a trace, about its middle.
-Line line_through(const Trace& trace, double middle) {
-  double sum = 0.0;
-  double xx = 0.0;
-  double xz = 0.0;
-  for (std::size_t i = 0; i < trace.x.size(); ++i) {
-    const double x = trace.x[i] - middle;
-    sum += trace.z[i];
-    xx += x * x;
-    xz += x * trace.z[i];
-  }
-  return {sum / static_cast<double>(trace.x.size()), xx > 0 ? xz / xx : 0.0};
-}
-
-double mean_of(const std::vector<double>& v) {
-  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
-}
-
-double Ra_of(const std::vector<double>& z) {
-  const double mean = mean_of(z);
-  double sum = 0.0;
-  for (const double value : z) sum += std::abs(value - mean);
-  return sum / static_cast<double>(z.size());
-}
-
-double turn_of(double u) noexcept {
-  return u - std::floor(u);
-}
-
-/// A trace without its line, and where readings lie on one turn.
-struct Flat {
-  std::vector<double> x;  ///< from the first reading [m]
-  std::vector<double> z;  ///< [m]
-
-  [[nodiscard]] double length() const noexcept { return x.back(); }
-
-  /// Means in bins of a turn of a feed; bins without a reading take their neighbour's.
-  [[nodiscard]] std::vector<double> folded(double feed, std::size_t bins) const {
-    std::vector<double> sum(bins, 0.0);
-    std::vector<double> count(bins, 0.0);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto k = std::min(
-          bins - 1,
-          static_cast<std::size_t>(turn_of(x[i] / feed) * static_cast<double>(bins)));
-      sum[k] += z[i];
-      count[k] += 1.0;
-    }
-    double last = 0.0;
-    for (std::size_t k = 0; k < bins; ++k) {
-      if (count[k] > 0) last = sum[k] / count[k];
-    }
-    for (std::size_t k = 0; k < bins; ++k) {
-      last = sum[k] = count[k] > 0 ? sum[k] / count[k] : last;
-    }
-    return sum;
-  }
-};
-
-/// The feed of a turn at which a trace repeats best, near the stated one.
-double feed_that_repeats(const Flat& flat, double stated) {
-  constexpr std::size_t bins = 64;
-  const double step = drift * stated * stated / flat.length();
-  const int n = static_cast<int>(std::ceil(feed_range * stated / step));
-  double best = stated;
-  double largest = -1.0;
-  for (int i = -n; i <= n; ++i) {
-    const double feed = stated + i * step;
-    const std::vector<double> mean = flat.folded(feed, bins);
-    double squares = 0.0;
-    for (const double m : mean) squares += m * m;
-    if (squares > largest) {
-      largest = squares;
-      best = feed;
-    }
-  }
-  return best;
-}
-
 /// W-7 as a problem of least squares. Unknowns: the depths [sigma], x_0 [feeds], the feed
 /// [of the one before], level and slope [sigma over the trace].
 class TraceProblem {
  public:
-  TraceProblem(const ToothProfiles& profiles, const Flat& flat, double feed)
+  TraceProblem(const ToothProfiles& profiles, const FlatTrace& flat, double feed)
       : profiles_(profiles),
         flat_(flat),
         feed_(feed),
-        sigma_(std::max(Ra_of(flat.z), 1e-12)) {}
+        sigma_(std::max(average_roughness(flat.z), 1e-12)) {}
 
   [[nodiscard]] std::size_t teeth() const noexcept { return profiles_.teeth(); }
   [[nodiscard]] std::size_t unknowns() const noexcept { return teeth() + 4; }
@@ -166,7 +79,7 @@ class TraceProblem {
 
  private:
   const ToothProfiles& profiles_;
-  const Flat& flat_;
+  const FlatTrace& flat_;
   double feed_;
   double sigma_;
 };
@@ -221,20 +134,6 @@ std::vector<double> first_guess(const Start& start, double sigma) {
   for (const double d : start.depth) p.push_back((d - start.depth.front()) / sigma);
   p.insert(p.end(), {start.shift, 1.0, -start.depth.front() / sigma, 0.0});
   return p;
-}
-
-/// W-8.
-double readings_as_one(const std::vector<double>& r) {
-  double power = 0.0;
-  for (const double e : r) power += e * e;
-  double sum = 1.0;
-  for (std::size_t lag = 1; lag < r.size() / 4; ++lag) {
-    double product = 0.0;
-    for (std::size_t i = 0; i + lag < r.size(); ++i) product += r[i] * r[i + lag];
-    if (!(product > 0)) break;
-    sum += 2 * product / power;
-  }
-  return sum;
 }
 
 /// What a fit knows, before it is put in words.
@@ -438,11 +337,26 @@ std::vector<ToothDepth> told_of(const Teeth& teeth, const ToothProfiles& profile
 struct Fitted {
   const ToothProfiles& profiles;
   const TraceProblem& problem;
-  const Flat& flat;
+  const FlatTrace& flat;
   const Solution& solution;
   std::vector<bool> writes;
   bool numbered = false;
 };
+
+/// Why a fit is none; empty: it is one.
+std::string refused(const Fitted& fitted, const Errors& errors) {
+  if (!errors.known) return "the trace does not tell the marks of its teeth apart";
+  double power = 0.0;
+  for (const double z : fitted.flat.z) power += z * z;
+  const double flat_rms = std::sqrt(power / static_cast<double>(fitted.flat.z.size()));
+  const bool none = std::ranges::none_of(fitted.writes, std::identity{});
+  if (!none && errors.rms < flat_rms) return {};
+  return fmt::format(
+      "the marks that these teeth would leave are not on the trace: with them {:.2g} um "
+      "rms are left, with a straight line {:.2g} um. Are the feed, dish_deg and "
+      "corner_radius_mm right for this cut, and is x along the feed?",
+      errors.rms / unit::um, flat_rms / unit::um);
+}
 
 TraceFit told(const Fitted& fitted, const Trace& trace) {
   const TraceProblem& problem = fitted.problem;
@@ -459,29 +373,27 @@ TraceFit told(const Fitted& fitted, const Trace& trace) {
   const Errors errors =
       errors_at(problem, fitted.solution, trace.x.size(), fitted.writes, teeth.deepest);
   TraceFit out{.numbered = fitted.numbered};
-  if (!errors.known) {
-    out.message = "the trace does not tell the marks of its teeth apart";
-    return out;
-  }
+  out.rms = errors.rms;
+  out.message = refused(fitted, errors);
+  if (!out.message.empty()) return out;
   out.ok = true;
-  out.message.clear();
   out.teeth = told_of(teeth, fitted.profiles, errors);
   if (std::ranges::all_of(fitted.writes, std::identity{})) {
     out.waves = waves_of(depth, errors, teeth.order);
   }
   out.feed = estimate(problem.feed(p), errors.feed_se, errors.freedom);
   out.turns = fitted.flat.length() / out.feed.value;
-  out.rms = errors.rms;
   out.correlated = errors.correlated;
-  out.Ra_measured = Ra_of(fitted.flat.z);
-  out.Ra = Ra_of(turn.height);
-  out.Ra_alike =
-      Ra_of(fitted.profiles.written(std::vector<double>(N, 0.0), false).height);
+  out.Ra_measured = average_roughness(fitted.flat.z);
+  out.Ra = average_roughness(turn.height);
+  out.Ra_alike = average_roughness(
+      fitted.profiles.written(std::vector<double>(N, 0.0), false).height);
   std::vector<double> r(trace.x.size());
   problem(p, r, {});
   for (std::size_t i = 0; i < r.size(); ++i) {
     out.fitted.push_back(trace.z[i] + problem.sigma() * r[i]);
   }
+  out.repeating = repeating_share(fitted.flat, r, out.feed.value);
   return out;
 }
 
@@ -501,6 +413,7 @@ bool pitch_tells(const TraceProblem& problem, const ToothProfiles& profiles,
 }
 
 std::string why_not(const Trace& trace, double feed, std::size_t teeth) {
+  if (teeth < 2) return "one tooth has no other to be compared with";
   const double turns =
       trace.x.empty() ? 0.0 : (trace.x.back() - trace.x.front()) / feed;
   if (!(turns >= fewest_turns)) {
@@ -527,13 +440,7 @@ TraceFit fit_trace(const force::Setup& given, const Trace& trace) {
   const double stated = static_cast<double>(N) * given.cut.f_z;
   out.message = why_not(trace, stated, N);
   if (!out.message.empty()) return out;
-  const double middle = 0.5 * (trace.x.front() + trace.x.back());
-  const Line line = line_through(trace, middle);
-  Flat flat;
-  for (std::size_t i = 0; i < trace.x.size(); ++i) {
-    flat.x.push_back(trace.x[i] - trace.x.front());
-    flat.z.push_back(trace.z[i] - line.level - line.slope * (trace.x[i] - middle));
-  }
+  const FlatTrace flat = without_line(trace);
   force::Setup setup = given;
   const double feed = feed_that_repeats(flat, stated);
   setup.cut.f_z = feed / static_cast<double>(N);

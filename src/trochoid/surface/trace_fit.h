@@ -60,6 +60,7 @@ struct TraceFit {
   double Ra = 0.0;                ///< of the fitted profile, filtered as the trace [m]
   double Ra_alike = 0.0;          ///< of the same with all teeth at one depth [m]
   double correlated = 1.0;        ///< readings that count as one
+  double repeating = 0.0;         ///< share of what is left that repeats turn by turn
   std::vector<double> fitted;     ///< shape (x), with level and slope [m]
 };
 
@@ -79,7 +80,7 @@ inline constexpr double fewest_readings_a_tooth = 4.0;
 ///         that count as one, 1 + 2 sum of the autocorrelation of what is left up to its
 ///         first zero
 /// @src derived
-/// @param setup  its runout does not count
-TraceFit fit_trace(const force::Setup& setup, const Trace& trace);
+/// @param given  its runout does not count
+TraceFit fit_trace(const force::Setup& given, const Trace& trace);
 
 }  // namespace trochoid::surface

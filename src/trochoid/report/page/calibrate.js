@@ -28,6 +28,7 @@ function readingsOf(result) {
 
 function calibratePage(report) {
   const { result } = report;
+  if (result.finish) return finishPage(report);
   const readings = readingsOf(result);
   const keys = Object.keys(result.coefficients || {});
   const fitted = readings.some(({ pair }) => pair.some((entry) => isNumber(entry?.value)));
