@@ -196,9 +196,16 @@ std::vector<double> ToothEdges::breaks(double top) const {
     }
   }
   std::sort(all.begin(), all.end());
+  // The same height by two ways differs by rounding: no edge bends between them.
+  constexpr double rounding = 1e-13;  // [m]
   std::vector<double> out;
   for (const double z : all) {
-    if (z >= first && z <= top && (out.empty() || z > out.back())) out.push_back(z);
+    if (z < first || z > top) continue;
+    if (out.empty() || z > out.back() + rounding) {
+      out.push_back(z);
+    } else if (z == top) {
+      out.back() = top;
+    }
   }
   return out;
 }

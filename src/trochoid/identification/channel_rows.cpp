@@ -10,10 +10,8 @@ namespace trochoid::identification {
 
 namespace {
 
-/// Error of forces, relative to the largest; where each tooth has an edge of its own, they
-/// cost more.
+/// Error of forces, relative to the largest, where edges are alike.
 constexpr double channel_tolerance = 1e-9;
-constexpr double own_edges_tolerance = 1e-7;
 /// Records of more angles are folded onto one turn.
 constexpr std::size_t most_channel_angles = 3000;
 constexpr std::size_t bins_of_turn = 1440;
@@ -343,7 +341,7 @@ std::vector<double> block_rows(const ChannelProblem& problem, const ChannelPoint
   const std::size_t columns = problem.columns;
   const std::size_t width = problem.channels() * columns;
   const double tolerance =
-      force::edges_alike(setup) ? channel_tolerance : own_edges_tolerance;
+      force::edges_alike(setup) ? channel_tolerance : problem.own_tolerance;
   std::vector<double> rows;
   if (block.is_mean()) {
     rows = force::channel_means(setup, problem.law, sensor, channel_tolerance);
@@ -366,6 +364,33 @@ std::vector<double> rows_at(const ChannelProblem& problem, const ChannelPoint& p
     out.insert(out.end(), rows.begin(), rows.end());
   }
   clear_rounding(problem.columns, out);
+  return out;
+}
+
+ChannelProblem rougher(const ChannelProblem& problem) {
+  constexpr std::size_t enough = 80;
+  constexpr double far_away = 1e-5;
+  ChannelProblem out = problem;
+  out.own_tolerance = far_away;
+  const std::size_t channels = problem.channels();
+  for (ChannelBlock& block : out.blocks) {
+    const std::size_t step = block.angle.size() / enough;
+    if (step < 2) continue;
+    ChannelBlock few = block;
+    few.angle.clear();
+    few.root.clear();
+    few.y.clear();
+    for (std::size_t i = 0; i < block.angle.size(); i += step) {
+      few.angle.push_back(block.angle[i]);
+      few.root.push_back(block.root[i]);
+      for (std::size_t k = 0; k < channels; ++k) {
+        few.y.push_back(block.y[i * channels + k]);
+      }
+    }
+    if (!block.drift.empty()) few.drift = drift_of(few.root, block.drift.size() > 1);
+    take_drift_out(few, channels, few.y);
+    block = std::move(few);
+  }
   return out;
 }
 

@@ -47,6 +47,8 @@ struct ChannelProblem {
   std::size_t columns = 0;                    ///< coefficients
   double length = 0.0;                        ///< [m] by which runout is scaled
   std::vector<std::size_t> free_phases = {};  ///< blocks whose phase is searched
+  /// Error of forces where each tooth has an edge of its own, relative to the largest.
+  double own_tolerance = 1e-7;
 
   [[nodiscard]] std::size_t teeth() const noexcept { return setup.cutter.pitch.size(); }
   [[nodiscard]] std::size_t channels() const noexcept { return sensor.channels.size(); }
@@ -77,6 +79,10 @@ std::vector<double> block_rows(const ChannelProblem& problem, const ChannelPoint
 
 /// The same of all, one after the other.
 std::vector<double> rows_at(const ChannelProblem& problem, const ChannelPoint& point);
+
+/// @brief The same problem with fewer angles of each record, and rougher forces: to search
+/// from far away.
+ChannelProblem rougher(const ChannelProblem& problem);
 
 /// All weighted values.
 std::vector<double> values_of(const ChannelProblem& problem);

@@ -392,18 +392,30 @@ std::vector<double> with_signs_of_a_cut(const ChannelSearch& search,
   return p;
 }
 
+/// Whether forces of edges that differ are asked for.
+bool searches_own_edges(const ChannelProblem& problem) {
+  return problem.request.axial_offsets || problem.request.tilt ||
+         !force::edges_alike(problem.setup);
+}
+
 }  // namespace
 
 std::vector<double> best_unknowns(const ChannelSearch& search) {
   if (search.problem.unknowns() == 0) return {};
   constexpr double same = 1e-6;  // of what is left
+  // Forces of edges that differ cost most of the time: from far away fewer will do.
+  const bool roughly =
+      !search.problem.request.near_given && searches_own_edges(search.problem);
+  const ChannelProblem rough = roughly ? rougher(search.problem) : search.problem;
+  const ChannelSearch quick{rough, values_of(rough), search.scale};
   std::optional<Tried> best;
-  for (const Tried& start : starts_of(search)) {
-    Tried found = searched_from(search, start.p);
+  for (const Tried& start : starts_of(quick)) {
+    Tried found = searched_from(quick, start.p);
     const bool again = best && std::abs(found.cost - best->cost) < same * best->cost;
     if (!best || found.cost < best->cost) best = std::move(found);
     if (again && !search.problem.request.sensor_free) break;  // found twice
   }
+  if (roughly) best = searched_from(search, best->p);
   std::vector<double> p = with_signs_of_a_cut(search, best->p);
   if (rename_teeth(search.problem, p)) p = searched_from(search, p).p;
   return p;

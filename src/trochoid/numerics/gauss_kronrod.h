@@ -45,12 +45,14 @@ void add_integral(double from, double to, const Function& f,
   }
   constexpr double rounding = 1e-13;
   bool good = true;
+  bool known = true;  // what is no number does not become one in smaller parts
   for (std::size_t q = 0; q < M; ++q) {
+    known = known && std::isfinite(fine[q]);
     const double x = 200 * std::abs(fine[q] - coarse[q]);
     good = good && (x <= std::max(allowed[q], rounding * size[q]) ||
                     (x < size[q] && x * std::sqrt(x / size[q]) <= allowed[q]));
   }
-  if (!good && to - from > smallest) {
+  if (!good && known && to - from > smallest) {
     add_integral(from, middle, f, allowed, smallest, sum);
     add_integral(middle, to, f, allowed, smallest, sum);
     return;

@@ -81,6 +81,7 @@ struct IdentifyResult {
   std::optional<OffsetSweep> sweep;
   bool whole_curves = false;              ///< asked for however long the records are
   std::optional<force::ChipCurve> curve;  ///< of the chosen fit
+  std::vector<std::size_t> idle_teeth;    ///< that cut nothing, 0-based
   std::optional<Clocking> clocking;       ///< of its eccentricity, where it has one
   force::EdgeLength edge_length = force::EdgeLength::true_length;
 };

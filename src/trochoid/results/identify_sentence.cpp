@@ -74,7 +74,7 @@ std::string idle_of(const IdentifyResult& r) {
       r.heading.warnings,
       [](const base::Warning& w) { return w.code == "idle_tooth"; });
   if (!warned) return {};
-  const auto idle = force::idle_teeth(*r.curve);
+  const auto& idle = r.idle_teeth;
   if (idle.size() == 1) return fmt::format("; tooth {} cuts nothing", idle.front() + 1);
   std::vector<std::size_t> numbers;
   numbers.reserve(idle.size());

@@ -54,17 +54,24 @@ bool turns_far(const force::Setup& setup) {
          far * setup.cutter.profile.D;
 }
 
-/// Whether a record may tell more of the runout at all: one tool, all forces, a rigid
-/// dynamometer, and more left than noise.
+/// Whether resonances of the dynamometer were found in the records.
+bool rings(const Fit& fit) {
+  return std::ranges::any_of(fit.resonances, [](const auto& one) { return !!one; });
+}
+
+/// Whether a record may tell more of the runout at all: one tool, all forces, no given
+/// response, and more left than noise, or resonances that may stand for what is missing.
 bool may_tell_more(const cases::Case& given, const IdentifyResult& r, const Fit& fit) {
   const bool all_forces =
       std::ranges::all_of(r.runs, [](const identification::Run& run) {
         return run.measured == std::array<bool, 3>{true, true, true};
       });
-  return fit.ok && all_forces && fit.groups.size() < 2 &&
-         fit.options.response.empty() && chip::feels_runout(fit.chip.model) &&
-         !force::form(fit.law).power && asks_for_more_runout(given) &&
-         !identification::leaves_noise_alone(r.runs, fit);
+  const bool given_response = given.dynamometer && !given.dynamometer->frf.name.empty();
+  return fit.ok && all_forces && fit.groups.size() < 2 && !given_response &&
+         (rings(fit) || fit.options.response.empty()) &&
+         chip::feels_runout(fit.chip.model) && !force::form(fit.law).power &&
+         asks_for_more_runout(given) &&
+         (rings(fit) || !identification::leaves_noise_alone(r.runs, fit));
 }
 
 /// Whether all unknowns of a kind would be told: each by an angle of its own, and to a tenth
@@ -97,6 +104,16 @@ bool explains_more(const Fit& without, const Fit& with, double more) {
   return gain > clearly_more * more * chance;
 }
 
+/// Whether all axial offsets of a fit are told to a tenth of the feed.
+bool tells_axial_offsets(const Fit& fit, double length) {
+  constexpr double most_error = 0.1;
+  const auto& se = fit.channels->axial_offsets_se;
+  return fit.ok && !se.empty() &&
+         std::ranges::all_of(se, [&](const std::optional<double>& error) {
+           return error.value_or(0.0) < most_error * length;
+         });
+}
+
 /// What was found of the channels as a fit of the runs, like the one that it takes the place of.
 Fit as_fit_of_runs(const Fit& was, Fit fit) {
   fit.options = was.options;
@@ -110,6 +127,96 @@ Fit as_fit_of_runs(const Fit& was, Fit fit) {
   return fit;
 }
 
+/// What the answer so far is: the fit of the runs, with its phases and runout.
+struct Base {
+  Fit fit;
+  std::optional<Fit> best;  ///< of the channels, near it; empty: nothing more was told
+  ChannelRequest request;
+};
+
+Base base_of(const Fit& fit) {
+  return {.fit = fit,
+          .best = std::nullopt,
+          .request = {.chip_model = fit.chip.model,
+                      .runout = fit.options.runout,
+                      .fit_channel_offsets = fit.options.fit_channel_offsets,
+                      .near_given = true}};
+}
+
+/// @brief Radial and axial offsets looked for together and from far away, where more than
+/// noise is left: what fits best without axial offsets may lie in another valley.
+/// @return the base of the valley that was found, if it explains clearly more
+std::optional<Base> other_valley(const cases::Case& given, const IdentifyResult& r,
+                                 const Base& near) {
+  const geometry::Cutter& cutter = given.setup.cutter;
+  const bool of_offsets = identification::finds_offsets(near.request.runout) &&
+                          !identification::finds_eccentricity(near.request.runout);
+  if (!has_a_corner(cutter) || !of_offsets) return std::nullopt;
+  const bool instead = rings(near.fit);
+  if (near.best && identification::leaves_noise_alone(
+                       r.runs, as_fit_of_runs(near.fit, *near.best))) {
+    return std::nullopt;
+  }
+  force::Setup setup = given.setup;
+  setup.runout = near.fit.runout;
+  setup.cut = r.runs.front().cut;
+  const Fit before =
+      near.best ? *near.best
+                : identification::fit_channels(setup, near.fit.law, table(),
+                                               data_of(r, near.fit), near.request);
+  Base out = near;
+  std::ranges::fill(out.fit.phase, 0.0);
+  out.request.axial_offsets = true;
+  out.request.near_given = false;
+  Fit found = identification::fit_channels(setup, near.fit.law, table(),
+                                           data_of(r, out.fit), out.request);
+  if (!tells_axial_offsets(found, setup.cut.f_z) ||
+      !explains_more(before, found, cutter.teeth() - 1.0)) {
+    return std::nullopt;
+  }
+  // In place of resonances only where nothing is left for them.
+  if (instead &&
+      !identification::leaves_noise_alone(r.runs, as_fit_of_runs(out.fit, found))) {
+    return std::nullopt;
+  }
+  out.request.near_given = true;
+  out.fit.phase = found.phase;
+  out.fit.runout = found.runout;
+  setup.runout = found.runout;
+  out.best = identification::fit_channels(setup, near.fit.law, table(),
+                                          data_of(r, out.fit), out.request);
+  return out;
+}
+
+/// Axial offsets and tilt added where they are told, each from where the last one ended.
+Base near_the_answer(const cases::Case& given, const IdentifyResult& r,
+                     const Fit& fit) {
+  const std::vector<ChannelData> data = data_of(r, fit);
+  Base out = base_of(fit);
+  force::Setup setup = given.setup;
+  setup.runout = fit.runout;
+  setup.cut = data.front().cut;
+  const double radius = 0.5 * setup.cutter.profile.D;
+  for (const bool tilt : {false, true}) {
+    if (!tilt && !has_a_corner(setup.cutter)) continue;
+    ChannelRequest more = out.request;
+    (tilt ? more.tilt : more.axial_offsets) = true;
+    const auto told =
+        identification::further_unknowns(setup, fit.law, table(), data, more);
+    if (!are_told(told, tilt, setup.cut.f_z, radius)) continue;
+    const Fit before = out.best ? *out.best
+                                : identification::fit_channels(setup, fit.law, table(),
+                                                               data, out.request);
+    Fit with = identification::fit_channels(setup, fit.law, table(), data, more);
+    const double unknowns = tilt ? 2.0 : given.setup.cutter.teeth() - 1.0;
+    if (!explains_more(before, with, unknowns)) continue;
+    out.request = more;
+    setup.runout = with.runout;
+    out.best = std::move(with);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool asks_for_more_runout(const cases::Case& given) {
@@ -120,40 +227,19 @@ bool asks_for_more_runout(const cases::Case& given) {
 std::optional<Fit> fit_with_more_runout(const cases::Case& given,
                                         const IdentifyResult& r, const Fit& fit) {
   if (!may_tell_more(given, r, fit)) return std::nullopt;
-  const std::vector<ChannelData> data = data_of(r, fit);
+  Base base = rings(fit) ? base_of(fit) : near_the_answer(given, r, fit);
+  if (auto other = other_valley(given, r, base)) base = *std::move(other);
+  if (!base.best) return std::nullopt;
   force::Setup setup = given.setup;
-  setup.runout = fit.runout;
-  setup.cut = data.front().cut;
-  ChannelRequest request{.chip_model = fit.chip.model,
-                         .runout = fit.options.runout,
-                         .fit_channel_offsets = fit.options.fit_channel_offsets,
-                         .near_given = true};
-  std::optional<Fit> best;
-  const double radius = 0.5 * setup.cutter.profile.D;
-  for (const bool tilt : {false, true}) {
-    if (!tilt && !has_a_corner(setup.cutter)) continue;
-    ChannelRequest more = request;
-    (tilt ? more.tilt : more.axial_offsets) = true;
-    const auto told =
-        identification::further_unknowns(setup, fit.law, table(), data, more);
-    if (!are_told(told, tilt, setup.cut.f_z, radius)) continue;
-    if (!best) {
-      best = identification::fit_channels(setup, fit.law, table(), data, request);
-    }
-    Fit with = identification::fit_channels(setup, fit.law, table(), data, more);
-    const double unknowns = tilt ? 2.0 : given.setup.cutter.teeth() - 1.0;
-    if (!explains_more(*best, with, unknowns)) continue;
-    request = more;
-    setup.runout = with.runout;
-    best = std::move(with);
-  }
-  if (!request.axial_offsets && !request.tilt) return std::nullopt;
-  Fit found = as_fit_of_runs(fit, *std::move(best));
-  request.widening = identification::interval_widening(
+  setup.runout = base.best->runout;
+  setup.cut = r.runs.front().cut;
+  Fit found = as_fit_of_runs(base.fit, *std::move(base.best));
+  base.request.widening = identification::interval_widening(
       r.runs, found.fitted, static_cast<int>(found.found.unknowns.size()));
-  if (request.widening < worth_widening) return found;
+  if (base.request.widening < worth_widening) return found;
   return as_fit_of_runs(
-      fit, identification::fit_channels(setup, fit.law, table(), data, request));
+      base.fit, identification::fit_channels(setup, fit.law, table(),
+                                             data_of(r, base.fit), base.request));
 }
 
 }  // namespace trochoid::run

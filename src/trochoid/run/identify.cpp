@@ -326,7 +326,7 @@ void add_left_out(const std::vector<std::string>& left_out, const base::Stop& st
 }
 
 void warn_idle_teeth(const IdentifyResult& r, std::vector<base::Warning>& warnings) {
-  for (const std::size_t tooth : force::idle_teeth(*r.curve)) {
+  for (const std::size_t tooth : r.idle_teeth) {
     warnings.push_back(
         {"idle_tooth",
          fmt::format(
@@ -366,6 +366,13 @@ void add_curves(const Task& task, IdentifyResult& r,
   setup.chip = r.fits[*r.chosen].chip;
   setup.runout = r.fits[*r.chosen].runout;
   r.curve = force::chip_curve(setup, force::representative_height(setup));
+  r.idle_teeth = force::idle_teeth(*r.curve);
+  if (!r.idle_teeth.empty() && !force::edges_alike(setup)) {  // or farther up?
+    const auto above = force::idle_teeth(force::chip_curve(setup, setup.cut.a_p));
+    std::erase_if(r.idle_teeth, [&](std::size_t tooth) {
+      return std::ranges::find(above, tooth) == above.end();
+    });
+  }
   for (const identification::Run& run : r.runs) {
     r.folded.push_back(folded(run));
   }

@@ -147,4 +147,23 @@ TEST(AnyEdges, OfAlikeTeethHaveTheirMeanToo) {  // [F-31]
   }
 }
 
+/// Two ways to the height at which a tooth begins differ by rounding: no layer lies between.
+TEST(AnyEdges, HaveNoLayerAsThinAsRounding) {
+  MadeCut setup = slot(geometry::bull_nose(12 * mm, 2 * mm), 4, 30);
+  setup.cut.a_p = 4 * mm;
+  setup.runout.radial_offsets = {0.0, 7.851712751022607e-07, 9.3756475763976894e-07,
+                                 4.5427964105718017e-06};
+  setup.runout.axial_offsets = {0.0, -1.7702952830847407e-07, -5.7994835533317278e-06,
+                                5.1814903462605228e-07};
+  const geometry::ToothEdges edges(setup.cutter, setup.runout);
+  const std::vector<double> breaks = edges.breaks(setup.cut.a_p);
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    EXPECT_GT(breaks[i] - breaks[i - 1], 1e-14);
+  }
+  EXPECT_EQ(breaks.back(), setup.cut.a_p);
+  std::vector<AnyForce::Matrix> C(1);
+  AnyForce(setup, steel(), 1e-7).matrices(std::vector{2.4963584722373153}, C);
+  for (const double entry : C[0]) EXPECT_TRUE(std::isfinite(entry));
+}
+
 }  // namespace trochoid::force::any_edges_test
