@@ -16,6 +16,7 @@ struct MeasuredTrace {
   std::string file;  ///< as the case names it
   surface::Trace trace;
   surface::TraceFit fit;
+  std::vector<surface::FeedRoughness> feeds;  ///< the same teeth at other feeds
 };
 
 /// @brief What `calibrate` answers: coefficients and runout from a measured wall, or what

@@ -64,6 +64,16 @@ const Fields<OffsetWave>& wave_fields() {
   return all;
 }
 
+const Fields<surface::FeedRoughness>& feed_fields() {
+  static const Fields<surface::FeedRoughness> all{
+      {"feed_per_tooth_mm", "from half the feed of the trace to one and a half",
+       &surface::FeedRoughness::f_z},
+      {"Ra_um", "of the marks of these teeth", &surface::FeedRoughness::Ra},
+      {"Ra_alike_um", "with all teeth at one depth",
+       &surface::FeedRoughness::Ra_alike}};
+  return all;
+}
+
 const Fields<MeasuredTrace>& trace_fields() {
   using Of = const MeasuredTrace&;
   const auto ok = [](Of t) { return t.fit.ok; };
@@ -95,6 +105,8 @@ const Fields<MeasuredTrace>& trace_fields() {
                            [](Of t) { return estimate_value(t.fit.feed, unit::mm); },
                            ok}
           .with(below_estimate()),
+      {"feeds", "what the same teeth would leave at other feeds", feed_fields(),
+       [](Of t) { return t.feeds; }, ok},
       {"turns", "of the spindle that the trace spans", [](Of t) { return t.fit.turns; },
        ok},
       {"readings", "of the trace", [](Of t) { return t.trace.x.size(); }},

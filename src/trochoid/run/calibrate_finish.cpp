@@ -131,7 +131,10 @@ results::CalibrateResult calibrate_finish(const cases::Case& given,
     }
     surface::Trace trace = trace_of(given, m, file);
     surface::TraceFit fit = surface::fit_trace(given.setup, trace);
-    r.traces.push_back({m.source.file.path, std::move(trace), std::move(fit)});
+    auto feeds = fit.ok ? surface::roughness_at_feeds(given.setup, trace, fit)
+                        : std::vector<surface::FeedRoughness>{};
+    r.traces.push_back(
+        {m.source.file.path, std::move(trace), std::move(fit), std::move(feeds)});
   }
   r.heading.ok = std::ranges::any_of(r.traces, [](const auto& t) { return t.fit.ok; });
   r.heading.message = results::finish_sentence(r);

@@ -470,4 +470,26 @@ TraceFit fit_trace(const force::Setup& given, const Trace& trace) {
   return told({profiles, problem, flat, best, std::move(writes), numbered}, trace);
 }
 
+std::vector<FeedRoughness> roughness_at_feeds(const force::Setup& given,
+                                              const Trace& trace, const TraceFit& fit) {
+  const auto N = static_cast<double>(fit.teeth.size());
+  const double no_depth = -no_mark * fit.Ra_measured;
+  std::vector<double> depth;
+  for (const ToothDepth& tooth : fit.teeth) {
+    depth.push_back(tooth.writes ? tooth.offset.value : no_depth);
+  }
+  const std::vector<double> one_depth(depth.size(), 0.0);
+  force::Setup setup = given;
+  std::vector<FeedRoughness> out;
+  for (int tenth = 5; tenth <= 15; ++tenth) {
+    setup.cut.f_z = fit.feed.value / N * tenth / 10;
+    const ToothProfiles profiles(alone(setup, trace), trace.cutoff);
+    if (!profiles.reach_everywhere()) break;
+    out.push_back({setup.cut.f_z,
+                   average_roughness(profiles.written(depth, false).height),
+                   average_roughness(profiles.written(one_depth, false).height)});
+  }
+  return out;
+}
+
 }  // namespace trochoid::surface

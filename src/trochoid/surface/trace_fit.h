@@ -44,6 +44,13 @@ struct OffsetWave {
   base::Estimate phase;  ///< of its crest, from the first tooth in their order [rad]
 };
 
+/// Roughness of the same teeth at another feed [m].
+struct FeedRoughness {
+  double f_z = 0.0;
+  double Ra = 0.0;
+  double Ra_alike = 0.0;  ///< with all teeth at one depth
+};
+
 /// @brief Which tooth wrote what on a trace, and how far it stands out.
 struct TraceFit {
   bool ok = false;
@@ -82,5 +89,11 @@ inline constexpr double fewest_readings_a_tooth = 4.0;
 /// @src derived
 /// @param given  its runout does not count
 TraceFit fit_trace(const force::Setup& given, const Trace& trace);
+
+/// @brief What the same teeth would leave, from half the feed to one and a half. Teeth that
+/// write nothing on the trace are taken to write nothing there.
+/// @param fit  of the trace, ok
+std::vector<FeedRoughness> roughness_at_feeds(const force::Setup& given,
+                                              const Trace& trace, const TraceFit& fit);
 
 }  // namespace trochoid::surface

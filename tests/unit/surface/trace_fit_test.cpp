@@ -63,7 +63,8 @@ std::vector<double> from_deepest(const std::vector<double>& a) {
 TEST(TraceFit, FindsTheInsertsOfAFaceMill) {  // [W-7]
   force::Setup setup = face_mill(7, 0.2e-3);
   setup.runout.axial_offsets = {0.0, 0.9e-6, -0.4e-6, 0.5e-6, 1.0e-6, -0.5e-6, 0.3e-6};
-  const TraceFit fit = fit_trace(setup, traced(setup, centre_line, 6, 0.05e-6, 1));
+  const Trace trace = traced(setup, centre_line, 6, 0.05e-6, 1);
+  const TraceFit fit = fit_trace(setup, trace);
   ASSERT_TRUE(fit.ok) << fit.message;
   EXPECT_FALSE(fit.numbered);
   const std::vector<double> expected = from_deepest(setup.runout.axial_offsets);
@@ -76,6 +77,13 @@ TEST(TraceFit, FindsTheInsertsOfAFaceMill) {  // [W-7]
   }
   EXPECT_NEAR(fit.feed.value, 1.4e-3, 4 * fit.feed.se);
   EXPECT_NEAR(fit.rms, 0.05e-6, 0.005e-6);
+  const auto feeds = roughness_at_feeds(setup, trace, fit);
+  ASSERT_EQ(feeds.size(), 11u);
+  EXPECT_NEAR(feeds[5].Ra, fit.Ra, 1e-3 * fit.Ra);
+  setup.cut.f_z *= 0.5;
+  const double half = roughness(floor_profile(setup, centre_line.bottom, 0.0)).Ra;
+  EXPECT_NEAR(feeds[0].Ra, half, 0.02 * half);
+  EXPECT_LT(feeds[0].Ra_alike, feeds[0].Ra);
 }
 
 TEST(TraceFit, SaysOfInsertsThatNeverWriteHowShortTheyAre) {  // [W-7]

@@ -80,5 +80,7 @@ function teethPart(t, several) {
     prose(t.numbered ? 'The unequal pitch tells which tooth is which.' : 'Teeth are in their order of passage from the one ' +
       'that reaches deepest: equal pitch does not tell which one that is.'),
     table([t.numbered ? 'tooth' : 'in order of passage', 'offset [µm], 95 %', 'share of the trace'], rows),
+    t.feeds?.length ? table(['feed per tooth [mm]', 'Ra [µm]', 'Ra with all teeth at one depth [µm]'],
+      t.feeds.map((f) => [number(f.feed_per_tooth_mm, 4), fixed(f.Ra_um, 3), fixed(f.Ra_alike_um, 3)])) : null,
     waves.length ? table(['wave of the offsets', 'amplitude [µm], 95 %', 'crest [deg]'], waves) : null);
 }
