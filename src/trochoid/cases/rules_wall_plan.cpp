@@ -127,6 +127,12 @@ void settle_plan(CaseTables& t, Findings& findings) {
 }
 
 void check_wall_plan(CaseTables& t, Findings& findings) {
+  if (is_finish(t.machine)) {
+    report(
+        findings, "surface_measurement[1].of",
+        "surface_measurement[1].of = \"finish\": plan plans readings of the error of a "
+        "wall; a roughness trace must be left out (calibrate reads it)");
+  }
   check_wall_cut(t, "plan", findings);
   const WallPlan& wall = t.plan->wall;
   check_counts(wall.heights, "plan.heights", findings);

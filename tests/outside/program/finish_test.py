@@ -92,6 +92,17 @@ class Finish(InFolder):
         self.assertLess(teeth[1]["at_most_mm"], 0)
         self.assertFalse((self.folder / "out/runout.toml").exists())
 
+    def test_many_teeth_are_no_long_work(self):
+        offsets = [0.0003 * ((7 * j) % 5) for j in range(12)]
+        self.answer(trace(offsets), teeth=12)
+        self.assertEqual(len(self.found()["teeth"]), 12)
+
+    def test_plan_refuses_a_trace(self):
+        self.write("trace.csv", trace([0.0] * 5))
+        self.write("case.toml", CASE.format(teeth=5, keys="floor_y_mm = 0"))
+        done = self.run_program("plan", "case.toml", code=2)
+        self.assertIn("a roughness trace must be left out", done.stderr)
+
     def test_a_trace_against_the_feed_is_told(self):
         out = self.answer(trace([0.0, 0.0011, -0.0006, 0.0003, 0.0007], sign=-1.0))
         self.assertIn("against_the_feed", out)
