@@ -34,6 +34,7 @@ RUNS = [
     ("correct", "runout_table_8mm/case.toml", [], {}),
     ("plan", "plan_next_cut/case.toml", [], {}),
     ("program", "pocket/case.toml", [], {}),
+    ("calibrate", "floor_trace/case.toml", [], {}),
 ]
 
 

@@ -77,6 +77,13 @@ def _map(axes: Axes, table: Any, x: str, y: str, value: str) -> None:
 
 
 def _calibrate(answer: Answer, axes: Axes) -> None:
+    if "trace" in answer.tables:
+        trace = answer.tables["trace"]
+        first = trace["measurement"] == trace["measurement"][0]
+        for name in ("measured", "fitted"):
+            axes.plot(trace["x_mm"][first], 1e3 * trace[f"{name}_mm"][first], lw=1, label=name)
+        axes.set(xlabel="x_mm, along the feed", ylabel="height of the surface, um")
+        return
     table = answer.tables["residual"]
     fitted, measured = table["fitted_mm"], table["measured_mm"]
     ends = [np.nanmin(fitted), np.nanmax(fitted)]
