@@ -251,8 +251,11 @@ struct Closest {
   int mark = Bounds::axis;
 };
 
-/// No mark of an undeflected straight path that lies deeper than this can be the closest:
-/// the tooth's own is a turn old. With what it turns back, and rounding, in the last terms.
+/// @brief R_j - L of the tooth's own mark of a turn ago, and a little more: a mark that lies
+/// deeper bounds no chip. Infinite where that mark is not looked at, or not so simple.
+///
+/// C-6 with theta_p = 2 pi: at most f sin(theta) for the feed, and less than R_j delta^2 for
+/// the angle that it turns back.
 double deepest_mark(const Ray& ray) noexcept {
   const double own = position(ray, 0).R;
   const double f = ray.p.feed * unit::turn;

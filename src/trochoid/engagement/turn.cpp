@@ -17,6 +17,7 @@ constexpr int angles = 240;
 /// The same without the kinks, of edges whose forces change smoothly.
 constexpr int few_angles = 144;
 constexpr double beside_jump = 1e-9;  ///< [rad]
+
 /// Coefficients of a cubic in the height above the tip.
 using Cubic = std::array<double, 4>;
 

@@ -367,6 +367,22 @@ std::vector<double> rows_at(const ChannelProblem& problem, const ChannelPoint& p
   return out;
 }
 
+ChannelBlock every(const ChannelBlock& block, std::size_t channels, std::size_t step) {
+  ChannelBlock few = block;
+  few.angle.clear();
+  few.root.clear();
+  few.y.clear();
+  few.drift.clear();
+  for (std::size_t i = 0; i < block.angles(); i += step) {
+    few.angle.push_back(block.angle[i]);
+    few.root.push_back(block.root[i]);
+    for (std::size_t k = 0; k < channels; ++k) {
+      few.y.push_back(block.y[i * channels + k]);
+    }
+  }
+  return few;
+}
+
 ChannelProblem rougher(const ChannelProblem& problem) {
   constexpr std::size_t enough = 80;
   constexpr double far_away = 1e-5;
@@ -376,17 +392,7 @@ ChannelProblem rougher(const ChannelProblem& problem) {
   for (ChannelBlock& block : out.blocks) {
     const std::size_t step = block.angle.size() / enough;
     if (step < 2) continue;
-    ChannelBlock few = block;
-    few.angle.clear();
-    few.root.clear();
-    few.y.clear();
-    for (std::size_t i = 0; i < block.angle.size(); i += step) {
-      few.angle.push_back(block.angle[i]);
-      few.root.push_back(block.root[i]);
-      for (std::size_t k = 0; k < channels; ++k) {
-        few.y.push_back(block.y[i * channels + k]);
-      }
-    }
+    ChannelBlock few = every(block, channels, step);
     if (!block.drift.empty()) few.drift = drift_of(few.root, block.drift.size() > 1);
     take_drift_out(few, channels, few.y);
     block = std::move(few);

@@ -80,6 +80,9 @@ std::vector<double> block_rows(const ChannelProblem& problem, const ChannelPoint
 /// The same of all, one after the other.
 std::vector<double> rows_at(const ChannelProblem& problem, const ChannelPoint& point);
 
+/// @brief A block with each so many-th of its angles, without drift.
+ChannelBlock every(const ChannelBlock& block, std::size_t channels, std::size_t step);
+
 /// @brief The same problem with fewer angles of each record, and rougher forces: to search
 /// from far away.
 ChannelProblem rougher(const ChannelProblem& problem);

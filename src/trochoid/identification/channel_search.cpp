@@ -119,22 +119,9 @@ struct Looked {
 ChannelProblem thinned(const ChannelProblem& problem, std::size_t b) {
   constexpr std::size_t enough = 120;
   ChannelProblem out = problem;
-  ChannelBlock block = problem.blocks[b];
+  const ChannelBlock& block = problem.blocks[b];
   const std::size_t step = std::max<std::size_t>(block.angles() / enough, 1);
-  const std::size_t channels = problem.channels();
-  ChannelBlock few = block;
-  few.angle.clear();
-  few.root.clear();
-  few.y.clear();
-  few.drift.clear();
-  for (std::size_t i = 0; i < block.angles(); i += step) {
-    few.angle.push_back(block.angle[i]);
-    few.root.push_back(block.root[i]);
-    for (std::size_t k = 0; k < channels; ++k) {
-      few.y.push_back(block.y[i * channels + k]);
-    }
-  }
-  out.blocks = {few};
+  out.blocks = {every(block, problem.channels(), step)};
   out.free_phases = {0};
   return out;
 }

@@ -99,8 +99,8 @@ class PiecewiseIntegral {
     panels_.add_up_to(a, from, -1.0, out);
   }
 
-  /// @brief Add, at many places, the integrals from x + from to x + to, each place taken
-  /// into the first period, of the first functions.
+  /// @brief Add, for many x, the integrals of the first functions from x + from to x + to;
+  /// what lies outside of the first period adds nothing.
   /// @param x    ascending, shape (n)
   /// @param out  shape (rows, n)
   void add_between(std::span<const double> x, double from, double to,

@@ -3,7 +3,7 @@
 #include <trochoid/base/units.h>
 #include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/levenberg_marquardt.h>
-#include <trochoid/numerics/student.h>
+#include <trochoid/surface/datum.h>
 #include <trochoid/surface/flat_trace.h>
 #include <trochoid/surface/tooth_profiles.h>
 
@@ -168,16 +168,11 @@ bool equally_spaced(const std::vector<double>& pitch) {
   return most - least < 1e-9;
 }
 
-base::Estimate estimate(double value, double se, double freedom) {
-  const double half = numerics::student_t(0.975, freedom) * se;
-  return {value, se, value - half, value + half};
-}
-
 /// Covariance of the depths against one of them, and of the feed, by the teeth that write.
 struct Errors {
   std::vector<double> of_depths;  ///< row-major, shape (teeth, teeth) [m^2]
-  double feed_se = 0.0;           ///< [m]
-  double freedom = 1.0;
+  double of_feed = 0.0;           ///< variance [m^2]
+  int freedom = 1;
   double correlated = 1.0;
   double rms = 0.0;  ///< [m]
   bool known = false;
@@ -204,7 +199,7 @@ Errors errors_at(const TraceProblem& problem, const Solution& found,
       numerics::least_squares(numerics::Columns(columns, readings), r, 1e-10);
   const auto n = static_cast<double>(readings);
   const auto k = kept.size();
-  out.freedom = std::max(1.0, n / out.correlated - static_cast<double>(k));
+  out.freedom = std::max(1, static_cast<int>(n / out.correlated) - static_cast<int>(k));
   out.rms = problem.sigma() * std::sqrt(found.squares / n);
   out.of_depths.assign(N * N, 0.0);
   if (fit.inverse_gram.empty()) return out;
@@ -216,8 +211,8 @@ Errors errors_at(const TraceProblem& problem, const Solution& found,
   };
   for (std::size_t a = 0; a < k; ++a) {
     if (kept[a] == N + 1) {
-      out.feed_se =
-          problem.feed(found.p) / found.p[N + 1] * std::sqrt(covariance(a, a));
+      const double unit = problem.feed(found.p) / found.p[N + 1];
+      out.of_feed = unit * unit * covariance(a, a);
     }
     for (std::size_t b = 0; b < k; ++b) {
       if (kept[a] >= N || kept[b] >= N) continue;
@@ -272,11 +267,9 @@ std::vector<OffsetWave> waves_of(const std::vector<double>& depth, const Errors&
       }
     }
     const double phase = std::arg(sum) / static_cast<double>(k);
-    const double turning = std::sqrt(std::max(across, 0.0)) /
-                           (static_cast<double>(k) * std::max(size, 1e-300));
-    out.push_back({static_cast<int>(k),
-                   estimate(size, std::sqrt(std::max(along, 0.0)), errors.freedom),
-                   estimate(phase, turning, errors.freedom)});
+    const double arm = static_cast<double>(k) * std::max(size, 1e-150);
+    out.push_back({static_cast<int>(k), estimate(size, along, errors.freedom),
+                   estimate(phase, across / (arm * arm), errors.freedom)});
   }
   return out;
 }
@@ -321,8 +314,8 @@ std::vector<ToothDepth> told_of(const Teeth& teeth, const ToothProfiles& profile
     tooth.share = teeth.share[j];
     tooth.writes = teeth.writes[j];
     if (!tooth.writes) continue;
-    tooth.offset = estimate(teeth.depth[j] - most,
-                            std::sqrt(errors.of_depths[j * N + j]), errors.freedom);
+    tooth.offset =
+        estimate(teeth.depth[j] - most, errors.of_depths[j * N + j], errors.freedom);
     widest = std::max(widest, tooth.offset.high - tooth.offset.value);
   }
   for (std::size_t i = 0; i < N; ++i) {
@@ -381,7 +374,7 @@ TraceFit told(const Fitted& fitted, const Trace& trace) {
   if (std::ranges::all_of(fitted.writes, std::identity{})) {
     out.waves = waves_of(depth, errors, teeth.order);
   }
-  out.feed = estimate(problem.feed(p), errors.feed_se, errors.freedom);
+  out.feed = estimate(problem.feed(p), errors.of_feed, errors.freedom);
   out.turns = fitted.flat.length() / out.feed.value;
   out.correlated = errors.correlated;
   out.Ra_measured = average_roughness(fitted.flat.z);
