@@ -226,8 +226,8 @@ std::vector<double> ArcTurn::events() const {
       const Edge& edge = layer.edges[j];
       // What ends alike in two layers that touch has no kink between them.
       const auto add = [&](double z, const Layer* next) {
-        const bool touches = next != nullptr && !jumps_ &&
-                             (next->to == layer.from || next->from == layer.to);
+        const bool touches =
+            next != nullptr && (next->to == layer.from || next->from == layer.to);
         for (const double end : edge.ends) {
           if (touches && std::ranges::binary_search(next->edges[j].ends, end)) continue;
           const double phi = end + edge.behind + edge.q * z;

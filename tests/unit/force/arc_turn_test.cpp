@@ -214,6 +214,30 @@ TEST(ArcTurn, LayersShareWhatTheStockDoesNotBound) {
   }
 }
 
+TEST(ArcTurn, LayersThatTouchHaveNoKinkBetweenThem) {
+  for (const double helix : {0.0, 30.0}) {
+    MadeCut s = lively(helix);
+    s.cut.a_p = 6e-3;
+    const ArcTurn::Options options{.within = {0.0, pi}};
+    const auto events_of = [&](std::vector<ArcLayer> layers) {
+      s.cut.engagement = geometry::Arcs{std::move(layers)};
+      return ArcTurn(s, steel(), options).events();
+    };
+    const std::vector<EngagedArc> one{{{0.4, 2.9}}};
+    const std::vector<EngagedArc> other{{{0.9, 2.0}}};
+    const auto whole = events_of({{0.0, 4e-3, one}, {4e-3, 6e-3, other}});
+    const auto parts = events_of({{0.0, 1e-3, one},
+                                  {1e-3, 4e-3, one},
+                                  {4e-3, 5e-3, other},
+                                  {5e-3, 6e-3, other}});
+    ASSERT_EQ(whole.size(), parts.size()) << helix;
+    EXPECT_GT(whole.size(), 8u);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_NEAR(whole[i], parts[i], 1e-9);
+    }
+  }
+}
+
 TEST(ArcTurn, AtManyAnglesIsThatAtEach) {
   for (const double helix : {0.0, 30.0, -30.0, 70.0}) {
     MadeCut s = lively(helix);

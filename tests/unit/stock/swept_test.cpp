@@ -206,6 +206,18 @@ TEST(Swept, AVolumeOfARingIsThatOfItsRing) {  // [N-9]
   EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
 }
 
+TEST(Swept, AThinRidgeBetweenTwoSlotsStays) {  // [N-9]
+  const double x = 10.4e-3;                    // a ridge of 0.4 mm
+  const std::vector<Move> moves{
+      move(MoveKind::rapid, 0, -0.02, 0.001), move(MoveKind::line, 0, -0.02, -0.002),
+      move(MoveKind::line, 0, 0.02, -0.002),  move(MoveKind::rapid, 0, 0.02, 0.001),
+      move(MoveKind::rapid, x, 0.02, 0.001),  move(MoveKind::line, x, 0.02, -0.002),
+      move(MoveKind::line, x, -0.02, -0.002)};
+  const Swept swept(stock::path(moves, 0.1), box, {Wall::upright(5e-3)});
+  const double area = 2 * (pi * 25e-6 + 10e-3 * 0.04);
+  EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
+}
+
 TEST(Stock, AFieldOfHeightsIsLinearBetweenItsPoints) {
   HeightField field{{0.0, 0.0}, 1.0, 3, 2, -1.0, {0, 1, 2, 0, 1, 4}, 4.0};
   EXPECT_DOUBLE_EQ(top_at(field, 0.5, 0.5), 0.5);
