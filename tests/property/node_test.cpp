@@ -1,4 +1,5 @@
 #include <trochoid/base/units.h>
+#include <trochoid/force/any_edges.h>
 #include <trochoid/force/axial.h>
 #include <trochoid/force/edge_curve.h>
 #include <trochoid/force/forces.h>
@@ -256,6 +257,122 @@ TEST(Nodes, GiveAPowerOfTheChip) {  // [F-2] [F-15]
   }
 }
 
+/// Each tooth has an edge of its own: by a list of helices, a serration, axial offsets or a
+/// tilt, of any shape with a radius at its tip.
+Cut random_any_cut(Random& random) {
+  Cut cut = random_cut(random);
+  const std::size_t teeth = cut.cutter.pitch.size();
+  cut.cut.a_p = std::min(cut.cut.a_p, 8e-3);
+  if (one_of(random, 3) == 0) {
+    cut.cutter.helix = between(random, 5, 40) * unit::deg;
+    for (std::size_t j = 0; j < teeth; ++j) {
+      cut.cutter.helices.push_back(cut.cutter.helix +
+                                   between(random, -3, 3) * unit::deg);
+    }
+  } else if (one_of(random, 3) == 0) {
+    cut.cutter.helix = -between(random, 1, 30) * unit::deg;
+  }
+  if (one_of(random, 3) == 0) {
+    cut.cutter.serration =
+        geometry::Serration{.amplitude = between(random, 0.01e-3, 0.3e-3),
+                            .wavelength = between(random, 1e-3, 4e-3),
+                            .shift = {}};
+  }
+  constexpr std::array<double, 4> offsets = {0.0, 1e-9, 5e-6, 50e-6};
+  const double axial = offsets[static_cast<std::size_t>(one_of(random, 4))];
+  for (std::size_t j = 0; j < teeth; ++j) {
+    cut.runout.axial_offsets.push_back(axial * between(random, -1, 1));
+  }
+  if (one_of(random, 3) == 0) {
+    cut.runout.tilt = between(random, 0, 0.1) * unit::deg;
+    cut.runout.tilt_angle = between(random, -pi, pi);
+  }
+  return cut;
+}
+
+/// F-4 of edges that differ under the linear law, by many thin slices: good to 1e-3.
+Vector3 sliced_force(const Cut& cut, double phi) {
+  constexpr int slices = 40000;
+  const AnyEdges any(cut);
+  chip::TeethAtHeight teeth(any.edges, any.passage);
+  const double low = any.zones.front().from;
+  const double dz = (cut.cut.a_p - low) / slices;
+  Vector3 F{};
+  for (int k = 0; k < slices; ++k) {
+    teeth.stand_at(low + (k + 0.5) * dz);
+    for (std::size_t j = 0; j < teeth.teeth(); ++j) {
+      if (!teeth.there(j)) continue;
+      const geometry::EdgeAt& at = teeth.edge(j);
+      const chip::Chip chip = teeth.chip(j, phi - at.omega);
+      if (!chip.in_cut) continue;
+      const double e = cut.edge_length == EdgeLength::axial ? 1.0 : at.dS_dz;
+      const double t = (K.K_tc * chip.h + K.K_te * e) * dz;
+      const double r = (K.K_rc * chip.h + K.K_re * e) * dz;
+      const double a = (K.K_ac * chip.h + K.K_ae * e) * dz;
+      const double inward = r * at.sin_kappa + a * at.cos_kappa;
+      const double theta = phi - at.omega + at.position.epsilon;
+      F[0] += -t * std::cos(theta) - inward * std::sin(theta);
+      F[1] += t * std::sin(theta) - inward * std::cos(theta);
+      F[2] += r * at.cos_kappa - a * at.sin_kappa;
+    }
+  }
+  return F;
+}
+
+double apart(const SixLoads& a, const Vector3& b) {
+  return size({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+}
+
+/// Chips at nodes of edges that differ, against their quadrature: all loads and [C], under
+/// any law. The quadrature overlooks cuts shorter than its first look: slices tell.
+TEST(Nodes, GiveTheForcesOfEdgesThatDiffer) {  // [F-15] [F-30]
+  Random random(31);
+  int close = 0;
+  int cases = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Cut cut = random_any_cut(random);
+    const Law law =
+        n % 2 == 0 ? Law(K)
+                   : Law(PowerEdge{900e6, 400e6, 150e6, 0.25, 0.4, 0.1, 7e3, 3e3, 1e3});
+    const auto nodes = NodeForce::make(AnyEdges(cut), law, 1e-6);
+    if (!nodes) continue;
+    ++cases;
+    std::vector<double> phi;
+    for (int i = 0; i < 8; ++i) phi.push_back(between(random, 0, 2 * pi));
+    std::vector<SixLoads> all(phi.size());
+    std::vector<SixLoads> expected(phi.size());
+    std::vector<std::array<double, 18>> C(phi.size());
+    nodes->loads(phi, 0.03, all);
+    nodes->matrices(phi, C);
+    AnyForce(cut, law, 1e-8).loads(phi, 0.03, expected);
+    const std::vector<double> k = coefficients(law);
+    double peak = K.K_te * 1e-2 * cut.cut.a_p;
+    double most = 0.0;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      peak = std::max(peak, size({expected[i][0], expected[i][1], expected[i][2]}));
+      double error = 0.0;
+      for (std::size_t q = 0; q < 6; ++q) {
+        error =
+            std::max(error, std::abs(all[i][q] - expected[i][q]) / (q < 3 ? 1 : 0.03));
+      }
+      most = std::max(most, error);
+      if (error > 1e-3 * peak && n % 2 == 0) {
+        const Vector3 sliced = sliced_force(cut, phi[i]);
+        EXPECT_LT(apart(all[i], sliced), 0.05 * apart(expected[i], sliced)) << n;
+      }
+      for (std::size_t row = 0; row < 3; ++row) {
+        double sum = 0.0;
+        for (std::size_t q = 0; q < k.size(); ++q)
+          sum += C[i][row * k.size() + q] * k[q];
+        EXPECT_NEAR(sum, all[i][row], 1e-9 * peak) << n;
+      }
+    }
+    close += most <= 1e-6 * peak ? 1 : 0;
+  }
+  EXPECT_GE(cases, 195);
+  EXPECT_GE(close, 0.98 * cases);
+}
+
 /// A ball or a sharp cone, whose edges begin at the axis.
 Cut random_tip(Random& random) {
   Cut cut = random_cut(random);
@@ -365,7 +482,7 @@ TEST(Nodes, MatricesTimesCoefficientsAreTheForce) {  // [F-4] [F-15]
 
 TEST(Nodes, GiveTorqueAndBendingOfTheChipAlone) {  // [F-6] [F-7] [F-15]
   Random random(10);
-  for (int n = 0; n < 120; ++n) {
+  for (int n = 0; n < 1000; ++n) {
     const Cut cut = random_cut(random);
     const double length = between(random, 0, 80e-3);
     const double arm = std::max({cut.cutter.profile.D / 2, length, cut.cut.a_p});

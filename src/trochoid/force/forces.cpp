@@ -244,19 +244,28 @@ void evaluate_arcs(const ArcMatrix& turns, std::span<const double> phi,
 
 using Matrix = std::array<double, 18>;
 
+/// Chips at nodes, where marks are smooth.
+std::optional<NodeForce> node_force(const Setup& setup, const Law& law,
+                                    double tolerance) {
+  if (by_arcs(setup)) return std::nullopt;
+  return edges_alike(setup) ? NodeForce::make(setup, law, tolerance)
+                            : NodeForce::make(AnyEdges(setup), law, tolerance);
+}
+
 /// Force, torque and bending of any cutter.
 std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
                                    std::span<const double> phi, double gauge_length,
                                    double tolerance) {
   std::vector<SixLoads> out(phi.size());
-  if (!edges_alike(setup)) {
-    const AnyForce any(setup, law, tolerance);
+  const auto at_angles = [&](const auto& force) {
     over_turns(phi, std::span(out),
                [&](std::span<const double> some, std::span<SixLoads> all) {
-                 any.loads(some, gauge_length, all);
+                 force.loads(some, gauge_length, all);
                });
     return out;
-  }
+  };
+  if (const auto nodes = node_force(setup, law, tolerance)) return at_angles(*nodes);
+  if (!edges_alike(setup)) return at_angles(AnyForce(setup, law, tolerance));
   if (const auto turn = arc_turn(setup, law, true)) {
     for (std::size_t i = 0; i < phi.size(); ++i) {
       const ToothLoads F = all_teeth(*turn, phi[i]);
@@ -269,21 +278,7 @@ std::vector<SixLoads> loads_of_any(const Setup& setup, const Law& law,
     }
     return out;
   }
-  const auto nodes =
-      by_arcs(setup) ? std::nullopt : NodeForce::make(setup, law, tolerance);
-  if (nodes) {
-    over_turns(phi, std::span(out),
-               [&](std::span<const double> some, std::span<SixLoads> all) {
-                 nodes->loads(some, gauge_length, all);
-               });
-    return out;
-  }
-  const AxialForce axial(setup, law, tolerance);
-  over_turns(phi, std::span(out),
-             [&](std::span<const double> some, std::span<SixLoads> all) {
-               axial.loads(some, gauge_length, all);
-             });
-  return out;
+  return at_angles(AxialForce(setup, law, tolerance));
 }
 
 std::vector<SixLoads> without_bending(const TurnTeeth& teeth, const Terms& terms,
@@ -313,10 +308,7 @@ void forces_of_one(const Setup& setup, const Law& law, std::span<const double> p
     CumulativeForce(setup, law, tolerance).forces(moment_weights(law), phi, out);
     return;
   }
-  const auto nodes = by_arcs(setup) || !edges_alike(setup)
-                         ? std::optional<NodeForce>{}
-                         : NodeForce::make(setup, law, tolerance);
-  if (nodes) {
+  if (const auto nodes = node_force(setup, law, tolerance)) {
     over_turns(phi, out, [&](std::span<const double> some, std::span<Vector3> F) {
       nodes->forces(some, F);
     });
@@ -356,11 +348,11 @@ ForceMatrix::ForceMatrix(const Setup& setup, const Law& law, double tolerance) {
     if (keeps_radius(setup)) {
       return Parts{columns, count, CumulativeForce(setup, law, tolerance)};
     }
+    if (auto nodes = node_force(setup, law, tolerance)) {
+      return Parts{columns, count, std::move(*nodes)};
+    }
     if (!edges_alike(setup)) {
       return Parts{columns, count, AnyForce(setup, law, tolerance)};
-    }
-    if (auto nodes = NodeForce::make(setup, law, tolerance)) {
-      return Parts{columns, count, std::move(*nodes)};
     }
     return Parts{columns, count, AxialForce(setup, law, tolerance)};
   };

@@ -15,6 +15,8 @@ namespace {
 
 /// Chips are followed at least so closely: it costs next to nothing.
 constexpr double coarsest_at_nodes = 1e-6;
+/// Of edges that differ more panels err by what they are allowed.
+constexpr double caution_of_any = 0.2;
 /// The quadrature keeps its error so much below its tolerance, at the least.
 constexpr double caution_of_quadrature = 10.0;
 /// Panels near the axis err by about what they are allowed: they are allowed so much less.
@@ -83,9 +85,9 @@ class Walk {
 
 Sums moments_at(Walk& walk, double phi) {
   NodeMoments sum;
-  walk.at(phi, [&](const NodePanel& panel, const NodeTooth& /*tooth*/,
+  walk.at(phi, [&](const NodePanel& /*panel*/, const NodeTooth& /*tooth*/,
                    const NodeChips& chips, const NodeWeights& weights) {
-    add_moments(panel, walk.power(), chips, weights, sum);
+    add_moments(*chips.edge, walk.power(), chips, weights, sum);
   });
   Sums sums{};
   for (std::size_t q = 0; q < sums.size(); ++q) {
@@ -97,13 +99,13 @@ Sums moments_at(Walk& walk, double phi) {
 }
 
 /// Weights of a node in t, r and a for unit coefficients.
-std::array<double, 3> cutting_at(const NodePanels& all, const NodePanel& panel,
+std::array<double, 3> cutting_at(const NodePanels& all, const NodeEdge& edge,
                                  const NodeWeights& weights, std::size_t k) noexcept {
   if (all.form.power) {
-    return {weights.power[0][k] * panel.half, weights.power[1][k] * panel.half,
-            weights.power[2][k] * panel.half};
+    return {weights.power[0][k] * edge.length[k], weights.power[1][k] * edge.length[k],
+            weights.power[2][k] * edge.length[k]};
   }
-  const double h = weights.chip[k] * panel.width[k];
+  const double h = weights.chip[k] * edge.width[k];
   return {h, h, h};
 }
 
@@ -132,6 +134,25 @@ std::optional<NodeForce> NodeForce::make(const Setup& setup, const Law& law,
     } else {
       force.tip_.emplace<AxialForce>(tip, law, allowed);
     }
+  }
+  return force;
+}
+
+std::optional<NodeForce> NodeForce::make(const AnyEdges& any, const Law& law,
+                                         double tolerance) {
+  auto panels =
+      node_panels(any, caution_of_any * std::min(tolerance, coarsest_at_nodes));
+  if (!panels) {
+    return std::nullopt;
+  }
+  panels->form = form(law);
+  NodeForce force(std::move(*panels), law);
+  const double low = any.zones.front().from;
+  if (force.panels_.begin > low) {
+    const double share = (force.panels_.begin - low) / (any.zones.back().to - low);
+    force.tip_.emplace<AnyForce>(any.setup, law,
+                                 std::min(coarsest_at_tip, tolerance / share),
+                                 force.panels_.begin);
   }
   return force;
 }
@@ -188,13 +209,14 @@ void NodeForce::loads(std::span<const double> phi, double gauge_length,
     walk.at(phi[i], [&](const NodePanel& panel, const NodeTooth& tooth,
                         const NodeChips& chips, const NodeWeights& weights) {
       const double* R = &tooth.rows[NodeTooth::radius * panels_.rule->width];
+      const NodeEdge& own = *chips.edge;
       for (std::size_t k = 0; k < panels_.rule->nodes; ++k) {
-        const std::array<double, 3> cutting = cutting_at(panels_, panel, weights, k);
-        const double edge = weights.edge[k] * panel.edge[k];
+        const std::array<double, 3> cutting = cutting_at(panels_, own, weights, k);
+        const double edge = weights.edge[k] * own.edge[k];
         add_loads({.sine = chips.sine[k],
                    .cosine = chips.cosine[k],
-                   .sin_kappa = panel.sin_kappa[k],
-                   .cos_kappa = panel.cos_kappa[k],
+                   .sin_kappa = own.sin_kappa[k],
+                   .cos_kappa = own.cos_kappa[k],
                    .R = R[k],
                    .z = panel.z[k] - gauge_length},
                   {terms_.K[0] * cutting[0] + terms_.K_e[0] * edge,

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <trochoid/force/any_edges.h>
 #include <trochoid/force/axial.h>
-
 #include <trochoid/force/node_pieces.h>
 #include <trochoid/force/tip_force.h>
 
@@ -24,6 +24,10 @@ class NodeForce {
  public:
   /// @param tolerance  relative to the largest possible value of each entry
   static std::optional<NodeForce> make(const Setup& setup, const Law& law,
+                                       double tolerance);
+
+  /// @brief The same for edges that differ.
+  static std::optional<NodeForce> make(const AnyEdges& any, const Law& law,
                                        double tolerance);
 
   /// Into how many panels an edge is cut.
@@ -49,7 +53,7 @@ class NodeForce {
   NodePanels panels_;
   Terms terms_;
   /// Of the edge near the axis, where it gets there.
-  std::variant<std::monostate, TipForce, AxialForce> tip_;
+  std::variant<std::monostate, TipForce, AxialForce, AnyForce> tip_;
 };
 
 }  // namespace trochoid::force

@@ -91,6 +91,7 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
   const std::size_t width = all.rule->width;
   const bool exact = all.passage.model.model == chip::Model::trochoidal;
   const double* const rows = tooth.rows.data();
+  const double* const own = out.edge->r.data();
   const Angle tip{constant(sine_cosine[0]), constant(sine_cosine[1])};
   for (std::size_t i = 0; i < width; i += hn::Lanes(tag)) {
     const Angle theta = turned(tip, rows + NodeTooth::cosine * width + i,
@@ -98,7 +99,7 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
     const Angle seen = exact ? theta
                              : turned(tip, rows + NodeTooth::chip_cosine * width + i,
                                       rows + NodeTooth::chip_sine * width + i);
-    const double* radius = exact ? rows + NodeTooth::radius * width + i : &panel.r[i];
+    const double* radius = exact ? rows + NodeTooth::radius * width + i : own + i;
     hn::StoreU(hn::LoadU(tag, radius), tag, &out.radius[i]);
     hn::StoreU(theta.sine, tag, &out.sine[i]);
     hn::StoreU(theta.cosine, tag, &out.cosine[i]);
@@ -106,7 +107,7 @@ void chips_at_nodes(const NodePanels& all, const NodePanel& panel,
     hn::StoreU(seen.cosine, tag, &out.chip_cosine[i]);
     Vector least = constant(1e300);
     const double* row = rows + NodeTooth::first_mark * width + i;
-    for (std::size_t m = 0; m < static_cast<std::size_t>(all.passage.marks); ++m) {
+    for (std::size_t m = 0; m < tooth.marks; ++m) {
       const Mark mark{hn::LoadU(tag, row), hn::LoadU(tag, row + width),
                       hn::LoadU(tag, row + 2 * width), hn::LoadU(tag, row + 3 * width)};
       row += NodeTooth::rows_of_mark * width;
@@ -205,26 +206,26 @@ HWY_INLINE void add_eight(double* lanes, const Pull& q, const Angle& theta,
 }
 
 // Highway's table takes no noexcept functions.
-void add_at_nodes(const NodePanel& panel, bool power, const NodeChips& chips,
+void add_at_nodes(const NodeEdge& own, bool power, const NodeChips& chips,
                   const NodeWeights& weights, NodeMoments& sum) {
   double* const lanes = sum.lanes.front().data();
   for (std::size_t i = 0; i < node_room; i += hn::Lanes(tag)) {
-    if (i == 8 && panel.edge[8] == 0) {
+    if (i == 8 && own.edge[8] == 0) {
       return;  // a rule of eight nodes
     }
     const Angle theta{hn::LoadU(tag, &chips.sine[i]), hn::LoadU(tag, &chips.cosine[i])};
-    const Vector sin_kappa = hn::LoadU(tag, &panel.sin_kappa[i]);
-    const Vector cos_kappa = hn::LoadU(tag, &panel.cos_kappa[i]);
+    const Vector sin_kappa = hn::LoadU(tag, &own.sin_kappa[i]);
+    const Vector cos_kappa = hn::LoadU(tag, &own.cos_kappa[i]);
     const Vector chip =
-        hn::Mul(hn::LoadU(tag, &weights.chip[i]), hn::LoadU(tag, &panel.width[i]));
+        hn::Mul(hn::LoadU(tag, &weights.chip[i]), hn::LoadU(tag, &own.width[i]));
     const Vector edge =
-        hn::Mul(hn::LoadU(tag, &weights.edge[i]), hn::LoadU(tag, &panel.edge[i]));
+        hn::Mul(hn::LoadU(tag, &weights.edge[i]), hn::LoadU(tag, &own.edge[i]));
     Pull pull{chip, chip, chip};
     if (power) {
-      const Vector half = constant(panel.half);
-      pull = {hn::Mul(hn::LoadU(tag, &weights.power[0][i]), half),
-              hn::Mul(hn::LoadU(tag, &weights.power[1][i]), half),
-              hn::Mul(hn::LoadU(tag, &weights.power[2][i]), half)};
+      const Vector length = hn::LoadU(tag, &own.length[i]);
+      pull = {hn::Mul(hn::LoadU(tag, &weights.power[0][i]), length),
+              hn::Mul(hn::LoadU(tag, &weights.power[1][i]), length),
+              hn::Mul(hn::LoadU(tag, &weights.power[2][i]), length)};
     }
     add_eight(lanes, pull, theta, sin_kappa, cos_kappa);
     add_eight(lanes + 64, {edge, edge, edge}, theta, sin_kappa, cos_kappa);
@@ -249,6 +250,8 @@ HWY_EXPORT(add_at_nodes);
 
 void node_chips(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
                 std::array<double, 2> sine_cosine, NodeChips& out) noexcept {
+  out.edge = &panel.edge_of(tooth);
+  out.over.resize(tooth.marks * all.rule->width);
   HWY_DYNAMIC_DISPATCH(chips_at_nodes)(all, panel, tooth, sine_cosine.data(), out);
 }
 
@@ -262,9 +265,9 @@ void add_powers(const NodeRule& rule, const PowerPiece& piece,
   HWY_DYNAMIC_DISPATCH(powers)(rule, piece, out);
 }
 
-void add_moments(const NodePanel& panel, bool power, const NodeChips& chips,
+void add_moments(const NodeEdge& edge, bool power, const NodeChips& chips,
                  const NodeWeights& weights, NodeMoments& sum) noexcept {
-  HWY_DYNAMIC_DISPATCH(add_at_nodes)(panel, power, chips, weights, sum);
+  HWY_DYNAMIC_DISPATCH(add_at_nodes)(edge, power, chips, weights, sum);
 }
 
 }  // namespace trochoid::force

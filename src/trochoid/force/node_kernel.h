@@ -13,9 +13,10 @@ struct NodeChips {
   alignas(64) NodeRow cosine{};
   alignas(64) NodeRow chip_sine{};  ///< of the theta that the chip model takes
   alignas(64) NodeRow chip_cosine{};
-  alignas(64) NodeRow radius{};  ///< that the chip model takes [m]
-  alignas(64) NodeRow least{};   ///< chip over the closest mark [m]
-  std::vector<double> over;      ///< chip over each mark [m], shape (marks, width)
+  alignas(64) NodeRow radius{};    ///< that the chip model takes [m]
+  alignas(64) NodeRow least{};     ///< chip over the closest mark [m]
+  std::vector<double> over;        ///< chip over each mark [m], shape (marks, width)
+  const NodeEdge* edge = nullptr;  ///< of the tooth
 };
 
 /// @brief Moments of the chip and of the edge: integrals of sin, cos, sin sin(kappa),
@@ -34,7 +35,8 @@ struct NodeWeights {
 };
 
 /// @brief Chips over all marks at the nodes of a panel (C-2 to C-6).
-/// @param sine, cosine  of the angle of the tip of tooth 1
+/// @param      sine, cosine  of the angle of the tip of tooth 1
+/// @param[out] out           with room for all marks there are
 void node_chips(const NodePanels& all, const NodePanel& panel, const NodeTooth& tooth,
                 std::array<double, 2> sine_cosine, NodeChips& out) noexcept;
 
@@ -62,9 +64,9 @@ struct PowerPiece {
 void add_powers(const NodeRule& rule, const PowerPiece& piece,
                 std::array<NodeRow, 3>& out) noexcept;
 
-/// @brief Add what a panel gives.
+/// @brief Add what an edge gives along a panel.
 /// @param power  whether the law is a power of the chip
-void add_moments(const NodePanel& panel, bool power, const NodeChips& chips,
+void add_moments(const NodeEdge& edge, bool power, const NodeChips& chips,
                  const NodeWeights& weights, NodeMoments& sum) noexcept;
 
 }  // namespace trochoid::force

@@ -65,13 +65,25 @@ NodeRoots roots_of(const NodeRule& rule, const double* values, double slack) noe
 struct NodeTooth {
   enum Row { cosine, sine, chip_cosine, chip_sine, radius, first_mark };
   enum MarkRow { apart, back, mark_radius, bend, rows_of_mark };
-  double middle = 0.0;  ///< angle of the middle behind the tip of tooth 1 [rad]
+  double middle = 0.0;   ///< angle of the middle behind the tip of tooth 1 [rad]
+  std::size_t edge = 0;  ///< which of NodePanel::edges it has
+  std::size_t marks = 0;
   std::vector<double> rows;
 };
 
-/// A part of the edges on which chips are polynomials of the arc length.
+/// @brief An edge at the nodes of a panel, without runout: that of all teeth, or of one.
+struct NodeEdge {
+  NodeRow r{};       ///< radius [m]
+  NodeRow width{};   ///< dz/dt, t from -1 to 1: of the chip [m]
+  NodeRow length{};  ///< ds/dt along the meridian [m]
+  NodeRow edge{};    ///< dS/dt: of the edge force [m]
+  NodeRow sin_kappa{};
+  NodeRow cos_kappa{};
+};
+
+/// A part of the edges on which chips are polynomials of the place along it.
 struct NodePanel {
-  double from = 0.0;  ///< arc length along the meridian [m]
+  double from = 0.0;  ///< arc length along the meridian [m], or place in a Zone
   double to = 0.0;
   double half_turn = 0.0;    ///< half of what the edge turns by, and epsilon [rad]
   double centre = 0.0;       ///< of the angles theta where there may be a chip [rad]
@@ -79,14 +91,14 @@ struct NodePanel {
   double slack = 0.0;        ///< how far a chip may bend between two nodes [m]
   double stock_slack = 0.0;  ///< the same for y of the edge [m]
   int steps = 1;             ///< of Newton's; more than 2: with the full slope
-  NodeRow r{};               ///< nominal radius [m]
+  double half = 0.0;         ///< ds/dt, of edges that differ the mean [m]
   NodeRow z{};               ///< height above the tip [m]
-  NodeRow width{};           ///< dz/dt, t from -1 to 1: of the chip [m]
-  NodeRow edge{};            ///< dS/dt: of the edge force [m]
-  double half = 0.0;         ///< ds/dt [m]
-  NodeRow sin_kappa{};
-  NodeRow cos_kappa{};
+  std::vector<NodeEdge> edges;
   std::vector<NodeTooth> teeth;
+
+  [[nodiscard]] const NodeEdge& edge_of(const NodeTooth& tooth) const noexcept {
+    return edges[tooth.edge];
+  }
 };
 
 /// @brief Edges cut into panels.
@@ -94,8 +106,8 @@ struct NodePanels {
   chip::Passage passage;
   std::vector<double> psi;  ///< [rad]
   const NodeRule* rule = nullptr;
-  Form form;                   ///< of the law whose forces are summed
-  double begin = 0.0;          ///< arc length before which the panels do not hold [m]
+  Form form;           ///< of the law whose forces are summed
+  double begin = 0.0;  ///< where panels begin: arc length, of AnyEdges height [m]
   bool at_stock_edge = false;  ///< whether the stock ends somewhere in y
   std::vector<NodePanel> panels;
 };
@@ -103,6 +115,14 @@ struct NodePanels {
 /// @brief A panel with its nodes and teeth, and how far chips may bend between two nodes.
 /// @param from, to  arc length along the meridian [m], within one part of the profile
 NodePanel node_panel(const Edges& edges, const NodeRule& rule, double from, double to);
+
+struct AnyEdges;
+struct Zone;
+
+/// @brief The same of edges that differ, within a zone.
+/// @param from, to  places in the zone, from 0 to 1
+NodePanel node_panel(const AnyEdges& any, const NodeRule& rule, const Zone& zone,
+                     double from, double to);
 
 /// @brief How far offsets and eccentricity move a tooth [m].
 double reach_of(const geometry::Runout& runout) noexcept;

@@ -301,7 +301,7 @@ double chip_across(const Look& look, const MarkPiece& s, double t) noexcept {
   const NodeRow basis = basis_at(look.rule(), t);
   const double h = s.by_stock ? clip(look, place_at(look, basis)).h
                               : look.at(basis, look.over(s.mark));
-  return h * look.at(basis, look.panel.sin_kappa.data());
+  return h * look.at(basis, look.chips.edge->sin_kappa.data());
 }
 
 /// Where the chip begins or ends, or the edge lies flat, as at the tip of a corner.
@@ -309,7 +309,7 @@ ThinEnd thin_end(const Look& look, const MarkPiece& s) noexcept {
   constexpr double thin = 0.3;  // of the middle
   const bool whole = s.from == -1 && s.to == 1 && !s.by_stock;
   const auto at = [&](std::size_t node, double t) {
-    return whole ? look.over(s.mark)[node] * look.panel.sin_kappa[node]
+    return whole ? look.over(s.mark)[node] * look.chips.edge->sin_kappa[node]
                  : chip_across(look, s, t);
   };
   const std::size_t end = look.rule().nodes - 1;
@@ -335,7 +335,7 @@ void add_power(const Look& look, const MarkPiece& s, NodeWeights& weights) {
       across[g] = chip_across(look, s, t[g]);
     }
   } else {
-    chips_across(look.rule(), look.over(s.mark), look.panel.sin_kappa.data(), t,
+    chips_across(look.rule(), look.over(s.mark), look.chips.edge->sin_kappa.data(), t,
                  across);
   }
   add_powers(look.rule(),
@@ -388,10 +388,14 @@ void add_pieces(const Look& look, NodeWeights& weights) {
 enum class Inside { everywhere, nowhere, partly };
 
 /// Where the nodes lie by y, or by the front of the tool for the simplified models.
-Inside inside_stock(const Look& look) noexcept {
+/// @param thickest  chip at the nodes [m]
+Inside inside_stock(const Look& look, double thickest) noexcept {
   const geometry::Band& stock = look.all.passage.stock;
   const double far = look.panel.stock_slack;
-  const double thick = look.exact() ? look.all.passage.feed * 7 : 0.0;
+  // A chip lies between the edge and its mark: more than a feed where others are short.
+  const double thick =
+      look.exact() ? std::max(look.all.passage.feed * 7, thickest + look.panel.slack)
+                   : 0.0;
   bool all_in = true;
   bool low = true;
   bool high = true;
@@ -419,8 +423,8 @@ bool weigh(const NodePanels& all, const NodePanel& panel, const NodeChips& chips
   const auto n = static_cast<std::ptrdiff_t>(all.rule->nodes);
   const auto [least, most] =
       std::minmax_element(chips.least.begin(), chips.least.begin() + n);
-  const Inside inside =
-      all.at_stock_edge || !look.exact() ? inside_stock(look) : Inside::everywhere;
+  const Inside inside = all.at_stock_edge || !look.exact() ? inside_stock(look, *most)
+                                                           : Inside::everywhere;
   if (inside == Inside::nowhere) {
     return false;
   }

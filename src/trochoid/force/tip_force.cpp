@@ -183,11 +183,11 @@ void TipForce::add_panel(const Edges& edges, double from, double to) {
   // Its nodes stay clear of what jumps at its ends, and stand for the whole of it.
   const double whole = (to - from) / (panel.to - panel.from);
   panel.half *= whole;
-  for (double& e : panel.edge) e *= whole;
+  NodeEdge& edge = panel.edges.front();
+  for (double& e : edge.edge) e *= whole;
   unwrap(panel, panels_);
   Powers powers;
-  for (const NodeRow* row :
-       {&panel.sin_kappa, &panel.cos_kappa, &panel.z, &panel.edge}) {
+  for (const NodeRow* row : {&edge.sin_kappa, &edge.cos_kappa, &panel.z, &edge.edge}) {
     powers.of_panel.push_back(powers_of(rule, row->data()));
   }
   for (const NodeTooth& tooth : panel.teeth) {
@@ -308,8 +308,8 @@ class TipForce::Walk {
       }
       most = std::max(most, std::abs(c));
     }
-    const double steepest =
-        std::max(panel_->sin_kappa[0], panel_->sin_kappa[places - 1]);
+    const double steepest = std::max(panel_->edges.front().sin_kappa[0],
+                                     panel_->edges.front().sin_kappa[places - 1]);
     return most * steepest * half * panel_->half <= tip_.allowed_;
   }
 
@@ -321,14 +321,15 @@ class TipForce::Walk {
       return;
     }
     const NodePanel& panel = *panel_;
+    const NodeEdge& edge = panel.edges.front();
     for (std::size_t i = 0; i < places; ++i) {
       visit({.sine = chips_.chips.sine[i],
              .cosine = chips_.chips.cosine[i],
-             .sin_kappa = panel.sin_kappa[i],
-             .cos_kappa = panel.cos_kappa[i],
+             .sin_kappa = edge.sin_kappa[i],
+             .cos_kappa = edge.cos_kappa[i],
              .R = chips_.chips.radius[i],
              .z = panel.z[i]},
-            thickness(chips_, bound, i), panel.edge[i] / panel.half,
+            thickness(chips_, bound, i), edge.edge[i] / panel.half,
             tip_.panels_.rule->whole[i] * panel.half);
     }
   }

@@ -320,14 +320,14 @@ std::optional<Found> runout_unknown(const ChannelProblem& problem, std::size_t i
 
 double step_of(const ChannelProblem& problem, std::size_t i) {
   constexpr double usual = 1e-4;
-  constexpr double of_axial = 1e-2;
+  constexpr double of_corner = 5e-3;
   constexpr double of_tilt = 0.1;
   const auto unknown = runout_unknown(problem, i);
   if (!unknown) return usual;
-  if (unknown->kind == FoundKind::axial_offset) return of_axial;
-  const bool tilt =
-      unknown->kind == FoundKind::tilt_x || unknown->kind == FoundKind::tilt_y;
-  return tilt ? of_tilt : usual;
+  const FoundKind kind = unknown->kind;
+  if (kind == FoundKind::tilt_x || kind == FoundKind::tilt_y) return of_tilt;
+  const bool with_axial = problem.request.axial_offsets && kind == FoundKind::offset;
+  return with_axial || kind == FoundKind::axial_offset ? of_corner : usual;
 }
 
 std::vector<double> block_rows(const ChannelProblem& problem, const ChannelPoint& point,

@@ -68,8 +68,8 @@ std::vector<double> parameters_of(const ChannelProblem& problem,
 /// @brief What an unknown is, where it is one of the runout; nothing: phase or sensor.
 std::optional<Found> runout_unknown(const ChannelProblem& problem, std::size_t i);
 
-/// @brief Step for a difference by an unknown. Axial offsets and tilts of nanometres would make
-/// layers so thin between the tips that no quadrature goes through them quickly.
+/// @brief Step for a difference by an unknown. Forces over offsets have kinks where axial
+/// offsets are among them, a sample each: steps of about a standard error go over them.
 double step_of(const ChannelProblem& problem, std::size_t i);
 
 /// @brief Rows of one measurement at a point, weighted, without drift.

@@ -33,22 +33,44 @@ bool residuals_at(const ChannelSearch& search, std::span<const double> p, double
   return true;
 }
 
+/// Whether forces of edges that differ are asked for.
+bool searches_own_edges(const ChannelProblem& problem) {
+  return problem.request.axial_offsets || problem.request.tilt ||
+         !force::edges_alike(problem.setup);
+}
+
+/// One column of slopes. Where edges differ, forces bend within a step, as a corner takes in
+/// more of its flat tip: slopes are taken from both sides.
+/// @param[in,out] q      the place, back there when done
+/// @param[in,out] slope  in: residuals at the place
+bool slopes_at(const ChannelSearch& search, std::size_t j, double size,
+               std::vector<double>& q, std::span<double> slope) {
+  const double step = step_of(search.problem, j);
+  const double here = q[j];
+  const bool both = searches_own_edges(search.problem);
+  std::vector<double> before(slope.begin(), slope.end());
+  q[j] = here - step;
+  bool good = !both || residuals_at(search, q, size, before);
+  q[j] = here + step;
+  good = good && residuals_at(search, q, size, slope);
+  q[j] = here;
+  for (std::size_t i = 0; i < slope.size(); ++i) {
+    slope[i] = (slope[i] - before[i]) / (both ? 2 * step : step);
+  }
+  return good;
+}
+
 numerics::Residuals residuals_of(const ChannelSearch& search, double size) {
   return [&search, size](std::span<const double> p, std::span<double> r,
                          std::span<double> jacobian) {
-    if (!residuals_at(search, p, size, r)) return false;
+    bool good = residuals_at(search, p, size, r);
     std::vector<double> q(p.begin(), p.end());
-    std::vector<double> up(r.size());
-    for (std::size_t j = 0; j < p.size() && !jacobian.empty(); ++j) {
-      const double step = step_of(search.problem, j);
-      q[j] = p[j] + step;
-      if (!residuals_at(search, q, size, up)) return false;
-      q[j] = p[j];
-      for (std::size_t i = 0; i < r.size(); ++i) {
-        jacobian[j * r.size() + i] = (up[i] - r[i]) / step;
-      }
+    for (std::size_t j = 0; good && j < p.size() && !jacobian.empty(); ++j) {
+      const auto slope = jacobian.subspan(j * r.size(), r.size());
+      std::ranges::copy(r, slope.begin());
+      good = slopes_at(search, j, size, q, slope);
     }
-    return true;
+    return good;
   };
 }
 
@@ -377,12 +399,6 @@ std::vector<double> with_signs_of_a_cut(const ChannelSearch& search,
     }
   }
   return p;
-}
-
-/// Whether forces of edges that differ are asked for.
-bool searches_own_edges(const ChannelProblem& problem) {
-  return problem.request.axial_offsets || problem.request.tilt ||
-         !force::edges_alike(problem.setup);
 }
 
 }  // namespace

@@ -144,8 +144,9 @@ Base base_of(const Fit& fit) {
 }
 
 /// @brief Radial and axial offsets looked for together and from far away, where more than
-/// noise is left: what fits best without axial offsets may lie in another valley.
-/// @return the base of the valley that was found, if it explains clearly more
+/// noise is left or a tilt had to help: what fits best without axial offsets may lie in another valley.
+/// @return the base of the valley that was found, if it explains clearly more, or as much
+///         without the tilt
 std::optional<Base> other_valley(const cases::Case& given, const IdentifyResult& r,
                                  const Base& near) {
   const geometry::Cutter& cutter = given.setup.cutter;
@@ -153,8 +154,10 @@ std::optional<Base> other_valley(const cases::Case& given, const IdentifyResult&
                           !identification::finds_eccentricity(near.request.runout);
   if (!has_a_corner(cutter) || !of_offsets) return std::nullopt;
   const bool instead = rings(near.fit);
-  if (near.best && identification::leaves_noise_alone(
-                       r.runs, as_fit_of_runs(near.fit, *near.best))) {
+  const bool tilted = near.request.tilt;
+  if (near.best && !tilted &&
+      identification::leaves_noise_alone(r.runs,
+                                         as_fit_of_runs(near.fit, *near.best))) {
     return std::nullopt;
   }
   force::Setup setup = given.setup;
@@ -167,11 +170,13 @@ std::optional<Base> other_valley(const cases::Case& given, const IdentifyResult&
   Base out = near;
   std::ranges::fill(out.fit.phase, 0.0);
   out.request.axial_offsets = true;
+  out.request.tilt = false;
   out.request.near_given = false;
   Fit found = identification::fit_channels(setup, near.fit.law, table(),
                                            data_of(r, out.fit), out.request);
-  if (!tells_axial_offsets(found, setup.cut.f_z) ||
-      !explains_more(before, found, cutter.teeth() - 1.0)) {
+  const bool better = tilted ? !explains_more(found, before, 2.0)
+                             : explains_more(before, found, cutter.teeth() - 1.0);
+  if (!tells_axial_offsets(found, setup.cut.f_z) || !better) {
     return std::nullopt;
   }
   // In place of resonances only where nothing is left for them.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -33,8 +34,9 @@ void set_weights(std::span<const double> at, Row& place, Row& weight) {
 }
 
 bool is_cylinder(const force::NodePanel& panel, std::size_t nodes) {
+  const force::NodeRow& r = panel.edges.front().r;
   for (std::size_t i = 0; i < nodes; ++i) {
-    if (std::abs(panel.r[i] - panel.r[0]) > 1e-12 * panel.r[0]) {
+    if (std::abs(r[i] - r[0]) > 1e-12 * r[0]) {
       return false;
     }
   }
@@ -74,7 +76,7 @@ std::shared_ptr<const EdgeNodes> EdgeNodes::make(const force::Edges& edges,
     Panel panel{.middle = (low + high) / a_p - 1,
                 .half = (high - low) / a_p,
                 .height = 0.5 * (high - low)};
-    panel.edge = form.edge ? from.edge[0] / panel.height : 0.0;
+    panel.edge = form.edge ? from.edges.front().edge[0] / panel.height : 0.0;
     panel.shares.resize(rule.nodes * point_room);
     for (std::size_t i = 0; i < rule.nodes; ++i) {
       const double lag = edges.point(from.z[i]).lag;
@@ -198,7 +200,9 @@ class EdgeNodes::Look {
   void find_across(bool bent, const double* own_radius) {
     const bool own = bent && all_.passage.model.model == chip::Model::radial;
     for (std::size_t i = 0; i < rule_.nodes; ++i) {
-      const double R = exact() ? chips_.radius[i] : own ? own_radius[i] : panel_->r[i];
+      const double R = exact() ? chips_.radius[i]
+                       : own   ? own_radius[i]
+                               : chips_.edge->r[i];
       window_[i] = R;
       across_[i] = R * chips_.chip_cosine[i] + shift_[i];
     }
@@ -240,11 +244,23 @@ class EdgeNodes::Look {
     return true;
   }
 
+  /// The thickest chip at the nodes, over the closest mark [m].
+  [[nodiscard]] double thickest() noexcept {
+    double most = 0.0;
+    for (std::size_t i = 0; i < rule_.nodes; ++i) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::size_t m : marks_) least = std::min(least, over(m)[i]);
+      most = std::max(most, least);
+    }
+    return most;
+  }
+
   /// Whether some of the nodes may lie in the stock.
-  [[nodiscard]] bool in_stock() const noexcept {
+  [[nodiscard]] bool in_stock() noexcept {
     const geometry::Band& stock = all_.passage.stock;
-    const double far =
-        panel_->stock_slack + slack_ + (exact() ? 7 * all_.passage.feed : 0);
+    const double thick =
+        exact() ? std::max(7 * all_.passage.feed, thickest() + slack_) : 0.0;
+    const double far = panel_->stock_slack + slack_ + thick;
     bool low = true;
     bool high = true;
     bool behind = !exact();
