@@ -2,6 +2,8 @@
 import json
 import os
 import re
+import statistics
+import tomllib
 
 from in_folder import InFolder, ROOT, identification, main, simulation
 
@@ -205,6 +207,50 @@ class NewCase(InFolder):
             done = self.run_program("check", "its.toml", "--for", "simulate")
             self.assertNotIn("warning", done.stdout + done.stderr, file.name)
             (self.folder / "its.toml").unlink()
+
+    def test_the_prior_of_7075_is_the_spread_of_its_four_papers(self):
+        def material(name):
+            return tomllib.loads((ROOT / f"examples/materials/{name}.toml").read_text())
+
+        papers = [material(name)["force"]
+                  for name in ("al7075_t6", "al7075_t6_flat", "al7075_high", "al7075_hss")]
+        known = material("al7075")
+        for key, prior in known["prior"].items():
+            values = [paper[key] for paper in papers if paper[key]]
+            self.assertGreaterEqual(len(values), 3)
+            self.assertAlmostEqual(prior["mean"] / statistics.mean(values), 1, delta=0.005)
+            self.assertAlmostEqual(prior["sd"] / statistics.stdev(values), 1, delta=0.02)
+            self.assertEqual(known["force"][key], prior["mean"])
+        self.assertEqual(len(known["prior"]), 6)
+
+    def test_power_at_one_feed_and_a_published_prior_tell_all_coefficients(self):
+        self.write("power.toml", f"""include = "{ROOT}/examples/materials/al7075.toml"
+[tool]
+shape = "cylinder"
+teeth = 4
+diameter_mm = 16.0
+helix_deg = 30.0
+[cut]
+engagement = "slot"
+axial_depth_mm = 2.0
+feed_per_tooth_mm = 0.08
+spindle_rpm = 3000
+[dynamometer]
+axes = ["power"]
+[identify]
+chip_models = ["trochoidal"]
+runout = "none"
+[[measurement]]
+mean = [500]
+mean_sd = [15]
+""")
+        self.run_program("identify", "power.toml", "-q", "--no-report")
+        fit = json.loads((self.folder / "power.identify/summary.json").read_text())
+        fit = fit["result"]["fits"][0]
+        self.assertEqual(fit["prior"]["K_tc_MPa"], {"mean": 910, "sd": 310})
+        self.assertLess(fit["coefficients"]["K_tc_MPa"]["se"], 310 / 2)
+        self.assertIsNone(fit["data_alone"]["K_tc_MPa"])
+        self.assertAlmostEqual(fit["coefficients"]["K_rc_MPa"]["se"], 300, places=6)
 
     def test_a_material_is_found_from_the_new_case(self):
         (self.folder / "cases").mkdir()
