@@ -30,11 +30,12 @@ const page = {
   task: 'identify', text: '', name: 'case.toml', files: new Map(), opened: null, drafts: {},
   turns: 0, program: null, schema: null, examples: {}, templates: {}, answer: null, checks: 0,
 };
+const tool = toolView();
 window.trochoidPage = page;  // for tests, and for who looks into it
 
-function given() {
+function given(text = page.text) {
   try {
-    return toml.parse(page.text);
+    return toml.parse(text);
   } catch {
     return null;  // the program says where
   }
@@ -61,9 +62,18 @@ function tablesOfTask() {
 }
 
 /** @param instead the key whose place it takes, if any */
-function change(path, key, value, instead) {
+function changed(path, key, value, instead) {
   const text = instead === undefined ? page.text : withKey(page.text, path, instead, null);
-  take(withKey(text, path, key, value));
+  return withKey(text, path, key, value);
+}
+
+/** What a text would draw if it were the case. What goes leaves its room, or the field would move under who types. */
+function preview(text) {
+  const read = given(text);
+  if (read === null) return;
+  const place = $('drawing');
+  place.style.minHeight = `${place.getBoundingClientRect().height}px`;
+  showDrawings(read);
 }
 
 /** A swept key under its name, which may be a new one. */
@@ -89,13 +99,21 @@ function showForm() {
   const open = new Set([...document.querySelectorAll('#form details[open][data-table]')].map((d) => d.dataset.table));
   const focused = document.activeElement?.id;
   $('form').replaceChildren(caseForm({
-    schema: page.schema, given: read, tables: tablesOfTask(), opened: page.opened ?? open, files: page.files, change, sweep,
+    schema: page.schema, given: read, tables: tablesOfTask(), opened: page.opened ?? open, files: page.files, sweep,
+    change: (...all) => take(changed(...all)), preview: (...all) => preview(changed(...all)),
     add: (name) => take(`${page.text.replace(/\n*$/, '\n')}\n[[${name}]]\n`),
     remove: (path) => take(withoutTable(page.text, path)),
   }));
   page.opened = null;
-  $('drawing').replaceChildren(...[drawCut(read), drawSide(read)].filter(Boolean));
+  $('drawing').style.minHeight = '';
+  showDrawings(read);
   if (focused) $(focused)?.focus();
+}
+
+function showDrawings(read) {
+  const cut = drawCut(read);
+  tool.element.hidden = !tool.show(read);
+  $('drawing').replaceChildren(...[cut, tool.element].filter(Boolean));
 }
 
 function showFiles() {
@@ -255,6 +273,7 @@ $('tasks').replaceChildren(...Object.entries(tasks).map(([task, [title, about]])
   element('strong', {}, title), element('span', {}, about))));
 $('anew').addEventListener('click', () => fresh(page.task));
 $('text').addEventListener('change', () => take($('text').value));
+$('text').addEventListener('input', () => preview($('text').value));
 $('example').addEventListener('change', (e) => { if (e.target.value !== '') startExample(e.target.value); });
 $('run').addEventListener('click', run);
 $('stop').addEventListener('click', () => page.program.stop('work'));

@@ -4,6 +4,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
+import { colorsOfReports, scriptOfReports } from './report_parts.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const root = path.dirname(here);
@@ -53,7 +54,7 @@ function examples() {
   return all;
 }
 
-const scripts = ['files.js', 'kept_files.js', 'case_text.js', 'lengths.js', 'drawing.js', 'side_view.js', 'swept.js', 'form.js', 'program.js', 'cases.js', 'app.js'].map((file) => text(here, file));
+const scripts = ['files.js', 'kept_files.js', 'case_text.js', 'lengths.js', 'drawing.js', 'swept.js', 'form.js', 'program.js', 'cases.js', 'app.js'].map((file) => text(here, file));
 const smol = `/*!\n${text(root, 'node_modules/smol-toml/LICENSE')}*/\nconst smolToml = (() => { const module = { exports: {} };\n${text(root, 'node_modules/smol-toml/dist/index.cjs')}\nreturn module.exports; })();`;
 const inScript = (script) => script.replaceAll('</script', '<\\/script');
 /** Licences of all that is in the page: of the scripts, and of what was compiled into the program. */
@@ -68,13 +69,13 @@ function licences() {
 
 const parts = {
   licences: licences(),
-  style: text(here, 'style.css'),
+  style: colorsOfReports(root) + text(here, 'style.css'),
   schema: inScript(JSON.stringify(JSON.parse(text(root, 'docs/formats/case.schema.json')))),
   wasm: packed(fs.readFileSync(path.join(engine, 'trochoid.wasm'))),
   examples: packed(JSON.stringify(examples())),
   glue: inScript(text(engine, 'trochoid.js')),
   engine: inScript(text(here, 'engine.js')),
-  scripts: inScript([smol, ...scripts.map((s) => s.replace("'use strict';", ''))].join('\n')),
+  scripts: inScript([smol, scriptOfReports(root), ...scripts.map((s) => s.replace("'use strict';", ''))].join('\n')),
 };
 const html = text(here, 'page.html').replace(/@(\w+)@/g, (_, name) => parts[name]);
 fs.mkdirSync(path.dirname(output), { recursive: true });

@@ -1,4 +1,4 @@
-// The cutter in its cut, seen from above: turns with the numbers.
+// What the case looks like: the cutter in its cut, seen from above, and the tool as the reports draw it. Turns with the numbers.
 'use strict';
 
 const svgSpace = 'http://www.w3.org/2000/svg';
@@ -10,41 +10,14 @@ function shape(name, attributes, text) {
   return node;
 }
 
-/** Where the stock lies across the feed, from and to, in radii; y points to the left of the feed. */
-function stockOf(cut, radius) {
-  const ae = cut.radial_depth_mm ?? radius;
-  if (cut.engagement === 'up') return [1 - ae / radius, 1];
-  if (cut.engagement === 'down') return [-1, -1 + ae / radius];
-  if (cut.engagement === 'band' && cut.stock_y_mm?.length === 2) return cut.stock_y_mm.map((y) => y / radius);
-  return [-1, 1];
-}
-
-/** Whether a value is a length that can be drawn: what the case's rules refuse is not. */
-function isLength(value, most = 1e4) {
-  return typeof value === 'number' && Number.isFinite(value) && value > 0 && value <= most;
-}
-
-function areNumbers(values) {
-  return Array.isArray(values) && values.every((v) => typeof v === 'number' && Number.isFinite(v));
-}
-
-/** Whether tool and cut are what the case's rules take, as far as the drawing needs them. */
-function isDrawable(tool, cut) {
-  const whole = Number.isInteger(tool.teeth) && tool.teeth >= 1 && tool.teeth <= 64;
-  const depth = cut.radial_depth_mm;
-  return whole && isLength(tool.diameter_mm) && (depth === undefined || isLength(depth)) &&
-         (tool.pitch_deg === undefined || areNumbers(tool.pitch_deg)) &&
-         (cut.stock_y_mm === undefined || areNumbers(cut.stock_y_mm));
-}
-
 /** @param given a case, as read @returns a picture, or null without a tool or of one that cannot be */
 function drawCut(given) {
   const tool = inMm(given.tool ?? {});
   const cut = inMm(given.cut ?? {});
-  if (!isDrawable(tool, cut) || cut.engagement === 'arcs') return null;
-  const radius = tool.diameter_mm / 2;
+  const stock = isDrawable(tool) ? stockOf(cut, tool.diameter_mm / 2) : null;
+  if (stock === null) return null;
+  const [low, high] = stock;
   const R = 62;
-  const [low, high] = stockOf(cut, radius).map((y) => Math.max(-1.25, Math.min(1.25, y)));
   const svg = shape('svg', { viewBox: '-130 -92 260 184', role: 'img', class: 'cut-drawing' });
   svg.append(shape('title', {}, `${tool.teeth} teeth, ${tool.diameter_mm} mm, ${cut.engagement ?? 'no cut'}`));
   const y = (value) => -value * R;
@@ -58,11 +31,11 @@ function drawCut(given) {
   let angle = 0;
   for (let j = 0; j < tool.teeth; ++j) {
     const a = (-angle * Math.PI) / 180;  // tooth 2 follows tooth 1: against the rotation
-    svg.append(shape('line', { class: 'tooth', x1: 0.35 * R * Math.sin(a), y1: -0.35 * R * Math.cos(a),
+    svg.append(shape('line', { class: 'tooth', style: `stroke: var(${seriesColor(j)})`, x1: 0.35 * R * Math.sin(a), y1: -0.35 * R * Math.cos(a),
                                x2: R * Math.sin(a), y2: -R * Math.cos(a) }));
-    if (tool.teeth <= 8) {
-      svg.append(shape('text', { class: 'label', x: 0.82 * R * Math.sin(a) + 5,
-                                 y: -0.82 * R * Math.cos(a) + 4 }, String(j + 1)));
+    if (tool.teeth <= 8) {  // beside its tooth
+      svg.append(shape('text', { class: 'label', x: 0.8 * R * Math.sin(a + 0.18), y: 3.5 - 0.8 * R * Math.cos(a + 0.18),
+                                 'text-anchor': 'middle' }, String(j + 1)));
     }
     angle += pitch[j];
   }
@@ -81,4 +54,30 @@ function caption(tool, cut) {
   return parts.join(', ');
 }
 
-if (typeof module !== 'undefined') module.exports = { stockOf, shape, isLength, isDrawable, drawCut };
+/** The tables of a case that the drawing of a tool takes, in mm. */
+function tablesDrawn(given) {
+  const [tool, runout, cut] = ['tool', 'runout', 'cut'].map((name) => given[name] && inMm(given[name]));
+  if (tool?.serration !== undefined) tool.serration = inMm(tool.serration);
+  return { tool, runout, cut };
+}
+
+/** The tool by itself, as the reports draw it. @returns its element, and show(given): whether it can be drawn */
+function toolView() {
+  let picture = null;
+  const told = element('figcaption', {});
+  const chart = drawing({ label: 'The tool', bare: true, height: (width) => picture.height(width),
+                          paint: (...all) => picture.paint(...all) });
+  chart.element.append(told);
+  const draw = () => { if (picture !== null) chart.resize(); };
+  new ResizeObserver(draw).observe(chart.canvas.parentElement);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+  return { element: chart.element, show: (given) => {
+    picture = toolPicture(tablesDrawn(given));
+    told.textContent = picture?.told ?? '';
+    chart.canvas.setAttribute('aria-label', picture?.label ?? '');
+    draw();
+    return picture !== null;
+  } };
+}
+
+if (typeof module !== 'undefined') module.exports = { shape, drawCut, tablesDrawn, toolView };

@@ -54,16 +54,17 @@ const shownValue = (value) =>
 
 /**
  * One key: label, input, unit and help.
- * @param twin the same key in the other of mm and inches, where there is one
+ * @param twin    the same key in the other of mm and inches, where there is one
+ * @param preview what change would do, while a person still types
  */
-function field({ path, key, twin, schema, value, needed, files, change }) {
+function field({ path, key, twin, schema, value, needed, files, change, preview }) {
   const id = `${path}.${key}`;
   const choices = formsOf(schema).length === 1 ? schema.enum : undefined;
   const inInches = twin !== undefined && /_mm(?=$|_)/.test(twin);
-  const set = (entered) => {
+  const set = (entered, to) => {
     const { text, unit } = twin === undefined ? { text: entered } : withUnit(entered);
     const other = unit !== undefined && (unit === 'in') !== inInches;
-    change(path, other ? twin : key, typed(text, schema), other ? key : undefined);
+    to(path, other ? twin : key, typed(text, schema), other ? key : undefined);
   };
   let input;
   if (choices) {
@@ -78,7 +79,8 @@ function field({ path, key, twin, schema, value, needed, files, change }) {
     const usual = schema.default === undefined ? '' : shownValue(schema.default);
     input = element('input', { id, type: 'text', list, spellcheck: 'false', value: shownValue(value),
                                inputmode: (schema.type === 'number' && !twin) || schema.type === 'integer' ? 'decimal' : undefined,
-                               placeholder: usual, onchange: (e) => set(e.target.value) });
+                               placeholder: usual, onchange: (e) => set(e.target.value, change),
+                               oninput: (e) => set(e.target.value, preview) });
     if (isFile(key) && value !== undefined && !files.has(value)) input.classList.add('no-file');
   }
   const range = inInches ? '' : rangeOf(schema);

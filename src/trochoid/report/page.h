@@ -16,6 +16,7 @@ std::string_view text_js();      ///< numbers, names and elements
 std::string_view band_js();      ///< what of a curve is in the band of a fit
 std::string_view svg_js();       ///< a canvas that becomes a file
 std::string_view save_js();      ///< pictures and data saved, tables behind
+std::string_view drawing_js();   ///< canvases drawn by hand
 std::string_view touch_js();     ///< zoom by fingers and by rectangles
 std::string_view charts_js();    ///< curves
 std::string_view parts_js();     ///< what several commands show
@@ -24,10 +25,10 @@ std::string_view simulate_js();
 std::string_view groups_js();
 std::string_view channels_js();
 std::string_view identify_js();
-std::string_view drawing_js();  ///< canvases drawn by hand
-std::string_view tool_js();
-std::string_view map_js();   ///< a quantity over two others
-std::string_view bent_js();  ///< cutter and wall
+std::string_view cutter_js();  ///< what a cutter looks like, in numbers
+std::string_view tool_js();    ///< the tool of a case, drawn
+std::string_view map_js();     ///< a quantity over two others
+std::string_view bent_js();    ///< cutter and wall
 std::string_view surface_js();
 std::string_view wall_map_js();  ///< readings on a wall
 std::string_view ellipse_js();   ///< two coefficients known together

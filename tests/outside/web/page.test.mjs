@@ -189,7 +189,8 @@ test('each task keeps its case, and a new one takes the tool along', { skip }, a
   assert.equal(await teeth(), '6');
   await page.click('#anew');
   assert.notEqual(await teeth(), '6');
-  assert.equal(await page.locator('#drawing svg').count(), 2);
+  assert.equal(await page.locator('#drawing svg').count(), 1);
+  assert.equal(await page.locator('#drawing canvas').isVisible(), true);
   await context.close();
 });
 
@@ -206,6 +207,48 @@ test('lengths in inches stand in their field and turn the drawing', { skip }, as
   await page.press('[id="tool.diameter_in"]', 'Tab');
   assert.equal(await page.inputValue('[id="tool.diameter_mm"]'), '8');
   assert.ok(!/^diameter_in/m.test(await page.inputValue('#text')));
+  await context.close();
+});
+
+test('the tool is drawn while its numbers are typed', { skip }, async () => {
+  const { page, seen, context } = await opened();
+  const picture = () => page.$eval('#drawing canvas', (canvas) => canvas.toDataURL());
+  const place = (id) => page.$eval(`[id="${id}"]`, (field) => field.getBoundingClientRect().top);
+  const type = async (id, text) => {
+    await page.focus(`[id="${id}"]`);
+    await page.keyboard.press('Control+A');
+    await page.keyboard.type(text);
+  };
+  const changes = async (id, text) => {
+    const before = await picture();
+    await type(id, text);
+    assert.ok(await picture() !== before, `${id} changes the drawing`);
+  };
+  await page.evaluate(() => {
+    take(withKey(page.text, 'runout', 'radial_offsets_mm', '[0, 0]'));
+    document.querySelectorAll('#form details').forEach((details) => { details.open = true; });
+  });
+  const told = () => page.textContent('#drawing figcaption');
+  assert.equal(await told(), 'The case has no runout.');
+  await changes('runout.radial_offsets_mm', '0, 0.01');
+  assert.equal(await told(), 'Against a tool that runs true: tooth 2 +10 µm.');
+  assert.match(await page.inputValue('#text'), /radial_offsets_mm = \[0, 0\]/);  // it is not taken yet
+  await page.keyboard.press('Tab');
+  assert.equal(await told(), 'Against a tool that runs true: tooth 2 +10 µm.');
+  for (const [id, text] of [['tool.diameter_mm', '12,5'], ['tool.helix_deg', '17'], ['cut.axial_depth_mm', '0.9']]) {
+    await changes(id, text);
+    await page.keyboard.press('Tab');
+  }
+  await page.focus('[id="tool.diameter_mm"]');
+  const before = await place('tool.diameter_mm');
+  await type('tool.diameter_mm', '0');
+  assert.equal(await page.isVisible('#drawing canvas'), false);
+  assert.equal(await page.locator('#drawing svg').count(), 0);
+  assert.equal(await place('tool.diameter_mm'), before);  // the field stays where it is
+  await type('tool.diameter_mm', '0.5 in');
+  assert.equal(await page.isVisible('#drawing canvas'), true);
+  assert.match(await page.textContent('#drawing'), /12\.7 mm/);
+  assert.deepEqual(seen.complaints, []);
   await context.close();
 });
 

@@ -5,7 +5,9 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import vm from 'node:vm';
 import { parse } from 'smol-toml';
+import { colorsOfReports, namesOfReports, scriptOfReports } from '../../../web/report_parts.mjs';
 
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../..');
 const need = createRequire(import.meta.url);
@@ -13,9 +15,10 @@ const { tablesOf, withKey, withoutTable, withToolOf, tomlOf, keyOf } = need(`${r
 Object.assign(globalThis, { tablesOf, withKey, tomlOf, keyOf });  // the page has one scope
 const { inchKeyOf, withUnit, inMm } = need(`${root}/web/lengths.js`);
 const { valuesTyped, valuesShown, numbersOf, withSwept } = need(`${root}/web/swept.js`);
-const { stockOf, shape, isLength, isDrawable, drawCut } = need(`${root}/web/drawing.js`);
-Object.assign(globalThis, { inMm, stockOf, shape, isLength, isDrawable });
-const { profileOf, radiusAt, edgesSeen, drawSide } = need(`${root}/web/side_view.js`);
+const { seriesColor, isDrawable, stockOf, profileOf, radiusAt, teethOf, edgeSeen, toolPicture } = vm.runInThisContext(
+  `(() => { ${scriptOfReports(root)}\nreturn ${namesOfReports}; })()`);
+Object.assign(globalThis, { inMm, seriesColor, isDrawable, stockOf });
+const { drawCut, tablesDrawn } = need(`${root}/web/drawing.js`);
 const { typed, mistakesOf, rangeOf, unitOf } = need(`${root}/web/form.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
@@ -169,9 +172,22 @@ test('a cutter has its profile, and a right-hand helix leans as the tool turns',
   near(at({ shape: 'bull_nose', corner_radius_mm: 1 }, 0), 3);
   near(at({ shape: 'taper', taper_deg: 10 }, 5), 4 + 5 * Math.tan(Math.PI / 18));
   near(at({ shape: 'apt', corner_radius_mm: 1, corner_center_radius_mm: 3, corner_center_height_mm: 1 }, 10), 4);
-  const [[first, ...rest]] = edgesSeen({ diameter_mm: 8, teeth: 2, helix_deg: 30 }, profileOf({ diameter_mm: 8 }, 6), 6);
-  near(first[0], 4);  // tip of tooth 1 at +y, the left of the picture
-  near(rest.at(-1)[0], 4 * Math.cos((2 * 6 * Math.tan(Math.PI / 6)) / 8));
+  // A barrel whose arc goes on above the part that is drawn.
+  near(profileOf({ diameter_mm: 20, shape: 'apt', corner_radius_mm: 50, corner_center_radius_mm: -40, corner_center_height_mm: 30 }, 15).at(-1)[0],
+       -40 + Math.sqrt(50 ** 2 - 15 ** 2));
+  const tool = { diameter_mm: 8, teeth: 2, helix_deg: 30 };
+  const [first, second] = teethOf(tool, {}, 4).map((tooth) => edgeSeen(tooth, profileOf(tool, 6), 6));
+  near(first[0][0][0], 4);  // tip of tooth 1 at +y, the left of the picture
+  near(first[0].at(-1)[0], 4 * Math.cos((2 * 6 * Math.tan(Math.PI / 6)) / 8));
+  assert.deepEqual(second, []);  // it turns to the front
+});
+
+test('stock lies where the engagement says', () => {
+  assert.deepEqual(stockOf({ engagement: 'slot' }, 4), [-1, 1]);
+  assert.deepEqual(stockOf({ engagement: 'up', radial_depth_mm: 1 }, 4), [0.75, 1]);
+  assert.deepEqual(stockOf({ engagement: 'down', radial_depth_mm: 6 }, 4), [-1, 0.5]);
+  assert.deepEqual(stockOf({ engagement: 'band', stock_y_mm: [-2, 40] }, 4), [-0.5, 1.25]);
+  assert.equal(stockOf({ engagement: 'arcs', arcs_deg: [[0, 90]] }, 4), null);
 });
 
 test('a new case takes the tool of another along', () => {
@@ -180,27 +196,83 @@ test('a new case takes the tool of another along', () => {
   assert.equal(withToolOf('[step]\n', '[tool]\n'), '[step]\n');
 });
 
-test('what no case may hold is not drawn, and breaks nothing', () => {
+/** What is painted on a canvas: texts, and all places. */
+function painted(picture, width) {
+  const all = { texts: [], places: [] };
+  const place = (x, y) => all.places.push([x, y]);
+  const nothing = () => {};
+  picture.paint({ save: nothing, restore: nothing, setLineDash: nothing, beginPath: nothing, closePath: nothing, stroke: nothing,
+                  fill: nothing, moveTo: place, lineTo: place, fillText: (text, x, y) => { all.texts.push(text); place(x, y); } },
+                width, picture.height(width));
+  return all;
+}
+
+const noPage = () => {
   globalThis.document = { createElementNS: () => ({ setAttribute() {}, append() {}, prepend() {} }) };
-  const sound = { tool: { shape: 'bull_nose', teeth: 4, diameter_mm: 10, corner_radius_mm: 1, helix_deg: 30 },
-                  cut: { engagement: 'up', radial_depth_mm: 3, axial_depth_mm: 2, feed_per_tooth_mm: 0.1, spindle_rpm: 3000 } };
-  assert.ok(drawCut(sound) && drawSide(sound));
+  const asked = new Set();  // colours
+  globalThis.getComputedStyle = () => ({ getPropertyValue: (name) => { asked.add(name); return ''; } });
+  return asked;
+};
+const sound = { tool: { shape: 'bull_nose', teeth: 4, diameter_mm: 10, corner_radius_mm: 1, helix_deg: 30 },
+                runout: { radial_offsets_mm: [0, 0.01, 0, 0] },
+                cut: { engagement: 'up', radial_depth_mm: 3, axial_depth_mm: 2, feed_per_tooth_mm: 0.1, spindle_rpm: 3000 } };
+
+test('the tool is drawn as its tables say', () => {
+  const asked = noPage();
+  const of = (given) => toolPicture(tablesDrawn(given));
+  assert.equal(of(sound).told, 'Against a tool that runs true: tooth 2 +10 µm.');
+  assert.equal(of({ tool: sound.tool }).told, 'The case has no runout.');
+  assert.equal(of({ ...sound, runout: { radial_offsets_mm: [0, 'a', -0.01] } }).told, 'Against a tool that runs true: tooth 3 −10 µm.');
+  assert.equal(of({ ...sound, runout: { axial_offsets_in: [0, 0, 0.001, 0] } }).told, 'Against a tool that runs true: tooth 3 +25.4 µm deeper.');
+  assert.deepEqual(of({ ...sound, runout: { eccentricity_mm: 0.01 } }).data().rows.map(([, , out]) => out.toFixed(1)), ['10.0', '0.0', '-10.0', '-0.0']);
+  assert.equal(of({ ...sound, runout: { eccentricity_mm: 0.01 } }).told, 'Against a tool that runs true: tooth 1 +10 µm; tooth 3 −10 µm.');
+  assert.equal(of({ tool: { ...sound.tool, teeth: 16 }, runout: { eccentricity_mm: 0.01, tilt_deg: 0.01 } }).told,
+               'Against a tool that runs true: −10 µm (tooth 9) to +10 µm (tooth 1); −0.698 µm (tooth 9) to +0.698 µm (tooth 1) deeper.');
+  const texts = (given) => painted(of(given), 800).texts;
+  assert.ok(['1', '4', 'a_p', 'from below,', 'offsets exaggerated', 'along the feed'].every((one) => texts(sound).includes(one)));
+  assert.ok(!texts(sound).includes('depths exaggerated'));
+  assert.ok(texts({ ...sound, runout: { tilt_deg: 0.01 } }).includes('depths exaggerated'));
+  assert.ok(texts({ tool: sound.tool }).includes('from the side') && !texts({ tool: sound.tool }).includes('a_p'));
+  for (const [change, what] of [[{ diameter_mm: 12 }, 'diameter'], [{ helix_deg: 20 }, 'helix'], [{ corner_radius_mm: 2 }, 'corner'],
+                                [{ serration: { amplitude_in: 0.02, wavelength_in: 0.08 } }, 'serration']]) {
+    assert.notDeepEqual(painted(of({ ...sound, tool: { ...sound.tool, ...change } }), 800), painted(of(sound), 800), what);
+  }
+  assert.notDeepEqual(painted(of({ ...sound, cut: { ...sound.cut, axial_depth_mm: 3 } }), 800), painted(of(sound), 800));
+  for (const shape of ['cylinder', 'ball', 'taper', 'apt']) {
+    for (const width of [360, 800]) {
+      const { places } = painted(of({ ...sound, tool: { ...sound.tool, shape, taper_deg: 10, corner_center_radius_mm: 3, corner_center_height_mm: 1,
+                                                       bottom_angle_deg: 2 } }), width);
+      const high = of(sound).height(width);
+      assert.ok(places.every(([x, y]) => x >= 0 && x <= width && y >= 0 && y <= high), `${shape} within ${width} px`);
+    }
+  }
+  const [light, dark] = colorsOfReports(root).split('@media');
+  for (const name of asked) assert.ok(light.includes(`${name}: #`) && dark.includes(`${name}: #`), `${name} has two colours`);
+  assert.ok(asked.size > 5);
+});
+
+test('what no case may hold is not drawn, and breaks nothing', () => {
+  noPage();
+  const draw = (given) => { const picture = toolPicture(tablesDrawn(given)); return picture && painted(picture, 800); };
+  assert.ok(drawCut(sound) && draw(sound));
   for (const teeth of [7.25, 1e9, 65, 0, -3, NaN, '4', null]) {
     const given = { ...sound, tool: { ...sound.tool, teeth } };
     assert.equal(drawCut(given), null, `${teeth} teeth`);
-    assert.equal(drawSide(given), null, `${teeth} teeth`);
+    assert.equal(draw(given), null, `${teeth} teeth`);
   }
+  assert.equal(draw({ ...sound, tool: { ...sound.tool, corner_radius_mm: 12 } }), null);  // more than the radius
   const odd = [7.25, 1e9, 1e308, -1, 0, NaN, Infinity, '', 'x', true, null, [], [1, 'a'], [1e9, -1e9], {}];
   const schema = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8'));
-  for (const table of ['tool', 'cut']) {
+  for (const table of ['tool', 'runout', 'cut']) {
     for (const key of Object.keys(schema.properties[table].properties)) {
       for (const value of odd) {
         const given = { ...sound, [table]: { ...sound[table], [key]: value } };
-        assert.doesNotThrow(() => [drawCut(given), drawSide(given)], `${table}.${key} = ${JSON.stringify(value)}`);
+        assert.doesNotThrow(() => [drawCut(given), draw(given)], `${table}.${key} = ${JSON.stringify(value)}`);
       }
     }
   }
-  for (const given of [{}, { tool: 3 }, { tool: sound.tool }, { cut: [] , tool: [] }]) {
-    assert.doesNotThrow(() => [drawCut(given), drawSide(given)]);
+  for (const given of [{}, { tool: 3 }, { tool: sound.tool }, { cut: [], tool: [] }, { ...sound, runout: 'x' },
+                       { ...sound, tool: { ...sound.tool, diameter_mm: undefined } }]) {
+    assert.doesNotThrow(() => [drawCut(given), draw(given)]);
   }
 });

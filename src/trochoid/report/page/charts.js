@@ -1,18 +1,12 @@
 // Curves: stacks of panels over one axis, with one cursor and one zoom.
 
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-const seriesColors = ['--s1', '--s2', '--s3', '--s4', '--s5', '--s6'];
 const modelColors = { none: '--s3', feed: '--s2', radial: '--s4', trochoidal: '--s1' };
-const seriesColor = (i) => seriesColors[i % seriesColors.length];
 const modelColor = (model, i) => modelColors[model] || seriesColor(i);
 /** Beyond the colours, dashes tell curves apart. */
 const dashOf = (i) => [undefined, [6, 3], [2, 3], [8, 3, 2, 3]][
   Math.floor(i / seriesColors.length) % 4];
 
-const charts = new Set();  // all that are on the page, for a new width or colour scheme
-
 const degreeSteps = [1, 2, 5, 10, 15, 30, 45, 90, 180, 360, 720, 1440, 3600, 7200, 36000];
-const font = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 
 function axes(options) {
   const common = {

@@ -1,10 +1,17 @@
-// Drawings of their own: maps, shapes and regions, which are no curves over an axis.
+// Drawings of their own: maps, shapes and regions, which are no curves over an axis. What curves are drawn with too stands
+// here, so that the form for browsers needs no curves for its drawing.
+
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const font = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
+const seriesColors = ['--s1', '--s2', '--s3', '--s4', '--s5', '--s6'];
+const seriesColor = (i) => seriesColors[i % seriesColors.length];
+const charts = new Set();  // all that are on the page, for a new width or colour scheme
 
 /**
  * A canvas that follows its width, the colours and the paper, like a figure. options:
  * {label, height (of the width), paint(c, width, height), caption, data() -> {head, rows},
- * lowOnPaper}; paint works in CSS pixels, data are what a table of it holds, lowOnPaper: any height will do, so much
- * of it (true: 0.78).
+ * lowOnPaper, bare}; paint works in CSS pixels, data are what a table of it holds, lowOnPaper: any height will do, so much
+ * of it (true: 0.78), bare: nothing below it saves it.
  */
 function drawing(options) {
   const canvas = el('canvas', { role: 'img', 'aria-label': options.label });
@@ -30,8 +37,10 @@ function drawing(options) {
     canvas.style.width = `${width}px`;
     chart.redraw();
   };
-  element.append(...tools({ element, size: () => [chart.width, chart.height],
-    paint: (c) => options.paint(c, chart.width, chart.height), data: options.data }));
+  if (!options.bare) {
+    element.append(...tools({ element, size: () => [chart.width, chart.height],
+      paint: (c) => options.paint(c, chart.width, chart.height), data: options.data }));
+  }
   charts.add(chart);
   return chart;
 }

@@ -16,47 +16,6 @@ function tableOfCase(name) {
   return values;
 }
 
-/** Radius of the profile over the height above its tip. */
-function profileOf(tool) {
-  const R = tool.diameter_mm / 2;
-  const beta = (tool.taper_deg || 0) * Math.PI / 180;
-  const corner = tool.shape === 'ball' ? R : tool.corner_radius_mm || 0;
-  if (tool.shape === 'apt') return null;
-  const center = tool.shape === 'taper' ? R - corner * (1 - Math.sin(beta)) / Math.cos(beta) : R - corner;
-  const tangent = corner * (1 - Math.sin(beta));
-  return (z) => {
-    if (z < tangent) return center + Math.sqrt(Math.max(z * (2 * corner - z), 0));
-    return tool.shape === 'taper' ? R + z * Math.tan(beta) : R;
-  };
-}
-
-/** The teeth of a tool: angle of the tip, lag and wave over the height, and what sets them apart. */
-function teethOf(tool, runout, profile) {
-  const all = Array.from({ length: tool.teeth }, (_, j) => j);
-  const helix = (j) => (Array.isArray(tool.helix_deg) ? tool.helix_deg[j] : tool.helix_deg || 0) * Math.PI / 180;
-  const diameter = tool.lag_diameter_mm || tool.diameter_mm;
-  const wave = tool.serration;
-  let angle = 0;
-  return all.map((j) => {
-    const tip = angle;
-    angle += tool.pitch_deg?.[j] ?? 360 / tool.teeth;
-    const shift = Array.isArray(wave?.shift_mm) ? wave.shift_mm[j] : wave ? j * wave.wavelength_mm / tool.teeth : 0;
-    const depth = (z) => (wave ? wave.amplitude_mm * Math.sin(Math.PI * (z - shift) / wave.wavelength_mm) ** 2 : 0);
-    const towards = (deg) => Math.cos((tip - (deg || 0)) * Math.PI / 180);
-    return { number: j + 1, tip, depth,
-      angleAt: (z) => tip + 2 * z * Math.tan(helix(j)) / diameter * 180 / Math.PI,
-      out: (runout.radial_offsets_mm?.[j] || 0) + (runout.eccentricity_mm || 0) * towards(runout.angle_deg),
-      deeper: (runout.axial_offsets_mm?.[j] || 0) +
-        Math.tan((runout.tilt_deg || 0) * Math.PI / 180) * profile(0) * towards(runout.tilt_angle_deg) };
-  });
-}
-
-/** The height that is drawn: the cut, and where nothing says one, the curve of the tool or half its diameter. */
-function drawnHeight(tool, cut) {
-  if (isNumber(cut?.axial_depth_mm)) return cut.axial_depth_mm;
-  return tool.shape === 'ball' ? tool.diameter_mm / 2 : Math.max(tool.diameter_mm / 2, tool.corner_radius_mm || 0);
-}
-
 /** So many times a difference is drawn that a drawing shows it: 1, 2 or 5 times a power of ten. */
 function exaggeration(values, wanted) {
   const most = Math.max(...values.map(Math.abs));
@@ -66,6 +25,11 @@ function exaggeration(values, wanted) {
 }
 
 const ofLength = (um) => `${um > 0 ? '+' : ''}${number(um, 3)} µm`;
+
+function caption(c, x, y, seen, how) {
+  write(c, how ? `${seen},` : seen, x, y);
+  if (how) write(c, how, x, y + 15);
+}
 
 /** From below: the tips about the axis, tooth 2 against the rotation. */
 function paintFromBelow(c, { x, y, R }, { teeth, runout }) {
@@ -83,34 +47,51 @@ function paintFromBelow(c, { x, y, R }, { teeth, runout }) {
       write(c, String(t.number), x + (r + 11) * Math.sin(a), y - (r + 11) * Math.cos(a), { color: '--ink', align: 'center' });
     }
   }
-  if (runout.eccentricity_mm > 0) {
-    const a = (runout.angle_deg || 0) * Math.PI / 180;
+  if (isLength(runout.eccentricity_mm)) {
+    const a = inRadians(runout.angle_deg);
     line(c, [[x, y], [x + 0.28 * R * Math.sin(a), y - 0.28 * R * Math.cos(a)]], css('--ink'), 2);
   }
-  write(c, factor ? 'from below, offsets exaggerated' : 'from below', x - R, y + R + 52);
+  caption(c, x - R, y + R + 52, 'from below', factor && 'offsets exaggerated');
 }
 
-/** From the side: the profile, and how deep each tooth reaches. */
-function paintFromSide(c, { left, top, width, height }, { teeth, profile, drawn, tool }) {
-  const widest = Math.max(profile(drawn), profile(0), tool.diameter_mm / 2);
-  const scale = Math.min(width / (2 * widest), height / drawn);
-  const axis = left + width / 2;
+/** From the side: profile and edges in the stock, and how deep each tooth reaches. */
+function paintFromSide(c, { left, top, width, height }, { tool, cut, teeth, profile, drawn }) {
+  const R = tool.diameter_mm / 2;
+  const stock = cut && stockOf(cut, R)?.map((y) => y * R);
+  const body = width - 44;  // beside it stands the depth of cut
+  const tall = profile.at(-1)[1];
+  const scale = Math.min(body / 2 / Math.max(...profile.map(([r]) => r), ...(stock || []).map(Math.abs)), height / tall);
+  const axis = left + body / 2;
   const bottom = top + height;
-  const heights = Array.from({ length: 81 }, (_, i) => drawn * (i / 80) ** 2);
-  const side = (sign) => heights.map((z) => [axis + sign * scale * profile(z), bottom - scale * z]);
-  filled(c, [...side(-1).reverse(), ...side(1)], css('--wash'));
-  line(c, side(1), css('--soft'), 1.6);
-  line(c, side(-1), css('--soft'), 1.6);
-  line(c, [[axis, bottom + 6], [axis, top - 6]], css('--soft'), 1, [8, 3, 2, 3]);
-  const factor = exaggeration(teeth.map((t) => t.deeper), 26);
-  if (factor) {
-    teeth.forEach((t, i) => {
-      const at = left + (i + 0.5) * width / teeth.length;
-      line(c, [[at - 8, bottom + factor * t.deeper], [at + 8, bottom + factor * t.deeper]], css(seriesColor(i)), 2.4);
-      write(c, String(t.number), at, bottom + factor * t.deeper + 11, { color: '--ink', align: 'center' });
-    });
-  }
-  write(c, factor ? 'from the side, depths exaggerated' : 'from the side', left, bottom + 52);
+  const at = ([y, z]) => [axis - scale * y, bottom - scale * z];  // the left of the feed is on the left
+  const deep = isLength(cut?.axial_depth_mm);
+  if (stock && deep) filled(c, [[stock[0], 0], [stock[1], 0], [stock[1], drawn], [stock[0], drawn]].map(at), css('--line'));
+  line(c, [...profile.map(at).reverse(), ...profile.map(([r, z]) => at([-r, z]))], css('--soft'), 1.6);
+  line(c, [[axis, bottom + 6], [axis, bottom - scale * tall - 6]], css('--soft'), 1, [8, 3, 2, 3]);
+  teeth.forEach((t, i) => edgeSeen(t, profile, tall).forEach((part) => line(c, part.map(at), css(seriesColor(i)), 2)));
+  if (deep) paintDepth(c, left + body + 8, bottom, scale * drawn);
+  const factor = exaggeration(teeth.map((t) => t.deeper), 11);
+  if (factor) paintDepths(c, { left, level: bottom + 17, width: body, factor }, teeth);
+  caption(c, left, bottom + 52, cut ? 'along the feed' : 'from the side', factor && 'depths exaggerated');
+}
+
+/** How deep each tooth reaches, below the tool. */
+function paintDepths(c, { left, level, width, factor }, teeth) {
+  const each = width / teeth.length;
+  line(c, [[left, level], [left + width, level]], css('--zero'));
+  teeth.forEach((t, i) => {
+    const x = left + (i + 0.5) * each;
+    const half = Math.min(8, 0.4 * each);
+    line(c, [[x - half, level + factor * t.deeper], [x + half, level + factor * t.deeper]], css(seriesColor(i)), 2.4);
+    if (each >= 14) write(c, String(t.number), x, level + 20, { color: '--ink', align: 'center' });
+  });
+}
+
+/** The depth of the cut beside the tool. */
+function paintDepth(c, x, bottom, high) {
+  line(c, [[x, bottom], [x, bottom - high]], css('--ink'), 1.4);
+  for (const y of [bottom, bottom - high]) line(c, [[x - 4, y], [x + 4, y]], css('--ink'), 1.4);
+  write(c, 'a_p', x + 7, bottom - high / 2, { color: '--ink' });
 }
 
 /** Edges unrolled: angle behind the tip of tooth 1 over the height, waves as thickness. */
@@ -121,50 +102,69 @@ function paintEdges(c, frame, { teeth, drawn }) {
   const deepest = Math.max(...teeth.map((t) => t.depth(0)), ...teeth.map((t) => t.depth(drawn / 3)), 0);
   const wide = (d) => (deepest > 0 ? 1 + 5 * (1 - d / deepest) : 2);
   for (const t of teeth) {
+    const color = css(seriesColor(t.number - 1));
     let before = null;
     for (let i = 0; i <= 240; ++i) {
       const z = drawn * i / 240;
       const angle = ((t.angleAt(z) % 360) + 360) % 360;
       const point = [px(angle), py(z)];
       if (before && Math.abs(point[0] - before[0]) < frame.width / 2) {
-        line(c, [before, point], css(seriesColor(t.number - 1)), Math.max(0.6, wide(t.depth(z))));
+        line(c, [before, point], color, Math.max(0.6, wide(t.depth(z))));
       }
       before = point;
     }
   }
 }
 
-/** The tool, drawn; null: the case has none that can be. */
-function toolSection() {
-  const tool = tableOfCase('tool');
-  if (!tool || !isNumber(tool.diameter_mm) || !(tool.teeth >= 1 && tool.teeth <= 64)) return null;
-  const profile = profileOf(tool);
-  if (!profile) return null;
-  const runout = tableOfCase('runout') || {};
-  const numbers = (list) => (Array.isArray(list) && list.every(isNumber) ? list : undefined);
-  const known = { ...runout, radial_offsets_mm: numbers(runout.radial_offsets_mm), axial_offsets_mm: numbers(runout.axial_offsets_mm) };
-  const teeth = teethOf(tool, known, profile);
-  const drawn = drawnHeight(tool, tableOfCase('cut'));
-  const told = { tool, runout: known, profile, teeth, drawn };
-  const chart = drawing({
+/** In words, what sets the teeth apart; of many teeth the ends of it. */
+function toldOf(teeth) {
+  const differs = (mm) => Math.abs(mm) > 1e-9;  // a cosine of 90 degrees is not 0
+  const differ = teeth.filter((t) => differs(t.out) || differs(t.deeper));
+  if (!differ.length) return 'The case has no runout.';
+  const ends = (key) => {
+    const sorted = [...teeth].sort((a, b) => a[key] - b[key]);
+    const at = (t) => `${ofLength(1e3 * t[key])} (tooth ${t.number})`;
+    return differs(sorted[0][key]) || differs(sorted.at(-1)[key]) ? `${at(sorted[0])} to ${at(sorted.at(-1))}` : '';
+  };
+  const joined = (out, deeper, separator) => [out, deeper && `${deeper} deeper`].filter(Boolean).join(separator);
+  const words = differ.length > 12 ? joined(ends('out'), ends('deeper'), '; ') : differ.map((t) => `tooth ${t.number} ` +
+    joined(differs(t.out) && ofLength(1e3 * t.out), differs(t.deeper) && ofLength(1e3 * t.deeper), ', ')).join('; ');
+  return `Against a tool that runs true: ${words}.`;
+}
+
+/**
+ * The picture of a tool, for drawing(), with what it shows in words. The tables are those of a case, runout and cut
+ * may be left out; null: this tool cannot be drawn.
+ */
+function toolPicture({ tool, runout, cut }) {
+  if (!tool || !isDrawable(tool)) return null;
+  const drawn = heightOfCut(tool, cut || {});
+  const profile = profileOf(tool, heightShown(tool, drawn));
+  if (profile.length < 3 || profile.some(([r]) => r < -1e-9 * tool.diameter_mm)) return null;  // no such solid
+  const teeth = teethOf(tool, runout || {}, radiusAt(profile, 0));
+  const known = { tool, runout: runout || {}, cut, profile, teeth, drawn };
+  return {
     label: 'The tool from below, from the side, and its edges unrolled',
-    height: (width) => (width < 560 ? 620 : 300),
+    told: toldOf(teeth),
+    height: (width) => (width < 560 ? 566 : 300),
     paint: (c, width, height) => {
-      c.clearRect(0, 0, width, height);
       const narrow = width < 560;
       const third = narrow ? width / 2 : width / 4;
       const R = Math.min(third / 2 - 26, 90);
-      paintFromBelow(c, { x: R + 26, y: 120, R }, told);
-      paintFromSide(c, { left: third + 20, top: 30, width: third - 40, height: 180 }, told);
-      paintEdges(c, narrow ? { left: 40, top: 340, width: width - 60, height: 200 }
-        : { left: 2 * third + 60, top: 30, width: width - 2 * third - 80, height: 180 }, told);
+      paintFromBelow(c, { x: R + 26, y: 120, R }, known);
+      paintFromSide(c, { left: third + 20, top: 120 - R, width: third - 20, height: 2 * R }, known);
+      paintEdges(c, narrow ? { left: 40, top: 316, width: width - 60, height: 200 }
+        : { left: 2 * third + 60, top: 30, width: width - 2 * third - 80, height: 180 }, known);
     },
     data: () => ({ head: ['tooth', 'tip_deg', 'stands_out_um', 'reaches_deeper_um'],
       rows: teeth.map((t) => [t.number, t.tip, 1e3 * t.out, 1e3 * t.deeper]) }),
-  });
-  const differ = teeth.filter((t) => t.out !== 0 || t.deeper !== 0)
-    .map((t) => `tooth ${t.number} ${ofLength(1e3 * t.out)}${t.deeper ? `, ${ofLength(1e3 * t.deeper)} deeper` : ''}`);
-  return { part: section('tool', 'The tool', 'Tool',
-    prose(differ.length ? `Against a tool that runs true: ${differ.join('; ')}.` : 'The case has no runout.'),
-    chart.element), draw: () => chart.resize() };
+  };
+}
+
+/** The tool of the case, drawn; null: the case has none that can be. */
+function toolSection() {
+  const picture = toolPicture({ tool: tableOfCase('tool'), runout: tableOfCase('runout'), cut: tableOfCase('cut') });
+  if (!picture) return null;
+  const chart = drawing(picture);
+  return { part: section('tool', 'The tool', 'Tool', prose(picture.told), chart.element), draw: () => chart.resize() };
 }
