@@ -4,7 +4,7 @@ Records of four turns of 180 samples with noise of 1 % of the peak, phase and si
 unknown. Counted are the truths within 95 % intervals: of coefficients, and of radial and axial
 offsets against tooth 1. Teeth have axial offsets where a record tells them.
 
-Usage: auto_runout.py [--first N] [--seeds N] [--only TOOL,...] [--within LOW,HIGH]
+Usage: auto_runout.py [--seeds N | --records N,...] [--only TOOL,...] [--within LOW,HIGH]
 The table stands in docs/theory/identification.md. With --within the exit code is 1 where the
 part of the truths that intervals hold, tool by tool, is not between the two, in percent, or
 where other offsets are told than a record tells.
@@ -143,18 +143,19 @@ def counted(fit, radial, axial):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--records", default="")
     parser.add_argument("--only", default="")
     parser.add_argument("--within", default="")
     given = parser.parse_args()
     names = [n for n in TOOLS if not given.only or n in given.only.split(",")]
     low, high = map(float, given.within.split(",")) if given.within else (0.0, 100.0)
+    records = list(map(int, given.records.split(","))) if given.records else range(given.seeds)
     wrong = False
     print("| tool | told | truths in their intervals |\n|---|---|---|")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for name in names:
-            found = list(pool.map(lambda seed: one(name, seed), range(given.first, given.first + given.seeds)))
+            found = list(pool.map(lambda seed: one(name, seed), records))
             asked, held = sum(f[0] for f in found), sum(f[1] for f in found)
             told = {}
             for _, _, groups in found:
