@@ -136,12 +136,13 @@ constexpr std::string_view name_of(PlannedEngagement engagement) noexcept {
   return {};
 }
 
-/// [plan]: the cuts among which the one to be measured next is chosen, or how a wall is
-/// to be measured and cut.
+/// [plan]: the cuts among which the one to be measured next is chosen, how a wall is to be
+/// measured and cut, or which feed keeps a finish.
 struct Plan {
   std::optional<PlanOf> of;  ///< absent: as the other tables say
   bool settled = false;      ///< `of` is: keys of the other kind are not written
   WallPlan wall = {};
+  FinishPlanTable finish = {};
   std::vector<PlannedEngagement> engagements = {
       PlannedEngagement::slot, PlannedEngagement::up, PlannedEngagement::down};
   std::vector<double> feeds;          ///< per tooth [m]

@@ -104,12 +104,18 @@ void check_program(CaseTables& tables, Findings& findings);
 /// @brief What is known of the program beside its text.
 program::ReadOptions read_options(const ProgramTables& nc);
 
-/// @brief Whether [plan] is of forces or of a wall, if it does not say so itself; what
-/// belongs to the other kind is reported.
+/// @brief What a plan of this case is about: as [plan] says, else as the other tables show.
+PlanOf planned(const CaseTables& tables);
+
+/// @brief Whether [plan] is of forces, a wall or a finish, if it does not say so itself;
+/// what belongs to another kind is reported.
 void settle_plan(CaseTables& tables, Findings& findings);
 
 /// @brief What a plan of a wall needs; fills in [plan].
 void check_wall_plan(CaseTables& tables, Findings& findings);
+
+/// @brief What a plan of a finish needs; fills in its feeds.
+void check_finish_plan(CaseTables& tables, Findings& findings);
 
 /// A coefficient without its unit: K_tc of K_tc_MPa.
 std::string_view plain_name(std::string_view key);

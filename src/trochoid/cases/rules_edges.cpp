@@ -21,7 +21,7 @@ constexpr int looks = 200;
 constexpr std::string_view alike_in_words =
     "takes cutters whose teeth have one edge: one helix_deg from 0 on, no serration, "
     "axial_offsets_mm of 0 and tilt_deg = 0; simulate, identify, stability, program and "
-    "the finish of surface take any";
+    "the finish of surface and plan take any";
 
 /// The first key that makes the teeth differ from one another, and how.
 struct Difference {
@@ -59,6 +59,7 @@ bool takes_any(const CaseTables& t, Command purpose) {
   return purpose == Command::simulate || purpose == Command::identify ||
          purpose == Command::stability || purpose == Command::program ||
          purpose == Command::modes || purpose == Command::actuator ||
+         (purpose == Command::plan && planned(t) == PlanOf::finish) ||
          (purpose == Command::surface && rigid && profile && t.machine.passes.empty());
 }
 

@@ -114,6 +114,10 @@ void check_plan(CaseTables& t, Findings& findings) {
     check_wall_plan(t, findings);
     return;
   }
+  if (t.plan->of == PlanOf::finish) {
+    check_finish_plan(t, findings);
+    return;
+  }
   Plan& plan = *t.plan;
   fill(plan.feeds, {0.5, 0.75, 1.0, 1.5, 2.0}, t.cut.feed_per_tooth.value_or(0.0));
   fill(plan.axial_depths, {1.0}, t.cut.axial_depth);

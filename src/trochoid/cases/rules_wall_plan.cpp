@@ -23,6 +23,8 @@ constexpr std::array<std::string_view, 7> keys_of_forces{
 constexpr std::array<std::string_view, 9> keys_of_wall{
     "heights",        "readings_per_height", "spread",           "noise_um", "form",
     "wanted_percent", "wanted_um",           "largest_error_um", "limited"};
+constexpr std::array<std::string_view, 2> keys_of_finish{"largest_Ra_um",
+                                                         "inserts_within_um"};
 
 /// Even steps from a quarter to twice what [cut] has; a nanometre is near enough.
 void fill(std::vector<double>& list, double of, double most) {
@@ -61,8 +63,8 @@ void check_ascending(const std::vector<double>& list, const std::string& key,
                                             std::greater_equal<>()) == list.end();
   if (!ascending && sound(findings, {key})) {
     report(findings, key,
-           fmt::format("{}: not ascending; the map of the error is laid out over "
-                       "values from the smallest to the largest",
+           fmt::format("{}: not ascending; the answer is laid out over values from the "
+                       "smallest to the largest",
                        key));
   }
 }
@@ -93,6 +95,14 @@ void fill_defaults(CaseTables& t) {
 
 }  // namespace
 
+PlanOf planned(const CaseTables& t) {
+  if (t.plan && t.plan->of) return *t.plan->of;
+  const bool has_wall = t.machine.surface || !t.machine.surface_measurements.empty();
+  if (!has_wall || !t.measurements.empty()) return PlanOf::forces;
+  const bool trace = is_finish(t.machine);
+  return trace || is_floor_only(t, "surface") ? PlanOf::finish : PlanOf::wall;
+}
+
 void settle_plan(CaseTables& t, Findings& findings) {
   if (!t.plan) {
     t.plan.emplace();
@@ -101,38 +111,26 @@ void settle_plan(CaseTables& t, Findings& findings) {
   if (!sound(findings, {"plan.of"})) {
     return;
   }
-  const bool has_wall = t.machine.surface || !t.machine.surface_measurements.empty();
   const bool decided = plan.of.has_value();
-  if (!decided) {
-    plan.of = has_wall && t.measurements.empty() ? PlanOf::wall : PlanOf::forces;
-  }
+  if (!decided) plan.of = planned(t);
   plan.settled = true;
-  const bool wall = plan.of == PlanOf::wall;
-  const auto refuse = [&](const auto& keys) {
+  const auto refuse = [&](PlanOf of, const auto& keys) {
     for (const std::string_view key : keys) {
       const std::string path = fmt::format("plan.{}", key);
-      if (!decided && findings.places.count(path) > 0 && sound(findings, {path})) {
-        report(findings, path,
-               fmt::format("{}: has no meaning for of = \"{}\", which this case shows; "
-                           "say of = \"{}\" if that is meant",
-                           path, wall ? "wall" : "forces", wall ? "forces" : "wall"));
-      }
+      const bool given = findings.places.count(path) > 0 && sound(findings, {path});
+      if (decided || *plan.of == of || !given) continue;
+      report(findings, path,
+             fmt::format("{}: has no meaning for of = \"{}\", which this case shows; "
+                         "say of = \"{}\" if that is meant",
+                         path, name_of(*plan.of), name_of(of)));
     }
   };
-  if (wall) {
-    refuse(keys_of_forces);
-  } else {
-    refuse(keys_of_wall);
-  }
+  refuse(PlanOf::forces, keys_of_forces);
+  refuse(PlanOf::wall, keys_of_wall);
+  refuse(PlanOf::finish, keys_of_finish);
 }
 
 void check_wall_plan(CaseTables& t, Findings& findings) {
-  if (is_finish(t.machine)) {
-    report(
-        findings, "surface_measurement[1].of",
-        "surface_measurement[1].of = \"finish\": plan plans readings of the error of a "
-        "wall; a roughness trace must be left out (calibrate reads it)");
-  }
   check_wall_cut(t, "plan", findings);
   const WallPlan& wall = t.plan->wall;
   check_counts(wall.heights, "plan.heights", findings);
@@ -153,6 +151,31 @@ void check_wall_plan(CaseTables& t, Findings& findings) {
            "[force] is missing (the force law and its coefficients, as forces on the "
            "tool); a plan of a wall needs what is expected of it, or a "
            "[[surface_measurement]] to find it from");
+  }
+}
+
+void check_finish_plan(CaseTables& t, Findings& findings) {
+  if (is_finish(t.machine)) {
+    report(
+        findings, "surface_measurement[1].of",
+        "surface_measurement[1].of = \"finish\": plan reads no roughness trace; must "
+        "be left out (calibrate reads it and writes runout.toml, to be included)");
+  }
+  check_feed(t.cut, "plan", findings);
+  fill(t.plan->feeds, t.cut.feed_per_tooth.value_or(0.0), 1e3);
+  check_ascending(t.plan->feeds, "plan.feed_per_tooth_mm", findings);
+  if (!t.machine.surface && sound(findings, {"surface"})) {
+    t.machine.surface.emplace();
+  }
+  if (!t.machine.surface || !t.machine.surface_measurements.empty()) return;
+  const Surface& table = *t.machine.surface;
+  const bool wall = t.cut.engagement == EngagementKind::up ||
+                    t.cut.engagement == EngagementKind::down;
+  if (table.floor_y.empty() && !wall && sound(findings, {"cut.engagement"})) {
+    report(
+        findings, "surface",
+        "[surface] floor_y_mm is missing (lines of the floor along the feed): a plan of "
+        "a finish needs it, or an up or down cut, which leaves a wall");
   }
 }
 

@@ -13,24 +13,32 @@ Only of_wall() {
   return {"of", {"auto", "wall"}};
 }
 
+Only of_finish() {
+  return {"of", {"auto", "finish"}};
+}
+
 void describe_force_cuts(const Visitor& v, Plan& t) {
   v({.name = "engagement", .meaning = "kinds of cut to look at", .only = of_forces()},
     choices(t.engagements));
 }
 
-void describe_shared(const Visitor& v, Plan& t) {
+void describe_feeds(const Visitor& v, Plan& t) {
   v({.name = "feed_per_tooth_mm",
      .meaning = "feeds per tooth to look at; of a wall: of the map of its error",
      .range = above_up_to(0, 100),
-     .standard = "half, 0.75, 1, 1.5 and 2 times the feed of [cut]; of a wall: 15 from "
-                 "a quarter to twice that feed",
+     .standard = "half, 0.75, 1, 1.5 and 2 times the feed of [cut]; of a wall or a "
+                 "finish: 15 from a quarter to twice that feed",
      .example = "[0.02, 0.04, 0.08]"},
     &t.feeds);
+}
+
+void describe_radial_depths(const Visitor& v, Plan& t) {
   v({.name = "radial_depth_mm",
      .meaning =
          "radial depths of cut to look at, for up and down; of a wall: of the map "
          "of its error",
      .range = above_up_to(0, 10000),
+     .only = {"of", {"auto", "forces", "wall"}},
      .standard =
          "0.1, 0.25, 0.5 and 0.75 of the diameter; of a wall: 15 from a quarter "
          "to twice the depth of [cut]",
@@ -142,24 +150,49 @@ void describe_wall(const Visitor& v, WallPlan& t) {
     choice(t.limited));
 }
 
+void describe_finish(const Visitor& v, FinishPlanTable& t) {
+  v({.name = "largest_Ra_um",
+     .meaning = "Ra that is allowed on the lines of [surface]: which feed keeps it",
+     .range = above_up_to(0, 1000),
+     .only = of_finish(),
+     .standard = "none",
+     .example = "1.6"},
+    &t.largest_Ra);
+  v({.name = "inserts_within_um",
+     .meaning = "another set of inserts, for comparison: all of them within so much",
+     .range = between(0, 1000),
+     .only = of_finish()},
+    &t.inserts_within);
+}
+
 }  // namespace
 
 void describe(const Visitor& v, Plan& t) {
   v({.name = "of",
-     .meaning = "plan a record of forces or readings of a wall; auto: a wall where the "
-                "case has [surface] or [[surface_measurement]] and no [[measurement]]"},
+     .meaning =
+         "plan a record of forces, readings of a wall, or the feed that keeps a "
+         "finish; auto: a wall where the case has [surface] or "
+         "[[surface_measurement]] and no [[measurement]], a finish where [surface] "
+         "has floor_y_mm and no heights_mm"},
     choice(t.of, "auto"));
   const bool wall = !t.settled || t.of == PlanOf::wall;
-  const bool forces = !t.settled || t.of != PlanOf::wall;
+  const bool forces = !t.settled || t.of == PlanOf::forces;
+  const bool finish = !t.settled || t.of == PlanOf::finish;
   if (forces) {
     describe_force_cuts(v, t);
   }
-  describe_shared(v, t);
+  describe_feeds(v, t);
+  if (!t.settled || t.of != PlanOf::finish) {
+    describe_radial_depths(v, t);
+  }
   if (forces) {
     describe_force_records(v, t);
   }
   if (wall) {
     describe_wall(v, t.wall);
+  }
+  if (finish) {
+    describe_finish(v, t.finish);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace trochoid::cases {
 
 /// What a plan is about.
-enum class PlanOf { forces, wall };
+enum class PlanOf { forces, wall, finish };
 
 /// As files spell it.
 constexpr std::string_view name_of(PlanOf of) noexcept {
@@ -18,6 +18,8 @@ constexpr std::string_view name_of(PlanOf of) noexcept {
       return "forces";
     case PlanOf::wall:
       return "wall";
+    case PlanOf::finish:
+      return "finish";
   }
   return {};
 }
@@ -47,6 +49,12 @@ struct WallPlan {
   std::optional<double> wanted_runout;  ///< [m]
   std::optional<double> largest_error;  ///< of the wall [m]
   LimitedError limited = LimitedError::peak;
+};
+
+/// [plan] of a finish.
+struct FinishPlanTable {
+  std::optional<double> largest_Ra;  ///< [m]
+  double inserts_within = 5e-6;      ///< of another set [m]
 };
 
 }  // namespace trochoid::cases

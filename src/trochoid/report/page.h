@@ -43,6 +43,7 @@ std::string_view moving_js();  ///< the cut that moves, seen from above
 std::string_view plan_js();
 std::string_view sweep_js();
 std::string_view plan_wall_js();
+std::string_view plan_finish_js();
 std::string_view program_js();  ///< path, lines and forces of an NC program
 std::string_view any_js();      ///< every command without a page of its own
 std::string_view compare_js();  ///< two answers beside one another

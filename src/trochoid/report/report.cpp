@@ -87,23 +87,24 @@ std::string pages_js() {
 
 std::string page_scripts() {
   std::string text = fmt::format("const normalInterval = {};\n", base::normal_interval);
-  for (const auto part : {text_js(),      band_js(),
-                          svg_js(),       save_js(),
-                          drawing_js(),   touch_js(),
-                          charts_js(),    parts_js(),
-                          measured_js(),  simulate_js(),
-                          groups_js(),    channels_js(),
-                          identify_js(),  cutter_js(),
-                          tool_js(),      map_js(),
-                          bent_js(),      surface_js(),
-                          wall_map_js(),  ellipse_js(),
-                          calibrate_js(), calibrate_words_js(),
-                          finish_js(),    stability_js(),
-                          modes_js(),     dynamics_js(),
-                          moving_js(),    correct_js(),
-                          plan_js(),      plan_wall_js(),
-                          program_js(),   sweep_js(),
-                          any_js(),       compare_js()}) {
+  for (const auto part : {text_js(),        band_js(),
+                          svg_js(),         save_js(),
+                          drawing_js(),     touch_js(),
+                          charts_js(),      parts_js(),
+                          measured_js(),    simulate_js(),
+                          groups_js(),      channels_js(),
+                          identify_js(),    cutter_js(),
+                          tool_js(),        map_js(),
+                          bent_js(),        surface_js(),
+                          wall_map_js(),    ellipse_js(),
+                          calibrate_js(),   calibrate_words_js(),
+                          finish_js(),      stability_js(),
+                          modes_js(),       dynamics_js(),
+                          moving_js(),      correct_js(),
+                          plan_js(),        plan_wall_js(),
+                          plan_finish_js(), program_js(),
+                          sweep_js(),       any_js(),
+                          compare_js()}) {
     text += part;
   }
   return "\n(() => {\n'use strict';\n" + text + pages_js() + std::string(main_js()) +

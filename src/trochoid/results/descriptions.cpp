@@ -5,12 +5,13 @@
 namespace trochoid::results {
 
 std::vector<Description> descriptions() {
-  return {
-      description_of_simulate(),  description_of_identify(),  description_of_surface(),
-      description_of_calibrate(), description_of_stability(), description_of_dynamics(),
-      description_of_modes(),     description_of_actuator(),  description_of_correct(),
-      description_of_plan(),      description_of_wall_plan(), description_of_program(),
-      description_of_sweep()};
+  return {description_of_simulate(),  description_of_identify(),
+          description_of_surface(),   description_of_calibrate(),
+          description_of_stability(), description_of_dynamics(),
+          description_of_modes(),     description_of_actuator(),
+          description_of_correct(),   description_of_plan(),
+          description_of_wall_plan(), description_of_finish_plan(),
+          description_of_program(),   description_of_sweep()};
 }
 
 namespace {

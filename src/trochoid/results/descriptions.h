@@ -27,6 +27,7 @@ Description description_of_actuator();
 Description description_of_correct();
 Description description_of_plan();
 Description description_of_wall_plan();
+Description description_of_finish_plan();
 Description description_of_program();
 Description description_of_sweep();
 

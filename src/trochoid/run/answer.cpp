@@ -32,6 +32,18 @@ results::Answer along(const cases::Case& given, const AnswerOptions& options,
   return answer_of(result);
 }
 
+results::Answer planned(const cases::Case& given, const Progress& progress) {
+  switch (given.plan.of.value_or(cases::PlanOf::forces)) {
+    case cases::PlanOf::wall:
+      return answer_of(plan_wall(given, progress));
+    case cases::PlanOf::finish:
+      return answer_of(plan_finish(given, progress));
+    case cases::PlanOf::forces:
+      break;
+  }
+  return answer_of(plan(given, progress));
+}
+
 }  // namespace
 
 results::Answer answer(base::Command command, const cases::Case& given,
@@ -66,9 +78,7 @@ results::Answer answer(base::Command command, const cases::Case& given,
     case Command::program:
       return along(given, options, progress, stop);
     case Command::plan:
-      return given.plan.of == cases::PlanOf::wall
-                 ? answer_of(plan_wall(given, progress))
-                 : answer_of(plan(given, progress));
+      return planned(given, progress);
   }
   throw std::logic_error("a command without an answer");
 }

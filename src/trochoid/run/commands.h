@@ -8,6 +8,7 @@
 #include <trochoid/results/dynamics.h>
 #include <trochoid/results/identify.h>
 #include <trochoid/results/plan.h>
+#include <trochoid/results/plan_finish.h>
 #include <trochoid/results/plan_wall.h>
 #include <trochoid/results/program.h>
 #include <trochoid/results/simulate.h>
@@ -65,6 +66,11 @@ results::CalibrateResult calibrate_finish(const cases::Case& given,
 /// these tell.
 /// @throws base::InputError when a measurement cannot be used
 results::PlanWallResult plan_wall(const cases::Case& given, const Progress& progress);
+
+/// @brief Which feed keeps Ra of floor and wall within a limit, with the runout of the case,
+/// with other inserts and with all teeth at one depth (W-9).
+results::PlanFinishResult plan_finish(const cases::Case& given,
+                                      const Progress& progress);
 
 /// @brief Whether a small vibration grows at the case, and over speed and depth.
 /// @param stop  the diagram ends then, with a warning of the code `time_limit`

@@ -439,7 +439,6 @@ std::string too_much(std::span<const Work> parts) {
 
 std::vector<Work> work_of(base::Command command, const cases::Case& given) {
   using base::Command;
-  const bool of_wall = given.plan.of == cases::PlanOf::wall;
   switch (command) {
     case Command::simulate:
       return simulate_work(given);
@@ -461,7 +460,9 @@ std::vector<Work> work_of(base::Command command, const cases::Case& given) {
     case Command::program:
       return program_work(given);
     case Command::plan:
-      return of_wall ? calibrate_work(given) : plan_work(given);
+      return given.plan.of == cases::PlanOf::wall     ? calibrate_work(given)
+             : given.plan.of == cases::PlanOf::forces ? plan_work(given)
+                                                      : std::vector<Work>{};
   }
   return {};
 }

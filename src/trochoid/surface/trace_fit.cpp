@@ -223,24 +223,6 @@ Errors errors_at(const TraceProblem& problem, const Solution& found,
   return out;
 }
 
-/// The profiles of single teeth: all others far off.
-std::vector<PeriodicProfile> alone(force::Setup setup, const Trace& trace) {
-  constexpr double far_off = 0.05;  // of the diameter
-  const std::size_t teeth = setup.cutter.pitch.size();
-  const auto* const floor = std::get_if<FloorTrace>(&trace.line);
-  std::vector<PeriodicProfile> out;
-  for (std::size_t j = 0; j < teeth; ++j) {
-    std::vector<double> off(teeth, -far_off * setup.cutter.profile.D);
-    off[j] = 0.0;
-    setup.runout = {};
-    (floor != nullptr ? setup.runout.axial_offsets : setup.runout.radial_offsets) = off;
-    out.push_back(floor != nullptr
-                      ? floor_profile(setup, floor->bottom, floor->y)
-                      : wall_profile(setup, std::get<WallTrace>(trace.line).height));
-  }
-  return out;
-}
-
 /// @param order  of the teeth, the first one first
 std::vector<OffsetWave> waves_of(const std::vector<double>& depth, const Errors& errors,
                                  const std::vector<std::size_t>& order) {
@@ -427,6 +409,23 @@ std::string why_not(const Trace& trace, double feed, std::size_t teeth) {
 
 }  // namespace
 
+std::vector<PeriodicProfile> teeth_alone(force::Setup setup, const TraceLine& line) {
+  constexpr double far_off = 0.05;  // of the diameter
+  const std::size_t teeth = setup.cutter.pitch.size();
+  const auto* const floor = std::get_if<FloorTrace>(&line);
+  std::vector<PeriodicProfile> out;
+  for (std::size_t j = 0; j < teeth; ++j) {
+    std::vector<double> off(teeth, -far_off * setup.cutter.profile.D);
+    off[j] = 0.0;
+    setup.runout = {};
+    (floor != nullptr ? setup.runout.axial_offsets : setup.runout.radial_offsets) = off;
+    out.push_back(floor != nullptr
+                      ? floor_profile(setup, floor->bottom, floor->y)
+                      : wall_profile(setup, std::get<WallTrace>(line).height));
+  }
+  return out;
+}
+
 TraceFit fit_trace(const force::Setup& given, const Trace& trace) {
   TraceFit out;
   const std::size_t N = given.cutter.pitch.size();
@@ -437,7 +436,7 @@ TraceFit fit_trace(const force::Setup& given, const Trace& trace) {
   force::Setup setup = given;
   const double feed = feed_that_repeats(flat, stated);
   setup.cut.f_z = feed / static_cast<double>(N);
-  const ToothProfiles profiles(alone(setup, trace), trace.cutoff);
+  const ToothProfiles profiles(teeth_alone(setup, trace.line), trace.cutoff);
   if (!profiles.reach_everywhere()) {
     out.message =
         "a tooth alone would leave material standing between its marks: the "
@@ -476,7 +475,7 @@ std::vector<FeedRoughness> roughness_at_feeds(const force::Setup& given,
   std::vector<FeedRoughness> out;
   for (int tenth = 5; tenth <= 15; ++tenth) {
     setup.cut.f_z = fit.feed.value / N * tenth / 10;
-    const ToothProfiles profiles(alone(setup, trace), trace.cutoff);
+    const ToothProfiles profiles(teeth_alone(setup, trace.line), trace.cutoff);
     if (!profiles.reach_everywhere()) break;
     out.push_back({setup.cut.f_z,
                    average_roughness(profiles.written(depth, false).height),

@@ -21,9 +21,11 @@ struct WallTrace {
   double height = 0.0;
 };
 
+using TraceLine = std::variant<FloorTrace, WallTrace>;
+
 /// @brief A measured roughness trace along the feed.
 struct Trace {
-  std::variant<FloorTrace, WallTrace> line;
+  TraceLine line;
   std::vector<double> x;         ///< along the feed [m], ascending
   std::vector<double> z;         ///< height of the surface [m], positive out of it
   std::optional<double> cutoff;  ///< of the Gaussian filter of the instrument [m]
@@ -74,6 +76,10 @@ struct TraceFit {
 /// Fewest turns on a trace, and readings in one.
 inline constexpr double fewest_turns = 3.0;
 inline constexpr double fewest_readings_a_tooth = 4.0;
+
+/// @brief The profiles of single teeth, with all others far off.
+/// @param setup  its runout does not count
+std::vector<PeriodicProfile> teeth_alone(force::Setup setup, const TraceLine& line);
 
 /// @brief Offsets of the teeth from the marks that they left.
 ///

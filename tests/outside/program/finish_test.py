@@ -101,7 +101,41 @@ class Finish(InFolder):
         self.write("trace.csv", trace([0.0] * 5))
         self.write("case.toml", CASE.format(teeth=5, keys="floor_y_mm = 0"))
         done = self.run_program("plan", "case.toml", code=2)
-        self.assertIn("a roughness trace must be left out", done.stderr)
+        self.assertIn("plan reads no roughness trace", done.stderr)
+
+    def planned(self, offsets, plan, code=0):
+        text = CASE.format(teeth=5, keys="").split("[[surface_measurement]]")[0]
+        self.write("plan.toml", text + f"[runout]\naxial_offsets_mm = {offsets}\n[surface]\nfloor_y_mm = [0]\n"
+                   "[plan]\n" + plan)
+        done = self.run_program("plan", "plan.toml", "-o", "plan", "--no-report", code=code)
+        return self.summary("plan")["result"] if code == 0 else done.stderr
+
+    def test_which_feed_keeps_a_limit(self):
+        """[W-9] Ra of the flanks of this file, and the feed at which it is the limit."""
+        offsets = [0.0, 0.0011, -0.0006, 0.0003, 0.0007]
+
+        def Ra(f_z, of):
+            heights = [floor(i * 5 * f_z / 4000, of, f_z) for i in range(4000)]
+            mean = sum(heights) / len(heights)
+            return 1e3 * sum(abs(h - mean) for h in heights) / len(heights)
+
+        result = self.planned(offsets, "largest_Ra_um = 0.5\n")
+        self.assertEqual(result["of"], "finish")
+        for feed in result["feeds"][::5]:
+            f_z = feed["feed_per_tooth_mm"]
+            self.assertAlmostEqual(feed["Ra_um"], Ra(f_z, offsets), delta=0.01 * feed["Ra_um"])
+            self.assertAlmostEqual(feed["Ra_alike_um"], Ra(f_z, [0.0] * 5), delta=0.01 * feed["Ra_alike_um"])
+        largest = result["largest_feed"]
+        self.assertAlmostEqual(Ra(largest["as_is_mm"], offsets), 0.5, delta=0.01)
+        self.assertAlmostEqual(Ra(largest["alike_mm"], [0.0] * 5), 0.5, delta=0.01)
+
+    def test_a_plan_of_a_finish_needs_a_line(self):
+        text = CASE.format(teeth=5, keys="").split("[[surface_measurement]]")[0]
+        self.write("plan.toml", text + '[plan]\nof = "finish"\n')
+        done = self.run_program("plan", "plan.toml", code=2)
+        self.assertIn("floor_y_mm is missing", done.stderr)
+        told = self.planned([0.0] * 5, 'of = "finish"\nmax_force_N = 100\n', code=2)
+        self.assertIn("has no meaning for of = \"finish\"", told)
 
     def test_a_trace_against_the_feed_is_told(self):
         out = self.answer(trace([0.0, 0.0011, -0.0006, 0.0003, 0.0007], sign=-1.0))

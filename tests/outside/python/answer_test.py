@@ -35,6 +35,7 @@ RUNS = [
     ("plan", "plan_next_cut/case.toml", [], {}),
     ("program", "pocket/case.toml", [], {}),
     ("calibrate", "floor_trace/case.toml", [], {}),
+    ("plan", "face_mill/plan.toml", [], {}),
 ]
 
 

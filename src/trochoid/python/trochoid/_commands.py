@@ -211,11 +211,11 @@ def correct(
 
 
 def plan(case: CaseLike, *, records: Records = None, readings: ReadingsLike = None) -> Answer:
-    """Which cut to measure next, or how to measure a wall and how to cut it.
+    """Which cut to measure next, how to measure and cut a wall, or which feed keeps Ra.
 
     case: with ``[plan]``; what was measured (``[[measurement]]`` or ``records``, of walls
     ``[[surface_measurement]]`` or ``readings``), or coefficients as if nothing had been. Answers ``cuts``, best first, with the interval
-    of each quantity that it would leave. Equations I-20, I-21, E-60.
+    of each quantity that it would leave. Equations I-20, I-21, E-60, W-9.
     """
     return _run("plan", case, {"records": records, "readings": readings})
 

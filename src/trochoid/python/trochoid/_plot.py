@@ -150,6 +150,11 @@ def _plan(answer: Answer, axes: Axes) -> None:
         _map(axes, answer.tables["error_map"], *names)
         return
     table = answer.tables["plan"]
+    if "Ra_um" in table:
+        for name in ("Ra_um", "Ra_within_um", "Ra_alike_um"):
+            axes.plot(table["feed_per_tooth_mm"], table[name], label=name)
+        axes.set(xlabel="feed_per_tooth_mm", ylabel="Ra [um]")
+        return
     axes.plot(table["peak_force_N"], table["narrows"], ".")
     axes.set(xlabel="peak_force_N", ylabel="how many times narrower the intervals become")
 

@@ -8,6 +8,7 @@ const bestShown = 10;
 function planPage(report) {
   const { result } = report;
   if (result.of === 'wall') return wallPlanPage(report);
+  if (result.of === 'finish') return finishPlanPage(report);
   const cuts = Array.isArray(result.cuts) ? result.cuts : [];
   const keys = Object.keys(result.before || {});
   return [
