@@ -4,6 +4,7 @@
 #include <trochoid/identification/search.h>
 #include <trochoid/identification/uncertainty.h>
 #include <trochoid/numerics/least_squares.h>
+#include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,12 +138,20 @@ void renumber(const Problem& coarse, Minimum& m) {
 std::vector<Minimum> coarse_minima(const Problem& coarse,
                                    const std::vector<Candidate>& candidates,
                                    std::size_t starts) {
-  std::vector<Minimum> out;
-  for (std::vector<double>& start : first_starts(coarse, candidates, starts)) {
-    if (!out.empty() && coarse.stop.over()) break;
-    Minimum m = refine(coarse, std::move(start), coarse_step, coarse_options());
+  std::vector<std::vector<double>> from = first_starts(coarse, candidates, starts);
+  std::vector<std::optional<Minimum>> found(from.size());
+  const auto follow = [&](std::size_t i) {
+    if (i > 0 && coarse.stop.over()) return;
+    Minimum& m = found[i].emplace(
+        refine(coarse, std::move(from[i]), coarse_step, coarse_options()));
     renumber(coarse, m);
     apply_gauge(coarse, m.p);
+  };
+  numerics::for_each_index(from.size(), follow, 1);
+  std::vector<Minimum> out;
+  for (std::optional<Minimum>& one : found) {
+    if (!one) continue;
+    Minimum& m = *one;
     const bool known = std::ranges::any_of(out, [&](const Minimum& other) {
       return nearly_equal(m.p, other.p, same_minimum);
     });
