@@ -221,16 +221,19 @@ void settle_channels(const CaseTables& tables, Command purpose, Findings& findin
                            c.identify.axial_offsets || c.identify.tilt ||
                            (c.dynamometer && !c.dynamometer->channel_sd.empty());
   if (!c.identify.by_channels) return;
-  if (purpose != Command::identify && purpose != Command::simulate &&
+  const bool means_only = std::ranges::all_of(
+      c.measurements, [](const Measurement& m) { return !m.mean.empty(); });
+  const bool plans_means = purpose == Command::plan && means_only;
+  if (purpose != Command::identify && purpose != Command::simulate && !plans_means &&
       !c.measurements.empty()) {
     report(
         findings, "dynamometer.axes",
         fmt::format("dynamometer.axes: {} takes records of the forces x, y and z only, "
-                    "without channel_sd, mean or [prior]; identify takes any channels, "
+                    "without channel_sd{} or [prior]; identify takes any channels, "
                     "and its material.toml can be included",
-                    name_of(purpose)));
+                    name_of(purpose), purpose == Command::plan ? "" : ", mean"));
   }
-  if (purpose != Command::identify) return;
+  if (purpose != Command::identify && !plans_means) return;
   if (!named && !(c.dynamometer && c.dynamometer->automatic)) {
     if (!c.dynamometer) c.dynamometer.emplace();
     c.dynamometer->sensor.channels = {

@@ -179,6 +179,9 @@ void compare(const Knowledge& known, const Asked& asked, const CutRequest& reque
 /// Equations less unknowns once the cut has been measured: it has a phase of its own.
 double freedom_after(const Knowledge& known, std::size_t unknowns) {
   const Trial& trial = known.trial;
+  if (trial.means) {
+    return known.freedom + static_cast<double>(trial.means->sd.size());
+  }
   const auto forces = static_cast<double>(std::ranges::count(trial.measured, true));
   const double equations = forces * trial.samples_per_turn * trial.turns;
   const double more =
@@ -223,9 +226,11 @@ double peak_in_plane(const Trial& trial) {
 
 std::vector<std::string> untold_coefficients(const Knowledge& known) {
   std::vector<std::string> untold;
-  const Information& told = known.information;
   const bool all_measured = std::ranges::all_of(known.trial.measured, std::identity());
-  if (all_measured || told.size == 0) return untold;
+  // A prior tells of coefficients that no mean of these channels does.
+  const Information told =
+      known.trial.means ? information_of(known.trial) : known.information;
+  if (!known.trial.means && (all_measured || told.size == 0)) return untold;
   const auto names = force::coefficient_quantities(known.trial.law);
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (told.matrix[c * told.size + c] == 0.0) untold.emplace_back(names[c].key);

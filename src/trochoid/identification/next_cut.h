@@ -74,7 +74,7 @@ Knowledge knowledge_of(const force::Setup& setup, const force::Law& law,
 double peak_in_plane(const Trial& trial);
 
 /// @brief Keys of coefficients that no further cut can tell: the channel that would tell
-/// them was not measured, and is not measured next.
+/// them was not measured and is not measured next, as a power shows K_tc and K_te alone.
 std::vector<std::string> untold_coefficients(const Knowledge& known);
 
 /// @brief The cuts that may be measured next, compared by what all records together would

@@ -196,7 +196,43 @@ std::vector<std::string> parameter_names(const force::Setup& setup,
   return names_of(problem);
 }
 
+namespace {
+
+constexpr double tolerance_of_means = 1e-6;
+
+/// I-30
+Information information_of_means(const Trial& trial) {
+  const MeansOfChannels& means = *trial.means;
+  const std::vector<double> columns =
+      force::channel_means(trial.setup, trial.law, means.sensor, tolerance_of_means);
+  const std::size_t count = columns.size() / means.sd.size();
+  Information out{.size = parameter_names(trial.setup, trial.law, trial.options).size(),
+                  .matrix = {}};
+  out.matrix.assign(out.size * out.size, 0.0);
+  for (std::size_t k = 0; k < means.sd.size(); ++k) {
+    const double* const c = &columns[k * count];
+    for (std::size_t i = 0; i < count * count; ++i) {
+      const double product = c[i / count] * c[i % count];
+      out.matrix[i / count * out.size + i % count] +=
+          product / (means.sd[k] * means.sd[k]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Information information_of(std::span<const std::optional<base::Normal>> prior,
+                           std::size_t size) {
+  Information out{.size = size, .matrix = std::vector<double>(size * size, 0.0)};
+  for (std::size_t c = 0; c < prior.size(); ++c) {
+    if (prior[c]) out.matrix[c * size + c] = 1.0 / (prior[c]->sd * prior[c]->sd);
+  }
+  return out;
+}
+
 Information information_of(const Trial& trial) {
+  if (trial.means) return information_of_means(trial);
   const Run run = turn_of(trial);
   const Prepared prepared = prepare(trial.setup, trial.law, {&run, 1}, trial.options);
   if (!prepared.problem) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <trochoid/base/estimate.h>
+#include <trochoid/force/sensor.h>
 #include <trochoid/identification/fit.h>
 
 #include <cstddef>
@@ -20,6 +22,12 @@ struct Information {
   std::vector<double> matrix;  ///< row-major, symmetric, shape (size, size)
 };
 
+/// Means of channels over a turn, as a power meter or a table of forces has them.
+struct MeansOfChannels {
+  force::Sensor sensor;
+  std::vector<double> sd;  ///< of each mean [N, N m, W], above 0
+};
+
 /// A cut that may be measured, and what it would be fitted with.
 struct Trial {
   force::Setup setup;  ///< with the cut and the runout, about which it is linear
@@ -29,6 +37,7 @@ struct Trial {
   double turns = 1.0;
   double noise = 1.0;  ///< standard deviation of a sample of each channel [N]
   std::array<bool, 3> measured = {true, true, true};  ///< of the force in x, y and z
+  std::optional<MeansOfChannels> means = {};  ///< in place of a record of forces
 };
 
 /// Names as of the summary: coefficients, runout, exponents.
@@ -39,8 +48,16 @@ std::vector<std::string> parameter_names(const force::Setup& setup,
 ///
 /// @eq I-20 turns/s^2 (J^T J - J^T J_0 (J_0^T J_0)^-1 J_0^T J), J of one turn (I-4), J_0 its
 ///          columns of phase and channel constants
+/// @eq I-30 of means: sum over the channels of c c^T/sd^2, c what a channel reads for
+///          coefficients of 1 (F-31, F-32); nothing of the runout
 /// @src derived from I-4; Fisher information of white noise, standard
 Information information_of(const Trial& trial);
+
+/// @brief What is known beforehand, as a prior has it: 1/sd^2 of each coefficient.
+/// @param prior  of each coefficient [SI]; empty: none
+/// @param size   of the information
+Information information_of(std::span<const std::optional<base::Normal>> prior,
+                           std::size_t size);
 
 /// @brief What records told, as their intervals have it: the inverse of their covariance
 /// (I-4, I-13 to I-15). Where a parameter is not determined: J^T J over s^2, s that of I-4 times

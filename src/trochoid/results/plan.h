@@ -28,6 +28,10 @@ struct PlanResult {
   double diameter = 0.0;   ///< of the cutter [m]: the radial depth of a slot
   double noise = 0.0;      ///< of a sample [N]
   std::string noise_from;  ///< `records`, `given` or `assumed`
+  /// Of means of channels in place of a record: which, and the standard deviation of each
+  /// [N, N m, W].
+  std::vector<std::string> channels;
+  std::vector<double> mean_sd;
   int turns = 0;
   int samples_per_rev = 0;
   std::vector<std::string> files;  ///< measured so far

@@ -26,6 +26,10 @@ using surface::WallTrial;
 
 /// Of the peak force of [cut], where nothing else tells the noise.
 constexpr double assumed_force_noise = 0.02;
+/// Of a mean of a channel in [cut], likewise.
+constexpr double assumed_mean_noise = 0.01;
+/// Freedom of standard deviations that are stated.
+constexpr double well_known = 1e6;
 
 std::vector<geometry::Engagement> planned_engagements(const cases::Plan& plan) {
   std::vector<geometry::Engagement> out;
@@ -60,6 +64,16 @@ identification::CutRequest request_of(const cases::Case& given) {
   return out;
 }
 
+void warn_of_untold(const Knowledge& known, PlanResult& r) {
+  if (const auto untold = identification::untold_coefficients(known); !untold.empty()) {
+    r.heading.warnings.push_back(
+        {"not_planned",
+         fmt::format("No cut tells {} by the channels that are measured: they are left "
+                     "out.",
+                     fmt::join(untold, ", "))});
+  }
+}
+
 /// What the measurements tell.
 /// @return why nothing can be planned from them; empty: it can
 std::string learn_from_records(const cases::Case& given, const Progress& progress,
@@ -79,20 +93,20 @@ std::string learn_from_records(const cases::Case& given, const Progress& progres
   if (fit.groups.size() > 1) {
     r.group = identification::label_of_group(fit.groups.back().name);
   }
-  if (const auto untold = identification::untold_coefficients(known); !untold.empty()) {
-    r.heading.warnings.push_back(
-        {"not_planned",
-         fmt::format(
-             "Without a channel that was not measured no cut tells {}: they are "
-             "left out.",
-             fmt::join(untold, ", "))});
-  }
+  warn_of_untold(known, r);
   r.noise_from = "records";
   for (const results::RecordSummary& record : found.records) {
     r.files.push_back(record.file);
   }
   r.factor_before = fit.interval_factor;
   return "";
+}
+
+void warn_nothing_measured(PlanResult& r) {
+  r.heading.warnings.push_back(
+      {"nothing_measured",
+       "The case has no measurement: cuts are compared as if each were the first, "
+       "about the coefficients and the runout of the case."});
 }
 
 void start_from_coefficients(const cases::Case& given, Knowledge& known,
@@ -104,10 +118,100 @@ void start_from_coefficients(const cases::Case& given, Knowledge& known,
            .samples_per_turn = given.plan.samples_per_rev};
   trial.noise = assumed_force_noise * identification::peak_in_plane(trial);
   r.noise_from = "assumed";
-  r.heading.warnings.push_back(
-      {"nothing_measured",
-       "The case has no measurement: cuts are compared as if each were the first, "
-       "about the coefficients and the runout of the case."});
+  warn_nothing_measured(r);
+}
+
+/// A channel as files name it.
+std::string text_of(const force::Channel& channel) {
+  return (channel.sign < 0 ? "-" : "") + std::string(force::name_of(channel.axis));
+}
+
+/// Whether means of channels are planned: they were measured, or there is a power meter alone.
+bool plans_means(const cases::Case& given) {
+  if (!given.identify.by_channels || !given.dynamometer) return false;
+  const auto& channels = given.dynamometer->sensor.channels;
+  const auto is_power = [](const force::Channel& one) {
+    return one.axis == force::ChannelAxis::power;
+  };
+  return !channels.empty() &&
+         (!given.measurements.empty() || std::ranges::all_of(channels, is_power));
+}
+
+/// What the case or its means say of the standard deviation of the next mean.
+std::vector<double> sd_of_means(const cases::Case& given,
+                                const identification::Trial& trial, PlanResult& r) {
+  const std::size_t channels = given.dynamometer->sensor.channels.size();
+  std::vector<double> sd(channels, 0.0);
+  double count = 0.0;
+  for (const cases::Measurement& m : given.measurements) {
+    if (m.mean_sd.empty()) continue;
+    count += 1.0;
+    for (std::size_t k = 0; k < channels; ++k) sd[k] += m.mean_sd[k];
+  }
+  r.noise_from = "records";
+  if (count > 0.0) {
+    for (double& s : sd) s /= count;
+    return sd;
+  }
+  r.noise_from = "given";
+  if (!given.dynamometer->channel_sd.empty()) return given.dynamometer->channel_sd;
+  r.noise_from = "assumed";
+  const std::vector<double> K = force::coefficients(trial.law);
+  const std::vector<double> columns =
+      force::channel_means(trial.setup, trial.law, given.dynamometer->sensor, 1e-6);
+  for (std::size_t k = 0; k < channels; ++k) {
+    double mean = 0.0;
+    for (std::size_t c = 0; c < K.size(); ++c) mean += columns[k * K.size() + c] * K[c];
+    sd[k] = std::max(assumed_mean_noise * std::abs(mean), 1e-9);
+  }
+  return sd;
+}
+
+/// Coefficients by the means and the prior, and what both tell (I-30).
+/// @return why nothing can be planned from them; empty: it can
+std::string learn_from_means(const cases::Case& given, const Progress& progress,
+                             Knowledge& known, PlanResult& r) {
+  identification::Trial& trial = known.trial;
+  trial = {.setup = given.setup,
+           .law = given.law,
+           .options = fit_options(given, given.setup.chip.model),
+           .samples_per_turn = given.plan.samples_per_rev};
+  trial.options.runout = identification::RunoutUnknowns::fixed;
+  trial.options.fit_exponents = false;
+  r.factor_before = base::normal_interval;
+  if (given.measurements.empty()) {
+    warn_nothing_measured(r);
+  } else {
+    const results::IdentifyResult found = identify(given, progress);
+    r.heading.warnings = found.heading.warnings;
+    if (!found.chosen) {
+      return "the means so far have no answer to start from: " + found.heading.message;
+    }
+    const identification::Fit& fit = found.fits[*found.chosen];
+    std::vector<double> K;
+    for (const auto& one : fit.coefficients) K.push_back(one ? one->value : 0.0);
+    trial.law = force::with_coefficients(fit.law, K);
+    trial.setup.chip = fit.chip;
+    r.factor_before = fit.interval_factor;
+  }
+  trial.means = {given.dynamometer->sensor, {}};
+  trial.means->sd = sd_of_means(given, trial, r);
+  const auto size =
+      identification::parameter_names(trial.setup, trial.law, trial.options).size();
+  known.information = identification::information_of(given.identify.prior, size);
+  for (const cases::Measurement& m : given.measurements) {
+    identification::Trial one = trial;
+    one.setup.cut = m.cut;
+    if (!m.mean_sd.empty()) one.means->sd = m.mean_sd;
+    known.information = sum(known.information, information_of(one));
+  }
+  known.freedom = well_known;
+  for (const auto& channel : trial.means->sensor.channels) {
+    r.channels.push_back(text_of(channel));
+  }
+  r.mean_sd = trial.means->sd;
+  warn_of_untold(known, r);
+  return "";
 }
 
 PlanResult no_plan(PlanResult r, const std::string& why) {
@@ -318,6 +422,31 @@ std::string make_plan(const cases::Case& given, const Progress& progress,
 
 }  // namespace
 
+namespace {
+
+/// What is known, and how exact the next measurement is.
+/// @return why nothing can be planned; empty: it can
+std::string learn(const cases::Case& given, const Progress& progress, Knowledge& known,
+                  PlanResult& r) {
+  if (plans_means(given)) return learn_from_means(given, progress, known, r);
+  if (given.measurements.empty()) {
+    start_from_coefficients(given, known, r);
+  } else if (std::string why = learn_from_records(given, progress, known, r);
+             !why.empty()) {
+    return why;
+  }
+  known.trial.samples_per_turn = given.plan.samples_per_rev;
+  known.trial.turns = given.plan.turns;
+  known.trial.noise = given.plan.noise.value_or(known.trial.noise);
+  if (given.plan.noise) r.noise_from = "given";
+  r.noise = known.trial.noise;
+  return r.noise > 0.0
+             ? ""
+             : "there is neither force nor noise to compare cuts by: give noise_N";
+}
+
+}  // namespace
+
 PlanResult plan(const cases::Case& given, const Progress& progress) {
   PlanResult r;
   r.heading = heading_of(given);
@@ -325,20 +454,8 @@ PlanResult plan(const cases::Case& given, const Progress& progress) {
   r.turns = given.plan.turns;
   r.samples_per_rev = given.plan.samples_per_rev;
   Knowledge known;
-  if (given.measurements.empty()) {
-    start_from_coefficients(given, known, r);
-  } else if (const std::string why = learn_from_records(given, progress, known, r);
-             !why.empty()) {
+  if (const std::string why = learn(given, progress, known, r); !why.empty()) {
     return no_plan(std::move(r), why);
-  }
-  known.trial.samples_per_turn = given.plan.samples_per_rev;
-  known.trial.turns = given.plan.turns;
-  known.trial.noise = given.plan.noise.value_or(known.trial.noise);
-  if (given.plan.noise) r.noise_from = "given";
-  r.noise = known.trial.noise;
-  if (!(r.noise > 0.0)) {
-    return no_plan(std::move(r),
-                   "there is neither force nor noise to compare cuts by: give noise_N");
   }
   const identification::CutRequest request = request_of(given);
   progress("comparing cuts");

@@ -32,6 +32,41 @@ class Plan(InFolder):
         self.assertEqual(narrows, sorted(narrows, reverse=True))
         self.assertTrue(all(float(row["peak_force_N"]) <= 450 for row in rows))
 
+    def test_the_next_cut_for_a_power_meter(self):
+        """[I-30] Power of a cut by the textbook's sums, and the posterior of two normal unknowns."""
+        import numpy as np
+        example = (ROOT / "examples/spindle_power/case.toml").read_text()
+        self.write("plan.toml", example + "\n[plan]\nquantities = [\"coefficients\"]\n")
+        self.run_program("plan", "plan.toml", "-o", "out", "-q")
+        result = self.summary("out")["result"]
+        R, N, Omega = 8e-3, 4, 2 * np.pi * 3000 / 60
+
+        def column(f_z, a_p, a_e):
+            """Power for K_tc of 1 MPa, K_te of 1 N/mm: N teeth in their arc, edges as long as their helix."""
+            arc = np.arccos(1 - a_e / R)
+            share = N / (2 * np.pi) * R * Omega * a_p
+            return share * np.array([1e6 * f_z * (1 - np.cos(arc)), 1e3 * arc / np.cos(np.pi / 6)])
+
+        def half_widths(cuts):
+            information = np.diag([1 / 300 ** 2, 1 / 10 ** 2])
+            for cut in cuts:
+                c = column(*cut)
+                information += np.outer(c, c) / 15 ** 2
+            return 1.96 * np.sqrt(np.diag(np.linalg.inv(information)))
+
+        known = [(f * 1e-3, 16e-3, 4e-3) for f in (0.04, 0.08, 0.12)]
+        self.assertEqual(set(result["before"]), {"K_tc_MPa", "K_te_N_per_mm"})
+        for cut in result["cuts"]:
+            if cut["engagement"] != "down":
+                continue
+            expected = half_widths([*known, (cut["feed_per_tooth_mm"] * 1e-3, cut["axial_depth_mm"] * 1e-3,
+                                             cut["radial_depth_mm"] * 1e-3)])
+            for key, width in zip(("K_tc_MPa", "K_te_N_per_mm"), expected):
+                entry = cut["predicted"][key]
+                self.assertAlmostEqual((entry["high"] - entry["low"]) / 2, width, delta=0.02 * width)
+        codes = [w["code"] for w in self.summary("out")["warnings"]]
+        self.assertIn("not_planned", codes)
+
     def test_after_the_best_cut_the_intervals_are_as_narrow_as_promised(self):
         """Simulate the cut, put it beside the record, identify both."""
         white = EXAMPLE.read_text().replace("[identify]", '[identify]\nerrors = "white"')

@@ -1,7 +1,7 @@
 // The page of `plan`: which cut to measure next.
 
 const planKnown = ['cuts', 'before', 'looked_at', 'left_out', 'noise_N', 'noise_from', 'turns',
-  'samples_per_rev', 'files', 'group'];
+  'samples_per_rev', 'files', 'group', 'channels', 'mean_sd'];
 const cutKinds = ['slot', 'up milling', 'down milling'];
 const bestShown = 10;
 
@@ -113,16 +113,22 @@ function allCutsSection(report, keys) {
   return { part, draw: () => show(chosen) };
 }
 
+const meansFrom = { records: 'of the means so far', given: 'channel_sd', assumed: 'assumed: 1 % of the mean in [cut]' };
+const channelUnit = (channel) => (channel === 'power' ? 'W' : /^(M|torque)/.test(channel) ? 'N m' : 'N');
+
 function basisSection(result) {
   const from = { records: 'what the fit of the records leaves', given: 'given', assumed: 'assumed: 2 % of the peak force' };
   const left = result.left_out || [];
   const files = (result.files || []).map((file) => file.split('/').pop());
   return section('basis', 'What this rests on', 'Basis',
     table(['', ''], [
-      ['measured so far', files.length ? files.join(', ') : 'nothing'],
+      ['measured so far', files.length ? files.join(', ') :
+        result.channels?.length && result.noise_from === 'records' ? 'means' : 'nothing'],
       ...(result.group ? [['coefficients of', result.group]] : []),
-      ['noise of a sample', `${number(result.noise_N, 3)} N (${from[result.noise_from] || ''})`],
-      ['of each cut', `${number(result.turns)} turns of ${number(result.samples_per_rev)} samples`],
+      ...(result.channels?.length ? result.channels.map((channel, k) => [`standard deviation of the mean of ${channel}`,
+        `${number(result.mean_sd[k], 3)} ${channelUnit(channel)} (${meansFrom[result.noise_from] || ''})`]) : [
+        ['noise of a sample', `${number(result.noise_N, 3)} N (${from[result.noise_from] || ''})`],
+        ['of each cut', `${number(result.turns)} turns of ${number(result.samples_per_rev)} samples`]]),
       ['cuts looked at', number(result.looked_at)],
       ...left.map((one) => [`left out: ${one.reason}`, number(one.count)]),
     ]));
