@@ -115,7 +115,11 @@ const Fields<MeasuredTrace>& trace_fields() {
       {"readings_as_one", "how many readings of what is left count as one",
        [](Of t) { return t.fit.correlated; }, ok},
       {"rms_um", "that the fit leaves", [](Of t) { return t.fit.rms; }, ok},
-      {"Ra_measured_um", "of the trace less its line, noise included",
+      {"waviness_um",
+       "longer than the feed of a turn, from its lowest to its highest: taken out before the "
+       "fit; 0: hardly any",
+       [](Of t) { return t.fit.waviness; }, ok},
+      {"Ra_measured_um", "of the trace less its line and its waviness, noise included",
        [](Of t) { return t.fit.Ra_measured; }, ok},
       {"Ra_um", "of the fitted profile, filtered as the trace",
        [](Of t) { return t.fit.Ra; }, ok},

@@ -75,6 +75,13 @@ void add_trace_warnings(const cases::Case& given, const results::MeasuredTrace& 
     if (r.heading.ok) add("trace_not_fitted", t.fit.message);
     return;
   }
+  if (t.fit.waviness > 0.0) {
+    add("waviness",
+        fmt::format(
+            "the trace waves by {:.2g} um over more than the feed of a turn. The mean "
+            "over a turn was taken out; marks and Ra are without it.",
+            t.fit.waviness / unit::um));
+  }
   if (t.fit.repeating > much_repeats) {
     add("other_marks",
         fmt::format(

@@ -31,7 +31,60 @@ Line line_through(const Trace& trace, double middle) {
   return {sum / static_cast<double>(trace.x.size()), xx > 0 ? xz / xx : 0.0};
 }
 
+/// The mean over one feed about each reading; nearer to an end the line through the first,
+/// or last, turn and a half.
+std::vector<double> running_mean(const FlatTrace& flat, double feed) {
+  const std::size_t n = flat.x.size();
+  std::vector<double> area(n, 0.0);  // from the first reading on
+  for (std::size_t i = 1; i < n; ++i) {
+    area[i] =
+        area[i - 1] + 0.5 * (flat.z[i] + flat.z[i - 1]) * (flat.x[i] - flat.x[i - 1]);
+  }
+  const auto area_to = [&](double x) {
+    const auto after = std::ranges::upper_bound(flat.x, x);
+    if (after == flat.x.begin()) return 0.0;
+    if (after == flat.x.end()) return area.back();
+    const auto i = static_cast<std::size_t>(after - flat.x.begin());
+    const double part = (x - flat.x[i - 1]) / (flat.x[i] - flat.x[i - 1]);
+    return area[i - 1] + part * (area[i] - area[i - 1]);
+  };
+  const auto mean_at = [&](double x) {
+    return (area_to(x + 0.5 * feed) - area_to(x - 0.5 * feed)) / feed;
+  };
+  const double first = 0.5 * feed;
+  const double last = flat.length() - 0.5 * feed;
+  const double first_slope = (mean_at(first + feed) - mean_at(first)) / feed;
+  const double last_slope = (mean_at(last) - mean_at(last - feed)) / feed;
+  std::vector<double> out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = flat.x[i];
+    out[i] = x < first  ? mean_at(first) + first_slope * (x - first)
+             : x > last ? mean_at(last) + last_slope * (x - last)
+                        : mean_at(x);
+  }
+  return out;
+}
+
 }  // namespace
+
+FlatTrace without_waviness(const FlatTrace& flat, double feed) {
+  constexpr double fewest = 5.0;  // turns
+  constexpr double worth = 0.1;   // of the roughness
+  if (flat.length() < fewest * feed) return flat;
+  FlatTrace out = flat;
+  std::vector<double> waves(flat.z.size(), 0.0);
+  for (int pass = 0; pass < 2; ++pass) {  // the first leaves a part of each wave
+    const std::vector<double> mean = running_mean(out, feed);
+    for (std::size_t i = 0; i < out.z.size(); ++i) {
+      out.z[i] -= mean[i];
+      waves[i] += mean[i];
+    }
+  }
+  if (average_roughness(waves) < worth * average_roughness(out.z)) return flat;
+  const auto [lowest, highest] = std::ranges::minmax(waves);
+  out.waviness = highest - lowest;
+  return out;
+}
 
 FlatTrace without_line(const Trace& trace) {
   const double middle = 0.5 * (trace.x.front() + trace.x.back());

@@ -17,6 +17,7 @@ inline double turn_of(double u) noexcept {
 struct FlatTrace {
   std::vector<double> x;  ///< from the first reading [m]
   std::vector<double> z;  ///< [m]
+  double waviness = 0.0;  ///< what was taken out, from its lowest to its highest [m]
 
   [[nodiscard]] double length() const noexcept { return x.back(); }
   /// Means in bins of a turn of a feed; bins without a reading take their neighbour's.
@@ -24,6 +25,14 @@ struct FlatTrace {
 };
 
 FlatTrace without_line(const Trace& trace);
+
+/// @brief The same without what is longer than the feed of a turn, where that is worth it:
+/// more than a tenth of the roughness, on five turns or more.
+///
+/// @eq W-10 z less the mean of z from x - f/2 to x + f/2, in which the marks of a turn are a
+///          constant, twice; near the ends a straight line goes on
+/// @src derived
+FlatTrace without_waviness(const FlatTrace& flat, double feed);
 
 /// Of heights about their mean [m].
 double average_roughness(const std::vector<double>& z);

@@ -360,6 +360,7 @@ TraceFit told(const Fitted& fitted, const Trace& trace) {
   out.turns = fitted.flat.length() / out.feed.value;
   out.correlated = errors.correlated;
   out.Ra_measured = average_roughness(fitted.flat.z);
+  out.waviness = fitted.flat.waviness;
   out.Ra = average_roughness(turn.height);
   out.Ra_alike = average_roughness(
       fitted.profiles.written(std::vector<double>(N, 0.0), false).height);
@@ -432,9 +433,10 @@ TraceFit fit_trace(const force::Setup& given, const Trace& trace) {
   const double stated = static_cast<double>(N) * given.cut.f_z;
   out.message = why_not(trace, stated, N);
   if (!out.message.empty()) return out;
-  const FlatTrace flat = without_line(trace);
+  const FlatTrace whole = without_line(trace);
+  const double feed = feed_that_repeats(without_waviness(whole, stated), stated);
+  const FlatTrace flat = without_waviness(whole, feed);
   force::Setup setup = given;
-  const double feed = feed_that_repeats(flat, stated);
   setup.cut.f_z = feed / static_cast<double>(N);
   const ToothProfiles profiles(teeth_alone(setup, trace.line), trace.cutoff);
   if (!profiles.reach_everywhere()) {

@@ -65,7 +65,8 @@ struct TraceFit {
   base::Estimate feed;            ///< of a turn, as the trace has it [m]
   double turns = 0.0;             ///< that the trace spans
   double rms = 0.0;               ///< of what is left [m]
-  double Ra_measured = 0.0;       ///< of the trace less its line [m]
+  double Ra_measured = 0.0;       ///< of the trace less its line and its waviness [m]
+  double waviness = 0.0;          ///< taken out, from its lowest to its highest [m]
   double Ra = 0.0;                ///< of the fitted profile, filtered as the trace [m]
   double Ra_alike = 0.0;          ///< of the same with all teeth at one depth [m]
   double correlated = 1.0;        ///< readings that count as one

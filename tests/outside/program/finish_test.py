@@ -34,13 +34,13 @@ def floor(x, offsets, f_z=0.15):
     feed = f_z * len(offsets)
     heights = []
     for j, offset in enumerate(offsets):
-        for n in range(-2, 12):
+        for n in range(-2, 22):
             d = x - (n * feed + j * f_z)  # before the lowest point, along the feed
             heights.append((d if d > 0 else -d * up) - offset - lead * d)
     return min(heights)
 
 
-def trace(offsets, turns=7, noise=0.05e-3, sign=1.0, seed=1):
+def trace(offsets, turns=7, noise=0.05e-3, sign=1.0, seed=1, wave=0.0):
     rng = random.Random(seed)
     start = rng.random()
     rows = ["x_mm,z_um"]
@@ -48,6 +48,7 @@ def trace(offsets, turns=7, noise=0.05e-3, sign=1.0, seed=1):
     for i in range(int(turns * 300)):
         x = i * 0.15 * len(offsets) / 300
         z = floor(x + start, offsets) + rng.gauss(0, noise) + 0.4e-3 * x
+        z += wave * math.sin(2 * math.pi * x / (4.3 * 0.15 * len(offsets)) + 1.0)
         points.append((sign * x, 1e3 * z))
     for x, z in sorted(points):
         rows.append(f"{x:.5f},{z:.5f}")
@@ -82,6 +83,21 @@ class Finish(InFolder):
         runout = (self.folder / "out/runout.toml").read_text()
         self.assertIn("axial_offsets_mm = [0.000000, -0.0017", runout)
         self.assertIn("nothing tells which one it is", runout)
+
+    def test_a_waviness_is_taken_out(self):
+        """[W-10] Three micrometres over 4.3 turns, ten times the marks."""
+        offsets = [0.0, 0.0011, -0.0006, 0.0003, 0.0007]
+        told = self.answer(trace(offsets, turns=17, wave=1.5e-3))
+        self.assertIn("waviness", told)
+        found = self.found()
+        self.assertAlmostEqual(found["waviness_um"], 3.0, delta=0.6)
+        for k, tooth in enumerate(found["teeth"]):
+            expected = offsets[(1 + k) % 5] - offsets[1]
+            offset = tooth["offset_mm"]
+            self.assertLessEqual(abs(offset["value"] - expected), 4 * offset["se"] + 2e-6)
+            self.assertLess(offset["se"], 3e-5)
+        self.answer(trace(offsets))
+        self.assertEqual(self.found()["waviness_um"], 0)
 
     def test_a_tooth_that_writes_nothing(self):
         offsets = [0.0, 0.001, -0.009, 0.0005, 0.0]
