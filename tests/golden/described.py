@@ -49,8 +49,8 @@ def undescribed(folder):
     """What one result folder holds and the page does not, in words."""
     summary = json.loads((folder / "summary.json").read_text())
     command = summary["command"]
-    if summary["result"].get("of") == "wall":
-        command += " of a wall"
+    if "of" in summary["result"]:
+        command += f" of a {summary['result']['of']}"
     keys, columns = described().get(command, (None, None))
     out = set()
     for path in set(paths(summary["result"])):

@@ -128,6 +128,12 @@ void describe_columns(const Visitor& v, files::RecordSource& t) {
      .meaning = "column with one pulse a turn: the spindle angle is 0 where it rises",
      .example = "\"index_V\""},
     &t.pulse_column);
+  v({.name = "line_column",
+     .meaning =
+         "column with the line of the NC program that runs; a record of a program is "
+         "laid over it by its lines",
+     .example = "\"line\""},
+    &t.line_column);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -383,6 +384,40 @@ std::vector<Found> looked_at(const Job& job, std::span<const Step> steps,
 }
 
 }  // namespace
+
+Recorded by_lines(std::span<const Step> steps, const Recorded& record,
+                  LineNumbers numbers) {
+  struct Span {
+    double from, to;
+  };
+  std::map<std::int64_t, Span> in_program;
+  for (const Step& step : steps) {
+    const double from = step.time - 0.5 * step.duration;
+    const auto [at, is_new] = in_program.try_emplace(
+        numbers == LineNumbers::line ? std::int64_t{step.line} : step.block,
+        Span{from, from});
+    at->second.to = from + step.duration;
+  }
+  Recorded out;
+  const std::size_t n = record.time.size();
+  for (std::size_t i = 0, next = 0; i < n; i = next) {
+    while (next < n && record.line[next] == record.line[i]) ++next;
+    const auto found = in_program.find(record.line[i]);
+    if (found == in_program.end()) continue;
+    const auto [from, to] = found->second;
+    const double first = record.time[i];
+    const double last = next < n ? record.time[next] : record.time[next - 1];
+    for (std::size_t k = i; k < next; ++k) {
+      const double part =
+          last > first ? (record.time[k] - first) / (last - first) : 0.0;
+      const double t = from + part * (to - from);
+      if (!out.time.empty() && !(t > out.time.back())) continue;
+      out.time.push_back(t);
+      out.force.push_back(record.force[k]);
+    }
+  }
+  return out;
+}
 
 std::optional<Alignment> align(std::span<const Step> steps, const Recorded& record) {
   const double turn = turn_time(steps);

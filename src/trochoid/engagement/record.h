@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace trochoid::engagement {
@@ -13,7 +14,26 @@ namespace trochoid::engagement {
 struct Recorded {
   std::vector<double> time;                  ///< [s], ascending
   std::vector<std::array<double, 3>> force;  ///< [N], shape of time
+  std::vector<int> line;                     ///< of the program, shape of time; or none
 };
+
+/// What controls tell of where they are: the line of the text, or its N number.
+enum class LineNumbers { line, block };
+
+/// As files spell it.
+constexpr std::string_view name_of(LineNumbers numbers) noexcept {
+  return numbers == LineNumbers::line ? "line" : "block";
+}
+
+/// @brief The same with the times of the program, by the lines that were recorded. Feeds that
+/// the machine changed do not matter then.
+///
+/// Samples of lines that the program does not have, and those of a second run, are left out.
+/// @eq N-25 t_program = t_0 + (t - t_first)/(t_last - t_first) (t_1 - t_0) within the samples of
+///          a line, t_0 to t_1 its time in the program
+/// @src derived
+Recorded by_lines(std::span<const Step> steps, const Recorded& record,
+                  LineNumbers numbers);
 
 /// @brief How the time of a record lies over the time of the program.
 /// @eq N-23 t_record = start + stretch t_program, where the mean forces of the steps

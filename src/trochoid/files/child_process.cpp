@@ -70,6 +70,7 @@ void write_record(const signal::Record& record, PipeWriter& out) {
   for (const auto& column : record.further_column) out.text(column);
   out.values(record.angle);
   out.values(record.time);
+  out.values(record.line);
   out.values({record.sample_rate});
   for (const auto& column : record.channel_column) out.text(column);
   out.text(record.angle_column);
@@ -91,6 +92,7 @@ signal::Record record_in(PipeReader& in) {
   for (auto& column : record.further_column) column = in.text();
   record.angle = in.values();
   record.time = in.values();
+  record.line = in.values();
   record.sample_rate = in.values().at(0);
   for (auto& column : record.channel_column) column = in.text();
   record.angle_column = in.text();

@@ -50,6 +50,7 @@ RecordSource by_searched_names(const NumericTable& table,
   replace(wanted.time_column);
   replace(wanted.angle_column);
   replace(wanted.pulse_column);
+  replace(wanted.line_column);
   return wanted;
 }
 
@@ -68,6 +69,7 @@ Used used_of(const RecordColumns& found) {
   if (found.time) used.columns.push_back(*found.time);
   if (found.angle) used.columns.push_back(*found.angle);
   if (found.pulse) used.columns.push_back(*found.pulse);
+  if (found.line) used.columns.push_back(*found.line);
   return used;
 }
 
@@ -174,6 +176,7 @@ void read_columns(const NumericTable& table, const RecordColumns& found,
     record.time = values_in_si(table, *found.time, problems);
     record.time_column = found.time->name;
   }
+  if (found.line) record.line = values_in_si(table, *found.line, problems);
 }
 
 /// What is read of a record.
@@ -192,6 +195,7 @@ std::vector<double>* values_of(const TableColumn& column, const RecordColumns& f
     if (is(found.force[c])) return &read.record.values_of(c);
   }
   if (is(found.angle)) return &read.record.angle;
+  if (is(found.line)) return &read.record.line;
   return is(found.pulse) ? &read.pulse : nullptr;
 }
 

@@ -294,9 +294,14 @@ RecordColumns find_columns(const TableHead& head, const RecordSource& source,
     columns.force[i] = force_column(search, source, *forces[i], i);
   }
   columns.time = find_axis(search, source.time_column, time_names, Quantity::time);
+  const auto as_it_stands = [&](const std::string& name) -> std::optional<TableColumn> {
+    const auto at = name.empty() ? std::nullopt : named_column(search, name);
+    if (!at) return std::nullopt;
+    return TableColumn{*at, 1.0, std::string(head.names[*at].text)};
+  };
+  columns.line = as_it_stands(source.line_column);
   if (!source.pulse_column.empty()) {
-    const auto at = named_column(search, source.pulse_column);
-    if (at) columns.pulse = TableColumn{*at, 1.0, std::string(head.names[*at].text)};
+    columns.pulse = as_it_stands(source.pulse_column);
     return columns;  // the angle follows from it
   }
   // Who names a time wants the angle from it, whatever else the file holds.

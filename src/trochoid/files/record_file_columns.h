@@ -17,6 +17,7 @@ struct RecordColumns {
   std::optional<TableColumn> time;
   std::optional<TableColumn> angle;
   std::optional<TableColumn> pulse;  ///< as it stands, in any unit
+  std::optional<TableColumn> line;   ///< of an NC program
 };
 
 /// Whether a column is a force by the rules below, whatever its unit.

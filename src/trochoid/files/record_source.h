@@ -47,6 +47,7 @@ struct RecordSource {
   std::string angle_column;           ///< empty: found by name
   std::string time_column;            ///< empty: found by name
   std::string pulse_column;           ///< one pulse a turn; empty: none
+  std::string line_column;            ///< line of the NC program; empty: none
   std::optional<double> sample_rate;  ///< [Hz]
   /// N, N m or W per unit of each channel; empty: by unit.
   std::vector<double> scale;

@@ -84,6 +84,9 @@ void read_row(RecordReading& reading, std::vector<Field>& fields) {
   if (columns.pulse) {
     reading.pulse.push_back(number_in_row(reading.text, fields, *columns.pulse));
   }
+  if (columns.line) {
+    record.line.push_back(number_in_row(reading.text, fields, *columns.line));
+  }
   if (columns.time) {
     const auto& field = fields[columns.time->index];
     record.time.push_back(time_in_row(reading, fields));
@@ -108,6 +111,7 @@ void note_text_columns(RecordReading& reading, const TableHead& head,
   const auto used = [&](std::size_t i) {
     const auto is = [i](const auto& column) { return column && column->index == i; };
     return is(columns.time) || is(columns.angle) || is(columns.pulse) ||
+           is(columns.line) ||
            std::any_of(columns.force.begin(), columns.force.end(), is);
   };
   for (std::size_t i = 0; i < std::min(row.size(), head.names.size()); ++i) {
@@ -147,6 +151,7 @@ void drop_last_row(RecordReading& reading) {
   for (auto& values : record.channel) values.pop_back();
   if (!record.angle.empty()) record.angle.pop_back();
   if (!record.time.empty()) record.time.pop_back();
+  if (!record.line.empty()) record.line.pop_back();
   if (!reading.pulse.empty()) reading.pulse.pop_back();
   reading.row_lines.pop_back();
   record.notes.push_back(

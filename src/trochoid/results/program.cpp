@@ -290,6 +290,10 @@ const Fields<ProgramRecord>& record_fields() {
   using R = const ProgramRecord&;
   static const Fields<ProgramRecord> all{
       {"file", "the record", [](R r) { return r.file; }},
+      {"numbers",
+       "what `line_column` counts, `line` of the text or `block` (N): the record has the "
+       "times of the program then, and `start_s` and `stretch` are what is left; else `null`",
+       [](R r) { return r.numbers ? Value(name_of(*r.numbers)) : Value(); }},
       {"start_s", "of the program, in the time of the record",
        [](R r) { return r.alignment.start; }},
       {"stretch", "seconds of the record for a second of the program",

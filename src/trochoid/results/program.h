@@ -78,6 +78,7 @@ struct RecordCoefficient {
 /// A record made while the program ran, and what it says.
 struct ProgramRecord {
   std::string file;
+  std::optional<engagement::LineNumbers> numbers;  ///< that the record has
   engagement::Alignment alignment;
   engagement::RecordedSteps recorded;
   std::size_t covered = 0;  ///< rows in cut that the record has

@@ -50,8 +50,27 @@ engagement::Recorded recorded_of(const cases::Case& given) {
     if (t < m.from.value_or(t) || t > m.to.value_or(t)) continue;
     out.time.push_back(t);
     out.force.push_back((*force)[i]);
+    if (!record.line.empty()) {
+      out.line.push_back(static_cast<int>(std::lround(record.line[i])));
+    }
   }
   return out;
+}
+
+/// What the lines of a record count: that by which its forces agree better.
+std::optional<engagement::LineNumbers> numbers_of(
+    std::span<const engagement::Step> steps, const engagement::Recorded& recorded) {
+  using engagement::LineNumbers;
+  if (recorded.line.empty()) return std::nullopt;
+  const auto correlation = [&](LineNumbers numbers) {
+    const auto timed = engagement::by_lines(steps, recorded, numbers);
+    if (timed.time.size() < 2) return -1.0;
+    const auto alignment = engagement::align(steps, timed);
+    return alignment ? alignment->correlation : -1.0;
+  };
+  return correlation(LineNumbers::block) > correlation(LineNumbers::line)
+             ? LineNumbers::block
+             : LineNumbers::line;
 }
 
 double size_of(const std::array<double, 3>& F) {
@@ -131,8 +150,10 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
                                                 std::span<const engagement::Step> steps,
                                                 std::vector<base::Warning>& warnings) {
   if (given.measurements.empty()) return std::nullopt;
-  const engagement::Recorded recorded = recorded_of(given);
-  results::ProgramRecord out{.file = given.measurements.front().source.file.name};
+  engagement::Recorded recorded = recorded_of(given);
+  results::ProgramRecord out{.file = given.measurements.front().source.file.name,
+                             .numbers = numbers_of(steps, recorded)};
+  if (out.numbers) recorded = engagement::by_lines(steps, recorded, *out.numbers);
   const auto alignment = engagement::align(steps, recorded);
   if (!alignment || alignment->correlation < least_correlation) {
     warnings.push_back(

@@ -18,6 +18,7 @@ struct Record {
   std::array<bool, 3> measured = {true, true, true};
   std::vector<double> angle;  ///< spindle angle phi [rad], shape (n); empty: unknown
   std::vector<double> time;   ///< [s], shape (n); rebuilt from the rate; empty: unknown
+  std::vector<double> line;   ///< of an NC program, shape (n); empty: unknown
   double sample_rate = 0.0;   ///< [Hz]; 0: unknown
   std::array<std::string, 3> channel_column;     ///< names in the file, for people
   std::vector<std::string> further_column = {};  ///< the same of `further`

@@ -52,8 +52,8 @@ class Record(InFolder):
         del given["cut"]
         return given
 
-    def answer(self, given, measured=True, code=0):
-        records = [{"file": "record.csv"}] if measured else []
+    def answer(self, given, measured=True, code=0, **keys):
+        records = [{"file": "record.csv", **keys}] if measured else []
         self.write("case.toml", program.case_text("a record", given, records))
         done = self.run_program("program", "case.toml", "-o", "out", "-q", "--no-report", code=code)
         if code == 2:
@@ -79,16 +79,22 @@ class Record(InFolder):
                 TURNS[key] = [[float(v) for v in row[2:5]] for row in list(csv.reader(stream))[1:]]
         return TURNS[key]
 
-    def make_record(self, before=0.7, stretch=1.0, offset=(3.0, -5.0, 2.0), noise=2.0):
-        """As a table dynamometer reads it: the reaction, offsets, noise."""
+    def make_record(self, before=0.7, stretch=1.0, offset=(3.0, -5.0, 2.0), noise=2.0, overrides=None):
+        """As a table dynamometer reads it: the reaction, offsets, noise.
+
+        overrides: by how much each pass takes longer, and a column with the line that runs."""
         self.answer(self.case(), measured=False)
         ends, time = [], before
-        for row in self.rows("moves.csv"):
-            ends.append((time, time + stretch * float(row["time_s"] or 0), row))
+        moves = self.rows("moves.csv")
+        passes = iter(overrides or [1.0] * len(PASSES))
+        for row in moves:
+            slower = next(passes) if row["kind"] == "line" else 1.0
+            ends.append((time, time + slower * stretch * float(row["time_s"] or 0), row))
             time = ends[-1][1]
+        line = lambda t: next((row["line"] for a, b, row in ends if a <= t < b), "0")
         chance = random.Random(1)
         fed = [end for end in ends if end[2]["kind"] == "line"]
-        lines = ["time_s,Fx_N,Fy_N,Fz_N"]
+        lines = ["time_s,Fx_N,Fy_N,Fz_N" + (",N_line" if overrides else "")]
         for i in range(int((time + 0.5) * RATE)):
             t = i / RATE
             F = [0.0, 0.0, 0.0]
@@ -103,7 +109,8 @@ class Record(InFolder):
                     now = [p + u * (q - p) for p, q in zip(one[k], one[(k + 1) % len(one)])]
                     F = [way * now[0], way * now[1], now[2]]
             lines.append(f"{t!r}," + ",".join(
-                repr(o - f + chance.gauss(0, noise)) for o, f in zip(offset, F)))
+                repr(o - f + chance.gauss(0, noise)) for o, f in zip(offset, F)) +
+                (f",{line(t)}" if overrides else ""))
         self.write("record.csv", "\n".join(lines) + "\n")
 
     AXES = {"dynamometer": {"axes": ["-x", "-y", "-z"]}}
@@ -146,6 +153,28 @@ class Record(InFolder):
         result, warnings = self.answer(self.case(**self.AXES))
         self.assertAlmostEqual(result["record"]["stretch"], 1.04, delta=0.004)
         self.assertIn("times as long", warnings["record_stretch"])
+
+    def test_lines_that_the_record_has(self):  # [N-25]
+        """A machine whose feeds were turned up and down lies over the program by its lines."""
+        self.make_record(overrides=[1.3, 0.8, 1.6])
+        by_time, _ = self.answer(self.case(**self.AXES))
+        by_lines, warnings = self.answer(self.case(**self.AXES), line_column="N_line")
+        self.assertLess(by_time.get("record", {"correlation": 0})["correlation"], 0.97)
+        record = by_lines["record"]
+        self.assertEqual(record["numbers"], "line")
+        self.assertGreater(record["correlation"], 0.985)
+        self.assertAlmostEqual(record["mean_ratio"], 1, delta=0.01)
+        self.assertNotIn("other_coefficients", warnings)
+        numbered = "\n".join(f"N{10 * i + 5} {line}" for i, line in enumerate(LINES)) + "\n"
+        rows = (self.folder / "record.csv").read_text().splitlines()
+        self.write("record.csv", "\n".join([rows[0]] + [
+            f"{head},{10 * int(line) - 5}" for head, line in (row.rsplit(",", 1) for row in rows[1:])]) + "\n")
+        given = self.case(**self.AXES)
+        self.write("part.nc", numbered)
+        by_blocks, _ = self.answer(given, line_column="N_line")
+        self.assertEqual(by_blocks["record"]["numbers"], "block")
+        self.assertGreater(by_blocks["record"]["correlation"], 0.985)
+        self.assertIn("no column", self.answer(self.case(**self.AXES), code=2, line_column="lines"))
 
     def test_what_cannot_be_laid_over(self):
         self.make_record()

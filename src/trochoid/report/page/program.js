@@ -51,6 +51,7 @@ function stepsOf(t) {
   const keys = pathViews.map(([key]) => key).filter((key) => key !== 'tooth' && key !== 'wall');
   const walls = wallColumns.map(values);
   return depth.map((_, i) => ({ x: x[i], height: y[i], z: z[i], line: values('line')[i], cause: values('cause')[i],
+    ...Object.fromEntries(['feed_direction_deg', 'entry_deg', 'exit_deg'].map((key) => [key, values(key)[i]])),
     tooth: Math.max(0, ...teeth.map((column) => column.values[i] || 0)),
     wall: Math.max(0, ...walls.map((errors) => Math.abs(errors[i] || 0))),
     ...Object.fromEntries(keys.map((key) => [key, values(key)[i]])) })).filter((_, i) => depth[i] > 0);
@@ -74,11 +75,45 @@ function pathSection(report) {
     [line, columnNamed(tableNamed(report, 'lines.csv'), 'text')?.[i]]));
   const chart = pathMap(dots, views, (dot, view) => [`line ${dot.line}`, texts.get(dot.line) ?
     el('code', {}, ` ${texts.get(dot.line)} `) : ' ', `at z ${number(dot.z, 4)} mm, ${dot.cause}: `,
-  el('b', {}, `${number(dot[view.key], 4)}`), ` ${view.label.replace(/.*\[(.*)\]/, '$1')}`]);
+  el('b', {}, `${number(dot[view.key], 4)}`), ` ${view.label.replace(/.*\[(.*)\]/, '$1')}`, isNumber(dot.entry_deg) ? engagedText(dot) : '',
+  isNumber(dot.entry_deg) ? cutterAt(dot) : '']);
   const part = section('path', 'The path of the tool', 'Path',
     prose('Every dot is a turn of the spindle in cut, at the middle of the tool. Its colour tells how much that turn loads ' +
       'the tool. From above, lower passes lie over higher ones.', thinned(t)), chart.element);
   return { part, draw: () => chart.resize() };
+}
+
+/** The cutter from above in one turn: the feed as an arrow, and the angles at which the widest layer is in cut. */
+function cutterAt(dot) {
+  const R = 22;
+  const node = (name, attributes) => {
+    const one = document.createElementNS('http://www.w3.org/2000/svg', name);
+    for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
+    return one;
+  };
+  const direction = (isNumber(dot.feed_direction_deg) ? dot.feed_direction_deg : 0) * Math.PI / 180;
+  const at = (theta, r) => {  // theta from the left of the feed towards the feed
+    const [along, left] = [Math.sin(theta * Math.PI / 180), Math.cos(theta * Math.PI / 180)];
+    const [x, y] = [along * Math.cos(direction) - left * Math.sin(direction), along * Math.sin(direction) + left * Math.cos(direction)];
+    return `${(32 + r * x).toFixed(1)} ${(32 - r * y).toFixed(1)}`;
+  };
+  const svg = node('svg', { viewBox: '0 0 64 64', width: 64, height: 64, class: 'cutter', role: 'img',
+    'aria-label': `engaged from ${number(dot.entry_deg, 3)} to ${number(dot.exit_deg, 3)} degrees` });
+  const steps = Array.from({ length: 25 }, (_, i) => dot.entry_deg + (dot.exit_deg - dot.entry_deg) * i / 24);
+  svg.append(node('circle', { cx: 32, cy: 32, r: R, fill: 'none', stroke: css('--soft') }));
+  svg.append(node('path', { fill: css('--wash'), stroke: css('--s2'), 'stroke-width': 2,
+    d: `M ${at(steps[0], R)} ${steps.map((theta) => `L ${at(theta, R)}`).join(' ')} L 32 32 Z` }));
+  if (isNumber(dot.feed_direction_deg)) {
+    svg.append(node('path', { fill: 'none', stroke: css('--ink'), d: `M 32 32 L ${at(90, R + 8)} M ${at(80, R + 2)} L ${at(90, R + 8)} L ${at(100, R + 2)}` }));
+  }
+  return svg;
+}
+
+/** In words; a layer may be in cut in several arcs. */
+function engagedText(dot) {
+  const several = dot.exit_deg - dot.entry_deg > dot.engaged_deg + 1;
+  return `, in cut from ${number(dot.entry_deg, 3)}° to ${number(dot.exit_deg, 3)}°${
+    several ? `, ${number(dot.engaged_deg, 3)}° of it` : ''} `;
 }
 
 /** From where the path is seen: the angle about z, and how far up; none: from above. */
@@ -136,11 +171,12 @@ function pathMap(dots, views, read) {
       rows: dots.map((dot) => [dot.line, dot.x, dot.height, dot.z, ...views.map((view) => dot[view.key])]) }),
     height: (width) => Math.round(Math.min(560, Math.max(340, 0.62 * width))) });
   zoomable(chart, () => state.frame, all);
-  readoutOf(chart, 'Point at a turn for its line and its numbers.', (place) => {
+  const readout = readoutOf(chart, 'Point at a turn for its line, its numbers and its cut.', (place) => {
     const far = (dot) => Math.hypot(state.places.px(dot.x) - place[0], state.places.py(dot.height) - place[1]);
     const near = state.seen.dots.reduce((a, b) => (far(b) <= far(a) ? b : a));
     return far(near) < 30 ? read(near, state.view) : null;
   });
+  readout.classList.add('with-cutter');
   const lookFrom = (look) => {
     Object.assign(state, { look, seen: seenFrom(dots, look) });
     Object.assign(all, around());
