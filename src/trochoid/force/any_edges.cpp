@@ -18,6 +18,7 @@ namespace {
 constexpr double look_turn = 2 * unit::deg;
 constexpr int looks_of_wave = 32;
 constexpr int fewest_looks = 6;
+constexpr int looks_near_axis = 64;
 /// Switches are found to this part of a zone.
 constexpr double resolution_of_zone = 1e-13;
 /// Errors allowed on a piece, in parts of the tolerance.
@@ -29,6 +30,18 @@ constexpr double slack_of_means = 5.0;
 constexpr std::size_t parts_of_zone = 8;
 /// Pieces of a zone shorter than this are taken as they are.
 constexpr double shortest_any_piece = 1e-9;
+
+/// Whether some edge comes down from far out to next to the axis in a zone.
+bool begins_near_axis(const geometry::ToothEdges& edges, const Zone& zone) {
+  constexpr double near = 0.1;  // of the radius at the end
+  for (std::size_t j = 0; j < edges.teeth(); ++j) {
+    if (zone.there[j] != 0 &&
+        edges.edge_at(j, zone.from).r < near * edges.edge_at(j, zone.to).r) {
+      return true;
+    }
+  }
+  return false;
+}
 
 std::vector<double> look_at(const geometry::ToothEdges& edges, const Zone& zone) {
   double turned = 0.0;
@@ -46,9 +59,12 @@ std::vector<double> look_at(const geometry::ToothEdges& edges, const Zone& zone)
   for (int i = 0; i <= count; ++i) {
     grid.push_back(std::sqrt(static_cast<double>(i) / count));  // even heights
   }
-  // Near the start t itself takes even steps.
-  const double first = grid[1];
-  for (int i = 1; i < 4; ++i) grid.push_back(first * i / 4);
+  // Near the start t itself takes even steps, and near the axis, where radii grow with t,
+  // all the way: within a feed of it marks change hands often.
+  const bool near_axis = begins_near_axis(edges, zone);
+  const double last = near_axis ? 1.0 : grid[1];
+  const int even = near_axis ? looks_near_axis : 4;
+  for (int i = 1; i < even; ++i) grid.push_back(last * i / even);
   std::sort(grid.begin(), grid.end());
   return grid;
 }

@@ -93,7 +93,7 @@ Radii radii_of(const Edges& edges, const NodePanel& panel) {
   return radii;
 }
 
-/// What differs a lot from node to node has no largest and least between them.
+/// By the rows of the panel: what tooth is where, with runout.
 Radii radii_of(const AnyEdges& any, const NodeRule& rule, const NodePanel& panel) {
   const geometry::Runout& runout = any.setup.runout;
   const double height =
