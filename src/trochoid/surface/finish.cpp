@@ -116,7 +116,7 @@ struct Floor {
       ahead = x - feed * phi;
       const double rho2 = ahead * ahead + y * y;
       const double square = rho2 - blade.e_perp * blade.e_perp;
-      if (!(square > 0)) return {nowhere, 0};
+      if (!(square >= 0)) return {nowhere, 0};
       q = std::sqrt(square) - blade.e_par;
       const double next = std::atan2(ahead, y) + blade.psi -
                           std::atan2(blade.e_perp, q + blade.e_par) +
@@ -125,7 +125,7 @@ struct Floor {
       phi = next;
       if (settled) break;
     }
-    if (front * ahead < 0 || !(q > 0)) return {nowhere, 0};
+    if (front * ahead < 0 || !(q >= 0)) return {nowhere, 0};
     PassPoint out = lower.at(q - blade.radial);
     out.height += -blade.axial - q * blade.lean - tan_lead * ahead;
     return out;

@@ -6,6 +6,7 @@
 #include <trochoid/surface/tooth_profiles.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <random>
 
@@ -47,7 +48,9 @@ class Finish {
   [[nodiscard]] std::optional<double> as_is() const {
     double most = 0.0;
     for (const TraceLine& line : plan_.lines) {
-      most = std::max(most, Ra_as_is(setup_, line, plan_.cutoff));
+      const double Ra = Ra_as_is(setup_, line, plan_.cutoff);
+      if (!std::isfinite(Ra)) return std::nullopt;
+      most = std::max(most, Ra);
     }
     return most;
   }

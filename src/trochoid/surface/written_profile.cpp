@@ -124,7 +124,9 @@ PeriodicProfile written_profile(
     out.tooth.push_back(passes->all[one.pass].tooth);
   }
   out.height = [passes, who = halving.who](std::size_t piece, double x) {
-    return passes->at(passes->all[who[piece].pass], x).height;
+    const double height = passes->at(passes->all[who[piece].pass], x).height;
+    // At the end of a piece its pass may be missing by rounding.
+    return std::isfinite(height) ? height : passes->lowest(x).height;
   };
   return out;
 }

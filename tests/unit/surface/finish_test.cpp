@@ -38,6 +38,20 @@ TEST(Finish, AnArcLeavesTheRoughnessOfTheBooks) {  // [W-1] [W-3] [W-5]
   EXPECT_EQ(w.Rz, w.Rt);
 }
 
+/// A change of passes at the very end of a period left a piece without a height.
+TEST(Finish, OfABallIsThatOfItsArcBesideTheAxis) {  // [W-3]
+  const double R = 6 * mm;
+  const double f_z = 0.1 * mm;
+  const auto setup = face_mill(geometry::ball(2 * R), 1, f_z);
+  for (const double y : {0.5 * mm, 2 * mm, 4 * mm}) {
+    const Roughness w = roughness(floor_profile(setup, {}, y));
+    const double arc = std::sqrt(R * R - y * y);
+    EXPECT_NEAR(w.Ra, f_z * f_z / (18 * std::sqrt(3.0) * arc), 0.15 * w.Ra) << y;
+    EXPECT_NEAR(w.mean, R - arc, 0.01 * (R - arc)) << y;
+  }
+  EXPECT_TRUE(std::isfinite(roughness(floor_profile(setup, {}, 0.0)).Ra));
+}
+
 TEST(Finish, OneDeeperToothWritesAlone) {  // [W-3]
   auto setup = face_mill(geometry::bull_nose(63 * mm, 0.8 * mm), 4, 0.05 * mm);
   setup.runout.axial_offsets = {0.0, -30 * um, -30 * um, -30 * um};
