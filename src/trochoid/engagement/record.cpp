@@ -392,6 +392,7 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
   };
   std::map<std::int64_t, Span> in_program;
   for (const Step& step : steps) {
+    if (numbers == LineNumbers::block && step.block < 0) continue;
     const double from = step.time - 0.5 * step.duration;
     const auto [at, is_new] = in_program.try_emplace(
         numbers == LineNumbers::line ? std::int64_t{step.line} : step.block,

@@ -12,7 +12,6 @@ namespace trochoid::results {
 struct PlanFinishResult {
   Heading heading;
   surface::FinishPlan asked;
-  double stated = 0.0;  ///< feed per tooth of the case [m]
   surface::PlannedFinish plan;
 };
 

@@ -144,7 +144,8 @@ Base base_of(const Fit& fit) {
 }
 
 /// @brief Radial and axial offsets looked for together and from far away, where more than
-/// noise is left or a tilt had to help: what fits best without axial offsets may lie in another valley.
+/// noise is left or a tilt had to help: what fits best without axial offsets may lie in
+/// another valley.
 /// @return the base of the valley that was found, if it explains clearly more, or as much
 ///         without the tilt
 std::optional<Base> other_valley(const cases::Case& given, const IdentifyResult& r,

@@ -63,8 +63,7 @@ results::PlanFinishResult plan_finish(const cases::Case& given,
                 .cutoff = given.machine.surface.value_or(cases::Surface{}).cutoff,
                 .feeds = plan.feeds,
                 .within = plan.finish.inserts_within,
-                .limit = plan.finish.largest_Ra},
-      .stated = given.setup.cut.f_z};
+                .limit = plan.finish.largest_Ra}};
   r.plan = surface::plan_finish(given.setup, r.asked);
   warn(given, r);
   r.heading.ok = true;

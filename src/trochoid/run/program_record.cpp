@@ -57,20 +57,34 @@ engagement::Recorded recorded_of(const cases::Case& given) {
   return out;
 }
 
-/// What the lines of a record count: that by which its forces agree better.
-std::optional<engagement::LineNumbers> numbers_of(
-    std::span<const engagement::Step> steps, const engagement::Recorded& recorded) {
+/// A record over its program, by its times or by the lines that it has.
+struct LaidOver {
+  std::optional<engagement::LineNumbers> numbers;
+  engagement::Recorded recorded;
+  std::optional<engagement::Alignment> alignment;
+
+  [[nodiscard]] double correlation() const noexcept {
+    return alignment ? alignment->correlation : 0.0;
+  }
+};
+
+/// By lines or N numbers: by those with which the forces agree better.
+LaidOver laid_over(std::span<const engagement::Step> steps,
+                   engagement::Recorded recorded) {
   using engagement::LineNumbers;
-  if (recorded.line.empty()) return std::nullopt;
-  const auto correlation = [&](LineNumbers numbers) {
-    const auto timed = engagement::by_lines(steps, recorded, numbers);
-    if (timed.time.size() < 2) return -1.0;
+  if (recorded.line.empty()) {
+    const auto alignment = engagement::align(steps, recorded);
+    return {std::nullopt, std::move(recorded), alignment};
+  }
+  const auto by = [&](LineNumbers numbers) {
+    auto timed = engagement::by_lines(steps, recorded, numbers);
     const auto alignment = engagement::align(steps, timed);
-    return alignment ? alignment->correlation : -1.0;
+    return LaidOver{numbers, std::move(timed), alignment};
   };
-  return correlation(LineNumbers::block) > correlation(LineNumbers::line)
-             ? LineNumbers::block
-             : LineNumbers::line;
+  LaidOver lines = by(LineNumbers::line);
+  LaidOver blocks = by(LineNumbers::block);
+  return blocks.correlation() > lines.correlation() ? std::move(blocks)
+                                                    : std::move(lines);
 }
 
 double size_of(const std::array<double, 3>& F) {
@@ -150,22 +164,20 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
                                                 std::span<const engagement::Step> steps,
                                                 std::vector<base::Warning>& warnings) {
   if (given.measurements.empty()) return std::nullopt;
-  engagement::Recorded recorded = recorded_of(given);
+  const LaidOver record = laid_over(steps, recorded_of(given));
   results::ProgramRecord out{.file = given.measurements.front().source.file.name,
-                             .numbers = numbers_of(steps, recorded)};
-  if (out.numbers) recorded = engagement::by_lines(steps, recorded, *out.numbers);
-  const auto alignment = engagement::align(steps, recorded);
-  if (!alignment || alignment->correlation < least_correlation) {
+                             .numbers = record.numbers};
+  if (record.correlation() < least_correlation) {
     warnings.push_back(
         {"record_does_not_fit",
          fmt::format("{}: its forces do not fit this program (correlation {:.2f}). "
                      "Check the axes of the dynamometer, and that the record is of "
                      "this program.",
-                     out.file, alignment ? alignment->correlation : 0.0)});
+                     out.file, record.correlation())});
     return std::nullopt;
   }
-  out.alignment = *alignment;
-  out.recorded = engagement::over_steps(steps, recorded, *alignment);
+  out.alignment = *record.alignment;
+  out.recorded = engagement::over_steps(steps, record.recorded, *record.alignment);
   compare(steps, out);
   if (!own.empty()) add_coefficients(job, own.front(), steps, out);
   warn_of_record(out, warnings);
